@@ -1,0 +1,31 @@
+# Compiler flags of the project's own targets, as one interface target. Third-party headers are
+# system headers and are not affected. Trajectories are integer arithmetic; where doubles are
+# printed, forbid the contraction of a*b+c as well, so that every platform prints the same digits.
+add_library(stormproof_flags INTERFACE)
+target_compile_features(stormproof_flags INTERFACE cxx_std_20)
+target_compile_options(stormproof_flags INTERFACE
+  -ffp-contract=off
+  -Wall
+  -Wextra
+  -Wpedantic
+  -Wconversion
+  -Wsign-conversion
+  -Wshadow
+  -Wold-style-cast
+  -Wnon-virtual-dtor
+  -Woverloaded-virtual
+  -Wcast-align
+  -Wcast-qual
+  -Wextra-semi
+  -Wformat=2
+  -Wimplicit-fallthrough
+  -Wundef
+  $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond>
+  $<$<CXX_COMPILER_ID:GNU>:-Wlogical-op>
+  $<$<BOOL:${STORMPROOF_WERROR}>:-Werror>)
+
+# The instrumentation of the sanitizers hides initialisations from GCC's flow analysis.
+if(STORMPROOF_SANITIZE)
+  target_compile_options(stormproof_flags INTERFACE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+endif()
