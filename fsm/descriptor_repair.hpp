@@ -1,0 +1,101 @@
+// The writer's view of one descriptor towards one reader: the paper's figure of the sender-side repair states.
+//   U unacknowledged → R requested → Q queued for repair → S sent, suppressed → back to U; any of them → A.
+// Rules implemented: ACKNACK reception (U→R, →A), repair generation (R→Q), repair delivery at the source (Q→S),
+// post-repair wait expiration (S→U).
+#pragma once
+
+#include "fsm/front_end.hpp"
+
+namespace stormproof::fsm {
+
+struct DescriptorRepairIo {
+  template <class D>
+  struct Input {
+    typename D::Bool listed{};               ///< the ACKNACK's bitmap lists the descriptor as missing
+    typename D::Bool below_first_missing{};  ///< every listed descriptor has a higher number
+    typename D::Bool prefix_only{};          ///< `acknowledge: prefix`
+  };
+  template <class D>
+  struct Output {
+    typename D::Bool requested{};     ///< newly requested: repair generation is due after τ_N
+    typename D::Bool generate{};      ///< becomes part of the repair DATA generated now
+    typename D::Bool acknowledged{};  ///< newly acknowledged
+    typename D::Bool returned{};      ///< open to requests again: its delivery must be checked after τ_H
+  };
+};
+
+namespace descriptor_repair {
+
+struct U : State {};
+struct R : State {};
+struct Q : State {};
+struct S : State {};
+struct A : State {};
+
+struct AckNackReceived : Event<DescriptorRepairIo> {};
+struct RepairDue : Event<DescriptorRepairIo> {};
+struct RepairSent : Event<DescriptorRepairIo> {};
+struct SuppressionEnded : Event<DescriptorRepairIo> {};
+
+struct Listed : Guard<Listed> {
+  template <class D>
+  static constexpr typename D::Bool test(const DescriptorRepairIo::Input<D>& in) {
+    return in.listed;
+  }
+};
+/// Outside the bitmap; with the prefix rule only below the first missing descriptor.
+struct Confirmed : Guard<Confirmed> {
+  template <class D>
+  static constexpr typename D::Bool test(const DescriptorRepairIo::Input<D>& in) {
+    return !in.listed && (!in.prefix_only || in.below_first_missing);
+  }
+};
+
+struct Request : Action<Request> {
+  template <class D>
+  static constexpr void act(const DescriptorRepairIo::Input<D>&,
+                            DescriptorRepairIo::Output<D>& out) {
+    out.requested = true;
+  }
+};
+struct Generate : Action<Generate> {
+  template <class D>
+  static constexpr void act(const DescriptorRepairIo::Input<D>&,
+                            DescriptorRepairIo::Output<D>& out) {
+    out.generate = true;
+  }
+};
+struct Acknowledge : Action<Acknowledge> {
+  template <class D>
+  static constexpr void act(const DescriptorRepairIo::Input<D>&,
+                            DescriptorRepairIo::Output<D>& out) {
+    out.acknowledged = true;
+  }
+};
+struct Return : Action<Return> {
+  template <class D>
+  static constexpr void act(const DescriptorRepairIo::Input<D>&,
+                            DescriptorRepairIo::Output<D>& out) {
+    out.returned = true;
+  }
+};
+
+using Transitions = Table<
+    Row<U, AckNackReceived, R, Request, Listed>,         //
+    Row<R, RepairDue, Q, Generate>,                      //
+    Row<Q, RepairSent, S>,                               //
+    Row<S, SuppressionEnded, U, Return>,                 //
+    Row<U, AckNackReceived, A, Acknowledge, Confirmed>,  //
+    Row<R, AckNackReceived, A, Acknowledge, Confirmed>,  //
+    Row<Q, AckNackReceived, A, Acknowledge, Confirmed>,  //
+    Row<S, AckNackReceived, A, Acknowledge, Confirmed>>;
+
+}  // namespace descriptor_repair
+
+struct DescriptorRepair : FrontEnd<DescriptorRepair> {
+  using Io = DescriptorRepairIo;
+  using initial_state = descriptor_repair::U;
+  using transition_table = descriptor_repair::Transitions;
+};
+
+}  // namespace stormproof::fsm

@@ -1,0 +1,35 @@
+// The flyweight engine: one Boost.MSM machine object serves any number of machines of its kind. A machine is
+// stored as its state number alone (one byte, or three bits in model/engine/descriptor_states.hpp); a step puts
+// that number into the object, lets MSM process the event, and reads the new number back. So every transition
+// of the simulator goes through `back::state_machine`, at a few nanoseconds and without a machine in memory.
+#pragma once
+
+#include <boost/msm/back/state_machine.hpp>
+
+#include "fsm/reflect.hpp"
+
+namespace stormproof::fsm {
+
+template <class Machine>
+class Flyweight {
+ public:
+  using Input = typename Machine::Io::template Input<Plain>;
+  using Output = typename Machine::Io::template Output<Plain>;
+
+  static constexpr StateId initial = Reflect<Machine>::template id<typename Machine::initial_state>;
+
+  /// Processes `Event` in state `state`; returns the state after it. `output` receives what the actions ask for.
+  template <class Event>
+  StateId step(StateId state, const Input& input, Output& output) {
+    // MSM offers the current state for reading only; the object itself is ours and not const.
+    int* current = const_cast<int*>(machine_.current_state());
+    *current = state;
+    machine_.process_event(Event{{input, output}});
+    return static_cast<StateId>(*current);
+  }
+
+ private:
+  boost::msm::back::state_machine<Machine> machine_;
+};
+
+}  // namespace stormproof::fsm
