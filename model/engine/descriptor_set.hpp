@@ -1,0 +1,75 @@
+// A set of descriptors of one stream, as a packet carries it: the descriptors of a DATA packet, or the bitmap of
+// an ACKNACK. It keeps only the 64-bit words between its first and its last member, and a single word without
+// any allocation, because millions of packets may wait in the backlogs of a storm.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace stormproof::model {
+
+/// Words of a bitmap over the descriptors 0, 1, …; descriptor d is bit d mod 64 of word d / 64.
+using Words = std::span<const std::uint64_t>;
+
+[[nodiscard]] constexpr std::uint32_t words_for(std::uint32_t descriptors) {
+  return (descriptors + 63) / 64;
+}
+
+class DescriptorSet {
+ public:
+  DescriptorSet() = default;
+
+  explicit DescriptorSet(Words words) {
+    std::size_t begin = 0;
+    std::size_t end = words.size();
+    while (begin < end && words[begin] == 0) ++begin;
+    while (begin < end && words[end - 1] == 0) --end;
+    first_ = static_cast<std::uint32_t>(begin);
+    count_ = static_cast<std::uint32_t>(end - begin);
+    if (count_ == 1) single_ = words[begin];
+    if (count_ > 1) {
+      many_ = std::make_unique<std::uint64_t[]>(count_);
+      std::ranges::copy(words.subspan(begin, count_), many_.get());
+    }
+  }
+
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+
+  /// Word k of the bitmap; 0 outside the words that are kept.
+  [[nodiscard]] std::uint64_t word(std::uint32_t k) const {
+    if (k < first_ || k - first_ >= count_) return 0;
+    return count_ == 1 ? single_ : many_[k - first_];
+  }
+
+  /// Number of the first word that has a member; only for a set that is not empty.
+  [[nodiscard]] std::uint32_t first_word() const { return first_; }
+  /// One past the number of the last word that has a member; only for a set that is not empty.
+  [[nodiscard]] std::uint32_t end_word() const { return first_ + count_; }
+
+  /// The least member, or UINT32_MAX for the empty set.
+  [[nodiscard]] std::uint32_t lowest() const {
+    if (empty()) return UINT32_MAX;
+    return first_ * 64 + static_cast<std::uint32_t>(std::countr_zero(word(first_)));
+  }
+
+  /// Calls `visit(d)` for each member in ascending order.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (std::uint32_t k = first_; k < first_ + count_; ++k) {
+      for (std::uint64_t bits = word(k); bits != 0; bits &= bits - 1) {
+        visit(k * 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));
+      }
+    }
+  }
+
+ private:
+  std::uint32_t first_ = 0;
+  std::uint32_t count_ = 0;
+  std::uint64_t single_ = 0;
+  std::unique_ptr<std::uint64_t[]> many_;
+};
+
+}  // namespace stormproof::model

@@ -1,0 +1,24 @@
+// Names of event kinds and classes, as traces show them.
+#include "model/engine/event_queue.hpp"
+
+namespace stormproof::model {
+
+const char* name_of(EventKind kind) {
+  static constexpr std::array<const char*, event_kind_count> names{
+      "service_finished",    "delayed_reception", "announcement_due",  "heartbeat_expiry",
+      "acknack_generation",  "initial_acknack",   "repair_generation", "suppression_end",
+      "source_completion",   "cycle_start",       "cycle_end",         "batch_due",
+      "dispatch"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+const char* name_of(EventClass event_class) {
+  switch (event_class) {
+    case EventClass::service: return "service";
+    case EventClass::protocol: return "protocol";
+    case EventClass::dispatch: return "dispatch";
+  }
+  return "";
+}
+
+}  // namespace stormproof::model

@@ -1,0 +1,156 @@
+// The one event queue: the next event is the least (time, class, insertion number). The classes make the order
+// of same-time events what the model asks for: a reception comes before any protocol decision of that instant,
+// and a channel starts serving after both (specs/model.md, "Events and their order").
+//
+// Nearly every kind of event is scheduled at a constant distance from now, so its events arrive in ascending
+// order. Each kind therefore has a lane, a plain queue; what would break the order of its lane goes to a common
+// heap. The next event is the least of the lane heads and the heap's top: exact for any schedule, and fast for
+// the usual one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "model/engine/ring_buffer.hpp"
+#include "model/units.hpp"
+
+namespace stormproof::model {
+
+enum class EventClass : std::uint8_t { service = 0, protocol = 1, dispatch = 2 };
+
+enum class EventKind : std::uint8_t {
+  service_finished,     ///< subject: channel
+  delayed_reception,    ///< subject: packet slot (constant delay)
+  announcement_due,     ///< subject: participant
+  heartbeat_expiry,     ///< subject: writer
+  acknack_generation,   ///< subject: relation
+  initial_acknack_due,  ///< subject: relation
+  repair_generation,    ///< subject: relation
+  suppression_end,      ///< subject: relation
+  source_completion,    ///< subject: packet slot (constant delay)
+  cycle_start,          ///< subject: writer, detail: cycle token
+  cycle_end,            ///< subject: writer, detail: cycle token
+  batch_due,            ///< subject: writer, detail: cycle token
+  dispatch,             ///< subject: channel
+};
+inline constexpr std::size_t event_kind_count = static_cast<std::size_t>(EventKind::dispatch) + 1;
+
+[[nodiscard]] constexpr EventClass class_of(EventKind kind) {
+  if (kind <= EventKind::delayed_reception) return EventClass::service;
+  return kind == EventKind::dispatch ? EventClass::dispatch : EventClass::protocol;
+}
+[[nodiscard]] const char* name_of(EventKind kind);
+[[nodiscard]] const char* name_of(EventClass event_class);
+
+struct Event {
+  Nanoseconds time;
+  std::uint64_t order = 0;  ///< class in the top two bits, insertion number below
+  std::uint32_t subject = 0;
+  std::uint32_t detail = 0;
+  EventKind kind{};
+
+  [[nodiscard]] std::uint64_t insertion() const { return order & ((std::uint64_t{1} << 62) - 1); }
+  [[nodiscard]] bool before(const Event& other) const {
+    return time != other.time ? time < other.time : order < other.order;
+  }
+};
+
+class EventQueue {
+ public:
+  /// Inserts an event with the next insertion number; returns that number.
+  std::uint64_t schedule(Nanoseconds time, EventKind kind, std::uint32_t subject,
+                         std::uint32_t detail = 0) {
+    const std::uint64_t insertion = inserted_++;
+    const auto event_class = static_cast<std::uint64_t>(class_of(kind));
+    const Event event{time, event_class << 62 | insertion, subject, detail, kind};
+    const auto lane = static_cast<std::size_t>(kind);
+    if (lanes_[lane].empty()) {
+      lanes_[lane].push_back(event);
+      enter(lane, event);
+    } else if (lanes_[lane].back().before(event)) {
+      lanes_[lane].push_back(event);
+    } else {
+      push_heap(event);
+    }
+    ++size_;
+    return insertion;
+  }
+
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  /// Time of the next event. The queue must not be empty.
+  [[nodiscard]] Nanoseconds next_time() const { return ranking_[0].time; }
+
+  /// Removes and returns the next event. The queue must not be empty.
+  Event pop() {
+    --size_;
+    const std::size_t lane = ranking_[0].lane;
+    if (lane == heap_lane) return pop_heap();
+    RingBuffer<Event>& events = lanes_[lane];
+    const Event event = events.front();
+    events.pop_front();
+    leave_first();
+    if (!events.empty()) enter(lane, events.front());
+    return event;
+  }
+
+ private:
+  static constexpr std::size_t heap_lane = event_kind_count;
+
+  /// The first event of a lane that is not empty.
+  struct Head {
+    Nanoseconds time;
+    std::uint64_t order = 0;
+    std::size_t lane = 0;
+  };
+
+  static bool later(const Event& a, const Event& b) { return b.before(a); }
+
+  /// Inserts the lane with first event `event` into the ranking, which few others precede as a rule.
+  void enter(std::size_t lane, const Event& event) {
+    std::size_t k = ranked_++;
+    for (; k > 0; --k) {
+      const Head& other = ranking_[k - 1];
+      if (other.time < event.time || (other.time == event.time && other.order < event.order)) break;
+      ranking_[k] = other;
+    }
+    ranking_[k] = {event.time, event.order, lane};
+  }
+  void leave_first() { leave(0); }
+  void leave(std::size_t k) {
+    --ranked_;
+    for (; k < ranked_; ++k) ranking_[k] = ranking_[k + 1];
+  }
+
+  void push_heap(const Event& event) {
+    const bool first = heap_.empty() || event.before(heap_.front());
+    heap_.push_back(event);
+    std::push_heap(heap_.begin(), heap_.end(), later);
+    if (!first) return;
+    for (std::size_t k = 0; k < ranked_; ++k) {
+      if (ranking_[k].lane == heap_lane) leave(k);
+    }
+    enter(heap_lane, event);
+  }
+
+  Event pop_heap() {
+    std::pop_heap(heap_.begin(), heap_.end(), later);
+    const Event event = heap_.back();
+    heap_.pop_back();
+    leave_first();
+    if (!heap_.empty()) enter(heap_lane, heap_.front());
+    return event;
+  }
+
+  std::array<RingBuffer<Event>, event_kind_count> lanes_;
+  std::vector<Event> heap_;
+  std::array<Head, event_kind_count + 1> ranking_;  // heads of the lanes in use, in ascending order
+  std::size_t ranked_ = 0;
+  std::size_t size_ = 0;
+  std::uint64_t inserted_ = 0;
+};
+
+}  // namespace stormproof::model

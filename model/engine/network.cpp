@@ -1,0 +1,275 @@
+// Admission, the stages of the route, and what follows from the end of a service.
+#include "model/engine/network.hpp"
+
+#include <algorithm>
+
+namespace stormproof::model {
+
+namespace {
+
+int stage_rank(ServiceOrder order, std::size_t stage) {
+  switch (order) {
+    case ServiceOrder::fifo_uplink:
+    case ServiceOrder::datagram_uplink: return static_cast<int>(stage);
+    case ServiceOrder::fifo_downlink: return -static_cast<int>(stage);
+    case ServiceOrder::fifo: return 0;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Network::Network(RunState& run)
+    : run_{run},
+      wireless_{run.scenario.wireless},
+      fragmentation_{run.scenario.wireless},
+      sources_(run.topology.participant_count()) {
+  if (wireless_.kind == ServiceKind::shared_channel) build_route();
+}
+
+void Network::build_route() {
+  for (std::size_t x = 0; x < wireless_.stages.size(); ++x) {
+    const Stage& stage = wireless_.stages[x];
+    auto channel = std::find_if(channels_.begin(), channels_.end(),
+                                [&](const ChannelState& c) { return c.name == stage.channel; });
+    if (channel == channels_.end()) {
+      channels_.emplace_back();
+      channel = channels_.end() - 1;
+      channel->name = stage.channel;
+    }
+    StageState state;
+    state.channel = static_cast<std::uint32_t>(channel - channels_.begin());
+    state.position = channel->waiting.add_stage(stage_rank(wireless_.order, x));
+    state.rate = {MemoizedRate{service_rate(wireless_, stage, false)},
+                  MemoizedRate{service_rate(wireless_, stage, true)}};
+    channel->stages.push_back(static_cast<std::uint32_t>(x));
+    stages_.push_back(state);
+  }
+}
+
+void Network::emit(std::uint32_t source, Packet&& packet) {
+  packet.number = next_packet_;
+  packet.emitted = run_.now;
+  next_packet_ += packet.copies;
+  if (run_.probe != nullptr) {
+    std::vector<std::uint32_t> destinations;
+    std::uint32_t pair = packet.pair;
+    for (std::uint32_t copy = 0; copy < packet.copies && !packet.multicast(); ++copy) {
+      if (copy > 0) pair = implementation_->next_recipient(packet, pair + 1);
+      const Pair& ends = run_.topology.pair(pair);
+      destinations.push_back(source == ends.source ? ends.destination : ends.source);
+    }
+    run_.probe->emitted(packet, source, destinations);
+  }
+  if (wireless_.kind == ServiceKind::constant_delay) {
+    emit_with_delay(source, std::move(packet));
+    return;
+  }
+  sources_[source].push(std::move(packet), fragmentation_);
+  admit(source);
+}
+
+/// The first copy of a head that stands for several; the head then stands for the others.
+Packet Network::take_copy(Packet& head) const {
+  Packet copy;
+  copy.number = head.number++;
+  copy.emitted = head.emitted;
+  copy.pair = head.pair;
+  copy.payload_bytes = head.payload_bytes;
+  copy.kind = head.kind;
+  copy.stream = head.stream;
+  --head.copies;
+  head.pair = implementation_->next_recipient(head, head.pair + 1);
+  return copy;
+}
+
+void Network::admit(std::uint32_t source) {
+  SourceQueue& queue = sources_[source];
+  while (queue.head_fits(wireless_.source_queue_bytes)) {
+    const bool last_copy = queue.head().copies == 1;
+    const std::int64_t demand = queue.head_demand();
+    const std::uint32_t slot =
+        allocate(last_copy ? std::move(queue.head()) : take_copy(queue.head()), source,
+                 queue.head_fragments());
+    queue.admit_head(last_copy, fragmentation_);
+    InFlight& flight = flights_[slot];
+    flight.demand = demand;
+    flight.admitted = run_.now;
+    const std::uint32_t requested =
+        wireless_.fragment_request == FragmentRequest::at_admission ? flight.fragments : 1;
+    for (std::uint32_t k = 0; k < requested; ++k) request(slot, k, 0);
+  }
+  queue.note_peak(run_.now);
+  if (run_.probe != nullptr) {
+    run_.probe->backlog_changed(source, queue.backlog_packets(), queue.admitted_bytes());
+  }
+}
+
+std::uint32_t Network::allocate(Packet&& packet, std::uint32_t source,
+                                std::int64_t fragments) {
+  const std::uint32_t slot = flights_.take();
+  InFlight& flight = flights_[slot];
+  flight.fragments = static_cast<std::uint32_t>(fragments);
+  flight.packet = std::move(packet);
+  flight.source = source;
+  flight.uses = 1;
+  return slot;
+}
+
+void Network::request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage) {
+  const StageState& target = stages_[stage];
+  channels_[target.channel].waiting.push(target.position,
+                                         {run_.now, next_request_++, slot, fragment});
+  if (run_.probe != nullptr) {
+    run_.probe->waiting_changed(target.channel, channels_[target.channel].waiting.size());
+  }
+  step<fsm::channel::ServiceRequested>(target.channel);
+}
+
+template <class Event>
+void Network::step(std::uint32_t channel) {
+  ChannelState& c = channels_[channel];
+  const auto output = channel_driver_.step<Event>(
+      run_, c.state, {.waiting = !c.waiting.empty(), .dispatch_pending = c.dispatch_pending},
+      channel);
+  if (output.schedule_dispatch) {
+    c.dispatch_pending = true;
+    run_.schedule(run_.now, EventKind::dispatch, channel);
+  }
+  if (output.serve) serve(channel);
+}
+
+void Network::serve(std::uint32_t channel) {
+  ChannelState& c = channels_[channel];
+  const WaitingFragments::Choice choice = c.waiting.pop();
+  c.serving = choice.request;
+  c.serving_stage = c.stages[choice.position];
+  c.serving_since = run_.now;
+  const Packet& packet = flights_[choice.request.slot].packet;
+  MemoizedRate& rate = stages_[c.serving_stage].rate[packet.multicast() ? 1 : 0];
+  const std::int64_t bytes = fragmentation_.bytes(packet.payload_bytes, choice.request.fragment);
+  const Nanoseconds until = run_.now + Nanoseconds{rate.airtime_ns(bytes)};
+  run_.schedule(until, EventKind::service_finished, channel);
+  if (run_.probe != nullptr) {
+    run_.probe->waiting_changed(channel, c.waiting.size());
+    run_.probe->service_started(channel, c.serving_stage, packet, choice.request.fragment, until);
+  }
+}
+
+void Network::handle(const Event& event) {
+  switch (event.kind) {
+    case EventKind::service_finished: service_finished(event.subject); break;
+    case EventKind::dispatch:
+      channels_[event.subject].dispatch_pending = false;
+      step<fsm::channel::DispatchDue>(event.subject);
+      break;
+    case EventKind::source_completion:
+      if (run_.probe != nullptr) run_.probe->source_completed(flights_[event.subject].packet);
+      implementation_->source_completed(flights_[event.subject].packet);
+      release(event.subject);
+      break;
+    default: arrive(event.subject); break;
+  }
+}
+
+void Network::service_finished(std::uint32_t channel) {
+  ChannelState& c = channels_[channel];
+  const auto [time, number, slot, fragment] = c.serving;
+  const std::uint32_t stage = c.serving_stage;
+  const InFlight& flight = flights_[slot];
+  const bool last = fragment + 1 == flight.fragments;
+  const bool last_stage = stage + 1 == stages_.size();
+  const bool by_datagram = wireless_.order == ServiceOrder::datagram_uplink;
+  c.busy[static_cast<std::size_t>(traffic_class(flight.packet))] += run_.now - c.serving_since;
+  step<fsm::channel::ServiceFinished>(channel);
+
+  if (by_datagram && last && !last_stage) {
+    for (std::uint32_t k = 0; k < flight.fragments; ++k) request(slot, k, stage + 1);
+  }
+  if (stage == 0 && !last && wireless_.fragment_request == FragmentRequest::sequential) {
+    request(slot, fragment + 1, 0);
+  }
+  if (!by_datagram && !last_stage) request(slot, fragment, stage + 1);
+  if (stage == 0 && last) leave_source(slot);
+  if (last_stage && last) arrive(slot);
+  step<fsm::channel::EffectsDone>(channel);
+}
+
+void Network::leave_source(std::uint32_t slot) {
+  const InFlight& flight = flights_[slot];
+  sources_[flight.source].release(flight.demand);
+  if (run_.probe != nullptr) run_.probe->source_completed(flight.packet);
+  implementation_->source_completed(flight.packet);
+  admit(flight.source);
+}
+
+void Network::arrive(std::uint32_t slot) {
+  const InFlight& flight = flights_[slot];
+  const bool lost = is_lost(flight.packet.number);
+  if (run_.probe != nullptr) run_.probe->arrived(flight.packet, lost);
+  if (!lost) {
+    note_latency(flight);
+    implementation_->received(flight.packet);
+    if (run_.complete()) return;  // the run ends at once; the packet stays for the report
+  }
+  release(slot);
+}
+
+void Network::emit_with_delay(std::uint32_t source, Packet&& packet) {
+  while (true) {
+    const bool last_copy = packet.copies == 1;
+    const std::uint32_t slot =
+        allocate(last_copy ? std::move(packet) : take_copy(packet), source, 1);
+    flights_[slot].admitted = run_.now;
+    flights_[slot].uses = 2;
+    run_.schedule(run_.now, EventKind::source_completion, slot);
+    run_.schedule(run_.now + wireless_.one_way, EventKind::delayed_reception, slot);
+    if (last_copy) return;
+  }
+}
+
+bool Network::is_lost(std::uint64_t number) const {
+  return !wireless_.lost_packets.empty() &&
+         std::binary_search(wireless_.lost_packets.begin(), wireless_.lost_packets.end(), number);
+}
+
+void Network::note_latency(const InFlight& flight) {
+  Latency& latency = latency_[static_cast<std::size_t>(traffic_class(flight.packet))];
+  ++latency.packets;
+  latency.backlog_sum += flight.admitted - flight.packet.emitted;
+  latency.service_sum += run_.now - flight.admitted;
+  latency.longest = std::max(latency.longest, run_.now - flight.packet.emitted);
+  last_arrival_ = LastDelivery{{}, !flight.packet.carries_initial, flight.packet.emitted,
+                               flight.admitted, run_.now};
+}
+
+Depths Network::depths() const {
+  Depths depths;
+  depths.events = run_.queue.size();
+  depths.missing = run_.missing;
+  for (const SourceQueue& source : sources_) {
+    depths.backlog_packets += source.backlog_packets();
+    depths.admitted_bytes += source.admitted_bytes();
+  }
+  for (const ChannelState& channel : channels_) depths.waiting += channel.waiting.size();
+  return depths;
+}
+
+void Network::report(RunResult& result) const {
+  for (const ChannelState& c : channels_) {
+    ChannelUse use{c.name, c.busy};
+    if (c.state == fsm::Reflect<fsm::Channel>::id<fsm::channel::Busy>) {
+      const Packet& packet = flights_[c.serving.slot].packet;
+      use.busy[static_cast<std::size_t>(traffic_class(packet))] +=
+          result.end_time - c.serving_since;
+    }
+    result.channels.push_back(use);
+  }
+  for (const SourceQueue& source : sources_) result.backlog.push_back(source.peak());
+  result.latency = latency_;
+  if (!result.completed() || !last_arrival_) return;
+  result.last_delivery = last_arrival_;
+  result.last_delivery->descriptor = run_.last_delivered;
+}
+
+}  // namespace stormproof::model

@@ -1,0 +1,100 @@
+// The wireless service: backlog, source queue, fragments, the stages of the route and their channels (paper,
+// "Shared Wireless Service"; specs/model.md, "Packets, fragments, queue, channel"). It knows packets, not what
+// they mean: their source completion and reception go to the DDS implementation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fsm/channel.hpp"
+#include "model/airtime.hpp"
+#include "model/engine/driver.hpp"
+#include "model/engine/implementation.hpp"
+#include "model/engine/run_state.hpp"
+#include "model/engine/slot_pool.hpp"
+#include "model/engine/source_queue.hpp"
+#include "model/engine/waiting_fragments.hpp"
+
+namespace stormproof::model {
+
+class Network {
+ public:
+  explicit Network(RunState& run);
+
+  /// The implementation that hears of source completions and receptions; set once, before the run.
+  void attach(Implementation& implementation) { implementation_ = &implementation; }
+
+  /// Emits the packet (or its copies, in ascending order of the destination) and admits what fits.
+  void emit(std::uint32_t source, Packet&& packet);
+
+  /// A service, reception, source completion or dispatch event is due.
+  void handle(const Event& event);
+
+  [[nodiscard]] Depths depths() const;
+  /// Fills the parts of the result that concern channels, backlogs and latencies.
+  void report(RunResult& result) const;
+
+ private:
+  /// A packet that has left the backlog.
+  struct InFlight {
+    Packet packet;
+    std::uint32_t source = 0;
+    std::uint32_t fragments = 0;
+    std::uint32_t uses = 1;  // events that still need it; the slot is free at 0
+    std::int64_t demand = 0;
+    Nanoseconds admitted;
+  };
+  struct StageState {
+    std::uint32_t channel = 0;
+    std::uint32_t position = 0;             // among the stages of its channel
+    std::array<MemoizedRate, 2> rate{};     // for unicast and multicast packets
+  };
+  struct ChannelState {
+    fsm::StateId state = fsm::Flyweight<fsm::Channel>::initial;
+    bool dispatch_pending = false;
+    std::string name;
+    WaitingFragments waiting;
+    std::vector<std::uint32_t> stages;  // by position
+    std::uint32_t serving_stage = 0;
+    ServiceRequest serving{};
+    Nanoseconds serving_since;
+    std::array<Nanoseconds, traffic_class_count> busy{};
+  };
+
+  void build_route();
+  void admit(std::uint32_t source);
+  Packet take_copy(Packet& head) const;
+  std::uint32_t allocate(Packet&& packet, std::uint32_t source, std::int64_t fragments);
+  void release(std::uint32_t slot) {
+    if (--flights_[slot].uses == 0) flights_.give_back(slot);
+  }
+
+  void request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage);
+  void apply(std::uint32_t channel, const Driver<fsm::Channel>::Output& output);
+  template <class Event>
+  void step(std::uint32_t channel);
+  void serve(std::uint32_t channel);
+  void service_finished(std::uint32_t channel);
+  void leave_source(std::uint32_t slot);
+  void arrive(std::uint32_t slot);
+  void emit_with_delay(std::uint32_t source, Packet&& packet);
+  [[nodiscard]] bool is_lost(std::uint64_t number) const;
+  void note_latency(const InFlight& flight);
+
+  RunState& run_;
+  Implementation* implementation_ = nullptr;
+  const WirelessProfile& wireless_;
+  Fragmentation fragmentation_;
+  Driver<fsm::Channel> channel_driver_{MachineRef::Kind::channel};
+  std::vector<StageState> stages_;
+  std::vector<ChannelState> channels_;
+  std::vector<SourceQueue> sources_;
+  SlotPool<InFlight> flights_;
+  std::uint64_t next_packet_ = 0;
+  std::uint64_t next_request_ = 0;
+  std::array<Latency, traffic_class_count> latency_{};
+  std::optional<LastDelivery> last_arrival_;  // of the packet being received
+};
+
+}  // namespace stormproof::model

@@ -1,0 +1,40 @@
+// What all parts of one run share: the scenario, its numbering, the event queue and the clock, the counts, and
+// the observer. One run owns one of these; nothing in it outlives the run and nothing is global.
+#pragma once
+
+#include "model/counts.hpp"
+#include "model/engine/event_queue.hpp"
+#include "model/engine/topology.hpp"
+#include "model/probe.hpp"
+#include "model/run_result.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::model {
+
+struct RunState {
+  RunState(const Scenario& scenario_, Probe* probe_)
+      : scenario{scenario_},
+        topology{scenario_.deployment, scenario_.dds.descriptors},
+        probe{probe_},
+        missing{topology.required_deliveries()} {}
+
+  void schedule(Nanoseconds time, EventKind kind, std::uint32_t subject, std::uint32_t detail = 0) {
+    const std::uint64_t insertion = queue.schedule(time, kind, subject, detail);
+    if (probe != nullptr) probe->scheduled(insertion, time, kind, subject);
+  }
+
+  [[nodiscard]] bool complete() const { return missing == 0; }
+
+  const Scenario& scenario;
+  const Topology topology;
+  Probe* const probe;
+  EventQueue queue;
+  Nanoseconds now;
+  Counts counts;
+  std::uint64_t missing;  ///< required deliveries that have not happened
+  std::uint64_t useful_deliveries = 0;
+  std::uint64_t duplicate_deliveries = 0;
+  MissingDescriptor last_delivered{};  ///< of a complete run: a descriptor of the packet that ended it
+};
+
+}  // namespace stormproof::model

@@ -1,0 +1,29 @@
+// Numbers the cross-host pairs of a deployment.
+#include "model/engine/topology.hpp"
+
+namespace stormproof::model {
+
+Topology::Topology(const Deployment& deployment, const DescriptorProfile& descriptors)
+    : participant_count_{deployment.size()} {
+  const auto& participants = deployment.participants;
+  first_pair_.assign(participant_count_ + 1, 0);
+  for (std::uint32_t i = 0; i < participant_count_; ++i) {
+    first_pair_[i] = pair_count();
+    for (std::uint32_t j = 0; j < participant_count_; ++j) {
+      if (participants[i].host != participants[j].host) pairs_.push_back({i, j, 0});
+    }
+    descriptor_count_.push_back(descriptors.default_publications + participants[i].publications);
+    descriptor_count_.push_back(descriptors.default_subscriptions + participants[i].subscriptions);
+    start_.push_back(participants[i].start);
+  }
+  first_pair_[participant_count_] = pair_count();
+
+  // Pairs (j, i) come in ascending j for each i, which is the order of i's own pairs (i, j).
+  std::vector<std::uint32_t> next = first_pair_;
+  for (std::uint32_t number = 0; number < pair_count(); ++number) {
+    pairs_[number].reverse = next[pairs_[number].destination]++;
+    required_deliveries_ += descriptor_count(2 * number) + descriptor_count(2 * number + 1);
+  }
+}
+
+}  // namespace stormproof::model

@@ -1,0 +1,114 @@
+// SPDP: the announcement schedule, the first recognition of a participant, and the opening of the relations that
+// follows from it.
+#include <algorithm>
+
+#include "model/paper/protocol.hpp"
+
+namespace stormproof::model::paper {
+
+void Protocol::announcement_due(std::uint32_t i) {
+  Participant& participant = participants_[i];
+  const auto output = announcer_driver_.step<fsm::announcer::AnnouncementDue>(
+      run_, participant.announcer,
+      {.now = run_.now.count(),
+       .number = participant.announcements,
+       .startup = spdp_.startup_announcements,
+       .startup_period = spdp_.startup_period.count(),
+       .period = spdp_.period.count()},
+      i);
+  ++participant.announcements;
+  if (output.announce) send_spdp(i);
+  run_.schedule(Nanoseconds{output.next_at}, EventKind::announcement_due, i);
+}
+
+/// One multicast packet, then a unicast copy to every cross-host participant that i knows.
+void Protocol::send_spdp(std::uint32_t i) {
+  send_spdp_multicast(i);
+  const Participant& participant = participants_[i];
+  if (participant.known == 0) return;
+  run_.counts.spdp_unicast += participant.known;
+  Packet packet;
+  packet.kind = PacketKind::spdp_unicast;
+  packet.payload_bytes = static_cast<std::uint32_t>(spdp_.payload_bytes.count());
+  packet.copies = participant.known;
+  packet.rank_limit = participant.known;
+  packet.pair = participant.first_known_pair;
+  network_.emit(i, std::move(packet));
+}
+
+void Protocol::send_spdp_multicast(std::uint32_t i) {
+  ++run_.counts.spdp_multicast;
+  Packet packet;
+  packet.kind = PacketKind::spdp_multicast;
+  packet.payload_bytes = static_cast<std::uint32_t>(spdp_.payload_bytes.count());
+  packet.pair = i;
+  network_.emit(i, std::move(packet));
+}
+
+void Protocol::send_spdp_copy(std::uint32_t pair) {
+  ++run_.counts.spdp_unicast;
+  Packet packet;
+  packet.kind = PacketKind::spdp_unicast;
+  packet.payload_bytes = static_cast<std::uint32_t>(spdp_.payload_bytes.count());
+  packet.pair = pair;
+  network_.emit(run_.topology.pair(pair).source, std::move(packet));
+}
+
+/// `pair` is (i, j): j has received i's announcement.
+void Protocol::spdp_received(std::uint32_t pair) {
+  const auto [i, j, reverse] = run_.topology.pair(pair);
+  if (known_rank_[reverse] != no_rank) return;
+  Participant& participant = participants_[j];
+  known_rank_[reverse] = participant.known++;
+  participant.first_known_pair = std::min(participant.first_known_pair, reverse);
+
+  resend(reverse);
+  for (const Stream s : streams) open_reader(2 * pair + static_cast<std::uint32_t>(s));
+  const bool by_receiver = sedp_.relation_opening == RelationOpening::receiver;
+  for (const Stream s : streams) {
+    open_writer(2 * (by_receiver ? pair : reverse) + static_cast<std::uint32_t>(s));
+  }
+}
+
+/// What j sends when it recognises i; `reverse_pair` is (j, i).
+void Protocol::resend(std::uint32_t reverse_pair) {
+  const std::uint32_t j = run_.topology.pair(reverse_pair).source;
+  switch (spdp_.resend) {
+    case SpdpResend::all_known: send_spdp(j); break;
+    case SpdpResend::new_and_multicast:
+      send_spdp_multicast(j);
+      send_spdp_copy(reverse_pair);
+      break;
+    case SpdpResend::new_only: send_spdp_copy(reverse_pair); break;
+    case SpdpResend::none: break;
+  }
+}
+
+void Protocol::open_reader(std::uint32_t relation) {
+  Relation& r = relations_[relation];
+  const auto output = reader_driver_.step<fsm::discovery_reader::AnnouncementReceived>(
+      run_, r.reader, {.accepts_unmatched = accepts_unmatched_, .missing_after = r.missing},
+      relation);
+  if (output.opened) step_initial(relation, true);
+}
+
+void Protocol::open_writer(std::uint32_t relation) {
+  Relation& r = relations_[relation];
+  if (r.open_rank != no_rank) return;
+  const std::uint32_t w = writer_of(relation);
+  Writer& writer = writers_[w];
+  r.open_rank = writer.open++;
+  writer.first_open_pair = std::min(writer.first_open_pair, relation / 2);
+  if (r.unacknowledged > 0) {
+    ++writer.unacknowledged;
+    const std::uint32_t peer = relation / 2 - run_.topology.first_pair(w / 2);
+    writer.waiting_readers[peer / 64] |= std::uint64_t{1} << peer % 64;
+  }
+  if (sedp_.initial_data == InitialData::push) {
+    generate_data(relation, descriptors_.all(relation), false);
+  }
+  generate_heartbeat(relation);
+  step_timer<fsm::heartbeat_timer::RelationOpened>(w);
+}
+
+}  // namespace stormproof::model::paper

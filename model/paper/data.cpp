@@ -1,0 +1,123 @@
+// Generation of DATA and HEARTBEATs. DATA packets are filled with descriptors up to the grouping limit; each
+// descriptor is charged against the writer's piggyback budget, and a budget that is used up sends a HEARTBEAT to
+// all open relations. With the cumulative charge (Fast DDS 2.6.11 to 3.3) every DATA is charged with all bytes
+// that the participant has ever sent this way, so that after enough repairs each DATA triggers HEARTBEATs.
+#include "model/paper/protocol.hpp"
+
+namespace stormproof::model::paper {
+
+/// The packet that is being filled.
+struct Protocol::Message {
+  std::uint32_t relation;
+  bool repair;
+  bool carries_initial = false;
+  bool carries_heartbeat = false;
+  std::uint32_t members = 0;
+  std::int64_t payload_bytes = 0;
+  std::vector<std::uint64_t> words;
+};
+
+void Protocol::generate_data(std::uint32_t relation, const DescriptorSet& descriptors, bool repair) {
+  const std::int64_t shared = sedp_.shared_header_bytes.count();
+  Message message{.relation = relation, .repair = repair, .words = {}};
+  message.words.resize(words_for(run_.topology.descriptor_count(relation)));
+
+  descriptors.for_each([&](std::uint32_t d) {
+    const std::int64_t bytes = sizes_.bytes(stream_of(relation), d);
+    if (message.members > 0 && packet_is_full(sedp_, message.payload_bytes, bytes - shared)) {
+      flush(message);
+    }
+    const std::int64_t added = message.members == 0 ? bytes : bytes - shared;
+    const std::uint64_t bit = std::uint64_t{1} << d % 64;
+    const bool initial = descriptors_.mark_generated(relation, d / 64, bit) != 0;
+    message.words[d / 64] |= bit;
+    message.payload_bytes += added;
+    message.carries_initial = message.carries_initial || initial;
+    ++message.members;
+    ++(initial ? run_.counts.initial_data : run_.counts.repair_data);
+    charge(message, added);
+  });
+  if (message.members > 0) flush(message);
+}
+
+/// Charges the bytes just added to `message` against the piggyback budget of its writer.
+void Protocol::charge(Message& message, std::int64_t added_bytes) {
+  if (sedp_.piggyback == Piggyback::off) return;
+  const std::uint32_t w = writer_of(message.relation);
+  Writer& writer = writers_[w];
+  std::int64_t& sent = participants_[w / 2].sent_bytes;
+  const bool cumulative = sedp_.piggyback == Piggyback::cumulative;
+  sent += added_bytes;
+  writer.budget -= cumulative ? sent : added_bytes;
+  if (writer.budget >= 0) return;
+
+  writer.budget = sedp_.piggyback_threshold_bytes.count();
+  if (writer.open == 1) {  // the HEARTBEAT rides in the packet
+    ++run_.counts.heartbeat;
+    const std::int64_t bytes = sedp_.piggyback_heartbeat_bytes.count();
+    message.payload_bytes += bytes;
+    message.carries_heartbeat = true;
+    sent += bytes;
+    return;
+  }
+  flush(message);
+  sent += sedp_.heartbeat_bytes.count();
+  generate_heartbeat_to_open(w);
+}
+
+/// Emits the packet and starts a new one.
+void Protocol::flush(Message& message) {
+  Packet packet;
+  packet.kind = PacketKind::data;
+  packet.descriptors = DescriptorSet{message.words};
+  packet.pair = message.relation / 2;
+  packet.stream = stream_of(message.relation);
+  packet.payload_bytes = static_cast<std::uint32_t>(message.payload_bytes);
+  packet.from_repair = message.repair;
+  packet.carries_initial = message.carries_initial;
+  packet.carries_heartbeat = message.carries_heartbeat;
+  network_.emit(ends(message.relation).source, std::move(packet));
+
+  std::fill(message.words.begin(), message.words.end(), 0);
+  message.members = 0;
+  message.payload_bytes = 0;
+  message.carries_initial = false;
+  message.carries_heartbeat = false;
+}
+
+void Protocol::generate_heartbeat(std::uint32_t relation) {
+  ++run_.counts.heartbeat;
+  writers_[writer_of(relation)].budget = sedp_.piggyback_threshold_bytes.count();
+  Packet packet;
+  packet.kind = PacketKind::heartbeat;
+  packet.pair = relation / 2;
+  packet.stream = stream_of(relation);
+  packet.payload_bytes = static_cast<std::uint32_t>(sedp_.heartbeat_bytes.count());
+  network_.emit(ends(relation).source, std::move(packet));
+}
+
+/// The same to every open relation of the writer, ascending: one record that stands for all of them.
+void Protocol::generate_heartbeat_to_open(std::uint32_t w) {
+  Writer& writer = writers_[w];
+  if (writer.open == 0) return;
+  run_.counts.heartbeat += writer.open;
+  writer.budget = sedp_.piggyback_threshold_bytes.count();
+  Packet packet;
+  packet.kind = PacketKind::heartbeat;
+  packet.pair = writer.first_open_pair;
+  packet.stream = stream_of(w);
+  packet.payload_bytes = static_cast<std::uint32_t>(sedp_.heartbeat_bytes.count());
+  packet.copies = writer.open;
+  packet.rank_limit = writer.open;
+  network_.emit(w / 2, std::move(packet));
+}
+
+void Protocol::generate_heartbeat_to_unacknowledged(std::uint32_t w) {
+  if (writers_[w].unacknowledged == writers_[w].open) {
+    generate_heartbeat_to_open(w);
+    return;
+  }
+  for_each_unacknowledged(w, [&](std::uint32_t relation) { generate_heartbeat(relation); });
+}
+
+}  // namespace stormproof::model::paper

@@ -1,0 +1,106 @@
+// Construction, the dispatch of events and packets to the rules, and the list of what is missing.
+#include "model/paper/protocol.hpp"
+
+namespace stormproof::model::paper {
+
+namespace reader = fsm::discovery_reader;
+
+Protocol::Protocol(RunState& run, Network& network)
+    : run_{run},
+      network_{network},
+      spdp_{run.scenario.dds.spdp},
+      sedp_{run.scenario.dds.sedp},
+      accepts_unmatched_{run.scenario.dds.sedp.unmatched == Unmatched::accept ||
+                         run.scenario.dds.sedp.relation_opening != RelationOpening::each_side},
+      descriptors_{run},
+      participants_(run.topology.participant_count()),
+      writers_(2 * std::size_t{run.topology.participant_count()}),
+      relations_(run.topology.relation_count()),
+      known_rank_(run.topology.pair_count(), no_rank),
+      sizes_{run.scenario.dds.descriptors} {
+  using ReaderStates = fsm::Reflect<fsm::DiscoveryReader>;
+  for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) {
+    const std::uint32_t count = run.topology.descriptor_count(relation);
+    relations_[relation].missing = count;
+    relations_[relation].unacknowledged = count;
+    relations_[relation].reader =
+        count > 0 ? ReaderStates::id<reader::Unknown> : ReaderStates::id<reader::EarlyComplete>;
+  }
+  for (std::uint32_t w = 0; w < writers_.size(); ++w) {
+    writers_[w].budget = sedp_.piggyback_threshold_bytes.count();
+    writers_[w].waiting_readers.resize(words_for(run.topology.peer_count(w / 2)));
+  }
+}
+
+void Protocol::start() {
+  for (std::uint32_t i = 0; i < run_.topology.participant_count(); ++i) {
+    run_.schedule(run_.topology.start(i), EventKind::announcement_due, i);
+  }
+}
+
+void Protocol::handle(const Event& event) {
+  switch (event.kind) {
+    case EventKind::announcement_due: announcement_due(event.subject); break;
+    case EventKind::heartbeat_expiry:
+      --writers_[event.subject].pending_expiries;
+      step_timer<fsm::heartbeat_timer::Expired>(event.subject);
+      break;
+    case EventKind::acknack_generation: acknack_generation(event.subject); break;
+    case EventKind::initial_acknack_due: initial_acknack_due(event.subject); break;
+    case EventKind::repair_generation: repair_generation(event.subject); break;
+    case EventKind::suppression_end: suppression_end(event.subject); break;
+    default: cycle_event(event); break;
+  }
+}
+
+bool Protocol::has_started(std::uint32_t participant) const {
+  return run_.now >= run_.topology.start(participant);
+}
+
+void Protocol::received(const Packet& packet) {
+  if (packet.multicast()) {
+    // `pair` of a multicast packet is its source; every started cross-host participant processes it.
+    const std::uint32_t end = run_.topology.first_pair(packet.pair + 1);
+    for (std::uint32_t pair = run_.topology.first_pair(packet.pair); pair < end; ++pair) {
+      if (has_started(run_.topology.pair(pair).destination)) spdp_received(pair);
+    }
+    return;
+  }
+  const Pair& pair = run_.topology.pair(packet.pair);
+  const bool to_writer = packet.kind == PacketKind::acknack;
+  if (!has_started(to_writer ? pair.source : pair.destination)) return;
+  switch (packet.kind) {
+    case PacketKind::spdp_unicast: spdp_received(packet.pair); break;
+    case PacketKind::data: data_received(packet); break;
+    case PacketKind::heartbeat: heartbeat_received(packet.relation()); break;
+    case PacketKind::acknack: acknack_received(packet); break;
+    case PacketKind::spdp_multicast: break;
+  }
+}
+
+std::uint32_t Protocol::next_recipient(const Packet& packet, std::uint32_t pair) const {
+  if (packet.kind == PacketKind::spdp_unicast) {
+    while (known_rank_[pair] >= packet.rank_limit) ++pair;
+    return pair;
+  }
+  const auto stream = static_cast<std::uint32_t>(packet.stream);
+  while (relations_[2 * pair + stream].open_rank >= packet.rank_limit) ++pair;
+  return pair;
+}
+
+std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {
+  std::vector<MissingDescriptor> list;
+  for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) {
+    if (relations_[relation].missing == 0) continue;
+    descriptors_.missing(relation).for_each([&](std::uint32_t d) {
+      if (list.size() == limit) return;
+      list.push_back({ParticipantId{ends(relation).source},
+                      ParticipantId{ends(relation).destination}, stream_of(relation),
+                      DescriptorId{d}});
+    });
+    if (list.size() == limit) break;
+  }
+  return list;
+}
+
+}  // namespace stormproof::model::paper

@@ -1,0 +1,87 @@
+// What one run of the simulator yields. Every number is exact and the same on every machine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/counts.hpp"
+#include "model/units.hpp"
+
+namespace stormproof::model {
+
+/// Why a run ended.
+enum class RunEnd : std::uint8_t { completed, time_limit, no_more_events, interrupted };
+
+/// A descriptor that had not reached one of its receivers when the run ended.
+struct MissingDescriptor {
+  ParticipantId source;
+  ParticipantId destination;
+  Stream stream{};
+  DescriptorId descriptor;
+};
+
+/// Classes of channel use; DATA packets count as initial if they carry a first transmission.
+enum class TrafficClass : std::uint8_t { spdp, initial_data, repair_data, heartbeat, acknack };
+inline constexpr std::size_t traffic_class_count = 5;
+[[nodiscard]] const char* name_of(TrafficClass traffic);
+
+/// How one channel was used up to the end of the run.
+struct ChannelUse {
+  std::string name;
+  std::array<Nanoseconds, traffic_class_count> busy{};  ///< airtime by class
+
+  [[nodiscard]] Nanoseconds total_busy() const {
+    Nanoseconds sum;
+    for (const Nanoseconds part : busy) sum += part;
+    return sum;
+  }
+};
+
+/// The longest backlog of one participant: packets generated but not yet admitted to its source queue.
+struct BacklogPeak {
+  std::uint64_t packets = 0;
+  Nanoseconds at;                  ///< when it was first reached
+  std::uint64_t packets_at_end = 0;
+};
+
+/// How long received packets of one class had been under way, from generation to reception.
+struct Latency {
+  std::uint64_t packets = 0;
+  Nanoseconds backlog_sum;   ///< waiting for room in the source queue
+  Nanoseconds service_sum;   ///< from admission to reception: waiting for the channel and being served
+  Nanoseconds longest;
+};
+
+/// The journey of the packet that carried the last missing descriptor.
+struct LastDelivery {
+  MissingDescriptor descriptor;
+  bool repair = false;
+  Nanoseconds emitted;
+  Nanoseconds admitted;
+  Nanoseconds received;
+};
+
+struct RunResult {
+  static constexpr std::size_t missing_listed = 100;
+
+  RunEnd end = RunEnd::no_more_events;
+  Nanoseconds end_time;                      ///< time of the last processed event
+  std::optional<Nanoseconds> discovery_time; ///< T_disc; only a complete run has one
+  Counts counts;
+  std::uint64_t events = 0;                  ///< processed events
+  std::uint64_t missing_count = 0;
+  std::vector<MissingDescriptor> missing;    ///< the first `missing_listed` of them
+  std::uint64_t useful_deliveries = 0;       ///< descriptors received for the first time
+  std::uint64_t duplicate_deliveries = 0;    ///< descriptors received again
+  std::vector<ChannelUse> channels;          ///< empty with constant delay
+  std::vector<BacklogPeak> backlog;          ///< by participant
+  std::array<Latency, traffic_class_count> latency{};
+  std::optional<LastDelivery> last_delivery;
+
+  [[nodiscard]] bool completed() const { return end == RunEnd::completed; }
+};
+
+}  // namespace stormproof::model

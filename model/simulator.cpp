@@ -1,0 +1,92 @@
+// The event loop: the least event of the one queue, again and again (paper, event evolution).
+#include "model/simulator.hpp"
+
+#include <memory>
+
+#include "model/engine/network.hpp"
+#include "model/engine/run_state.hpp"
+#include "model/paper/protocol.hpp"
+
+namespace stormproof::model {
+
+namespace {
+
+bool concerns_network(EventKind kind) {
+  return class_of(kind) != EventClass::protocol || kind == EventKind::source_completion;
+}
+
+class Simulator {
+ public:
+  Simulator(const Scenario& scenario, const RunOptions& options)
+      : options_{options},
+        run_{scenario, options.probe},
+        network_{run_},
+        implementation_{std::make_unique<paper::Protocol>(run_, network_)} {
+    network_.attach(*implementation_);
+  }
+
+  RunResult run() {
+    if (run_.probe != nullptr) run_.probe->run_started(run_.topology);
+    implementation_->start();
+    RunResult result;
+    result.end = loop();
+    report(result);
+    return result;
+  }
+
+ private:
+  RunEnd loop() {
+    if (run_.complete()) return RunEnd::completed;  // nobody advertises anything
+    while (!run_.queue.empty()) {
+      if (run_.queue.next_time() > run_.scenario.time_limit) return RunEnd::time_limit;
+      const Event event = run_.queue.pop();
+      run_.now = event.time;
+      ++events_;
+      process(event);
+      if (run_.complete()) return RunEnd::completed;
+      if (events_ % RunOptions::progress_interval == 0 && !report_progress()) {
+        return RunEnd::interrupted;
+      }
+    }
+    return RunEnd::no_more_events;
+  }
+
+  void process(const Event& event) {
+    if (run_.probe != nullptr) run_.probe->event_started(event);
+    if (concerns_network(event.kind)) network_.handle(event);
+    else implementation_->handle(event);
+    if (run_.probe != nullptr) run_.probe->event_finished(network_.depths());
+  }
+
+  bool report_progress() const {
+    if (!options_.on_progress) return true;
+    return options_.on_progress(
+        {run_.now, events_, run_.missing, run_.topology.required_deliveries()});
+  }
+
+  void report(RunResult& result) {
+    result.end_time = run_.now;
+    if (result.completed()) result.discovery_time = run_.now;
+    result.counts = run_.counts;
+    result.events = events_;
+    result.missing_count = run_.missing;
+    result.missing = implementation_->missing(RunResult::missing_listed);
+    result.useful_deliveries = run_.useful_deliveries;
+    result.duplicate_deliveries = run_.duplicate_deliveries;
+    network_.report(result);
+  }
+
+  const RunOptions& options_;
+  RunState run_;
+  Network network_;
+  std::unique_ptr<Implementation> implementation_;
+  std::uint64_t events_ = 0;
+};
+
+}  // namespace
+
+RunResult simulate(const Scenario& scenario, const RunOptions& options) {
+  return std::make_unique<Simulator>(scenario, options)->run();
+}
+
+}  // namespace stormproof::model

@@ -1,0 +1,59 @@
+// The wireless profile: how packets are served, from the source queue over the stages of the route to the
+// receiver (paper, "Shared Wireless Service"; specs/model.md, section "Channel"). The defaults are
+// infrastructure 802.11n as in the paper's evaluation. `model/config/wireless_knobs.hpp` gives keys and ranges.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/units.hpp"
+
+namespace stormproof::model {
+
+enum class ServiceKind : std::uint8_t { shared_channel, constant_delay };
+/// Which stage goes first when several fragments wait since the same instant.
+enum class ServiceOrder : std::uint8_t { fifo_uplink, fifo_downlink, fifo, datagram_uplink };
+/// Whether admission requests service for the first fragment only or for all of them.
+enum class FragmentRequest : std::uint8_t { sequential, at_admission };
+enum class MulticastAs : std::uint8_t { unicast, multicast };
+
+/// One stage of the route. An override that is absent means: the value of the profile.
+struct Stage {
+  std::string name;
+  std::string channel;  ///< stages with the same channel name share its airtime
+  MulticastAs multicast_as = MulticastAs::unicast;
+  std::optional<Nanoseconds> overhead_unicast;
+  std::optional<Nanoseconds> overhead_multicast;
+  std::optional<BitsPerSecond> rate_unicast;
+  std::optional<BitsPerSecond> rate_multicast;
+
+  bool operator==(const Stage&) const = default;
+};
+
+struct WirelessProfile {
+  /// Value of `source_queue_bytes` that stands for "no limit"; the key then reads `unlimited`.
+  static constexpr Bytes unlimited{std::numeric_limits<std::int64_t>::max()};
+  static constexpr std::uint32_t max_stages = 32;
+
+  ServiceKind kind = ServiceKind::shared_channel;
+  Nanoseconds overhead_unicast{194'500};
+  Nanoseconds overhead_multicast{130'500};
+  BitsPerSecond rate_unicast{144'400'000};
+  BitsPerSecond rate_multicast{6'000'000};
+  Bytes link_overhead_bytes{38};
+  Bytes mtu_payload_bytes{1'480};
+  Bytes source_queue_bytes{212'992};  ///< W; `unlimited` admits everything at once
+  ServiceOrder order = ServiceOrder::fifo_uplink;
+  FragmentRequest fragment_request = FragmentRequest::sequential;
+  std::vector<std::uint64_t> lost_packets;  ///< packet numbers in emission order, ascending, no duplicates
+  Nanoseconds one_way{0};                   ///< delay of `constant_delay`
+  std::vector<Stage> stages{{"uplink", "air", MulticastAs::unicast, {}, {}, {}, {}},
+                            {"downlink", "air", MulticastAs::multicast, {}, {}, {}, {}}};
+
+  bool operator==(const WirelessProfile&) const = default;
+};
+
+}  // namespace stormproof::model
