@@ -1,0 +1,103 @@
+// The receiving end: what a participant does with a packet that reaches it, and the ACKNACKs that
+// its readers send. The run completes here, with the last missing descriptor.
+#include "tests/oracle/oracle_world.hpp"
+
+namespace stormproof::oracle {
+
+namespace {
+
+void take_data(World& w, Relation& r, const Packet& packet) {
+  for (const Id d : packet.descriptors) {
+    if (r.received.at(d)) continue;
+    r.received.at(d) = true;
+    --w.missing;
+    if (w.missing == 0) {
+      w.outcome.completed = true;
+      w.outcome.t_disc_ns = w.now;
+      return;
+    }
+  }
+}
+
+void receive_sedp(World& w, Id j, const Packet& packet) {
+  Relation& r = relation(w, packet.source, j, packet.stream);
+  const bool strict = w.sedp.unmatched == model::Unmatched::drop &&
+                      w.sedp.relation_opening == model::RelationOpening::each_side;
+  if (strict && !r.reader_open) return;
+  take_data(w, r, packet);
+  if (w.outcome.completed || !packet.carries_heartbeat) return;
+  r.heartbeat_seen = true;
+  Event event;
+  event.kind = EventKind::acknack_generation;
+  event.from = j;
+  event.to = packet.source;
+  event.stream = packet.stream;
+  const Time delay = w.sedp.heartbeat_response_delay.count();
+  schedule(w, w.now + delay, EventClass::protocol, event);
+}
+
+Packet acknack_packet(World& w, Id j, Id i, int s) {
+  Packet packet;
+  packet.kind = PacketKind::acknack;
+  packet.source = j;
+  packet.destination = i;
+  packet.stream = s;
+  packet.payload = w.sedp.acknack_bytes.count();
+  const Relation& r = relation(w, i, j, s);
+  for (Id d = 0; d < r.received.size(); ++d) {
+    if (!r.received.at(d)) packet.bitmap.insert(d);
+  }
+  return packet;
+}
+
+void receive_at(World& w, Id j, const Packet& packet) {
+  if (!started(w, j)) return;
+  switch (packet.kind) {
+    case PacketKind::spdp:
+      receive_spdp(w, j, packet.source);
+      break;
+    case PacketKind::sedp:
+      receive_sedp(w, j, packet);
+      break;
+    case PacketKind::acknack:
+      receive_acknack(w, packet);
+      break;
+  }
+}
+
+}  // namespace
+
+void receive(World& w, const Packet& packet) {
+  if (packet.destination.has_value()) {
+    receive_at(w, *packet.destination, packet);
+    return;
+  }
+  for (Id j = 0; j < w.participants.size() && !w.outcome.completed; ++j) {
+    if (cross_host(w, packet.source, j)) receive_at(w, j, packet);
+  }
+}
+
+void generate_acknack(World& w, Id j, Id i, int s) {
+  Packet packet = acknack_packet(w, j, i, s);
+  const auto count = static_cast<std::int64_t>(relation(w, i, j, s).received.size());
+  if (!packet.bitmap.empty()) packet.payload += 4 * ceil_div(count, 32);
+  ++w.outcome.acknack;
+  emit(w, packet);
+}
+
+void initial_acknack(World& w, Id j, Id i, int s, Time delay) {
+  if (relation(w, i, j, s).heartbeat_seen) return;
+  Packet packet = acknack_packet(w, j, i, s);
+  packet.initial = true;
+  ++w.outcome.acknack;
+  emit(w, packet);
+  Event again;
+  again.kind = EventKind::initial_acknack;
+  again.from = j;
+  again.to = i;
+  again.stream = s;
+  again.number = 2 * delay;
+  schedule(w, w.now + 2 * delay, EventClass::protocol, again);
+}
+
+}  // namespace stormproof::oracle

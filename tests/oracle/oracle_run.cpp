@@ -1,0 +1,127 @@
+// The main loop: the next event is the least of (time, class, insertion number), and one switch
+// says what it does. Also the report at the end of a run.
+#include "tests/oracle/oracle_world.hpp"
+
+namespace stormproof::oracle {
+
+namespace {
+
+const char* name_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::service_finished:
+      return "service finished";
+    case EventKind::delayed_reception:
+      return "reception";
+    case EventKind::announcement:
+      return "announcement";
+    case EventKind::initial_acknack:
+      return "initial ACKNACK";
+    case EventKind::acknack_generation:
+      return "ACKNACK generation";
+    case EventKind::repair_generation:
+      return "repair DATA generation";
+    case EventKind::source_completion:
+      return "source completion";
+    case EventKind::suppression_end:
+      return "suppression end";
+    case EventKind::heartbeat_expiry:
+      return "HEARTBEAT expiry";
+    case EventKind::cycle_start:
+      return "cycle start";
+    case EventKind::cycle_end:
+      return "cycle end";
+    case EventKind::cycle_batch:
+      return "batch";
+    case EventKind::dispatch:
+      return "dispatch";
+  }
+  return "";
+}
+
+void process(World& w, const Event& e) {
+  switch (e.kind) {
+    case EventKind::service_finished:
+      return service_finished(w, e);
+    case EventKind::delayed_reception:
+      if (!w.packets.at(e.packet).lost) receive(w, w.packets.at(e.packet));
+      return;
+    case EventKind::announcement:
+      return announce(w, e.from, e.number);
+    case EventKind::initial_acknack:
+      return initial_acknack(w, e.from, e.to, e.stream, e.number);
+    case EventKind::acknack_generation:
+      return generate_acknack(w, e.from, e.to, e.stream);
+    case EventKind::repair_generation:
+      return generate_repair(w, e.from, e.to, e.stream);
+    case EventKind::source_completion:
+      return source_completion(w, w.packets.at(e.packet));
+    case EventKind::suppression_end:
+      return suppression_end(w, e.from, e.to, e.stream);
+    case EventKind::heartbeat_expiry:
+      return heartbeat_expiry(w, e.from, e.stream);
+    case EventKind::cycle_start:
+      return cycle_start(w, e.from, e.stream, e.token);
+    case EventKind::cycle_end:
+      return cycle_end(w, e.from, e.stream, e.token);
+    case EventKind::cycle_batch:
+      return cycle_batch(w, e);
+    case EventKind::dispatch:
+      return dispatch(w, e.channel);
+  }
+}
+
+void schedule_first_announcements(World& w) {
+  for (Id i = 0; i < w.participants.size(); ++i) {
+    Event event;
+    event.kind = EventKind::announcement;
+    event.from = i;
+    event.to = i;
+    schedule(w, w.participants.at(i).start, EventClass::protocol, event);
+  }
+}
+
+LogEntry log_entry(const std::tuple<Time, EventClass, std::uint64_t>& key, const Event& event) {
+  LogEntry entry;
+  entry.time_ns = std::get<0>(key);
+  entry.event_class = static_cast<int>(std::get<1>(key));
+  entry.insertion = std::get<2>(key);
+  entry.kind = name_of(event.kind);
+  if (event.kind != EventKind::dispatch) {
+    entry.source = event.from;
+    entry.destination = event.to;
+    entry.stream = event.stream;
+  }
+  return entry;
+}
+
+std::vector<Missing> missing_descriptors(const World& w) {
+  std::vector<Missing> missing;
+  for (const auto& [key, r] : w.relations) {
+    const auto& [i, j, s] = key;
+    for (Id d = 0; d < r.received.size(); ++d) {
+      if (!r.received.at(d)) missing.push_back({i, j, model::streams[s], d});
+    }
+  }
+  return missing;
+}
+
+}  // namespace
+
+Outcome run(const model::Scenario& scenario, const EventLog& log) {
+  World w{scenario};
+  schedule_first_announcements(w);
+  while (!w.queue.empty() && !w.outcome.completed) {
+    const auto key = w.queue.begin()->first;
+    const Event event = w.queue.begin()->second;
+    if (std::get<0>(key) > scenario.time_limit.count()) break;
+    w.queue.erase(w.queue.begin());
+    w.now = std::get<0>(key);
+    ++w.outcome.events;
+    if (log) log(log_entry(key, event));
+    process(w, event);
+  }
+  w.outcome.missing = missing_descriptors(w);
+  return w.outcome;
+}
+
+}  // namespace stormproof::oracle

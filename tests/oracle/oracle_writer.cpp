@@ -1,0 +1,142 @@
+// The sending end: opening of relations, periodic HEARTBEATs, what an ACKNACK does to the
+// descriptor states, and the repair that follows it.
+#include "tests/oracle/oracle_world.hpp"
+
+namespace stormproof::oracle {
+
+namespace {
+
+bool adaptive(const World& w) {
+  return w.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive;
+}
+
+void schedule_expiry(World& w, Id i, int s) {
+  Event event;
+  event.kind = EventKind::heartbeat_expiry;
+  event.from = i;
+  event.to = i;
+  event.stream = s;
+  ++w.writers.at({i, s}).pending_expiries;
+  schedule(w, w.now + w.sedp.heartbeat_period.count(), EventClass::protocol, event);
+}
+
+// Returns whether at least one descriptor went from U to R.
+bool apply_bitmap(World& w, Relation& r, const std::set<Id>& bitmap) {
+  const bool prefix = w.sedp.acknowledge == model::Acknowledge::prefix;
+  bool requested = false;
+  for (Id d = 0; d < r.state.size(); ++d) {
+    DescriptorState& state = r.state.at(d);
+    if (bitmap.contains(d)) {
+      if (state != DescriptorState::unsent) continue;
+      state = DescriptorState::requested;
+      requested = true;
+    } else if (!prefix || bitmap.empty() || d < *bitmap.begin()) {
+      state = DescriptorState::acknowledged;
+    }
+  }
+  return requested;
+}
+
+Event relation_event(EventKind kind, Id i, Id j, int s) {
+  Event event;
+  event.kind = kind;
+  event.from = i;
+  event.to = j;
+  event.stream = s;
+  return event;
+}
+
+}  // namespace
+
+void open_writer(World& w, Id i, Id j, int s) {
+  Relation& r = relation(w, i, j, s);
+  if (r.writer_open) return;
+  r.writer_open = true;
+  if (w.sedp.initial_data == model::InitialData::push) {
+    std::vector<Id> all;
+    for (Id d = 0; d < r.state.size(); ++d) all.push_back(d);
+    generate_data(w, i, j, s, all, false);
+  }
+  generate_heartbeat(w, i, j, s);
+  if (adaptive(w)) {
+    activate_cycles(w, i, s);
+  } else if (w.writers.at({i, s}).pending_expiries == 0) {
+    schedule_expiry(w, i, s);
+  }
+}
+
+void arm_heartbeat(World& w, Id i, int s) {
+  const bool single = w.sedp.heartbeat_timer == model::HeartbeatTimerKind::single;
+  if (single && w.writers.at({i, s}).pending_expiries > 0) return;
+  schedule_expiry(w, i, s);
+}
+
+void heartbeat_expiry(World& w, Id i, int s) {
+  --w.writers.at({i, s}).pending_expiries;
+  std::vector<Id> recipients = lacking_readers(w, i, s);
+  if (recipients.empty()) return;
+  if (w.sedp.heartbeat_recipients == model::HeartbeatRecipients::matched) {
+    recipients = open_readers(w, i, s);
+  }
+  for (const Id j : recipients) generate_heartbeat(w, i, j, s);
+  arm_heartbeat(w, i, s);
+}
+
+void receive_acknack(World& w, const Packet& packet) {
+  const Id i = *packet.destination;
+  const Id j = packet.source;
+  const int s = packet.stream;
+  Relation& r = relation(w, i, j, s);
+  if (!r.writer_open) return;
+  if (packet.initial) {
+    switch (w.sedp.initial_acknack) {
+      case model::InitialAckNackReply::bitmap:
+        break;
+      case model::InitialAckNackReply::heartbeat:
+        generate_heartbeat(w, i, j, s);
+        return;
+      case model::InitialAckNackReply::none:
+        return;
+    }
+  }
+  if (apply_bitmap(w, r, packet.bitmap)) {
+    const Time delay = w.sedp.nack_response_delay.count();
+    schedule(w, w.now + delay, EventClass::protocol,
+             relation_event(EventKind::repair_generation, i, j, s));
+  }
+  if (adaptive(w) && packet.bitmap.empty()) response(w, i, j, s);
+}
+
+void generate_repair(World& w, Id i, Id j, int s) {
+  Relation& r = relation(w, i, j, s);
+  std::vector<Id> repaired;
+  for (Id d = 0; d < r.state.size(); ++d) {
+    if (r.state.at(d) != DescriptorState::requested) continue;
+    r.state.at(d) = DescriptorState::queued;
+    repaired.push_back(d);
+  }
+  generate_data(w, i, j, s, repaired, true);
+}
+
+void source_completion(World& w, const Packet& packet) {
+  if (!packet.repair) return;
+  Relation& r = relation(w, packet.source, *packet.destination, packet.stream);
+  for (const Id d : packet.descriptors) {
+    if (r.state.at(d) == DescriptorState::queued) r.state.at(d) = DescriptorState::suppressed;
+  }
+  const Event end =
+      relation_event(EventKind::suppression_end, packet.source, *packet.destination, packet.stream);
+  schedule(w, w.now + w.sedp.nack_suppression_duration.count(), EventClass::protocol, end);
+}
+
+void suppression_end(World& w, Id i, Id j, int s) {
+  bool released = false;
+  for (DescriptorState& state : relation(w, i, j, s).state) {
+    if (state != DescriptorState::suppressed) continue;
+    state = DescriptorState::unsent;
+    released = true;
+  }
+  if (released && !adaptive(w)) arm_heartbeat(w, i, s);
+}
+
+}  // namespace stormproof::oracle

@@ -1,0 +1,15 @@
+// Random scenarios for the comparison of two simulators: small and heterogeneous, with every knob
+// of both profiles in play, timers from 1 ns up, and many events at the very same time.
+#pragma once
+
+#include <cstdint>
+
+#include "model/scenario.hpp"
+
+namespace stormproof::oracle {
+
+/// The scenario of this seed, the same on every platform. It always has a cross-host pair and at
+/// least one descriptor, and its time limit keeps nearly every run below 200,000 events.
+[[nodiscard]] model::Scenario random_scenario(std::uint64_t seed);
+
+}  // namespace stormproof::oracle
