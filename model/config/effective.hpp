@@ -1,0 +1,23 @@
+// The effective scenario: every value that a run really used, after `base:`, `--set` and short
+// forms. A report carries it, so that the run can be repeated from the report alone.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "model/scenario.hpp"
+
+namespace stormproof::model::config {
+
+/// deployment (list form), dds, wireless, time_limit, in the syntax of scenario files. JSON is
+/// YAML: read back by `parse_scenario`, it gives an equal scenario, for every scenario that a file
+/// can describe.
+[[nodiscard]] nlohmann::ordered_json effective_json(const Scenario& scenario);
+[[nodiscard]] nlohmann::ordered_json effective_json(const DdsProfile& dds);
+[[nodiscard]] nlohmann::ordered_json effective_json(const WirelessProfile& wireless);
+
+/// The same as YAML, one key a line.
+[[nodiscard]] std::string effective_yaml(const Scenario& scenario);
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,26 @@
+// All knobs of a scenario as a flat list, for documentation, for fuzzing, and for whoever wants to
+// try every value of every knob.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/config/knobs.hpp"
+#include "model/config/value_types.hpp"
+
+namespace stormproof::model::config {
+
+struct KnobInfo {
+  std::string
+      key;  ///< as `--set` takes it: "dds.sedp.heartbeat_period"; "*" for an element of a list
+  TypeInfo type;       ///< kind, range or choices, schema
+  Json default_value;  ///< the value of the paper's evaluation, in the syntax of the file; null if
+                       ///< absent
+  std::string doc;     ///< one line
+  Presence presence;   ///< whether a file without `base:` has to give it
+};
+
+/// Every knob of deployment (both forms), DDS profile, wireless profile and scenario.
+[[nodiscard]] std::vector<KnobInfo> scenario_knob_list();
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,130 @@
+// Fills a struct from a tree by visiting its knob table. The first mistake wins: the reader
+// remembers it and leaves everything after it alone.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "model/config/knobs.hpp"
+#include "model/config/scenario_knobs.hpp"
+#include "model/config/tree.hpp"
+#include "model/config/value_types.hpp"
+
+namespace stormproof::model::config {
+
+/// Collects the keys of one table, without those of its sections.
+class KeyCollector {
+ public:
+  void knob(std::string_view key, auto&&, const auto&, std::string_view, Presence = {}) {
+    add(key);
+  }
+  void section(std::string_view key, auto&, std::string_view) { add(key); }
+  void list(std::string_view key, auto&, ListSize, std::string_view, Presence = {}) { add(key); }
+  void rule(bool, std::string_view, std::string_view) {}
+
+  std::vector<std::string> keys;
+
+ private:
+  void add(std::string_view key) { keys.emplace_back(key); }
+};
+
+/// The keys that a map for a `T` may have.
+template <class T>
+std::vector<std::string> keys_of() {
+  KeyCollector collector;
+  const T sample{};
+  visit_knobs(collector, sample);
+  return std::move(collector.keys);
+}
+
+/// An error if `map` is no map or has a key that is not one of `keys`. `path` names the map in
+/// messages.
+std::optional<InputError> check_keys(const Node& map, std::string_view path,
+                                     const std::vector<std::string>& keys);
+
+/// `path`.`key`, or `key` alone at the top.
+std::string join_path(std::string_view path, std::string_view key);
+
+template <class T>
+void read_knobs(const Node& map, const std::string& path, T& value,
+                std::optional<InputError>& error);
+/// A deployment has two forms: the list of participants, and the short one.
+void read_knobs(const Node& map, const std::string& path, Deployment& value,
+                std::optional<InputError>& error);
+
+class KnobReader {
+ public:
+  /// Reads the keys of `map`. The first mistake is left in `error`; nothing is read once it holds
+  /// one.
+  KnobReader(const Node& map, const std::string& path, std::optional<InputError>& error)
+      : map_{map}, path_{path}, error_{error} {}
+
+  template <class T>
+  void knob(std::string_view key, T&& member, const auto& type, std::string_view,
+            Presence presence = Presence::required) {
+    const Node* node = find(key, presence, type.info().expected);
+    if (node == nullptr) return;
+    Complaint complaint;
+    if constexpr (requires { member.emplace(); }) {  // an optional value: present from now on
+      complaint = type.read(*node, member.emplace());
+    } else {
+      complaint = type.read(*node, member);
+    }
+    if (complaint) {
+      fail(complaint->place, fmt::format("{}: {}; expected {}", join_path(path_, key),
+                                         complaint->reason, type.info().expected));
+    }
+  }
+
+  void section(std::string_view key, auto& member, std::string_view) {
+    const Node* node = find(key, Presence::required, "a map");
+    if (node != nullptr) read_knobs(*node, join_path(path_, key), member, error_);
+  }
+
+  template <class Item>
+  void list(std::string_view key, std::vector<Item>& members, ListSize size, std::string_view,
+            Presence presence = Presence::required) {
+    const std::string expected = fmt::format("a list of {} to {} maps", size.minimum, size.maximum);
+    const Node* node = find(key, presence, expected);
+    if (node == nullptr) return;
+    const std::string path = join_path(path_, key);
+    if (!node->is_sequence()) {
+      return fail(node->place,
+                  fmt::format("{}: {} is not a list; expected {}", path, node->shown(), expected));
+    }
+    if (node->items.size() < size.minimum || node->items.size() > size.maximum) {
+      return fail(node->place,
+                  fmt::format("{}: a list of {}; expected {}", path, node->items.size(), expected));
+    }
+    members.assign(node->items.size(), Item{});
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      read_knobs(node->items[k], fmt::format("{}.{}", path, k), members[k], error_);
+    }
+  }
+
+  /// `key` may be dotted; it names the value that gets the blame.
+  void rule(bool holds, std::string_view key, std::string_view expected);
+
+ private:
+  const Node* find(std::string_view key, Presence presence, std::string_view expected);
+  void fail(const Place& place, std::string message);
+
+  const Node& map_;
+  const std::string& path_;
+  std::optional<InputError>& error_;
+};
+
+template <class T>
+void read_knobs(const Node& map, const std::string& path, T& value,
+                std::optional<InputError>& error) {
+  if (!error) error = check_keys(map, path, keys_of<T>());
+  if (error) return;
+  KnobReader reader{map, path, error};
+  visit_knobs(reader, value);
+}
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,40 @@
+// Reading of scenario files and profiles: the boundary at which everything that a user can get
+// wrong is refused, with its place. What comes out is complete and within all ranges.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "model/config/result.hpp"
+#include "model/config/spec_path.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::model::config {
+
+/// Reads a scenario. `reference` is a path (it has a '/' or ends in .yaml or .yml) or the name of a
+/// file in specs/scenarios. Each override is "key.path=value", the value in YAML: a list element
+/// goes by its number
+/// ("wireless.stages.0.channel=x"), a profile can be replaced ("dds=NAME") or changed
+/// ("dds.sedp.grouping=mtu"). Overrides that replace a profile or its base count before those of
+/// single keys, otherwise they count in order.
+[[nodiscard]] Result<Scenario> read_scenario(const std::string& reference,
+                                             std::span<const std::string> overrides,
+                                             const SpecPath& specs);
+
+/// The same for text that is already in memory, YAML or JSON; `source` is its name in errors, and
+/// paths in it are relative to the folder of `source`.
+[[nodiscard]] Result<Scenario> parse_scenario(std::string_view text, const std::string& source,
+                                              std::span<const std::string> overrides,
+                                              const SpecPath& specs);
+
+/// Reads a profile by name or path (relative to the current directory). Overrides are those of a
+/// scenario, without "dds." or "wireless." in front.
+[[nodiscard]] Result<DdsProfile> read_dds_profile(const std::string& reference,
+                                                  std::span<const std::string> overrides,
+                                                  const SpecPath& specs);
+[[nodiscard]] Result<WirelessProfile> read_wireless_profile(const std::string& reference,
+                                                            std::span<const std::string> overrides,
+                                                            const SpecPath& specs);
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,76 @@
+// The tables of the deployment, in its two forms, and of the scenario that joins everything. See
+// knobs.hpp for what visits them.
+#pragma once
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "model/config/dds_knobs.hpp"
+#include "model/config/knobs.hpp"
+#include "model/config/value_types.hpp"
+#include "model/config/wireless_knobs.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::model::config {
+
+/// The short form of a deployment: equal hosts with equal participants that all start at 0.
+struct HomogeneousForm {
+  std::uint32_t hosts = 2;
+  std::uint32_t participants_per_host = 1;
+  std::uint32_t endpoints_per_participant = 2;
+};
+
+inline constexpr NumberType participant_count = count_range(1, Deployment::max_participants);
+inline constexpr NumberType endpoint_count = count_range(0, Deployment::max_endpoints);
+
+void visit_knobs(auto& visit, Is<HomogeneousForm> auto& form) {
+  visit.knob("hosts", form.hosts, participant_count, "number of hosts (N_H)");
+  visit.knob("participants_per_host", form.participants_per_host, participant_count,
+             "participants on each host (N_P)");
+  visit.knob("endpoints_per_participant", form.endpoints_per_participant, endpoint_count,
+             "user endpoints of each participant, half of them publications, rounded up (N_E)");
+  visit.rule(std::uint64_t{form.hosts} * form.participants_per_host <= Deployment::max_participants,
+             "participants_per_host",
+             fmt::format("at most {} participants in all (hosts × participants_per_host)",
+                         Deployment::max_participants));
+}
+
+void visit_knobs(auto& visit, Is<Participant> auto& participant) {
+  visit.knob("host", participant.host.value, count_range(0, Deployment::max_participants - 1),
+             "number of its host");
+  visit.knob("publications", participant.publications, endpoint_count, "user publications");
+  visit.knob("subscriptions", participant.subscriptions, endpoint_count, "user subscriptions");
+  visit.knob("start", participant.start, delay_range, "when it starts; 0 if absent",
+             Presence::optional);
+}
+
+void visit_knobs(auto& visit, Is<Deployment> auto& deployment) {
+  visit.list("participants", deployment.participants, ListSize{1, Deployment::max_participants},
+             "the participants, numbered from 0 in this order");
+}
+
+/// The keys whose values may be the name of a file.
+inline constexpr std::string_view dds_key = "dds";
+inline constexpr std::string_view wireless_key = "wireless";
+
+void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
+  visit.section("deployment", scenario.deployment, "who takes part, and where");
+  visit.section(dds_key, scenario.dds, "DDS profile");
+  visit.section(wireless_key, scenario.wireless, "wireless profile");
+  visit.knob("time_limit", scenario.time_limit, period_range,
+             "events after this time are not processed");
+
+  const DescriptorProfile& defaults = scenario.dds.descriptors;
+  const auto has_descriptors = [&defaults](const Participant& participant) {
+    return defaults.default_publications + defaults.default_subscriptions +
+               participant.publications + participant.subscriptions >
+           0;
+  };
+  visit.rule(scenario.deployment.has_cross_host_pair(), "deployment",
+             "participants on at least two hosts; otherwise there is nothing to discover");
+  visit.rule(std::ranges::any_of(scenario.deployment.participants, has_descriptors), "deployment",
+             "at least one endpoint, user or default; otherwise there is nothing to discover");
+}
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,99 @@
+// Look-up of names and paths. Only existence is checked here; reading the file gives its own
+// errors.
+#include "model/config/spec_path.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "model/config/suggestion.hpp"
+#include "model/config/tree.hpp"
+
+namespace stormproof::model::config {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* file_ending = ".yaml";
+
+bool file_exists(const fs::path& path) {
+  std::error_code failed;
+  return fs::exists(path, failed);
+}
+
+bool is_path(const std::string& reference) {
+  return reference.find('/') != std::string::npos || reference.ends_with(".yaml") ||
+         reference.ends_with(".yml");
+}
+
+}  // namespace
+
+std::string folder_name(SpecKind kind) {
+  switch (kind) {
+    case SpecKind::scenarios:
+      return "scenarios";
+    case SpecKind::dds:
+      return "dds";
+    case SpecKind::wireless:
+      return "wireless";
+  }
+  return {};
+}
+
+SpecPath SpecPath::standard() {
+  SpecPath path;
+  if (const char* variable = std::getenv("STORMPROOF_SPECS")) {
+    std::istringstream list{variable};
+    for (std::string directory; std::getline(list, directory, ':');) {
+      if (!directory.empty()) path.directories.push_back(directory);
+    }
+  }
+#ifdef STORMPROOF_SPECS_DIR
+  path.directories.emplace_back(STORMPROOF_SPECS_DIR);
+#endif
+#ifdef STORMPROOF_INSTALLED_SPECS_DIR
+  path.directories.emplace_back(STORMPROOF_INSTALLED_SPECS_DIR);
+#endif
+  return path;
+}
+
+std::vector<std::string> SpecPath::names(SpecKind kind) const {
+  std::vector<std::string> names;
+  for (const std::string& directory : directories) {
+    std::error_code failed;
+    fs::directory_iterator files{fs::path{directory} / folder_name(kind), failed};
+    for (; !failed && files != fs::directory_iterator{}; files.increment(failed)) {
+      if (files->path().extension() == file_ending) names.push_back(files->path().stem().string());
+    }
+  }
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
+                                   const std::string& from_directory,
+                                   const std::string& where) const {
+  if (is_path(reference)) {
+    const fs::path beside =
+        fs::path{from_directory} / reference;  // `reference` itself if it is absolute
+    if (file_exists(beside)) return beside.lexically_normal().string();
+    if (file_exists(reference)) return reference;
+    const std::string places =
+        beside == reference ? reference : fmt::format("{}, {}", beside.string(), reference);
+    return InputError{where, fmt::format("no file {}; looked for {}", quote(reference), places)};
+  }
+  for (const std::string& directory : directories) {
+    const fs::path file = fs::path{directory} / folder_name(kind) / (reference + file_ending);
+    if (!reference.empty() && file_exists(file)) return file.string();
+  }
+  const std::vector<std::string> known = names(kind);
+  return InputError{
+      where, fmt::format("no {} file named {}{}; expected one of {}, or a path", folder_name(kind),
+                         quote(reference), suggestion(reference, known), fmt::join(known, ", "))};
+}
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,33 @@
+// Where profiles and scenarios that are given by name are looked for: a list of `specs` folders.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/config/result.hpp"
+
+namespace stormproof::model::config {
+
+/// What a file below `specs` describes; the folder there has the same name.
+enum class SpecKind { scenarios, dds, wireless };
+
+[[nodiscard]] std::string folder_name(SpecKind kind);
+
+struct SpecPath {
+  std::vector<std::string> directories;  ///< the first one that has the file wins
+
+  /// The folders in the environment variable STORMPROOF_SPECS (separated by ':'), then those of the
+  /// source tree that this program was built from, then the installed ones.
+  [[nodiscard]] static SpecPath standard();
+
+  /// All names of a kind, sorted.
+  [[nodiscard]] std::vector<std::string> names(SpecKind kind) const;
+
+  /// The file that `reference` means: a path if it has a '/' or ends in .yaml or .yml (relative to
+  /// `from_directory`, then to the current directory), otherwise a name. `where` places the error.
+  [[nodiscard]] Result<std::string> find(SpecKind kind, const std::string& reference,
+                                         const std::string& from_directory,
+                                         const std::string& where) const;
+};
+
+}  // namespace stormproof::model::config

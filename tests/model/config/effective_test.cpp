@@ -1,0 +1,87 @@
+// What is written as JSON or YAML reads back as the same scenario.
+#include "model/config/effective.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <rapidcheck/gtest.h>
+
+#include "model/config/scenario_file.hpp"
+#include "tests/model/config/test_files.hpp"
+
+namespace stormproof::model::config {
+namespace {
+
+/// The scenario that `text` describes, without any spec folder: an effective scenario refers to no
+/// file.
+Result<Scenario> read_back(const std::string& text) {
+  return parse_scenario(text, "effective", {}, SpecPath{});
+}
+
+void expect_round_trip(const Scenario& scenario) {
+  for (const std::string& text : {effective_json(scenario).dump(), effective_json(scenario).dump(2),
+                                  effective_yaml(scenario)}) {
+    const auto again = read_back(text);
+    ASSERT_TRUE(again) << to_string(again.error()) << "\n" << text;
+    EXPECT_EQ(*again, scenario) << text;
+  }
+}
+
+TEST(Effective, every_scenario_of_the_source_tree_survives) {
+  const SpecPath specs = source_specs();
+  for (const std::string& name : specs.names(SpecKind::scenarios)) {
+    for (const std::string& wireless : specs.names(SpecKind::wireless)) {
+      const std::vector<std::string> overrides{"wireless=" + wireless};
+      expect_round_trip(*read_scenario(name, overrides, specs));
+    }
+  }
+}
+
+TEST(Effective, names_that_look_like_something_else_survive) {
+  Scenario scenario;
+  scenario.deployment = Deployment::homogeneous(2, 1, 2);
+  for (const char* name :
+       {"5",  "null", "~",        "true", "a: b", "# x",  "\"q\"", "'", "-", "[x]", "&a",
+        "*a", "ä😀",   " padded ", "0x10", "1e3",  "a\\b", "%",     "@", "{", "no",  "10us"}) {
+    scenario.wireless.stages[0].name = name;
+    scenario.wireless.stages[1].channel = name;
+    expect_round_trip(scenario);
+  }
+}
+
+RC_GTEST_PROP(Effective, numbers_survive, ()) {
+  const auto up_to = [](std::int64_t least, std::int64_t most) {
+    return *rc::gen::inRange<std::int64_t>(least, most + 1);
+  };
+  Scenario scenario;
+  scenario.deployment = Deployment::homogeneous(2, 1, 3);
+  scenario.deployment.participants[0].start = Nanoseconds{up_to(0, 1'000'000'000'000'000)};
+  scenario.dds.sedp.heartbeat_period = Nanoseconds{up_to(1, 1'000'000'000'000'000)};
+  scenario.dds.sedp.piggyback_threshold_bytes = Bytes{up_to(0, 1'000'000'000'000)};
+  scenario.wireless.rate_unicast = BitsPerSecond{up_to(1, 1'000'000'000'000'000)};
+  scenario.wireless.stages[1].overhead_multicast = Nanoseconds{up_to(0, 1'000'000'000'000'000)};
+  scenario.wireless.lost_packets = {static_cast<std::uint64_t>(up_to(0, 1'000'000'000'000'000))};
+  scenario.time_limit = Nanoseconds{up_to(1, 1'000'000'000'000'000)};
+  const auto from_json = read_back(effective_json(scenario).dump());
+  const auto from_yaml = read_back(effective_yaml(scenario));
+  RC_ASSERT((from_json && *from_json == scenario));
+  RC_ASSERT((from_yaml && *from_yaml == scenario));
+}
+
+TEST(Effective, the_form_is_that_of_a_scenario_file) {
+  Scenario scenario;
+  scenario.deployment = Deployment::homogeneous(2, 1, 1);
+  scenario.wireless.source_queue_bytes = WirelessProfile::unlimited;
+  const auto json = effective_json(scenario);
+  EXPECT_EQ(json["deployment"]["participants"][1].dump(),
+            R"({"host":1,"publications":1,"subscriptions":0,"start":"0s"})");
+  EXPECT_EQ(json["dds"]["sedp"]["nack_response_delay"], "100us");
+  EXPECT_EQ(json["dds"]["sedp"]["adaptive"]["epsilon"], "1/20");
+  EXPECT_EQ(json["wireless"]["source_queue_bytes"], "unlimited");
+  EXPECT_EQ(json["wireless"]["rate_unicast"], "144.4Mbps");
+  EXPECT_FALSE(json["wireless"]["stages"][0].contains("rate_unicast"));
+  EXPECT_NE(effective_yaml(scenario).find("\n  sedp:\n    heartbeat_period: 1s\n"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace stormproof::model::config

@@ -1,0 +1,155 @@
+// Reading of good scenarios: every form, every default, every kind of override.
+#include "model/config/scenario_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/model/config/test_files.hpp"
+
+namespace stormproof::model::config {
+namespace {
+
+const std::string plain =
+    "deployment: {hosts: 2, participants_per_host: 1, endpoints_per_participant: 3}\n"
+    "dds: paper\n"
+    "wireless: wifi-80211n\n"
+    "time_limit: 5s\n";
+
+Result<Scenario> parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parse_scenario(text, "s.yaml", overrides, source_specs());
+}
+
+Scenario scenario(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const auto read = parse(text, overrides);
+  EXPECT_TRUE(read) << to_string(read.error());
+  return read ? *read : Scenario{};
+}
+
+std::string refusal(const std::vector<std::string>& overrides) {
+  const auto read = parse(plain, overrides);
+  return read ? "accepted" : to_string(read.error());
+}
+
+TEST(ScenarioFile, the_short_form_gives_the_odd_endpoint_to_the_publications) {
+  const Scenario read = scenario(plain);
+  EXPECT_EQ(read.deployment, Deployment::homogeneous(2, 1, 3));
+  EXPECT_EQ(read.deployment.participants[1].publications, 2U);
+  EXPECT_EQ(read.dds, DdsProfile{});
+  EXPECT_EQ(read.wireless, WirelessProfile{});
+  EXPECT_EQ(read.time_limit, Nanoseconds{5'000'000'000});
+}
+
+TEST(ScenarioFile, the_list_form_keeps_order_and_starts) {
+  const Scenario read = scenario(
+      "description: any text\n"
+      "deployment:\n"
+      "  participants:\n"
+      "    - {host: 7, publications: 3, subscriptions: 2, start: 1.5ms}\n"
+      "    - {host: 0, publications: 0, subscriptions: 0}\n"
+      "dds: {base: paper, sedp: {heartbeat_timer: additive}}\n"
+      "wireless: {base: wifi-80211n, order: datagram_uplink, lost_packets: [40, 3, 40]}\n"
+      "time_limit: 200s\n");
+  ASSERT_EQ(read.deployment.size(), 2U);
+  EXPECT_EQ(read.deployment.participants[0].host.value, 7U);
+  EXPECT_EQ(read.deployment.participants[0].start, Nanoseconds{1'500'000});
+  EXPECT_EQ(read.deployment.participants[1].start, Nanoseconds{0});
+  EXPECT_EQ(read.dds.sedp.heartbeat_timer, HeartbeatTimerKind::additive);
+  EXPECT_EQ(read.dds.sedp.heartbeat_period, Nanoseconds{1'000'000'000});
+  EXPECT_EQ(read.wireless.order, ServiceOrder::datagram_uplink);
+  EXPECT_EQ(read.wireless.lost_packets, (std::vector<std::uint64_t>{3, 40}));
+}
+
+TEST(ScenarioFile, a_constant_delay_needs_nothing_of_a_channel) {
+  const Scenario read = scenario(plain, {"wireless={kind: constant_delay, one_way: 300us}"});
+  EXPECT_EQ(read.wireless.one_way, Nanoseconds{300'000});
+  EXPECT_EQ(refusal({"wireless={kind: constant_delay}"}),
+            "--set wireless={kind: constant_delay}: missing key 'one_way' in wireless; expected a "
+            "duration from 0s to 1000000s");
+  EXPECT_NE(refusal({"wireless=wired", "wireless.kind=shared_channel"})
+                .find("missing key 'overhead_unicast'"),
+            std::string::npos);
+}
+
+TEST(ScenarioFile, overrides_reach_every_key) {
+  const Scenario read =
+      scenario(plain, {"deployment.hosts=3", "dds.sedp.heartbeat_period=500ms",
+                       "wireless.stages.0.channel=x", "wireless.stages.1.rate_multicast=1Mbps",
+                       "wireless.source_queue_bytes=unlimited", "dds.sedp.adaptive.epsilon=1/10",
+                       "time_limit=1s", "description=other"});
+  EXPECT_EQ(read.deployment.size(), 3U);
+  EXPECT_EQ(read.dds.sedp.heartbeat_period, Nanoseconds{500'000'000});
+  EXPECT_EQ(read.dds.sedp.adaptive.epsilon_denominator, 10);
+  EXPECT_EQ(read.wireless.stages[0].channel, "x");
+  EXPECT_EQ(read.wireless.stages[1].rate_multicast, BitsPerSecond{1'000'000});
+  EXPECT_EQ(read.wireless.source_queue_bytes, WirelessProfile::unlimited);
+  EXPECT_EQ(read.time_limit, Nanoseconds{1'000'000'000});
+}
+
+TEST(ScenarioFile, overrides_replace_profiles_before_they_change_them) {
+  const Scenario read = scenario(plain, {"dds.sedp.acknowledge=bitmap", "dds=fastdds-2.6.11",
+                                         "wireless.base=ad-hoc", "wireless.order=fifo"});
+  EXPECT_EQ(read.dds.sedp.initial_data, InitialData::pull);
+  EXPECT_EQ(read.dds.sedp.acknowledge, Acknowledge::bitmap);
+  EXPECT_EQ(read.wireless.stages.size(), 1U);
+  EXPECT_EQ(read.wireless.order, ServiceOrder::fifo);
+}
+
+TEST(ScenarioFile, the_last_override_of_a_key_counts) {
+  EXPECT_EQ(scenario(plain, {"time_limit=1s", "time_limit=2s"}).time_limit,
+            Nanoseconds{2'000'000'000});
+}
+
+TEST(ScenarioFile, an_override_is_the_place_of_its_mistakes) {
+  EXPECT_EQ(refusal({"dds.sedp.heartbeat_period=5"}),
+            "--set dds.sedp.heartbeat_period=5: dds.sedp.heartbeat_period: '5' has no unit (ns, "
+            "us, ms, s); expected "
+            "a duration from 1ns to 1000000s");
+  EXPECT_EQ(refusal({"dds.sepd.heartbeat_period=5s"}),
+            "--set dds.sepd.heartbeat_period=5s: unknown key 'sepd' in dds; did you mean 'sedp'?");
+  EXPECT_EQ(
+      refusal({"wireless.stages.2.name=x"}),
+      "--set wireless.stages.2.name=x: there is no element 2; the list has 2 (numbered from 0)");
+  EXPECT_EQ(refusal({"time_limit.x=1"}),
+            "--set time_limit.x=1: 'time_limit' has no keys below it: it is '5s'");
+  EXPECT_TRUE(refusal({"dds=papr"})
+                  .starts_with("--set dds=papr: no dds file named 'papr'; did you mean 'paper'?; "
+                               "expected one of fastdds-2.6.11, paper"))
+      << refusal({"dds=papr"});
+  EXPECT_EQ(refusal({"dds.implementation=fastdds"}),
+            "--set dds.implementation=fastdds: dds.implementation: 'fastdds'; expected paper, "
+            "because fastdds is not "
+            "available yet");
+}
+
+TEST(ScenarioFile, profiles_can_be_read_alone) {
+  const std::vector<std::string> overrides{"sedp.grouping=mtu"};
+  EXPECT_EQ(read_dds_profile("paper", overrides, source_specs())->sedp.grouping, Grouping::mtu);
+  EXPECT_EQ(read_wireless_profile(STORMPROOF_SPECS_DIR "/wireless/wired.yaml", {}, source_specs())
+                ->one_way,
+            Nanoseconds{100'000});
+  EXPECT_EQ(to_string(read_dds_profile("nope.yaml", {}, source_specs()).error()),
+            "nope.yaml: no file 'nope.yaml'; looked for nope.yaml");
+}
+
+TEST(ScenarioFile, scenarios_go_by_path_or_name) {
+  const TestFiles files;
+  const std::string path = files.write("mine.yaml", plain);
+  EXPECT_EQ(read_scenario(path, {}, source_specs())->deployment.size(), 2U);
+  EXPECT_EQ(read_scenario("wifi-5x20", {}, source_specs())->deployment,
+            Deployment::homogeneous(2, 5, 20));
+  EXPECT_FALSE(read_scenario("wifi", {}, source_specs()));
+}
+
+TEST(ScenarioFile, profiles_are_found_beside_the_scenario) {
+  const TestFiles files;
+  files.write("radio.yaml", "{base: wifi-80211n, rate_unicast: 1Gbps}");
+  const std::string text = "{base: radio.yaml, order: fifo}";
+  std::string own = plain;
+  own.replace(own.find("wifi-80211n"), 11, text);
+  const auto read = read_scenario(files.write("own.yaml", own), {}, source_specs());
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(read->wireless.rate_unicast, BitsPerSecond{1'000'000'000});
+  EXPECT_EQ(read->wireless.order, ServiceOrder::fifo);
+}
+
+}  // namespace
+}  // namespace stormproof::model::config

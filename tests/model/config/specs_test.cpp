@@ -1,0 +1,98 @@
+// The files below specs: all of them are valid, and they hold the values that they claim.
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "model/config/scenario_file.hpp"
+#include "tests/model/config/test_files.hpp"
+
+namespace stormproof::model::config {
+namespace {
+
+DdsProfile dds(const std::string& name) {
+  const auto profile = read_dds_profile(name, {}, source_specs());
+  EXPECT_TRUE(profile) << to_string(profile.error());
+  return profile ? *profile : DdsProfile{};
+}
+
+WirelessProfile wireless(const std::string& name) {
+  const auto profile = read_wireless_profile(name, {}, source_specs());
+  EXPECT_TRUE(profile) << to_string(profile.error());
+  return profile ? *profile : WirelessProfile{};
+}
+
+TEST(Specs, every_file_is_valid) {
+  const SpecPath specs = source_specs();
+  for (const std::string& name : specs.names(SpecKind::dds)) dds(name);
+  for (const std::string& name : specs.names(SpecKind::wireless)) wireless(name);
+  for (const std::string& name : specs.names(SpecKind::scenarios)) {
+    const auto scenario = read_scenario(name, {}, specs);
+    EXPECT_TRUE(scenario) << to_string(scenario.error());
+  }
+  EXPECT_GE(specs.names(SpecKind::scenarios).size(), 6U);
+}
+
+TEST(Specs, every_file_names_its_schema_and_every_value_of_a_profile_its_source) {
+  const SpecPath specs = source_specs();
+  for (const SpecKind kind : {SpecKind::scenarios, SpecKind::dds, SpecKind::wireless}) {
+    for (const std::string& name : specs.names(kind)) {
+      std::ifstream file{*specs.find(kind, name, "", "")};
+      std::string line;
+      std::getline(file, line);
+      EXPECT_TRUE(line.starts_with("# yaml-language-server: $schema=../schema/")) << name;
+      if (kind == SpecKind::scenarios) continue;
+      for (std::string before = line; std::getline(file, line); before = line) {
+        const bool has_value = line.find(": ") != std::string::npos && !line.ends_with(":");
+        const bool is_name = line.starts_with("description:") ||
+                             line.find("- name:") != std::string::npos ||
+                             line.find("channel: air") != std::string::npos;
+        if (line.starts_with("#") || !has_value || is_name) continue;
+        EXPECT_TRUE(line.find(" # ") != std::string::npos || before.starts_with("# "))
+            << name << ": " << line;
+      }
+    }
+  }
+}
+
+TEST(Specs, the_paper_profiles_are_the_defaults_of_the_structs) {
+  EXPECT_EQ(dds("paper"), DdsProfile{});
+  EXPECT_EQ(wireless("wifi-80211n"), WirelessProfile{});
+  EXPECT_EQ(wireless("wifi-80211n-2.4ghz"), WirelessProfile{});
+}
+
+TEST(Specs, fast_dds_differs_from_the_paper_in_six_rules) {
+  DdsProfile expected;
+  expected.sedp.relation_opening = RelationOpening::each_side;
+  expected.sedp.initial_data = InitialData::pull;
+  expected.sedp.unmatched = Unmatched::drop;
+  expected.sedp.initial_acknack = InitialAckNackReply::heartbeat;
+  expected.sedp.acknowledge = Acknowledge::prefix;
+  expected.sedp.heartbeat_recipients = HeartbeatRecipients::matched;
+  EXPECT_EQ(dds("fastdds-2.6.11"), expected);
+}
+
+TEST(Specs, other_wireless_profiles) {
+  EXPECT_EQ(wireless("wired").kind, ServiceKind::constant_delay);
+  EXPECT_EQ(wireless("wired").one_way, Nanoseconds{100'000});
+  EXPECT_EQ(wireless("mesh-3-hops").stages.size(), 3U);
+  EXPECT_EQ(wireless("mesh-3-hops").stages[2].channel, wireless("mesh-3-hops").stages[0].channel);
+  EXPECT_EQ(wireless("ad-hoc").stages.size(), 1U);
+  EXPECT_EQ(wireless("ad-hoc").stages[0].multicast_as, MulticastAs::multicast);
+
+  const WirelessProfile emulated = wireless("emulated-ap");
+  EXPECT_EQ(emulated.source_queue_bytes, WirelessProfile::unlimited);
+  EXPECT_EQ(emulated.overhead_multicast, Nanoseconds{150'000});
+  EXPECT_EQ(emulated.link_overhead_bytes, Bytes{14});
+  EXPECT_EQ(emulated.fragment_request, FragmentRequest::at_admission);
+  EXPECT_EQ(emulated.order, ServiceOrder::fifo);
+
+  const Stage down = wireless("cellular").stages.at(1);
+  EXPECT_NE(down.channel, wireless("cellular").stages[0].channel);
+  EXPECT_EQ(down.rate_unicast, BitsPerSecond{150'000'000});
+  EXPECT_EQ(down.rate_multicast, BitsPerSecond{20'000'000});
+  EXPECT_EQ(down.overhead_unicast, Nanoseconds{200'000});
+  EXPECT_EQ(wireless("cellular").stages[0].rate_unicast, BitsPerSecond{50'000'000});
+}
+
+}  // namespace
+}  // namespace stormproof::model::config
