@@ -1,5 +1,5 @@
 // The flyweight engine: one Boost.MSM machine object serves any number of machines of its kind. A machine is
-// stored as its state number alone (one byte, or three bits in model/engine/descriptor_states.hpp); a step puts
+// stored as its state number alone (one byte, or three bits in model/engine/relation_bits.hpp); a step puts
 // that number into the object, lets MSM process the event, and reads the new number back. So every transition
 // of the simulator goes through `back::state_machine`, at a few nanoseconds and without a machine in memory.
 #pragma once

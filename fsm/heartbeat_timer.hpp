@@ -44,7 +44,7 @@ struct Armed : State {};     ///< periodic: at least one expiry is pending
 struct Pacing : State {};    ///< adaptive: active, waiting for the next cycle start
 struct Awaiting : State {};  ///< adaptive: a cycle is running
 
-struct RelationOpened : Event<HeartbeatTimerIo> {};
+struct ArmRequested : Event<HeartbeatTimerIo> {};
 struct SuppressionEnded : Event<HeartbeatTimerIo> {};
 struct Expired : Event<HeartbeatTimerIo> {};
 struct CycleStarted : Event<HeartbeatTimerIo> {};
@@ -166,14 +166,14 @@ struct EndAll : Action<EndAll> {
 
 using Transitions = Table<
     // Periodic policy.
-    Row<Idle, RelationOpened, Armed, Arm, Not<Adaptive>>,
+    Row<Idle, ArmRequested, Armed, Arm, Not<Adaptive>>,
     Row<Idle, SuppressionEnded, Armed, Arm, Not<Adaptive>>,
     Row<Armed, SuppressionEnded, Armed, Arm, Additive>,
     Row<Armed, Expired, Armed, SendAndArm, Unacknowledged>,
     Row<Armed, Expired, Armed, none, All<Not<Unacknowledged>, Not<LastPending>>>,
     Row<Armed, Expired, Idle, none, All<Not<Unacknowledged>, LastPending>>,
     // Adaptive policy.
-    Row<Idle, RelationOpened, Pacing, Activate, Adaptive>,
+    Row<Idle, ArmRequested, Pacing, Activate, Adaptive>,
     Row<Pacing, CycleStarted, Awaiting, StartCycle, Unacknowledged>,
     Row<Pacing, CycleStarted, Idle, Deactivate, Not<Unacknowledged>>,
     Row<Awaiting, CycleEnded, Pacing, EndCycle>,

@@ -1,6 +1,8 @@
-// Builds the homogeneous short form of a deployment and counts its hosts.
+// Builds the homogeneous short form of a deployment, draws schedules, counts hosts.
 #include "model/deployment.hpp"
 
+#include <algorithm>
+#include <random>
 #include <set>
 
 namespace stormproof::model {
@@ -16,6 +18,20 @@ Deployment Deployment::homogeneous(std::uint32_t hosts, std::uint32_t participan
     }
   }
   return deployment;
+}
+
+void Deployment::draw_schedule(std::uint64_t seed) {
+  schedule->seed = seed;
+  std::mt19937_64 random{seed};  // its sequence is fixed by the standard; distributions are not
+  const auto draw = [&](Nanoseconds low, Nanoseconds high) {
+    const auto values = static_cast<std::uint64_t>((high - low).count()) + 1;
+    return low + Nanoseconds{static_cast<std::int64_t>(random() % values)};
+  };
+  for (Participant& participant : participants) {
+    participant.start = draw(schedule->start_min, schedule->start_max);
+    participant.endpoints_done = std::max(
+        participant.start, draw(schedule->endpoints_done_min, schedule->endpoints_done_max));
+  }
 }
 
 std::uint32_t Deployment::host_count() const {

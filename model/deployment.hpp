@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "model/units.hpp"
@@ -21,6 +22,18 @@ struct Participant {
   bool operator==(const Participant&) const = default;
 };
 
+/// Ranges from which the start times of a deployment are drawn. Real processes never start at exactly the same
+/// time, and a storm depends on it, so live runs are predicted as a distribution over such schedules.
+struct Schedule {
+  Nanoseconds start_min;           ///< ≥ 0
+  Nanoseconds start_max;           ///< ≥ start_min
+  Nanoseconds endpoints_done_min;  ///< ≥ 0
+  Nanoseconds endpoints_done_max;  ///< ≥ endpoints_done_min
+  std::uint64_t seed = 0;          ///< of the one schedule that a single run uses
+
+  bool operator==(const Schedule&) const = default;
+};
+
 struct Deployment {
   /// Largest deployment that is accepted. 4,000 participants on two hosts are 16 million relations.
   static constexpr std::uint32_t max_participants = 4'000;
@@ -29,6 +42,13 @@ struct Deployment {
   std::vector<Participant> participants;  ///< numbered in this order
   /// Delay of same-host packets, ≥ 0 (`implementation: fastdds` only).
   Nanoseconds loopback_delay{2'000'000};
+
+  /// The ranges that `start` and `endpoints_done` of the participants were drawn from, if they were drawn.
+  std::optional<Schedule> schedule;
+
+  /// Draws every participant's `start` and `endpoints_done` (not before its start) uniformly from the ranges of the
+  /// schedule, which must exist. The same seed gives the same times on every machine.
+  void draw_schedule(std::uint64_t seed);
 
   /// The short form: host 0's participants first, each with ceil(E/2) publications and floor(E/2) subscriptions.
   [[nodiscard]] static Deployment homogeneous(std::uint32_t hosts, std::uint32_t participants_per_host,

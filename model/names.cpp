@@ -11,6 +11,8 @@ const char* name_of(PacketKind kind) {
     case PacketKind::data: return "data";
     case PacketKind::heartbeat: return "heartbeat";
     case PacketKind::acknack: return "acknack";
+    case PacketKind::user_heartbeat: return "user_heartbeat";
+    case PacketKind::user_acknack: return "user_acknack";
   }
   return "";
 }
@@ -22,6 +24,7 @@ const char* name_of(TrafficClass traffic) {
     case TrafficClass::repair_data: return "repair_data";
     case TrafficClass::heartbeat: return "heartbeat";
     case TrafficClass::acknack: return "acknack";
+    case TrafficClass::user_control: return "user_control";
   }
   return "";
 }

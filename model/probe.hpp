@@ -17,7 +17,7 @@ namespace stormproof::model {
 /// Which machine has moved. `subject` is a relation, writer (2·participant + stream), participant or channel,
 /// as `kind` says.
 struct MachineRef {
-  enum class Kind : std::uint8_t { relation, writer, participant, channel };
+  enum class Kind : std::uint8_t { relation, writer, participant, channel, control_relation };
   std::string_view machine;
   Kind kind;
   std::uint32_t subject;
@@ -55,6 +55,11 @@ class Probe {
   virtual void source_completed(const Packet&) {}
   /// The last fragment left the last stage; `lost` packets are not received.
   virtual void arrived(const Packet&, bool /*lost*/) {}
+  /// `receiver` is about to process the packet; `everybody`: whoever it was sent to, now and at once.
+  virtual void received(const Packet&, std::uint32_t /*receiver*/) {}
+  static constexpr std::uint32_t everybody = UINT32_MAX;
+  /// The packet, which has no number, goes to a participant on the host of its source.
+  virtual void looped_back(const Packet&, std::uint32_t /*receiver*/) {}
   virtual void backlog_changed(std::uint32_t /*participant*/, std::uint64_t /*packets*/,
                                std::int64_t /*admitted_bytes*/) {}
   /// How many fragments wait for the channel now.

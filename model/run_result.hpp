@@ -24,8 +24,15 @@ struct MissingDescriptor {
 };
 
 /// Classes of channel use; DATA packets count as initial if they carry a first transmission.
-enum class TrafficClass : std::uint8_t { spdp, initial_data, repair_data, heartbeat, acknack };
-inline constexpr std::size_t traffic_class_count = 5;
+enum class TrafficClass : std::uint8_t {
+  spdp,
+  initial_data,
+  repair_data,
+  heartbeat,
+  acknack,
+  user_control  ///< HEARTBEATs and ACKNACKs of control-only relations (`implementation: fastdds`)
+};
+inline constexpr std::size_t traffic_class_count = 6;
 [[nodiscard]] const char* name_of(TrafficClass traffic);
 
 /// How one channel was used up to the end of the run.
@@ -71,6 +78,7 @@ struct RunResult {
   Nanoseconds end_time;                      ///< time of the last processed event
   std::optional<Nanoseconds> discovery_time; ///< T_disc; only a complete run has one
   Counts counts;
+  std::uint64_t user_control = 0;            ///< messages of control-only relations, in no class
   std::uint64_t events = 0;                  ///< processed events
   std::uint64_t missing_count = 0;
   std::vector<MissingDescriptor> missing;    ///< the first `missing_listed` of them

@@ -5,6 +5,7 @@
 
 #include "model/engine/network.hpp"
 #include "model/engine/run_state.hpp"
+#include "model/fastdds/protocol.hpp"
 #include "model/paper/protocol.hpp"
 
 namespace stormproof::model {
@@ -15,13 +16,21 @@ bool concerns_network(EventKind kind) {
   return class_of(kind) != EventClass::protocol || kind == EventKind::source_completion;
 }
 
+std::unique_ptr<Implementation> make_implementation(RunState& run, Network& network) {
+  switch (run.scenario.dds.implementation) {
+    case ImplementationKind::paper: return std::make_unique<paper::Protocol>(run, network);
+    case ImplementationKind::fastdds: return std::make_unique<fastdds::Protocol>(run, network);
+  }
+  return nullptr;
+}
+
 class Simulator {
  public:
   Simulator(const Scenario& scenario, const RunOptions& options)
       : options_{options},
         run_{scenario, options.probe},
         network_{run_},
-        implementation_{std::make_unique<paper::Protocol>(run_, network_)} {
+        implementation_{make_implementation(run_, network_)} {
     network_.attach(*implementation_);
   }
 
@@ -68,6 +77,7 @@ class Simulator {
     result.end_time = run_.now;
     if (result.completed()) result.discovery_time = run_.now;
     result.counts = run_.counts;
+    result.user_control = run_.user_control;
     result.events = events_;
     result.missing_count = run_.missing;
     result.missing = implementation_->missing(RunResult::missing_listed);

@@ -55,6 +55,21 @@ class DescriptorSet {
     return first_ * 64 + static_cast<std::uint32_t>(std::countr_zero(word(first_)));
   }
 
+  /// The greatest member; only for a set that is not empty.
+  [[nodiscard]] std::uint32_t highest() const {
+    const std::uint32_t k = first_ + count_ - 1;
+    return k * 64 + 63 - static_cast<std::uint32_t>(std::countl_zero(word(k)));
+  }
+
+  /// Number of members.
+  [[nodiscard]] std::uint32_t count() const {
+    std::uint32_t members = 0;
+    for (std::uint32_t k = first_; k < first_ + count_; ++k) {
+      members += static_cast<std::uint32_t>(std::popcount(word(k)));
+    }
+    return members;
+  }
+
   /// Calls `visit(d)` for each member in ascending order.
   template <class Visit>
   void for_each(Visit&& visit) const {

@@ -1,6 +1,6 @@
 // Drives the machines of one kind during a run: steps the flyweight, stores the new state, and tells the probe
 // which transition happened. Every state change of the simulator passes through here or through
-// model/engine/descriptor_states.hpp, and both pass through Boost.MSM.
+// model/engine/relation_bits.hpp, and both pass through Boost.MSM.
 #pragma once
 
 #include <type_traits>

@@ -23,6 +23,7 @@ enum class EventClass : std::uint8_t { service = 0, protocol = 1, dispatch = 2 }
 enum class EventKind : std::uint8_t {
   service_finished,     ///< subject: channel
   delayed_reception,    ///< subject: packet slot (constant delay)
+  reception,            ///< subject: packet slot, detail: receiving participant
   announcement_due,     ///< subject: participant
   heartbeat_expiry,     ///< subject: writer
   acknack_generation,   ///< subject: relation
@@ -33,12 +34,17 @@ enum class EventKind : std::uint8_t {
   cycle_start,          ///< subject: writer, detail: cycle token
   cycle_end,            ///< subject: writer, detail: cycle token
   batch_due,            ///< subject: writer, detail: cycle token
+  endpoint_creation,    ///< subject: participant, detail: which of its endpoints
+  nack_response,        ///< subject: writer
+  async_run,            ///< subject: participant
+  control_initial_due,  ///< subject: control-only relation
+  control_reply_due,    ///< subject: control-only relation
   dispatch,             ///< subject: channel
 };
 inline constexpr std::size_t event_kind_count = static_cast<std::size_t>(EventKind::dispatch) + 1;
 
 [[nodiscard]] constexpr EventClass class_of(EventKind kind) {
-  if (kind <= EventKind::delayed_reception) return EventClass::service;
+  if (kind <= EventKind::reception) return EventClass::service;
   return kind == EventKind::dispatch ? EventClass::dispatch : EventClass::protocol;
 }
 [[nodiscard]] const char* name_of(EventKind kind);

@@ -57,7 +57,7 @@ void Network::emit(std::uint32_t source, Packet&& packet) {
     for (std::uint32_t copy = 0; copy < packet.copies && !packet.multicast(); ++copy) {
       if (copy > 0) pair = implementation_->next_recipient(packet, pair + 1);
       const Pair& ends = run_.topology.pair(pair);
-      destinations.push_back(source == ends.source ? ends.destination : ends.source);
+      destinations.push_back(packet.to_writer() ? ends.source : ends.destination);
     }
     run_.probe->emitted(packet, source, destinations);
   }
@@ -168,6 +168,14 @@ void Network::handle(const Event& event) {
       implementation_->source_completed(flights_[event.subject].packet);
       release(event.subject);
       break;
+    case EventKind::reception:
+      note_journey(flights_[event.subject]);
+      if (run_.probe != nullptr) {
+        run_.probe->received(flights_[event.subject].packet, event.detail);
+      }
+      implementation_->received(flights_[event.subject].packet, event.detail);
+      release(event.subject);
+      break;
     default: arrive(event.subject); break;
   }
 }
@@ -209,10 +217,33 @@ void Network::arrive(std::uint32_t slot) {
   if (run_.probe != nullptr) run_.probe->arrived(flight.packet, lost);
   if (!lost) {
     note_latency(flight);
-    implementation_->received(flight.packet);
-    if (run_.complete()) return;  // the run ends at once; the packet stays for the report
+    if (implementation_->receives_separately()) {
+      schedule_receptions(slot, run_.now);
+    } else {
+      note_journey(flight);
+      if (run_.probe != nullptr) run_.probe->received(flight.packet, Probe::everybody);
+      implementation_->received(flight.packet, 0);
+    }
   }
   release(slot);
+}
+
+/// One reception event for each participant that the packet reaches over the network.
+void Network::schedule_receptions(std::uint32_t slot, Nanoseconds time) {
+  InFlight& flight = flights_[slot];
+  for (const std::uint32_t receiver : implementation_->receivers(flight.packet)) {
+    ++flight.uses;
+    run_.schedule(time, EventKind::reception, slot, receiver);
+  }
+}
+
+void Network::loop_back(Packet&& packet, std::uint32_t receiver) {
+  packet.emitted = run_.now;
+  if (run_.probe != nullptr) run_.probe->looped_back(packet, receiver);
+  const std::uint32_t slot = allocate(std::move(packet), receiver, 1);
+  flights_[slot].admitted = run_.now;
+  run_.schedule(run_.now + run_.scenario.deployment.loopback_delay, EventKind::reception, slot,
+                receiver);
 }
 
 void Network::emit_with_delay(std::uint32_t source, Packet&& packet) {
@@ -221,9 +252,16 @@ void Network::emit_with_delay(std::uint32_t source, Packet&& packet) {
     const std::uint32_t slot =
         allocate(last_copy ? std::move(packet) : take_copy(packet), source, 1);
     flights_[slot].admitted = run_.now;
-    flights_[slot].uses = 2;
-    run_.schedule(run_.now, EventKind::source_completion, slot);
-    run_.schedule(run_.now + wireless_.one_way, EventKind::delayed_reception, slot);
+    if (implementation_->receives_separately()) {
+      if (!is_lost(flights_[slot].packet.number)) {
+        schedule_receptions(slot, run_.now + wireless_.one_way);
+      }
+      release(slot);
+    } else {
+      flights_[slot].uses = 2;
+      run_.schedule(run_.now, EventKind::source_completion, slot);
+      run_.schedule(run_.now + wireless_.one_way, EventKind::delayed_reception, slot);
+    }
     if (last_copy) return;
   }
 }
@@ -239,6 +277,9 @@ void Network::note_latency(const InFlight& flight) {
   latency.backlog_sum += flight.admitted - flight.packet.emitted;
   latency.service_sum += run_.now - flight.admitted;
   latency.longest = std::max(latency.longest, run_.now - flight.packet.emitted);
+}
+
+void Network::note_journey(const InFlight& flight) {
   last_arrival_ = LastDelivery{{}, !flight.packet.carries_initial, flight.packet.emitted,
                                flight.admitted, run_.now};
 }

@@ -28,6 +28,9 @@ class Network {
   /// Emits the packet (or its copies, in ascending order of the destination) and admits what fits.
   void emit(std::uint32_t source, Packet&& packet);
 
+  /// Delivers the packet to a participant on the same host after the loopback delay: it never sees the channel.
+  void loop_back(Packet&& packet, std::uint32_t receiver);
+
   /// A service, reception, source completion or dispatch event is due.
   void handle(const Event& event);
 
@@ -71,16 +74,17 @@ class Network {
   }
 
   void request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage);
-  void apply(std::uint32_t channel, const Driver<fsm::Channel>::Output& output);
   template <class Event>
   void step(std::uint32_t channel);
   void serve(std::uint32_t channel);
   void service_finished(std::uint32_t channel);
   void leave_source(std::uint32_t slot);
   void arrive(std::uint32_t slot);
+  void schedule_receptions(std::uint32_t slot, Nanoseconds time);
   void emit_with_delay(std::uint32_t source, Packet&& packet);
   [[nodiscard]] bool is_lost(std::uint64_t number) const;
   void note_latency(const InFlight& flight);
+  void note_journey(const InFlight& flight);
 
   RunState& run_;
   Implementation* implementation_ = nullptr;

@@ -12,7 +12,15 @@
 
 namespace stormproof::model {
 
-enum class PacketKind : std::uint8_t { spdp_multicast, spdp_unicast, data, heartbeat, acknack };
+enum class PacketKind : std::uint8_t {
+  spdp_multicast,
+  spdp_unicast,
+  data,
+  heartbeat,
+  acknack,
+  user_heartbeat,  ///< of a control-only relation
+  user_acknack     ///< of a control-only relation
+};
 
 [[nodiscard]] const char* name_of(PacketKind kind);
 
@@ -25,6 +33,8 @@ struct Packet {
   std::uint32_t payload_bytes = 0;
   std::uint32_t copies = 1;     ///< how many packets this record stands for
   std::uint32_t rank_limit = 0; ///< the copies go to the recipients of rank below this one
+  std::uint32_t detail = 0;     ///< Fast DDS. HEARTBEAT (also in DATA): how many descriptors it announces;
+                                ///< ACKNACK: its base; control-only relations: the relation
   PacketKind kind{};
   Stream stream{};
   bool from_repair = false;     ///< DATA made by repair generation: its source completion starts suppression
@@ -33,6 +43,10 @@ struct Packet {
   bool initial_acknack = false;    ///< ACKNACK marked initial
 
   [[nodiscard]] bool multicast() const { return kind == PacketKind::spdp_multicast; }
+  /// Whether it goes from the reader side to the writer side of its pair.
+  [[nodiscard]] bool to_writer() const {
+    return kind == PacketKind::acknack || kind == PacketKind::user_acknack;
+  }
   [[nodiscard]] std::uint32_t relation() const {
     return 2 * pair + static_cast<std::uint32_t>(stream);
   }
@@ -47,6 +61,8 @@ struct Packet {
       return packet.carries_initial ? TrafficClass::initial_data : TrafficClass::repair_data;
     case PacketKind::heartbeat: return TrafficClass::heartbeat;
     case PacketKind::acknack: return TrafficClass::acknack;
+    case PacketKind::user_heartbeat:
+    case PacketKind::user_acknack: return TrafficClass::user_control;
   }
   return TrafficClass::spdp;
 }

@@ -14,7 +14,10 @@ namespace stormproof::model {
 struct RunState {
   RunState(const Scenario& scenario_, Probe* probe_)
       : scenario{scenario_},
-        topology{scenario_.deployment, scenario_.dds.descriptors},
+        topology{scenario_.deployment, scenario_.dds.descriptors,
+                 scenario_.dds.implementation == ImplementationKind::fastdds
+                     ? SameHostPairs::included
+                     : SameHostPairs::left_out},
         probe{probe_},
         missing{topology.required_deliveries()} {}
 
@@ -31,6 +34,7 @@ struct RunState {
   EventQueue queue;
   Nanoseconds now;
   Counts counts;
+  std::uint64_t user_control = 0;  ///< messages of control-only relations
   std::uint64_t missing;  ///< required deliveries that have not happened
   std::uint64_t useful_deliveries = 0;
   std::uint64_t duplicate_deliveries = 0;

@@ -1,16 +1,22 @@
 // Numbers the cross-host pairs of a deployment.
 #include "model/engine/topology.hpp"
 
+#include <algorithm>
+
 namespace stormproof::model {
 
-Topology::Topology(const Deployment& deployment, const DescriptorProfile& descriptors)
+Topology::Topology(const Deployment& deployment, const DescriptorProfile& descriptors,
+                   SameHostPairs same_host)
     : participant_count_{deployment.size()} {
   const auto& participants = deployment.participants;
   first_pair_.assign(participant_count_ + 1, 0);
   for (std::uint32_t i = 0; i < participant_count_; ++i) {
     first_pair_[i] = pair_count();
     for (std::uint32_t j = 0; j < participant_count_; ++j) {
-      if (participants[i].host != participants[j].host) pairs_.push_back({i, j, 0});
+      const bool cross_host = participants[i].host != participants[j].host;
+      if (cross_host || (i != j && same_host == SameHostPairs::included)) {
+        pairs_.push_back({i, j, 0, cross_host});
+      }
     }
     descriptor_count_.push_back(descriptors.default_publications + participants[i].publications);
     descriptor_count_.push_back(descriptors.default_subscriptions + participants[i].subscriptions);
@@ -22,8 +28,17 @@ Topology::Topology(const Deployment& deployment, const DescriptorProfile& descri
   std::vector<std::uint32_t> next = first_pair_;
   for (std::uint32_t number = 0; number < pair_count(); ++number) {
     pairs_[number].reverse = next[pairs_[number].destination]++;
+    if (!pairs_[number].cross_host) continue;
     required_deliveries_ += descriptor_count(2 * number) + descriptor_count(2 * number + 1);
   }
+}
+
+std::uint32_t Topology::pair_between(std::uint32_t i, std::uint32_t j) const {
+  const auto begin = pairs_.begin() + first_pair_[i];
+  const auto end = pairs_.begin() + first_pair_[i + 1];
+  const auto found = std::lower_bound(
+      begin, end, j, [](const Pair& pair, std::uint32_t value) { return pair.destination < value; });
+  return static_cast<std::uint32_t>(found - pairs_.begin());
 }
 
 }  // namespace stormproof::model

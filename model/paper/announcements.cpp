@@ -56,7 +56,8 @@ void Protocol::send_spdp_copy(std::uint32_t pair) {
 
 /// `pair` is (i, j): j has received i's announcement.
 void Protocol::spdp_received(std::uint32_t pair) {
-  const auto [i, j, reverse] = run_.topology.pair(pair);
+  const std::uint32_t j = run_.topology.pair(pair).destination;
+  const std::uint32_t reverse = run_.topology.pair(pair).reverse;
   if (known_rank_[reverse] != no_rank) return;
   Participant& participant = participants_[j];
   known_rank_[reverse] = participant.known++;
@@ -107,8 +108,8 @@ void Protocol::open_writer(std::uint32_t relation) {
   if (sedp_.initial_data == InitialData::push) {
     generate_data(relation, descriptors_.all(relation), false);
   }
-  generate_heartbeat(relation);
-  step_timer<fsm::heartbeat_timer::RelationOpened>(w);
+  send_heartbeat(relation);
+  heartbeats_.arm(w);
 }
 
 }  // namespace stormproof::model::paper

@@ -28,9 +28,8 @@ void Protocol::generate_data(std::uint32_t relation, const DescriptorSet& descri
       flush(message);
     }
     const std::int64_t added = message.members == 0 ? bytes : bytes - shared;
-    const std::uint64_t bit = std::uint64_t{1} << d % 64;
-    const bool initial = descriptors_.mark_generated(relation, d / 64, bit) != 0;
-    message.words[d / 64] |= bit;
+    const bool initial = descriptors_.mark_generated(relation, d);
+    message.words[d / 64] |= std::uint64_t{1} << d % 64;
     message.payload_bytes += added;
     message.carries_initial = message.carries_initial || initial;
     ++message.members;
@@ -62,7 +61,7 @@ void Protocol::charge(Message& message, std::int64_t added_bytes) {
   }
   flush(message);
   sent += sedp_.heartbeat_bytes.count();
-  generate_heartbeat_to_open(w);
+  send_heartbeat_to_open(w);
 }
 
 /// Emits the packet and starts a new one.
@@ -85,7 +84,7 @@ void Protocol::flush(Message& message) {
   message.carries_heartbeat = false;
 }
 
-void Protocol::generate_heartbeat(std::uint32_t relation) {
+void Protocol::send_heartbeat(std::uint32_t relation) {
   ++run_.counts.heartbeat;
   writers_[writer_of(relation)].budget = sedp_.piggyback_threshold_bytes.count();
   Packet packet;
@@ -97,7 +96,7 @@ void Protocol::generate_heartbeat(std::uint32_t relation) {
 }
 
 /// The same to every open relation of the writer, ascending: one record that stands for all of them.
-void Protocol::generate_heartbeat_to_open(std::uint32_t w) {
+void Protocol::send_heartbeat_to_open(std::uint32_t w) {
   Writer& writer = writers_[w];
   if (writer.open == 0) return;
   run_.counts.heartbeat += writer.open;
@@ -112,12 +111,14 @@ void Protocol::generate_heartbeat_to_open(std::uint32_t w) {
   network_.emit(w / 2, std::move(packet));
 }
 
-void Protocol::generate_heartbeat_to_unacknowledged(std::uint32_t w) {
-  if (writers_[w].unacknowledged == writers_[w].open) {
-    generate_heartbeat_to_open(w);
-    return;
+void Protocol::send_periodic(std::uint32_t w) {
+  const bool to_all = sedp_.heartbeat_recipients == HeartbeatRecipients::matched ||
+                      writers_[w].unacknowledged == writers_[w].open;
+  if (to_all) {
+    send_heartbeat_to_open(w);
+  } else {
+    for (const std::uint32_t relation : unacknowledged(w)) send_heartbeat(relation);
   }
-  for_each_unacknowledged(w, [&](std::uint32_t relation) { generate_heartbeat(relation); });
 }
 
 }  // namespace stormproof::model::paper

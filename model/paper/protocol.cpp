@@ -13,6 +13,7 @@ Protocol::Protocol(RunState& run, Network& network)
       accepts_unmatched_{run.scenario.dds.sedp.unmatched == Unmatched::accept ||
                          run.scenario.dds.sedp.relation_opening != RelationOpening::each_side},
       descriptors_{run},
+      heartbeats_{run, *this},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
@@ -41,15 +42,11 @@ void Protocol::start() {
 void Protocol::handle(const Event& event) {
   switch (event.kind) {
     case EventKind::announcement_due: announcement_due(event.subject); break;
-    case EventKind::heartbeat_expiry:
-      --writers_[event.subject].pending_expiries;
-      step_timer<fsm::heartbeat_timer::Expired>(event.subject);
-      break;
     case EventKind::acknack_generation: acknack_generation(event.subject); break;
     case EventKind::initial_acknack_due: initial_acknack_due(event.subject); break;
     case EventKind::repair_generation: repair_generation(event.subject); break;
     case EventKind::suppression_end: suppression_end(event.subject); break;
-    default: cycle_event(event); break;
+    default: heartbeats_.handle(event); break;
   }
 }
 
@@ -57,7 +54,7 @@ bool Protocol::has_started(std::uint32_t participant) const {
   return run_.now >= run_.topology.start(participant);
 }
 
-void Protocol::received(const Packet& packet) {
+void Protocol::received(const Packet& packet, std::uint32_t) {
   if (packet.multicast()) {
     // `pair` of a multicast packet is its source; every started cross-host participant processes it.
     const std::uint32_t end = run_.topology.first_pair(packet.pair + 1);
@@ -74,7 +71,7 @@ void Protocol::received(const Packet& packet) {
     case PacketKind::data: data_received(packet); break;
     case PacketKind::heartbeat: heartbeat_received(packet.relation()); break;
     case PacketKind::acknack: acknack_received(packet); break;
-    case PacketKind::spdp_multicast: break;
+    default: break;
   }
 }
 
@@ -86,6 +83,30 @@ std::uint32_t Protocol::next_recipient(const Packet& packet, std::uint32_t pair)
   const auto stream = static_cast<std::uint32_t>(packet.stream);
   while (relations_[2 * pair + stream].open_rank >= packet.rank_limit) ++pair;
   return pair;
+}
+
+bool Protocol::needs_heartbeat(std::uint32_t w) const { return writers_[w].unacknowledged > 0; }
+
+std::vector<std::uint32_t> Protocol::unacknowledged(std::uint32_t w) const {
+  std::vector<std::uint32_t> relations;
+  const std::vector<std::uint64_t>& words = writers_[w].waiting_readers;
+  const std::uint32_t first_pair = run_.topology.first_pair(w / 2);
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    for (std::uint64_t bits = words[k]; bits != 0; bits &= bits - 1) {
+      const auto peer = static_cast<std::uint32_t>(64 * k) +
+                        static_cast<std::uint32_t>(std::countr_zero(bits));
+      relations.push_back(2 * (first_pair + peer) + w % 2);
+    }
+  }
+  return relations;
+}
+
+bool Protocol::is_unacknowledged(std::uint32_t relation) const {
+  return relations_[relation].unacknowledged > 0;
+}
+
+std::uint32_t Protocol::announced(std::uint32_t w) const {
+  return run_.topology.descriptor_count(w / 2, stream_of(w));
 }
 
 std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {

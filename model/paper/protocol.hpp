@@ -1,39 +1,40 @@
 // The paper's DDS implementation: announcements, the reader side and the writer side of every relation, by the
-// rules of specs/model.md. The class is spread over five source files by rule group:
+// rules of specs/model.md. The class is spread over four source files by rule group:
 //   announcements.cpp  SPDP: sending, reception, opening of relations
 //   reader.cpp         reception of DATA and HEARTBEAT, ACKNACKs
 //   writer.cpp         reception of ACKNACKs, repair, suppression
 //   data.cpp           generation of DATA and HEARTBEATs, grouping, piggyback
-//   heartbeat.cpp      the HEARTBEAT timer with both policies
+// The HEARTBEAT timer with both policies is in model/engine/heartbeat_schedule.hpp.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "fsm/announcer.hpp"
 #include "fsm/discovery_reader.hpp"
-#include "fsm/heartbeat_timer.hpp"
 #include "fsm/initial_acknack.hpp"
 #include "model/descriptor_sizes.hpp"
-#include "model/engine/descriptor_states.hpp"
 #include "model/engine/driver.hpp"
+#include "model/engine/heartbeat_schedule.hpp"
 #include "model/engine/implementation.hpp"
 #include "model/engine/network.hpp"
+#include "model/paper/descriptor_states.hpp"
 
 namespace stormproof::model::paper {
 
 /// A rank that no recipient has: the relation is not open, the participant is not known.
 inline constexpr std::uint32_t no_rank = UINT32_MAX;
 
-class Protocol final : public Implementation {
+class Protocol final : public Implementation, private HeartbeatSender {
  public:
   Protocol(RunState& run, Network& network);
 
   void start() override;
   void handle(const Event& event) override;
   void source_completed(const Packet& packet) override;
-  void received(const Packet& packet) override;
+  [[nodiscard]] bool receives_separately() const override { return false; }
+  [[nodiscard]] std::vector<std::uint32_t> receivers(const Packet&) const override { return {}; }
+  void received(const Packet& packet, std::uint32_t receiver) override;
   [[nodiscard]] std::uint32_t next_recipient(const Packet& packet,
                                              std::uint32_t pair) const override;
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
@@ -49,27 +50,12 @@ class Protocol final : public Implementation {
     std::uint8_t attempts = 0;         ///< the current initial delay is τ_I · 2^attempts
   };
 
-  /// Cycle data of the adaptive policy; a writer has it from its first cycle on.
-  struct Cycle {
-    Nanoseconds start;
-    Nanoseconds period;
-    std::uint32_t token = 0;  ///< events with an older token are void
-    std::uint32_t responded = 0;
-    std::vector<std::uint32_t> contacted;  ///< relations, ascending
-    std::vector<bool> has_responded;       ///< parallel to `contacted`
-    std::vector<std::vector<std::uint32_t>> batches;
-    std::size_t next_batch = 0;
-  };
-
   struct Writer {
     std::int64_t budget = 0;             ///< piggyback budget, bytes
     std::uint32_t open = 0;              ///< open relations
     std::uint32_t unacknowledged = 0;    ///< open relations with a descriptor not in A
     std::uint32_t first_open_pair = UINT32_MAX;
-    std::uint32_t pending_expiries = 0;
-    fsm::StateId timer = fsm::Flyweight<fsm::HeartbeatTimer>::initial;
     std::vector<std::uint64_t> waiting_readers;  ///< bit per peer: open and something not in A
-    std::unique_ptr<Cycle> cycle;
   };
 
   struct Participant {
@@ -106,26 +92,18 @@ class Protocol final : public Implementation {
 
   // data.cpp
   void generate_data(std::uint32_t relation, const DescriptorSet& descriptors, bool repair);
-  void generate_heartbeat(std::uint32_t relation);
-  void generate_heartbeat_to_open(std::uint32_t writer);
-  void generate_heartbeat_to_unacknowledged(std::uint32_t writer);
+  void send_heartbeat_to_open(std::uint32_t writer);
   struct Message;
   void flush(Message& message);
   void charge(Message& message, std::int64_t added_bytes);
 
-  // heartbeat.cpp
-  template <class TimerEvent>
-  void step_timer(std::uint32_t writer, std::uint32_t responding_reader = no_rank);
-  using TimerOutput = Driver<fsm::HeartbeatTimer>::Output;
-  [[nodiscard]] Driver<fsm::HeartbeatTimer>::Input timer_input(const Writer& writer) const;
-  void apply_periodic(std::uint32_t writer, const TimerOutput& output);
-  void apply_adaptive(std::uint32_t writer, const TimerOutput& output,
-                      std::uint32_t responding_reader);
-  void contact(std::uint32_t writer);
-  void plan_batches(std::uint32_t writer, Nanoseconds stretched);
-  void send_batch(std::uint32_t writer);
-  void cycle_event(const Event& event);
-  void response(std::uint32_t relation);
+  // HeartbeatSender, in protocol.cpp and data.cpp
+  [[nodiscard]] bool needs_heartbeat(std::uint32_t writer) const override;
+  [[nodiscard]] std::vector<std::uint32_t> unacknowledged(std::uint32_t writer) const override;
+  [[nodiscard]] bool is_unacknowledged(std::uint32_t relation) const override;
+  [[nodiscard]] std::uint32_t announced(std::uint32_t writer) const override;
+  void send_periodic(std::uint32_t writer) override;
+  void send_heartbeat(std::uint32_t relation) override;
 
   [[nodiscard]] const Pair& ends(std::uint32_t relation) const {
     return run_.topology.pair(relation / 2);
@@ -136,8 +114,6 @@ class Protocol final : public Implementation {
   [[nodiscard]] static Stream stream_of(std::uint32_t relation_or_writer) {
     return relation_or_writer % 2 == 0 ? Stream::pub : Stream::sub;
   }
-  template <class Visit>
-  void for_each_unacknowledged(std::uint32_t writer, Visit&& visit) const;
 
   RunState& run_;
   Network& network_;
@@ -145,6 +121,7 @@ class Protocol final : public Implementation {
   const SedpProfile& sedp_;
   const bool accepts_unmatched_;
   DescriptorStates descriptors_;
+  HeartbeatSchedule heartbeats_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;           // 2 · participant + stream
   std::vector<Relation> relations_;
@@ -154,20 +131,6 @@ class Protocol final : public Implementation {
   Driver<fsm::Announcer> announcer_driver_{MachineRef::Kind::participant};
   Driver<fsm::DiscoveryReader> reader_driver_{MachineRef::Kind::relation};
   Driver<fsm::InitialAckNack> initial_driver_{MachineRef::Kind::relation};
-  Driver<fsm::HeartbeatTimer> timer_driver_{MachineRef::Kind::writer};
 };
-
-template <class Visit>
-void Protocol::for_each_unacknowledged(std::uint32_t writer, Visit&& visit) const {
-  const std::vector<std::uint64_t>& words = writers_[writer].waiting_readers;
-  const std::uint32_t first_pair = run_.topology.first_pair(writer / 2);
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    for (std::uint64_t bits = words[k]; bits != 0; bits &= bits - 1) {
-      const auto peer = static_cast<std::uint32_t>(64 * k) +
-                        static_cast<std::uint32_t>(std::countr_zero(bits));
-      visit(2 * (first_pair + peer) + writer % 2);
-    }
-  }
-}
 
 }  // namespace stormproof::model::paper

@@ -9,8 +9,6 @@ namespace reader = fsm::discovery_reader;
 void Protocol::data_received(const Packet& packet) {
   const std::uint32_t relation = packet.relation();
   Relation& r = relations_[relation];
-  std::uint32_t members = 0;
-  packet.descriptors.for_each([&](std::uint32_t) { ++members; });
   const std::uint32_t fresh = descriptors_.count_missing(relation, packet.descriptors);
   const auto output = reader_driver_.step<reader::DataReceived>(
       run_, r.reader,
@@ -26,7 +24,7 @@ void Protocol::data_received(const Packet& packet) {
     run_.missing -= fresh;
     run_.useful_deliveries += fresh;
   }
-  run_.duplicate_deliveries += members - fresh;
+  run_.duplicate_deliveries += packet.descriptors.count() - fresh;
   if (run_.complete()) return;  // T_disc is now; the rest of the packet is not processed
   if (packet.carries_heartbeat) heartbeat_received(relation);
 }

@@ -8,7 +8,7 @@ void Protocol::acknack_received(const Packet& packet) {
   Relation& r = relations_[relation];
   if (r.open_rank == no_rank) return;
   if (packet.initial_acknack && sedp_.initial_acknack != InitialAckNackReply::bitmap) {
-    if (sedp_.initial_acknack == InitialAckNackReply::heartbeat) generate_heartbeat(relation);
+    if (sedp_.initial_acknack == InitialAckNackReply::heartbeat) send_heartbeat(relation);
     return;
   }
   const auto effect = descriptors_.acknack(relation, packet.descriptors,
@@ -23,8 +23,8 @@ void Protocol::acknack_received(const Packet& packet) {
   if (effect.requested > 0) {
     run_.schedule(run_.now + sedp_.nack_response_delay, EventKind::repair_generation, relation);
   }
-  if (sedp_.heartbeat_policy == HeartbeatPolicy::adaptive && packet.descriptors.empty()) {
-    response(relation);
+  if (packet.descriptors.empty()) {
+    heartbeats_.response(writer_of(relation), relation, announced(writer_of(relation)));
   }
 }
 
@@ -42,7 +42,7 @@ void Protocol::source_completed(const Packet& packet) {
 
 void Protocol::suppression_end(std::uint32_t relation) {
   if (descriptors_.suppression_ended(relation) > 0) {
-    step_timer<fsm::heartbeat_timer::SuppressionEnded>(writer_of(relation));
+    heartbeats_.suppression_ended(writer_of(relation));
   }
 }
 

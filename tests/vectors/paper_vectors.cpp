@@ -68,7 +68,7 @@ void constant_delay(Scenario& s, std::int64_t one_way_ns) {
 
 model::Participant node(std::uint32_t host, std::uint32_t publications, std::uint32_t subscriptions,
                         std::int64_t start_ns) {
-  return {model::HostId{host}, publications, subscriptions, Nanoseconds{start_ns}};
+  return {model::HostId{host}, publications, subscriptions, Nanoseconds{start_ns}, Nanoseconds{}};
 }
 
 Scenario v1() {

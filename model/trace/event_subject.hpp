@@ -1,0 +1,66 @@
+// What an event is about: the one place that knows which number stands in `Event::subject`.
+#pragma once
+
+#include "model/engine/event_queue.hpp"
+#include "model/probe.hpp"
+
+namespace stormproof::model::trace {
+
+enum class Subject : std::uint8_t {
+  relation,
+  writer,
+  participant,
+  channel,
+  control_relation,
+  packet  ///< a slot of the network, which says nothing to a reader
+};
+
+[[nodiscard]] constexpr Subject subject_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::service_finished:
+    case EventKind::dispatch: return Subject::channel;
+    case EventKind::delayed_reception:
+    case EventKind::reception:
+    case EventKind::source_completion: return Subject::packet;
+    case EventKind::announcement_due:
+    case EventKind::endpoint_creation:
+    case EventKind::async_run: return Subject::participant;
+    case EventKind::heartbeat_expiry:
+    case EventKind::cycle_start:
+    case EventKind::cycle_end:
+    case EventKind::batch_due:
+    case EventKind::nack_response: return Subject::writer;
+    case EventKind::control_initial_due:
+    case EventKind::control_reply_due: return Subject::control_relation;
+    case EventKind::acknack_generation:
+    case EventKind::initial_acknack_due:
+    case EventKind::repair_generation:
+    case EventKind::suppression_end: return Subject::relation;
+  }
+  return Subject::packet;
+}
+
+[[nodiscard]] constexpr Subject subject_of(MachineRef::Kind kind) {
+  switch (kind) {
+    case MachineRef::Kind::relation: return Subject::relation;
+    case MachineRef::Kind::writer: return Subject::writer;
+    case MachineRef::Kind::participant: return Subject::participant;
+    case MachineRef::Kind::channel: return Subject::channel;
+    case MachineRef::Kind::control_relation: return Subject::control_relation;
+  }
+  return Subject::packet;
+}
+
+/// The name of `Event::detail` of this kind of event, or null if it has none.
+[[nodiscard]] constexpr const char* detail_name(EventKind kind) {
+  switch (kind) {
+    case EventKind::cycle_start:
+    case EventKind::cycle_end:
+    case EventKind::batch_due: return "cycle";
+    case EventKind::endpoint_creation: return "endpoint";
+    case EventKind::reception: return "participant";
+    default: return nullptr;
+  }
+}
+
+}  // namespace stormproof::model::trace

@@ -1,0 +1,59 @@
+// Ends, streams and contents of packets.
+#include "model/trace/packet_text.hpp"
+
+#include "model/trace/json_text.hpp"
+
+namespace stormproof::model::trace {
+
+Ends packet_ends(const Packet& packet, const Topology& topology) {
+  if (packet.multicast()) return {packet.pair, 0};
+  const Pair& pair = topology.pair(packet.pair);
+  const bool to_writer =
+      packet.kind == PacketKind::acknack || packet.kind == PacketKind::user_acknack;
+  if (to_writer) return {pair.destination, pair.source};
+  return {pair.source, pair.destination};
+}
+
+bool is_spdp(const Packet& packet) {
+  return packet.multicast() || packet.kind == PacketKind::spdp_unicast;
+}
+
+bool is_control(const Packet& packet) {
+  return packet.kind == PacketKind::user_heartbeat || packet.kind == PacketKind::user_acknack;
+}
+
+void append_stream(std::string& out, const Packet& packet) {
+  if (is_control(packet)) append(out, R"(,"control_relation":)", packet.detail);
+  else if (!is_spdp(packet)) append(out, R"(,"stream":")", name_of(packet.stream), "\"");
+}
+
+void append_packet(std::string& out, const Packet& packet, std::uint32_t from,
+                   std::span<const std::uint32_t> destinations) {
+  append(out, R"("kind":")", name_of(packet.kind), R"(","from":)", from, R"(,"to":)");
+  if (packet.multicast() && destinations.empty()) {
+    out += R"("multicast")";
+  } else {
+    const char* separator = "[";
+    for (const std::uint32_t destination : destinations) {
+      append(out, separator, destination);
+      separator = ",";
+    }
+    out += ']';
+  }
+  append_stream(out, packet);
+  append(out, R"(,"bytes":)", packet.payload_bytes);
+  if (!packet.descriptors.empty()) {
+    out += R"(,"descriptors":)";
+    append_members(out, packet.descriptors);
+  }
+  const bool announces = packet.kind == PacketKind::heartbeat || packet.kind == PacketKind::data;
+  if (announces && packet.detail > 0) append(out, R"(,"announces":)", packet.detail);
+  if (packet.kind == PacketKind::acknack && packet.detail > 0) {
+    append(out, R"(,"base":)", packet.detail);
+  }
+  if (packet.from_repair) out += R"(,"repair":true)";
+  if (packet.carries_heartbeat) out += R"(,"heartbeat":true)";
+  if (packet.initial_acknack) out += R"(,"initial":true)";
+}
+
+}  // namespace stormproof::model::trace

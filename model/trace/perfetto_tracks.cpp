@@ -1,0 +1,133 @@
+// Numbers and names of the rows.
+#include "model/trace/perfetto_tracks.hpp"
+
+#include "model/trace/event_subject.hpp"
+#include "model/trace/json_text.hpp"
+#include "model/trace/scenario_names.hpp"
+
+namespace stormproof::model::trace {
+
+namespace {
+
+// Thread numbers begin above all process numbers: a process has a main thread of its own number.
+constexpr std::uint32_t first_channel_thread = 10'000;
+constexpr std::uint32_t first_participant_thread = 10'100;
+static_assert(participant_process(Deployment::max_participants) < first_channel_thread);
+static_assert(WirelessProfile::max_stages < first_participant_thread - first_channel_thread);
+
+enum class Row : std::uint8_t {
+  participant,
+  writer_pub,
+  writer_sub,
+  reader_pub,
+  reader_sub,
+  user_topics
+};
+
+Track row(std::uint32_t participant, Row row) {
+  constexpr std::uint32_t rows = 8;
+  return {participant_process(participant),
+          first_participant_thread + rows * participant + static_cast<std::uint32_t>(row)};
+}
+
+Stream stream_at(std::uint32_t relation_or_writer) {
+  return relation_or_writer % 2 == 0 ? Stream::pub : Stream::sub;
+}
+
+}  // namespace
+
+Track channel_track(std::uint32_t channel) { return {network_process, first_channel_thread + channel}; }
+
+Track participant_track(std::uint32_t participant) {
+  return row(participant, Row::participant);
+}
+
+Track writer_track(std::uint32_t participant, Stream stream) {
+  return row(participant, stream == Stream::pub ? Row::writer_pub : Row::writer_sub);
+}
+
+Track reader_track(std::uint32_t participant, Stream stream) {
+  return row(participant, stream == Stream::pub ? Row::reader_pub : Row::reader_sub);
+}
+
+Track user_track(std::uint32_t participant) { return row(participant, Row::user_topics); }
+
+Track sender_track(const Packet& packet, std::uint32_t source) {
+  switch (packet.kind) {
+    case PacketKind::spdp_multicast:
+    case PacketKind::spdp_unicast: return participant_track(source);
+    case PacketKind::acknack: return reader_track(source, packet.stream);
+    case PacketKind::data:
+    case PacketKind::heartbeat: return writer_track(source, packet.stream);
+    default: return user_track(source);
+  }
+}
+
+Track receiver_track(const Packet& packet, std::uint32_t destination) {
+  switch (packet.kind) {
+    case PacketKind::spdp_multicast:
+    case PacketKind::spdp_unicast: return participant_track(destination);
+    case PacketKind::acknack: return writer_track(destination, packet.stream);
+    case PacketKind::data:
+    case PacketKind::heartbeat: return reader_track(destination, packet.stream);
+    default: return user_track(destination);
+  }
+}
+
+std::optional<Track> machine_track(const MachineRef& machine, const Topology& topology) {
+  const std::uint32_t subject = machine.subject;
+  if (machine.machine == "SingleShot") return std::nullopt;
+  switch (machine.kind) {
+    case MachineRef::Kind::participant: return participant_track(subject);
+    case MachineRef::Kind::writer: return writer_track(subject / 2, stream_at(subject));
+    case MachineRef::Kind::channel:
+    case MachineRef::Kind::control_relation: return std::nullopt;
+    case MachineRef::Kind::relation: break;
+  }
+  const Pair& pair = topology.pair(subject / 2);
+  const bool of_reader = machine.machine == "DiscoveryReader" || machine.machine == "InitialAckNack";
+  if (of_reader) return reader_track(pair.destination, stream_at(subject));
+  return writer_track(pair.source, stream_at(subject));
+}
+
+bool is_timer(EventKind kind) {
+  const Subject subject = subject_of(kind);
+  return subject == Subject::participant || subject == Subject::writer ||
+         subject == Subject::relation;
+}
+
+Track timer_track(EventKind kind, std::uint32_t subject, const Topology& topology) {
+  switch (subject_of(kind)) {
+    case Subject::participant: return participant_track(subject);
+    case Subject::writer: return writer_track(subject / 2, stream_at(subject));
+    default: break;
+  }
+  const Pair& pair = topology.pair(subject / 2);
+  const bool of_reader =
+      kind == EventKind::acknack_generation || kind == EventKind::initial_acknack_due;
+  if (of_reader) return reader_track(pair.destination, stream_at(subject));
+  return writer_track(pair.source, stream_at(subject));
+}
+
+void name_tracks(PerfettoEvents& events, const Scenario& scenario) {
+  events.process_name(network_process, "network");
+  const std::vector<std::string> channels = channel_names(scenario.wireless);
+  for (std::uint32_t c = 0; c < channels.size(); ++c) {
+    events.thread_name(channel_track(c), "channel " + channels[c]);
+  }
+  const bool user_topics = scenario.dds.implementation == ImplementationKind::fastdds;
+  const auto& participants = scenario.deployment.participants;
+  for (std::uint32_t i = 0; i < participants.size(); ++i) {
+    std::string name;
+    append(name, "participant ", i, " (host ", participants[i].host.value, ")");
+    events.process_name(participant_process(i), name);
+    events.thread_name(participant_track(i), "participant");
+    events.thread_name(writer_track(i, Stream::pub), "publications writer");
+    events.thread_name(writer_track(i, Stream::sub), "subscriptions writer");
+    events.thread_name(reader_track(i, Stream::pub), "publications reader");
+    events.thread_name(reader_track(i, Stream::sub), "subscriptions reader");
+    if (user_topics) events.thread_name(user_track(i), "user topics");
+  }
+}
+
+}  // namespace stormproof::model::trace

@@ -1,0 +1,21 @@
+// Names that traces take from the scenario and from the program, rather than from what happens in the run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/run_result.hpp"
+#include "model/wireless_profile.hpp"
+
+namespace stormproof::model::trace {
+
+/// The channels by number, which is their order of appearance among the stages; none with constant delay.
+[[nodiscard]] std::vector<std::string> channel_names(const WirelessProfile& wireless);
+
+/// "stormproof 1.2.3": the program that writes the trace.
+[[nodiscard]] std::string program_name();
+
+/// "completed", "time_limit", "no_more_events", "interrupted".
+[[nodiscard]] const char* end_name(RunEnd end);
+
+}  // namespace stormproof::model::trace

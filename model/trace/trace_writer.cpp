@@ -1,0 +1,236 @@
+// Collects what an event causes, and prints it as one line when the event is over.
+#include "model/trace/trace_writer.hpp"
+
+#include <bit>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <utility>
+
+#include "model/config/effective.hpp"
+#include "model/trace/event_subject.hpp"
+#include "model/trace/json_text.hpp"
+#include "model/trace/packet_text.hpp"
+#include "model/trace/scenario_names.hpp"
+
+namespace stormproof::model::trace {
+
+namespace {
+
+std::string_view name_at(std::uint32_t stream) { return stream % 2 == 0 ? "pub" : "sub"; }
+
+}  // namespace
+
+TraceWriter::TraceWriter(std::ostream& out, const Scenario& scenario)
+    : TraceWriter{[&out](std::string_view line) {
+                    out.write(line.data(), static_cast<std::streamsize>(line.size()));
+                  },
+                  scenario} {}
+
+TraceWriter::TraceWriter(Sink sink, const Scenario& scenario) : sink_{std::move(sink)} {
+  for (const std::string& name : channel_names(scenario.wireless)) {
+    channels_.push_back(json_string(name));
+  }
+  serving_.resize(channels_.size());
+  for (const Participant& participant : scenario.deployment.participants) {
+    hosts_.push_back(participant.host);
+  }
+  for (const Stage& stage : scenario.wireless.stages) stages_.push_back(json_string(stage.name));
+  nlohmann::ordered_json header;
+  header["format"] = "stormproof-trace";
+  header["version"] = trace_version;
+  header["program"] = program_name();
+  header["scenario"] = config::effective_json(scenario);
+  sink_(header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+void TraceWriter::finish(const RunResult& result) {
+  line_.clear();
+  append(line_, R"({"end":")", end_name(result.end), R"(","t_disc_ns":)");
+  if (result.discovery_time) append(line_, result.discovery_time->count());
+  else line_ += "null";
+  append(line_, R"(,"end_ns":)", result.end_time.count(), R"(,"counts":{)");
+  for (const Counts::Entry& count : result.counts.entries()) {
+    append(line_, "\"", count.name, "\":", count.value, ",");
+  }
+  append(line_, R"("total":)", result.counts.total(), R"(},"missing":)", result.missing_count,
+         R"(,"events":)", result.events, "}\n");
+  sink_(line_);
+}
+
+void TraceWriter::run_started(const Topology& topology) {
+  topology_ = &topology;
+  generated_.resize(topology.relation_count());
+}
+
+void TraceWriter::event_started(const Event& event) {
+  event_ = event;
+  in_event_ = true;
+  transitions_.clear();
+  for (std::string* text : {&emitted_, &looped_back_, &service_, &left_source_, &arrived_,
+                            &received_, &packet_}) {
+    text->clear();
+  }
+}
+
+void TraceWriter::scheduled(std::uint64_t insertion, Nanoseconds, EventKind, std::uint32_t) {
+  if (in_event_) causes_.emplace(insertion, next_number_);
+}
+
+void TraceWriter::transition(const MachineRef& machine, std::string_view event,
+                             std::string_view before, std::string_view after,
+                             std::uint32_t first_word, std::uint64_t descriptors) {
+  transitions_.add(machine, event, before, after, first_word, descriptors);
+}
+
+void TraceWriter::emitted(const Packet& packet, std::uint32_t source,
+                          std::span<const std::uint32_t> destinations) {
+  append(emitted_, emitted_.empty() ? "" : ",", R"({"packet":)", packet.number, ",");
+  append_packet(emitted_, packet, source, destinations);
+  if (packet.kind == PacketKind::data) append_generated(packet);
+  emitted_ += '}';
+}
+
+/// How many descriptors of a DATA packet go out for the first time on their relation, and how many again.
+void TraceWriter::append_generated(const Packet& packet) {
+  int initial = 0;
+  int again = 0;
+  std::vector<std::uint64_t>& sent = generated_[packet.relation()];
+  sent.resize(words_for(topology_->descriptor_count(packet.relation())));
+  const DescriptorSet& set = packet.descriptors;
+  for (std::uint32_t k = set.first_word(); k < set.end_word(); ++k) {
+    initial += std::popcount(set.word(k) & ~sent[k]);
+    again += std::popcount(set.word(k) & sent[k]);
+    sent[k] |= set.word(k);
+  }
+  if (initial > 0) append(emitted_, R"(,"initial_data":)", initial);
+  if (again > 0) append(emitted_, R"(,"repair_data":)", again);
+}
+
+void TraceWriter::looped_back(const Packet& packet, std::uint32_t receiver) {
+  append(looped_back_, looped_back_.empty() ? "{" : ",{");
+  append_packet(looped_back_, packet, packet_ends(packet, *topology_).from, {&receiver, 1});
+  looped_back_ += '}';
+}
+
+void TraceWriter::service_started(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
+                                  std::uint32_t fragment, Nanoseconds until) {
+  serving_[channel] = {packet.number, fragment, stage};
+  append(service_, R"({"channel":)", channels_[channel]);
+  append_serving(service_, serving_[channel]);
+  append(service_, R"(,"until":)", until.count(), "}");
+}
+
+void TraceWriter::source_completed(const Packet& packet) {
+  append(left_source_, packet.number);
+  packet_ = left_source_;
+}
+
+void TraceWriter::arrived(const Packet& packet, bool lost) {
+  packet_.clear();
+  append(packet_, packet.number);
+  append(arrived_, R"({"packet":)", packet.number, R"(,"kind":")", name_of(packet.kind), "\"");
+  const auto [from, to] = packet_ends(packet, *topology_);
+  append(arrived_, R"(,"from":)", from, R"(,"to":)");
+  if (packet.multicast()) arrived_ += R"("multicast")";
+  else append_part(arrived_, to);
+  append_stream(arrived_, packet);
+  arrived_ += lost ? R"(,"lost":true})" : "}";
+}
+
+void TraceWriter::received(const Packet& packet, std::uint32_t receiver) {
+  if (event_.kind != EventKind::reception) return;  // `arrived` says it all
+  const std::uint32_t from = packet_ends(packet, *topology_).from;
+  received_ += '{';
+  if (hosts_[from] != hosts_[receiver]) append(received_, R"("packet":)", packet.number, ",");
+  append(received_, R"("kind":")", name_of(packet.kind), R"(","from":)", from);
+  append_stream(received_, packet);
+  received_ += '}';
+}
+
+void TraceWriter::event_finished(const Depths& depths) {
+  line_.clear();
+  append(line_, R"({"n":)", next_number_, R"(,"t":)", event_.time.count(), R"(,"class":")",
+         name_of(class_of(event_.kind)), R"(","insertion":)", event_.insertion(), R"(,"event":")",
+         name_of(event_.kind), "\"");
+  append_event_subject();
+  append_cause();
+  append_transitions();
+  if (!emitted_.empty()) append(line_, R"(,"emitted":[)", emitted_, "]");
+  if (!looped_back_.empty()) append(line_, R"(,"looped_back":[)", looped_back_, "]");
+  if (!service_.empty()) append(line_, R"(,"service":)", service_);
+  if (!left_source_.empty()) append(line_, R"(,"left_source":)", left_source_);
+  if (!arrived_.empty()) append(line_, R"(,"arrived":)", arrived_);
+  if (!received_.empty()) append(line_, R"(,"received":)", received_);
+  append(line_, R"(,"queues":{"events":)", depths.events, R"(,"backlog":)", depths.backlog_packets,
+         R"(,"admitted_bytes":)", depths.admitted_bytes, R"(,"waiting":)", depths.waiting,
+         R"(},"missing":)", depths.missing, "}\n");
+  sink_(line_);
+  ++next_number_;
+  in_event_ = false;
+}
+
+void TraceWriter::append_event_subject() {
+  const Subject subject = subject_of(event_.kind);
+  if (subject != Subject::packet) append_subject(subject, event_.subject);
+  else if (!packet_.empty()) append(line_, R"(,"packet":)", packet_);
+  if (const char* name = detail_name(event_.kind)) {
+    append(line_, ",\"", name, "\":", event_.detail);
+  }
+  if (event_.kind == EventKind::service_finished) append_serving(line_, serving_[event_.subject]);
+}
+
+void TraceWriter::append_serving(std::string& out, const Serving& serving) const {
+  append(out, R"(,"stage":)", stages_[serving.stage], R"(,"packet":)", serving.packet,
+         R"(,"fragment":)", serving.fragment);
+}
+
+void TraceWriter::append_subject(Subject kind, std::uint32_t subject) {
+  switch (kind) {
+    case Subject::relation: {
+      const Pair& pair = topology_->pair(subject / 2);
+      append(line_, R"(,"relation":{"from":)", pair.source, R"(,"to":)", pair.destination,
+             R"(,"stream":")", name_at(subject), "\"}");
+      break;
+    }
+    case Subject::writer:
+      append(line_, R"(,"writer":{"participant":)", subject / 2, R"(,"stream":")",
+             name_at(subject), "\"}");
+      break;
+    case Subject::participant: append(line_, R"(,"participant":)", subject); break;
+    case Subject::channel: append(line_, R"(,"channel":)", channels_[subject]); break;
+    case Subject::control_relation:
+      append(line_, R"(,"control_relation":)", subject);
+      break;
+    case Subject::packet: break;
+  }
+}
+
+void TraceWriter::append_cause() {
+  const auto cause = causes_.find(event_.insertion());
+  if (cause == causes_.end()) {
+    line_ += R"(,"cause":null)";
+    return;
+  }
+  append(line_, R"(,"cause":)", cause->second);
+  causes_.erase(cause);
+}
+
+void TraceWriter::append_transitions() {
+  const char* separator = R"(,"transitions":[{"machine":")";
+  for (const TransitionList::Entry& entry : transitions_.entries()) {
+    append(line_, separator, entry.machine.machine, "\"");
+    const Subject kind = subject_of(entry.machine.kind);
+    const bool own = kind == subject_of(event_.kind) && entry.machine.subject == event_.subject;
+    if (!own) append_subject(kind, entry.machine.subject);
+    append(line_, R"(,"event":")", entry.event, R"(","before":")", entry.before, R"(","after":")",
+           entry.after, "\"");
+    if (!entry.words.empty()) {
+      line_ += R"(,"descriptors":)";
+      append_members(line_, Words{entry.words});
+    }
+    separator = R"(},{"machine":")";
+  }
+  if (!transitions_.entries().empty()) line_ += "}]";
+}
+
+}  // namespace stormproof::model::trace

@@ -1,0 +1,90 @@
+// The trace of a run: JSON Lines, one line for every processed event, with all that it changed. A trace says
+// why a run took as long as it did, it can be searched with jq, and `replay` proves that it is right.
+// specs/trace-format.md describes every key.
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "model/probe.hpp"
+#include "model/run_result.hpp"
+#include "model/scenario.hpp"
+#include "model/trace/event_subject.hpp"
+#include "model/trace/transition_list.hpp"
+
+namespace stormproof::model::trace {
+
+inline constexpr int trace_version = 1;
+
+class TraceWriter final : public Probe {
+ public:
+  /// Takes one line, which ends in a line feed.
+  using Sink = std::function<void(std::string_view line)>;
+
+  /// Writes the header at once. Whether everything could be written is the stream's to say.
+  TraceWriter(std::ostream& out, const Scenario& scenario);
+  TraceWriter(Sink sink, const Scenario& scenario);
+
+  /// Writes the last line. Call it once, after the run.
+  void finish(const RunResult& result);
+
+  void run_started(const Topology& topology) override;
+  void event_started(const Event& event) override;
+  void event_finished(const Depths& depths) override;
+  void transition(const MachineRef& machine, std::string_view event, std::string_view before,
+                  std::string_view after, std::uint32_t first_word,
+                  std::uint64_t descriptors) override;
+  void scheduled(std::uint64_t insertion, Nanoseconds time, EventKind kind,
+                 std::uint32_t subject) override;
+  void emitted(const Packet& packet, std::uint32_t source,
+               std::span<const std::uint32_t> destinations) override;
+  void service_started(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
+                       std::uint32_t fragment, Nanoseconds until) override;
+  void source_completed(const Packet& packet) override;
+  void arrived(const Packet& packet, bool lost) override;
+  void received(const Packet& packet, std::uint32_t receiver) override;
+  void looped_back(const Packet& packet, std::uint32_t receiver) override;
+
+ private:
+  /// The fragment that a channel serves.
+  struct Serving {
+    std::uint64_t packet = 0;
+    std::uint32_t fragment = 0;
+    std::uint32_t stage = 0;
+  };
+
+  void append_generated(const Packet& packet);
+  void append_event_subject();
+  void append_subject(Subject kind, std::uint32_t subject);
+  void append_cause();
+  void append_transitions();
+  void append_serving(std::string& out, const Serving& serving) const;
+
+  Sink sink_;
+  std::vector<std::string> channels_;  // as JSON strings, by number
+  std::vector<std::string> stages_;
+  std::vector<HostId> hosts_;  // by participant
+  const Topology* topology_ = nullptr;  // of the run
+  std::uint64_t next_number_ = 0;
+  std::unordered_map<std::uint64_t, std::uint64_t> causes_;  // insertion → event, while scheduled
+  std::vector<Serving> serving_;                             // by channel
+  std::vector<std::vector<std::uint64_t>> generated_;        // by relation: descriptors sent so far
+  std::string line_;
+
+  // The event that is being processed, and what it has caused so far.
+  Event event_;
+  bool in_event_ = false;
+  TransitionList transitions_;
+  std::string emitted_;      // elements of arrays, or empty
+  std::string looped_back_;
+  std::string service_;      // objects, or empty
+  std::string arrived_;
+  std::string received_;
+  std::string left_source_;  // packet numbers, or empty
+  std::string packet_;
+};
+
+}  // namespace stormproof::model::trace

@@ -1,0 +1,86 @@
+// Backlog and source queue of one participant: what fits, what is admitted alone, and how copies
+// are counted.
+#include "model/engine/source_queue.hpp"
+
+#include <gtest/gtest.h>
+
+namespace stormproof::model {
+namespace {
+
+const Fragmentation fragmentation{WirelessProfile{}};
+
+Packet packet(std::uint32_t payload_bytes, std::uint32_t copies = 1) {
+  Packet p;
+  p.payload_bytes = payload_bytes;
+  p.copies = copies;
+  return p;
+}
+
+TEST(SourceQueue, APacketThatExactlyFillsTheQueueFits) {
+  SourceQueue queue;
+  queue.push(packet(1'472), fragmentation);
+  queue.push(packet(42), fragmentation);  // 42 + 8 + 58 = 108
+  EXPECT_EQ(queue.head_demand(), 1'538);
+  EXPECT_TRUE(queue.head_fits(Bytes{1}));
+  queue.admit_head(true, fragmentation);
+  EXPECT_EQ(queue.head_demand(), 108);
+  EXPECT_TRUE(queue.head_fits(Bytes{1'538 + 108}));
+  EXPECT_FALSE(queue.head_fits(Bytes{1'538 + 107}));
+}
+
+TEST(SourceQueue, APacketLargerThanTheQueueIsAdmittedAlone) {
+  SourceQueue queue;
+  queue.push(packet(5'000), fragmentation);
+  queue.push(packet(1), fragmentation);
+  EXPECT_TRUE(queue.head_fits(Bytes{100}));
+  const std::int64_t demand = queue.head_demand();
+  queue.admit_head(true, fragmentation);
+  EXPECT_EQ(queue.admitted_bytes(), demand);
+  EXPECT_FALSE(queue.head_fits(Bytes{100}));
+  queue.release(demand);
+  EXPECT_EQ(queue.admitted_bytes(), 0);
+  EXPECT_TRUE(queue.head_fits(Bytes{100}));
+}
+
+TEST(SourceQueue, AnUnlimitedQueueTakesEverything) {
+  SourceQueue queue;
+  for (int k = 0; k < 100; ++k) queue.push(packet(65'000), fragmentation);
+  while (queue.head_fits(WirelessProfile::unlimited)) queue.admit_head(true, fragmentation);
+  EXPECT_EQ(queue.backlog_packets(), 0U);
+  EXPECT_FALSE(queue.head_fits(WirelessProfile::unlimited));
+}
+
+TEST(SourceQueue, EveryCopyOfARecordIsAdmittedForItself) {
+  SourceQueue queue;
+  queue.push(packet(68, 3), fragmentation);  // 134 bytes each
+  queue.push(packet(1'473), fragmentation);
+  EXPECT_EQ(queue.backlog_packets(), 4U);
+  EXPECT_EQ(queue.head_fragments(), 1);
+  EXPECT_TRUE(queue.head_fits(Bytes{300}));
+  queue.admit_head(false, fragmentation);
+  EXPECT_TRUE(queue.head_fits(Bytes{300}));
+  queue.admit_head(false, fragmentation);
+  EXPECT_EQ(queue.admitted_bytes(), 268);
+  EXPECT_FALSE(queue.head_fits(Bytes{300}));
+  EXPECT_EQ(queue.backlog_packets(), 2U);
+  queue.release(134);
+  queue.admit_head(true, fragmentation);
+  EXPECT_EQ(queue.head_fragments(), 2);
+  EXPECT_EQ(queue.backlog_packets(), 1U);
+}
+
+TEST(SourceQueue, ThePeakIsWhatDidNotFit) {
+  SourceQueue queue;
+  queue.push(packet(68, 5), fragmentation);
+  queue.admit_head(false, fragmentation);
+  queue.note_peak(Nanoseconds{10});
+  queue.admit_head(false, fragmentation);
+  queue.note_peak(Nanoseconds{20});
+  const BacklogPeak peak = queue.peak();
+  EXPECT_EQ(peak.packets, 4U);
+  EXPECT_EQ(peak.at, Nanoseconds{10});
+  EXPECT_EQ(peak.packets_at_end, 3U);
+}
+
+}  // namespace
+}  // namespace stormproof::model

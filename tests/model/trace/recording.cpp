@@ -1,0 +1,84 @@
+// The scenarios are vectors of the model plus one with relations of more than 64 descriptors.
+#include "tests/model/trace/recording.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "model/trace/perfetto.hpp"
+#include "model/trace/trace_writer.hpp"
+#include "tests/vectors/paper_vectors.hpp"
+
+namespace stormproof::model::trace {
+
+using nlohmann::ordered_json;
+
+Recording record(const Scenario& scenario, const OnProgress& on_progress) {
+  Recording recording;
+  std::ostringstream out;
+  TraceWriter writer{out, scenario};
+  RunOptions options;
+  options.probe = &writer;
+  options.on_progress = on_progress;
+  recording.result = simulate(scenario, options);
+  writer.finish(recording.result);
+  recording.text = out.str();
+  std::istringstream in{recording.text};
+  for (std::string line; std::getline(in, line);) recording.lines.push_back(line);
+  recording.header = ordered_json::parse(recording.lines.front());
+  recording.end = ordered_json::parse(recording.lines.back());
+  for (std::size_t k = 1; k + 1 < recording.lines.size(); ++k) {
+    recording.events.push_back(ordered_json::parse(recording.lines[k]));
+  }
+  return recording;
+}
+
+Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress) {
+  std::ostringstream out;
+  PerfettoWriter writer{out, scenario};
+  RunOptions options;
+  options.probe = &writer;
+  options.on_progress = on_progress;
+  Timeline timeline;
+  timeline.result = simulate(scenario, options);
+  writer.finish();
+  timeline.document = ordered_json::parse(out.str());
+  return timeline;
+}
+
+const std::vector<Case>& trace_cases() {
+  static const std::vector<Case> cases = [] {
+    std::vector<Case> list;
+    const std::vector<std::string> wanted{
+        "hosts2x1x2",     "hosts3x2x7",           "grouping_mtu",          "short_queue",
+        "at_admission",   "mesh_datagram",        "cellular",              "heartbeat_additive",
+        "constant_delay", "fast_dds_values_lossy", "v1", "v2", "v3", "v4"};
+    for (const auto& vector : vectors::paper_vectors()) {
+      if (std::ranges::find(wanted, vector.name) == wanted.end()) continue;
+      list.push_back({vector.name, vector.scenario});
+    }
+    Scenario many;
+    many.deployment = Deployment::homogeneous(2, 2, 150);
+    list.push_back({"many_descriptors", many});
+    Scenario incomplete = list.front().scenario;
+    incomplete.time_limit = Nanoseconds{5'000'000};
+    list.push_back({"incomplete", incomplete});
+    return list;
+  }();
+  return cases;
+}
+
+const Scenario& case_named(const std::string& name) {
+  for (const Case& c : trace_cases()) {
+    if (c.name == name) return c.scenario;
+  }
+  throw std::invalid_argument{"no case " + name};
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+}  // namespace stormproof::model::trace

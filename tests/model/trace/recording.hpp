@@ -1,0 +1,55 @@
+// Runs scenarios with the trace writers on, and keeps what they wrote.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "model/simulator.hpp"
+
+namespace stormproof::model::trace {
+
+/// The trace of one run.
+struct Recording {
+  RunResult result;
+  std::string text;                           ///< the whole file
+  std::vector<std::string> lines;             ///< without line feeds
+  nlohmann::ordered_json header;
+  std::vector<nlohmann::ordered_json> events;
+  nlohmann::ordered_json end;
+};
+
+using OnProgress = std::function<bool(const Progress&)>;
+
+[[nodiscard]] Recording record(const Scenario& scenario, const OnProgress& on_progress = {});
+
+/// The timeline of one run.
+struct Timeline {
+  RunResult result;
+  nlohmann::ordered_json document;
+};
+[[nodiscard]] Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress = {});
+
+/// A scenario and its name, for parametrised tests.
+struct Case {
+  std::string name;
+  Scenario scenario;
+};
+/// One scenario for each thing that changes what a trace contains.
+[[nodiscard]] const std::vector<Case>& trace_cases();
+[[nodiscard]] const Scenario& case_named(const std::string& name);
+
+/// The name of a case, for the names of parametrised tests.
+struct CaseName {
+  template <class Info>
+  std::string operator()(const Info& info) const {
+    return info.param.name;
+  }
+};
+inline std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+
+/// Lines with their line feeds, as a file.
+[[nodiscard]] std::string joined(const std::vector<std::string>& lines);
+
+}  // namespace stormproof::model::trace

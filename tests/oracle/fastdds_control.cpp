@@ -1,0 +1,113 @@
+// Control-only relations: liveliness and the user data of each topic. They carry no DATA here, but
+// their HEARTBEATs and ACKNACKs share the channel with discovery.
+#include "tests/oracle/fastdds_world.hpp"
+
+namespace stormproof::oracle::fastdds {
+
+namespace {
+
+constexpr std::int64_t heartbeat_payload = 68;
+constexpr std::int64_t acknack_payload = 64;
+constexpr model::Nanoseconds reply_delay{5'000'000};
+
+Control& control(World& w, Id i, Id j, int topic) { return w.controls[{i, j, topic}]; }
+
+Event control_event(EventKind kind, Id j, Id i, int topic) {
+  Event event = make_event(kind, j, i, 0);
+  event.topic = topic;
+  return event;
+}
+
+void send(World& w, PacketKind kind, Id from, Id to, int topic, bool initial) {
+  Packet packet;
+  packet.kind = kind;
+  packet.source = from;
+  packet.destination = to;
+  packet.topic = topic;
+  packet.initial = initial;
+  packet.payload = kind == PacketKind::control_heartbeat ? heartbeat_payload : acknack_payload;
+  ++w.outcome.user_control;
+  emit(w, packet);
+}
+
+bool has_created(World& w, Id i, int s, int topic) {
+  return descriptor_of(s, topic) < writer(w, i, s).existing;
+}
+
+// Whether i's endpoint on the topic has been notified at j.
+bool is_notified(World& w, Id i, Id j, int s, int topic) {
+  return descriptor_of(s, topic) < relation(w, i, j, s).notified;
+}
+
+}  // namespace
+
+void open_control_writer(World& w, Id i, Id j, int topic) {
+  control(w, i, j, topic).writer_open = true;
+  send(w, PacketKind::control_heartbeat, i, j, topic, false);
+}
+
+void open_control_reader(World& w, Id i, Id j, int topic) {
+  control(w, i, j, topic).reader_open = true;
+  const model::Nanoseconds delay = w.sedp.initial_acknack_delay;
+  if (delay.count() == 0) return;
+  Event event = control_event(EventKind::control_initial, j, i, topic);
+  event.number = delay.count();
+  schedule_after(w, delay, event);
+}
+
+void created(World& w, Id i, int s, Id d) {
+  const int topic = topic_of(s, d);
+  if (topic == no_topic) return;
+  for (Id j = 0; j < w.participants.size(); ++j) {
+    if (!cross_host(w, i, j) || !is_notified(w, j, i, 1 - s, topic)) continue;
+    if (s == pub) {
+      open_control_writer(w, i, j, topic);
+    } else {
+      open_control_reader(w, j, i, topic);
+    }
+  }
+}
+
+void notified(World& w, Id i, Id j, int s, Id d) {
+  const int topic = topic_of(s, d);
+  if (topic == no_topic || !cross_host(w, i, j)) return;
+  if (!has_created(w, j, 1 - s, topic)) return;
+  if (s == pub) {
+    open_control_reader(w, i, j, topic);
+  } else {
+    open_control_writer(w, j, i, topic);
+  }
+}
+
+void receive_control_heartbeat(World& w, const Packet& packet) {
+  const Id i = packet.source;
+  const Id j = *packet.destination;
+  Control& c = control(w, i, j, packet.topic);
+  if (!c.reader_open) return;
+  c.heartbeat_seen = true;
+  if (c.reply_pending) return;
+  c.reply_pending = true;
+  schedule_after(w, reply_delay, control_event(EventKind::control_reply, j, i, packet.topic));
+}
+
+void receive_control_acknack(World& w, const Packet& packet) {
+  const Id i = *packet.destination;
+  const Id j = packet.source;
+  if (!packet.initial || !control(w, i, j, packet.topic).writer_open) return;
+  send(w, PacketKind::control_heartbeat, i, j, packet.topic, false);
+}
+
+void control_reply(World& w, Id j, Id i, int topic) {
+  control(w, i, j, topic).reply_pending = false;
+  send(w, PacketKind::control_acknack, j, i, topic, false);
+}
+
+void control_initial(World& w, Id j, Id i, int topic, Time delay) {
+  if (control(w, i, j, topic).heartbeat_seen) return;
+  send(w, PacketKind::control_acknack, j, i, topic, true);
+  Event again = control_event(EventKind::control_initial, j, i, topic);
+  again.number = 2 * delay;
+  schedule_after(w, model::Nanoseconds{2 * delay}, again);
+}
+
+}  // namespace stormproof::oracle::fastdds

@@ -1,0 +1,170 @@
+// DATA on its way out: the creation of a descriptor, which pushes it to all readers at once, the
+// asynchronous run, which serves what was requested, and the message both of them fill. The storm
+// is made here, by the HEARTBEATs to all readers that ride along when the budget is used up.
+#include <algorithm>
+
+#include "tests/oracle/fastdds_world.hpp"
+
+namespace stormproof::oracle::fastdds {
+
+namespace {
+
+constexpr std::int64_t message_header = 20;
+constexpr std::int64_t destination_bytes = 16;
+constexpr std::int64_t timestamp_bytes = 12;
+constexpr std::int64_t heartbeat_bytes = 32;
+constexpr std::int64_t message_limit = 65500;
+
+/// The message that a call fills; there is at most one at a time.
+struct Message {
+  int stream = 0;
+  std::vector<Id> destinations;  // in match order
+  std::int64_t bytes = 0;
+  std::vector<Id> descriptors;
+  std::optional<Id> announced;
+};
+
+/// One creation or one asynchronous run of participant i.
+struct Sending {
+  Id i = 0;
+  bool async = false;
+  std::optional<Message> open;
+};
+
+void open_message(Sending& sending, int s, const std::vector<Id>& destinations) {
+  Message message;
+  message.stream = s;
+  message.destinations = destinations;
+  message.bytes = message_header;
+  if (destinations.size() == 1) message.bytes += destination_bytes;
+  sending.open = message;
+}
+
+void flush(World& w, Sending& sending) {
+  if (!sending.open.has_value()) return;
+  const Message message = *sending.open;
+  sending.open.reset();
+  if (message.descriptors.empty() && !message.announced.has_value()) return;
+  if (sending.async) w.participants.at(sending.i).sent_bytes += message.bytes;
+  for (const Id j : message.destinations) {
+    Packet packet;
+    packet.kind = PacketKind::sedp;
+    packet.source = sending.i;
+    packet.destination = j;
+    packet.payload = message.bytes;
+    packet.stream = message.stream;
+    packet.descriptors = message.descriptors;
+    packet.announced = message.announced;
+    emit(w, packet);
+  }
+}
+
+bool joins(const Message& message, int s, Id d, const std::vector<Id>& destinations) {
+  if (message.stream != s || message.destinations != destinations) return false;
+  const std::vector<Id>& carried = message.descriptors;
+  if (std::find(carried.begin(), carried.end(), d) != carried.end()) return false;
+  return message.bytes + timestamp_bytes + submessage_bytes(s, d) <= message_limit;
+}
+
+void count_data(World& w, Id i, Id j, int s, Id d) {
+  Relation& r = relation(w, i, j, s);
+  if (cross_host(w, i, j)) {
+    if (r.delivered.at(d)) {
+      ++w.outcome.repair_data;
+    } else {
+      ++w.outcome.initial_data;
+    }
+  }
+  r.delivered.at(d) = true;
+}
+
+void suppress(World& w, Id i, Id j, int s, Id d) {
+  Relation& r = relation(w, i, j, s);
+  r.state.at(d) = DescriptorState::suppressed;
+  if (!r.suppression_pending) {
+    r.suppression_pending = true;
+    schedule_after(w, w.sedp.nack_suppression_duration,
+                   make_event(EventKind::suppression_end, i, j, s));
+  }
+}
+
+// What the descriptor just added to the open message takes from the writer's budget.
+std::int64_t charge(const World& w, const Sending& sending, int s, Id d) {
+  const std::int64_t alone = message_header + timestamp_bytes + submessage_bytes(s, d);
+  switch (w.sedp.piggyback) {
+    case model::Piggyback::cumulative:
+      if (!sending.async) return alone;
+      return w.participants.at(sending.i).sent_bytes + sending.open->bytes;
+    case model::Piggyback::linear:
+      return alone;
+    case model::Piggyback::off:
+      return 0;
+  }
+  return 0;
+}
+
+void piggyback(World& w, Sending& sending, int s) {
+  Writer& wr = writer(w, sending.i, s);
+  if (sending.open->destinations != wr.readers) {
+    flush(w, sending);
+    open_message(sending, s, wr.readers);
+    ++w.outcome.replaced_messages;
+  }
+  sending.open->bytes += heartbeat_bytes;
+  sending.open->announced = wr.existing;
+  for (const Id j : wr.readers) {
+    if (cross_host(w, sending.i, j)) ++w.outcome.heartbeat;
+  }
+  wr.budget = w.sedp.piggyback_threshold_bytes.count();
+  ++w.outcome.piggybacks;
+}
+
+void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& destinations) {
+  if (sending.open.has_value() && !joins(*sending.open, s, d, destinations)) flush(w, sending);
+  if (!sending.open.has_value()) open_message(sending, s, destinations);
+  sending.open->descriptors.push_back(d);
+  sending.open->bytes += timestamp_bytes + submessage_bytes(s, d);
+  for (const Id j : destinations) {
+    suppress(w, sending.i, j, s, d);
+    count_data(w, sending.i, j, s, d);
+  }
+  arm(w, sending.i, s);
+  if (w.sedp.piggyback == model::Piggyback::off) return;
+  writer(w, sending.i, s).budget -= charge(w, sending, s, d);
+  if (writer(w, sending.i, s).budget < 0) piggyback(w, sending, s);
+}
+
+}  // namespace
+
+void create(World& w, Id i, int s, Id d) {
+  Writer& wr = writer(w, i, s);
+  wr.existing = d + 1;
+  if (!wr.readers.empty()) {
+    for (const Id j : wr.readers) relation(w, i, j, s).state.at(d) = DescriptorState::queued;
+    Sending sending;
+    sending.i = i;
+    deliver(w, sending, s, d, wr.readers);
+    flush(w, sending);
+  }
+  created(w, i, s, d);
+}
+
+void async_run(World& w, Id i) {
+  Participant& p = w.participants.at(i);
+  p.run_pending = false;
+  Sending sending;
+  sending.i = i;
+  sending.async = true;
+  while (!p.async_queue.empty()) {
+    const auto [s, d] = p.async_queue.front();
+    p.async_queue.pop_front();
+    std::vector<Id> waiting;
+    for (const Id j : writer(w, i, s).readers) {
+      if (relation(w, i, j, s).state.at(d) == DescriptorState::queued) waiting.push_back(j);
+    }
+    if (!waiting.empty()) deliver(w, sending, s, d, waiting);
+  }
+  flush(w, sending);
+}
+
+}  // namespace stormproof::oracle::fastdds

@@ -1,0 +1,25 @@
+// The oracle of `implementation: fastdds`: a second, deliberately naive simulator of the rules in
+// specs/fastdds.md. Like the paper's oracle it exists to be compared with the product on any
+// scenario, and shares nothing with it but the plain input structs.
+#pragma once
+
+#include <cstdint>
+
+#include "model/scenario.hpp"
+#include "tests/oracle/oracle.hpp"
+
+namespace stormproof::oracle {
+
+/// The counts and the missing descriptors are those of cross-host pairs.
+struct FastddsOutcome : Outcome {
+  std::int64_t user_control = 0;  ///< HEARTBEATs and ACKNACKs of control-only relations, on top
+  std::uint64_t replaced_messages = 0;  ///< piggybacks that needed a new message, to all readers
+};
+
+/// Runs the scenario to completion, to its time limit, or until nothing is left to do. Takes the
+/// profile for one of `implementation: fastdds`, whatever it says.
+/// Throws std::invalid_argument if the deployment has no cross-host pair or a participant is done
+/// before it starts.
+[[nodiscard]] FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log = {});
+
+}  // namespace stormproof::oracle

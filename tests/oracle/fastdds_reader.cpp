@@ -1,0 +1,104 @@
+// The receiving end: what a participant does with a packet that reaches it, and the ACKNACKs that
+// its built-in readers send. The run completes here, with the last missing descriptor.
+#include <algorithm>
+
+#include "tests/oracle/fastdds_world.hpp"
+
+namespace stormproof::oracle::fastdds {
+
+namespace {
+
+constexpr std::int64_t acknack_payload = 64;
+constexpr std::int64_t bitmap_payload = 4;
+
+void take_data(World& w, Relation& r, const Packet& packet, Id j) {
+  for (const Id d : packet.descriptors) {
+    if (!r.received.at(d) && cross_host(w, packet.source, j)) --w.missing;
+    r.received.at(d) = true;
+    r.announced = std::max(r.announced, d + 1);
+  }
+  if (w.missing > 0) return;
+  w.outcome.completed = true;
+  w.outcome.t_disc_ns = w.now;
+}
+
+void notify_in_order(World& w, Relation& r, Id i, Id j, int s) {
+  while (r.notified < r.received.size() && r.received.at(r.notified)) {
+    ++r.notified;
+    notified(w, i, j, s, r.notified - 1);
+  }
+}
+
+void receive_sedp(World& w, Id j, const Packet& packet) {
+  const Id i = packet.source;
+  const int s = packet.stream;
+  Relation& r = relation(w, i, j, s);
+  if (!r.reader_open) return;
+  take_data(w, r, packet, j);
+  if (w.outcome.completed) return;
+  notify_in_order(w, r, i, j, s);
+  if (!packet.announced.has_value()) return;
+  r.heartbeat_seen = true;
+  r.announced = std::max(r.announced, *packet.announced);
+  if (r.acknack_pending) return;
+  r.acknack_pending = true;
+  schedule_after(w, w.sedp.heartbeat_response_delay,
+                 make_event(EventKind::acknack_generation, j, i, s));
+}
+
+Packet acknack_packet(Id j, Id i, int s) {
+  Packet packet;
+  packet.kind = PacketKind::acknack;
+  packet.source = j;
+  packet.destination = i;
+  packet.stream = s;
+  packet.payload = acknack_payload;
+  return packet;
+}
+
+void send_acknack(World& w, const Packet& packet) {
+  if (cross_host(w, packet.source, *packet.destination)) ++w.outcome.acknack;
+  emit(w, packet);
+}
+
+}  // namespace
+
+void receive(World& w, const Packet& packet, Id j) {
+  if (!started(w, j)) return;
+  switch (packet.kind) {
+    case PacketKind::spdp:
+      return receive_spdp(w, j, packet.source);
+    case PacketKind::sedp:
+      return receive_sedp(w, j, packet);
+    case PacketKind::acknack:
+      return receive_acknack(w, packet);
+    case PacketKind::control_heartbeat:
+      return receive_control_heartbeat(w, packet);
+    case PacketKind::control_acknack:
+      return receive_control_acknack(w, packet);
+  }
+}
+
+void generate_acknack(World& w, Id j, Id i, int s) {
+  Relation& r = relation(w, i, j, s);
+  r.acknack_pending = false;
+  Packet packet = acknack_packet(j, i, s);
+  while (packet.base < r.received.size() && r.received.at(packet.base)) ++packet.base;
+  for (Id d = packet.base; d < r.announced; ++d) {
+    if (!r.received.at(d)) packet.bitmap.insert(d);
+  }
+  if (!packet.bitmap.empty()) packet.payload += bitmap_payload;
+  send_acknack(w, packet);
+}
+
+void initial_acknack(World& w, Id j, Id i, int s, Time delay) {
+  if (relation(w, i, j, s).heartbeat_seen) return;
+  Packet packet = acknack_packet(j, i, s);
+  packet.initial = true;
+  send_acknack(w, packet);
+  Event again = make_event(EventKind::initial_acknack, j, i, s);
+  again.number = 2 * delay;
+  schedule_after(w, model::Nanoseconds{2 * delay}, again);
+}
+
+}  // namespace stormproof::oracle::fastdds

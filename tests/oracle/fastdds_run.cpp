@@ -1,0 +1,160 @@
+// The main loop: the next event is the least of (time, class, insertion number), and one switch
+// says what it does. Also what is scheduled before the run, and the report at its end.
+#include "tests/oracle/fastdds_world.hpp"
+
+namespace stormproof::oracle::fastdds {
+
+namespace {
+
+const char* name_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::service_finished:
+      return "service finished";
+    case EventKind::reception:
+      return "reception";
+    case EventKind::announcement:
+      return "announcement";
+    case EventKind::creation:
+      return "creation";
+    case EventKind::initial_acknack:
+      return "initial ACKNACK";
+    case EventKind::acknack_generation:
+      return "ACKNACK generation";
+    case EventKind::nack_response:
+      return "nack response";
+    case EventKind::async_run:
+      return "async run";
+    case EventKind::suppression_end:
+      return "suppression end";
+    case EventKind::heartbeat_expiry:
+      return "HEARTBEAT expiry";
+    case EventKind::cycle_start:
+      return "cycle start";
+    case EventKind::cycle_end:
+      return "cycle end";
+    case EventKind::cycle_batch:
+      return "batch";
+    case EventKind::control_initial:
+      return "initial control ACKNACK";
+    case EventKind::control_reply:
+      return "control ACKNACK";
+    case EventKind::dispatch:
+      return "dispatch";
+  }
+  return "";
+}
+
+void process(World& w, const Event& e) {
+  switch (e.kind) {
+    case EventKind::service_finished:
+      return service_finished(w, e);
+    case EventKind::reception:
+      return receive(w, w.packets.at(e.packet), e.to);
+    case EventKind::announcement:
+      return announce(w, e.from, e.number);
+    case EventKind::creation:
+      return create(w, e.from, e.stream, e.descriptor);
+    case EventKind::initial_acknack:
+      return initial_acknack(w, e.from, e.to, e.stream, e.number);
+    case EventKind::acknack_generation:
+      return generate_acknack(w, e.from, e.to, e.stream);
+    case EventKind::nack_response:
+      return nack_response(w, e.from, e.stream);
+    case EventKind::async_run:
+      return async_run(w, e.from);
+    case EventKind::suppression_end:
+      return suppression_end(w, e.from, e.to, e.stream);
+    case EventKind::heartbeat_expiry:
+      return heartbeat_expiry(w, e.from, e.stream);
+    case EventKind::cycle_start:
+      return cycle_start(w, e.from, e.stream, e.token);
+    case EventKind::cycle_end:
+      return cycle_end(w, e.from, e.stream, e.token);
+    case EventKind::cycle_batch:
+      return cycle_batch(w, e);
+    case EventKind::control_initial:
+      return control_initial(w, e.from, e.to, e.topic, e.number);
+    case EventKind::control_reply:
+      return control_reply(w, e.from, e.to, e.topic);
+    case EventKind::dispatch:
+      return dispatch(w, e.channel);
+  }
+}
+
+void schedule_creations(World& w, Id i) {
+  const model::Participant& p = w.scenario.deployment.participants.at(i);
+  const Time start = p.start.count();
+  const Time span = p.endpoints_done.count() - start;
+  const std::vector<std::pair<int, Id>> order = creation_order(w.scenario, i);
+  const auto count = static_cast<std::int64_t>(order.size());
+  std::int64_t k = 0;
+  for (const auto& [s, d] : order) {
+    Event event = make_event(EventKind::creation, i, i, s);
+    event.descriptor = d;
+    schedule(w, start + span * (k + 1) / count, EventClass::protocol, event);
+    ++k;
+  }
+}
+
+void schedule_beginning(World& w) {
+  for (Id i = 0; i < w.participants.size(); ++i) {
+    const Event announcement = make_event(EventKind::announcement, i, i, 0);
+    schedule(w, w.participants.at(i).start, EventClass::protocol, announcement);
+    schedule_creations(w, i);
+  }
+}
+
+LogEntry log_entry(const std::tuple<Time, EventClass, std::uint64_t>& key, const Event& event) {
+  LogEntry entry;
+  entry.time_ns = std::get<0>(key);
+  entry.event_class = static_cast<int>(std::get<1>(key));
+  entry.insertion = std::get<2>(key);
+  entry.kind = name_of(event.kind);
+  if (event.kind != EventKind::dispatch) {
+    entry.source = event.from;
+    entry.destination = event.to;
+    entry.stream = event.stream;
+  }
+  return entry;
+}
+
+std::vector<Missing> missing_descriptors(const World& w) {
+  std::vector<Missing> missing;
+  for (const auto& [key, r] : w.relations) {
+    const auto& [i, j, s] = key;
+    if (!cross_host(w, i, j)) continue;
+    for (Id d = 0; d < r.received.size(); ++d) {
+      if (!r.received.at(d)) missing.push_back({i, j, model::streams[s], d});
+    }
+  }
+  return missing;
+}
+
+FastddsOutcome run(const model::Scenario& scenario, const EventLog& log) {
+  World w{scenario};
+  schedule_beginning(w);
+  while (!w.queue.empty() && !w.outcome.completed) {
+    const auto key = w.queue.begin()->first;
+    const Event event = w.queue.begin()->second;
+    if (std::get<0>(key) > scenario.time_limit.count()) break;
+    w.queue.erase(w.queue.begin());
+    w.now = std::get<0>(key);
+    ++w.outcome.events;
+    if (log) log(log_entry(key, event));
+    process(w, event);
+  }
+  w.outcome.missing = missing_descriptors(w);
+  return w.outcome;
+}
+
+}  // namespace
+
+}  // namespace stormproof::oracle::fastdds
+
+namespace stormproof::oracle {
+
+FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log) {
+  return fastdds::run(scenario, log);
+}
+
+}  // namespace stormproof::oracle

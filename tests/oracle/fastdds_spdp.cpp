@@ -1,0 +1,86 @@
+// SPDP: the announcements of a participant and what another one does when it processes the first of
+// them. Unlike in the paper's model the copies to known participants go before the multicast.
+#include "tests/oracle/fastdds_world.hpp"
+
+namespace stormproof::oracle::fastdds {
+
+namespace {
+
+constexpr std::int64_t spdp_payload = 252;
+
+void send_multicast(World& w, Id i) {
+  Packet packet;
+  packet.kind = PacketKind::spdp;
+  packet.source = i;
+  packet.payload = spdp_payload;
+  ++w.outcome.spdp_multicast;
+  emit(w, packet);
+}
+
+void send_copy(World& w, Id i, Id j) {
+  Packet packet;
+  packet.kind = PacketKind::spdp;
+  packet.source = i;
+  packet.destination = j;
+  packet.payload = spdp_payload;
+  if (cross_host(w, i, j)) ++w.outcome.spdp_unicast;
+  emit(w, packet);
+}
+
+void send_spdp(World& w, Id i) {
+  for (const Id j : w.participants.at(i).known) send_copy(w, i, j);
+  send_multicast(w, i);
+}
+
+void resend(World& w, Id j, Id newcomer) {
+  switch (w.scenario.dds.spdp.resend) {
+    case model::SpdpResend::all_known:
+      send_spdp(w, j);
+      break;
+    case model::SpdpResend::new_and_multicast:
+      send_copy(w, j, newcomer);
+      send_multicast(w, j);
+      break;
+    case model::SpdpResend::new_only:
+      send_copy(w, j, newcomer);
+      break;
+    case model::SpdpResend::none:
+      break;
+  }
+}
+
+void open_reader(World& w, Id j, Id i, int s) {
+  relation(w, i, j, s).reader_open = true;
+  const model::Nanoseconds delay = w.sedp.initial_acknack_delay;
+  if (delay.count() == 0) return;
+  Event event = make_event(EventKind::initial_acknack, j, i, s);
+  event.number = delay.count();
+  schedule_after(w, delay, event);
+}
+
+}  // namespace
+
+void announce(World& w, Id i, std::int64_t k) {
+  const model::SpdpProfile& spdp = w.scenario.dds.spdp;
+  send_spdp(w, i);
+  Event next = make_event(EventKind::announcement, i, i, 0);
+  next.number = k + 1;
+  const bool startup = k < std::int64_t{spdp.startup_announcements};
+  schedule_after(w, startup ? spdp.startup_period : spdp.period, next);
+}
+
+void receive_spdp(World& w, Id j, Id i) {
+  std::set<Id>& known = w.participants.at(j).known;
+  if (known.contains(i)) return;
+  known.insert(i);
+  resend(w, j, i);
+  for (int s = 0; s < 2; ++s) {
+    open_reader(w, j, i, s);
+    open_writer(w, j, i, s);
+  }
+  if (!cross_host(w, i, j)) return;
+  open_control_reader(w, i, j, liveliness);
+  open_control_writer(w, j, i, liveliness);
+}
+
+}  // namespace stormproof::oracle::fastdds

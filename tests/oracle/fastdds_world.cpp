@@ -1,0 +1,83 @@
+// How a world of the oracle of `implementation: fastdds` begins, and the questions about it that
+// all its parts ask. It exists so that these have one answer each.
+#include "tests/oracle/fastdds_world.hpp"
+
+#include <stdexcept>
+
+namespace stormproof::oracle::fastdds {
+
+namespace {
+
+void create_relations(World& w) {
+  const Id n = w.scenario.deployment.size();
+  for (Id i = 0; i < n; ++i) {
+    for (Id j = 0; j < n; ++j) {
+      if (i == j) continue;
+      for (int s = 0; s < 2; ++s) {
+        const Id count = descriptor_count(w.scenario, i, s);
+        Relation r;
+        r.state.assign(count, DescriptorState::unsent);
+        r.delivered.assign(count, false);
+        r.received.assign(count, false);
+        w.relations[{i, j, s}] = r;
+        if (cross_host(w, i, j)) w.missing += count;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+World::World(const model::Scenario& s) : scenario{s}, sedp{s.dds.sedp} {
+  for (const model::Participant& p : s.deployment.participants) {
+    if (p.endpoints_done < p.start) throw std::invalid_argument{"done before the start"};
+    Participant participant;
+    participant.host = p.host.value;
+    participant.start = p.start.count();
+    participants.push_back(participant);
+  }
+  create_relations(*this);
+  if (missing == 0) throw std::invalid_argument{"the deployment has no cross-host pair"};
+  for (Id i = 0; i < s.deployment.size(); ++i) {
+    for (int stream = 0; stream < 2; ++stream) {
+      writers[{i, stream}].budget = sedp.piggyback_threshold_bytes.count();
+      writers[{i, stream}].period = sedp.heartbeat_period.count();
+    }
+  }
+  for (const model::Stage& stage : s.wireless.stages) channels[stage.channel];
+  lost_packets.insert(s.wireless.lost_packets.begin(), s.wireless.lost_packets.end());
+}
+
+Event make_event(EventKind kind, Id from, Id to, int s) {
+  Event event;
+  event.kind = kind;
+  event.from = from;
+  event.to = to;
+  event.stream = s;
+  return event;
+}
+
+void schedule(World& w, Time at, EventClass event_class, const Event& event) {
+  w.queue[{at, event_class, w.insertions}] = event;
+  ++w.insertions;
+}
+
+void schedule_after(World& w, model::Nanoseconds delay, const Event& event) {
+  schedule(w, w.now + delay.count(), EventClass::protocol, event);
+}
+
+bool cross_host(const World& w, Id i, Id j) {
+  return w.participants.at(i).host != w.participants.at(j).host;
+}
+
+bool started(const World& w, Id i) { return w.now >= w.participants.at(i).start; }
+
+bool adaptive(const World& w) {
+  return w.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive;
+}
+
+Relation& relation(World& w, Id i, Id j, int s) { return w.relations.at({i, j, s}); }
+
+Writer& writer(World& w, Id i, int s) { return w.writers.at({i, s}); }
+
+}  // namespace stormproof::oracle::fastdds

@@ -1,0 +1,230 @@
+// The whole state of a run of the oracle of `implementation: fastdds` as plain structs, and the
+// functions that its files call in each other. One header, so that a reader sees everything that
+// exists in these rules on one page.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "model/scenario.hpp"
+#include "tests/oracle/fastdds_oracle.hpp"
+
+namespace stormproof::oracle::fastdds {
+
+using Id = std::uint32_t;  // a participant or a descriptor
+using Time = std::int64_t;
+
+constexpr int pub = 0;
+constexpr int sub = 1;
+
+enum class EventClass { service = 0, protocol = 1, dispatch = 2 };
+
+enum class EventKind {
+  service_finished,
+  reception,
+  announcement,
+  creation,
+  initial_acknack,
+  acknack_generation,
+  nack_response,
+  async_run,
+  suppression_end,
+  heartbeat_expiry,
+  cycle_start,
+  cycle_end,
+  cycle_batch,
+  control_initial,
+  control_reply,
+  dispatch,
+};
+
+struct Event {
+  EventKind kind = EventKind::dispatch;
+  Id from = 0;  // who acts or acted; for a reader's event the reader, for a reception the source
+  Id to = 0;
+  int stream = 0;
+  Id descriptor = 0;         // of a creation
+  int topic = 0;             // of a control-only relation
+  std::int64_t number = 0;   // announcement number, or delay of an initial ACKNACK
+  std::uint64_t token = 0;   // of an adaptive cycle
+  std::uint64_t packet = 0;  // of a service event
+  std::size_t stage = 0;
+  std::size_t fragment = 0;
+  std::string channel;
+  std::vector<Id> readers;  // of a batch
+};
+
+enum class PacketKind { spdp, sedp, acknack, control_heartbeat, control_acknack };
+
+struct Packet {
+  PacketKind kind = PacketKind::spdp;
+  Id source = 0;
+  std::optional<Id> destination;  // none: multicast
+  std::int64_t payload = 0;
+  int stream = 0;
+  int topic = 0;
+  std::vector<Id> descriptors;  // DATA in it
+  std::optional<Id> announced;  // HEARTBEAT in it: how many descriptors it announces
+  bool initial = false;         // an initial ACKNACK
+  Id base = 0;                  // of an ACKNACK
+  std::set<Id> bitmap;          // of an ACKNACK
+  std::uint64_t id = 0;         // from here on: filled in by emit
+  bool lost = false;
+  std::vector<std::int64_t> fragments;        // bytes on the channel
+  std::map<std::size_t, std::size_t> served;  // stage → fragments served in it
+};
+
+enum class DescriptorState { unsent, requested, queued, suppressed, acknowledged };  // U R Q S A
+
+/// Everything about (source i, destination j, stream s).
+struct Relation {
+  bool writer_open = false;  // at i from here on
+  std::vector<DescriptorState> state;
+  Id low = 0;
+  bool suppression_pending = false;
+  std::vector<bool> delivered;
+  bool reader_open = false;  // at j from here on
+  bool heartbeat_seen = false;
+  bool acknack_pending = false;
+  std::vector<bool> received;
+  Id announced = 0;
+  Id notified = 0;  // descriptors below it have been notified
+};
+
+struct Writer {
+  std::vector<Id> readers;  // M, in match order
+  Id existing = 0;          // H
+  std::int64_t budget = 0;
+  bool expiry_pending = false;
+  bool response_pending = false;
+  bool active = false;  // from here on: adaptive policy
+  Time period = 0;
+  Time cycle_start = 0;
+  Id cycle_existing = 0;  // H at the cycle start
+  std::uint64_t token = 0;
+  std::set<Id> cycle_readers;
+  std::set<Id> responded;
+};
+
+/// A control-only relation: liveliness, or the user data of a topic.
+struct Control {
+  bool writer_open = false;
+  bool reader_open = false;
+  bool heartbeat_seen = false;
+  bool reply_pending = false;
+};
+
+struct Participant {
+  std::uint32_t host = 0;
+  Time start = 0;
+  std::set<Id> known;                          // whose announcement it has processed
+  std::deque<std::pair<int, Id>> async_queue;  // (stream, descriptor)
+  bool run_pending = false;
+  std::int64_t sent_bytes = 0;  // of the cumulative piggyback charge
+  std::deque<std::uint64_t> backlog;
+  std::int64_t queued_bytes = 0;
+};
+
+struct Request {
+  std::uint64_t packet = 0;
+  std::size_t stage = 0;
+  std::size_t fragment = 0;
+};
+
+struct Channel {
+  bool busy = false;
+  bool dispatch_pending = false;
+  std::map<std::tuple<Time, int, std::uint64_t>, Request> waiting;  // (time, stage rank, number)
+};
+
+struct World {
+  explicit World(const model::Scenario& s);
+
+  const model::Scenario& scenario;
+  const model::SedpProfile& sedp;
+  Time now = 0;
+  std::map<std::tuple<Time, EventClass, std::uint64_t>, Event> queue;
+  std::uint64_t insertions = 0;
+  std::uint64_t requests = 0;
+  std::vector<Participant> participants;
+  std::map<std::tuple<Id, Id, int>, Relation> relations;
+  std::map<std::pair<Id, int>, Writer> writers;
+  std::map<std::tuple<Id, Id, int>, Control> controls;  // (source, destination, topic)
+  std::map<std::string, Channel> channels;
+  std::map<std::uint64_t, Packet> packets;  // loopback packets too
+  std::set<std::uint64_t> lost_packets;
+  std::int64_t missing = 0;
+  FastddsOutcome outcome;
+};
+
+// fastdds_world.cpp
+[[nodiscard]] Event make_event(EventKind kind, Id from, Id to, int s);
+void schedule(World& w, Time at, EventClass event_class, const Event& event);
+void schedule_after(World& w, model::Nanoseconds delay, const Event& event);
+[[nodiscard]] bool cross_host(const World& w, Id i, Id j);
+[[nodiscard]] bool started(const World& w, Id i);
+[[nodiscard]] bool adaptive(const World& w);
+[[nodiscard]] Relation& relation(World& w, Id i, Id j, int s);
+[[nodiscard]] Writer& writer(World& w, Id i, int s);
+
+// fastdds_descriptors.cpp
+[[nodiscard]] Id descriptor_count(const model::Scenario& scenario, Id i, int s);
+[[nodiscard]] std::vector<std::pair<int, Id>> creation_order(const model::Scenario& scenario, Id i);
+[[nodiscard]] std::int64_t submessage_bytes(int s, Id d);
+constexpr int no_topic = -2;
+constexpr int liveliness = -1;
+[[nodiscard]] int topic_of(int s, Id d);
+[[nodiscard]] Id descriptor_of(int s, int topic);
+
+// fastdds_channel.cpp
+void emit(World& w, Packet packet);
+void dispatch(World& w, const std::string& name);
+void service_finished(World& w, const Event& event);
+
+// fastdds_spdp.cpp
+void announce(World& w, Id i, std::int64_t k);
+void receive_spdp(World& w, Id j, Id i);
+
+// fastdds_reader.cpp
+void receive(World& w, const Packet& packet, Id j);
+void generate_acknack(World& w, Id j, Id i, int s);
+void initial_acknack(World& w, Id j, Id i, int s, Time delay);
+
+// fastdds_writer.cpp
+void open_writer(World& w, Id i, Id j, int s);
+void arm(World& w, Id i, int s);
+void heartbeat(World& w, Id i, Id j, int s, std::int64_t payload);
+void heartbeat_expiry(World& w, Id i, int s);
+void receive_acknack(World& w, const Packet& packet);
+void nack_response(World& w, Id i, int s);
+void suppression_end(World& w, Id i, Id j, int s);
+
+// fastdds_message.cpp
+void create(World& w, Id i, int s, Id d);
+void async_run(World& w, Id i);
+
+// fastdds_control.cpp
+void open_control_writer(World& w, Id i, Id j, int topic);
+void open_control_reader(World& w, Id i, Id j, int topic);
+void created(World& w, Id i, int s, Id d);
+void notified(World& w, Id i, Id j, int s, Id d);
+void receive_control_heartbeat(World& w, const Packet& packet);
+void receive_control_acknack(World& w, const Packet& packet);
+void control_reply(World& w, Id j, Id i, int topic);
+void control_initial(World& w, Id j, Id i, int topic, Time delay);
+
+// fastdds_adaptive.cpp
+void activate_cycles(World& w, Id i, int s);
+void cycle_start(World& w, Id i, int s, std::uint64_t token);
+void cycle_end(World& w, Id i, int s, std::uint64_t token);
+void cycle_batch(World& w, const Event& event);
+void response(World& w, Id i, Id j, int s);
+
+}  // namespace stormproof::oracle::fastdds
