@@ -24,6 +24,7 @@ find_package(fmt REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(Threads REQUIRED)
 
 # yaml-cpp 0.8 put its target into a namespace; give 0.7's the same name.
 if(NOT TARGET yaml-cpp::yaml-cpp)

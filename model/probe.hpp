@@ -19,8 +19,8 @@ namespace stormproof::model {
 struct MachineRef {
   enum class Kind : std::uint8_t { relation, writer, participant, channel, control_relation };
   std::string_view machine;
-  Kind kind;
-  std::uint32_t subject;
+  Kind kind{};
+  std::uint32_t subject = 0;
 };
 
 /// Queue depths after an event.

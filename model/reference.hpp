@@ -12,7 +12,7 @@ namespace stormproof::model {
 /// The failure-free reference of the paper: every descriptor is generated once per receiver, one HEARTBEAT and
 /// one ACKNACK per relation (α_HB = α_ACK = 1), and SPDP as it follows from recognising each peer once after
 /// announcement 0: with `resend: all_known` 1 + p multicasts and p(p + 1)/2 copies of a participant with p
-/// cross-host peers.
+/// cross-host peers. Fast DDS recognises the n − 1 others of all hosts: n multicasts and n·p/2 cross-host copies.
 [[nodiscard]] Counts failure_free_reference(const Scenario& scenario);
 
 /// The open-loop baseline: the airtime, over all stages of the route, of each relation's descriptors grouped into

@@ -40,6 +40,7 @@ struct Packet {
   bool from_repair = false;     ///< DATA made by repair generation: its source completion starts suppression
   bool carries_initial = false; ///< DATA: at least one descriptor was generated for the first time
   bool carries_heartbeat = false;  ///< DATA with a piggybacked HEARTBEAT
+  std::uint16_t heartbeats = 0;    ///< how many HEARTBEATs ride in it; the receiver sees them as one
   bool initial_acknack = false;    ///< ACKNACK marked initial
 
   [[nodiscard]] bool multicast() const { return kind == PacketKind::spdp_multicast; }

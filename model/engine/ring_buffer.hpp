@@ -5,7 +5,8 @@
 
 #include <cassert>
 #include <cstddef>
-#include <vector>
+#include <memory>
+#include <utility>
 
 namespace stormproof::model {
 
@@ -15,31 +16,32 @@ class RingBuffer {
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const T& front() const { return slots_[first_]; }
-  [[nodiscard]] const T& back() const { return slots_[(first_ + size_ - 1) & mask()]; }
+  [[nodiscard]] const T& back() const { return slots_[(first_ + size_ - 1) & mask_]; }
 
   void push_back(const T& value) {
-    if (size_ == slots_.size()) grow();
-    slots_[(first_ + size_) & mask()] = value;
+    if (!slots_ || size_ > mask_) grow();
+    slots_[(first_ + size_) & mask_] = value;
     ++size_;
   }
 
   void pop_front() {
     assert(!empty());
-    first_ = (first_ + 1) & mask();
+    first_ = (first_ + 1) & mask_;
     --size_;
   }
 
  private:
-  [[nodiscard]] std::size_t mask() const { return slots_.size() - 1; }
-
   void grow() {
-    std::vector<T> larger(slots_.empty() ? 16 : 2 * slots_.size());
-    for (std::size_t k = 0; k < size_; ++k) larger[k] = slots_[(first_ + k) & mask()];
-    slots_.swap(larger);
+    const std::size_t capacity = slots_ ? 2 * (mask_ + 1) : 16;
+    auto larger = std::make_unique<T[]>(capacity);
+    for (std::size_t k = 0; k < size_; ++k) larger[k] = slots_[(first_ + k) & mask_];
+    slots_ = std::move(larger);
+    mask_ = capacity - 1;
     first_ = 0;
   }
 
-  std::vector<T> slots_;  // its size is a power of two
+  std::unique_ptr<T[]> slots_;
+  std::size_t mask_ = 0;  // the capacity is a power of two
   std::size_t first_ = 0;
   std::size_t size_ = 0;
 };

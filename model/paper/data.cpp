@@ -11,7 +11,7 @@ struct Protocol::Message {
   std::uint32_t relation;
   bool repair;
   bool carries_initial = false;
-  bool carries_heartbeat = false;
+  std::uint16_t heartbeats = 0;
   std::uint32_t members = 0;
   std::int64_t payload_bytes = 0;
   std::vector<std::uint64_t> words;
@@ -55,7 +55,7 @@ void Protocol::charge(Message& message, std::int64_t added_bytes) {
     ++run_.counts.heartbeat;
     const std::int64_t bytes = sedp_.piggyback_heartbeat_bytes.count();
     message.payload_bytes += bytes;
-    message.carries_heartbeat = true;
+    ++message.heartbeats;
     sent += bytes;
     return;
   }
@@ -74,14 +74,15 @@ void Protocol::flush(Message& message) {
   packet.payload_bytes = static_cast<std::uint32_t>(message.payload_bytes);
   packet.from_repair = message.repair;
   packet.carries_initial = message.carries_initial;
-  packet.carries_heartbeat = message.carries_heartbeat;
+  packet.carries_heartbeat = message.heartbeats > 0;
+  packet.heartbeats = message.heartbeats;
   network_.emit(ends(message.relation).source, std::move(packet));
 
   std::fill(message.words.begin(), message.words.end(), 0);
   message.members = 0;
   message.payload_bytes = 0;
   message.carries_initial = false;
-  message.carries_heartbeat = false;
+  message.heartbeats = 0;
 }
 
 void Protocol::send_heartbeat(std::uint32_t relation) {

@@ -18,6 +18,10 @@ struct FastddsVector {
   std::int64_t user_control = 0;
 };
 
+inline std::ostream& operator<<(std::ostream& out, const FastddsVector& vector) {
+  return out << vector.name;
+}
+
 [[nodiscard]] const std::vector<FastddsVector>& fastdds_vectors();
 
 }  // namespace stormproof::vectors

@@ -33,11 +33,20 @@ struct Vector {
   Expected expected;
 };
 
+/// Tests show a vector by its name.
+inline std::ostream& operator<<(std::ostream& out, const Vector& vector) {
+  return out << vector.name;
+}
+
 struct OpenLoopVector {
   std::string name;
   model::Scenario scenario;
   std::int64_t airtime_ns = 0;
 };
+
+inline std::ostream& operator<<(std::ostream& out, const OpenLoopVector& vector) {
+  return out << vector.name;
+}
 
 /// The closed-loop vectors.
 [[nodiscard]] const std::vector<Vector>& paper_vectors();

@@ -1,0 +1,122 @@
+// Replays the trace and prints the verdict.
+#include "checker/cli/replay_command.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "checker/cli/exit_code.hpp"
+#include "checker/cli/run_monitor.hpp"
+#include "checker/report/numbers.hpp"
+#include "model/trace/replay.hpp"
+
+namespace stormproof::cli {
+
+namespace {
+
+using model::trace::Difference;
+using model::trace::Replay;
+using model::trace::Verdict;
+
+int exit_code(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::identical:
+      return established;
+    case Verdict::different:
+      return violated;
+    case Verdict::ends_early:
+    case Verdict::stopped:
+      return inconclusive;
+  }
+  return internal_error;
+}
+
+nlohmann::ordered_json to_json(const std::string& file, const Replay& replay) {
+  nlohmann::ordered_json json;
+  json["verdict"] = name_of(replay.verdict);
+  json["trace"] = file;
+  json["recorded_by"] = replay.recorded_by;
+  json["lines_that_agree"] = replay.lines;
+  json["events_that_agree"] = replay.events;
+  json["last_event_ns"] = replay.last_time.count();
+  json["t_disc_ns"] = nullptr;
+  if (replay.discovery_time) json["t_disc_ns"] = replay.discovery_time->count();
+  json["difference"] = nullptr;
+  if (!replay.difference) return json;
+  const Difference& difference = *replay.difference;
+  json["difference"] = {{"line", difference.line},
+                        {"key", difference.mismatch.key},
+                        {"recorded", difference.mismatch.recorded},
+                        {"replayed", difference.mismatch.replayed},
+                        {"recorded_line", difference.recorded_line},
+                        {"replayed_line", difference.replayed_line}};
+  return json;
+}
+
+std::string agreement(const Replay& replay) {
+  if (replay.events == 0) return "no event was compared";
+  return fmt::format("the first {} event{} happen{} again, up to {}",
+                     report::grouped(replay.events), replay.events == 1 ? "" : "s",
+                     replay.events == 1 ? "s" : "", report::duration(replay.last_time));
+}
+
+std::string text_of(const std::string& file, const Difference& difference) {
+  std::string text =
+      fmt::format("DIFFERENT: {}:{} is not what happens in the replay\n\n", file, difference.line);
+  const std::string& key = difference.mismatch.key;
+  text += fmt::format("  key       {}\n", key.empty() ? "(the whole line)" : key);
+  text += fmt::format("  recorded  {}\n", difference.mismatch.recorded);
+  text += fmt::format("  replayed  {}\n\n", difference.mismatch.replayed);
+  return text;
+}
+
+std::string to_text(const std::string& file, const Replay& replay) {
+  switch (replay.verdict) {
+    case Verdict::identical: {
+      const std::string end = replay.discovery_time ? "discovery completes after " +
+                                                          report::duration(*replay.discovery_time)
+                                                    : "discovery does not complete";
+      return fmt::format("IDENTICAL: all {} events of {} happen again, to the nanosecond; {}\n",
+                         report::grouped(replay.events), file, end);
+    }
+    case Verdict::different:
+      return text_of(file, *replay.difference) + "Before that, " + agreement(replay) + ".\n";
+    case Verdict::ends_early:
+      return fmt::format(
+          "INCONCLUSIVE: {} ends before the run does; it was interrupted.\nAll that it has "
+          "agrees: {}.\n",
+          file, agreement(replay));
+    case Verdict::stopped:
+      return fmt::format("INCONCLUSIVE: the replay was interrupted. So far, {}.\n",
+                         agreement(replay));
+  }
+  return "";
+}
+
+}  // namespace
+
+int replay(const ReplayArguments& arguments) {
+  const InterruptGuard guard;
+  const auto result = [&] {
+    ProgressLine progress{isatty(STDERR_FILENO) != 0};
+    return model::trace::replay(arguments.file, model::config::SpecPath::standard(),
+                                [&](const model::Progress& state) {
+                                  progress.update(state);
+                                  return !InterruptGuard::interrupted();
+                                });
+  }();
+  if (!result) {
+    fmt::print(stderr, "stormproof: {}\n", to_string(result.error()));
+    return bad_input;
+  }
+  using Json = nlohmann::ordered_json;
+  fmt::print(
+      "{}",
+      arguments.json
+          ? to_json(arguments.file, *result).dump(2, ' ', false, Json::error_handler_t::replace) +
+                "\n"
+          : to_text(arguments.file, *result));
+  return exit_code(result->verdict);
+}
+
+}  // namespace stormproof::cli

@@ -1,0 +1,98 @@
+// Reads the scenario, runs it with the observers that were asked for, and prints the report.
+#include "checker/cli/simulate_command.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "checker/cli/exit_code.hpp"
+#include "checker/cli/output_file.hpp"
+#include "checker/cli/run_monitor.hpp"
+#include "checker/cli/sample_command.hpp"
+#include "checker/report/simulation_report.hpp"
+#include "model/config/scenario_file.hpp"
+#include "model/simulator.hpp"
+#include "model/trace/perfetto.hpp"
+#include "model/trace/probe_list.hpp"
+#include "model/trace/trace_writer.hpp"
+
+namespace stormproof::cli {
+
+namespace {
+
+int complain(const std::string& message) {
+  fmt::print(stderr, "stormproof: {}\n", message);
+  return bad_input;
+}
+
+/// The files that were asked for, as observers of the run.
+class Recorders {
+ public:
+  Recorders(const SimulateArguments& arguments, const model::Scenario& scenario)
+      : trace_file_{arguments.trace_file}, perfetto_file_{arguments.perfetto_file} {
+    if (trace_file_.wanted()) {
+      trace_.emplace(trace_file_.stream(), scenario);
+      probes_.add(*trace_);
+    }
+    if (perfetto_file_.wanted()) {
+      perfetto_.emplace(perfetto_file_.stream(), scenario);
+      probes_.add(*perfetto_);
+    }
+  }
+
+  [[nodiscard]] model::Probe* probe() { return probes_.empty() ? nullptr : &probes_; }
+
+  /// Completes the files; the message of what went wrong, or nothing.
+  [[nodiscard]] std::optional<std::string> finish(const model::RunResult& result) {
+    if (trace_) trace_->finish(result);
+    if (perfetto_) perfetto_->finish();
+    if (auto error = trace_file_.commit()) return error;
+    return perfetto_file_.commit();
+  }
+
+  [[nodiscard]] std::optional<std::string> open_error() const {
+    if (auto error = trace_file_.open_error()) return error;
+    return perfetto_file_.open_error();
+  }
+
+ private:
+  OutputFile trace_file_;
+  OutputFile perfetto_file_;
+  std::optional<model::trace::TraceWriter> trace_;
+  std::optional<model::trace::PerfettoWriter> perfetto_;
+  model::trace::ProbeList probes_;
+};
+
+}  // namespace
+
+int simulate(const SimulateArguments& arguments) {
+  const auto scenario = model::config::read_scenario(arguments.scenario, arguments.overrides,
+                                                     model::config::SpecPath::standard());
+  if (!scenario) return complain(to_string(scenario.error()));
+  if (arguments.samples || !arguments.compare.empty()) return sample(arguments, *scenario);
+  Recorders recorders{arguments, *scenario};
+  if (const auto error = recorders.open_error()) return complain(*error);
+
+  model::RunOptions options;
+  options.probe = recorders.probe();
+  model::RunResult result;
+  {
+    const InterruptGuard guard;
+    ProgressLine progress{arguments.progress.value_or(isatty(STDERR_FILENO) != 0)};
+    options.on_progress = [&](const model::Progress& state) {
+      progress.update(state);
+      return !InterruptGuard::interrupted();
+    };
+    result = model::simulate(*scenario, options);
+  }
+  const auto error = recorders.finish(result);
+  const report::Simulation simulation =
+      report::describe(arguments.scenario, *scenario, std::move(result));
+  fmt::print("{}", arguments.json ? report::to_json(simulation).dump(2) + "\n"
+                                  : report::to_text(simulation));
+  if (error) return complain(*error);
+  return simulation.result.completed() ? established : inconclusive;
+}
+
+}  // namespace stormproof::cli

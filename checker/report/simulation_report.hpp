@@ -1,0 +1,37 @@
+// The answer of `stormproof simulate`: one run beside what it is compared with, as text and as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "model/counts.hpp"
+#include "model/run_result.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::report {
+
+struct Simulation {
+  std::string name;  ///< what the user called the scenario
+  model::Scenario scenario;
+  model::RunResult result;
+  model::Counts failure_free;
+  std::optional<model::Nanoseconds> open_loop;
+};
+
+/// Completes a run with its reference and its baseline.
+[[nodiscard]] Simulation describe(std::string name, const model::Scenario& scenario,
+                                  model::RunResult result);
+
+/// For a person who knows ROS 2 but not this project; at most 100 columns wide.
+[[nodiscard]] std::string to_text(const Simulation& simulation);
+
+/// Keys: scenario, completed, end, t_disc_ns, end_ns, counts, failure_free, amplification, events, open_loop_ns,
+/// closed_to_open_loop, missing, channels, backlog, latency, deliveries, last_delivery, profile. specs/output.md
+/// describes them.
+[[nodiscard]] nlohmann::ordered_json to_json(const Simulation& simulation);
+
+/// How a run ended, as the JSON and traces spell it.
+[[nodiscard]] const char* name_of(model::RunEnd end);
+
+}  // namespace stormproof::report

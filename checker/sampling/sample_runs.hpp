@@ -1,0 +1,40 @@
+// Runs one scenario under many schedules, on all cores. A storm is chaotic: a participant that starts a
+// microsecond later changes every count, so what can be predicted is the distribution over schedules.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "model/counts.hpp"
+#include "model/run_result.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::sampling {
+
+/// What is kept of one sampled run.
+struct Sample {
+  std::uint64_t seed = 0;  ///< of its schedule
+  model::RunEnd end{};
+  std::optional<model::Nanoseconds> discovery_time;
+  model::Counts counts;
+  std::uint64_t user_control = 0;
+  std::uint64_t events = 0;
+};
+
+struct SampleOptions {
+  std::size_t samples = 1;
+  std::uint64_t first_seed = 0;  ///< sample k draws its schedule from seed first_seed + k
+  std::size_t threads = 0;       ///< 0: as many as the machine has cores
+  /// Called from one thread at a time, after each run and now and then in between, with the number of finished
+  /// runs; returning false stops all runs.
+  std::function<bool(std::size_t finished)> on_progress;
+};
+
+/// The sampled runs in the order of their seeds; those that were stopped are left out. The deployment must have a
+/// schedule, or `samples` be 1: then the scenario runs as it is.
+[[nodiscard]] std::vector<Sample> sample_runs(const model::Scenario& scenario,
+                                              const SampleOptions& options);
+
+}  // namespace stormproof::sampling

@@ -1,0 +1,112 @@
+// Creation of endpoints over time, SPDP, and the matching that follows from recognising a participant. Unlike in
+// the paper's model the unicast copies leave before the multicast, and same-host participants take part.
+#include "model/fastdds/protocol.hpp"
+
+namespace stormproof::model::fastdds {
+
+void Protocol::create_endpoint(std::uint32_t i, std::uint32_t k) {
+  const std::uint32_t user_publications =
+      run_.topology.descriptor_count(i, Stream::pub) - default_publications;
+  const auto [stream, d] = creation_order(k, user_publications);
+  const std::uint32_t w = 2 * i + static_cast<std::uint32_t>(stream);
+  writers_[w].created = d + 1;
+  if (!writers_[w].readers.empty()) push(w, d);
+  control_.created(i, stream, d);
+}
+
+void Protocol::announcement_due(std::uint32_t i) {
+  Participant& participant = participants_[i];
+  const auto output = announcer_driver_.step<fsm::announcer::AnnouncementDue>(
+      run_, participant.announcer,
+      {.now = run_.now.count(),
+       .number = participant.announcements,
+       .startup = spdp_.startup_announcements,
+       .startup_period = spdp_.startup_period.count(),
+       .period = spdp_.period.count()},
+      i);
+  ++participant.announcements;
+  if (output.announce) send_spdp(i);
+  run_.schedule(Nanoseconds{output.next_at}, EventKind::announcement_due, i);
+}
+
+void Protocol::send_spdp(std::uint32_t i) {
+  for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
+       ++pair) {
+    if (known_[pair]) send_spdp_copy(pair);
+  }
+  send_spdp_multicast(i);
+}
+
+void Protocol::send_spdp_multicast(std::uint32_t i) {
+  ++run_.counts.spdp_multicast;
+  const auto multicast = [&] {
+    Packet packet;
+    packet.kind = PacketKind::spdp_multicast;
+    packet.payload_bytes = static_cast<std::uint32_t>(spdp_bytes);
+    packet.pair = i;
+    return packet;
+  };
+  for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
+       ++pair) {
+    const Pair& p = run_.topology.pair(pair);
+    if (!p.cross_host) network_.loop_back(multicast(), p.destination);
+  }
+  network_.emit(i, multicast());
+}
+
+void Protocol::send_spdp_copy(std::uint32_t pair) {
+  if (run_.topology.pair(pair).cross_host) ++run_.counts.spdp_unicast;
+  Packet packet;
+  packet.kind = PacketKind::spdp_unicast;
+  packet.payload_bytes = static_cast<std::uint32_t>(spdp_bytes);
+  packet.pair = pair;
+  send(std::move(packet));
+}
+
+/// `pair` is (i, j): j has received i's announcement.
+void Protocol::spdp_received(std::uint32_t pair) {
+  const std::uint32_t reverse = run_.topology.pair(pair).reverse;
+  if (known_[reverse]) return;
+  known_[reverse] = true;
+  resend(reverse);
+  for (const Stream s : streams) {
+    open_reader(2 * pair + static_cast<std::uint32_t>(s));
+    match_reader(2 * reverse + static_cast<std::uint32_t>(s));
+  }
+  if (run_.topology.pair(pair).cross_host) control_.recognised(pair);
+}
+
+/// What j sends when it recognises i; `reverse_pair` is (j, i).
+void Protocol::resend(std::uint32_t reverse_pair) {
+  const std::uint32_t j = run_.topology.pair(reverse_pair).source;
+  switch (spdp_.resend) {
+    case SpdpResend::all_known: send_spdp(j); break;
+    case SpdpResend::new_and_multicast:
+      send_spdp_copy(reverse_pair);
+      send_spdp_multicast(j);
+      break;
+    case SpdpResend::new_only: send_spdp_copy(reverse_pair); break;
+    case SpdpResend::none: break;
+  }
+}
+
+void Protocol::open_reader(std::uint32_t relation) {
+  Relation& r = relations_[relation];
+  const auto output = reader_driver_.step<fsm::discovery_reader::AnnouncementReceived>(
+      run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
+  if (output.opened) step_initial(relation, true);
+}
+
+/// The writer side opens: existing descriptors wait until the reader asks for them.
+void Protocol::match_reader(std::uint32_t relation) {
+  Relation& r = relations_[relation];
+  if (r.matched) return;
+  r.matched = true;
+  const std::uint32_t w = writer_of(relation);
+  writers_[w].readers.push_back(relation);
+  changes_.matched(relation, writers_[w].created);
+  if (writers_[w].created > 0) heartbeats_.arm(w);
+  send_heartbeat(relation);
+}
+
+}  // namespace stormproof::model::fastdds

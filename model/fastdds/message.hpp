@@ -1,0 +1,48 @@
+// The RTPS message that a participant is filling: which readers it goes to, which descriptors of which writer it
+// carries, and whether a HEARTBEAT rides in it. One message becomes one packet for each of its readers.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "model/engine/descriptor_set.hpp"
+#include "model/fastdds/endpoints.hpp"
+
+namespace stormproof::model::fastdds {
+
+struct Message {
+  bool open = false;
+  std::uint32_t writer = 0;           ///< 2 · participant + stream
+  std::vector<std::uint32_t> readers; ///< relations, in match order
+  std::int64_t bytes = 0;             ///< UDP payload so far
+  std::vector<std::uint64_t> descriptors;
+  bool has_data = false;
+  std::uint16_t heartbeats = 0;
+  std::uint32_t announced = 0;        ///< by its last HEARTBEAT
+  std::vector<bool> carries_initial;  ///< by reader: a descriptor goes to it for the first time
+
+  void start(std::uint32_t writer_, const std::vector<std::uint32_t>& readers_,
+             std::uint32_t descriptor_count) {
+    open = true;
+    writer = writer_;
+    readers = readers_;
+    bytes = message_header_bytes + (readers.size() == 1 ? destination_bytes : 0);
+    descriptors.assign(words_for(descriptor_count), 0);
+    has_data = false;
+    heartbeats = 0;
+    announced = 0;
+    carries_initial.assign(readers.size(), false);
+  }
+
+  [[nodiscard]] bool carries(std::uint32_t d) const {
+    return (descriptors[d / 64] >> d % 64 & 1) != 0;
+  }
+  void add(std::uint32_t d, std::int64_t added_bytes) {
+    descriptors[d / 64] |= std::uint64_t{1} << d % 64;
+    bytes += added_bytes;
+    has_data = true;
+  }
+};
+
+}  // namespace stormproof::model::fastdds

@@ -1,0 +1,171 @@
+// Fast DDS 2.6.11 as its source code has it (specs/fastdds.md): endpoints are created over time, descriptors that
+// exist at the match are pulled and later ones pushed, one writer serves all its readers, and what is repaired goes
+// through one asynchronous queue per participant. By rule group:
+//   announcements.cpp  creation of endpoints, SPDP, matching
+//   writer.cpp         HEARTBEATs, ACKNACKs, nack response, suppression
+//   sender.cpp         creation and async run: messages, piggyback, flushing
+//   reader.cpp         DATA, HEARTBEATs, ACKNACKs at the reader
+//   control.cpp        relations of which only the control traffic is modelled (fastdds::ControlTraffic)
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "fsm/announcer.hpp"
+#include "fsm/discovery_reader.hpp"
+#include "fsm/initial_acknack.hpp"
+#include "fsm/single_shot.hpp"
+#include "model/engine/driver.hpp"
+#include "model/engine/heartbeat_schedule.hpp"
+#include "model/engine/implementation.hpp"
+#include "model/engine/network.hpp"
+#include "model/fastdds/change_states.hpp"
+#include "model/fastdds/control.hpp"
+#include "model/fastdds/message.hpp"
+
+namespace stormproof::model::fastdds {
+
+class Protocol final : public Implementation, private HeartbeatSender, private Discovered {
+ public:
+  Protocol(RunState& run, Network& network);
+
+  void start() override;
+  void handle(const Event& event) override;
+  void source_completed(const Packet&) override {}  // suppression runs from serialization
+  [[nodiscard]] bool receives_separately() const override { return true; }
+  [[nodiscard]] std::vector<std::uint32_t> receivers(const Packet& packet) const override;
+  void received(const Packet& packet, std::uint32_t receiver) override;
+  [[nodiscard]] std::uint32_t next_recipient(const Packet&, std::uint32_t pair) const override {
+    return pair;  // every packet stands for itself
+  }
+  [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
+
+ private:
+  struct Relation {
+    // Writer side.
+    bool matched = false;
+    std::uint32_t low = 0;  ///< every descriptor below it is acknowledged
+    fsm::StateId suppression = fsm::Flyweight<fsm::SingleShot>::initial;
+    // Reader side.
+    fsm::StateId reader = fsm::Flyweight<fsm::DiscoveryReader>::initial;
+    fsm::StateId initial = fsm::Flyweight<fsm::InitialAckNack>::initial;
+    fsm::StateId reply = fsm::Flyweight<fsm::SingleShot>::initial;
+    bool heartbeat_seen = false;
+    std::uint8_t attempts = 0;     ///< the current initial delay is τ_I · 2^attempts
+    std::uint32_t missing = 0;     ///< descriptors with X = 0
+    std::uint32_t announced = 0;   ///< descriptors that the reader knows to exist
+    std::uint32_t notified = 0;    ///< descriptors received without a gap
+  };
+  struct Writer {
+    std::uint32_t created = 0;             ///< H: descriptors created so far
+    std::int64_t budget = 0;               ///< piggyback budget, bytes
+    std::vector<std::uint32_t> readers;    ///< M: relations in match order
+    fsm::StateId nack_response = fsm::Flyweight<fsm::SingleShot>::initial;
+    std::vector<std::uint64_t> enqueued;   ///< bit per descriptor: in the participant's async queue
+  };
+  struct Participant {
+    fsm::StateId announcer = fsm::Flyweight<fsm::Announcer>::initial;
+    std::uint32_t announcements = 0;
+    fsm::StateId async_run = fsm::Flyweight<fsm::SingleShot>::initial;
+    std::deque<Endpoint> queue;   ///< what the async run will send
+    std::int64_t sent_bytes = 0;  ///< all bytes that the async sender has ever sent
+  };
+
+  // announcements.cpp
+  void create_endpoint(std::uint32_t i, std::uint32_t k);
+  void announcement_due(std::uint32_t i);
+  void send_spdp(std::uint32_t i);
+  void send_spdp_multicast(std::uint32_t i);
+  void send_spdp_copy(std::uint32_t pair);
+  void spdp_received(std::uint32_t pair);
+  void resend(std::uint32_t reverse_pair);
+  void open_reader(std::uint32_t relation);
+  void match_reader(std::uint32_t relation);
+
+  // writer.cpp
+  void acknack_received(const Packet& packet);
+  void initial_acknack_received(std::uint32_t relation);
+  void nack_response(std::uint32_t writer);
+  void suppression_end(std::uint32_t relation);
+  [[nodiscard]] bool is_behind(std::uint32_t relation) const;
+  void emit_heartbeat(std::uint32_t relation, std::int64_t bytes);
+
+  // HeartbeatSender, in writer.cpp
+  [[nodiscard]] bool needs_heartbeat(std::uint32_t writer) const override;
+  [[nodiscard]] std::vector<std::uint32_t> unacknowledged(std::uint32_t writer) const override;
+  [[nodiscard]] bool is_unacknowledged(std::uint32_t relation) const override;
+  [[nodiscard]] std::uint32_t announced(std::uint32_t writer) const override;
+  void send_periodic(std::uint32_t writer) override;
+  void send_heartbeat(std::uint32_t relation) override;
+
+  // sender.cpp
+  enum class SendMode : std::uint8_t { sync, async };
+  void push(std::uint32_t writer, std::uint32_t d);
+  void async_run(std::uint32_t i);
+  void deliver(Message& message, std::uint32_t writer, std::uint32_t d,
+               const std::vector<std::uint32_t>& readers, SendMode mode);
+  void charge(Message& message, std::uint32_t d, SendMode mode);
+  void piggyback(Message& message, std::uint32_t writer, SendMode mode);
+  void flush(Message& message, SendMode mode);
+
+  // reader.cpp
+  void data_received(const Packet& packet);
+  void heartbeat_received(std::uint32_t relation, std::uint32_t announced);
+  void acknack_generation(std::uint32_t relation);
+  void step_initial(std::uint32_t relation, bool opened);
+  void emit_acknack(std::uint32_t relation, bool initial);
+  void take(std::uint32_t relation, const DescriptorSet& descriptors, std::uint32_t fresh);
+
+  // Discovered, for the control traffic
+  [[nodiscard]] bool is_created(std::uint32_t i, Stream s, std::uint32_t d) const override {
+    return d < writers_[2 * i + index_of(s)].created;
+  }
+  [[nodiscard]] bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const override {
+    return d < relations_[2 * pair + index_of(s)].notified;
+  }
+
+  /// Sends a unicast packet by the channel, or by loopback if both ends are on one host.
+  void send(Packet&& packet);
+  using SingleShots = Driver<fsm::SingleShot>;
+  /// Asks a single-shot timer; schedules `kind` for `subject` if it was idle.
+  void request(SingleShots& driver, fsm::StateId& timer, Nanoseconds delay, EventKind kind,
+               std::uint32_t subject);
+  /// A single-shot timer is due: it is idle again. Returns whether what was asked for happens now.
+  bool expire(SingleShots& driver, fsm::StateId& timer, std::uint32_t subject);
+
+  [[nodiscard]] const Pair& ends(std::uint32_t relation) const {
+    return run_.topology.pair(relation / 2);
+  }
+  [[nodiscard]] std::uint32_t writer_of(std::uint32_t relation) const {
+    return 2 * ends(relation).source + relation % 2;
+  }
+  [[nodiscard]] static Stream stream_of(std::uint32_t relation_or_writer) {
+    return relation_or_writer % 2 == 0 ? Stream::pub : Stream::sub;
+  }
+  [[nodiscard]] bool crosses(std::uint32_t relation) const { return ends(relation).cross_host; }
+
+  RunState& run_;
+  Network& network_;
+  const SpdpProfile& spdp_;
+  const SedpProfile& sedp_;
+  ChangeStates changes_;
+  HeartbeatSchedule heartbeats_;
+  ControlTraffic control_;
+  std::vector<Participant> participants_;
+  std::vector<Writer> writers_;      // 2 · participant + stream
+  std::vector<Relation> relations_;
+  std::vector<bool> known_;          // by pair (i, j): i has recognised j
+  Message sync_message_;
+  Message async_message_;
+  std::vector<std::uint32_t> targets_;
+
+  Driver<fsm::Announcer> announcer_driver_{MachineRef::Kind::participant};
+  Driver<fsm::DiscoveryReader> reader_driver_{MachineRef::Kind::relation};
+  Driver<fsm::InitialAckNack> initial_driver_{MachineRef::Kind::relation};
+  SingleShots participant_shots_{MachineRef::Kind::participant};
+  SingleShots writer_shots_{MachineRef::Kind::writer};
+  SingleShots relation_shots_{MachineRef::Kind::relation};
+};
+
+}  // namespace stormproof::model::fastdds

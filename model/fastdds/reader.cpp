@@ -1,0 +1,109 @@
+// The reader: it knows how many descriptors were announced, asks only for those, and tells its application about
+// new ones in order. HEARTBEATs within the response delay share one ACKNACK.
+#include <algorithm>
+
+#include "model/fastdds/protocol.hpp"
+
+namespace stormproof::model::fastdds {
+
+namespace reader = fsm::discovery_reader;
+
+void Protocol::data_received(const Packet& packet) {
+  const std::uint32_t relation = packet.relation();
+  Relation& r = relations_[relation];
+  const std::uint32_t fresh = changes_.count_missing(relation, packet.descriptors);
+  const auto output = reader_driver_.step<reader::DataReceived>(
+      run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing - fresh}, relation);
+  if (crosses(relation)) {
+    run_.duplicate_deliveries += packet.descriptors.count() - fresh;
+    if (output.take_data) run_.useful_deliveries += fresh;
+  }
+  if (output.take_data) take(relation, packet.descriptors, fresh);
+  if (run_.complete()) return;  // T_disc is now; the rest of the packet is not processed
+  if (packet.carries_heartbeat) heartbeat_received(relation, packet.detail);
+}
+
+void Protocol::take(std::uint32_t relation, const DescriptorSet& descriptors, std::uint32_t fresh) {
+  Relation& r = relations_[relation];
+  if (crosses(relation) && fresh == run_.missing && fresh > 0) {
+    run_.last_delivered = {ParticipantId{ends(relation).source},
+                           ParticipantId{ends(relation).destination}, stream_of(relation),
+                           DescriptorId{changes_.missing(relation).lowest()}};
+  }
+  changes_.receive(relation, descriptors);
+  r.missing -= fresh;
+  r.announced = std::max(r.announced, descriptors.highest() + 1);
+  if (!crosses(relation)) return;
+  run_.missing -= fresh;
+  if (run_.complete()) return;
+  const std::uint32_t count = run_.topology.descriptor_count(relation);
+  while (r.notified < count && changes_.has_received(relation, r.notified)) {
+    const std::uint32_t d = r.notified++;
+    control_.notified(relation / 2, stream_of(relation), d);
+  }
+}
+
+void Protocol::heartbeat_received(std::uint32_t relation, std::uint32_t announced) {
+  Relation& r = relations_[relation];
+  const auto output = reader_driver_.step<reader::HeartbeatReceived>(
+      run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
+  if (!output.schedule_acknack) return;
+  r.heartbeat_seen = true;
+  r.announced = std::max(r.announced, announced);
+  request(relation_shots_, r.reply, sedp_.heartbeat_response_delay, EventKind::acknack_generation,
+          relation);
+}
+
+void Protocol::acknack_generation(std::uint32_t relation) {
+  Relation& r = relations_[relation];
+  if (!expire(relation_shots_, r.reply, relation)) return;
+  const auto output = reader_driver_.step<reader::AckNackDue>(
+      run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
+  if (output.send_acknack) emit_acknack(relation, false);
+}
+
+/// Opens the timer of the initial ACKNACK, or lets an attempt of it happen.
+void Protocol::step_initial(std::uint32_t relation, bool opened) {
+  using namespace fsm::initial_acknack;
+  Relation& r = relations_[relation];
+  const Driver<fsm::InitialAckNack>::Input input{
+      .now = run_.now.count(),
+      .first_delay = sedp_.initial_acknack_delay.count(),
+      .last_delay = sedp_.initial_acknack_delay.count() << r.attempts,
+      .heartbeat_seen = r.heartbeat_seen};
+  const auto timer = opened
+                         ? initial_driver_.step<ReaderOpened>(run_, r.initial, input, relation)
+                         : initial_driver_.step<AttemptDue>(run_, r.initial, input, relation);
+  if (timer.attempt) {
+    ++r.attempts;
+    const auto output = reader_driver_.step<reader::InitialAckNackDue>(
+        run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
+    if (output.send_initial) emit_acknack(relation, true);
+  }
+  if (timer.schedule) {
+    run_.schedule(Nanoseconds{timer.next_at}, EventKind::initial_acknack_due, relation);
+  }
+}
+
+/// The base is the first missing descriptor; the bitmap lists what is missing of what was announced. An initial
+/// ACKNACK claims nothing: base 0, empty bitmap.
+void Protocol::emit_acknack(std::uint32_t relation, bool initial) {
+  if (crosses(relation)) ++run_.counts.acknack;
+  Packet packet;
+  packet.kind = PacketKind::acknack;
+  packet.pair = relation / 2;
+  packet.stream = stream_of(relation);
+  packet.initial_acknack = initial;
+  packet.payload_bytes = static_cast<std::uint32_t>(acknack_bytes);
+  if (!initial) {
+    packet.detail = std::min(changes_.missing(relation).lowest(),
+                             run_.topology.descriptor_count(relation));
+    packet.descriptors = changes_.missing(relation, relations_[relation].announced);
+    if (!packet.descriptors.empty()) {
+      packet.payload_bytes += static_cast<std::uint32_t>(acknack_bitmap_bytes);
+    }
+  }
+  send(std::move(packet));
+}
+
+}  // namespace stormproof::model::fastdds

@@ -1,0 +1,105 @@
+// How descriptors become messages. A created descriptor is pushed at once, in a message of its own; what readers
+// asked for goes through the participant's asynchronous queue, where consecutive descriptors of one writer to the
+// same readers share a message. Each DATA is charged against its writer's piggyback budget; in the asynchronous
+// path with all bytes that the participant has ever sent there, which is what turns repairs into HEARTBEATs to
+// every matched reader.
+#include "model/fastdds/protocol.hpp"
+
+namespace stormproof::model::fastdds {
+
+void Protocol::push(std::uint32_t w, std::uint32_t d) {
+  for (const std::uint32_t relation : writers_[w].readers) changes_.created(relation, d);
+  deliver(sync_message_, w, d, writers_[w].readers, SendMode::sync);
+  flush(sync_message_, SendMode::sync);
+}
+
+void Protocol::async_run(std::uint32_t i) {
+  Participant& participant = participants_[i];
+  if (!expire(participant_shots_, participant.async_run, i)) return;
+  while (!participant.queue.empty()) {
+    const auto [stream, d] = participant.queue.front();
+    participant.queue.pop_front();
+    const std::uint32_t w = 2 * i + static_cast<std::uint32_t>(stream);
+    writers_[w].enqueued[d / 64] &= ~(std::uint64_t{1} << d % 64);
+    targets_.clear();
+    for (const std::uint32_t relation : writers_[w].readers) {
+      if (changes_.is_queued(relation, d)) targets_.push_back(relation);
+    }
+    if (!targets_.empty()) deliver(async_message_, w, d, targets_, SendMode::async);
+  }
+  flush(async_message_, SendMode::async);
+}
+
+void Protocol::deliver(Message& message, std::uint32_t w, std::uint32_t d,
+                       const std::vector<std::uint32_t>& readers, SendMode mode) {
+  const std::int64_t bytes = timestamp_bytes + submessage_bytes(stream_of(w), d);
+  if (message.open && (message.writer != w || message.readers != readers || message.carries(d) ||
+                       message.bytes + bytes > message_limit_bytes)) {
+    flush(message, mode);
+  }
+  if (!message.open) {
+    message.start(w, readers, run_.topology.descriptor_count(w / 2, stream_of(w)));
+  }
+  message.add(d, bytes);
+  for (std::size_t k = 0; k < readers.size(); ++k) {
+    const std::uint32_t relation = readers[k];
+    changes_.serialized(relation, d);
+    request(relation_shots_, relations_[relation].suppression, sedp_.nack_suppression_duration,
+            EventKind::suppression_end, relation);
+    if (!crosses(relation)) continue;
+    const bool initial = changes_.mark_generated(relation, d);
+    ++(initial ? run_.counts.initial_data : run_.counts.repair_data);
+    if (initial) message.carries_initial[k] = true;
+  }
+  heartbeats_.arm(w);
+  charge(message, d, mode);
+}
+
+/// Charges the descriptor just added against the piggyback budget of its writer.
+void Protocol::charge(Message& message, std::uint32_t d, SendMode mode) {
+  if (sedp_.piggyback == Piggyback::off) return;
+  const std::uint32_t w = message.writer;
+  const bool cumulative = sedp_.piggyback == Piggyback::cumulative && mode == SendMode::async;
+  writers_[w].budget -= cumulative ? participants_[w / 2].sent_bytes + message.bytes
+                                   : message_header_bytes + timestamp_bytes +
+                                         submessage_bytes(stream_of(w), d);
+  if (writers_[w].budget < 0) piggyback(message, w, mode);
+}
+
+/// A HEARTBEAT to every matched reader, in the message if that goes to all of them.
+void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
+  Writer& writer = writers_[w];
+  if (message.readers != writer.readers) {
+    flush(message, mode);
+    message.start(w, writer.readers, run_.topology.descriptor_count(w / 2, stream_of(w)));
+  }
+  message.bytes += heartbeat_submessage_bytes;
+  ++message.heartbeats;
+  message.announced = writer.created;
+  for (const std::uint32_t relation : writer.readers) {
+    if (crosses(relation)) ++run_.counts.heartbeat;
+  }
+  writer.budget = sedp_.piggyback_threshold_bytes.count();
+}
+
+/// Emits the message, one packet for each of its readers.
+void Protocol::flush(Message& message, SendMode mode) {
+  if (!message.open) return;
+  message.open = false;
+  if (mode == SendMode::async) participants_[message.writer / 2].sent_bytes += message.bytes;
+  for (std::size_t k = 0; k < message.readers.size(); ++k) {
+    Packet packet;
+    packet.kind = message.has_data ? PacketKind::data : PacketKind::heartbeat;
+    packet.descriptors = DescriptorSet{message.descriptors};
+    packet.pair = message.readers[k] / 2;
+    packet.stream = stream_of(message.writer);
+    packet.payload_bytes = static_cast<std::uint32_t>(message.bytes);
+    packet.carries_initial = message.carries_initial[k];
+    packet.carries_heartbeat = message.has_data && message.heartbeats > 0;
+    packet.heartbeats = message.heartbeats;
+    packet.detail = message.announced;
+    send(std::move(packet));
+  }
+}
+
+}  // namespace stormproof::model::fastdds

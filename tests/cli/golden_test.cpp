@@ -1,0 +1,143 @@
+// Runs every command of tests/cli/golden/*.txt in the project's root and compares standard output, standard
+// error and exit code with what the file says. The files are documentation too: each shows what a user sees.
+//
+//   # comment
+//   $ stormproof simulate smallest      the command
+//   …                                   its standard output
+//   ! …                                 its standard error
+//   exit 0                              its exit code; the next command may follow
+//
+// A line of output that is only "..." stands for any number of lines. To accept changed output after reading
+// it: STORMPROOF_UPDATE_GOLDEN=1 (files with "..." are left alone).
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Step {
+  std::vector<std::string> comments;
+  std::string command;
+  std::vector<std::string> out;
+  std::vector<std::string> err;
+  int exit_code = 0;
+};
+
+std::vector<std::string> lines_of(std::istream& in) {
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<Step> read_steps(const fs::path& file) {
+  std::ifstream in{file};
+  std::vector<Step> steps;
+  std::vector<std::string> comments;
+  for (const std::string& line : lines_of(in)) {
+    if (line.starts_with("$ ")) {
+      steps.push_back({comments, line.substr(2), {}, {}, -1});
+      comments.clear();
+    } else if (line.starts_with("exit ") && !steps.empty() && steps.back().exit_code < 0) {
+      steps.back().exit_code = std::stoi(line.substr(5));
+    } else if (steps.empty() || steps.back().exit_code >= 0) {
+      comments.push_back(line);
+    } else if (line.starts_with("! ")) {
+      steps.back().err.push_back(line.substr(2));
+    } else {
+      steps.back().out.push_back(line);
+    }
+  }
+  return steps;
+}
+
+Step run(const Step& expected, const fs::path& folder) {
+  std::string command = expected.command;
+  const std::string name = "stormproof";
+  for (std::size_t at = 0; (at = command.find(name + " ", at)) != std::string::npos;) {
+    const std::string program = STORMPROOF_PROGRAM;
+    command.replace(at, name.size(), program);
+    at += program.size();
+  }
+  const std::string shell = "cd '" STORMPROOF_SOURCE_DIR "' && TMP='" + folder.string() + "' && { " +
+                            command + "\n} >'" + (folder / "out").string() + "' 2>'" +
+                            (folder / "err").string() + "' </dev/null";
+  Step actual{expected.comments, expected.command, {}, {}, 0};
+  const int status = std::system(shell.c_str());
+  actual.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  std::ifstream out{folder / "out"};
+  std::ifstream err{folder / "err"};
+  actual.out = lines_of(out);
+  actual.err = lines_of(err);
+  return actual;
+}
+
+/// Whether `actual` is `expected`, where "..." stands for any number of lines.
+bool matches(const std::vector<std::string>& expected, std::size_t e,
+             const std::vector<std::string>& actual, std::size_t a) {
+  if (e == expected.size()) return a == actual.size();
+  if (expected[e] == "...") {
+    return matches(expected, e + 1, actual, a) ||
+           (a < actual.size() && matches(expected, e, actual, a + 1));
+  }
+  return a < actual.size() && expected[e] == actual[a] && matches(expected, e + 1, actual, a + 1);
+}
+
+std::string text_of(const Step& step) {
+  std::ostringstream text;
+  for (const auto& line : step.comments) text << line << '\n';
+  text << "$ " << step.command << '\n';
+  for (const auto& line : step.out) text << line << '\n';
+  for (const auto& line : step.err) text << "! " << line << '\n';
+  text << "exit " << step.exit_code << '\n';
+  return text.str();
+}
+
+class Golden : public testing::TestWithParam<fs::path> {};
+
+TEST_P(Golden, OutputAndExitCode) {
+  const std::vector<Step> steps = read_steps(GetParam());
+  ASSERT_FALSE(steps.empty());
+  std::string pattern = (fs::temp_directory_path() / "stormproof-golden-XXXXXX").string();
+  ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+  const fs::path folder{pattern};
+  std::string updated;
+  bool elided = false;
+  for (const Step& step : steps) {
+    ASSERT_GE(step.exit_code, 0) << "no `exit` line after: " << step.command;
+    const Step actual = run(step, folder);
+    EXPECT_TRUE(matches(step.out, 0, actual.out, 0) && matches(step.err, 0, actual.err, 0) &&
+                step.exit_code == actual.exit_code)
+        << "expected:\n" << text_of(step) << "\ngot:\n" << text_of(actual);
+    updated += text_of(actual);
+    for (const auto& line : step.out) elided = elided || line == "...";
+  }
+  if (std::getenv("STORMPROOF_UPDATE_GOLDEN") != nullptr && !elided) {
+    std::ofstream{GetParam()} << updated;
+  }
+  fs::remove_all(folder);
+}
+
+std::vector<fs::path> golden_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator{STORMPROOF_SOURCE_DIR "/tests/cli/golden"}) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Golden, testing::ValuesIn(golden_files()), [](const auto& tested) {
+  std::string name = tested.param.stem().string();
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
