@@ -7,7 +7,12 @@
 
 namespace stormproof::fsm {
 
-/// Every machine of the paper's model, in the order in which documents show them.
+/// Every machine, in the order in which documents show them. The implementations that use them:
+///
+///   DescriptorRepair                                                 paper
+///   DiscoveryReader, HeartbeatTimer, InitialAckNack, Announcer       both
+///   Channel                                                          the network, so both
+///   ChangeForReader, SingleShot, ControlWriter, ControlReader        fastdds
 [[nodiscard]] std::vector<MachineInfo> machines();
 
 }  // namespace stormproof::fsm

@@ -66,48 +66,38 @@ std::string histogram(const std::vector<Sample>& samples) {
   for (std::size_t k = 0; k < bins; ++k) {
     const double from = first + width * static_cast<double>(k);
     const auto bar = static_cast<std::size_t>(40 * static_cast<double>(count[k]) / most + 0.5);
-    text += fmt::format("  {} – {}{}  {}\n", right(as_time(from), 9), left(as_time(from + width), 9),
-                        right(std::to_string(count[k]), 4), std::string(bar, '#'));
+    text += fmt::format("  {} – {}{}{}{}\n", right(as_time(from), 9), left(as_time(from + width), 9),
+                        right(std::to_string(count[k]), 4), bar == 0 ? "" : "  ",
+                        std::string(bar, '#'));
   }
   const std::size_t beyond = samples.size() - times.size();
   if (beyond > 0) text += fmt::format("  not within the limit  {}\n", right(std::to_string(beyond), 4));
   return text;
 }
 
+/// One line per profile: the range of completion, and the medians of the counts.
 std::string side_by_side(const Sampling& sampling) {
-  std::vector<SampleSummary> summaries;
-  std::size_t width = 14;
-  std::string header = left("median [10–90 %]", 20);
+  std::size_t width = 15;
   for (const SampledProfile& profile : sampling.profiles) {
-    summaries.push_back(summarize(profile.samples));
-    width = std::max({width, profile.name.size() + 2, std::size_t{30}});
+    width = std::max(width, profile.name.size() + 2);
   }
-  for (const SampledProfile& profile : sampling.profiles) header += right(profile.name, width);
-  std::string text = header + "\n";
-  const auto line = [&](const std::string& name, auto&& pick, Print print) {
-    text += left("  " + name, 20);
-    for (const SampleSummary& summary : summaries) {
-      const Quantiles& q = pick(summary);
-      text += right(fmt::format("{} [{}–{}]", or_beyond(q.median, print), or_beyond(q.p10, print),
-                                or_beyond(q.p90, print)),
-                    width);
-    }
-    text += "\n";
-  };
-  text += left("  complete", 20);
-  for (const SampleSummary& s : summaries) {
-    text += right(fmt::format("{} of {}", s.completed, s.runs), width);
+  std::string text = fmt::format("{}{}{}{}{}{}{}{}\n", left("medians", width), right("complete", 9),
+                                 right("completion [10–90 %]", 29), right("repair", 8),
+                                 right("HEARTBEAT", 11), right("ACKNACK", 9), right("total", 9),
+                                 right("user", 8));
+  for (const SampledProfile& profile : sampling.profiles) {
+    const SampleSummary s = summarize(profile.samples);
+    const Quantiles& t = s.discovery_time_ns;
+    const auto count = [](const Quantiles& q) { return or_beyond(q.median, as_count); };
+    text += fmt::format(
+        "{}{}{}{}{}{}{}{}\n", left(profile.name, width),
+        right(fmt::format("{}/{}", s.completed, s.runs), 9),
+        right(fmt::format("{} [{}–{}]", or_beyond(t.median, as_time), or_beyond(t.p10, as_time),
+                          or_beyond(t.p90, as_time)),
+              29),
+        right(count(s.counts[1]), 8), right(count(s.counts[2]), 11), right(count(s.counts[3]), 9),
+        right(count(s.total), 9), right(count(s.user_control), 8));
   }
-  text += "\n";
-  line("completion", [](const SampleSummary& s) -> const Quantiles& { return s.discovery_time_ns; },
-       as_time);
-  for (std::size_t k = 0; k < 6; ++k) {
-    line(class_labels[k], [k](const SampleSummary& s) -> const Quantiles& { return s.counts[k]; },
-         as_count);
-  }
-  line("total", [](const SampleSummary& s) -> const Quantiles& { return s.total; }, as_count);
-  line("user control", [](const SampleSummary& s) -> const Quantiles& { return s.user_control; },
-       as_count);
   return text;
 }
 
@@ -116,19 +106,24 @@ std::string side_by_side(const Sampling& sampling) {
 std::string to_text(const Sampling& sampling) {
   const SampledProfile& own = sampling.profiles.front();
   const SampleSummary summary = summarize(own.samples);
-  std::string text = fmt::format("{}: {} of {} runs, each with its own schedule\n", sampling.name,
-                                 own.samples.size(), sampling.wanted);
+  const bool drawn = own.scenario.deployment.schedule.has_value();
+  std::string text =
+      drawn ? fmt::format("{}: {} of {} runs, each with its own schedule\n", sampling.name,
+                          own.samples.size(), sampling.wanted)
+            : fmt::format("{}: one run with the start times of the scenario\n", sampling.name);
   if (sampling.profiles.size() == 1) {
     text += fmt::format("{} of {} complete within {}.\n\n", summary.completed, summary.runs,
                         duration(own.scenario.time_limit));
     text += distribution(summary) + histogram(own.samples);
   } else {
-    text += "All profiles run the same schedules.\n\n" + side_by_side(sampling);
+    text += "All profiles run the same start times.\n\n" + side_by_side(sampling);
   }
-  text += fmt::format(
-      "\nReproduce all: {}\n"
-      "One of the runs: --set deployment.schedule.seed=K without --samples, K from {} to {}\n",
-      sampling.command, sampling.first_seed, sampling.first_seed + sampling.wanted - 1);
+  text += fmt::format("\nReproduce: {}\n", sampling.command);
+  if (drawn) {
+    text += fmt::format(
+        "One of the runs: --set deployment.schedule.seed=K without --samples, K from {} to {}\n",
+        sampling.first_seed, sampling.first_seed + sampling.wanted - 1);
+  }
   return text;
 }
 

@@ -1,5 +1,6 @@
 // The table of the DDS profile: every key, its range and its meaning, in the order of the file. See
-// knobs.hpp for what visits it.
+// knobs.hpp for what visits it. The two implementations share the timers; the relation rules and
+// all sizes are keys of the paper's model alone, because they are constants of the other one.
 #pragma once
 
 #include <fmt/format.h>
@@ -48,7 +49,12 @@ inline constexpr NumberType packet_bytes = byte_range(1, 1'000'000'000);
 /// denominator.
 inline constexpr std::int64_t max_epsilon_denominator = 1'000;
 
-void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp) {
+/// Of a key that only the paper's model has.
+[[nodiscard]] constexpr Presence in_paper(ImplementationKind implementation) {
+  return implementation == ImplementationKind::paper ? Presence::required : Presence::of_paper;
+}
+
+void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp, ImplementationKind implementation) {
   visit.knob("period", spdp.period, period_range, "announcement period after startup (tau_P)");
   visit.knob("startup_announcements", spdp.startup_announcements, count_range(0, 1'000'000),
              "announcements at the startup period, after the immediate one");
@@ -56,7 +62,8 @@ void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp) {
              "announcement period during startup");
   visit.knob("resend", spdp.resend, ChoiceType<SpdpResend>{},
              "what is sent when a participant is recognised for the first time");
-  visit.knob("payload_bytes", spdp.payload_bytes, packet_bytes, "UDP payload of an announcement");
+  visit.knob("payload_bytes", spdp.payload_bytes, packet_bytes, "UDP payload of an announcement",
+             in_paper(implementation));
 }
 
 void visit_knobs(auto& visit, Is<AdaptiveProfile> auto& adaptive) {
@@ -83,50 +90,58 @@ void visit_sedp_timers(auto& visit, Is<SedpProfile> auto& sedp) {
 }
 
 /// How relations open, repair and acknowledge; the second part of `sedp`.
-void visit_sedp_rules(auto& visit, Is<SedpProfile> auto& sedp) {
+void visit_sedp_rules(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
+  const Presence of_paper = in_paper(implementation);
   visit.knob("relation_opening", sedp.relation_opening, ChoiceType<RelationOpening>{},
-             "when the writer side opens: with the receiver's recognition, or with its own");
+             "when the writer side opens: with the receiver's recognition, or with its own",
+             of_paper);
   visit.knob("initial_data", sedp.initial_data, ChoiceType<InitialData>{},
-             "whether descriptors are sent when a relation opens, or only when asked for");
+             "whether descriptors are sent when a relation opens, or only when asked for",
+             of_paper);
   visit.knob("unmatched", sedp.unmatched, ChoiceType<Unmatched>{},
-             "what a reader side that is not open does with DATA and HEARTBEATs (with each_side)");
+             "what a reader side that is not open does with DATA and HEARTBEATs (with each_side)",
+             of_paper);
   visit.knob("initial_acknack", sedp.initial_acknack, ChoiceType<InitialAckNackReply>{},
-             "what a writer does with an initial ACKNACK");
+             "what a writer does with an initial ACKNACK", of_paper);
   visit.knob("acknowledge", sedp.acknowledge, ChoiceType<Acknowledge>{},
-             "what an ACKNACK confirms: all outside its bitmap, or only the contiguous prefix");
+             "what an ACKNACK confirms: all outside its bitmap, or only the contiguous prefix",
+             of_paper);
   visit.knob("heartbeat_timer", sedp.heartbeat_timer, ChoiceType<HeartbeatTimerKind>{},
-             "one pending periodic HEARTBEAT per writer, or one more for each suppression end");
+             "one pending periodic HEARTBEAT per writer, or one more for each suppression end",
+             of_paper);
   visit.knob("heartbeat_recipients", sedp.heartbeat_recipients, ChoiceType<HeartbeatRecipients>{},
-             "who receives a periodic HEARTBEAT");
+             "who receives a periodic HEARTBEAT", of_paper);
   visit.knob("heartbeat_policy", sedp.heartbeat_policy, ChoiceType<HeartbeatPolicy>{},
              "fixed period, or the response-aware policy");
   visit.section("adaptive", sedp.adaptive, "the response-aware HEARTBEAT policy");
 }
 
 /// How DATA shares packets, and what packets weigh; the last part of `sedp`.
-void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp) {
+void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
+                        ImplementationKind implementation) {
+  const Presence of_paper = in_paper(implementation);
   visit.knob("grouping", sedp.grouping, ChoiceType<Grouping>{},
-             "how descriptors share packets: up to a limit, one MTU, or one a packet");
+             "how descriptors share packets: up to a limit, one MTU, or one a packet", of_paper);
   visit.knob("grouping_limit_bytes", sedp.grouping_limit_bytes, packet_bytes,
-             "largest UDP payload of a packet with grouping: message");
+             "largest UDP payload of a packet with grouping: message", of_paper);
   visit.knob("piggyback", sedp.piggyback, ChoiceType<Piggyback>{},
              "what DATA is charged against the threshold of the piggyback HEARTBEAT");
   visit.knob("piggyback_threshold_bytes", sedp.piggyback_threshold_bytes,
              byte_range(0, 1'000'000'000'000), "bytes that a writer may send without a HEARTBEAT");
   visit.knob("heartbeat_bytes", sedp.heartbeat_bytes, packet_bytes,
-             "UDP payload of a HEARTBEAT of its own");
+             "UDP payload of a HEARTBEAT of its own", of_paper);
   visit.knob("acknack_bytes", sedp.acknack_bytes, packet_bytes,
-             "UDP payload of an ACKNACK with no bitmap");
+             "UDP payload of an ACKNACK with no bitmap", of_paper);
   visit.knob("piggyback_heartbeat_bytes", sedp.piggyback_heartbeat_bytes, packet_bytes,
-             "what a HEARTBEAT adds to a packet with DATA");
+             "what a HEARTBEAT adds to a packet with DATA", of_paper);
   visit.knob("shared_header_bytes", sedp.shared_header_bytes, packet_bytes,
-             "RTPS header and INFO_DST, once per packet");
+             "RTPS header and INFO_DST, once per packet", of_paper);
 }
 
-void visit_knobs(auto& visit, Is<SedpProfile> auto& sedp) {
+void visit_knobs(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
   visit_sedp_timers(visit, sedp);
-  visit_sedp_rules(visit, sedp);
-  visit_sedp_packets(visit, sedp);
+  visit_sedp_rules(visit, sedp, implementation);
+  visit_sedp_packets(visit, sedp, implementation);
 }
 
 void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors) {
@@ -141,14 +156,18 @@ void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors) {
              "UDP payload of a user endpoint's descriptor in a packet of its own");
 }
 
+/// Where a profile says whose writer it describes; the reader looks at it before anything else.
+inline constexpr std::string_view implementation_key = "implementation";
+
 void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
-  visit.knob("implementation", dds.implementation, ChoiceType<ImplementationKind>{},
+  const Presence of_paper = in_paper(dds.implementation);
+  visit.knob(implementation_key, dds.implementation, ChoiceType<ImplementationKind>{},
              "whose writer: the paper's, or Fast DDS's own", Presence::optional);
-  visit.rule(dds.implementation == ImplementationKind::paper, "implementation",
-             "paper, because fastdds is not available yet");
-  visit.section("spdp", dds.spdp, "participant announcements");
-  visit.section("sedp", dds.sedp, "reliable exchange of endpoint descriptors");
-  visit.section("descriptors", dds.descriptors, "number and size of descriptors");
+  visit.section("spdp", dds.spdp, "participant announcements", Presence::required,
+                dds.implementation);
+  visit.section("sedp", dds.sedp, "reliable exchange of endpoint descriptors", Presence::required,
+                dds.implementation);
+  visit.section("descriptors", dds.descriptors, "number and size of descriptors", of_paper);
 
   const Bytes header = dds.sedp.shared_header_bytes;
   const std::string more =

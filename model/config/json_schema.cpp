@@ -23,11 +23,13 @@ class SchemaVisitor {
  public:
   void knob(std::string_view key, auto&&, const auto& type, std::string_view doc,
             Presence presence = Presence::required) {
+    if (exclude(key, presence)) return;
     const TypeInfo info = type.info();
     add(key, fmt::format("{}; {}", doc, info.expected), info.schema, presence);
   }
   template <class Section>
-  void section(std::string_view key, const Section& member, std::string_view doc);
+  void section(std::string_view key, const Section& member, std::string_view doc,
+               Presence presence = Presence::required, const auto&... context);
   template <class Item>
   void list(std::string_view key, const std::vector<Item>&, ListSize size, std::string_view doc,
             Presence presence = Presence::required);
@@ -50,9 +52,17 @@ class SchemaVisitor {
     return schema;
   }
 
+  /// What forbids the keys of another implementation, here and in the sections.
+  Json exclusions() const { return {{"properties", excluded_}}; }
+
   Json properties = Json::object();
 
  private:
+  bool exclude(std::string_view key, Presence presence) {
+    if (presence != Presence::of_paper) return false;
+    excluded_[std::string{key}] = false;
+    return true;
+  }
   void add(std::string_view key, std::string doc, const Json& schema, Presence presence) {
     Json& property = properties[std::string{key}] = {{"description", std::move(doc)}};
     property.update(schema);
@@ -61,17 +71,26 @@ class SchemaVisitor {
 
   Json required_ = Json::array();
   Json of_sections_ = Json::object();
+  Json excluded_ = Json::object();
 };
 
-template <class T>
-SchemaVisitor visited(const T& sample) {
+SchemaVisitor visited(const auto& sample, const auto&... context) {
   SchemaVisitor visitor;
-  visit_knobs(visitor, sample);
+  visit_knobs(visitor, sample, context...);
+  return visitor;
+}
+
+/// The short form of a deployment, with what both forms have.
+SchemaVisitor visited_short_form(const Deployment& deployment) {
+  SchemaVisitor visitor = visited(HomogeneousForm{});
+  visit_common_knobs(visitor, deployment);
   return visitor;
 }
 
 template <class Section>
-void SchemaVisitor::section(std::string_view key, const Section& member, std::string_view doc) {
+void SchemaVisitor::section(std::string_view key, const Section& member, std::string_view doc,
+                            Presence presence, const auto&... context) {
+  if (exclude(key, presence)) return;
   Json schema;
   if constexpr (std::same_as<Section, DdsProfile>) {
     schema = name_or(reference(schema_file_name(SchemaKind::dds)));
@@ -79,13 +98,16 @@ void SchemaVisitor::section(std::string_view key, const Section& member, std::st
     schema = name_or(reference(schema_file_name(SchemaKind::wireless)));
   } else if constexpr (std::same_as<Section, Deployment>) {
     schema["oneOf"] =
-        Json::array({visited(HomogeneousForm{}).complete(), visited(member).complete()});
+        Json::array({visited_short_form(member).complete(), visited(member).complete()});
+  } else if constexpr (requires { typename Section::value_type; }) {  // an optional table
+    schema = visited(typename Section::value_type{}).complete();
   } else {
-    const SchemaVisitor inner = visited(member);
+    const SchemaVisitor inner = visited(member, context...);
     schema = inner.partial();
     of_sections_[std::string{key}] = inner.requirements();
+    if (!inner.excluded_.empty()) excluded_[std::string{key}] = inner.exclusions();
   }
-  add(key, std::string{doc}, schema, Presence::required);
+  add(key, std::string{doc}, schema, presence);
 }
 
 template <class Item>
@@ -119,6 +141,22 @@ Json profile(std::string_view title, SchemaVisitor visitor, const Json& requirem
   Json schema = with_title(title, visitor.partial());
   schema["if"] = {{"not", {{"required", Json::array({base_key})}}}};
   schema["then"] = requirements;
+  return schema;
+}
+
+Json dds_schema() {
+  const SchemaVisitor of_paper = visited(DdsProfile{});
+  DdsProfile fastdds;
+  fastdds.implementation = ImplementationKind::fastdds;
+  const SchemaVisitor of_fastdds = visited(fastdds);
+  // The key may be absent, and then it is the paper's.
+  const std::string key{implementation_key};
+  const Json is_fastdds = {{"required", Json::array({key})},
+                           {"properties", {{key, {{"const", name_of(fastdds.implementation)}}}}}};
+  Json schema = profile(
+      "DDS profile", of_paper,
+      {{"if", is_fastdds}, {"then", of_fastdds.requirements()}, {"else", of_paper.requirements()}});
+  schema["allOf"] = Json::array({{{"if", is_fastdds}, {"then", of_fastdds.exclusions()}}});
   return schema;
 }
 
@@ -161,10 +199,8 @@ std::string json_schema(SchemaKind kind) {
   switch (kind) {
     case SchemaKind::scenario:
       return scenario_schema().dump(indent) + "\n";
-    case SchemaKind::dds: {
-      const SchemaVisitor visitor = visited(DdsProfile{});
-      return profile("DDS profile", visitor, visitor.requirements()).dump(indent) + "\n";
-    }
+    case SchemaKind::dds:
+      return dds_schema().dump(indent) + "\n";
     case SchemaKind::wireless:
       return wireless_schema().dump(indent) + "\n";
   }

@@ -18,12 +18,21 @@ class KnobLister {
                     std::string{doc}, presence});
   }
   template <class Section>
-  void section(std::string_view key, const Section& member, std::string_view) {
-    KnobLister inner{out_, prefix_ + std::string{key} + "."};
-    visit_knobs(inner, member);
-    if constexpr (std::same_as<Section, Deployment>) {
-      const HomogeneousForm form;
-      visit_knobs(inner, form);
+  void section(std::string_view key, const Section& member, std::string_view,
+               Presence presence = {}, const auto&... context) {
+    if constexpr (requires { member.has_value(); }) {
+      const typename Section::value_type sample{};
+      return section(key, member ? *member : sample, {}, presence, context...);
+    } else {
+      const std::size_t first = out_.size();
+      KnobLister inner{out_, prefix_ + std::string{key} + "."};
+      visit_knobs(inner, member, context...);
+      if constexpr (std::same_as<Section, Deployment>) {
+        const HomogeneousForm form;
+        visit_knobs(inner, form);
+      }
+      if (presence != Presence::of_paper) return;
+      for (std::size_t k = first; k < out_.size(); ++k) out_[k].presence = presence;
     }
   }
   template <class Item>
@@ -42,11 +51,12 @@ class KnobLister {
 
 }  // namespace
 
-std::vector<KnobInfo> scenario_knob_list() {
+std::vector<KnobInfo> scenario_knob_list(ImplementationKind implementation) {
   std::vector<KnobInfo> knobs;
   KnobLister lister{knobs};
-  const Scenario sample;
-  visit_knobs(lister, sample);
+  Scenario sample;
+  sample.dds.implementation = implementation;
+  visit_knobs(lister, std::as_const(sample));
   return knobs;
 }
 

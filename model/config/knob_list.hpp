@@ -7,6 +7,7 @@
 
 #include "model/config/knobs.hpp"
 #include "model/config/value_types.hpp"
+#include "model/dds_profile.hpp"
 
 namespace stormproof::model::config {
 
@@ -17,10 +18,13 @@ struct KnobInfo {
   Json default_value;  ///< the value of the paper's evaluation, in the syntax of the file; null if
                        ///< absent
   std::string doc;     ///< one line
-  Presence presence;   ///< whether a file without `base:` has to give it
+  Presence presence;   ///< whether a file without `base:` has to give it, or may not
 };
 
-/// Every knob of deployment (both forms), DDS profile, wireless profile and scenario.
-[[nodiscard]] std::vector<KnobInfo> scenario_knob_list();
+/// Every knob of deployment (both forms), DDS profile, wireless profile and scenario. Whatever the
+/// implementation, the keys are the same; those that only the paper's model has are then marked
+/// `of_paper`.
+[[nodiscard]] std::vector<KnobInfo> scenario_knob_list(
+    ImplementationKind implementation = ImplementationKind::paper);
 
 }  // namespace stormproof::model::config

@@ -16,44 +16,63 @@
 
 namespace stormproof::model::config {
 
+/// The keys of a map: those that it may have, and those that only another implementation has.
+struct KnownKeys {
+  std::vector<std::string> allowed;
+  std::vector<std::string> of_paper;
+};
+
 /// Collects the keys of one table, without those of its sections.
 class KeyCollector {
  public:
-  void knob(std::string_view key, auto&&, const auto&, std::string_view, Presence = {}) {
-    add(key);
+  void knob(std::string_view key, auto&&, const auto&, std::string_view, Presence presence = {}) {
+    add(key, presence);
   }
-  void section(std::string_view key, auto&, std::string_view) { add(key); }
-  void list(std::string_view key, auto&, ListSize, std::string_view, Presence = {}) { add(key); }
+  void section(std::string_view key, auto&, std::string_view, Presence presence = {},
+               const auto&...) {
+    add(key, presence);
+  }
+  void list(std::string_view key, auto&, ListSize, std::string_view, Presence presence = {}) {
+    add(key, presence);
+  }
   void rule(bool, std::string_view, std::string_view) {}
 
-  std::vector<std::string> keys;
+  KnownKeys keys;
 
  private:
-  void add(std::string_view key) { keys.emplace_back(key); }
+  void add(std::string_view key, Presence presence) {
+    (presence == Presence::of_paper ? keys.of_paper : keys.allowed).emplace_back(key);
+  }
 };
 
-/// The keys that a map for a `T` may have.
-template <class T>
-std::vector<std::string> keys_of() {
+/// The keys of a map for `sample`.
+template <class T, class... Context>
+KnownKeys keys_of(const T& sample, const Context&... context) {
   KeyCollector collector;
-  const T sample{};
-  visit_knobs(collector, sample);
+  visit_knobs(collector, sample, context...);
   return std::move(collector.keys);
 }
 
-/// An error if `map` is no map or has a key that is not one of `keys`. `path` names the map in
-/// messages.
-std::optional<InputError> check_keys(const Node& map, std::string_view path,
-                                     const std::vector<std::string>& keys);
+/// An error if `map` is no map or has a key that it may not have. `path` names the map in messages.
+std::optional<InputError> check_keys(const Node& map, std::string_view path, const KnownKeys& keys);
 
 /// `path`.`key`, or `key` alone at the top.
 std::string join_path(std::string_view path, std::string_view key);
 
-template <class T>
+template <class T, class... Context>
 void read_knobs(const Node& map, const std::string& path, T& value,
-                std::optional<InputError>& error);
-/// A deployment has two forms: the list of participants, and the short one.
+                std::optional<InputError>& error, const Context&... context);
+/// A deployment has two forms: the list of participants, and the short one. A schedule is drawn
+/// here.
 void read_knobs(const Node& map, const std::string& path, Deployment& value,
+                std::optional<InputError>& error);
+/// Defaults that depend on other keys: `endpoints_done` is `start` if it is absent.
+void read_knobs(const Node& map, const std::string& path, Participant& value,
+                std::optional<InputError>& error);
+void read_knobs(const Node& map, const std::string& path, Schedule& value,
+                std::optional<InputError>& error);
+/// The implementation decides which keys there are.
+void read_knobs(const Node& map, const std::string& path, DdsProfile& value,
                 std::optional<InputError>& error);
 
 class KnobReader {
@@ -66,6 +85,7 @@ class KnobReader {
   template <class T>
   void knob(std::string_view key, T&& member, const auto& type, std::string_view,
             Presence presence = Presence::required) {
+    if (presence == Presence::of_paper) return;
     const Node* node = find(key, presence, type.info().expected);
     if (node == nullptr) return;
     Complaint complaint;
@@ -80,9 +100,16 @@ class KnobReader {
     }
   }
 
-  void section(std::string_view key, auto& member, std::string_view) {
-    const Node* node = find(key, Presence::required, "a map");
-    if (node != nullptr) read_knobs(*node, join_path(path_, key), member, error_);
+  void section(std::string_view key, auto& member, std::string_view,
+               Presence presence = Presence::required, const auto&... context) {
+    if (presence == Presence::of_paper) return;
+    const Node* node = find(key, presence, "a map");
+    if (node == nullptr) return;
+    if constexpr (requires { member.emplace(); }) {  // an optional table: present from now on
+      read_knobs(*node, join_path(path_, key), member.emplace(), error_, context...);
+    } else {
+      read_knobs(*node, join_path(path_, key), member, error_, context...);
+    }
   }
 
   template <class Item>
@@ -118,13 +145,20 @@ class KnobReader {
   std::optional<InputError>& error_;
 };
 
-template <class T>
-void read_knobs(const Node& map, const std::string& path, T& value,
-                std::optional<InputError>& error) {
-  if (!error) error = check_keys(map, path, keys_of<T>());
+/// Reads all keys of one table, with nothing special about it.
+template <class T, class... Context>
+void read_table(const Node& map, const std::string& path, T& value,
+                std::optional<InputError>& error, const Context&... context) {
+  if (!error) error = check_keys(map, path, keys_of(value, context...));
   if (error) return;
   KnobReader reader{map, path, error};
-  visit_knobs(reader, value);
+  visit_knobs(reader, value, context...);
+}
+
+template <class T, class... Context>
+void read_knobs(const Node& map, const std::string& path, T& value,
+                std::optional<InputError>& error, const Context&... context) {
+  read_table(map, path, value, error, context...);
 }
 
 }  // namespace stormproof::model::config

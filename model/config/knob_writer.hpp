@@ -23,14 +23,22 @@ Json write_value(const auto& type, const auto& member) {
 class KnobWriter {
  public:
   void knob(std::string_view key, const auto& member, const auto& type, std::string_view,
-            Presence = {}) {
+            Presence presence = {}) {
+    if (presence == Presence::of_paper) return;
     Json value = write_value(type, member);
     if (!value.is_null()) json[std::string{key}] = std::move(value);
   }
-  void section(std::string_view key, const auto& member, std::string_view) {
-    KnobWriter inner;
-    visit_knobs(inner, member);
-    json[std::string{key}] = std::move(inner.json);
+  template <class Section>
+  void section(std::string_view key, const Section& member, std::string_view,
+               Presence presence = {}, const auto&... context) {
+    if (presence == Presence::of_paper) return;
+    if constexpr (requires { member.has_value(); }) {
+      if (member) section(key, *member, {}, presence, context...);
+    } else {
+      KnobWriter inner;
+      visit_knobs(inner, member, context...);
+      json[std::string{key}] = std::move(inner.json);
+    }
   }
   template <class Item>
   void list(std::string_view key, const std::vector<Item>& members, ListSize, std::string_view,

@@ -4,11 +4,13 @@
 // the schema, the list of knobs.
 //
 // A visitor has
-//   knob(key, member, type, doc, presence)    one value
-//   section(key, member, doc, presence)       a nested table
-//   list(key, members, size, doc, presence)   a sequence of tables
-//   rule(holds, key, expected)                a condition over several members; only the reader
-//   looks at it
+//   knob(key, member, type, doc, presence)              one value
+//   section(key, member, doc, presence, context...)     a nested table; a `std::optional` one may
+//   be
+//                                                       absent. The context goes to its table
+//   list(key, members, size, doc, presence)             a sequence of tables
+//   rule(holds, key, expected)                          a condition over several members; only the
+//                                                       reader looks at it
 #pragma once
 
 #include <concepts>
@@ -21,7 +23,9 @@ template <class A, class T>
 concept Is = std::same_as<std::remove_const_t<A>, T>;
 
 /// Whether a file has to have the key. An optional key that is absent leaves the member as it is.
-enum class Presence { required, optional };
+/// `of_paper` marks a key of the paper's model in the table of a profile with another
+/// implementation: it may not be there, and the member keeps its default.
+enum class Presence { required, optional, of_paper };
 
 /// Least and greatest length of a list.
 struct ListSize {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "model/config/dds_knobs.hpp"
 #include "model/config/yaml_text.hpp"
 
 namespace stormproof::model::config {
@@ -33,6 +34,10 @@ class Resolver {
     if (!base) return map;
     Result<Node> resolved = resolve(*std::move(base));
     if (!resolved) return resolved;
+    if (kind_ == SpecKind::dds) {
+      const Node* implementation = map.find(implementation_key);
+      if (auto error = check_implementation(*resolved, implementation)) return *std::move(error);
+    }
     return merge(*std::move(resolved), std::move(map));
   }
 
@@ -74,6 +79,18 @@ class Resolver {
 
 Result<Node> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs) {
   return Resolver{kind, specs}.resolve(std::move(reference));
+}
+
+std::optional<InputError> check_implementation(const Node& profile, const Node* replacement) {
+  if (replacement == nullptr || !replacement->is_scalar()) return std::nullopt;
+  const Node* own = profile.find(implementation_key);
+  if (own != nullptr && !own->is_scalar()) return std::nullopt;
+  const std::string_view name = own != nullptr ? own->text : name_of(ImplementationKind::paper);
+  if (replacement->text == name) return std::nullopt;
+  return error_at(replacement->place,
+                  fmt::format("{}: {}; expected {}, as the profile that this changes has it; the "
+                              "keys of one do not fit the other",
+                              implementation_key, replacement->shown(), name));
 }
 
 std::optional<InputError> drop_description(Node& map) {

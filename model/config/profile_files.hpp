@@ -19,8 +19,15 @@ inline constexpr std::string_view description_key =
 inline constexpr std::size_t max_base_chain = 32;
 
 /// `reference` is a name, a path (relative to the file in which it stands), or a map. Errors: no
-/// such profile, a file that cannot be read, a profile that is based on itself.
+/// such profile, a file that cannot be read, a profile that is based on itself or on one with
+/// another implementation.
 [[nodiscard]] Result<Node> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs);
+
+/// An error if `replacement` is another implementation than that of `profile`, a resolved DDS
+/// profile: implementations have different keys, so one cannot be changed into the other. A profile
+/// that does not say its implementation has the paper's.
+[[nodiscard]] std::optional<InputError> check_implementation(const Node& profile,
+                                                             const Node* replacement);
 
 /// Takes `description` out of `map`; an error if it is not text.
 [[nodiscard]] std::optional<InputError> drop_description(Node& map);

@@ -73,10 +73,23 @@ Failure resolve_profiles(Node& root, const SpecPath& specs) {
   return std::nullopt;
 }
 
+/// Applies an override of one key of a resolved profile. Paths below `dds`, the DDS profile if
+/// there is one, start with `prefix`.
+Failure change_dds_key(const Override& change, std::string_view prefix, const Node* dds,
+                       Node& root) {
+  const bool is_implementation =
+      change.path.starts_with(prefix) && change.path.substr(prefix.size()) == implementation_key;
+  if (is_implementation && dds != nullptr) {
+    if (Failure failure = check_implementation(*dds, &change.value)) return failure;
+  }
+  return apply(change, root);
+}
+
 Failure change_profile_keys(Node& root, const std::vector<Override>& overrides) {
+  const std::string prefix = fmt::format("{}.", dds_key);
   for (const Override& change : overrides) {
     if (!is_about_profile_key(change)) continue;
-    if (Failure failure = apply(change, root)) return failure;
+    if (Failure failure = change_dds_key(change, prefix, root.find(dds_key), root)) return failure;
   }
   return std::nullopt;
 }
@@ -112,7 +125,8 @@ Result<Profile> read_profile(const std::string& reference, SpecKind kind,
   Profile profile;
   Failure failure;
   for (const Override& change : *overrides) {
-    if (!failure) failure = apply(change, *root);
+    if (!failure)
+      failure = change_dds_key(change, "", kind == SpecKind::dds ? &*root : nullptr, *root);
   }
   read_knobs(*root, "", profile, failure);
   if (failure) return *std::move(failure);

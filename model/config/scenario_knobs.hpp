@@ -8,18 +8,26 @@
 
 #include "model/config/dds_knobs.hpp"
 #include "model/config/knobs.hpp"
+#include "model/config/largest_packet.hpp"
 #include "model/config/value_types.hpp"
 #include "model/config/wireless_knobs.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::model::config {
 
-/// The short form of a deployment: equal hosts with equal participants that all start at 0.
+/// The short form of a deployment: equal hosts with equal participants, which all start at 0 unless
+/// there is a schedule.
 struct HomogeneousForm {
   std::uint32_t hosts = 2;
   std::uint32_t participants_per_host = 1;
   std::uint32_t endpoints_per_participant = 2;
 };
+
+/// Keys that the reader treats in a way of their own.
+inline constexpr std::string_view participants_key = "participants";
+inline constexpr std::string_view schedule_key = "schedule";
+inline constexpr std::string_view start_key = "start";
+inline constexpr std::string_view endpoints_done_key = "endpoints_done";
 
 inline constexpr NumberType participant_count = count_range(1, Deployment::max_participants);
 inline constexpr NumberType endpoint_count = count_range(0, Deployment::max_endpoints);
@@ -41,13 +49,40 @@ void visit_knobs(auto& visit, Is<Participant> auto& participant) {
              "number of its host");
   visit.knob("publications", participant.publications, endpoint_count, "user publications");
   visit.knob("subscriptions", participant.subscriptions, endpoint_count, "user subscriptions");
-  visit.knob("start", participant.start, delay_range, "when it starts; 0 if absent",
+  visit.knob(start_key, participant.start, delay_range, "when it starts; 0 if absent",
+             Presence::optional);
+  visit.knob(endpoints_done_key, participant.endpoints_done, delay_range,
+             "when it has created all its endpoints, not before its start, which it is if absent; "
+             "used by implementation: fastdds",
              Presence::optional);
 }
 
+void visit_knobs(auto& visit, Is<Schedule> auto& schedule) {
+  visit.knob(start_key, RangeParts{schedule.start_min, schedule.start_max},
+             DurationRangeType{delay_range},
+             "range of the participants' starts; all start at 0 if absent", Presence::optional);
+  visit.knob(
+      endpoints_done_key, RangeParts{schedule.endpoints_done_min, schedule.endpoints_done_max},
+      DurationRangeType{delay_range},
+      "range of the participants' endpoints_done; that of start if absent", Presence::optional);
+  visit.knob("seed", schedule.seed, SeedType{}, "of the draw; 0 if absent", Presence::optional);
+}
+
+/// What both forms of a deployment have.
+void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
+  visit.knob("loopback_delay", deployment.loopback_delay, delay_range,
+             "delay of packets to the same host; 2ms if absent; used by implementation: fastdds",
+             Presence::optional);
+  visit.section(schedule_key, deployment.schedule,
+                "ranges that all start and endpoints_done are drawn from, uniformly; a time that a "
+                "participant gives beside it has to be the drawn one",
+                Presence::optional);
+}
+
 void visit_knobs(auto& visit, Is<Deployment> auto& deployment) {
-  visit.list("participants", deployment.participants, ListSize{1, Deployment::max_participants},
+  visit.list(participants_key, deployment.participants, ListSize{1, Deployment::max_participants},
              "the participants, numbered from 0 in this order");
+  visit_common_knobs(visit, deployment);
 }
 
 /// The keys whose values may be the name of a file.
@@ -71,6 +106,13 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
              "participants on at least two hosts; otherwise there is nothing to discover");
   visit.rule(std::ranges::any_of(scenario.deployment.participants, has_descriptors), "deployment",
              "at least one endpoint, user or default; otherwise there is nothing to discover");
+
+  const LargestPacket packet = largest_packet(scenario);
+  visit.rule(scenario.wireless.kind == ServiceKind::constant_delay ||
+                 Fragmentation{scenario.wireless}.count(packet.payload.count()) <= max_fragments,
+             "wireless.mtu_payload_bytes",
+             fmt::format("at most {} fragments a packet; the largest has {} bytes of payload ({})",
+                         max_fragments, packet.payload.count(), packet.origin));
 }
 
 }  // namespace stormproof::model::config

@@ -2,6 +2,7 @@
 #include "model/config/value_types.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 
 #include <fmt/format.h>
@@ -91,6 +92,31 @@ TypeInfo NumberType::info() const {
       break;
   }
   return info;
+}
+
+Complaint SeedType::read(const Node& node, std::uint64_t& value) const {
+  if (!node.is_scalar()) return fault(node, " is not a number");
+  if (node.quoted) return fault(node, " in quotes is text");
+  const std::string& text = node.text;
+  std::uint64_t seed = 0;
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (failed == std::errc::result_out_of_range) return fault(node, " is too large");
+  const bool is_plain = text == "0" || !text.starts_with('0');
+  if (failed != std::errc{} || end != text.data() + text.size() || !is_plain) {
+    return fault(node, text.starts_with('-') ? " is negative"
+                                             : " is not an integer in plain decimal digits");
+  }
+  value = seed;
+  return std::nullopt;
+}
+
+TypeInfo SeedType::info() const {
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  return {.name = "integer",
+          .expected = fmt::format("an integer from 0 to {}", most),
+          .minimum = "0",
+          .maximum = fmt::format("{}", most),
+          .schema = {{"type", "integer"}, {"minimum", 0}, {"maximum", most}}};
 }
 
 Complaint BytesOrWordType::read(const Node& node, Bytes& value) const {
@@ -186,6 +212,30 @@ TypeInfo BytesPairType::info() const {
   TypeInfo info = number.info();
   info.name = "bytes pair";
   info.expected = fmt::format("[first, last], each {}", info.expected);
+  info.schema = {{"type", "array"}, {"items", info.schema}, {"minItems", 2}, {"maxItems", 2}};
+  return info;
+}
+
+Complaint DurationRangeType::read(const Node& node, RangeParts<Nanoseconds> value) const {
+  if (!node.is_sequence()) return fault(node, " is not a list");
+  if (node.items.size() != 2) return fault(node, fmt::format(" of {}", node.items.size()));
+  if (Complaint complaint = number.read(node.items[0], value.low)) return complaint;
+  if (Complaint complaint = number.read(node.items[1], value.high)) return complaint;
+  if (value.low > value.high) {
+    return Fault{node.place,
+                 fmt::format("{} is more than {}", node.items[0].shown(), node.items[1].shown())};
+  }
+  return std::nullopt;
+}
+
+Json DurationRangeType::write(RangeParts<const Nanoseconds> value) const {
+  return {number.write(value.low), number.write(value.high)};
+}
+
+TypeInfo DurationRangeType::info() const {
+  TypeInfo info = number.info();
+  info.name = "duration range";
+  info.expected = fmt::format("[low, high], each {}, the first at most the second", info.expected);
   info.schema = {{"type", "array"}, {"items", info.schema}, {"minItems", 2}, {"maxItems", 2}};
   return info;
 }

@@ -103,6 +103,13 @@ constexpr NumberType count_range(std::int64_t minimum, std::int64_t maximum) {
   return {NumberType::Unit::things, minimum, maximum};
 }
 
+/// Any unsigned 64-bit integer.
+struct SeedType {
+  Complaint read(const Node& node, std::uint64_t& value) const;
+  Json write(std::uint64_t value) const { return value; }
+  TypeInfo info() const;
+};
+
 /// Bytes, or a word that stands for one special value.
 struct BytesOrWordType {
   NumberType number;
@@ -178,6 +185,24 @@ struct BytesPairType {
 
   Complaint read(const Node& node, std::array<Bytes, 2>& value) const;
   Json write(const std::array<Bytes, 2>& value) const;
+  TypeInfo info() const;
+};
+
+/// The two members of a struct that hold one range.
+template <class Duration>
+struct RangeParts {
+  Duration& low;
+  Duration& high;
+};
+template <class Duration>
+RangeParts(Duration&, Duration&) -> RangeParts<Duration>;
+
+/// `[low, high]`, two durations, the first at most the second.
+struct DurationRangeType {
+  NumberType number;
+
+  Complaint read(const Node& node, RangeParts<Nanoseconds> value) const;
+  Json write(RangeParts<const Nanoseconds> value) const;
   TypeInfo info() const;
 };
 

@@ -18,35 +18,46 @@ enum class Subject : std::uint8_t {
 [[nodiscard]] constexpr Subject subject_of(EventKind kind) {
   switch (kind) {
     case EventKind::service_finished:
-    case EventKind::dispatch: return Subject::channel;
+    case EventKind::dispatch:
+      return Subject::channel;
     case EventKind::delayed_reception:
     case EventKind::reception:
-    case EventKind::source_completion: return Subject::packet;
+    case EventKind::source_completion:
+      return Subject::packet;
     case EventKind::announcement_due:
     case EventKind::endpoint_creation:
-    case EventKind::async_run: return Subject::participant;
+    case EventKind::async_run:
+      return Subject::participant;
     case EventKind::heartbeat_expiry:
     case EventKind::cycle_start:
     case EventKind::cycle_end:
     case EventKind::batch_due:
-    case EventKind::nack_response: return Subject::writer;
+    case EventKind::nack_response:
+      return Subject::writer;
     case EventKind::control_initial_due:
-    case EventKind::control_reply_due: return Subject::control_relation;
+    case EventKind::control_reply_due:
+      return Subject::control_relation;
     case EventKind::acknack_generation:
     case EventKind::initial_acknack_due:
     case EventKind::repair_generation:
-    case EventKind::suppression_end: return Subject::relation;
+    case EventKind::suppression_end:
+      return Subject::relation;
   }
   return Subject::packet;
 }
 
 [[nodiscard]] constexpr Subject subject_of(MachineRef::Kind kind) {
   switch (kind) {
-    case MachineRef::Kind::relation: return Subject::relation;
-    case MachineRef::Kind::writer: return Subject::writer;
-    case MachineRef::Kind::participant: return Subject::participant;
-    case MachineRef::Kind::channel: return Subject::channel;
-    case MachineRef::Kind::control_relation: return Subject::control_relation;
+    case MachineRef::Kind::relation:
+      return Subject::relation;
+    case MachineRef::Kind::writer:
+      return Subject::writer;
+    case MachineRef::Kind::participant:
+      return Subject::participant;
+    case MachineRef::Kind::channel:
+      return Subject::channel;
+    case MachineRef::Kind::control_relation:
+      return Subject::control_relation;
   }
   return Subject::packet;
 }
@@ -56,10 +67,14 @@ enum class Subject : std::uint8_t {
   switch (kind) {
     case EventKind::cycle_start:
     case EventKind::cycle_end:
-    case EventKind::batch_due: return "cycle";
-    case EventKind::endpoint_creation: return "endpoint";
-    case EventKind::reception: return "participant";
-    default: return nullptr;
+    case EventKind::batch_due:
+      return "cycle";
+    case EventKind::endpoint_creation:
+      return "endpoint";
+    case EventKind::reception:
+      return "participant";
+    default:
+      return nullptr;
   }
 }
 

@@ -1,6 +1,6 @@
-// Printing of JSON by hand. A trace has millions of short lines whose strings are fixed words, so building a
-// document for each of them would take most of a run's time. Numbers are integers throughout: the same
-// run gives the same bytes with every compiler and library.
+// Printing of JSON by hand. A trace has millions of short lines whose strings are fixed words, so
+// building a document for each of them would take most of a run's time. Numbers are integers
+// throughout: the same run gives the same bytes with every compiler and library.
 #pragma once
 
 #include <charconv>

@@ -1,5 +1,5 @@
-// Reading of a text file line by line, in bounded memory: a file that is not what its reader expects (a disk
-// image, one endless line) must not fill the memory.
+// Reading of a text file line by line, in bounded memory: a file that is not what its reader
+// expects (a disk image, one endless line) must not fill the memory.
 #pragma once
 
 #include <cstdint>

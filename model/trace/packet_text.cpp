@@ -23,8 +23,10 @@ bool is_control(const Packet& packet) {
 }
 
 void append_stream(std::string& out, const Packet& packet) {
-  if (is_control(packet)) append(out, R"(,"control_relation":)", packet.detail);
-  else if (!is_spdp(packet)) append(out, R"(,"stream":")", name_of(packet.stream), "\"");
+  if (is_control(packet))
+    append(out, R"(,"control_relation":)", packet.detail);
+  else if (!is_spdp(packet))
+    append(out, R"(,"stream":")", name_of(packet.stream), "\"");
 }
 
 void append_packet(std::string& out, const Packet& packet, std::uint32_t from,
@@ -52,7 +54,7 @@ void append_packet(std::string& out, const Packet& packet, std::uint32_t from,
     append(out, R"(,"base":)", packet.detail);
   }
   if (packet.from_repair) out += R"(,"repair":true)";
-  if (packet.carries_heartbeat) out += R"(,"heartbeat":true)";
+  if (packet.heartbeats > 0) append(out, R"(,"heartbeats":)", packet.heartbeats);
   if (packet.initial_acknack) out += R"(,"initial":true)";
 }
 

@@ -1,5 +1,5 @@
-// Collects what an event does on each row and writes it when the event is over. Only the services of channels
-// take time; their slices open with one event and close with a later one.
+// Collects what an event does on each row and writes it when the event is over. Only the services
+// of channels take time; their slices open with one event and close with a later one.
 #include "model/trace/perfetto.hpp"
 
 #include <bit>
@@ -104,7 +104,8 @@ void PerfettoWriter::service_started(std::uint32_t channel, std::uint32_t stage,
 void PerfettoWriter::arrived(const Packet& packet, bool lost) {
   if (!lost) return;
   const std::uint32_t source = packet_ends(packet, *topology_).from;
-  Slice& slice = slice_on(sender_track(packet, source), std::string{"lost: "} + packet_label(packet));
+  Slice& slice =
+      slice_on(sender_track(packet, source), std::string{"lost: "} + packet_label(packet));
   add_packet(slice, packet);
 }
 

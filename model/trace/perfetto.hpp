@@ -1,6 +1,7 @@
-// The run as a timeline for ui.perfetto.dev: what each channel serves and for whom, what each participant sends
-// and receives, how long its backlog is, and arrows that follow a packet from its sender over the channel to
-// its receiver and a timer from its start to its end. specs/trace-format.md says how to read it.
+// The run as a timeline for ui.perfetto.dev: what each channel serves and for whom, what each
+// participant sends and receives, how long its backlog is, and arrows that follow a packet from its
+// sender over the channel to its receiver and a timer from its start to its end.
+// specs/trace-format.md says how to read it.
 #pragma once
 
 #include <iosfwd>
@@ -88,7 +89,7 @@ class PerfettoWriter final : public Probe {
   Nanoseconds now_;
   bool in_event_ = false;
   std::uint64_t event_count_ = 0;  // events so far, this one included
-  std::vector<Slice> slices_;  // those from `used_` on keep their memory
+  std::vector<Slice> slices_;      // those from `used_` on keep their memory
   std::size_t used_ = 0;
   std::vector<Place> places_;  // by thread number
   TransitionList transitions_;

@@ -51,8 +51,8 @@ void PerfettoEvents::end_slice(Track track, Nanoseconds at) {
 
 void PerfettoEvents::flow(const Flow& flow, Track track, Nanoseconds at) {
   start(static_cast<char>(flow.phase), track, at);
-  append(text_, R"(,"cat":")", flow.category, R"(","name":")", flow.category, R"(","id":)",
-         flow.id, flow.phase == FlowPhase::end ? R"(,"bp":"e"})" : "}");
+  append(text_, R"(,"cat":")", flow.category, R"(","name":")", flow.category, R"(","id":)", flow.id,
+         flow.phase == FlowPhase::end ? R"(,"bp":"e"})" : "}");
 }
 
 void PerfettoEvents::counter(std::uint32_t process, Nanoseconds at, std::string_view name,

@@ -1,6 +1,7 @@
-// The events of Chrome's JSON trace format, which ui.perfetto.dev and chrome://tracing open: slices, flows
-// (arrows between slices), counters and names. Slices are pairs of B and E, never X with a duration: readers
-// convert microseconds to floating point, and B and E of the same instant stay equal under any rounding.
+// The events of Chrome's JSON trace format, which ui.perfetto.dev and chrome://tracing open:
+// slices, flows (arrows between slices), counters and names. Slices are pairs of B and E, never X
+// with a duration: readers convert microseconds to floating point, and B and E of the same instant
+// stay equal under any rounding.
 #pragma once
 
 #include <cstdint>

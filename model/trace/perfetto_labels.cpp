@@ -22,15 +22,19 @@ void append_members_count(std::string& text, const Packet& packet) {
 const char* packet_label(const Packet& packet) {
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
-    case PacketKind::spdp_unicast: return "SPDP";
+    case PacketKind::spdp_unicast:
+      return "SPDP";
     case PacketKind::data:
       if (packet.carries_heartbeat) {
         return packet.carries_initial ? "DATA+HEARTBEAT" : "repair DATA+HEARTBEAT";
       }
       return packet.carries_initial ? "DATA" : "repair DATA";
-    case PacketKind::heartbeat: return "HEARTBEAT";
-    case PacketKind::acknack: return packet.initial_acknack ? "initial ACKNACK" : "ACKNACK";
-    case PacketKind::user_heartbeat: return "user HEARTBEAT";
+    case PacketKind::heartbeat:
+      return "HEARTBEAT";
+    case PacketKind::acknack:
+      return packet.initial_acknack ? "initial ACKNACK" : "ACKNACK";
+    case PacketKind::user_heartbeat:
+      return "user HEARTBEAT";
     case PacketKind::user_acknack:
       return packet.initial_acknack ? "initial user ACKNACK" : "user ACKNACK";
   }
@@ -41,8 +45,10 @@ std::string service_label(const Packet& packet, const Topology& topology) {
   const auto [from, to] = packet_ends(packet, topology);
   std::string text;
   append(text, packet_label(packet), " ", from, "→");
-  if (packet.multicast()) text += "all";
-  else append_part(text, to);
+  if (packet.multicast())
+    text += "all";
+  else
+    append_part(text, to);
   if (!is_spdp(packet) && !is_control(packet)) append(text, " ", name_of(packet.stream));
   return text;
 }
@@ -50,9 +56,12 @@ std::string service_label(const Packet& packet, const Topology& topology) {
 std::string emission_label(const Packet& packet, std::span<const std::uint32_t> destinations) {
   std::string text;
   append(text, packet_label(packet), " to ");
-  if (packet.multicast()) text += "all";
-  else if (destinations.size() == 1) append_part(text, destinations[0]);
-  else append(text, destinations.size(), " participants");
+  if (packet.multicast())
+    text += "all";
+  else if (destinations.size() == 1)
+    append_part(text, destinations[0]);
+  else
+    append(text, destinations.size(), " participants");
   append_members_count(text, packet);
   return text;
 }
@@ -66,27 +75,43 @@ std::string arrival_label(const Packet& packet, std::uint32_t from) {
 
 const char* timer_label(EventKind kind) {
   switch (kind) {
-    case EventKind::announcement_due: return "announcement";
-    case EventKind::heartbeat_expiry: return "HEARTBEAT expiry";
-    case EventKind::acknack_generation: return "ACKNACK generation";
-    case EventKind::initial_acknack_due: return "initial ACKNACK due";
-    case EventKind::repair_generation: return "repair DATA generation";
-    case EventKind::suppression_end: return "suppression end";
-    case EventKind::cycle_start: return "HEARTBEAT cycle start";
-    case EventKind::cycle_end: return "HEARTBEAT cycle end";
-    case EventKind::batch_due: return "HEARTBEAT batch";
-    case EventKind::endpoint_creation: return "endpoint created";
-    case EventKind::nack_response: return "NACK response";
-    case EventKind::async_run: return "asynchronous send";
-    default: return name_of(kind);
+    case EventKind::announcement_due:
+      return "announcement";
+    case EventKind::heartbeat_expiry:
+      return "HEARTBEAT expiry";
+    case EventKind::acknack_generation:
+      return "ACKNACK generation";
+    case EventKind::initial_acknack_due:
+      return "initial ACKNACK due";
+    case EventKind::repair_generation:
+      return "repair DATA generation";
+    case EventKind::suppression_end:
+      return "suppression end";
+    case EventKind::cycle_start:
+      return "HEARTBEAT cycle start";
+    case EventKind::cycle_end:
+      return "HEARTBEAT cycle end";
+    case EventKind::batch_due:
+      return "HEARTBEAT batch";
+    case EventKind::endpoint_creation:
+      return "endpoint created";
+    case EventKind::nack_response:
+      return "NACK response";
+    case EventKind::async_run:
+      return "asynchronous send";
+    default:
+      return name_of(kind);
   }
 }
 
 const char* timer_start_label(EventKind kind) {
   switch (kind) {
-    case EventKind::suppression_end: return "repair DATA left the source";
-    case EventKind::initial_acknack_due: return "relation opened";
-    default: return "timer started";
+    case EventKind::suppression_end:
+      return "suppression started";
+    case EventKind::initial_acknack_due:
+      return "relation opened";
+    default:
+      return "timer started";
   }
 }
 

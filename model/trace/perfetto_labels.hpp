@@ -22,7 +22,7 @@ namespace stormproof::model::trace {
 
 /// "ACKNACK generation": an event of the protocol.
 [[nodiscard]] const char* timer_label(EventKind kind);
-/// "DATA left the source": what a slice does that starts a timer and has no other name.
+/// "suppression started": what a slice does that starts a timer and has no other name.
 [[nodiscard]] const char* timer_start_label(EventKind kind);
 
 }  // namespace stormproof::model::trace

@@ -36,11 +36,11 @@ Stream stream_at(std::uint32_t relation_or_writer) {
 
 }  // namespace
 
-Track channel_track(std::uint32_t channel) { return {network_process, first_channel_thread + channel}; }
-
-Track participant_track(std::uint32_t participant) {
-  return row(participant, Row::participant);
+Track channel_track(std::uint32_t channel) {
+  return {network_process, first_channel_thread + channel};
 }
+
+Track participant_track(std::uint32_t participant) { return row(participant, Row::participant); }
 
 Track writer_track(std::uint32_t participant, Stream stream) {
   return row(participant, stream == Stream::pub ? Row::writer_pub : Row::writer_sub);
@@ -55,22 +55,30 @@ Track user_track(std::uint32_t participant) { return row(participant, Row::user_
 Track sender_track(const Packet& packet, std::uint32_t source) {
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
-    case PacketKind::spdp_unicast: return participant_track(source);
-    case PacketKind::acknack: return reader_track(source, packet.stream);
+    case PacketKind::spdp_unicast:
+      return participant_track(source);
+    case PacketKind::acknack:
+      return reader_track(source, packet.stream);
     case PacketKind::data:
-    case PacketKind::heartbeat: return writer_track(source, packet.stream);
-    default: return user_track(source);
+    case PacketKind::heartbeat:
+      return writer_track(source, packet.stream);
+    default:
+      return user_track(source);
   }
 }
 
 Track receiver_track(const Packet& packet, std::uint32_t destination) {
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
-    case PacketKind::spdp_unicast: return participant_track(destination);
-    case PacketKind::acknack: return writer_track(destination, packet.stream);
+    case PacketKind::spdp_unicast:
+      return participant_track(destination);
+    case PacketKind::acknack:
+      return writer_track(destination, packet.stream);
     case PacketKind::data:
-    case PacketKind::heartbeat: return reader_track(destination, packet.stream);
-    default: return user_track(destination);
+    case PacketKind::heartbeat:
+      return reader_track(destination, packet.stream);
+    default:
+      return user_track(destination);
   }
 }
 
@@ -78,14 +86,19 @@ std::optional<Track> machine_track(const MachineRef& machine, const Topology& to
   const std::uint32_t subject = machine.subject;
   if (machine.machine == "SingleShot") return std::nullopt;
   switch (machine.kind) {
-    case MachineRef::Kind::participant: return participant_track(subject);
-    case MachineRef::Kind::writer: return writer_track(subject / 2, stream_at(subject));
+    case MachineRef::Kind::participant:
+      return participant_track(subject);
+    case MachineRef::Kind::writer:
+      return writer_track(subject / 2, stream_at(subject));
     case MachineRef::Kind::channel:
-    case MachineRef::Kind::control_relation: return std::nullopt;
-    case MachineRef::Kind::relation: break;
+    case MachineRef::Kind::control_relation:
+      return std::nullopt;
+    case MachineRef::Kind::relation:
+      break;
   }
   const Pair& pair = topology.pair(subject / 2);
-  const bool of_reader = machine.machine == "DiscoveryReader" || machine.machine == "InitialAckNack";
+  const bool of_reader =
+      machine.machine == "DiscoveryReader" || machine.machine == "InitialAckNack";
   if (of_reader) return reader_track(pair.destination, stream_at(subject));
   return writer_track(pair.source, stream_at(subject));
 }
@@ -98,9 +111,12 @@ bool is_timer(EventKind kind) {
 
 Track timer_track(EventKind kind, std::uint32_t subject, const Topology& topology) {
   switch (subject_of(kind)) {
-    case Subject::participant: return participant_track(subject);
-    case Subject::writer: return writer_track(subject / 2, stream_at(subject));
-    default: break;
+    case Subject::participant:
+      return participant_track(subject);
+    case Subject::writer:
+      return writer_track(subject / 2, stream_at(subject));
+    default:
+      break;
   }
   const Pair& pair = topology.pair(subject / 2);
   const bool of_reader =

@@ -1,6 +1,6 @@
-// The rows of the timeline: one group for the network with a row per channel, one group per participant with a
-// row for what it does as a whole (announcements, creation of endpoints), one for each of its built-in SEDP writers
-// and readers, and one for its user topics.
+// The rows of the timeline: one group for the network with a row per channel, one group per
+// participant with a row for what it does as a whole (announcements, creation of endpoints), one
+// for each of its built-in SEDP writers and readers, and one for its user topics.
 #pragma once
 
 #include <optional>
@@ -26,9 +26,10 @@ inline constexpr std::uint32_t network_process = 1;
 [[nodiscard]] Track sender_track(const Packet& packet, std::uint32_t source);
 /// The row at which participant `destination` takes the packet.
 [[nodiscard]] Track receiver_track(const Packet& packet, std::uint32_t destination);
-/// The row on which the machine's transitions are shown. Those of channels and timers show as slices and arrows
-/// already, those of control-only relations belong to two participants.
-[[nodiscard]] std::optional<Track> machine_track(const MachineRef& machine, const Topology& topology);
+/// The row on which the machine's transitions are shown. Those of channels and timers show as
+/// slices and arrows already, those of control-only relations belong to two participants.
+[[nodiscard]] std::optional<Track> machine_track(const MachineRef& machine,
+                                                 const Topology& topology);
 /// Whether the event is a timer that has a row.
 [[nodiscard]] bool is_timer(EventKind kind);
 /// The row of a timer.

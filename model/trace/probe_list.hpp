@@ -1,4 +1,5 @@
-// Several observers of one run, as one. They hear of everything in the order in which they were added.
+// Several observers of one run, as one. They hear of everything in the order in which they were
+// added.
 #pragma once
 
 #include <vector>

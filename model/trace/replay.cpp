@@ -21,13 +21,15 @@ constexpr const char* expected_header =
 /// Reads the first line and what must be in it.
 Result<Json> read_header(LineReader& reader, const std::string& file) {
   switch (reader.next()) {
-    case LineReader::Status::unreadable: return InputError{file, "cannot be read"};
+    case LineReader::Status::unreadable:
+      return InputError{file, "cannot be read"};
     case LineReader::Status::end:
       return InputError{file, std::string{"the file is empty; "} + expected_header};
     case LineReader::Status::too_long:
       return InputError{file + ":1", std::string{"the line is too long; "} + expected_header};
     case LineReader::Status::line:
-    case LineReader::Status::unterminated: break;
+    case LineReader::Status::unterminated:
+      break;
   }
   const auto header = parse_line(reader.text());
   if (!header || !header->is_object() || header->value("format", Json{}) != "stormproof-trace") {
@@ -45,9 +47,10 @@ Result<Json> read_header(LineReader& reader, const std::string& file) {
   return *header;
 }
 
-/// The scenario of the header. Spaces in front of it give errors the column that they have in the file.
-Result<Scenario> read_scenario(const Json& header, const std::string& line,
-                               const std::string& file, const config::SpecPath& specs) {
+/// The scenario of the header. Spaces in front of it give errors the column that they have in the
+/// file.
+Result<Scenario> read_scenario(const Json& header, const std::string& line, const std::string& file,
+                               const config::SpecPath& specs) {
   const std::string text = header["scenario"].dump();
   const std::size_t found = line.find(text);
   const std::string indent(found == std::string::npos ? 0 : found, ' ');
@@ -58,10 +61,14 @@ Result<Scenario> read_scenario(const Json& header, const std::string& line,
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::identical: return "identical";
-    case Verdict::different: return "different";
-    case Verdict::ends_early: return "ends_early";
-    case Verdict::stopped: return "stopped";
+    case Verdict::identical:
+      return "identical";
+    case Verdict::different:
+      return "different";
+    case Verdict::ends_early:
+      return "ends_early";
+    case Verdict::stopped:
+      return "stopped";
   }
   return "";
 }
@@ -86,8 +93,10 @@ Result<Replay> replay(const std::string& file, const config::SpecPath& specs,
     return !comparison.decided() && (!on_progress || on_progress(state));
   };
   const RunResult result = simulate(*scenario, options);
-  if (result.end == RunEnd::interrupted) comparison.stop();
-  else writer.finish(result);
+  if (result.end == RunEnd::interrupted)
+    comparison.stop();
+  else
+    writer.finish(result);
   return comparison.result(result);
 }
 

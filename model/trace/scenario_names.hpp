@@ -1,4 +1,5 @@
-// Names that traces take from the scenario and from the program, rather than from what happens in the run.
+// Names that traces take from the scenario and from the program, rather than from what happens in
+// the run.
 #pragma once
 
 #include <string>
@@ -9,7 +10,8 @@
 
 namespace stormproof::model::trace {
 
-/// The channels by number, which is their order of appearance among the stages; none with constant delay.
+/// The channels by number, which is their order of appearance among the stages; none with constant
+/// delay.
 [[nodiscard]] std::vector<std::string> channel_names(const WirelessProfile& wireless);
 
 /// "stormproof 1.2.3": the program that writes the trace.

@@ -30,7 +30,9 @@ Nanoseconds time_of(std::string_view line) {
 }  // namespace
 
 TraceComparison::TraceComparison(LineReader& reader, std::string file, Json header)
-    : reader_{reader}, file_{std::move(file)}, header_(std::move(header)) {  // braces would make an array of it
+    : reader_{reader},
+      file_{std::move(file)},
+      header_(std::move(header)) {  // braces would make an array of it
   const Json program = header_.value("program", Json{});
   if (program.is_string()) replay_.recorded_by = program.get<std::string>();
 }
@@ -46,21 +48,28 @@ void TraceComparison::take(std::string_view line) {
   switch (status) {
     case LineReader::Status::line:
     case LineReader::Status::unterminated:
-      if (reader_.text() == line) agree(line);
-      else take_other(line, status == LineReader::Status::line);
+      if (reader_.text() == line)
+        agree(line);
+      else
+        take_other(line, status == LineReader::Status::line);
       break;
-    case LineReader::Status::end: decide(Verdict::ends_early); break;
+    case LineReader::Status::end:
+      decide(Verdict::ends_early);
+      break;
     case LineReader::Status::too_long:
       fail("the line is longer than " + std::to_string(LineReader::max_line_bytes) +
            " bytes; expected the line of one event");
       break;
-    case LineReader::Status::unreadable: fail("the file cannot be read further"); break;
+    case LineReader::Status::unreadable:
+      fail("the file cannot be read further");
+      break;
   }
 }
 
 void TraceComparison::take_header(std::string_view line) {
   Json replayed = parse_line(line).value_or(Json{});
-  // Another version of the program may write the same trace. `expect` is not part of the comparison.
+  // Another version of the program may write the same trace. `expect` is not part of the
+  // comparison.
   for (const char* key : {"program", "expect"}) {
     header_.erase(key);
     replayed.erase(key);

@@ -1,5 +1,5 @@
-// The comparison of a recorded trace with the lines of its replay, as they come: one recorded line is in memory
-// at any time. Most lines are the same bytes; only lines that are not get parsed.
+// The comparison of a recorded trace with the lines of its replay, as they come: one recorded line
+// is in memory at any time. Most lines are the same bytes; only lines that are not get parsed.
 #pragma once
 
 #include <string>

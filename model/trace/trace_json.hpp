@@ -1,10 +1,12 @@
-// Recorded lines as JSON: parsing that survives hostile input, and the first place at which two lines differ.
+// Recorded lines as JSON: parsing that survives hostile input, and the first place at which two
+// lines differ.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include <nlohmann/json.hpp>
 
 namespace stormproof::model::trace {
 
@@ -20,8 +22,8 @@ struct Mismatch {
   std::string replayed;
 };
 
-/// The first difference in the order of the recorded keys, then of the replayed ones; nothing if the values
-/// are equal. The order of keys and white space do not count.
+/// The first difference in the order of the recorded keys, then of the replayed ones; nothing if
+/// the values are equal. The order of keys and white space do not count.
 [[nodiscard]] std::optional<Mismatch> first_difference(const Json& recorded, const Json& replayed);
 
 }  // namespace stormproof::model::trace

@@ -2,9 +2,10 @@
 #include "model/trace/trace_writer.hpp"
 
 #include <bit>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "model/config/effective.hpp"
 #include "model/trace/event_subject.hpp"
@@ -46,14 +47,16 @@ TraceWriter::TraceWriter(Sink sink, const Scenario& scenario) : sink_{std::move(
 void TraceWriter::finish(const RunResult& result) {
   line_.clear();
   append(line_, R"({"end":")", end_name(result.end), R"(","t_disc_ns":)");
-  if (result.discovery_time) append(line_, result.discovery_time->count());
-  else line_ += "null";
+  if (result.discovery_time)
+    append(line_, result.discovery_time->count());
+  else
+    line_ += "null";
   append(line_, R"(,"end_ns":)", result.end_time.count(), R"(,"counts":{)");
   for (const Counts::Entry& count : result.counts.entries()) {
     append(line_, "\"", count.name, "\":", count.value, ",");
   }
-  append(line_, R"("total":)", result.counts.total(), R"(},"missing":)", result.missing_count,
-         R"(,"events":)", result.events, "}\n");
+  append(line_, R"("total":)", result.counts.total(), R"(},"user_control":)", result.user_control,
+         R"(,"missing":)", result.missing_count, R"(,"events":)", result.events, "}\n");
   sink_(line_);
 }
 
@@ -66,8 +69,8 @@ void TraceWriter::event_started(const Event& event) {
   event_ = event;
   in_event_ = true;
   transitions_.clear();
-  for (std::string* text : {&emitted_, &looped_back_, &service_, &left_source_, &arrived_,
-                            &received_, &packet_}) {
+  for (std::string* text :
+       {&emitted_, &looped_back_, &service_, &left_source_, &arrived_, &received_, &packet_}) {
     text->clear();
   }
 }
@@ -90,7 +93,8 @@ void TraceWriter::emitted(const Packet& packet, std::uint32_t source,
   emitted_ += '}';
 }
 
-/// How many descriptors of a DATA packet go out for the first time on their relation, and how many again.
+/// How many descriptors of a DATA packet go out for the first time on their relation, and how many
+/// again.
 void TraceWriter::append_generated(const Packet& packet) {
   int initial = 0;
   int again = 0;
@@ -131,8 +135,10 @@ void TraceWriter::arrived(const Packet& packet, bool lost) {
   append(arrived_, R"({"packet":)", packet.number, R"(,"kind":")", name_of(packet.kind), "\"");
   const auto [from, to] = packet_ends(packet, *topology_);
   append(arrived_, R"(,"from":)", from, R"(,"to":)");
-  if (packet.multicast()) arrived_ += R"("multicast")";
-  else append_part(arrived_, to);
+  if (packet.multicast())
+    arrived_ += R"("multicast")";
+  else
+    append_part(arrived_, to);
   append_stream(arrived_, packet);
   arrived_ += lost ? R"(,"lost":true})" : "}";
 }
@@ -171,8 +177,10 @@ void TraceWriter::event_finished(const Depths& depths) {
 
 void TraceWriter::append_event_subject() {
   const Subject subject = subject_of(event_.kind);
-  if (subject != Subject::packet) append_subject(subject, event_.subject);
-  else if (!packet_.empty()) append(line_, R"(,"packet":)", packet_);
+  if (subject != Subject::packet)
+    append_subject(subject, event_.subject);
+  else if (!packet_.empty())
+    append(line_, R"(,"packet":)", packet_);
   if (const char* name = detail_name(event_.kind)) {
     append(line_, ",\"", name, "\":", event_.detail);
   }
@@ -193,15 +201,20 @@ void TraceWriter::append_subject(Subject kind, std::uint32_t subject) {
       break;
     }
     case Subject::writer:
-      append(line_, R"(,"writer":{"participant":)", subject / 2, R"(,"stream":")",
-             name_at(subject), "\"}");
+      append(line_, R"(,"writer":{"participant":)", subject / 2, R"(,"stream":")", name_at(subject),
+             "\"}");
       break;
-    case Subject::participant: append(line_, R"(,"participant":)", subject); break;
-    case Subject::channel: append(line_, R"(,"channel":)", channels_[subject]); break;
+    case Subject::participant:
+      append(line_, R"(,"participant":)", subject);
+      break;
+    case Subject::channel:
+      append(line_, R"(,"channel":)", channels_[subject]);
+      break;
     case Subject::control_relation:
       append(line_, R"(,"control_relation":)", subject);
       break;
-    case Subject::packet: break;
+    case Subject::packet:
+      break;
   }
 }
 

@@ -1,6 +1,6 @@
-// The trace of a run: JSON Lines, one line for every processed event, with all that it changed. A trace says
-// why a run took as long as it did, it can be searched with jq, and `replay` proves that it is right.
-// specs/trace-format.md describes every key.
+// The trace of a run: JSON Lines, one line for every processed event, with all that it changed. A
+// trace says why a run took as long as it did, it can be searched with jq, and `replay` proves that
+// it is right. specs/trace-format.md describes every key.
 #pragma once
 
 #include <functional>
@@ -66,7 +66,7 @@ class TraceWriter final : public Probe {
   Sink sink_;
   std::vector<std::string> channels_;  // as JSON strings, by number
   std::vector<std::string> stages_;
-  std::vector<HostId> hosts_;  // by participant
+  std::vector<HostId> hosts_;           // by participant
   const Topology* topology_ = nullptr;  // of the run
   std::uint64_t next_number_ = 0;
   std::unordered_map<std::uint64_t, std::uint64_t> causes_;  // insertion → event, while scheduled
@@ -78,9 +78,9 @@ class TraceWriter final : public Probe {
   Event event_;
   bool in_event_ = false;
   TransitionList transitions_;
-  std::string emitted_;      // elements of arrays, or empty
+  std::string emitted_;  // elements of arrays, or empty
   std::string looped_back_;
-  std::string service_;      // objects, or empty
+  std::string service_;  // objects, or empty
   std::string arrived_;
   std::string received_;
   std::string left_source_;  // packet numbers, or empty

@@ -3,9 +3,8 @@
 
 namespace stormproof::model::trace {
 
-void TransitionList::add(const MachineRef& machine, std::string_view event,
-                         std::string_view before, std::string_view after, std::uint32_t word,
-                         std::uint64_t descriptors) {
+void TransitionList::add(const MachineRef& machine, std::string_view event, std::string_view before,
+                         std::string_view after, std::uint32_t word, std::uint64_t descriptors) {
   Entry* entry = descriptors == 0 ? nullptr : find(machine, event, before, after);
   if (entry == nullptr) {
     entry = &append();

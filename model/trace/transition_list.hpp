@@ -1,5 +1,5 @@
-// The transitions of one event. Descriptor machines report theirs per 64 descriptors and per class of input;
-// here they become one entry per relation and move, with all its descriptors.
+// The transitions of one event. Descriptor machines report theirs per 64 descriptors and per class
+// of input; here they become one entry per relation and move, with all its descriptors.
 #pragma once
 
 #include <string>

@@ -37,7 +37,8 @@ TEST(Reflect, ListsTheMachinesInTheOrderOfTheDocuments) {
   Names names;
   for (const MachineInfo& info : machines()) names.push_back(info.name);
   EXPECT_EQ(names, (Names{"DescriptorRepair", "DiscoveryReader", "HeartbeatTimer", "InitialAckNack",
-                          "Announcer", "Channel"}));
+                          "Announcer", "Channel", "ChangeForReader", "SingleShot", "ControlWriter",
+                          "ControlReader"}));
 }
 
 TEST(Reflect, StatesComeInTheOrderOfMsm) {

@@ -157,6 +157,10 @@ MachineSurvey survey_heartbeat_timer();
 MachineSurvey survey_initial_acknack();
 MachineSurvey survey_announcer();
 MachineSurvey survey_channel();
+MachineSurvey survey_change_for_reader();
+MachineSurvey survey_single_shot();
+MachineSurvey survey_control_writer();
+MachineSurvey survey_control_reader();
 
 /// All of them, in the order of `machines()`.
 [[nodiscard]] std::vector<MachineSurvey> all_surveys();

@@ -11,6 +11,10 @@ std::vector<MachineSurvey> all_surveys() {
   surveys.push_back(survey_initial_acknack());
   surveys.push_back(survey_announcer());
   surveys.push_back(survey_channel());
+  surveys.push_back(survey_change_for_reader());
+  surveys.push_back(survey_single_shot());
+  surveys.push_back(survey_control_writer());
+  surveys.push_back(survey_control_reader());
   return surveys;
 }
 

@@ -109,7 +109,7 @@ Scenario by_hand(const std::vector<Node>& nodes, std::int64_t one_way_ns) {
     participant.host = HostId{node.host};
     participant.publications = node.publications;
     participant.subscriptions = node.subscriptions;
-    participant.start = Nanoseconds{node.start_ns};
+    participant.start = participant.endpoints_done = Nanoseconds{node.start_ns};
     scenario.deployment.participants.push_back(participant);
   }
   scenario.dds.descriptors.default_publications = 0;

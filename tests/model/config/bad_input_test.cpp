@@ -88,6 +88,34 @@ std::string two(const std::string& participant) {
                          participant + "]}");
 }
 
+std::string with_schedule(const std::string& schedule) {
+  return with("endpoints_per_participant: 20",
+              "endpoints_per_participant: 20, schedule: " + schedule);
+}
+
+/// Two participants, the second with these times, and a schedule in which both start at 1 ms and
+/// are done at 2 ms.
+std::string scheduled(const std::string& times) {
+  return with_deployment(
+      "{schedule: {start: [1ms, 1ms], endpoints_done: [2ms, 2ms]}, participants: [{host: 0, "
+      "publications: 1, subscriptions: 1}, {host: 1, publications: 1, subscriptions: 1" +
+      times + "}]}");
+}
+
+/// A scenario with a complete profile of Fast DDS in one line, with `spdp`, `sedp` and `rest` put
+/// at the end of its maps.
+std::string fastdds(const std::string& spdp, const std::string& sedp, const std::string& rest) {
+  return "{deployment: {hosts: 2, participants_per_host: 1, endpoints_per_participant: 2},\n"
+         "dds: {implementation: fastdds,\n"
+         "spdp: {period: 3s, startup_announcements: 5, startup_period: 1s, resend: none,\n" +
+         spdp +
+         "}, sedp: {heartbeat_period: 1s, heartbeat_response_delay: 1ms, nack_response_delay: 1ms, "
+         "nack_suppression_duration: 1ms, initial_acknack_delay: 1ms, heartbeat_policy: periodic, "
+         "adaptive: {min_period: 1s, max_period: 1s, epsilon: 1}, piggyback: off, "
+         "piggyback_threshold_bytes: 1,\n" +
+         sedp + "},\n" + rest + "}, wireless: {kind: constant_delay, one_way: 0}, time_limit: 1s}";
+}
+
 void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
 
 class BadInputs : public testing::TestWithParam<BadInput> {};
@@ -184,8 +212,71 @@ INSTANTIATE_TEST_SUITE_P(
                  1, 127, "'-1ms' is negative"},
         BadInput{"same_host", two("{host: 0, publications: 1, subscriptions: 1}"), 1, 13,
                  "participants on at least two hosts"},
+        BadInput{"done_before_start",
+                 two("{host: 1, publications: 1, subscriptions: 1, start: 2ms, endpoints_done: "
+                     "1.9ms}"),
+                 1, 148,
+                 "deployment.participants.1.endpoints_done: '1.9ms'; expected at least its start "
+                 "of 2ms"},
+        BadInput{"loopback_no_unit",
+                 with("participants_per_host: 5", "participants_per_host: 5, loopback_delay: 60"),
+                 1, 66, "deployment.loopback_delay: '60' has no unit"},
+        BadInput{"loopback_negative",
+                 with("participants_per_host: 5", "participants_per_host: 5, loopback_delay: -1ms"),
+                 1, 66, "'-1ms' is negative"},
         BadInput{"host_number", two("{host: 4000, publications: 1, subscriptions: 1}"), 1, 82,
                  "expected an integer from 0 to 3999"}),
+    name_of_case);
+
+INSTANTIATE_TEST_SUITE_P(
+    InSchedule, BadInputs,
+    testing::Values(
+        BadInput{"text", with_schedule("late"), 1, 91,
+                 "deployment.schedule: 'late' is not a map; expected the keys start, "
+                 "endpoints_done, seed"},
+        BadInput{"unknown_key", with_schedule("{begin: [0, 1s]}"), 1, 92,
+                 "unknown key 'begin' in deployment.schedule"},
+        BadInput{"not_a_range", with_schedule("{start: 3ms}"), 1, 99,
+                 "deployment.schedule.start: '3ms' is not a list; expected [low, high]"},
+        BadInput{"three", with_schedule("{start: [0, 1s, 2s]}"), 1, 99, "a list of 3"},
+        BadInput{"no_unit", with_schedule("{start: [3, 30]}"), 1, 100, "'3' has no unit"},
+        BadInput{"negative", with_schedule("{endpoints_done: [-1s, 30s]}"), 1, 109, "is negative"},
+        BadInput{"backwards", with_schedule("{start: [30ms, 3ms]}"), 1, 99,
+                 "deployment.schedule.start: '30ms' is more than '3ms'; expected [low, high]"},
+        BadInput{"seed_negative", with_schedule("{seed: -1}"), 1, 98, "'-1' is negative"},
+        BadInput{"seed_large", with_schedule("{seed: 18446744073709551616}"), 1, 98,
+                 "is too large; expected an integer from 0 to 18446744073709551615"},
+        BadInput{"other_start", scheduled(", start: 2ms"), 1, 186,
+                 "deployment.participants.1.start: '2ms'; expected 1ms, which the schedule draws, "
+                 "or no start at all"},
+        BadInput{
+            "other_endpoints_done", scheduled(", start: 1ms, endpoints_done: 1ms"), 1, 207,
+            "deployment.participants.1.endpoints_done: '1ms'; expected 2ms, which the schedule "
+            "draws"}),
+    name_of_case);
+
+const char* const of_paper =
+    ": only implementation: paper has this key; expected none of it in a profile with "
+    "implementation: fastdds";
+
+INSTANTIATE_TEST_SUITE_P(
+    InFastDds, BadInputs,
+    testing::Values(BadInput{"spdp_size", fastdds("payload_bytes: 252", "", ""), 4, 1, of_paper},
+                    BadInput{"relation_rule", fastdds("", "acknowledge: prefix", ""), 5, 1,
+                             "dds.sedp.acknowledge: only implementation: paper has this key"},
+                    BadInput{"grouping", fastdds("", "grouping: message", ""), 5, 1, of_paper},
+                    BadInput{"size", fastdds("", "heartbeat_bytes: 68", ""), 5, 1, of_paper},
+                    BadInput{"descriptors", fastdds("", "", "descriptors: {}"), 6, 1, of_paper},
+                    BadInput{
+                        "unknown_key", fastdds("", "acknowledged: prefix", ""), 5, 1,
+                        "unknown key 'acknowledged' in dds.sedp; expected one of heartbeat_period, "
+                        "heartbeat_response_delay, nack_response_delay, nack_suppression_duration, "
+                        "initial_acknack_delay, heartbeat_policy, adaptive, piggyback, "
+                        "piggyback_threshold_bytes"},
+                    BadInput{"missing",
+                             "{deployment: {hosts: 2, participants_per_host: 1, "
+                             "endpoints_per_participant: 2},\n dds: {implementation: fastdds}}",
+                             2, 7, "missing key 'spdp' in dds; expected a map"}),
     name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -238,8 +329,17 @@ INSTANTIATE_TEST_SUITE_P(
                  "a list of 3; expected [first, last]"},
         BadInput{"pair_of_words", with("[452, 532]", "[452, big]"), 35, 26,
                  "'big' is not an integer"},
-        BadInput{"implementation", with("dds:\n", "dds:\n  implementation: fastdds\n"), 3, 19,
-                 "'fastdds'; expected paper, because fastdds is not available yet"},
+        BadInput{"implementation", with("dds:\n", "dds:\n  implementation: fast-dds\n"), 3, 19,
+                 "'fast-dds' is not known; did you mean 'fastdds'?"},
+        BadInput{"other_implementation", with("dds:\n", "dds:\n  implementation: fastdds\n"), 33, 3,
+                 "dds.descriptors: only implementation: paper has this key; expected none of it in "
+                 "a profile with implementation: fastdds"},
+        BadInput{"base_of_other_implementation",
+                 with("dds:\n", "dds:\n  base: paper\n  implementation: fastdds\n"), 4, 19,
+                 "implementation: 'fastdds'; expected paper, as the profile that this changes has "
+                 "it"},
+        BadInput{"base_of_the_other_kind", with("dds:\n", "dds:\n  base: fastdds-2.6.11\n"), 33, 3,
+                 "dds.descriptors: only implementation: paper has this key"},
         BadInput{"base_unknown", with("dds:\n", "dds:\n  base: papper\n"), 3, 9,
                  "no dds file named 'papper'; did you mean 'paper'?"},
         BadInput{"base_path", with("dds:\n", "dds:\n  base: no/such.yaml\n"), 3, 9,
@@ -308,6 +408,46 @@ TEST(BadInput, thirty_three_stages_are_too_many) {
       "f", {}, source_specs());
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().message, "wireless.stages: a list of 33; expected a list of 1 to 32 maps");
+}
+
+TEST(BadInput, the_good_profile_of_fast_dds_is_good) {
+  const auto read = parse_scenario(fastdds("", "", ""), "good.yaml", {}, SpecPath{});
+  ASSERT_TRUE(read) << to_string(read.error());
+  const auto drawn = parse_scenario(scheduled(", start: 1ms"), "good.yaml", {}, SpecPath{});
+  ASSERT_TRUE(drawn) << to_string(drawn.error());
+}
+
+/// The message for the good scenario with these overrides, or "accepted".
+std::string refusal(const std::vector<std::string>& overrides) {
+  const auto read = parse_scenario(good, "good.yaml", overrides, source_specs());
+  return read ? "accepted" : to_string(read.error());
+}
+
+TEST(BadInput, a_million_fragments_are_the_limit) {
+  const std::string limit = "dds.sedp.grouping_limit_bytes=";
+  const std::string mtu = "wireless.mtu_payload_bytes=";
+  // The payload carries a HEARTBEAT of 32 B, and the UDP header of 8 B goes with it.
+  EXPECT_EQ(refusal({limit + "999960", mtu + "1"}), "accepted");
+  EXPECT_EQ(refusal({limit + "999961", mtu + "1"}),
+            "--set " + mtu +
+                "1: wireless.mtu_payload_bytes: '1'; expected at most 1000000 "
+                "fragments a packet; the largest has 999993 bytes of payload "
+                "(dds.sedp.grouping_limit_bytes)");
+  EXPECT_EQ(refusal({limit + "999992", mtu + "1", "dds.sedp.piggyback=off"}), "accepted");
+  EXPECT_EQ(refusal({limit + "999993", mtu + "1", "dds.sedp.grouping=mtu"}), "accepted");
+  EXPECT_EQ(refusal({limit + "1000000000", mtu + "1001"}), "accepted");
+  EXPECT_EQ(refusal({"dds.descriptors.user_bytes=1000000000"}), "accepted");
+  for (const char* key : {"dds.descriptors.user_bytes", "dds.spdp.payload_bytes",
+                          "dds.sedp.heartbeat_bytes", "dds.sedp.acknack_bytes"}) {
+    const std::string message = refusal({std::string{key} + "=1000000000", mtu + "999"});
+    EXPECT_NE(message.find(std::string{"bytes of payload ("} + key), std::string::npos) << message;
+  }
+  EXPECT_NE(refusal({"dds.descriptors.default_bytes=[452, 1000000000]", mtu + "999"})
+                .find("(dds.descriptors.default_bytes)"),
+            std::string::npos);
+  EXPECT_EQ(refusal({limit + "1000000000", "wireless={kind: constant_delay, one_way: 0}"}),
+            "accepted");
+  EXPECT_EQ(refusal({mtu + "1", "dds=fastdds-2.6.11"}), "accepted");
 }
 
 TEST(BadInput, a_mistake_in_a_base_is_placed_in_that_file) {

@@ -54,7 +54,10 @@ RC_GTEST_PROP(Effective, numbers_survive, ()) {
   };
   Scenario scenario;
   scenario.deployment = Deployment::homogeneous(2, 1, 3);
-  scenario.deployment.participants[0].start = Nanoseconds{up_to(0, 1'000'000'000'000'000)};
+  Participant& first = scenario.deployment.participants[0];
+  first.start = Nanoseconds{up_to(0, 1'000'000'000'000'000)};
+  first.endpoints_done = Nanoseconds{up_to(first.start.count(), 1'000'000'000'000'000)};
+  scenario.deployment.loopback_delay = Nanoseconds{up_to(0, 1'000'000'000'000'000)};
   scenario.dds.sedp.heartbeat_period = Nanoseconds{up_to(1, 1'000'000'000'000'000)};
   scenario.dds.sedp.piggyback_threshold_bytes = Bytes{up_to(0, 1'000'000'000'000)};
   scenario.wireless.rate_unicast = BitsPerSecond{up_to(1, 1'000'000'000'000'000)};
@@ -67,13 +70,72 @@ RC_GTEST_PROP(Effective, numbers_survive, ()) {
   RC_ASSERT((from_yaml && *from_yaml == scenario));
 }
 
+RC_GTEST_PROP(Effective, drawn_times_survive_with_their_schedule, (std::uint64_t seed)) {
+  const auto range = [](Nanoseconds& low, Nanoseconds& high) {
+    low = Nanoseconds{*rc::gen::inRange<std::int64_t>(0, 1'000'000'000'000'001)};
+    high = Nanoseconds{*rc::gen::inRange<std::int64_t>(low.count(), 1'000'000'000'000'001)};
+  };
+  Scenario scenario;
+  scenario.dds.implementation = ImplementationKind::fastdds;
+  scenario.deployment = Deployment::homogeneous(2, 3, 3);
+  Schedule& schedule = scenario.deployment.schedule.emplace();
+  range(schedule.start_min, schedule.start_max);
+  range(schedule.endpoints_done_min, schedule.endpoints_done_max);
+  scenario.deployment.draw_schedule(seed);
+  const auto from_json = read_back(effective_json(scenario).dump());
+  const auto from_yaml = read_back(effective_yaml(scenario));
+  RC_ASSERT((from_json && *from_json == scenario));
+  RC_ASSERT((from_yaml && *from_yaml == scenario));
+}
+
+TEST(Effective, every_dds_profile_survives) {
+  const SpecPath specs = source_specs();
+  for (const std::string& name : specs.names(SpecKind::dds)) {
+    for (const char* scenario : {"wifi-5x20", "live-5x20"}) {
+      const std::vector<std::string> overrides{"dds=" + name};
+      expect_round_trip(*read_scenario(scenario, overrides, specs));
+    }
+  }
+}
+
+TEST(Effective, fast_dds_has_only_its_keys) {
+  const auto keys = [](const nlohmann::ordered_json& map) {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : map.items()) names.push_back(key);
+    return names;
+  };
+  const auto json = effective_json(*read_dds_profile("fastdds-2.6.11", {}, source_specs()));
+  EXPECT_EQ(keys(json), (std::vector<std::string>{"implementation", "spdp", "sedp"}));
+  EXPECT_EQ(keys(json["spdp"]), (std::vector<std::string>{"period", "startup_announcements",
+                                                          "startup_period", "resend"}));
+  EXPECT_EQ(keys(json["sedp"]),
+            (std::vector<std::string>{"heartbeat_period", "heartbeat_response_delay",
+                                      "nack_response_delay", "nack_suppression_duration",
+                                      "initial_acknack_delay", "heartbeat_policy", "adaptive",
+                                      "piggyback", "piggyback_threshold_bytes"}));
+}
+
+TEST(Effective, a_schedule_stands_beside_the_times_drawn_from_it) {
+  const std::vector<std::string> overrides{"deployment.schedule={start: [1ms, 1ms], seed: 7}"};
+  const auto scenario = read_scenario("smallest", overrides, source_specs());
+  ASSERT_TRUE(scenario) << to_string(scenario.error());
+  const auto json = effective_json(*scenario);
+  EXPECT_EQ(json["deployment"]["schedule"].dump(),
+            R"({"start":["1ms","1ms"],"endpoints_done":["1ms","1ms"],"seed":7})");
+  EXPECT_EQ(
+      json["deployment"]["participants"][1].dump(),
+      R"({"host":1,"publications":1,"subscriptions":1,"start":"1ms","endpoints_done":"1ms"})");
+}
+
 TEST(Effective, the_form_is_that_of_a_scenario_file) {
   Scenario scenario;
   scenario.deployment = Deployment::homogeneous(2, 1, 1);
   scenario.wireless.source_queue_bytes = WirelessProfile::unlimited;
   const auto json = effective_json(scenario);
   EXPECT_EQ(json["deployment"]["participants"][1].dump(),
-            R"({"host":1,"publications":1,"subscriptions":0,"start":"0s"})");
+            R"({"host":1,"publications":1,"subscriptions":0,"start":"0s","endpoints_done":"0s"})");
+  EXPECT_EQ(json["deployment"]["loopback_delay"], "2ms");
+  EXPECT_FALSE(json["deployment"].contains("schedule"));
   EXPECT_EQ(json["dds"]["sedp"]["nack_response_delay"], "100us");
   EXPECT_EQ(json["dds"]["sedp"]["adaptive"]["epsilon"], "1/20");
   EXPECT_EQ(json["wireless"]["source_queue_bytes"], "unlimited");

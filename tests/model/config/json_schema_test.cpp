@@ -36,9 +36,39 @@ INSTANTIATE_TEST_SUITE_P(All, JsonSchema,
 TEST(JsonSchemaContent, a_profile_needs_every_key_or_a_base) {
   const auto schema = nlohmann::json::parse(json_schema(SchemaKind::dds));
   EXPECT_EQ(schema["if"]["not"]["required"], nlohmann::json::array({"base"}));
-  EXPECT_EQ(schema["then"]["required"], nlohmann::json::array({"spdp", "sedp", "descriptors"}));
-  EXPECT_EQ(schema["then"]["properties"]["sedp"]["properties"]["adaptive"]["required"].size(), 3U);
+  const auto& paper = schema["then"]["else"];
+  EXPECT_EQ(paper["required"], nlohmann::json::array({"spdp", "sedp", "descriptors"}));
+  EXPECT_EQ(paper["properties"]["sedp"]["properties"]["adaptive"]["required"].size(), 3U);
   EXPECT_FALSE(schema.contains("required"));
+}
+
+TEST(JsonSchemaContent, fast_dds_needs_fewer_keys_and_forbids_the_others) {
+  const auto schema = nlohmann::json::parse(json_schema(SchemaKind::dds));
+  const auto is_fastdds = nlohmann::json::parse(
+      R"({"required": ["implementation"], "properties": {"implementation": {"const": "fastdds"}}})");
+  EXPECT_EQ(schema["then"]["if"], is_fastdds);
+  const auto& fastdds = schema["then"]["then"];
+  EXPECT_EQ(fastdds["required"], nlohmann::json::array({"spdp", "sedp"}));
+  EXPECT_EQ(fastdds["properties"]["spdp"]["required"].size(), 4U);
+  EXPECT_EQ(fastdds["properties"]["sedp"]["required"].size(), 9U);
+
+  ASSERT_EQ(schema["allOf"].size(), 1U);
+  EXPECT_EQ(schema["allOf"][0]["if"], is_fastdds);
+  const auto& forbidden = schema["allOf"][0]["then"]["properties"];
+  EXPECT_EQ(forbidden["descriptors"], false);
+  EXPECT_EQ(forbidden["spdp"]["properties"], nlohmann::json({{"payload_bytes", false}}));
+  EXPECT_EQ(forbidden["sedp"]["properties"].size(), 13U);
+}
+
+TEST(JsonSchemaContent, both_forms_of_a_deployment_take_a_schedule) {
+  const auto schema = nlohmann::json::parse(json_schema(SchemaKind::scenario));
+  for (const auto& form : schema["properties"]["deployment"]["oneOf"]) {
+    EXPECT_TRUE(form["properties"].contains("loopback_delay"));
+    const auto& schedule = form["properties"]["schedule"];
+    EXPECT_EQ(schedule["properties"].size(), 3U);
+    EXPECT_EQ(schedule["required"], nlohmann::json::array());
+    EXPECT_LE(form["required"].size(), 3U);
+  }
 }
 
 TEST(JsonSchemaContent, a_constant_delay_needs_no_channel) {

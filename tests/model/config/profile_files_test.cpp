@@ -72,6 +72,21 @@ TEST_F(ProfileFiles, a_chain_has_an_end) {
       << refusal("p0");
 }
 
+TEST_F(ProfileFiles, a_profile_cannot_change_the_implementation_of_its_base) {
+  const std::string scenario = files.path("scenario.yaml");
+  files.write("dds/fast.yaml", "implementation: fastdds\n");
+  files.write("dds/silent.yaml", "a: 1\n");
+  const std::string file = files.write("dds/mixed.yaml", "base: silent\nimplementation: fastdds\n");
+  EXPECT_EQ(resolve("{base: fast, a: 2}")->find("implementation")->text, "fastdds");
+  EXPECT_TRUE(resolve("{base: {base: fast}, implementation: fastdds}"));
+  EXPECT_TRUE(resolve("{base: silent, implementation: paper}"));
+  const std::string reason =
+      ", as the profile that this changes has it; the keys of one do not fit the other";
+  EXPECT_EQ(refusal("{base: {base: fast}, implementation: paper}"),
+            scenario + ":1:38: implementation: 'paper'; expected fastdds" + reason);
+  EXPECT_EQ(refusal("mixed"), file + ":2:17: implementation: 'fastdds'; expected paper" + reason);
+}
+
 TEST_F(ProfileFiles, what_is_no_profile_is_refused) {
   const std::string scenario = files.path("scenario.yaml");
   const std::string list = files.write("dds/list.yaml", "- 1\n");

@@ -85,8 +85,9 @@ TEST(ScenarioFile, overrides_reach_every_key) {
 }
 
 TEST(ScenarioFile, overrides_replace_profiles_before_they_change_them) {
-  const Scenario read = scenario(plain, {"dds.sedp.acknowledge=bitmap", "dds=fastdds-2.6.11",
-                                         "wireless.base=ad-hoc", "wireless.order=fifo"});
+  const Scenario read =
+      scenario(plain, {"dds.sedp.acknowledge=bitmap", "dds=fastdds-2.6.11-relations",
+                       "wireless.base=ad-hoc", "wireless.order=fifo"});
   EXPECT_EQ(read.dds.sedp.initial_data, InitialData::pull);
   EXPECT_EQ(read.dds.sedp.acknowledge, Acknowledge::bitmap);
   EXPECT_EQ(read.wireless.stages.size(), 1U);
@@ -112,12 +113,122 @@ TEST(ScenarioFile, an_override_is_the_place_of_its_mistakes) {
             "--set time_limit.x=1: 'time_limit' has no keys below it: it is '5s'");
   EXPECT_TRUE(refusal({"dds=papr"})
                   .starts_with("--set dds=papr: no dds file named 'papr'; did you mean 'paper'?; "
-                               "expected one of fastdds-2.6.11, paper"))
+                               "expected one of fastdds-2.14.5, fastdds-2.6.11, "))
       << refusal({"dds=papr"});
   EXPECT_EQ(refusal({"dds.implementation=fastdds"}),
-            "--set dds.implementation=fastdds: dds.implementation: 'fastdds'; expected paper, "
-            "because fastdds is not "
-            "available yet");
+            "--set dds.implementation=fastdds: implementation: 'fastdds'; expected paper, as the "
+            "profile that this changes has it; the keys of one do not fit the other");
+}
+
+TEST(ScenarioFile, fast_dds_has_fewer_keys) {
+  const std::string timers =
+      "{heartbeat_period: 1s, heartbeat_response_delay: 1ms, nack_response_delay: 2ms, "
+      "nack_suppression_duration: 3ms, initial_acknack_delay: 4ms, heartbeat_policy: adaptive, "
+      "adaptive: {min_period: 1ms, max_period: 1s, epsilon: 0.1}, piggyback: off, "
+      "piggyback_threshold_bytes: 0}";
+  const std::string spdp =
+      "{period: 2s, startup_announcements: 1, startup_period: 1ms, resend: none}";
+  const Scenario read =
+      scenario(plain, {"dds={implementation: fastdds, spdp: " + spdp + ", sedp: " + timers + "}"});
+  DdsProfile expected;
+  expected.implementation = ImplementationKind::fastdds;
+  expected.spdp.period = Nanoseconds{2'000'000'000};
+  expected.spdp.startup_announcements = 1;
+  expected.spdp.startup_period = Nanoseconds{1'000'000};
+  expected.spdp.resend = SpdpResend::none;
+  expected.sedp.heartbeat_response_delay = Nanoseconds{1'000'000};
+  expected.sedp.nack_response_delay = Nanoseconds{2'000'000};
+  expected.sedp.nack_suppression_duration = Nanoseconds{3'000'000};
+  expected.sedp.initial_acknack_delay = Nanoseconds{4'000'000};
+  expected.sedp.heartbeat_policy = HeartbeatPolicy::adaptive;
+  expected.sedp.adaptive = {Nanoseconds{1'000'000}, Nanoseconds{1'000'000'000}, 1, 10};
+  expected.sedp.piggyback = Piggyback::off;
+  expected.sedp.piggyback_threshold_bytes = Bytes{0};
+  EXPECT_EQ(read.dds, expected);
+}
+
+TEST(ScenarioFile, a_profile_keeps_the_implementation_of_its_base) {
+  const Scenario read = scenario(
+      plain, {"dds={base: fastdds-2.6.11, implementation: fastdds, sedp: {piggyback: off}}"});
+  EXPECT_EQ(read.dds.implementation, ImplementationKind::fastdds);
+  EXPECT_EQ(read.dds.sedp.piggyback, Piggyback::off);
+  EXPECT_EQ(
+      scenario(plain, {"dds.base=fastdds-3.4", "dds.implementation=fastdds"}).dds.sedp.piggyback,
+      Piggyback::linear);
+  EXPECT_EQ(scenario(plain, {"dds.implementation=paper"}).dds, DdsProfile{});
+  EXPECT_EQ(refusal({"dds=fastdds-2.6.11", "dds.sedp.grouping=mtu"}),
+            "--set dds.sedp.grouping=mtu: dds.sedp.grouping: only implementation: paper has this "
+            "key; expected none of it in a profile with implementation: fastdds");
+  const std::vector<std::string> change{"implementation=paper"};
+  EXPECT_EQ(to_string(read_dds_profile("fastdds-3.4", change, source_specs()).error()),
+            "--set implementation=paper: implementation: 'paper'; expected fastdds, as the profile "
+            "that this changes has it; the keys of one do not fit the other");
+  EXPECT_NE(read_wireless_profile("wired", change, source_specs())
+                .error()
+                .message.find("unknown key 'implementation'"),
+            std::string::npos);
+}
+
+TEST(ScenarioFile, participants_take_their_time) {
+  const Scenario read = scenario(
+      plain, {"deployment={participants: [{host: 0, publications: 1, subscriptions: 0}, {host: 1, "
+              "publications: 1, subscriptions: 0, start: 3ms}, {host: 1, publications: 1, "
+              "subscriptions: 0, start: 3ms, endpoints_done: 4ms}], loopback_delay: 0}"});
+  const auto& participants = read.deployment.participants;
+  EXPECT_EQ(participants[0].endpoints_done, Nanoseconds{0});
+  EXPECT_EQ(participants[1].endpoints_done, Nanoseconds{3'000'000});
+  EXPECT_EQ(participants[2].endpoints_done, Nanoseconds{4'000'000});
+  EXPECT_EQ(read.deployment.loopback_delay, Nanoseconds{0});
+  EXPECT_EQ(scenario(plain).deployment.loopback_delay, Nanoseconds{2'000'000});
+  EXPECT_EQ(scenario(plain, {"deployment.loopback_delay=60us"}).deployment.loopback_delay,
+            Nanoseconds{60'000});
+}
+
+TEST(ScenarioFile, a_schedule_is_drawn) {
+  Deployment expected = Deployment::homogeneous(2, 1, 3);
+  expected.schedule = Schedule{Nanoseconds{3'000'000}, Nanoseconds{30'000'000},
+                               Nanoseconds{50'000'000}, Nanoseconds{90'000'000}, 0};
+  expected.draw_schedule(18'446'744'073'709'551'615ULL);
+  const std::string ranges = "start: [3ms, 30ms], endpoints_done: [50ms, 90ms]";
+  const Scenario read =
+      scenario(plain, {"deployment.schedule={" + ranges + ", seed: 18446744073709551615}"});
+  EXPECT_EQ(read.deployment, expected);
+  EXPECT_GT(read.deployment.participants[0].start, Nanoseconds{3'000'000});
+
+  expected.draw_schedule(0);
+  EXPECT_EQ(scenario(plain, {"deployment.schedule={" + ranges + "}"}).deployment, expected);
+  EXPECT_NE(read.deployment, expected);
+  // The list form draws as well, for participants that differ.
+  EXPECT_EQ(scenario(plain, {"deployment={participants: [{host: 0, publications: 2, subscriptions: "
+                             "1}, {host: 1, publications: 2, subscriptions: 1}], schedule: {" +
+                             ranges + "}}"})
+                .deployment,
+            expected);
+}
+
+TEST(ScenarioFile, ranges_of_a_schedule_have_defaults) {
+  const auto schedule = [](const std::string& text) {
+    return *scenario(plain, {"deployment.schedule=" + text}).deployment.schedule;
+  };
+  const Nanoseconds one{1'000'000};
+  const Nanoseconds two{2'000'000};
+  const Nanoseconds zero{0};
+  EXPECT_EQ(schedule("{}"), Schedule{});
+  EXPECT_EQ(schedule("{start: [1ms, 2ms]}"), (Schedule{one, two, one, two, 0}));
+  EXPECT_EQ(schedule("{endpoints_done: [1ms, 2ms], seed: 5}"), (Schedule{zero, zero, one, two, 5}));
+  EXPECT_EQ(schedule("{start: [2ms, 2ms], endpoints_done: [0, 1ms]}"),
+            (Schedule{two, two, zero, one, 0}));
+  const Scenario late =
+      scenario(plain, {"deployment.schedule={start: [2ms, 2ms], endpoints_done: [0, 1ms]}"});
+  EXPECT_EQ(late.deployment.participants[1].endpoints_done, two);
+}
+
+TEST(ScenarioFile, an_override_can_choose_another_seed) {
+  const Scenario first = scenario(plain, {"deployment.schedule={start: [0, 1s]}"});
+  const Scenario second =
+      scenario(plain, {"deployment.schedule={start: [0, 1s]}", "deployment.schedule.seed=1"});
+  EXPECT_NE(first.deployment.participants[0].start, second.deployment.participants[0].start);
+  EXPECT_EQ(second.deployment.schedule->seed, 1U);
 }
 
 TEST(ScenarioFile, profiles_can_be_read_alone) {

@@ -29,7 +29,7 @@ TEST(Specs, every_file_is_valid) {
     const auto scenario = read_scenario(name, {}, specs);
     EXPECT_TRUE(scenario) << to_string(scenario.error());
   }
-  EXPECT_GE(specs.names(SpecKind::scenarios).size(), 6U);
+  EXPECT_GE(specs.names(SpecKind::scenarios).size(), 8U);
 }
 
 TEST(Specs, every_file_names_its_schema_and_every_value_of_a_profile_its_source) {
@@ -60,7 +60,7 @@ TEST(Specs, the_paper_profiles_are_the_defaults_of_the_structs) {
   EXPECT_EQ(wireless("wifi-80211n-2.4ghz"), WirelessProfile{});
 }
 
-TEST(Specs, fast_dds_differs_from_the_paper_in_six_rules) {
+TEST(Specs, the_relation_rules_of_fast_dds_differ_from_the_paper_in_six) {
   DdsProfile expected;
   expected.sedp.relation_opening = RelationOpening::each_side;
   expected.sedp.initial_data = InitialData::pull;
@@ -68,7 +68,49 @@ TEST(Specs, fast_dds_differs_from_the_paper_in_six_rules) {
   expected.sedp.initial_acknack = InitialAckNackReply::heartbeat;
   expected.sedp.acknowledge = Acknowledge::prefix;
   expected.sedp.heartbeat_recipients = HeartbeatRecipients::matched;
+  EXPECT_EQ(dds("fastdds-2.6.11-relations"), expected);
+}
+
+TEST(Specs, fast_dds_has_the_timers_of_the_paper_until_they_are_corrected) {
+  DdsProfile expected;
+  expected.implementation = ImplementationKind::fastdds;
   EXPECT_EQ(dds("fastdds-2.6.11"), expected);
+
+  DdsProfile large_buffer = expected;
+  large_buffer.sedp.piggyback_threshold_bytes = Bytes{4'000'000};
+  EXPECT_EQ(dds("fastdds-2.6.11-sndbuf4M"), large_buffer);
+
+  expected.spdp.resend = SpdpResend::new_only;
+  expected.sedp.heartbeat_response_delay = Nanoseconds{10'000'000};
+  expected.sedp.nack_response_delay = Nanoseconds{100'000'000};
+  expected.sedp.nack_suppression_duration = Nanoseconds{10'000'000};
+  EXPECT_EQ(dds("fastdds-2.14.5"), expected);
+
+  expected.sedp.piggyback = Piggyback::linear;
+  EXPECT_EQ(dds("fastdds-3.4"), expected);
+}
+
+TEST(Specs, the_live_machine_starts_its_processes_one_after_the_other) {
+  const auto live = read_scenario("live-5x20", {}, source_specs());
+  const auto wifi = read_scenario("wifi-5x20-fastdds", {}, source_specs());
+  ASSERT_TRUE(live && wifi);
+  EXPECT_EQ(live->dds, dds("fastdds-2.6.11"));
+  EXPECT_EQ(live->wireless, wireless("emulated-ap"));
+  EXPECT_EQ(live->deployment.loopback_delay, Nanoseconds{2'000'000});
+  ASSERT_TRUE(live->deployment.schedule);
+  const Schedule& schedule = *live->deployment.schedule;
+  EXPECT_EQ(schedule.start_max, Nanoseconds{15'650'000});
+  const std::int64_t processes = 5;
+  const std::int64_t endpoints = processes * (17 + 20);
+  EXPECT_EQ(schedule.endpoints_done_min,
+            Nanoseconds{1'000 * (-700 + 2'900 * processes + 200 * endpoints)});
+  EXPECT_EQ(schedule.endpoints_done_max,
+            Nanoseconds{1'000 * (-27'000 + 15'400 * processes + 455 * endpoints)});
+
+  Deployment quiet = live->deployment;
+  quiet.loopback_delay = Nanoseconds{60'000};
+  EXPECT_EQ(wifi->deployment, quiet);
+  EXPECT_EQ(wifi->wireless, wireless("wifi-80211n"));
 }
 
 TEST(Specs, other_wireless_profiles) {

@@ -118,6 +118,37 @@ TEST(ValueTypes, pairs_have_two_elements) {
             "f:1:5: 'x' is not an integer in plain decimal digits");
 }
 
+TEST(ValueTypes, seeds_have_64_bits) {
+  std::uint64_t value = 0;
+  EXPECT_EQ(complaint(SeedType{}, "18446744073709551615", value), "");
+  EXPECT_EQ(value, 18'446'744'073'709'551'615ULL);
+  EXPECT_EQ(SeedType{}.write(value).dump(), "18446744073709551615");
+  EXPECT_EQ(complaint(SeedType{}, "0", value), "");
+  EXPECT_EQ(value, 0U);
+  EXPECT_EQ(complaint(SeedType{}, "18446744073709551616", value),
+            "f:1:1: '18446744073709551616' is too large");
+  EXPECT_EQ(complaint(SeedType{}, "-1", value), "f:1:1: '-1' is negative");
+  for (const char* text : {"1.5", "07", "0x1", "seed", "+1", "''"}) {
+    EXPECT_NE(complaint(SeedType{}, text, value), "") << text;
+  }
+  EXPECT_EQ(complaint(SeedType{}, "'5'", value), "f:1:1: '5' in quotes is text");
+  EXPECT_EQ(complaint(SeedType{}, "[5]", value), "f:1:1: a list is not a number");
+}
+
+TEST(ValueTypes, ranges_do_not_run_backwards) {
+  Nanoseconds low;
+  Nanoseconds high;
+  RangeParts parts{low, high};
+  const DurationRangeType type{delay_range};
+  EXPECT_FALSE(type.read(node("[1ms, 1ms]"), parts));
+  EXPECT_EQ(type.write({low, high}).dump(), R"(["1ms","1ms"])");
+  EXPECT_EQ(complaint(type, "[2ms, 1ms]", parts), "f:1:1: '2ms' is more than '1ms'");
+  EXPECT_EQ(complaint(type, "[1ms]", parts), "f:1:1: a list of 1");
+  EXPECT_EQ(complaint(type, "1ms", parts), "f:1:1: '1ms' is not a list");
+  EXPECT_EQ(complaint(type, "[0, 5]", parts), "f:1:5: '5' has no unit (ns, us, ms, s)");
+  EXPECT_EQ(complaint(type, "[-1s, 0]", parts), "f:1:2: '-1s' is negative");
+}
+
 TEST(ValueTypes, text_is_one_line) {
   std::string value;
   EXPECT_EQ(complaint(TextType{}, "air", value), "");

@@ -1,9 +1,9 @@
 // Integers, exact microseconds, lists and strings.
 #include "model/trace/json_text.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
+
+#include <gtest/gtest.h>
 
 namespace stormproof::model::trace {
 namespace {

@@ -1,11 +1,12 @@
 // The timeline is well-formed in the sense of its readers, and shows the run that happened.
 #include "model/trace/perfetto.hpp"
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include "tests/model/trace/recording.hpp"
 
@@ -21,7 +22,12 @@ TrackKey track_of(const Json& event) {
 
 std::int64_t time_of(const Json& event) { return std::llround(event["ts"].get<double>() * 1e3); }
 
-class PerfettoTest : public testing::TestWithParam<Case> {};
+class PerfettoTest : public testing::TestWithParam<Case> {
+ protected:
+  static bool fastdds() {
+    return GetParam().scenario.dds.implementation == ImplementationKind::fastdds;
+  }
+};
 
 TEST_P(PerfettoTest, SlicesOfARowNestAndEnd) {
   const Timeline timeline = record_timeline(GetParam().scenario);
@@ -91,7 +97,9 @@ TEST_P(PerfettoTest, ArrowsStartOnceInsideASliceAndEndAfterThat) {
   std::erase_if(started, [](const auto& id) { return id.first != "packet"; });
   std::erase_if(ended, [](const auto& id) { return id.first != "packet"; });
   EXPECT_EQ(started, emitted);
-  EXPECT_EQ(ended, arrived);  // the others are under way when the run ends
+  // The others are under way when the run ends; or, with Fast DDS, arrived but not yet received.
+  EXPECT_TRUE(std::ranges::includes(arrived, ended));
+  EXPECT_LE(arrived.size() - ended.size(), fastdds() ? 10U : 0U);
 }
 
 TEST_P(PerfettoTest, CountersEndWhereTheRunEnds) {
@@ -133,8 +141,7 @@ TEST(Perfetto, TimesAreExactMicroseconds) {
 }
 
 TEST(Perfetto, AnInterruptedRunHasACompleteDocument) {
-  const Timeline timeline =
-      record_timeline(case_named("heartbeat_additive"), [](const Progress&) { return false; });
+  const Timeline timeline = record_timeline(long_scenario(), [](const Progress&) { return false; });
   EXPECT_EQ(timeline.result.end, RunEnd::interrupted);
   EXPECT_GT(timeline.document["traceEvents"].size(), 1000U);
 }

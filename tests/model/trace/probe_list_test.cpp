@@ -1,9 +1,9 @@
 // Each probe of a list sees what it would see alone.
 #include "model/trace/probe_list.hpp"
 
-#include <gtest/gtest.h>
-
 #include <sstream>
+
+#include <gtest/gtest.h>
 
 #include "model/trace/perfetto.hpp"
 #include "model/trace/trace_writer.hpp"

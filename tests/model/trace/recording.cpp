@@ -7,6 +7,7 @@
 
 #include "model/trace/perfetto.hpp"
 #include "model/trace/trace_writer.hpp"
+#include "tests/vectors/fastdds_vectors.hpp"
 #include "tests/vectors/paper_vectors.hpp"
 
 namespace stormproof::model::trace {
@@ -49,20 +50,44 @@ Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress
 const std::vector<Case>& trace_cases() {
   static const std::vector<Case> cases = [] {
     std::vector<Case> list;
-    const std::vector<std::string> wanted{
-        "hosts2x1x2",     "hosts3x2x7",           "grouping_mtu",          "short_queue",
-        "at_admission",   "mesh_datagram",        "cellular",              "heartbeat_additive",
-        "constant_delay", "fast_dds_values_lossy", "v1", "v2", "v3", "v4"};
+    const std::vector<std::string> wanted{"hosts2x1x2",
+                                          "hosts3x2x7",
+                                          "short_queue",
+                                          "at_admission",
+                                          "cellular",
+                                          "mesh_datagram",
+                                          "heartbeat_additive",
+                                          "heartbeat_adaptive",
+                                          "grouping_mtu",
+                                          "constant_delay",
+                                          "fast_dds_values_lossy",
+                                          "v1",
+                                          "v2",
+                                          "v3",
+                                          "v4"};
     for (const auto& vector : vectors::paper_vectors()) {
       if (std::ranges::find(wanted, vector.name) == wanted.end()) continue;
       list.push_back({vector.name, vector.scenario});
+      // The same rules with less to do.
+      auto& participants = list.back().scenario.deployment;
+      if (participants.size() > 8) participants = Deployment::homogeneous(2, 2, 10);
+    }
+    for (const auto& vector : vectors::fastdds_vectors()) {
+      const bool small = vector.name == "new_only_3x20" || vector.name == "uneven";
+      if (small) list.push_back({"fastdds_" + vector.name, vector.scenario});
     }
     Scenario many;
-    many.deployment = Deployment::homogeneous(2, 2, 150);
+    many.deployment = Deployment::homogeneous(2, 1, 150);
     list.push_back({"many_descriptors", many});
     Scenario incomplete = list.front().scenario;
     incomplete.time_limit = Nanoseconds{5'000'000};
     list.push_back({"incomplete", incomplete});
+    for (Case& c : list) {
+      // As a file would say it: all endpoints exist from the start, or later.
+      for (Participant& p : c.scenario.deployment.participants) {
+        p.endpoints_done = std::max(p.endpoints_done, p.start);
+      }
+    }
     return list;
   }();
   return cases;
@@ -73,6 +98,12 @@ const Scenario& case_named(const std::string& name) {
     if (c.name == name) return c.scenario;
   }
   throw std::invalid_argument{"no case " + name};
+}
+
+Scenario long_scenario() {
+  Scenario scenario;
+  scenario.deployment = Deployment::homogeneous(2, 5, 20);
+  return scenario;
 }
 
 std::string joined(const std::vector<std::string>& lines) {

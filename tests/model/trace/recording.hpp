@@ -2,9 +2,10 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "model/simulator.hpp"
 
@@ -13,8 +14,8 @@ namespace stormproof::model::trace {
 /// The trace of one run.
 struct Recording {
   RunResult result;
-  std::string text;                           ///< the whole file
-  std::vector<std::string> lines;             ///< without line feeds
+  std::string text;                ///< the whole file
+  std::vector<std::string> lines;  ///< without line feeds
   nlohmann::ordered_json header;
   std::vector<nlohmann::ordered_json> events;
   nlohmann::ordered_json end;
@@ -29,7 +30,8 @@ struct Timeline {
   RunResult result;
   nlohmann::ordered_json document;
 };
-[[nodiscard]] Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress = {});
+[[nodiscard]] Timeline record_timeline(const Scenario& scenario,
+                                       const OnProgress& on_progress = {});
 
 /// A scenario and its name, for parametrised tests.
 struct Case {
@@ -39,6 +41,8 @@ struct Case {
 /// One scenario for each thing that changes what a trace contains.
 [[nodiscard]] const std::vector<Case>& trace_cases();
 [[nodiscard]] const Scenario& case_named(const std::string& name);
+/// Not one of them: a run of more events than pass between two calls of `on_progress`.
+[[nodiscard]] Scenario long_scenario();
 
 /// The name of a case, for the names of parametrised tests.
 struct CaseName {

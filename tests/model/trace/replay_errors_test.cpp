@@ -47,7 +47,10 @@ TEST(ReplayErrors, EmptyFile) {
 }
 
 TEST(ReplayErrors, NotATrace) {
-  const std::string binary{"\x7f" "ELF\0\x01\xff\n", 8};
+  const std::string binary{
+      "\x7f"
+      "ELF\0\x01\xff\n",
+      8};
   for (const std::string& text :
        {std::string{"hello\n"}, std::string{"{}\n"}, std::string{"[1,2]\n"}, std::string{"\n"},
         binary, std::string{R"({"format":"something"})"}, std::string{R"({"format":17})"}}) {
@@ -71,8 +74,8 @@ TEST(ReplayErrors, HeaderWithABadScenarioGivesTheColumn) {
   std::vector<std::string> lines = good_lines();
   const std::size_t found = lines[0].find(R"("200s")");
   lines[0].replace(found, 6, R"("200x")");
-  EXPECT_TRUE(starts_with(error_for(joined(lines)),
-                          "t.jsonl:1:" + std::to_string(found + 1) + ": "));
+  EXPECT_TRUE(
+      starts_with(error_for(joined(lines)), "t.jsonl:1:" + std::to_string(found + 1) + ": "));
 }
 
 TEST(ReplayErrors, HeaderThatIsCutOff) {

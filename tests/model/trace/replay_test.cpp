@@ -131,8 +131,7 @@ TEST(Replay, ATraceWithoutAnEndAgreesAsFarAsItGoes) {
 }
 
 TEST(Replay, ATraceOfAnInterruptedRunAgreesAsFarAsItGoes) {
-  const Recording trace =
-      record(case_named("heartbeat_additive"), [](const Progress&) { return false; });
+  const Recording trace = record(long_scenario(), [](const Progress&) { return false; });
   const Replay replay = Replaying{}(trace.text);
   EXPECT_EQ(replay.verdict, Verdict::ends_early);
   EXPECT_EQ(replay.lines, trace.lines.size());
@@ -140,17 +139,15 @@ TEST(Replay, ATraceOfAnInterruptedRunAgreesAsFarAsItGoes) {
 }
 
 TEST(Replay, AnInterruptedTraceWithAWrongNumberOfEventsDiffers) {
-  Recording trace =
-      record(case_named("heartbeat_additive"), [](const Progress&) { return false; });
+  Recording trace = record(long_scenario(), [](const Progress&) { return false; });
   trace.lines.erase(trace.lines.end() - 2);
   EXPECT_EQ(Replaying{}(joined(trace.lines)).verdict, Verdict::different);
 }
 
 TEST(Replay, TheCallerCanStopIt) {
   const config::TestFiles files;
-  const std::string file = files.write("run.jsonl", record(case_named("heartbeat_additive")).text);
-  const auto result =
-      replay(file, config::source_specs(), [](const Progress&) { return false; });
+  const std::string file = files.write("run.jsonl", record(long_scenario()).text);
+  const auto result = replay(file, config::source_specs(), [](const Progress&) { return false; });
   ASSERT_TRUE(result);
   EXPECT_EQ(result->verdict, Verdict::stopped);
   EXPECT_EQ(result->events, RunOptions::progress_interval);

@@ -32,8 +32,7 @@ TEST(TraceJson, EqualValuesDoNotDiffer) {
 
 TEST(TraceJson, TheFirstDifferenceHasItsPath) {
   EXPECT_EQ(difference(R"({"a":1,"b":2,"c":3})", R"({"a":1,"b":4,"c":5})"), "b: 2 / 4");
-  EXPECT_EQ(difference(R"({"a":[{"b":1},{"b":2}]})", R"({"a":[{"b":1},{"b":3}]})"),
-            "a.1.b: 2 / 3");
+  EXPECT_EQ(difference(R"({"a":[{"b":1},{"b":2}]})", R"({"a":[{"b":1},{"b":3}]})"), "a.1.b: 2 / 3");
   EXPECT_EQ(difference("1", "\"1\""), ": 1 / \"1\"");
 }
 
