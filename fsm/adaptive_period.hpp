@@ -1,12 +1,14 @@
-// The arithmetic of the response-aware HEARTBEAT policy: how long the next period is, given how many of the
-// contacted readers responded. The paper's T* = clip(T / max(A/H, ε), T_min, T_max), in whole nanoseconds.
+// The arithmetic of the response-aware HEARTBEAT policy: how long the next period is, given how
+// many of the contacted readers responded. The paper's T* = clip(T / max(A/H, ε), T_min, T_max), in
+// whole nanoseconds.
 #pragma once
 
 #include "fsm/domain.hpp"
 
 namespace stormproof::fsm {
 
-/// What the timer remembers of the running or last cycle. Times in ns; ε = epsilon_num / epsilon_den.
+/// What the timer remembers of the running or last cycle. Times in ns; ε = epsilon_num /
+/// epsilon_den.
 template <class D>
 struct AdaptiveCycle {
   typename D::Int start{};      ///< c, when the cycle started
@@ -34,8 +36,7 @@ constexpr typename D::Int scaled(const typename D::Int& a, const typename D::Int
 /// T* at the end of a cycle: never shorter than T.
 template <class D>
 constexpr typename D::Int stretched_period(const AdaptiveCycle<D>& cycle) {
-  const auto enough =
-      cycle.epsilon_den * cycle.responded >= cycle.epsilon_num * cycle.contacted;
+  const auto enough = cycle.epsilon_den * cycle.responded >= cycle.epsilon_num * cycle.contacted;
   // The divisor is 1 where the quotient is not used, so that it is never 0.
   const typename D::Int responded = max<D>(cycle.responded, 1);
   const typename D::Int by_share = scaled<D>(cycle.period, cycle.contacted, responded);

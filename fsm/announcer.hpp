@@ -1,5 +1,5 @@
-// The SPDP announcement schedule of one participant: announcement 0 when it starts, a number of startup
-// announcements at a short period, then one every τ_P for ever.
+// The SPDP announcement schedule of one participant: announcement 0 when it starts, a number of
+// startup announcements at a short period, then one every τ_P for ever.
 #pragma once
 
 #include "fsm/front_end.hpp"
@@ -17,8 +17,9 @@ struct AnnouncerIo {
   };
   template <class D>
   struct Output {
-    typename D::Bool announce{};  ///< send the announcement to the multicast group and all known participants
-    typename D::Int next_at{};    ///< when announcement k+1 is due, ns
+    typename D::Bool
+        announce{};  ///< send the announcement to the multicast group and all known participants
+    typename D::Int next_at{};  ///< when announcement k+1 is due, ns
   };
 };
 

@@ -1,6 +1,7 @@
-// Fast DDS's view of one descriptor towards one matched reader (its ChangeForReader), in the paper's letters.
-// It differs from fsm/descriptor_repair.hpp where Fast DDS differs from the paper:
-//   * a descriptor may not exist yet (Absent); created after the match it is pushed (Q), otherwise pulled (U);
+// Fast DDS's view of one descriptor towards one matched reader (its ChangeForReader), in the
+// paper's letters. It differs from fsm/descriptor_repair.hpp where Fast DDS differs from the paper:
+//   * a descriptor may not exist yet (Absent); created after the match it is pushed (Q), otherwise
+//   pulled (U);
 //   * an ACKNACK acknowledges the prefix below its base, whatever the state;
 //   * S begins when the descriptor is serialized into a message, long before it leaves the source;
 //   * an initial ACKNACK makes the writer forget what it took as acknowledged (A → U).
@@ -32,8 +33,8 @@ struct Q : State {};
 struct S : State {};
 struct A : State {};
 
-struct ReaderMatched : Event<ChangeForReaderIo> {};           ///< the descriptor exists already
-struct Created : Event<ChangeForReaderIo> {};                 ///< the reader is matched already
+struct ReaderMatched : Event<ChangeForReaderIo> {};  ///< the descriptor exists already
+struct Created : Event<ChangeForReaderIo> {};        ///< the reader is matched already
 struct AckNackReceived : Event<ChangeForReaderIo> {};
 struct InitialAckNackReceived : Event<ChangeForReaderIo> {};
 struct NackResponseDue : Event<ChangeForReaderIo> {};
@@ -66,16 +67,16 @@ struct Enqueue : Action<Enqueue> {
   }
 };
 
-using Transitions = Table<Row<Absent, ReaderMatched, U>,                       //
-                          Row<Absent, Created, Q>,                             //
-                          Row<U, AckNackReceived, R, Request, Requests>,       //
-                          Row<R, NackResponseDue, Q, Enqueue>,                 //
-                          Row<Q, Serialized, S>,                               //
-                          Row<S, SuppressionEnded, U>,                         //
-                          Row<U, AckNackReceived, A, none, BelowBase>,         //
-                          Row<R, AckNackReceived, A, none, BelowBase>,         //
-                          Row<Q, AckNackReceived, A, none, BelowBase>,         //
-                          Row<S, AckNackReceived, A, none, BelowBase>,         //
+using Transitions = Table<Row<Absent, ReaderMatched, U>,                  //
+                          Row<Absent, Created, Q>,                        //
+                          Row<U, AckNackReceived, R, Request, Requests>,  //
+                          Row<R, NackResponseDue, Q, Enqueue>,            //
+                          Row<Q, Serialized, S>,                          //
+                          Row<S, SuppressionEnded, U>,                    //
+                          Row<U, AckNackReceived, A, none, BelowBase>,    //
+                          Row<R, AckNackReceived, A, none, BelowBase>,    //
+                          Row<Q, AckNackReceived, A, none, BelowBase>,    //
+                          Row<S, AckNackReceived, A, none, BelowBase>,    //
                           Row<A, InitialAckNackReceived, U>>;
 
 }  // namespace change_for_reader

@@ -1,6 +1,7 @@
-// One channel of the route: it serves one fragment at a time, and it picks the next one only after every other
-// event of the same instant (the *dispatch* event, last in the order of same-time events). Which fragment it
-// picks is data (model/engine/waiting_fragments.hpp); that it never idles while something waits is here.
+// One channel of the route: it serves one fragment at a time, and it picks the next one only after
+// every other event of the same instant (the *dispatch* event, last in the order of same-time
+// events). Which fragment it picks is data (model/engine/waiting_fragments.hpp); that it never
+// idles while something waits is here.
 #pragma once
 
 #include "fsm/front_end.hpp"
@@ -16,7 +17,7 @@ struct ChannelIo {
   template <class D>
   struct Output {
     typename D::Bool schedule_dispatch{};  ///< schedule a dispatch at this instant
-    typename D::Bool serve{};              ///< take the first waiting fragment and occupy the channel
+    typename D::Bool serve{};  ///< take the first waiting fragment and occupy the channel
   };
 };
 
@@ -28,7 +29,8 @@ struct Busy : State {};
 struct ServiceRequested : Event<ChannelIo> {};  ///< a fragment has joined the waiting ones
 struct DispatchDue : Event<ChannelIo> {};
 struct ServiceFinished : Event<ChannelIo> {};  ///< the fragment in service is done
-struct EffectsDone : Event<ChannelIo> {};      ///< all that followed from the end of service has been done
+struct EffectsDone : Event<ChannelIo> {
+};  ///< all that followed from the end of service has been done
 
 struct Waiting : Guard<Waiting> {
   template <class D>
@@ -58,8 +60,7 @@ struct Serve : Action<Serve> {
 
 using Transitions =
     Table<Row<Idle, ServiceRequested, Idle, ScheduleDispatch, Not<DispatchPending>>,
-          Row<Idle, DispatchDue, Busy, Serve, Waiting>,
-          Row<Busy, ServiceFinished, Idle>,
+          Row<Idle, DispatchDue, Busy, Serve, Waiting>, Row<Busy, ServiceFinished, Idle>,
           Row<Idle, EffectsDone, Idle, ScheduleDispatch, All<Waiting, Not<DispatchPending>>>>;
 
 }  // namespace channel

@@ -1,5 +1,6 @@
-// The two sides of a relation of which only HEARTBEATs and ACKNACKs are modelled: liveliness, and user topics.
-// Its traffic shares the channel with discovery, so it must be there, but nothing is delivered by it.
+// The two sides of a relation of which only HEARTBEATs and ACKNACKs are modelled: liveliness, and
+// user topics. Its traffic shares the channel with discovery, so it must be there, but nothing is
+// delivered by it.
 #pragma once
 
 #include "fsm/front_end.hpp"

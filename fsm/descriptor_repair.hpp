@@ -1,7 +1,9 @@
-// The writer's view of one descriptor towards one reader: the paper's figure of the sender-side repair states.
-//   U unacknowledged → R requested → Q queued for repair → S sent, suppressed → back to U; any of them → A.
-// Rules implemented: ACKNACK reception (U→R, →A), repair generation (R→Q), repair delivery at the source (Q→S),
-// post-repair wait expiration (S→U).
+// The writer's view of one descriptor towards one reader: the paper's figure of the sender-side
+// repair states.
+//   U unacknowledged → R requested → Q queued for repair → S sent, suppressed → back to U; any of
+//   them → A.
+// Rules implemented: ACKNACK reception (U→R, →A), repair generation (R→Q), repair delivery at the
+// source (Q→S), post-repair wait expiration (S→U).
 #pragma once
 
 #include "fsm/front_end.hpp"
@@ -11,7 +13,7 @@ namespace stormproof::fsm {
 struct DescriptorRepairIo {
   template <class D>
   struct Input {
-    typename D::Bool listed{};               ///< the ACKNACK's bitmap lists the descriptor as missing
+    typename D::Bool listed{};  ///< the ACKNACK's bitmap lists the descriptor as missing
     typename D::Bool below_first_missing{};  ///< every listed descriptor has a higher number
     typename D::Bool prefix_only{};          ///< `acknowledge: prefix`
   };
@@ -20,7 +22,8 @@ struct DescriptorRepairIo {
     typename D::Bool requested{};     ///< newly requested: repair generation is due after τ_N
     typename D::Bool generate{};      ///< becomes part of the repair DATA generated now
     typename D::Bool acknowledged{};  ///< newly acknowledged
-    typename D::Bool returned{};      ///< open to requests again: its delivery must be checked after τ_H
+    typename D::Bool
+        returned{};  ///< open to requests again: its delivery must be checked after τ_H
   };
 };
 
@@ -80,15 +83,14 @@ struct Return : Action<Return> {
   }
 };
 
-using Transitions = Table<
-    Row<U, AckNackReceived, R, Request, Listed>,         //
-    Row<R, RepairDue, Q, Generate>,                      //
-    Row<Q, RepairSent, S>,                               //
-    Row<S, SuppressionEnded, U, Return>,                 //
-    Row<U, AckNackReceived, A, Acknowledge, Confirmed>,  //
-    Row<R, AckNackReceived, A, Acknowledge, Confirmed>,  //
-    Row<Q, AckNackReceived, A, Acknowledge, Confirmed>,  //
-    Row<S, AckNackReceived, A, Acknowledge, Confirmed>>;
+using Transitions = Table<Row<U, AckNackReceived, R, Request, Listed>,         //
+                          Row<R, RepairDue, Q, Generate>,                      //
+                          Row<Q, RepairSent, S>,                               //
+                          Row<S, SuppressionEnded, U, Return>,                 //
+                          Row<U, AckNackReceived, A, Acknowledge, Confirmed>,  //
+                          Row<R, AckNackReceived, A, Acknowledge, Confirmed>,  //
+                          Row<Q, AckNackReceived, A, Acknowledge, Confirmed>,  //
+                          Row<S, AckNackReceived, A, Acknowledge, Confirmed>>;
 
 }  // namespace descriptor_repair
 

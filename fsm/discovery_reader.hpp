@@ -1,7 +1,8 @@
 // The receiver of one relation (writer i, reader j, one stream): what j knows of i's descriptors.
-// Its extended state, the bitmap X of received descriptors, lives outside the machine; the input says how many
-// are still missing. Rules implemented: SPDP reception at the reader side, DATA and HEARTBEAT reception,
-// ACKNACK generation, initial ACKNACK (its content; fsm/initial_acknack.hpp has its timer).
+// Its extended state, the bitmap X of received descriptors, lives outside the machine; the input
+// says how many are still missing. Rules implemented: SPDP reception at the reader side, DATA and
+// HEARTBEAT reception, ACKNACK generation, initial ACKNACK (its content; fsm/initial_acknack.hpp
+// has its timer).
 #pragma once
 
 #include "fsm/front_end.hpp"
@@ -11,25 +12,28 @@ namespace stormproof::fsm {
 struct DiscoveryReaderIo {
   template <class D>
   struct Input {
-    typename D::Bool accepts_unmatched{};  ///< a reader side that is not open processes what reaches it
-    typename D::Int missing_after{};       ///< descriptors missing once this DATA is taken
+    typename D::Bool
+        accepts_unmatched{};          ///< a reader side that is not open processes what reaches it
+    typename D::Int missing_after{};  ///< descriptors missing once this DATA is taken
   };
   template <class D>
   struct Output {
-    typename D::Bool opened{};            ///< the reader side opens now: start the initial ACKNACK timer
-    typename D::Bool take_data{};         ///< set X for the descriptors of the DATA
-    typename D::Bool schedule_acknack{};  ///< a HEARTBEAT counts as seen; its ACKNACK is due after τ_A
-    typename D::Bool send_acknack{};      ///< snapshot the bitmap and emit an ACKNACK
-    typename D::Bool send_initial{};      ///< the same, marked initial
+    typename D::Bool opened{};     ///< the reader side opens now: start the initial ACKNACK timer
+    typename D::Bool take_data{};  ///< set X for the descriptors of the DATA
+    typename D::Bool
+        schedule_acknack{};           ///< a HEARTBEAT counts as seen; its ACKNACK is due after τ_A
+    typename D::Bool send_acknack{};  ///< snapshot the bitmap and emit an ACKNACK
+    typename D::Bool send_initial{};  ///< the same, marked initial
   };
 };
 
 namespace discovery_reader {
 
-struct Unknown : State {};          ///< i's announcement has not been processed, something is missing
-struct Recognised : State {};       ///< reader side open, something is missing
-struct EarlyComplete : State {};    ///< nothing missing, though i's announcement has not been processed
-struct Complete : State {};         ///< reader side open, nothing missing
+struct Unknown : State {};     ///< i's announcement has not been processed, something is missing
+struct Recognised : State {};  ///< reader side open, something is missing
+struct EarlyComplete : State {
+};                           ///< nothing missing, though i's announcement has not been processed
+struct Complete : State {};  ///< reader side open, nothing missing
 
 struct AnnouncementReceived : Event<DiscoveryReaderIo> {};
 struct DataReceived : Event<DiscoveryReaderIo> {};

@@ -1,6 +1,7 @@
-// The domains in which guards and actions are evaluated. Each guard and action has ONE body, a template over a
-// domain `D`: `Plain` executes it, another domain (64-bit lanes, solver expressions) re-uses the same body to
-// run many machines at once or to prove something about the table. A body therefore never branches: it uses
+// The domains in which guards and actions are evaluated. Each guard and action has ONE body, a
+// template over a domain `D`: `Plain` executes it, another domain (64-bit lanes, solver
+// expressions) re-uses the same body to run many machines at once or to prove something about the
+// table. A body therefore never branches: it uses
 // `&&`, `||`, `!`, comparisons, integer arithmetic and `D::select`.
 #pragma once
 

@@ -1,7 +1,8 @@
-// The flyweight engine: one Boost.MSM machine object serves any number of machines of its kind. A machine is
-// stored as its state number alone (one byte, or three bits in model/engine/relation_bits.hpp); a step puts
-// that number into the object, lets MSM process the event, and reads the new number back. So every transition
-// of the simulator goes through `back::state_machine`, at a few nanoseconds and without a machine in memory.
+// The flyweight engine: one Boost.MSM machine object serves any number of machines of its kind. A
+// machine is stored as its state number alone (one byte, or three bits in
+// model/engine/relation_bits.hpp); a step puts that number into the object, lets MSM process the
+// event, and reads the new number back. So every transition of the simulator goes through
+// `back::state_machine`, at a few nanoseconds and without a machine in memory.
 #pragma once
 
 #include <boost/msm/back/state_machine.hpp>
@@ -18,7 +19,8 @@ class Flyweight {
 
   static constexpr StateId initial = Reflect<Machine>::template id<typename Machine::initial_state>;
 
-  /// Processes `Event` in state `state`; returns the state after it. `output` receives what the actions ask for.
+  /// Processes `Event` in state `state`; returns the state after it. `output` receives what the
+  /// actions ask for.
   template <class Event>
   StateId step(StateId state, const Input& input, Output& output) {
     // MSM offers the current state for reading only; the object itself is ours and not const.

@@ -1,7 +1,8 @@
-// What every machine is built from: events that carry an input and an outbox, guards and actions with one
-// domain-generic body, and a front end for Boost.MSM with the two policies that make a machine small and fast
-// (no exceptions, no message queue). Actions only fill the outbox; they never process another event, because
-// MSM without a message queue would run it at once and then overwrite its result.
+// What every machine is built from: events that carry an input and an outbox, guards and actions
+// with one domain-generic body, and a front end for Boost.MSM with the two policies that make a
+// machine small and fast (no exceptions, no message queue). Actions only fill the outbox; they
+// never process another event, because MSM without a message queue would run it at once and then
+// overwrite its result.
 #pragma once
 
 #include <boost/mpl/fold.hpp>
@@ -16,14 +17,15 @@ namespace stormproof::fsm {
 
 using none = boost::msm::front::none;
 
-/// A row of a transition table: in `Source`, on `Event`, if `Guard` holds, run `Action` and go to `Target`.
+/// A row of a transition table: in `Source`, on `Event`, if `Guard` holds, run `Action` and go to
+/// `Target`.
 template <class Source, class Event, class Target, class Action = none, class Guard = none>
 using Row = boost::msm::front::Row<Source, Event, Target, Action, Guard>;
 
 using State = boost::msm::front::state<>;
 
-/// Base of the events of one machine. `Io` has templates `Input<D>` and `Output<D>`: what guards and actions
-/// may read, and what actions may ask for.
+/// Base of the events of one machine. `Io` has templates `Input<D>` and `Output<D>`: what guards
+/// and actions may read, and what actions may ask for.
 template <class Io>
 struct Event {
   const typename Io::template Input<Plain>& input;
@@ -84,7 +86,8 @@ struct FrontEnd : boost::msm::front::state_machine_def<Self> {
   using no_exception_thrown = int;
   using no_message_queue = int;
 
-  /// A pair that has no row changes nothing; specs/ignored-pairs.yaml lists these pairs with their reasons.
+  /// A pair that has no row changes nothing; specs/ignored-pairs.yaml lists these pairs with their
+  /// reasons.
   template <class Fsm, class Event>
   void no_transition(const Event&, Fsm&, int) {}
 };

@@ -1,9 +1,9 @@
 // The HEARTBEAT timer of one writer, for both policies.
-// Periodic: idle → armed when a relation opens; each expiry sends and re-arms while some descriptor is not
-// acknowledged; the end of a suppression arms it too (with the additive reading each arming adds an expiry).
-// Adaptive (the paper's response-aware policy): a cycle awaits the readers' responses for one period; early if
-// all respond, otherwise the period is stretched and the silent readers are paced over the rest of it.
-// The adaptive arithmetic is in fsm/adaptive_period.hpp.
+// Periodic: idle → armed when a relation opens; each expiry sends and re-arms while some descriptor
+// is not acknowledged; the end of a suppression arms it too (with the additive reading each arming
+// adds an expiry). Adaptive (the paper's response-aware policy): a cycle awaits the readers'
+// responses for one period; early if all respond, otherwise the period is stretched and the silent
+// readers are paced over the rest of it. The adaptive arithmetic is in fsm/adaptive_period.hpp.
 #pragma once
 
 #include "fsm/adaptive_period.hpp"
@@ -18,19 +18,20 @@ struct HeartbeatTimerIo {
     typename D::Int heartbeat_period{};  ///< τ_H, ns
     typename D::Bool adaptive{};         ///< `heartbeat_policy: adaptive`
     typename D::Bool additive{};         ///< `heartbeat_timer: additive`
-    typename D::Int pending{};           ///< expiries that are scheduled, the one processed now excluded
-    typename D::Bool unacknowledged{};   ///< some open relation has a descriptor that is not in A
+    typename D::Int pending{};  ///< expiries that are scheduled, the one processed now excluded
+    typename D::Bool unacknowledged{};  ///< some open relation has a descriptor that is not in A
     AdaptiveCycle<D> cycle{};
   };
   template <class D>
   struct Output {
-    typename D::Bool send{};            ///< a HEARTBEAT to the recipients of the policy
-    typename D::Bool schedule_expiry{}; ///< periodic: next expiry at `next_at`
-    typename D::Bool schedule_cycle{};  ///< adaptive: next cycle start at `next_at`
-    typename D::Bool schedule_end{};    ///< adaptive: this cycle ends at `next_at`
-    typename D::Bool pace{};            ///< adaptive: batches to the silent readers until `next_at`
-    typename D::Bool send_batch{};      ///< adaptive: the HEARTBEATs of one batch
-    typename D::Bool invalidate{};      ///< adaptive: every cycle and batch event scheduled before is void
+    typename D::Bool send{};             ///< a HEARTBEAT to the recipients of the policy
+    typename D::Bool schedule_expiry{};  ///< periodic: next expiry at `next_at`
+    typename D::Bool schedule_cycle{};   ///< adaptive: next cycle start at `next_at`
+    typename D::Bool schedule_end{};     ///< adaptive: this cycle ends at `next_at`
+    typename D::Bool pace{};        ///< adaptive: batches to the silent readers until `next_at`
+    typename D::Bool send_batch{};  ///< adaptive: the HEARTBEATs of one batch
+    typename D::Bool
+        invalidate{};  ///< adaptive: every cycle and batch event scheduled before is void
     typename D::Bool count_response{};  ///< adaptive: this reader has responded in this cycle
     typename D::Int next_at{};          ///< ns
     typename D::Int period{};           ///< adaptive: the period T from now on, ns; 0 keeps it
@@ -80,27 +81,31 @@ struct LastPending : Guard<LastPending> {
 struct AllInTime : Guard<AllInTime> {
   template <class D>
   static constexpr typename D::Bool test(const HeartbeatTimerIo::Input<D>& in) {
-    return in.cycle.responded + 1 == in.cycle.contacted && in.now < in.cycle.start + in.cycle.period;
+    return in.cycle.responded + 1 == in.cycle.contacted &&
+           in.now < in.cycle.start + in.cycle.period;
   }
 };
 
 struct Arm : Action<Arm> {
   template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>& in, HeartbeatTimerIo::Output<D>& out) {
+  static constexpr void act(const HeartbeatTimerIo::Input<D>& in,
+                            HeartbeatTimerIo::Output<D>& out) {
     out.schedule_expiry = true;
     out.next_at = in.now + in.heartbeat_period;
   }
 };
 struct SendAndArm : Action<SendAndArm> {
   template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>& in, HeartbeatTimerIo::Output<D>& out) {
+  static constexpr void act(const HeartbeatTimerIo::Input<D>& in,
+                            HeartbeatTimerIo::Output<D>& out) {
     out.send = true;
     Arm::act<D>(in, out);
   }
 };
 struct Activate : Action<Activate> {
   template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>& in, HeartbeatTimerIo::Output<D>& out) {
+  static constexpr void act(const HeartbeatTimerIo::Input<D>& in,
+                            HeartbeatTimerIo::Output<D>& out) {
     out.schedule_cycle = true;
     out.period = in.heartbeat_period;
     out.next_at = in.now + in.heartbeat_period;
@@ -108,14 +113,16 @@ struct Activate : Action<Activate> {
 };
 struct Deactivate : Action<Deactivate> {
   template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>& in, HeartbeatTimerIo::Output<D>& out) {
+  static constexpr void act(const HeartbeatTimerIo::Input<D>& in,
+                            HeartbeatTimerIo::Output<D>& out) {
     out.invalidate = true;
     out.period = in.heartbeat_period;
   }
 };
 struct StartCycle : Action<StartCycle> {
   template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>& in, HeartbeatTimerIo::Output<D>& out) {
+  static constexpr void act(const HeartbeatTimerIo::Input<D>& in,
+                            HeartbeatTimerIo::Output<D>& out) {
     out.invalidate = true;
     out.send = true;
     out.schedule_end = true;
@@ -124,7 +131,8 @@ struct StartCycle : Action<StartCycle> {
 };
 struct EndCycle : Action<EndCycle> {
   template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>& in, HeartbeatTimerIo::Output<D>& out) {
+  static constexpr void act(const HeartbeatTimerIo::Input<D>& in,
+                            HeartbeatTimerIo::Output<D>& out) {
     const typename D::Int stretched = stretched_period<D>(in.cycle);
     const typename D::Int rest = stretched - in.cycle.period;
     out.invalidate = true;
@@ -148,7 +156,8 @@ struct CountResponse : Action<CountResponse> {
 };
 struct EndEarly : Action<EndEarly> {
   template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>& in, HeartbeatTimerIo::Output<D>& out) {
+  static constexpr void act(const HeartbeatTimerIo::Input<D>& in,
+                            HeartbeatTimerIo::Output<D>& out) {
     out.count_response = true;
     out.invalidate = true;
     out.schedule_cycle = true;
@@ -158,7 +167,8 @@ struct EndEarly : Action<EndEarly> {
 };
 struct EndAll : Action<EndAll> {
   template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>& in, HeartbeatTimerIo::Output<D>& out) {
+  static constexpr void act(const HeartbeatTimerIo::Input<D>& in,
+                            HeartbeatTimerIo::Output<D>& out) {
     out.count_response = true;
     Deactivate::act<D>(in, out);
   }
@@ -176,8 +186,7 @@ using Transitions = Table<
     Row<Idle, ArmRequested, Pacing, Activate, Adaptive>,
     Row<Pacing, CycleStarted, Awaiting, StartCycle, Unacknowledged>,
     Row<Pacing, CycleStarted, Idle, Deactivate, Not<Unacknowledged>>,
-    Row<Awaiting, CycleEnded, Pacing, EndCycle>,
-    Row<Pacing, BatchDue, Pacing, SendBatch>,
+    Row<Awaiting, CycleEnded, Pacing, EndCycle>, Row<Pacing, BatchDue, Pacing, SendBatch>,
     Row<Awaiting, ResponseReceived, Awaiting, CountResponse, Not<AllInTime>>,
     Row<Awaiting, ResponseReceived, Pacing, EndEarly, All<AllInTime, Unacknowledged>>,
     Row<Awaiting, ResponseReceived, Idle, EndAll, All<AllInTime, Not<Unacknowledged>>>,

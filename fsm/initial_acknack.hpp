@@ -1,5 +1,5 @@
-// The timer of the initial ACKNACK of one relation: after τ_I without a HEARTBEAT the reader asks by itself,
-// and again after twice the delay, until the first HEARTBEAT has been seen.
+// The timer of the initial ACKNACK of one relation: after τ_I without a HEARTBEAT the reader asks
+// by itself, and again after twice the delay, until the first HEARTBEAT has been seen.
 #pragma once
 
 #include "fsm/front_end.hpp"
@@ -9,9 +9,9 @@ namespace stormproof::fsm {
 struct InitialAckNackIo {
   template <class D>
   struct Input {
-    typename D::Int now{};             ///< ns
-    typename D::Int first_delay{};     ///< τ_I in ns; 0 disables initial ACKNACKs
-    typename D::Int last_delay{};      ///< the delay that has just passed, ns
+    typename D::Int now{};          ///< ns
+    typename D::Int first_delay{};  ///< τ_I in ns; 0 disables initial ACKNACKs
+    typename D::Int last_delay{};   ///< the delay that has just passed, ns
     typename D::Bool heartbeat_seen{};
   };
   template <class D>
@@ -47,7 +47,8 @@ struct HeartbeatSeen : Guard<HeartbeatSeen> {
 
 struct Start : Action<Start> {
   template <class D>
-  static constexpr void act(const InitialAckNackIo::Input<D>& in, InitialAckNackIo::Output<D>& out) {
+  static constexpr void act(const InitialAckNackIo::Input<D>& in,
+                            InitialAckNackIo::Output<D>& out) {
     out.schedule = true;
     out.next_delay = in.first_delay;
     out.next_at = in.now + in.first_delay;
@@ -55,7 +56,8 @@ struct Start : Action<Start> {
 };
 struct Retry : Action<Retry> {
   template <class D>
-  static constexpr void act(const InitialAckNackIo::Input<D>& in, InitialAckNackIo::Output<D>& out) {
+  static constexpr void act(const InitialAckNackIo::Input<D>& in,
+                            InitialAckNackIo::Output<D>& out) {
     out.attempt = true;
     out.schedule = true;
     out.next_delay = in.last_delay + in.last_delay;

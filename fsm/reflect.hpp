@@ -1,17 +1,19 @@
-// Turns the transition table of an MSM front end into plain data: states, events and rows with names and
-// numbers. Everything that is not execution (diagrams, proofs, the list of ignored pairs, traces) reads this,
-// so no rule is ever written a second time. The state numbers are checked against MSM's own at compile time.
+// Turns the transition table of an MSM front end into plain data: states, events and rows with
+// names and numbers. Everything that is not execution (diagrams, proofs, the list of ignored pairs,
+// traces) reads this, so no rule is ever written a second time. The state numbers are checked
+// against MSM's own at compile time.
 #pragma once
 
 #include <array>
-#include <boost/msm/back/metafunctions.hpp>
-#include <boost/msm/back/state_machine.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
+
+#include <boost/msm/back/metafunctions.hpp>
+#include <boost/msm/back/state_machine.hpp>
 
 #include "fsm/front_end.hpp"
 
@@ -46,7 +48,8 @@ struct AddUnique<TypeList<Ts...>, T> {
       std::conditional_t<(std::is_same_v<Ts, T> || ...), TypeList<Ts...>, TypeList<Ts..., T>>;
 };
 
-// The distinct `Get<Row>::type` of a list of rows, in order of first appearance, appended to `List`.
+// The distinct `Get<Row>::type` of a list of rows, in order of first appearance, appended to
+// `List`.
 template <class List, template <class> class Get, class Rows>
 struct Distinct {
   using type = List;
@@ -142,8 +145,9 @@ struct Reflect {
   static constexpr StateId id = [] {
     constexpr std::size_t own = detail::position<S>(States{});
     static_assert(own < state_count, "not a state of this machine");
-    static_assert(own == std::size_t(boost::msm::back::get_state_id<typename BackEnd::stt, S>::value),
-                  "state numbers differ from those of MSM");
+    static_assert(
+        own == std::size_t(boost::msm::back::get_state_id<typename BackEnd::stt, S>::value),
+        "state numbers differ from those of MSM");
     return static_cast<StateId>(own);
   }();
 
@@ -164,9 +168,9 @@ struct Reflect {
     machine.states.assign(state_names.begin(), state_names.end());
     [&]<class... Es>(TypeList<Es...>) { (machine.events.push_back(name_of<Es>()), ...); }(Events{});
     [&]<class... Rs>(TypeList<Rs...>) {
-      (machine.rows.push_back({id<typename Rs::Source>, event_id<typename Rs::Evt>,
-                               id<typename Rs::Target>, detail::GuardName<typename Rs::Guard>::text(),
-                               name_of<typename Rs::Action>()}),
+      (machine.rows.push_back(
+           {id<typename Rs::Source>, event_id<typename Rs::Evt>, id<typename Rs::Target>,
+            detail::GuardName<typename Rs::Guard>::text(), name_of<typename Rs::Action>()}),
        ...);
     }(Rows{});
     return machine;

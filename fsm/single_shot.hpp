@@ -1,6 +1,7 @@
-// A timer that is pending at most once: asking for it again while it is pending changes nothing, and it keeps
-// its time. All of Fast DDS's delays are of this kind (its restart of a running timer is a no-op): the nack
-// response of a writer, the suppression of a relation, the reply to HEARTBEATs, the run of the async queue.
+// A timer that is pending at most once: asking for it again while it is pending changes nothing,
+// and it keeps its time. All of Fast DDS's delays are of this kind (its restart of a running timer
+// is a no-op): the nack response of a writer, the suppression of a relation, the reply to
+// HEARTBEATs, the run of the async queue.
 #pragma once
 
 #include "fsm/front_end.hpp"

@@ -1,5 +1,6 @@
-// Fragmentation and airtime of a packet: the paper's service demand a(c) = O + 8·B/R of one fragment, in whole
-// nanoseconds (rounded to nearest), and the split of a UDP payload into IP fragments.
+// Fragmentation and airtime of a packet: the paper's service demand a(c) = O + 8·B/R of one
+// fragment, in whole nanoseconds (rounded to nearest), and the split of a UDP payload into IP
+// fragments.
 #pragma once
 
 #include <cstdint>

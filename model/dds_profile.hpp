@@ -1,5 +1,6 @@
-// The DDS profile: every protocol knob of the paper's model, with the value of the paper's own evaluation as
-// the default. specs/model.md explains each knob; `model/config/dds_knobs.hpp` gives its key, unit and range.
+// The DDS profile: every protocol knob of the paper's model, with the value of the paper's own
+// evaluation as the default. specs/model.md explains each knob; `model/config/dds_knobs.hpp` gives
+// its key, unit and range.
 #pragma once
 
 #include <array>
@@ -15,7 +16,8 @@ enum class ImplementationKind : std::uint8_t { paper, fastdds };
 
 /// What a participant sends when it recognises another one for the first time.
 enum class SpdpResend : std::uint8_t { all_known, new_and_multicast, new_only, none };
-/// When the writer side opens: with the receiver's recognition, or when each side has seen the other.
+/// When the writer side opens: with the receiver's recognition, or when each side has seen the
+/// other.
 enum class RelationOpening : std::uint8_t { receiver, each_side };
 /// Whether descriptors that exist when a relation opens are sent at once or only after an ACKNACK.
 enum class InitialData : std::uint8_t { push, pull };
@@ -23,7 +25,8 @@ enum class InitialData : std::uint8_t { push, pull };
 enum class Unmatched : std::uint8_t { drop, accept };
 /// What a writer does with an initial ACKNACK.
 enum class InitialAckNackReply : std::uint8_t { bitmap, heartbeat, none };
-/// What an ACKNACK confirms: all descriptors outside its bitmap, or only those below the first missing one.
+/// What an ACKNACK confirms: all descriptors outside its bitmap, or only those below the first
+/// missing one.
 enum class Acknowledge : std::uint8_t { bitmap, prefix };
 /// Whether a writer may have more than one periodic HEARTBEAT expiry pending.
 enum class HeartbeatTimerKind : std::uint8_t { single, additive };
@@ -37,8 +40,8 @@ enum class Piggyback : std::uint8_t { cumulative, linear, off };
 
 /// SPDP: the participant announcements.
 struct SpdpProfile {
-  Nanoseconds period{3'000'000'000};          ///< τ_P
-  std::uint32_t startup_announcements = 5;    ///< announcements sent at the startup period
+  Nanoseconds period{3'000'000'000};        ///< τ_P
+  std::uint32_t startup_announcements = 5;  ///< announcements sent at the startup period
   Nanoseconds startup_period{100'000'000};
   SpdpResend resend = SpdpResend::all_known;
   Bytes payload_bytes{420};
@@ -46,7 +49,8 @@ struct SpdpProfile {
   bool operator==(const SpdpProfile&) const = default;
 };
 
-/// The response-aware HEARTBEAT policy. The floor ε of the response share is the fraction numerator/denominator.
+/// The response-aware HEARTBEAT policy. The floor ε of the response share is the fraction
+/// numerator/denominator.
 struct AdaptiveProfile {
   Nanoseconds min_period{100'000'000};
   Nanoseconds max_period{3'000'000'000};
@@ -58,11 +62,11 @@ struct AdaptiveProfile {
 
 /// SEDP: the reliable exchange of endpoint descriptors.
 struct SedpProfile {
-  Nanoseconds heartbeat_period{1'000'000'000};        ///< τ_H
-  Nanoseconds heartbeat_response_delay{10'000};       ///< τ_A
-  Nanoseconds nack_response_delay{100'000};           ///< τ_N
-  Nanoseconds nack_suppression_duration{10'000};      ///< τ_S
-  Nanoseconds initial_acknack_delay{70'000'000};      ///< τ_I; 0 disables initial ACKNACKs
+  Nanoseconds heartbeat_period{1'000'000'000};    ///< τ_H
+  Nanoseconds heartbeat_response_delay{10'000};   ///< τ_A
+  Nanoseconds nack_response_delay{100'000};       ///< τ_N
+  Nanoseconds nack_suppression_duration{10'000};  ///< τ_S
+  Nanoseconds initial_acknack_delay{70'000'000};  ///< τ_I; 0 disables initial ACKNACKs
   RelationOpening relation_opening = RelationOpening::receiver;
   InitialData initial_data = InitialData::push;
   Unmatched unmatched = Unmatched::drop;
@@ -73,22 +77,24 @@ struct SedpProfile {
   HeartbeatPolicy heartbeat_policy = HeartbeatPolicy::periodic;
   AdaptiveProfile adaptive;
   Grouping grouping = Grouping::message;
-  Bytes grouping_limit_bytes{65'500};                 ///< payload limit of `grouping: message`
+  Bytes grouping_limit_bytes{65'500};  ///< payload limit of `grouping: message`
   Piggyback piggyback = Piggyback::cumulative;
   Bytes piggyback_threshold_bytes{106'496};
-  Bytes heartbeat_bytes{68};                          ///< UDP payload of a HEARTBEAT of its own
-  Bytes acknack_bytes{64};                            ///< UDP payload of an ACKNACK with an empty bitmap
-  Bytes piggyback_heartbeat_bytes{32};                ///< what a HEARTBEAT adds to a DATA packet
-  Bytes shared_header_bytes{36};                      ///< RTPS header and INFO_DST, once per packet
+  Bytes heartbeat_bytes{68};            ///< UDP payload of a HEARTBEAT of its own
+  Bytes acknack_bytes{64};              ///< UDP payload of an ACKNACK with an empty bitmap
+  Bytes piggyback_heartbeat_bytes{32};  ///< what a HEARTBEAT adds to a DATA packet
+  Bytes shared_header_bytes{36};        ///< RTPS header and INFO_DST, once per packet
 
   bool operator==(const SedpProfile&) const = default;
 };
 
-/// How many descriptors a default ROS 2 node has and how large they are (UDP payload of a packet of its own).
+/// How many descriptors a default ROS 2 node has and how large they are (UDP payload of a packet of
+/// its own).
 struct DescriptorProfile {
   std::uint32_t default_publications = 9;
   std::uint32_t default_subscriptions = 8;
-  std::array<Bytes, 2> default_bytes{Bytes{452}, Bytes{532}};  ///< first and last default descriptor
+  std::array<Bytes, 2> default_bytes{Bytes{452},
+                                     Bytes{532}};  ///< first and last default descriptor
   Bytes user_bytes{460};
 
   bool operator==(const DescriptorProfile&) const = default;

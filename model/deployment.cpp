@@ -13,8 +13,8 @@ Deployment Deployment::homogeneous(std::uint32_t hosts, std::uint32_t participan
   const std::uint32_t publications = endpoints_per_participant - endpoints_per_participant / 2;
   for (std::uint32_t host = 0; host < hosts; ++host) {
     for (std::uint32_t k = 0; k < participants_per_host; ++k) {
-      deployment.participants.push_back(
-          {HostId{host}, publications, endpoints_per_participant / 2, Nanoseconds{0}, Nanoseconds{0}});
+      deployment.participants.push_back({HostId{host}, publications, endpoints_per_participant / 2,
+                                         Nanoseconds{0}, Nanoseconds{0}});
     }
   }
   return deployment;

@@ -1,6 +1,6 @@
-// The deployment: who takes part, on which host, from when on, and with how many user endpoints (the paper's
-// structural discovery workload; specs/model.md, section "Deployment"). Pure data; a scenario file or a
-// caller fills it in.
+// The deployment: who takes part, on which host, from when on, and with how many user endpoints
+// (the paper's structural discovery workload; specs/model.md, section "Deployment"). Pure data; a
+// scenario file or a caller fills it in.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,21 @@
 
 namespace stormproof::model {
 
-/// One DDS participant. The numbers of user endpoints come on top of the profile's default descriptors.
+/// One DDS participant. The numbers of user endpoints come on top of the profile's default
+/// descriptors.
 struct Participant {
   HostId host;
   std::uint32_t publications = 0;   ///< user publications, 0 … Deployment::max_endpoints
   std::uint32_t subscriptions = 0;  ///< user subscriptions, 0 … Deployment::max_endpoints
-  Nanoseconds start;                ///< ≥ 0; before it the participant ignores all that reaches it
-  Nanoseconds endpoints_done;       ///< ≥ start; all endpoints created (`implementation: fastdds` only)
+  Nanoseconds start;           ///< ≥ 0; before it the participant ignores all that reaches it
+  Nanoseconds endpoints_done;  ///< ≥ start; all endpoints created (`implementation: fastdds` only)
 
   bool operator==(const Participant&) const = default;
 };
 
-/// Ranges from which the start times of a deployment are drawn. Real processes never start at exactly the same
-/// time, and a storm depends on it, so live runs are predicted as a distribution over such schedules.
+/// Ranges from which the start times of a deployment are drawn. Real processes never start at
+/// exactly the same time, and a storm depends on it, so live runs are predicted as a distribution
+/// over such schedules.
 struct Schedule {
   Nanoseconds start_min;           ///< ≥ 0
   Nanoseconds start_max;           ///< ≥ start_min
@@ -43,18 +45,24 @@ struct Deployment {
   /// Delay of same-host packets, ≥ 0 (`implementation: fastdds` only).
   Nanoseconds loopback_delay{2'000'000};
 
-  /// The ranges that `start` and `endpoints_done` of the participants were drawn from, if they were drawn.
+  /// The ranges that `start` and `endpoints_done` of the participants were drawn from, if they were
+  /// drawn.
   std::optional<Schedule> schedule;
 
-  /// Draws every participant's `start` and `endpoints_done` (not before its start) uniformly from the ranges of the
-  /// schedule, which must exist. The same seed gives the same times on every machine.
+  /// Draws every participant's `start` and `endpoints_done` (not before its start) uniformly from
+  /// the ranges of the schedule, which must exist. The same seed gives the same times on every
+  /// machine.
   void draw_schedule(std::uint64_t seed);
 
-  /// The short form: host 0's participants first, each with ceil(E/2) publications and floor(E/2) subscriptions.
-  [[nodiscard]] static Deployment homogeneous(std::uint32_t hosts, std::uint32_t participants_per_host,
+  /// The short form: host 0's participants first, each with ceil(E/2) publications and floor(E/2)
+  /// subscriptions.
+  [[nodiscard]] static Deployment homogeneous(std::uint32_t hosts,
+                                              std::uint32_t participants_per_host,
                                               std::uint32_t endpoints_per_participant);
 
-  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(participants.size()); }
+  [[nodiscard]] std::uint32_t size() const {
+    return static_cast<std::uint32_t>(participants.size());
+  }
   /// Number of different hosts that carry at least one participant.
   [[nodiscard]] std::uint32_t host_count() const;
   /// Whether at least one cross-host pair exists; without one there is nothing to discover.

@@ -1,5 +1,5 @@
-// How large descriptors are and how many share a packet: the inputs of grouping, for the writer and for the
-// open-loop baseline alike.
+// How large descriptors are and how many share a packet: the inputs of grouping, for the writer and
+// for the open-loop baseline alike.
 #pragma once
 
 #include <array>
@@ -37,9 +37,12 @@ class DescriptorSizes {
                                             std::int64_t added_bytes) {
   constexpr std::int64_t mtu_limit = 1472;  // UDP payload of one unfragmented Ethernet frame
   switch (sedp.grouping) {
-    case Grouping::single: return true;
-    case Grouping::mtu: return payload_bytes + added_bytes > mtu_limit;
-    case Grouping::message: return payload_bytes + added_bytes > sedp.grouping_limit_bytes.count();
+    case Grouping::single:
+      return true;
+    case Grouping::mtu:
+      return payload_bytes + added_bytes > mtu_limit;
+    case Grouping::message:
+      return payload_bytes + added_bytes > sedp.grouping_limit_bytes.count();
   }
   return true;
 }

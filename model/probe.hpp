@@ -1,6 +1,6 @@
-// What an observer of a run may see: every processed event, every transition of a machine, every packet on its
-// way. The simulator calls a probe only if there is one, so an unobserved run pays nothing but a test. Probes
-// never influence a run. Traces (model/trace/) are probes.
+// What an observer of a run may see: every processed event, every transition of a machine, every
+// packet on its way. The simulator calls a probe only if there is one, so an unobserved run pays
+// nothing but a test. Probes never influence a run. Traces (model/trace/) are probes.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace stormproof::model {
 
-/// Which machine has moved. `subject` is a relation, writer (2·participant + stream), participant or channel,
-/// as `kind` says.
+/// Which machine has moved. `subject` is a relation, writer (2·participant + stream), participant
+/// or channel, as `kind` says.
 struct MachineRef {
   enum class Kind : std::uint8_t { relation, writer, participant, channel, control_relation };
   std::string_view machine;
@@ -25,11 +25,11 @@ struct MachineRef {
 
 /// Queue depths after an event.
 struct Depths {
-  std::uint64_t events = 0;          ///< scheduled events
-  std::uint64_t backlog_packets = 0; ///< over all participants
-  std::int64_t admitted_bytes = 0;   ///< over all source queues
-  std::uint64_t waiting = 0;         ///< fragments that wait for a channel
-  std::uint64_t missing = 0;         ///< required deliveries that have not happened
+  std::uint64_t events = 0;           ///< scheduled events
+  std::uint64_t backlog_packets = 0;  ///< over all participants
+  std::int64_t admitted_bytes = 0;    ///< over all source queues
+  std::uint64_t waiting = 0;          ///< fragments that wait for a channel
+  std::uint64_t missing = 0;          ///< required deliveries that have not happened
 };
 
 class Probe {
@@ -40,13 +40,15 @@ class Probe {
   virtual void event_started(const Event&) {}
   virtual void event_finished(const Depths&) {}
   /// A row of a machine's table fired: it went from state `before` to `after`, which may be equal.
-  /// `descriptors` is the set of descriptors that moved, word by word; empty for machines that have none.
-  virtual void transition(const MachineRef&, std::string_view /*event*/, std::string_view /*before*/,
-                          std::string_view /*after*/, std::uint32_t /*first_word*/,
-                          std::uint64_t /*descriptors*/) {}
+  /// `descriptors` is the set of descriptors that moved, word by word; empty for machines that have
+  /// none.
+  virtual void transition(const MachineRef&, std::string_view /*event*/,
+                          std::string_view /*before*/, std::string_view /*after*/,
+                          std::uint32_t /*first_word*/, std::uint64_t /*descriptors*/) {}
   virtual void scheduled(std::uint64_t /*insertion*/, Nanoseconds, EventKind,
                          std::uint32_t /*subject*/) {}
-  /// `source` emitted the packet, or `packet.copies` packets of consecutive numbers to `destinations`.
+  /// `source` emitted the packet, or `packet.copies` packets of consecutive numbers to
+  /// `destinations`.
   virtual void emitted(const Packet&, std::uint32_t /*source*/,
                        std::span<const std::uint32_t> /*destinations*/) {}
   virtual void service_started(std::uint32_t /*channel*/, std::uint32_t /*stage*/, const Packet&,
@@ -55,7 +57,8 @@ class Probe {
   virtual void source_completed(const Packet&) {}
   /// The last fragment left the last stage; `lost` packets are not received.
   virtual void arrived(const Packet&, bool /*lost*/) {}
-  /// `receiver` is about to process the packet; `everybody`: whoever it was sent to, now and at once.
+  /// `receiver` is about to process the packet; `everybody`: whoever it was sent to, now and at
+  /// once.
   virtual void received(const Packet&, std::uint32_t /*receiver*/) {}
   static constexpr std::uint32_t everybody = UINT32_MAX;
   /// The packet, which has no number, goes to a participant on the host of its source.

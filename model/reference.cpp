@@ -111,9 +111,9 @@ std::int64_t everything_once_ns(const Topology& topology, const RouteAirtime& ro
   return sum;
 }
 
-/// SPDP of the failure-free reference: each of a participant's `recognitions` sends one announcement more. With
-/// Fast DDS same-host participants are recognised too; of the copies to all known ones, on average the share of
-/// the cross-host peers crosses hosts.
+/// SPDP of the failure-free reference: each of a participant's `recognitions` sends one
+/// announcement more. With Fast DDS same-host participants are recognised too; of the copies to all
+/// known ones, on average the share of the cross-host peers crosses hosts.
 void add_spdp(Counts& counts, SpdpResend resend, std::uint64_t recognitions, std::uint64_t peers) {
   switch (resend) {
     case SpdpResend::all_known:
@@ -128,7 +128,9 @@ void add_spdp(Counts& counts, SpdpResend resend, std::uint64_t recognitions, std
       counts.spdp_multicast += 1;
       counts.spdp_unicast += peers;
       break;
-    case SpdpResend::none: counts.spdp_multicast += 1; break;
+    case SpdpResend::none:
+      counts.spdp_multicast += 1;
+      break;
   }
 }
 

@@ -47,18 +47,20 @@ struct ChannelUse {
   }
 };
 
-/// The longest backlog of one participant: packets generated but not yet admitted to its source queue.
+/// The longest backlog of one participant: packets generated but not yet admitted to its source
+/// queue.
 struct BacklogPeak {
   std::uint64_t packets = 0;
-  Nanoseconds at;                  ///< when it was first reached
+  Nanoseconds at;  ///< when it was first reached
   std::uint64_t packets_at_end = 0;
 };
 
 /// How long received packets of one class had been under way, from generation to reception.
 struct Latency {
   std::uint64_t packets = 0;
-  Nanoseconds backlog_sum;   ///< waiting for room in the source queue
-  Nanoseconds service_sum;   ///< from admission to reception: waiting for the channel and being served
+  Nanoseconds backlog_sum;  ///< waiting for room in the source queue
+  Nanoseconds
+      service_sum;  ///< from admission to reception: waiting for the channel and being served
   Nanoseconds longest;
 };
 
@@ -75,17 +77,17 @@ struct RunResult {
   static constexpr std::size_t missing_listed = 100;
 
   RunEnd end = RunEnd::no_more_events;
-  Nanoseconds end_time;                      ///< time of the last processed event
-  std::optional<Nanoseconds> discovery_time; ///< T_disc; only a complete run has one
+  Nanoseconds end_time;                       ///< time of the last processed event
+  std::optional<Nanoseconds> discovery_time;  ///< T_disc; only a complete run has one
   Counts counts;
-  std::uint64_t user_control = 0;            ///< messages of control-only relations, in no class
-  std::uint64_t events = 0;                  ///< processed events
+  std::uint64_t user_control = 0;  ///< messages of control-only relations, in no class
+  std::uint64_t events = 0;        ///< processed events
   std::uint64_t missing_count = 0;
-  std::vector<MissingDescriptor> missing;    ///< the first `missing_listed` of them
-  std::uint64_t useful_deliveries = 0;       ///< descriptors received for the first time
-  std::uint64_t duplicate_deliveries = 0;    ///< descriptors received again
-  std::vector<ChannelUse> channels;          ///< empty with constant delay
-  std::vector<BacklogPeak> backlog;          ///< by participant
+  std::vector<MissingDescriptor> missing;  ///< the first `missing_listed` of them
+  std::uint64_t useful_deliveries = 0;     ///< descriptors received for the first time
+  std::uint64_t duplicate_deliveries = 0;  ///< descriptors received again
+  std::vector<ChannelUse> channels;        ///< empty with constant delay
+  std::vector<BacklogPeak> backlog;        ///< by participant
   std::array<Latency, traffic_class_count> latency{};
   std::optional<LastDelivery> last_delivery;
 

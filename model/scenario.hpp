@@ -1,5 +1,5 @@
-// A scenario: one deployment, one DDS profile, one wireless profile, one time limit. It determines one
-// trajectory, to the nanosecond. `model/config/scenario_file.hpp` reads it from YAML.
+// A scenario: one deployment, one DDS profile, one wireless profile, one time limit. It determines
+// one trajectory, to the nanosecond. `model/config/scenario_file.hpp` reads it from YAML.
 #pragma once
 
 #include <string>

@@ -18,8 +18,10 @@ bool concerns_network(EventKind kind) {
 
 std::unique_ptr<Implementation> make_implementation(RunState& run, Network& network) {
   switch (run.scenario.dds.implementation) {
-    case ImplementationKind::paper: return std::make_unique<paper::Protocol>(run, network);
-    case ImplementationKind::fastdds: return std::make_unique<fastdds::Protocol>(run, network);
+    case ImplementationKind::paper:
+      return std::make_unique<paper::Protocol>(run, network);
+    case ImplementationKind::fastdds:
+      return std::make_unique<fastdds::Protocol>(run, network);
   }
   return nullptr;
 }
@@ -62,8 +64,10 @@ class Simulator {
 
   void process(const Event& event) {
     if (run_.probe != nullptr) run_.probe->event_started(event);
-    if (concerns_network(event.kind)) network_.handle(event);
-    else implementation_->handle(event);
+    if (concerns_network(event.kind))
+      network_.handle(event);
+    else
+      implementation_->handle(event);
     if (run_.probe != nullptr) run_.probe->event_finished(network_.depths());
   }
 

@@ -1,5 +1,5 @@
-// Runs a scenario: one deterministic trajectory, to the nanosecond, from the start of the first participant
-// until discovery is complete, the time limit has passed or the caller stops it.
+// Runs a scenario: one deterministic trajectory, to the nanosecond, from the start of the first
+// participant until discovery is complete, the time limit has passed or the caller stops it.
 #pragma once
 
 #include <functional>

@@ -1,7 +1,7 @@
-// Strong types for the quantities and indices of the model: nanoseconds, bytes, bit rates, and the numbers of
-// participants, hosts and descriptors. They exist so that a time can never be added to a size and a
-// participant never be used where a host is meant. All of them are plain integers at run time: no floating
-// point takes part in a trajectory.
+// Strong types for the quantities and indices of the model: nanoseconds, bytes, bit rates, and the
+// numbers of participants, hosts and descriptors. They exist so that a time can never be added to a
+// size and a participant never be used where a host is meant. All of them are plain integers at run
+// time: no floating point takes part in a trajectory.
 #pragma once
 
 #include <compare>
@@ -22,8 +22,12 @@ class Quantity {
   constexpr auto operator<=>(const Quantity&) const = default;
   constexpr Quantity& operator+=(Quantity other) { return count_ += other.count_, *this; }
   constexpr Quantity& operator-=(Quantity other) { return count_ -= other.count_, *this; }
-  friend constexpr Quantity operator+(Quantity a, Quantity b) { return Quantity{a.count_ + b.count_}; }
-  friend constexpr Quantity operator-(Quantity a, Quantity b) { return Quantity{a.count_ - b.count_}; }
+  friend constexpr Quantity operator+(Quantity a, Quantity b) {
+    return Quantity{a.count_ + b.count_};
+  }
+  friend constexpr Quantity operator-(Quantity a, Quantity b) {
+    return Quantity{a.count_ - b.count_};
+  }
   friend constexpr Quantity operator*(Quantity a, std::int64_t k) { return Quantity{a.count_ * k}; }
 
  private:

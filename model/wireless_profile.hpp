@@ -1,6 +1,7 @@
-// The wireless profile: how packets are served, from the source queue over the stages of the route to the
-// receiver (paper, "Shared Wireless Service"; specs/model.md, "Packets, fragments, queue, channel"). The defaults are
-// infrastructure 802.11n as in the paper's evaluation. `model/config/wireless_knobs.hpp` gives keys and ranges.
+// The wireless profile: how packets are served, from the source queue over the stages of the route
+// to the receiver (paper, "Shared Wireless Service"; specs/model.md, "Packets, fragments, queue,
+// channel"). The defaults are infrastructure 802.11n as in the paper's evaluation.
+// `model/config/wireless_knobs.hpp` gives keys and ranges.
 #pragma once
 
 #include <cstdint>
@@ -48,8 +49,9 @@ struct WirelessProfile {
   Bytes source_queue_bytes{212'992};  ///< W; `unlimited` admits everything at once
   ServiceOrder order = ServiceOrder::fifo_uplink;
   FragmentRequest fragment_request = FragmentRequest::sequential;
-  std::vector<std::uint64_t> lost_packets;  ///< packet numbers in emission order, ascending, no duplicates
-  Nanoseconds one_way{0};                   ///< delay of `constant_delay`
+  std::vector<std::uint64_t>
+      lost_packets;        ///< packet numbers in emission order, ascending, no duplicates
+  Nanoseconds one_way{0};  ///< delay of `constant_delay`
   std::vector<Stage> stages{{"uplink", "air", MulticastAs::unicast, {}, {}, {}, {}},
                             {"downlink", "air", MulticastAs::multicast, {}, {}, {}, {}}};
 

@@ -4,11 +4,11 @@
 namespace stormproof::cli {
 
 enum ExitCode : int {
-  established = 0,       ///< what was asked holds; for `simulate`: discovery completes
-  violated = 1,          ///< it does not hold, and the output shows why
-  bad_input = 2,         ///< usage, a file or a value is wrong
-  inconclusive = 3,      ///< neither; for `simulate`: not complete within the limit
-  internal_error = 70    ///< a broken invariant of the program itself
+  established = 0,     ///< what was asked holds; for `simulate`: discovery completes
+  violated = 1,        ///< it does not hold, and the output shows why
+  bad_input = 2,       ///< usage, a file or a value is wrong
+  inconclusive = 3,    ///< neither; for `simulate`: not complete within the limit
+  internal_error = 70  ///< a broken invariant of the program itself
 };
 
 }  // namespace stormproof::cli

@@ -1,9 +1,10 @@
-// The command line: parses arguments, calls the command, turns what nobody expected into exit code 70.
-#include <fmt/core.h>
-
-#include <CLI/CLI.hpp>
+// The command line: parses arguments, calls the command, turns what nobody expected into exit
+// code 70.
 #include <exception>
 #include <new>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/replay_command.hpp"
@@ -66,7 +67,8 @@ CLI::App* add_simulate(CLI::App& app, cli::SimulateArguments& arguments) {
   for (const char* recording : {"--trace", "--perfetto"}) {
     command->get_option(recording)->excludes(samples)->excludes(compare);
   }
-  command->footer("Exit code: 0 discovery completes, 3 it does not within the time limit, 2 bad input.");
+  command->footer(
+      "Exit code: 0 discovery completes, 3 it does not within the time limit, 2 bad input.");
   return command;
 }
 

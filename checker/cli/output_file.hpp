@@ -1,5 +1,5 @@
-// A file that a command writes beside its report. It grows under a temporary name and takes its own name only
-// when it is complete, so a file that exists is never half-written.
+// A file that a command writes beside its report. It grows under a temporary name and takes its own
+// name only when it is complete, so a file that exists is never half-written.
 #pragma once
 
 #include <fstream>

@@ -1,10 +1,10 @@
 // Signal handling and the progress line.
 #include "checker/cli/run_monitor.hpp"
 
-#include <fmt/core.h>
-
 #include <csignal>
 #include <cstdio>
+
+#include <fmt/core.h>
 
 #include "checker/report/numbers.hpp"
 

@@ -1,10 +1,10 @@
-// `simulate --samples N` and `--compare PROFILE`: the same schedules under one or several DDS profiles.
+// `simulate --samples N` and `--compare PROFILE`: the same schedules under one or several DDS
+// profiles.
 #include "checker/cli/sample_command.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
-
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/run_monitor.hpp"
@@ -30,8 +30,7 @@ std::optional<std::string> add_profiles(const SimulateArguments& arguments,
                                         report::Sampling& sampling) {
   sampling.profiles.push_back({"this scenario", scenario, {}});
   for (const std::string& name : arguments.compare) {
-    const auto dds =
-        model::config::read_dds_profile(name, {}, model::config::SpecPath::standard());
+    const auto dds = model::config::read_dds_profile(name, {}, model::config::SpecPath::standard());
     if (!dds) return to_string(dds.error());
     model::Scenario other = scenario;
     other.dds = *dds;
@@ -81,8 +80,8 @@ int sample(const SimulateArguments& arguments, const model::Scenario& scenario) 
     return bad_input;
   }
   const bool finished = run_all(arguments, sampling);
-  fmt::print("{}", arguments.json ? report::to_json(sampling).dump(2) + "\n"
-                                  : report::to_text(sampling));
+  fmt::print("{}",
+             arguments.json ? report::to_json(sampling).dump(2) + "\n" : report::to_text(sampling));
   const report::SampleSummary own = report::summarize(sampling.profiles.front().samples);
   return finished && own.completed == sampling.wanted ? established : inconclusive;
 }

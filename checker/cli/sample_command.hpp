@@ -6,7 +6,8 @@
 
 namespace stormproof::cli {
 
-/// Runs `scenario` under sampled schedules, and under the profiles to compare with. Exit code as `simulate`.
+/// Runs `scenario` under sampled schedules, and under the profiles to compare with. Exit code as
+/// `simulate`.
 [[nodiscard]] int sample(const SimulateArguments& arguments, const model::Scenario& scenario);
 
 }  // namespace stormproof::cli

@@ -2,9 +2,8 @@
 #include "checker/cli/simulate_command.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
-
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/output_file.hpp"

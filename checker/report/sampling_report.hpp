@@ -1,11 +1,12 @@
-// The answer of `stormproof simulate --samples N` and `--compare`: distributions over sampled schedules, one profile
-// or several side by side on the same schedules.
+// The answer of `stormproof simulate --samples N` and `--compare`: distributions over sampled
+// schedules, one profile or several side by side on the same schedules.
 #pragma once
 
 #include <array>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "checker/sampling/quantiles.hpp"
 #include "checker/sampling/sample_runs.hpp"
@@ -20,10 +21,10 @@ struct SampledProfile {
 };
 
 struct Sampling {
-  std::string name;              ///< what the user called the scenario
-  std::size_t wanted = 0;        ///< samples asked for; fewer exist if the runs were interrupted
+  std::string name;        ///< what the user called the scenario
+  std::size_t wanted = 0;  ///< samples asked for; fewer exist if the runs were interrupted
   std::uint64_t first_seed = 0;
-  std::string command;           ///< reproduces this output
+  std::string command;                   ///< reproduces this output
   std::vector<SampledProfile> profiles;  ///< the scenario's own first, then those to compare with
 };
 
@@ -40,8 +41,9 @@ struct SampleSummary {
 
 [[nodiscard]] std::string to_text(const Sampling& sampling);
 
-/// Keys: scenario, seed, wanted, command, samples (array of runs), summary, profile; with several profiles also
-/// compare, an array of {profile_name, samples, summary, profile}. specs/output.md describes them.
+/// Keys: scenario, seed, wanted, command, samples (array of runs), summary, profile; with several
+/// profiles also compare, an array of {profile_name, samples, summary, profile}. specs/output.md
+/// describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Sampling& sampling);
 
 }  // namespace stormproof::report

@@ -1,5 +1,6 @@
 // Statistics of sampled runs, and their JSON form.
 #include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "checker/report/sampling_report.hpp"
@@ -51,13 +52,14 @@ Json sample_json(const Sample& sample) {
   Json counts;
   for (const auto& [name, value] : sample.counts.entries()) counts[name] = value;
   counts["total"] = sample.counts.total();
-  return {{"seed", sample.seed},
-          {"completed", sample.end == model::RunEnd::completed},
-          {"end", name_of(sample.end)},
-          {"t_disc_ns", sample.discovery_time ? Json(sample.discovery_time->count()) : Json(nullptr)},
-          {"counts", counts},
-          {"user_control", sample.user_control},
-          {"events", sample.events}};
+  return {
+      {"seed", sample.seed},
+      {"completed", sample.end == model::RunEnd::completed},
+      {"end", name_of(sample.end)},
+      {"t_disc_ns", sample.discovery_time ? Json(sample.discovery_time->count()) : Json(nullptr)},
+      {"counts", counts},
+      {"user_control", sample.user_control},
+      {"events", sample.events}};
 }
 
 void add_profile(Json& json, const SampledProfile& profile) {

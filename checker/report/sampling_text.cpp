@@ -1,8 +1,9 @@
-// The text form of sampled runs: the distribution of one profile, or the medians of several side by side.
-#include <fmt/core.h>
-
+// The text form of sampled runs: the distribution of one profile, or the medians of several side by
+// side.
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/core.h>
 
 #include "checker/report/numbers.hpp"
 #include "checker/report/sampling_report.hpp"
@@ -40,7 +41,8 @@ std::string distribution(const SampleSummary& s) {
       fmt::format("{}{}{}{}{}{}\n", left("", 20), right("median", 12), right("10 %", 12),
                   right("90 %", 12), right("least", 12), right("greatest", 12));
   text += row("completion", s.discovery_time_ns, as_time);
-  for (std::size_t k = 0; k < s.counts.size(); ++k) text += row(class_labels[k], s.counts[k], as_count);
+  for (std::size_t k = 0; k < s.counts.size(); ++k)
+    text += row(class_labels[k], s.counts[k], as_count);
   text += row("total", s.total, as_count);
   if (s.user_control.max.value_or(0) > 0) text += row("user control", s.user_control, as_count);
   return text;
@@ -66,12 +68,13 @@ std::string histogram(const std::vector<Sample>& samples) {
   for (std::size_t k = 0; k < bins; ++k) {
     const double from = first + width * static_cast<double>(k);
     const auto bar = static_cast<std::size_t>(40 * static_cast<double>(count[k]) / most + 0.5);
-    text += fmt::format("  {} – {}{}{}{}\n", right(as_time(from), 9), left(as_time(from + width), 9),
-                        right(std::to_string(count[k]), 4), bar == 0 ? "" : "  ",
-                        std::string(bar, '#'));
+    text += fmt::format("  {} – {}{}{}{}\n", right(as_time(from), 9),
+                        left(as_time(from + width), 9), right(std::to_string(count[k]), 4),
+                        bar == 0 ? "" : "  ", std::string(bar, '#'));
   }
   const std::size_t beyond = samples.size() - times.size();
-  if (beyond > 0) text += fmt::format("  not within the limit  {}\n", right(std::to_string(beyond), 4));
+  if (beyond > 0)
+    text += fmt::format("  not within the limit  {}\n", right(std::to_string(beyond), 4));
   return text;
 }
 
@@ -81,22 +84,22 @@ std::string side_by_side(const Sampling& sampling) {
   for (const SampledProfile& profile : sampling.profiles) {
     width = std::max(width, profile.name.size() + 2);
   }
-  std::string text = fmt::format("{}{}{}{}{}{}{}{}\n", left("medians", width), right("complete", 9),
-                                 right("completion [10–90 %]", 29), right("repair", 8),
-                                 right("HEARTBEAT", 11), right("ACKNACK", 9), right("total", 9),
-                                 right("user", 8));
+  std::string text =
+      fmt::format("{}{}{}{}{}{}{}{}\n", left("medians", width), right("complete", 9),
+                  right("completion [10–90 %]", 29), right("repair", 8), right("HEARTBEAT", 11),
+                  right("ACKNACK", 9), right("total", 9), right("user", 8));
   for (const SampledProfile& profile : sampling.profiles) {
     const SampleSummary s = summarize(profile.samples);
     const Quantiles& t = s.discovery_time_ns;
     const auto count = [](const Quantiles& q) { return or_beyond(q.median, as_count); };
-    text += fmt::format(
-        "{}{}{}{}{}{}{}{}\n", left(profile.name, width),
-        right(fmt::format("{}/{}", s.completed, s.runs), 9),
-        right(fmt::format("{} [{}–{}]", or_beyond(t.median, as_time), or_beyond(t.p10, as_time),
-                          or_beyond(t.p90, as_time)),
-              29),
-        right(count(s.counts[1]), 8), right(count(s.counts[2]), 11), right(count(s.counts[3]), 9),
-        right(count(s.total), 9), right(count(s.user_control), 8));
+    text += fmt::format("{}{}{}{}{}{}{}{}\n", left(profile.name, width),
+                        right(fmt::format("{}/{}", s.completed, s.runs), 9),
+                        right(fmt::format("{} [{}–{}]", or_beyond(t.median, as_time),
+                                          or_beyond(t.p10, as_time), or_beyond(t.p90, as_time)),
+                              29),
+                        right(count(s.counts[1]), 8), right(count(s.counts[2]), 11),
+                        right(count(s.counts[3]), 9), right(count(s.total), 9),
+                        right(count(s.user_control), 8));
   }
   return text;
 }

@@ -1,4 +1,5 @@
-// The JSON form of a simulation. Times are integers in ns, sizes in bytes; what does not exist is null.
+// The JSON form of a simulation. Times are integers in ns, sizes in bytes; what does not exist is
+// null.
 #include <nlohmann/json.hpp>
 
 #include "checker/report/simulation_report.hpp"
@@ -104,10 +105,14 @@ Json last_delivery_json(const RunResult& result) {
 
 const char* name_of(model::RunEnd end) {
   switch (end) {
-    case model::RunEnd::completed: return "completed";
-    case model::RunEnd::time_limit: return "time_limit";
-    case model::RunEnd::no_more_events: return "no_more_events";
-    case model::RunEnd::interrupted: return "interrupted";
+    case model::RunEnd::completed:
+      return "completed";
+    case model::RunEnd::time_limit:
+      return "time_limit";
+    case model::RunEnd::no_more_events:
+      return "no_more_events";
+    case model::RunEnd::interrupted:
+      return "interrupted";
   }
   return "";
 }
@@ -131,11 +136,10 @@ Json to_json(const Simulation& s) {
   json["user_control"] = result.user_control;
   json["events"] = result.events;
   json["open_loop_ns"] = s.open_loop ? Json(s.open_loop->count()) : Json(nullptr);
-  json["closed_to_open_loop"] =
-      s.open_loop && result.discovery_time
-          ? Json(static_cast<double>(result.discovery_time->count()) /
-                 static_cast<double>(s.open_loop->count()))
-          : Json(nullptr);
+  json["closed_to_open_loop"] = s.open_loop && result.discovery_time
+                                    ? Json(static_cast<double>(result.discovery_time->count()) /
+                                           static_cast<double>(s.open_loop->count()))
+                                    : Json(nullptr);
   json["missing"] = missing_json(result);
   json["channels"] = channels_json(result);
   json["backlog"] = backlog_json(result);

@@ -1,9 +1,11 @@
-// The answer of `stormproof simulate`: one run beside what it is compared with, as text and as JSON.
+// The answer of `stormproof simulate`: one run beside what it is compared with, as text and as
+// JSON.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "model/counts.hpp"
 #include "model/run_result.hpp"
@@ -26,9 +28,9 @@ struct Simulation {
 /// For a person who knows ROS 2 but not this project; at most 100 columns wide.
 [[nodiscard]] std::string to_text(const Simulation& simulation);
 
-/// Keys: scenario, completed, end, t_disc_ns, end_ns, counts, failure_free, amplification, events, open_loop_ns,
-/// closed_to_open_loop, missing, channels, backlog, latency, deliveries, last_delivery, profile. specs/output.md
-/// describes them.
+/// Keys: scenario, completed, end, t_disc_ns, end_ns, counts, failure_free, amplification, events,
+/// open_loop_ns, closed_to_open_loop, missing, channels, backlog, latency, deliveries,
+/// last_delivery, profile. specs/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Simulation& simulation);
 
 /// How a run ended, as the JSON and traces spell it.

@@ -1,8 +1,8 @@
 // The text form of a simulation: the answer first, then what it consists of, then what it means.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <numeric>
+
+#include <fmt/core.h>
 
 #include "checker/report/numbers.hpp"
 #include "checker/report/simulation_report.hpp"
@@ -38,15 +38,21 @@ std::string headline(const Simulation& s) {
   const std::string limit = duration(s.scenario.time_limit);
   std::string reason;
   switch (result.end) {
-    case model::RunEnd::time_limit: reason = "by the time limit of " + limit; break;
-    case model::RunEnd::no_more_events: reason = "and no event is left"; break;
+    case model::RunEnd::time_limit:
+      reason = "by the time limit of " + limit;
+      break;
+    case model::RunEnd::no_more_events:
+      reason = "and no event is left";
+      break;
     case model::RunEnd::interrupted:
       reason = "by " + duration(result.end_time) + ", when the run was interrupted";
       break;
-    case model::RunEnd::completed: break;
+    case model::RunEnd::completed:
+      break;
   }
-  return fmt::format("Discovery does NOT complete {}: {} of {} descriptor deliveries are missing.\n",
-                     reason, grouped(result.missing_count), grouped(s.failure_free.initial_data));
+  return fmt::format(
+      "Discovery does NOT complete {}: {} of {} descriptor deliveries are missing.\n", reason,
+      grouped(result.missing_count), grouped(s.failure_free.initial_data));
 }
 
 std::string deployment(const Simulation& s) {
@@ -60,8 +66,8 @@ std::string baseline(const Simulation& s) {
   if (!s.open_loop) {
     return "No open-loop airtime: this profile has a constant delay and no channel.\n";
   }
-  std::string text = fmt::format(
-      "Everything sent once would need {} of airtime (open loop)", duration(*s.open_loop));
+  std::string text = fmt::format("Everything sent once would need {} of airtime (open loop)",
+                                 duration(*s.open_loop));
   const auto open_loop = static_cast<double>(s.open_loop->count());
   const auto end = static_cast<double>(s.result.end_time.count());
   if (s.result.completed()) {
@@ -74,13 +80,15 @@ std::string messages(const Simulation& s) {
   std::string text = fmt::format("{}{}{}{}\n", left("messages", 20), right("this run", 14),
                                  right("failure-free", 14), right("amplification", 15));
   const auto row = [&](const std::string& name, std::uint64_t value, std::uint64_t reference) {
-    text += fmt::format("{}{}{}{}\n", left("  " + name, 20), right(grouped(value), 14),
-                        right(grouped(reference), 14),
-                        right(ratio(static_cast<double>(value), static_cast<double>(reference)), 15));
+    text +=
+        fmt::format("{}{}{}{}\n", left("  " + name, 20), right(grouped(value), 14),
+                    right(grouped(reference), 14),
+                    right(ratio(static_cast<double>(value), static_cast<double>(reference)), 15));
   };
   const auto counts = s.result.counts.entries();
   const auto reference = s.failure_free.entries();
-  for (std::size_t k = 0; k < counts.size(); ++k) row(label(k), counts[k].value, reference[k].value);
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    row(label(k), counts[k].value, reference[k].value);
   row("total", s.result.counts.total(), s.failure_free.total());
   if (s.result.user_control > 0) {
     text += fmt::format("{}{}   (matched user endpoints and liveliness; in no class)\n",
@@ -95,17 +103,19 @@ std::string channel_use(const RunResult& result) {
   const auto elapsed = static_cast<double>(result.end_time.count());
   for (const model::ChannelUse& channel : result.channels) {
     const auto busy = static_cast<double>(channel.total_busy().count());
-    text += fmt::format("\nchannel {}: busy {} of the time\n", channel.name, percent(busy, elapsed));
+    text +=
+        fmt::format("\nchannel {}: busy {} of the time\n", channel.name, percent(busy, elapsed));
     const auto row = [&](const char* name, Nanoseconds time) {
       const double share = elapsed > 0 ? static_cast<double>(time.count()) / elapsed : 0;
       const std::string bar(static_cast<std::size_t>(40 * share + 0.5), '#');
-      text += fmt::format("{}{}{}{}{}\n", left(std::string("  ") + name, 20),
-                          right(duration(time), 14),
-                          right(percent(static_cast<double>(time.count()), elapsed), 10),
-                          bar.empty() ? "" : "  ", bar);
+      text +=
+          fmt::format("{}{}{}{}{}\n", left(std::string("  ") + name, 20), right(duration(time), 14),
+                      right(percent(static_cast<double>(time.count()), elapsed), 10),
+                      bar.empty() ? "" : "  ", bar);
     };
     for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
-      if (channel.busy[k].count() > 0) row(label(static_cast<model::TrafficClass>(k)), channel.busy[k]);
+      if (channel.busy[k].count() > 0)
+        row(label(static_cast<model::TrafficClass>(k)), channel.busy[k]);
     }
     row("idle", result.end_time - channel.total_busy());
   }
@@ -113,9 +123,9 @@ std::string channel_use(const RunResult& result) {
 }
 
 std::string delays(const RunResult& result) {
-  std::string text = fmt::format("\n{}{}{}{}{}\n", left("delay of packets", 20),
-                                 right("received", 12), right("in backlog", 14),
-                                 right("queue+service", 15), right("longest", 12));
+  std::string text =
+      fmt::format("\n{}{}{}{}{}\n", left("delay of packets", 20), right("received", 12),
+                  right("in backlog", 14), right("queue+service", 15), right("longest", 12));
   for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
     const model::Latency& latency = result.latency[k];
     if (latency.packets == 0) continue;
@@ -197,16 +207,18 @@ std::string reading(const Simulation& s) {
   }
   if (result.counts.repair_data > 0) {
     text += fmt::format(
-        "  {} repairs for {} initial DATA: receivers reported as missing what was still on its way\n"
+        "  {} repairs for {} initial DATA: receivers reported as missing what was still on its "
+        "way\n"
         "  (or lost), and each repair queued behind the traffic that had delayed the original.\n",
         grouped(result.counts.repair_data), grouped(result.counts.initial_data));
   } else {
-    text += "  No repair was generated: no ACKNACK reported as missing what was still on its way.\n";
+    text +=
+        "  No repair was generated: no ACKNACK reported as missing what was still on its way.\n";
   }
   const std::uint64_t control = result.counts.heartbeat + result.counts.acknack;
-  text += fmt::format("  {} of all messages are HEARTBEATs and ACKNACKs.\n",
-                      percent(static_cast<double>(control),
-                              static_cast<double>(result.counts.total())));
+  text += fmt::format(
+      "  {} of all messages are HEARTBEATs and ACKNACKs.\n",
+      percent(static_cast<double>(control), static_cast<double>(result.counts.total())));
   return text;
 }
 
@@ -217,10 +229,11 @@ std::string footer(const Simulation& s) {
       "{} states its rules and assumptions.\n",
       grouped(s.result.events), fastdds ? "specs/fastdds.md" : "specs/model.md");
   if (s.result.counts.repair_data > 0) {
-    text += s.scenario.deployment.schedule
-                ? "A single run of a storm is chaotic: --samples 12 shows the range over start times.\n"
-                : "A single run of a storm is chaotic: with start times drawn from ranges\n"
-                  "(deployment.schedule), --samples 12 shows the range of outcomes.\n";
+    text +=
+        s.scenario.deployment.schedule
+            ? "A single run of a storm is chaotic: --samples 12 shows the range over start times.\n"
+            : "A single run of a storm is chaotic: with start times drawn from ranges\n"
+              "(deployment.schedule), --samples 12 shows the range of outcomes.\n";
   }
   return text;
 }

@@ -43,8 +43,8 @@ class Pool {
       run_options.on_progress = [this](const model::Progress&) { return report(0); };
       const model::RunResult run = model::simulate(scenario, run_options);
       if (run.end == model::RunEnd::interrupted) return;
-      results_[k] = Sample{seed,       run.end,          run.discovery_time,
-                           run.counts, run.user_control, run.events};
+      results_[k] =
+          Sample{seed, run.end, run.discovery_time, run.counts, run.user_control, run.events};
       report(1);
     }
   }

@@ -1,5 +1,6 @@
-// Runs one scenario under many schedules, on all cores. A storm is chaotic: a participant that starts a
-// microsecond later changes every count, so what can be predicted is the distribution over schedules.
+// Runs one scenario under many schedules, on all cores. A storm is chaotic: a participant that
+// starts a microsecond later changes every count, so what can be predicted is the distribution over
+// schedules.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +28,13 @@ struct SampleOptions {
   std::size_t samples = 1;
   std::uint64_t first_seed = 0;  ///< sample k draws its schedule from seed first_seed + k
   std::size_t threads = 0;       ///< 0: as many as the machine has cores
-  /// Called from one thread at a time, after each run and now and then in between, with the number of finished
-  /// runs; returning false stops all runs.
+  /// Called from one thread at a time, after each run and now and then in between, with the number
+  /// of finished runs; returning false stops all runs.
   std::function<bool(std::size_t finished)> on_progress;
 };
 
-/// The sampled runs in the order of their seeds; those that were stopped are left out. The deployment must have a
-/// schedule, or `samples` be 1: then the scenario runs as it is.
+/// The sampled runs in the order of their seeds; those that were stopped are left out. The
+/// deployment must have a schedule, or `samples` be 1: then the scenario runs as it is.
 [[nodiscard]] std::vector<Sample> sample_runs(const model::Scenario& scenario,
                                               const SampleOptions& options);
 

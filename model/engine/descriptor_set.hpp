@@ -1,6 +1,7 @@
-// A set of descriptors of one stream, as a packet carries it: the descriptors of a DATA packet, or the bitmap of
-// an ACKNACK. It keeps only the 64-bit words between its first and its last member, and a single word without
-// any allocation, because millions of packets may wait in the backlogs of a storm.
+// A set of descriptors of one stream, as a packet carries it: the descriptors of a DATA packet, or
+// the bitmap of an ACKNACK. It keeps only the 64-bit words between its first and its last member,
+// and a single word without any allocation, because millions of packets may wait in the backlogs of
+// a storm.
 #pragma once
 
 #include <algorithm>

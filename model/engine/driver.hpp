@@ -1,6 +1,6 @@
-// Drives the machines of one kind during a run: steps the flyweight, stores the new state, and tells the probe
-// which transition happened. Every state change of the simulator passes through here or through
-// model/engine/relation_bits.hpp, and both pass through Boost.MSM.
+// Drives the machines of one kind during a run: steps the flyweight, stores the new state, and
+// tells the probe which transition happened. Every state change of the simulator passes through
+// here or through model/engine/relation_bits.hpp, and both pass through Boost.MSM.
 #pragma once
 
 #include <type_traits>
@@ -42,10 +42,14 @@ class Driver {
   }
   template <class Row, class Event>
   static bool row_fires(fsm::StateId state, const Input& input) {
-    if constexpr (!std::is_same_v<typename Row::Evt, Event>) return false;
-    else if (state != fsm::Reflect<Machine>::template id<typename Row::Source>) return false;
-    else if constexpr (std::is_same_v<typename Row::Guard, fsm::none>) return true;
-    else return Row::Guard::template test<fsm::Plain>(input);
+    if constexpr (!std::is_same_v<typename Row::Evt, Event>)
+      return false;
+    else if (state != fsm::Reflect<Machine>::template id<typename Row::Source>)
+      return false;
+    else if constexpr (std::is_same_v<typename Row::Guard, fsm::none>)
+      return true;
+    else
+      return Row::Guard::template test<fsm::Plain>(input);
   }
 
   fsm::Flyweight<Machine> engine_;

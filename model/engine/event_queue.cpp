@@ -5,19 +5,22 @@ namespace stormproof::model {
 
 const char* name_of(EventKind kind) {
   static constexpr std::array<const char*, event_kind_count> names{
-      "service_finished",  "delayed_reception", "reception",          "announcement_due",
-      "heartbeat_expiry",  "acknack_generation", "initial_acknack",   "repair_generation",
-      "suppression_end",   "source_completion", "cycle_start",        "cycle_end",
-      "batch_due",         "endpoint_creation", "nack_response",      "async_run",
-      "control_initial",   "control_reply",     "dispatch"};
+      "service_finished", "delayed_reception",  "reception",       "announcement_due",
+      "heartbeat_expiry", "acknack_generation", "initial_acknack", "repair_generation",
+      "suppression_end",  "source_completion",  "cycle_start",     "cycle_end",
+      "batch_due",        "endpoint_creation",  "nack_response",   "async_run",
+      "control_initial",  "control_reply",      "dispatch"};
   return names[static_cast<std::size_t>(kind)];
 }
 
 const char* name_of(EventClass event_class) {
   switch (event_class) {
-    case EventClass::service: return "service";
-    case EventClass::protocol: return "protocol";
-    case EventClass::dispatch: return "dispatch";
+    case EventClass::service:
+      return "service";
+    case EventClass::protocol:
+      return "protocol";
+    case EventClass::dispatch:
+      return "dispatch";
   }
   return "";
 }

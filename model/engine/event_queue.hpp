@@ -1,11 +1,12 @@
-// The one event queue: the next event is the least (time, class, insertion number). The classes make the order
-// of same-time events what the model asks for: a reception comes before any protocol decision of that instant,
-// and a channel starts serving after both (specs/model.md, "Events and their order").
+// The one event queue: the next event is the least (time, class, insertion number). The classes
+// make the order of same-time events what the model asks for: a reception comes before any protocol
+// decision of that instant, and a channel starts serving after both (specs/model.md, "Events and
+// their order").
 //
-// Nearly every kind of event is scheduled at a constant distance from now, so its events arrive in ascending
-// order. Each kind therefore has a lane, a plain queue; what would break the order of its lane goes to a common
-// heap. The next event is the least of the lane heads and the heap's top: exact for any schedule, and fast for
-// the usual one.
+// Nearly every kind of event is scheduled at a constant distance from now, so its events arrive in
+// ascending order. Each kind therefore has a lane, a plain queue; what would break the order of its
+// lane goes to a common heap. The next event is the least of the lane heads and the heap's top:
+// exact for any schedule, and fast for the usual one.
 #pragma once
 
 #include <algorithm>
@@ -115,7 +116,8 @@ class EventQueue {
 
   static bool later(const Event& a, const Event& b) { return b.before(a); }
 
-  /// Inserts the lane with first event `event` into the ranking, which few others precede as a rule.
+  /// Inserts the lane with first event `event` into the ranking, which few others precede as a
+  /// rule.
   void enter(std::size_t lane, const Event& event) {
     std::size_t k = ranked_++;
     for (; k > 0; --k) {

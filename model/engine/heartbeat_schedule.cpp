@@ -38,8 +38,10 @@ HeartbeatSchedule::TimerDriver::Input HeartbeatSchedule::input(std::uint32_t w) 
 template <class TimerEvent>
 void HeartbeatSchedule::step(std::uint32_t w, std::size_t responding) {
   const auto output = driver_.step<TimerEvent>(run_, timers_[w].state, input(w), w);
-  if (adaptive_) apply_adaptive(w, output, responding);
-  else apply_periodic(w, output);
+  if (adaptive_)
+    apply_adaptive(w, output, responding);
+  else
+    apply_periodic(w, output);
 }
 
 template void HeartbeatSchedule::step<timer::ArmRequested>(std::uint32_t, std::size_t);
@@ -81,7 +83,8 @@ void HeartbeatSchedule::contact(std::uint32_t w) {
   for (const std::uint32_t relation : cycle.contacted) sender_.send_heartbeat(relation);
 }
 
-/// A cycle ends with silent readers: they are asked again in batches spread over the rest of the period.
+/// A cycle ends with silent readers: they are asked again in batches spread over the rest of the
+/// period.
 void HeartbeatSchedule::plan_batches(std::uint32_t w, Nanoseconds stretched) {
   Cycle& cycle = timers_[w].cycle;
   cycle.batches.clear();
@@ -120,8 +123,12 @@ void HeartbeatSchedule::handle(const Event& event) {
       cycle.has_responded.clear();
       step<timer::CycleStarted>(w);
       break;
-    case EventKind::cycle_end: step<timer::CycleEnded>(w); break;
-    default: step<timer::BatchDue>(w); break;
+    case EventKind::cycle_end:
+      step<timer::CycleEnded>(w);
+      break;
+    default:
+      step<timer::BatchDue>(w);
+      break;
   }
 }
 

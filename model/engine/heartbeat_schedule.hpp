@@ -1,7 +1,7 @@
-// Drives the HEARTBEAT timers of all writers of a run: what the machine in fsm/heartbeat_timer.hpp decides is
-// scheduled and sent here, and the adaptive policy's lists of readers are kept here: whom a cycle contacted, who
-// has responded, and the batches in which the silent ones are asked again. Who still lacks an acknowledgment,
-// and what a HEARTBEAT is, the implementation says.
+// Drives the HEARTBEAT timers of all writers of a run: what the machine in fsm/heartbeat_timer.hpp
+// decides is scheduled and sent here, and the adaptive policy's lists of readers are kept here:
+// whom a cycle contacted, who has responded, and the batches in which the silent ones are asked
+// again. Who still lacks an acknowledgment, and what a HEARTBEAT is, the implementation says.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace stormproof::model {
 
-/// What the schedule asks of the implementation whose writers it drives. Writers are 2 · participant + stream.
+/// What the schedule asks of the implementation whose writers it drives. Writers are 2 ·
+/// participant + stream.
 class HeartbeatSender {
  public:
   virtual ~HeartbeatSender() = default;
@@ -42,8 +43,9 @@ class HeartbeatSchedule {
   }
   /// A HEARTBEAT expiry, cycle or batch event is due.
   void handle(const Event& event);
-  /// A clean ACKNACK of this relation's reader, which has the first `base` descriptors: it counts once for the
-  /// cycle that contacted the reader, if that is all that was announced when the cycle started.
+  /// A clean ACKNACK of this relation's reader, which has the first `base` descriptors: it counts
+  /// once for the cycle that contacted the reader, if that is all that was announced when the cycle
+  /// started.
   void response(std::uint32_t writer, std::uint32_t relation, std::uint32_t base);
 
  private:
@@ -52,9 +54,9 @@ class HeartbeatSchedule {
   struct Cycle {
     Nanoseconds start;
     Nanoseconds period;
-    std::uint32_t token = 0;      ///< events with an older token are void
+    std::uint32_t token = 0;  ///< events with an older token are void
     std::uint32_t responded = 0;
-    std::uint32_t announced = 0;  ///< descriptors announced when the cycle started
+    std::uint32_t announced = 0;           ///< descriptors announced when the cycle started
     std::vector<std::uint32_t> contacted;  ///< relations, ascending
     std::vector<bool> has_responded;       ///< parallel to `contacted`
     std::vector<std::vector<std::uint32_t>> batches;

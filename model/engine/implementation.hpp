@@ -1,6 +1,6 @@
-// The border between the network (model/engine/network.hpp) and a DDS implementation (model/paper/): packets go
-// down through `Network::emit`, their fate and the protocol's timers come back through this interface. Another
-// vendor's writer is another class behind it.
+// The border between the network (model/engine/network.hpp) and a DDS implementation
+// (model/paper/): packets go down through `Network::emit`, their fate and the protocol's timers
+// come back through this interface. Another vendor's writer is another class behind it.
 #pragma once
 
 #include <vector>
@@ -21,14 +21,16 @@ class Implementation {
   virtual void handle(const Event& event) = 0;
   /// The last source-side fragment of the packet has been served.
   virtual void source_completed(const Packet& packet) = 0;
-  /// Whether each receiver of a packet has a reception event of its own. Otherwise a packet is processed as one
-  /// reception, whoever it reaches.
+  /// Whether each receiver of a packet has a reception event of its own. Otherwise a packet is
+  /// processed as one reception, whoever it reaches.
   [[nodiscard]] virtual bool receives_separately() const = 0;
   /// The participants that a packet reaches over the network, in the order of these events.
   [[nodiscard]] virtual std::vector<std::uint32_t> receivers(const Packet& packet) const = 0;
-  /// The packet has arrived completely, and was not lost. `receiver` means something only if `receives_separately`.
+  /// The packet has arrived completely, and was not lost. `receiver` means something only if
+  /// `receives_separately`.
   virtual void received(const Packet& packet, std::uint32_t receiver) = 0;
-  /// The first pair from `pair` on, among those of one source, that a packet with several copies goes to.
+  /// The first pair from `pair` on, among those of one source, that a packet with several copies
+  /// goes to.
   [[nodiscard]] virtual std::uint32_t next_recipient(const Packet& packet,
                                                      std::uint32_t pair) const = 0;
   /// Descriptors that have not reached a receiver, at most `limit` of them, in ascending order.

@@ -10,9 +10,12 @@ namespace {
 int stage_rank(ServiceOrder order, std::size_t stage) {
   switch (order) {
     case ServiceOrder::fifo_uplink:
-    case ServiceOrder::datagram_uplink: return static_cast<int>(stage);
-    case ServiceOrder::fifo_downlink: return -static_cast<int>(stage);
-    case ServiceOrder::fifo: return 0;
+    case ServiceOrder::datagram_uplink:
+      return static_cast<int>(stage);
+    case ServiceOrder::fifo_downlink:
+      return -static_cast<int>(stage);
+    case ServiceOrder::fifo:
+      return 0;
   }
   return 0;
 }
@@ -105,8 +108,7 @@ void Network::admit(std::uint32_t source) {
   }
 }
 
-std::uint32_t Network::allocate(Packet&& packet, std::uint32_t source,
-                                std::int64_t fragments) {
+std::uint32_t Network::allocate(Packet&& packet, std::uint32_t source, std::int64_t fragments) {
   const std::uint32_t slot = flights_.take();
   InFlight& flight = flights_[slot];
   flight.fragments = static_cast<std::uint32_t>(fragments);
@@ -158,7 +160,9 @@ void Network::serve(std::uint32_t channel) {
 
 void Network::handle(const Event& event) {
   switch (event.kind) {
-    case EventKind::service_finished: service_finished(event.subject); break;
+    case EventKind::service_finished:
+      service_finished(event.subject);
+      break;
     case EventKind::dispatch:
       channels_[event.subject].dispatch_pending = false;
       step<fsm::channel::DispatchDue>(event.subject);
@@ -176,7 +180,9 @@ void Network::handle(const Event& event) {
       implementation_->received(flights_[event.subject].packet, event.detail);
       release(event.subject);
       break;
-    default: arrive(event.subject); break;
+    default:
+      arrive(event.subject);
+      break;
   }
 }
 
@@ -280,8 +286,8 @@ void Network::note_latency(const InFlight& flight) {
 }
 
 void Network::note_journey(const InFlight& flight) {
-  last_arrival_ = LastDelivery{{}, !flight.packet.carries_initial, flight.packet.emitted,
-                               flight.admitted, run_.now};
+  last_arrival_ = LastDelivery{
+      {}, !flight.packet.carries_initial, flight.packet.emitted, flight.admitted, run_.now};
 }
 
 Depths Network::depths() const {

@@ -1,6 +1,7 @@
-// The wireless service: backlog, source queue, fragments, the stages of the route and their channels (paper,
-// "Shared Wireless Service"; specs/model.md, "Packets, fragments, queue, channel"). It knows packets, not what
-// they mean: their source completion and reception go to the DDS implementation.
+// The wireless service: backlog, source queue, fragments, the stages of the route and their
+// channels (paper, "Shared Wireless Service"; specs/model.md, "Packets, fragments, queue,
+// channel"). It knows packets, not what they mean: their source completion and reception go to the
+// DDS implementation.
 #pragma once
 
 #include <array>
@@ -28,7 +29,8 @@ class Network {
   /// Emits the packet (or its copies, in ascending order of the destination) and admits what fits.
   void emit(std::uint32_t source, Packet&& packet);
 
-  /// Delivers the packet to a participant on the same host after the loopback delay: it never sees the channel.
+  /// Delivers the packet to a participant on the same host after the loopback delay: it never sees
+  /// the channel.
   void loop_back(Packet&& packet, std::uint32_t receiver);
 
   /// A service, reception, source completion or dispatch event is due.
@@ -50,8 +52,8 @@ class Network {
   };
   struct StageState {
     std::uint32_t channel = 0;
-    std::uint32_t position = 0;             // among the stages of its channel
-    std::array<MemoizedRate, 2> rate{};     // for unicast and multicast packets
+    std::uint32_t position = 0;          // among the stages of its channel
+    std::array<MemoizedRate, 2> rate{};  // for unicast and multicast packets
   };
   struct ChannelState {
     fsm::StateId state = fsm::Flyweight<fsm::Channel>::initial;

@@ -1,7 +1,8 @@
-// A generated RTPS/UDP packet, from its emission until its last service. One record can stand for several
-// packets that differ only in their destination (a HEARTBEAT to every open relation of a writer, an SPDP copy to
-// every known participant): the copies are told apart when they are admitted to the source queue, so a backlog
-// of millions of HEARTBEATs takes the memory of the decisions that caused them.
+// A generated RTPS/UDP packet, from its emission until its last service. One record can stand for
+// several packets that differ only in their destination (a HEARTBEAT to every open relation of a
+// writer, an SPDP copy to every known participant): the copies are told apart when they are
+// admitted to the source queue, so a backlog of millions of HEARTBEATs takes the memory of the
+// decisions that caused them.
 #pragma once
 
 #include <cstdint>
@@ -25,23 +26,24 @@ enum class PacketKind : std::uint8_t {
 [[nodiscard]] const char* name_of(PacketKind kind);
 
 struct Packet {
-  std::uint64_t number = 0;    ///< position in emission order, from 0; of the first copy
-  Nanoseconds emitted;         ///< when it entered the backlog
-  DescriptorSet descriptors;   ///< DATA: what it carries; ACKNACK: its bitmap
-  std::uint32_t pair = 0;      ///< cross-host pair (writer side, reader side); of the first copy.
-                               ///< For a multicast packet: the number of the sending participant
+  std::uint64_t number = 0;   ///< position in emission order, from 0; of the first copy
+  Nanoseconds emitted;        ///< when it entered the backlog
+  DescriptorSet descriptors;  ///< DATA: what it carries; ACKNACK: its bitmap
+  std::uint32_t pair = 0;     ///< cross-host pair (writer side, reader side); of the first copy.
+                              ///< For a multicast packet: the number of the sending participant
   std::uint32_t payload_bytes = 0;
-  std::uint32_t copies = 1;     ///< how many packets this record stands for
-  std::uint32_t rank_limit = 0; ///< the copies go to the recipients of rank below this one
-  std::uint32_t detail = 0;     ///< Fast DDS. HEARTBEAT (also in DATA): how many descriptors it announces;
-                                ///< ACKNACK: its base; control-only relations: the relation
+  std::uint32_t copies = 1;      ///< how many packets this record stands for
+  std::uint32_t rank_limit = 0;  ///< the copies go to the recipients of rank below this one
+  std::uint32_t detail = 0;      ///< Fast DDS. HEARTBEAT (also in DATA): how many descriptors it
+                             ///< announces; ACKNACK: its base; control-only relations: the relation
   PacketKind kind{};
   Stream stream{};
-  bool from_repair = false;     ///< DATA made by repair generation: its source completion starts suppression
-  bool carries_initial = false; ///< DATA: at least one descriptor was generated for the first time
+  bool from_repair =
+      false;  ///< DATA made by repair generation: its source completion starts suppression
+  bool carries_initial = false;  ///< DATA: at least one descriptor was generated for the first time
   bool carries_heartbeat = false;  ///< DATA with a piggybacked HEARTBEAT
-  std::uint16_t heartbeats = 0;    ///< how many HEARTBEATs ride in it; the receiver sees them as one
-  bool initial_acknack = false;    ///< ACKNACK marked initial
+  std::uint16_t heartbeats = 0;  ///< how many HEARTBEATs ride in it; the receiver sees them as one
+  bool initial_acknack = false;  ///< ACKNACK marked initial
 
   [[nodiscard]] bool multicast() const { return kind == PacketKind::spdp_multicast; }
   /// Whether it goes from the reader side to the writer side of its pair.
@@ -57,13 +59,17 @@ struct Packet {
 [[nodiscard]] inline TrafficClass traffic_class(const Packet& packet) {
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
-    case PacketKind::spdp_unicast: return TrafficClass::spdp;
+    case PacketKind::spdp_unicast:
+      return TrafficClass::spdp;
     case PacketKind::data:
       return packet.carries_initial ? TrafficClass::initial_data : TrafficClass::repair_data;
-    case PacketKind::heartbeat: return TrafficClass::heartbeat;
-    case PacketKind::acknack: return TrafficClass::acknack;
+    case PacketKind::heartbeat:
+      return TrafficClass::heartbeat;
+    case PacketKind::acknack:
+      return TrafficClass::acknack;
     case PacketKind::user_heartbeat:
-    case PacketKind::user_acknack: return TrafficClass::user_control;
+    case PacketKind::user_acknack:
+      return TrafficClass::user_control;
   }
   return TrafficClass::spdp;
 }

@@ -1,9 +1,9 @@
-// The state of every (descriptor, receiver) of a deployment: the bitmap X of the reader and the writer's state,
-// both as bit planes of one relation. Descriptors in the same state that meet the same input cannot be told
-// apart by the machine, so each such class takes ONE step of the Boost.MSM machine and moves as a whole: an
-// ACKNACK costs a few steps for 64 descriptors, and a descriptor takes four bits (three of state, one of X).
-// Which events there are is the implementation's business: model/paper/descriptor_states.hpp and
-// model/fastdds/change_states.hpp.
+// The state of every (descriptor, receiver) of a deployment: the bitmap X of the reader and the
+// writer's state, both as bit planes of one relation. Descriptors in the same state that meet the
+// same input cannot be told apart by the machine, so each such class takes ONE step of the
+// Boost.MSM machine and moves as a whole: an ACKNACK costs a few steps for 64 descriptors, and a
+// descriptor takes four bits (three of state, one of X). Which events there are is the
+// implementation's business: model/paper/descriptor_states.hpp and model/fastdds/change_states.hpp.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ class RelationBits {
   using Output = typename fsm::Flyweight<Machine>::Output;
 
   explicit RelationBits(RunState& run) : run_{run} {
-    static_assert(fsm::Flyweight<Machine>::initial == 0, "zeroed planes must mean the initial state");
+    static_assert(fsm::Flyweight<Machine>::initial == 0,
+                  "zeroed planes must mean the initial state");
     std::uint32_t next = 0;
     first_word_.reserve(run.topology.relation_count());
     for (std::uint32_t relation = 0; relation < run.topology.relation_count(); ++relation) {
@@ -117,7 +118,8 @@ class RelationBits {
   void step(std::uint32_t relation, std::uint32_t k, std::uint64_t members, const Input& input,
             Effect&& effect);
   template <class Event>
-  void step(std::uint32_t relation, std::uint32_t k, std::uint64_t members, const Input& input = {}) {
+  void step(std::uint32_t relation, std::uint32_t k, std::uint64_t members,
+            const Input& input = {}) {
     step<Event>(relation, k, members, input, [](std::uint64_t, const Output&) {});
   }
 
@@ -160,8 +162,10 @@ void RelationBits<Machine>::step(std::uint32_t relation, std::uint32_t k, std::u
     const auto before = static_cast<fsm::StateId>(s);
     const fsm::StateId after = machine_.template step<Event>(before, input, output);
     for (std::size_t b = 0; b < state_bits; ++b) {
-      if ((after >> b & 1) != 0) planes.state[b] |= classes[s];
-      else planes.state[b] &= ~classes[s];
+      if ((after >> b & 1) != 0)
+        planes.state[b] |= classes[s];
+      else
+        planes.state[b] &= ~classes[s];
     }
     if (run_.probe != nullptr && after != before) {
       const auto& names = fsm::Reflect<Machine>::state_names;

@@ -1,6 +1,7 @@
-// A first-in, first-out queue in one block of memory that doubles when it is full. The lanes of the event queue
-// and the waiting fragments of a stage are such queues; their length changes by millions in one run, so they
-// must neither allocate per element (as a list would) nor keep blocks of elements that have left.
+// A first-in, first-out queue in one block of memory that doubles when it is full. The lanes of the
+// event queue and the waiting fragments of a stage are such queues; their length changes by
+// millions in one run, so they must neither allocate per element (as a list would) nor keep blocks
+// of elements that have left.
 #pragma once
 
 #include <cassert>

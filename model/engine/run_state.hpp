@@ -1,5 +1,6 @@
-// What all parts of one run share: the scenario, its numbering, the event queue and the clock, the counts, and
-// the observer. One run owns one of these; nothing in it outlives the run and nothing is global.
+// What all parts of one run share: the scenario, its numbering, the event queue and the clock, the
+// counts, and the observer. One run owns one of these; nothing in it outlives the run and nothing
+// is global.
 #pragma once
 
 #include "model/counts.hpp"
@@ -35,10 +36,11 @@ struct RunState {
   Nanoseconds now;
   Counts counts;
   std::uint64_t user_control = 0;  ///< messages of control-only relations
-  std::uint64_t missing;  ///< required deliveries that have not happened
+  std::uint64_t missing;           ///< required deliveries that have not happened
   std::uint64_t useful_deliveries = 0;
   std::uint64_t duplicate_deliveries = 0;
-  MissingDescriptor last_delivered{};  ///< of a complete run: a descriptor of the packet that ended it
+  MissingDescriptor
+      last_delivered{};  ///< of a complete run: a descriptor of the packet that ended it
 };
 
 }  // namespace stormproof::model

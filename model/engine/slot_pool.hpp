@@ -1,5 +1,5 @@
-// A pool of reusable slots with stable addresses: what is taken out of it stays where it is while others come
-// and go. Its memory is bounded by the most slots that were ever in use at once.
+// A pool of reusable slots with stable addresses: what is taken out of it stays where it is while
+// others come and go. Its memory is bounded by the most slots that were ever in use at once.
 #pragma once
 
 #include <array>

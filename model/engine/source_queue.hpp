@@ -1,6 +1,7 @@
-// The sending side of one participant: an unbounded backlog of generated packets in front of a source queue of W
-// bytes. A packet is admitted when its fragments' bytes fit, or when the queue is empty (so a packet larger than
-// W is admitted alone); it frees its bytes when its last source-side fragment has been served.
+// The sending side of one participant: an unbounded backlog of generated packets in front of a
+// source queue of W bytes. A packet is admitted when its fragments' bytes fit, or when the queue is
+// empty (so a packet larger than W is admitted alone); it frees its bytes when its last source-side
+// fragment has been served.
 #pragma once
 
 #include <cassert>

@@ -36,8 +36,9 @@ Topology::Topology(const Deployment& deployment, const DescriptorProfile& descri
 std::uint32_t Topology::pair_between(std::uint32_t i, std::uint32_t j) const {
   const auto begin = pairs_.begin() + first_pair_[i];
   const auto end = pairs_.begin() + first_pair_[i + 1];
-  const auto found = std::lower_bound(
-      begin, end, j, [](const Pair& pair, std::uint32_t value) { return pair.destination < value; });
+  const auto found = std::lower_bound(begin, end, j, [](const Pair& pair, std::uint32_t value) {
+    return pair.destination < value;
+  });
   return static_cast<std::uint32_t>(found - pairs_.begin());
 }
 

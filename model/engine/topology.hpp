@@ -1,7 +1,8 @@
-// The pairs and relations of a deployment, numbered densely: pairs of one source stand together in ascending
-// order of the destination, relation 2·pair + stream belongs to the pair's writer side. For the paper's protocol
-// only cross-host pairs exist (its set R), because same-host traffic never touches the channel; Fast DDS's writers
-// treat all readers alike, so there same-host pairs exist too.
+// The pairs and relations of a deployment, numbered densely: pairs of one source stand together in
+// ascending order of the destination, relation 2·pair + stream belongs to the pair's writer side.
+// For the paper's protocol only cross-host pairs exist (its set R), because same-host traffic never
+// touches the channel; Fast DDS's writers treat all readers alike, so there same-host pairs exist
+// too.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +29,17 @@ class Topology {
            SameHostPairs same_host = SameHostPairs::left_out);
 
   [[nodiscard]] std::uint32_t participant_count() const { return participant_count_; }
-  [[nodiscard]] std::uint32_t pair_count() const { return static_cast<std::uint32_t>(pairs_.size()); }
+  [[nodiscard]] std::uint32_t pair_count() const {
+    return static_cast<std::uint32_t>(pairs_.size());
+  }
   [[nodiscard]] std::uint32_t relation_count() const { return 2 * pair_count(); }
   [[nodiscard]] const Pair& pair(std::uint32_t number) const { return pairs_[number]; }
 
   /// Number of the pair (i, j); it must exist.
   [[nodiscard]] std::uint32_t pair_between(std::uint32_t i, std::uint32_t j) const;
 
-  /// Pairs with source i are [first_pair(i), first_pair(i + 1)), in ascending order of the destination.
+  /// Pairs with source i are [first_pair(i), first_pair(i + 1)), in ascending order of the
+  /// destination.
   [[nodiscard]] std::uint32_t first_pair(std::uint32_t i) const { return first_pair_[i]; }
   /// Number of pairs with source i.
   [[nodiscard]] std::uint32_t peer_count(std::uint32_t i) const {
@@ -51,7 +55,8 @@ class Topology {
   }
   [[nodiscard]] Nanoseconds start(std::uint32_t i) const { return start_[i]; }
 
-  /// F: required descriptor deliveries, summed over all cross-host relations (paper, "Structural Discovery Workload").
+  /// F: required descriptor deliveries, summed over all cross-host relations (paper, "Structural
+  /// Discovery Workload").
   [[nodiscard]] std::uint64_t required_deliveries() const { return required_deliveries_; }
 
  private:

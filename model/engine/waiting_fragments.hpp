@@ -1,6 +1,7 @@
-// The fragments that wait for one channel. Time never goes back, so the requests of one stage arrive in
-// ascending (request time, request number): each stage is a plain queue, and the channel's choice, the least
-// (request time, stage rank, request number), is the least of a few heads.
+// The fragments that wait for one channel. Time never goes back, so the requests of one stage
+// arrive in ascending (request time, request number): each stage is a plain queue, and the
+// channel's choice, the least (request time, stage rank, request number), is the least of a few
+// heads.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace stormproof::model {
 
 struct ServiceRequest {
   Nanoseconds time;
-  std::uint64_t number = 0;    ///< one counter for all requests of a run
-  std::uint32_t slot = 0;      ///< the packet
+  std::uint64_t number = 0;  ///< one counter for all requests of a run
+  std::uint32_t slot = 0;    ///< the packet
   std::uint32_t fragment = 0;
 };
 

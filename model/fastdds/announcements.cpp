@@ -1,5 +1,6 @@
-// Creation of endpoints over time, SPDP, and the matching that follows from recognising a participant. Unlike in
-// the paper's model the unicast copies leave before the multicast, and same-host participants take part.
+// Creation of endpoints over time, SPDP, and the matching that follows from recognising a
+// participant. Unlike in the paper's model the unicast copies leave before the multicast, and
+// same-host participants take part.
 #include "model/fastdds/protocol.hpp"
 
 namespace stormproof::model::fastdds {
@@ -80,13 +81,18 @@ void Protocol::spdp_received(std::uint32_t pair) {
 void Protocol::resend(std::uint32_t reverse_pair) {
   const std::uint32_t j = run_.topology.pair(reverse_pair).source;
   switch (spdp_.resend) {
-    case SpdpResend::all_known: send_spdp(j); break;
+    case SpdpResend::all_known:
+      send_spdp(j);
+      break;
     case SpdpResend::new_and_multicast:
       send_spdp_copy(reverse_pair);
       send_spdp_multicast(j);
       break;
-    case SpdpResend::new_only: send_spdp_copy(reverse_pair); break;
-    case SpdpResend::none: break;
+    case SpdpResend::new_only:
+      send_spdp_copy(reverse_pair);
+      break;
+    case SpdpResend::none:
+      break;
   }
 }
 

@@ -27,11 +27,9 @@ bool ChangeStates::acknack(std::uint32_t relation, std::uint32_t base,
     const std::uint64_t acknowledged = below(base, k);
     step<change::AckNackReceived>(relation, k, valid(relation, k) & acknowledged,
                                   {.listed = false, .below_base = true});
-    step<change::AckNackReceived>(relation, k, bitmap.word(k) & ~acknowledged,
-                                  {.listed = true, .below_base = false},
-                                  [&](std::uint64_t, const Output& output) {
-                                    requested = requested || output.requested;
-                                  });
+    step<change::AckNackReceived>(
+        relation, k, bitmap.word(k) & ~acknowledged, {.listed = true, .below_base = false},
+        [&](std::uint64_t, const Output& output) { requested = requested || output.requested; });
   }
   return requested;
 }

@@ -1,5 +1,5 @@
-// The descriptors of every relation as Fast DDS's writer sees them (its ChangeForReader records): which event each
-// rule applies to which of them. The machine is fsm/change_for_reader.hpp.
+// The descriptors of every relation as Fast DDS's writer sees them (its ChangeForReader records):
+// which event each rule applies to which of them. The machine is fsm/change_for_reader.hpp.
 #pragma once
 
 #include "fsm/change_for_reader.hpp"

@@ -25,8 +25,7 @@ ControlTraffic::ControlTraffic(RunState& run, Network& network, const Discovered
         run.topology.descriptor_count(p.destination, Stream::sub) - default_subscriptions;
     Relation relation;
     relation.pair = pair;
-    relations_.resize(relations_.size() + topic::first_user +
-                          std::min(publications, subscriptions),
+    relations_.resize(relations_.size() + topic::first_user + std::min(publications, subscriptions),
                       relation);
   }
   first_relation_.push_back(static_cast<std::uint32_t>(relations_.size()));
@@ -52,8 +51,10 @@ void ControlTraffic::created(std::uint32_t i, Stream s, std::uint32_t d) {
     // What i has been notified of is the peer's other side of the topic.
     if (!discovered_.is_notified(reverse, other(s), descriptor_on(t, other(s)))) continue;
     const std::uint32_t relation = relation_of(relation_pair, t);
-    if (s == Stream::pub) open_writer(relation);
-    else open_reader(relation);
+    if (s == Stream::pub)
+      open_writer(relation);
+    else
+      open_reader(relation);
   }
 }
 
@@ -65,8 +66,10 @@ void ControlTraffic::notified(std::uint32_t pair, Stream s, std::uint32_t d) {
   if (!exists(relation_pair, t)) return;
   if (!discovered_.is_created(p.destination, other(s), descriptor_on(t, other(s)))) return;
   const std::uint32_t relation = relation_of(relation_pair, t);
-  if (s == Stream::pub) open_reader(relation);
-  else open_writer(relation);
+  if (s == Stream::pub)
+    open_reader(relation);
+  else
+    open_writer(relation);
 }
 
 void ControlTraffic::open_writer(std::uint32_t relation) {
@@ -89,9 +92,8 @@ void ControlTraffic::step_initial(std::uint32_t relation, bool opened) {
                                                  .first_delay = first,
                                                  .last_delay = first << r.attempts,
                                                  .heartbeat_seen = r.heartbeat_seen};
-  const auto timer = opened
-                         ? initial_driver_.step<ReaderOpened>(run_, r.initial, input, relation)
-                         : initial_driver_.step<AttemptDue>(run_, r.initial, input, relation);
+  const auto timer = opened ? initial_driver_.step<ReaderOpened>(run_, r.initial, input, relation)
+                            : initial_driver_.step<AttemptDue>(run_, r.initial, input, relation);
   if (timer.attempt) {
     ++r.attempts;
     emit_acknack(relation, true);
@@ -111,8 +113,8 @@ void ControlTraffic::received(const Packet& packet) {
     if (output.send_heartbeat) emit_heartbeat(relation);
     return;
   }
-  const auto output = reader_driver_.step<fsm::control_relation::HeartbeatReceived>(run_, r.reader,
-                                                                                   {}, relation);
+  const auto output =
+      reader_driver_.step<fsm::control_relation::HeartbeatReceived>(run_, r.reader, {}, relation);
   if (!output.reply) return;
   r.heartbeat_seen = true;
   const auto timer = reply_driver_.step<fsm::single_shot::Requested>(

@@ -1,6 +1,7 @@
-// Relations of which only HEARTBEATs and ACKNACKs are modelled: liveliness between any two participants, and the
-// user endpoints that match once both sides have been discovered. In a storm of Fast DDS this traffic takes a good
-// part of the channel, so it must be there; it is counted apart from the six classes.
+// Relations of which only HEARTBEATs and ACKNACKs are modelled: liveliness between any two
+// participants, and the user endpoints that match once both sides have been discovered. In a storm
+// of Fast DDS this traffic takes a good part of the channel, so it must be there; it is counted
+// apart from the six classes.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,8 @@ class ControlTraffic {
   void recognised(std::uint32_t pair);
   /// Participant i has created descriptor d of stream s.
   void created(std::uint32_t i, Stream s, std::uint32_t d);
-  /// The destination of `pair` (cross-host) has been notified of the source's descriptor d of stream s.
+  /// The destination of `pair` (cross-host) has been notified of the source's descriptor d of
+  /// stream s.
   void notified(std::uint32_t pair, Stream s, std::uint32_t d);
 
   /// A packet of a control-only relation has arrived.
@@ -53,7 +55,8 @@ class ControlTraffic {
     std::uint8_t attempts = 0;
   };
 
-  /// Whether the pair has a relation on the topic: the source publishes it and the destination subscribes to it.
+  /// Whether the pair has a relation on the topic: the source publishes it and the destination
+  /// subscribes to it.
   [[nodiscard]] bool exists(std::uint32_t pair, std::uint32_t topic) const;
   [[nodiscard]] std::uint32_t relation_of(std::uint32_t pair, std::uint32_t topic) const {
     return first_relation_[pair] + topic;

@@ -25,10 +25,10 @@ constexpr std::array<Endpoint, defaults> node_order{{{Stream::pub, 0},
                                                      {Stream::pub, 8},
                                                      {Stream::sub, 7}}};
 
-constexpr std::array<std::int64_t, default_publications> publication_bytes{
-    412, 384, 428, 436, 428, 452, 436, 428, 404};
-constexpr std::array<std::int64_t, default_subscriptions> subscription_bytes{
-    412, 432, 440, 432, 448, 440, 432, 404};
+constexpr std::array<std::int64_t, default_publications> publication_bytes{412, 384, 428, 436, 428,
+                                                                           452, 436, 428, 404};
+constexpr std::array<std::int64_t, default_subscriptions> subscription_bytes{412, 432, 440, 432,
+                                                                             448, 440, 432, 404};
 constexpr std::int64_t user_bytes = 392;
 
 constexpr std::uint32_t parameter_events_publication = 8;

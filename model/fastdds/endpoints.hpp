@@ -1,6 +1,7 @@
-// What a ROS 2 node creates in Fast DDS 2.6.11: which endpoint when, and how large its descriptor is on the wire.
-// The order is that of rcl and rmw_fastrtps creating a node (rosout, ros_discovery_info, six parameter services,
-// parameter_events), the sizes are those of the serialized DATA submessages.
+// What a ROS 2 node creates in Fast DDS 2.6.11: which endpoint when, and how large its descriptor
+// is on the wire. The order is that of rcl and rmw_fastrtps creating a node (rosout,
+// ros_discovery_info, six parameter services, parameter_events), the sizes are those of the
+// serialized DATA submessages.
 #pragma once
 
 #include <array>
@@ -18,10 +19,10 @@ inline constexpr std::int64_t spdp_bytes = 252;
 inline constexpr std::int64_t heartbeat_to_one_bytes = 68;   ///< header, INFO_DST, HEARTBEAT
 inline constexpr std::int64_t heartbeat_to_many_bytes = 52;  ///< without INFO_DST
 inline constexpr std::int64_t acknack_bytes = 64;
-inline constexpr std::int64_t acknack_bitmap_bytes = 4;      ///< more, if the bitmap is not empty
+inline constexpr std::int64_t acknack_bitmap_bytes = 4;  ///< more, if the bitmap is not empty
 inline constexpr std::int64_t message_header_bytes = 20;
-inline constexpr std::int64_t destination_bytes = 16;        ///< INFO_DST, if there is one destination
-inline constexpr std::int64_t timestamp_bytes = 12;          ///< INFO_TS before each descriptor
+inline constexpr std::int64_t destination_bytes = 16;  ///< INFO_DST, if there is one destination
+inline constexpr std::int64_t timestamp_bytes = 12;    ///< INFO_TS before each descriptor
 inline constexpr std::int64_t heartbeat_submessage_bytes = 32;
 inline constexpr std::int64_t message_limit_bytes = 65'500;
 
@@ -31,13 +32,15 @@ struct Endpoint {
   std::uint32_t descriptor = 0;
 };
 
-/// The k-th endpoint that a participant with `user_publications` creates (and any number of user subscriptions).
+/// The k-th endpoint that a participant with `user_publications` creates (and any number of user
+/// subscriptions).
 [[nodiscard]] Endpoint creation_order(std::uint32_t k, std::uint32_t user_publications);
 
 /// Bytes of the DATA submessage of a descriptor.
 [[nodiscard]] std::int64_t submessage_bytes(Stream s, std::uint32_t d);
 
-/// Topics of control-only relations: 0 is liveliness, then the two topics that every node has, then user topic k.
+/// Topics of control-only relations: 0 is liveliness, then the two topics that every node has, then
+/// user topic k.
 namespace topic {
 inline constexpr std::uint32_t liveliness = 0;
 inline constexpr std::uint32_t ros_discovery_info = 1;

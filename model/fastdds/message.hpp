@@ -1,5 +1,6 @@
-// The RTPS message that a participant is filling: which readers it goes to, which descriptors of which writer it
-// carries, and whether a HEARTBEAT rides in it. One message becomes one packet for each of its readers.
+// The RTPS message that a participant is filling: which readers it goes to, which descriptors of
+// which writer it carries, and whether a HEARTBEAT rides in it. One message becomes one packet for
+// each of its readers.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +14,9 @@ namespace stormproof::model::fastdds {
 
 struct Message {
   bool open = false;
-  std::uint32_t writer = 0;           ///< 2 · participant + stream
-  std::vector<std::uint32_t> readers; ///< relations, in match order
-  std::int64_t bytes = 0;             ///< UDP payload so far
+  std::uint32_t writer = 0;            ///< 2 · participant + stream
+  std::vector<std::uint32_t> readers;  ///< relations, in match order
+  std::int64_t bytes = 0;              ///< UDP payload so far
   std::vector<std::uint64_t> descriptors;
   bool has_data = false;
   std::uint16_t heartbeats = 0;

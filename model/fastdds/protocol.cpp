@@ -33,8 +33,8 @@ void Protocol::start() {
                                    run_.topology.descriptor_count(i, Stream::sub);
     run_.schedule(participant.start, EventKind::announcement_due, i);
     for (std::int64_t k = 0; k < endpoints; ++k) {
-      run_.schedule(Nanoseconds{start + span * (k + 1) / endpoints}, EventKind::endpoint_creation, i,
-                    static_cast<std::uint32_t>(k));
+      run_.schedule(Nanoseconds{start + span * (k + 1) / endpoints}, EventKind::endpoint_creation,
+                    i, static_cast<std::uint32_t>(k));
     }
   }
 }
@@ -42,16 +42,34 @@ void Protocol::start() {
 void Protocol::handle(const Event& event) {
   const std::uint32_t subject = event.subject;
   switch (event.kind) {
-    case EventKind::announcement_due: announcement_due(subject); break;
-    case EventKind::endpoint_creation: create_endpoint(subject, event.detail); break;
-    case EventKind::acknack_generation: acknack_generation(subject); break;
-    case EventKind::initial_acknack_due: step_initial(subject, false); break;
-    case EventKind::nack_response: nack_response(subject); break;
-    case EventKind::suppression_end: suppression_end(subject); break;
-    case EventKind::async_run: async_run(subject); break;
+    case EventKind::announcement_due:
+      announcement_due(subject);
+      break;
+    case EventKind::endpoint_creation:
+      create_endpoint(subject, event.detail);
+      break;
+    case EventKind::acknack_generation:
+      acknack_generation(subject);
+      break;
+    case EventKind::initial_acknack_due:
+      step_initial(subject, false);
+      break;
+    case EventKind::nack_response:
+      nack_response(subject);
+      break;
+    case EventKind::suppression_end:
+      suppression_end(subject);
+      break;
+    case EventKind::async_run:
+      async_run(subject);
+      break;
     case EventKind::control_initial_due:
-    case EventKind::control_reply_due: control_.handle(event); break;
-    default: heartbeats_.handle(event); break;
+    case EventKind::control_reply_due:
+      control_.handle(event);
+      break;
+    default:
+      heartbeats_.handle(event);
+      break;
   }
 }
 
@@ -76,12 +94,22 @@ void Protocol::received(const Packet& packet, std::uint32_t receiver) {
     case PacketKind::spdp_multicast:
       spdp_received(run_.topology.pair_between(packet.pair, receiver));
       break;
-    case PacketKind::spdp_unicast: spdp_received(packet.pair); break;
-    case PacketKind::data: data_received(packet); break;
-    case PacketKind::heartbeat: heartbeat_received(packet.relation(), packet.detail); break;
-    case PacketKind::acknack: acknack_received(packet); break;
+    case PacketKind::spdp_unicast:
+      spdp_received(packet.pair);
+      break;
+    case PacketKind::data:
+      data_received(packet);
+      break;
+    case PacketKind::heartbeat:
+      heartbeat_received(packet.relation(), packet.detail);
+      break;
+    case PacketKind::acknack:
+      acknack_received(packet);
+      break;
     case PacketKind::user_heartbeat:
-    case PacketKind::user_acknack: control_.received(packet); break;
+    case PacketKind::user_acknack:
+      control_.received(packet);
+      break;
   }
 }
 
@@ -89,8 +117,10 @@ void Protocol::send(Packet&& packet) {
   const Pair& p = run_.topology.pair(packet.pair);
   const std::uint32_t from = packet.to_writer() ? p.destination : p.source;
   const std::uint32_t to = packet.to_writer() ? p.source : p.destination;
-  if (p.cross_host) network_.emit(from, std::move(packet));
-  else network_.loop_back(std::move(packet), to);
+  if (p.cross_host)
+    network_.emit(from, std::move(packet));
+  else
+    network_.loop_back(std::move(packet), to);
 }
 
 void Protocol::request(SingleShots& driver, fsm::StateId& timer, Nanoseconds delay, EventKind kind,
@@ -101,8 +131,8 @@ void Protocol::request(SingleShots& driver, fsm::StateId& timer, Nanoseconds del
 }
 
 bool Protocol::expire(SingleShots& driver, fsm::StateId& timer, std::uint32_t subject) {
-  return driver.step<fsm::single_shot::Due>(run_, timer, {.now = run_.now.count(), .delay = 0},
-                                            subject)
+  return driver
+      .step<fsm::single_shot::Due>(run_, timer, {.now = run_.now.count(), .delay = 0}, subject)
       .fire;
 }
 

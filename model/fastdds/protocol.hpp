@@ -1,11 +1,12 @@
-// Fast DDS 2.6.11 as its source code has it (specs/fastdds.md): endpoints are created over time, descriptors that
-// exist at the match are pulled and later ones pushed, one writer serves all its readers, and what is repaired goes
-// through one asynchronous queue per participant. By rule group:
+// Fast DDS 2.6.11 as its source code has it (specs/fastdds.md): endpoints are created over time,
+// descriptors that exist at the match are pulled and later ones pushed, one writer serves all its
+// readers, and what is repaired goes through one asynchronous queue per participant. By rule group:
 //   announcements.cpp  creation of endpoints, SPDP, matching
 //   writer.cpp         HEARTBEATs, ACKNACKs, nack response, suppression
 //   sender.cpp         creation and async run: messages, piggyback, flushing
 //   reader.cpp         DATA, HEARTBEATs, ACKNACKs at the reader
-//   control.cpp        relations of which only the control traffic is modelled (fastdds::ControlTraffic)
+//   control.cpp        relations of which only the control traffic is modelled
+//   (fastdds::ControlTraffic)
 #pragma once
 
 #include <cstdint>
@@ -52,17 +53,17 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
     fsm::StateId initial = fsm::Flyweight<fsm::InitialAckNack>::initial;
     fsm::StateId reply = fsm::Flyweight<fsm::SingleShot>::initial;
     bool heartbeat_seen = false;
-    std::uint8_t attempts = 0;     ///< the current initial delay is τ_I · 2^attempts
-    std::uint32_t missing = 0;     ///< descriptors with X = 0
-    std::uint32_t announced = 0;   ///< descriptors that the reader knows to exist
-    std::uint32_t notified = 0;    ///< descriptors received without a gap
+    std::uint8_t attempts = 0;    ///< the current initial delay is τ_I · 2^attempts
+    std::uint32_t missing = 0;    ///< descriptors with X = 0
+    std::uint32_t announced = 0;  ///< descriptors that the reader knows to exist
+    std::uint32_t notified = 0;   ///< descriptors received without a gap
   };
   struct Writer {
-    std::uint32_t created = 0;             ///< H: descriptors created so far
-    std::int64_t budget = 0;               ///< piggyback budget, bytes
-    std::vector<std::uint32_t> readers;    ///< M: relations in match order
+    std::uint32_t created = 0;           ///< H: descriptors created so far
+    std::int64_t budget = 0;             ///< piggyback budget, bytes
+    std::vector<std::uint32_t> readers;  ///< M: relations in match order
     fsm::StateId nack_response = fsm::Flyweight<fsm::SingleShot>::initial;
-    std::vector<std::uint64_t> enqueued;   ///< bit per descriptor: in the participant's async queue
+    std::vector<std::uint64_t> enqueued;  ///< bit per descriptor: in the participant's async queue
   };
   struct Participant {
     fsm::StateId announcer = fsm::Flyweight<fsm::Announcer>::initial;
@@ -153,9 +154,9 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   HeartbeatSchedule heartbeats_;
   ControlTraffic control_;
   std::vector<Participant> participants_;
-  std::vector<Writer> writers_;      // 2 · participant + stream
+  std::vector<Writer> writers_;  // 2 · participant + stream
   std::vector<Relation> relations_;
-  std::vector<bool> known_;          // by pair (i, j): i has recognised j
+  std::vector<bool> known_;  // by pair (i, j): i has recognised j
   Message sync_message_;
   Message async_message_;
   std::vector<std::uint32_t> targets_;

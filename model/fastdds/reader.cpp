@@ -1,5 +1,5 @@
-// The reader: it knows how many descriptors were announced, asks only for those, and tells its application about
-// new ones in order. HEARTBEATs within the response delay share one ACKNACK.
+// The reader: it knows how many descriptors were announced, asks only for those, and tells its
+// application about new ones in order. HEARTBEATs within the response delay share one ACKNACK.
 #include <algorithm>
 
 #include "model/fastdds/protocol.hpp"
@@ -66,14 +66,13 @@ void Protocol::acknack_generation(std::uint32_t relation) {
 void Protocol::step_initial(std::uint32_t relation, bool opened) {
   using namespace fsm::initial_acknack;
   Relation& r = relations_[relation];
-  const Driver<fsm::InitialAckNack>::Input input{
-      .now = run_.now.count(),
-      .first_delay = sedp_.initial_acknack_delay.count(),
-      .last_delay = sedp_.initial_acknack_delay.count() << r.attempts,
-      .heartbeat_seen = r.heartbeat_seen};
-  const auto timer = opened
-                         ? initial_driver_.step<ReaderOpened>(run_, r.initial, input, relation)
-                         : initial_driver_.step<AttemptDue>(run_, r.initial, input, relation);
+  const Driver<fsm::InitialAckNack>::Input input{.now = run_.now.count(),
+                                                 .first_delay = sedp_.initial_acknack_delay.count(),
+                                                 .last_delay = sedp_.initial_acknack_delay.count()
+                                                               << r.attempts,
+                                                 .heartbeat_seen = r.heartbeat_seen};
+  const auto timer = opened ? initial_driver_.step<ReaderOpened>(run_, r.initial, input, relation)
+                            : initial_driver_.step<AttemptDue>(run_, r.initial, input, relation);
   if (timer.attempt) {
     ++r.attempts;
     const auto output = reader_driver_.step<reader::InitialAckNackDue>(
@@ -85,8 +84,8 @@ void Protocol::step_initial(std::uint32_t relation, bool opened) {
   }
 }
 
-/// The base is the first missing descriptor; the bitmap lists what is missing of what was announced. An initial
-/// ACKNACK claims nothing: base 0, empty bitmap.
+/// The base is the first missing descriptor; the bitmap lists what is missing of what was
+/// announced. An initial ACKNACK claims nothing: base 0, empty bitmap.
 void Protocol::emit_acknack(std::uint32_t relation, bool initial) {
   if (crosses(relation)) ++run_.counts.acknack;
   Packet packet;
@@ -96,8 +95,8 @@ void Protocol::emit_acknack(std::uint32_t relation, bool initial) {
   packet.initial_acknack = initial;
   packet.payload_bytes = static_cast<std::uint32_t>(acknack_bytes);
   if (!initial) {
-    packet.detail = std::min(changes_.missing(relation).lowest(),
-                             run_.topology.descriptor_count(relation));
+    packet.detail =
+        std::min(changes_.missing(relation).lowest(), run_.topology.descriptor_count(relation));
     packet.descriptors = changes_.missing(relation, relations_[relation].announced);
     if (!packet.descriptors.empty()) {
       packet.payload_bytes += static_cast<std::uint32_t>(acknack_bitmap_bytes);

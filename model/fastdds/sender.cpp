@@ -1,8 +1,8 @@
-// How descriptors become messages. A created descriptor is pushed at once, in a message of its own; what readers
-// asked for goes through the participant's asynchronous queue, where consecutive descriptors of one writer to the
-// same readers share a message. Each DATA is charged against its writer's piggyback budget; in the asynchronous
-// path with all bytes that the participant has ever sent there, which is what turns repairs into HEARTBEATs to
-// every matched reader.
+// How descriptors become messages. A created descriptor is pushed at once, in a message of its own;
+// what readers asked for goes through the participant's asynchronous queue, where consecutive
+// descriptors of one writer to the same readers share a message. Each DATA is charged against its
+// writer's piggyback budget; in the asynchronous path with all bytes that the participant has ever
+// sent there, which is what turns repairs into HEARTBEATs to every matched reader.
 #include "model/fastdds/protocol.hpp"
 
 namespace stormproof::model::fastdds {
@@ -60,9 +60,9 @@ void Protocol::charge(Message& message, std::uint32_t d, SendMode mode) {
   if (sedp_.piggyback == Piggyback::off) return;
   const std::uint32_t w = message.writer;
   const bool cumulative = sedp_.piggyback == Piggyback::cumulative && mode == SendMode::async;
-  writers_[w].budget -= cumulative ? participants_[w / 2].sent_bytes + message.bytes
-                                   : message_header_bytes + timestamp_bytes +
-                                         submessage_bytes(stream_of(w), d);
+  writers_[w].budget -=
+      cumulative ? participants_[w / 2].sent_bytes + message.bytes
+                 : message_header_bytes + timestamp_bytes + submessage_bytes(stream_of(w), d);
   if (writers_[w].budget < 0) piggyback(message, w, mode);
 }
 

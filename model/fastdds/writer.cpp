@@ -80,7 +80,8 @@ void Protocol::acknack_received(const Packet& packet) {
   if (packet.descriptors.empty()) heartbeats_.response(w, relation, base);
 }
 
-/// The reader has seen no HEARTBEAT: the writer forgets what it took as acknowledged and answers with one.
+/// The reader has seen no HEARTBEAT: the writer forgets what it took as acknowledged and answers
+/// with one.
 void Protocol::initial_acknack_received(std::uint32_t relation) {
   changes_.initial_acknack(relation);
   relations_[relation].low = 0;

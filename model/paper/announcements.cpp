@@ -1,5 +1,5 @@
-// SPDP: the announcement schedule, the first recognition of a participant, and the opening of the relations that
-// follows from it.
+// SPDP: the announcement schedule, the first recognition of a participant, and the opening of the
+// relations that follows from it.
 #include <algorithm>
 
 #include "model/paper/protocol.hpp"
@@ -75,13 +75,18 @@ void Protocol::spdp_received(std::uint32_t pair) {
 void Protocol::resend(std::uint32_t reverse_pair) {
   const std::uint32_t j = run_.topology.pair(reverse_pair).source;
   switch (spdp_.resend) {
-    case SpdpResend::all_known: send_spdp(j); break;
+    case SpdpResend::all_known:
+      send_spdp(j);
+      break;
     case SpdpResend::new_and_multicast:
       send_spdp_multicast(j);
       send_spdp_copy(reverse_pair);
       break;
-    case SpdpResend::new_only: send_spdp_copy(reverse_pair); break;
-    case SpdpResend::none: break;
+    case SpdpResend::new_only:
+      send_spdp_copy(reverse_pair);
+      break;
+    case SpdpResend::none:
+      break;
   }
 }
 

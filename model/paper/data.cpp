@@ -1,7 +1,8 @@
-// Generation of DATA and HEARTBEATs. DATA packets are filled with descriptors up to the grouping limit; each
-// descriptor is charged against the writer's piggyback budget, and a budget that is used up sends a HEARTBEAT to
-// all open relations. With the cumulative charge (Fast DDS 2.6.11 to 3.3) every DATA is charged with all bytes
-// that the participant has ever sent this way, so that after enough repairs each DATA triggers HEARTBEATs.
+// Generation of DATA and HEARTBEATs. DATA packets are filled with descriptors up to the grouping
+// limit; each descriptor is charged against the writer's piggyback budget, and a budget that is
+// used up sends a HEARTBEAT to all open relations. With the cumulative charge (Fast DDS 2.6.11
+// to 3.3) every DATA is charged with all bytes that the participant has ever sent this way, so that
+// after enough repairs each DATA triggers HEARTBEATs.
 #include "model/paper/protocol.hpp"
 
 namespace stormproof::model::paper {
@@ -17,7 +18,8 @@ struct Protocol::Message {
   std::vector<std::uint64_t> words;
 };
 
-void Protocol::generate_data(std::uint32_t relation, const DescriptorSet& descriptors, bool repair) {
+void Protocol::generate_data(std::uint32_t relation, const DescriptorSet& descriptors,
+                             bool repair) {
   const std::int64_t shared = sedp_.shared_header_bytes.count();
   Message message{.relation = relation, .repair = repair, .words = {}};
   message.words.resize(words_for(run_.topology.descriptor_count(relation)));
@@ -96,7 +98,8 @@ void Protocol::send_heartbeat(std::uint32_t relation) {
   network_.emit(ends(relation).source, std::move(packet));
 }
 
-/// The same to every open relation of the writer, ascending: one record that stands for all of them.
+/// The same to every open relation of the writer, ascending: one record that stands for all of
+/// them.
 void Protocol::send_heartbeat_to_open(std::uint32_t w) {
   Writer& writer = writers_[w];
   if (writer.open == 0) return;

@@ -1,4 +1,5 @@
-// ACKNACK, repair generation, repair delivery and suppression end, on the descriptors of one relation.
+// ACKNACK, repair generation, repair delivery and suppression end, on the descriptors of one
+// relation.
 #include "model/paper/descriptor_states.hpp"
 
 namespace stormproof::model::paper {

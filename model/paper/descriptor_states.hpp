@@ -1,5 +1,5 @@
-// The descriptors of every relation as the paper's writer sees them: which event each rule applies to which of
-// them. The machine is fsm/descriptor_repair.hpp.
+// The descriptors of every relation as the paper's writer sees them: which event each rule applies
+// to which of them. The machine is fsm/descriptor_repair.hpp.
 #pragma once
 
 #include "fsm/descriptor_repair.hpp"

@@ -41,12 +41,24 @@ void Protocol::start() {
 
 void Protocol::handle(const Event& event) {
   switch (event.kind) {
-    case EventKind::announcement_due: announcement_due(event.subject); break;
-    case EventKind::acknack_generation: acknack_generation(event.subject); break;
-    case EventKind::initial_acknack_due: initial_acknack_due(event.subject); break;
-    case EventKind::repair_generation: repair_generation(event.subject); break;
-    case EventKind::suppression_end: suppression_end(event.subject); break;
-    default: heartbeats_.handle(event); break;
+    case EventKind::announcement_due:
+      announcement_due(event.subject);
+      break;
+    case EventKind::acknack_generation:
+      acknack_generation(event.subject);
+      break;
+    case EventKind::initial_acknack_due:
+      initial_acknack_due(event.subject);
+      break;
+    case EventKind::repair_generation:
+      repair_generation(event.subject);
+      break;
+    case EventKind::suppression_end:
+      suppression_end(event.subject);
+      break;
+    default:
+      heartbeats_.handle(event);
+      break;
   }
 }
 
@@ -56,7 +68,8 @@ bool Protocol::has_started(std::uint32_t participant) const {
 
 void Protocol::received(const Packet& packet, std::uint32_t) {
   if (packet.multicast()) {
-    // `pair` of a multicast packet is its source; every started cross-host participant processes it.
+    // `pair` of a multicast packet is its source; every started cross-host participant processes
+    // it.
     const std::uint32_t end = run_.topology.first_pair(packet.pair + 1);
     for (std::uint32_t pair = run_.topology.first_pair(packet.pair); pair < end; ++pair) {
       if (has_started(run_.topology.pair(pair).destination)) spdp_received(pair);
@@ -67,11 +80,20 @@ void Protocol::received(const Packet& packet, std::uint32_t) {
   const bool to_writer = packet.kind == PacketKind::acknack;
   if (!has_started(to_writer ? pair.source : pair.destination)) return;
   switch (packet.kind) {
-    case PacketKind::spdp_unicast: spdp_received(packet.pair); break;
-    case PacketKind::data: data_received(packet); break;
-    case PacketKind::heartbeat: heartbeat_received(packet.relation()); break;
-    case PacketKind::acknack: acknack_received(packet); break;
-    default: break;
+    case PacketKind::spdp_unicast:
+      spdp_received(packet.pair);
+      break;
+    case PacketKind::data:
+      data_received(packet);
+      break;
+    case PacketKind::heartbeat:
+      heartbeat_received(packet.relation());
+      break;
+    case PacketKind::acknack:
+      acknack_received(packet);
+      break;
+    default:
+      break;
   }
 }
 
@@ -93,8 +115,8 @@ std::vector<std::uint32_t> Protocol::unacknowledged(std::uint32_t w) const {
   const std::uint32_t first_pair = run_.topology.first_pair(w / 2);
   for (std::size_t k = 0; k < words.size(); ++k) {
     for (std::uint64_t bits = words[k]; bits != 0; bits &= bits - 1) {
-      const auto peer = static_cast<std::uint32_t>(64 * k) +
-                        static_cast<std::uint32_t>(std::countr_zero(bits));
+      const auto peer =
+          static_cast<std::uint32_t>(64 * k) + static_cast<std::uint32_t>(std::countr_zero(bits));
       relations.push_back(2 * (first_pair + peer) + w % 2);
     }
   }

@@ -1,5 +1,6 @@
-// The paper's DDS implementation: announcements, the reader side and the writer side of every relation, by the
-// rules of specs/model.md. The class is spread over four source files by rule group:
+// The paper's DDS implementation: announcements, the reader side and the writer side of every
+// relation, by the rules of specs/model.md. The class is spread over four source files by rule
+// group:
 //   announcements.cpp  SPDP: sending, reception, opening of relations
 //   reader.cpp         reception of DATA and HEARTBEAT, ACKNACKs
 //   writer.cpp         reception of ACKNACKs, repair, suppression
@@ -43,17 +44,18 @@ class Protocol final : public Implementation, private HeartbeatSender {
   struct Relation {
     std::uint32_t missing = 0;         ///< descriptors with X = 0
     std::uint32_t unacknowledged = 0;  ///< descriptors not in A
-    std::uint32_t open_rank = no_rank; ///< writer side: how many relations of the writer opened before
+    std::uint32_t open_rank =
+        no_rank;  ///< writer side: how many relations of the writer opened before
     fsm::StateId reader = 0;
     fsm::StateId initial = fsm::Flyweight<fsm::InitialAckNack>::initial;
     bool heartbeat_seen = false;
-    std::uint8_t attempts = 0;         ///< the current initial delay is τ_I · 2^attempts
+    std::uint8_t attempts = 0;  ///< the current initial delay is τ_I · 2^attempts
   };
 
   struct Writer {
-    std::int64_t budget = 0;             ///< piggyback budget, bytes
-    std::uint32_t open = 0;              ///< open relations
-    std::uint32_t unacknowledged = 0;    ///< open relations with a descriptor not in A
+    std::int64_t budget = 0;           ///< piggyback budget, bytes
+    std::uint32_t open = 0;            ///< open relations
+    std::uint32_t unacknowledged = 0;  ///< open relations with a descriptor not in A
     std::uint32_t first_open_pair = UINT32_MAX;
     std::vector<std::uint64_t> waiting_readers;  ///< bit per peer: open and something not in A
   };
@@ -61,9 +63,9 @@ class Protocol final : public Implementation, private HeartbeatSender {
   struct Participant {
     fsm::StateId announcer = fsm::Flyweight<fsm::Announcer>::initial;
     std::uint32_t announcements = 0;
-    std::uint32_t known = 0;            ///< cross-host participants it has recognised
+    std::uint32_t known = 0;  ///< cross-host participants it has recognised
     std::uint32_t first_known_pair = UINT32_MAX;
-    std::int64_t sent_bytes = 0;        ///< the cumulative charge of the piggyback rule
+    std::int64_t sent_bytes = 0;  ///< the cumulative charge of the piggyback rule
   };
 
   // announcements.cpp
@@ -123,9 +125,9 @@ class Protocol final : public Implementation, private HeartbeatSender {
   DescriptorStates descriptors_;
   HeartbeatSchedule heartbeats_;
   std::vector<Participant> participants_;
-  std::vector<Writer> writers_;           // 2 · participant + stream
+  std::vector<Writer> writers_;  // 2 · participant + stream
   std::vector<Relation> relations_;
-  std::vector<std::uint32_t> known_rank_; // by pair (i, j): when i recognised j
+  std::vector<std::uint32_t> known_rank_;  // by pair (i, j): when i recognised j
   const DescriptorSizes sizes_;
 
   Driver<fsm::Announcer> announcer_driver_{MachineRef::Kind::participant};

@@ -1,5 +1,6 @@
-// The reader side: what DATA and HEARTBEATs do at the receiver, and the ACKNACKs that it generates. A bitmap is
-// a snapshot: it does not change after the ACKNACK is generated, which is what makes late DATA look lost.
+// The reader side: what DATA and HEARTBEATs do at the receiver, and the ACKNACKs that it generates.
+// A bitmap is a snapshot: it does not change after the ACKNACK is generated, which is what makes
+// late DATA look lost.
 #include "model/paper/protocol.hpp"
 
 namespace stormproof::model::paper {
@@ -11,8 +12,8 @@ void Protocol::data_received(const Packet& packet) {
   Relation& r = relations_[relation];
   const std::uint32_t fresh = descriptors_.count_missing(relation, packet.descriptors);
   const auto output = reader_driver_.step<reader::DataReceived>(
-      run_, r.reader,
-      {.accepts_unmatched = accepts_unmatched_, .missing_after = r.missing - fresh}, relation);
+      run_, r.reader, {.accepts_unmatched = accepts_unmatched_, .missing_after = r.missing - fresh},
+      relation);
   if (output.take_data) {
     if (fresh == run_.missing && fresh > 0) {
       run_.last_delivered = {ParticipantId{ends(relation).source},
@@ -52,15 +53,14 @@ void Protocol::initial_acknack_due(std::uint32_t relation) { step_initial(relati
 /// Opens the timer of the initial ACKNACK, or lets an attempt of it happen.
 void Protocol::step_initial(std::uint32_t relation, bool opened) {
   Relation& r = relations_[relation];
-  const Driver<fsm::InitialAckNack>::Input input{
-      .now = run_.now.count(),
-      .first_delay = sedp_.initial_acknack_delay.count(),
-      .last_delay = sedp_.initial_acknack_delay.count() << r.attempts,
-      .heartbeat_seen = r.heartbeat_seen};
+  const Driver<fsm::InitialAckNack>::Input input{.now = run_.now.count(),
+                                                 .first_delay = sedp_.initial_acknack_delay.count(),
+                                                 .last_delay = sedp_.initial_acknack_delay.count()
+                                                               << r.attempts,
+                                                 .heartbeat_seen = r.heartbeat_seen};
   using namespace fsm::initial_acknack;
-  const auto timer = opened
-                         ? initial_driver_.step<ReaderOpened>(run_, r.initial, input, relation)
-                         : initial_driver_.step<AttemptDue>(run_, r.initial, input, relation);
+  const auto timer = opened ? initial_driver_.step<ReaderOpened>(run_, r.initial, input, relation)
+                            : initial_driver_.step<AttemptDue>(run_, r.initial, input, relation);
   if (timer.attempt) {
     ++r.attempts;
     const auto output = reader_driver_.step<reader::InitialAckNackDue>(

@@ -1,4 +1,5 @@
-// The writer side of a relation: what an ACKNACK changes, when repair DATA is made, and how suppression ends.
+// The writer side of a relation: what an ACKNACK changes, when repair DATA is made, and how
+// suppression ends.
 #include "model/paper/protocol.hpp"
 
 namespace stormproof::model::paper {
@@ -11,8 +12,8 @@ void Protocol::acknack_received(const Packet& packet) {
     if (sedp_.initial_acknack == InitialAckNackReply::heartbeat) send_heartbeat(relation);
     return;
   }
-  const auto effect = descriptors_.acknack(relation, packet.descriptors,
-                                           sedp_.acknowledge == Acknowledge::prefix);
+  const auto effect =
+      descriptors_.acknack(relation, packet.descriptors, sedp_.acknowledge == Acknowledge::prefix);
   r.unacknowledged -= effect.acknowledged;
   if (effect.acknowledged > 0 && r.unacknowledged == 0) {
     Writer& writer = writers_[writer_of(relation)];

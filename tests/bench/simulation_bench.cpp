@@ -1,12 +1,12 @@
 // How fast the simulator is: events per second on the high-load scenario, beside the hold model of
-// std::priority_queue at the same queue length in the same run, and the large deployments that must stay
-// affordable. Nothing here is a test; times are compared as ratios within one run.
-#include <benchmark/benchmark.h>
-#include <sys/resource.h>
-
+// std::priority_queue at the same queue length in the same run, and the large deployments that must
+// stay affordable. Nothing here is a test; times are compared as ratios within one run.
 #include <queue>
 #include <random>
 #include <vector>
+
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
 
 #include "checker/sampling/sample_runs.hpp"
 #include "model/simulator.hpp"
@@ -83,11 +83,11 @@ Scenario live(std::uint32_t participants, std::uint32_t endpoints, std::uint64_t
   // The live machine's endpoints are done within these times, in ns.
   const std::int64_t processes = participants;
   const std::int64_t work = processes * (17 + endpoints);
-  const std::int64_t earliest = std::max<std::int64_t>(
-      0, -700'000 + 2'900'000 * processes + 200'000 * work);
-  const std::int64_t latest = std::max<std::int64_t>(
-      earliest, -27'000'000 + 15'400'000 * processes + 455'000 * work);
-  scenario.deployment.schedule = {Nanoseconds{3'000'000}, Nanoseconds{30'000'000},
+  const std::int64_t earliest =
+      std::max<std::int64_t>(0, -700'000 + 2'900'000 * processes + 200'000 * work);
+  const std::int64_t latest =
+      std::max<std::int64_t>(earliest, -27'000'000 + 15'400'000 * processes + 455'000 * work);
+  scenario.deployment.schedule = {Nanoseconds{3'000'000}, Nanoseconds{12'000'000 * processes},
                                   Nanoseconds{earliest}, Nanoseconds{latest}, seed};
   scenario.deployment.draw_schedule(seed);
   return scenario;
@@ -155,4 +155,3 @@ void collapse_50x10x30(benchmark::State& state) { collapse(state, 50, 10, 30); }
 BENCHMARK(collapse_50x10x30)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
-

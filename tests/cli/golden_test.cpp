@@ -1,5 +1,6 @@
-// Runs every command of tests/cli/golden/*.txt in the project's root and compares standard output, standard
-// error and exit code with what the file says. The files are documentation too: each shows what a user sees.
+// Runs every command of tests/cli/golden/*.txt in the project's root and compares standard output,
+// standard error and exit code with what the file says. The files are documentation too: each shows
+// what a user sees.
 //
 //   # comment
 //   $ stormproof simulate smallest      the command
@@ -7,17 +8,17 @@
 //   ! …                                 its standard error
 //   exit 0                              its exit code; the next command may follow
 //
-// A line of output that is only "..." stands for any number of lines. To accept changed output after reading
-// it: STORMPROOF_UPDATE_GOLDEN=1 (files with "..." are left alone).
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-
+// A line of output that is only "..." stands for any number of lines. To accept changed output
+// after reading it: STORMPROOF_UPDATE_GOLDEN=1 (files with "..." are left alone).
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
 
 namespace {
 
@@ -66,8 +67,8 @@ Step run(const Step& expected, const fs::path& folder) {
     command.replace(at, name.size(), program);
     at += program.size();
   }
-  const std::string shell = "cd '" STORMPROOF_SOURCE_DIR "' && TMP='" + folder.string() + "' && { " +
-                            command + "\n} >'" + (folder / "out").string() + "' 2>'" +
+  const std::string shell = "cd '" STORMPROOF_SOURCE_DIR "' && TMP='" + folder.string() +
+                            "' && { " + command + "\n} >'" + (folder / "out").string() + "' 2>'" +
                             (folder / "err").string() + "' </dev/null";
   Step actual{expected.comments, expected.command, {}, {}, 0};
   const int status = std::system(shell.c_str());
@@ -115,7 +116,9 @@ TEST_P(Golden, OutputAndExitCode) {
     const Step actual = run(step, folder);
     EXPECT_TRUE(matches(step.out, 0, actual.out, 0) && matches(step.err, 0, actual.err, 0) &&
                 step.exit_code == actual.exit_code)
-        << "expected:\n" << text_of(step) << "\ngot:\n" << text_of(actual);
+        << "expected:\n"
+        << text_of(step) << "\ngot:\n"
+        << text_of(actual);
     updated += text_of(actual);
     for (const auto& line : step.out) elided = elided || line == "...";
   }

@@ -1,13 +1,13 @@
-// Ctrl-C on a long run: the program ends by itself with what is known so far, and the files that it was writing
-// are complete.
+// Ctrl-C on a long run: the program ends by itself with what is known so far, and the files that it
+// was writing are complete.
+#include <filesystem>
+#include <fstream>
+#include <string>
+
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
 
 namespace {
 
@@ -22,7 +22,8 @@ class Interrupt : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// Starts a run that would take very long, waits until its trace grows, interrupts it; returns its exit code.
+  /// Starts a run that would take very long, waits until its trace grows, interrupts it; returns
+  /// its exit code.
   int interrupted_run() const {
     const std::string trace = (folder_ / "trace.jsonl").string();
     const std::string partial = trace + ".partial";

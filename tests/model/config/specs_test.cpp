@@ -99,8 +99,9 @@ TEST(Specs, the_live_machine_starts_its_processes_one_after_the_other) {
   EXPECT_EQ(live->deployment.loopback_delay, Nanoseconds{2'000'000});
   ASSERT_TRUE(live->deployment.schedule);
   const Schedule& schedule = *live->deployment.schedule;
-  EXPECT_EQ(schedule.start_max, Nanoseconds{15'650'000});
   const std::int64_t processes = 5;
+  EXPECT_EQ(schedule.start_min, Nanoseconds{3'000'000});
+  EXPECT_EQ(schedule.start_max, Nanoseconds{12'000'000 * processes});
   const std::int64_t endpoints = processes * (17 + 20);
   EXPECT_EQ(schedule.endpoints_done_min,
             Nanoseconds{1'000 * (-700 + 2'900 * processes + 200 * endpoints)});
