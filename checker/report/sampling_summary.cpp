@@ -52,6 +52,7 @@ Json sample_json(const Sample& sample) {
   Json counts;
   for (const auto& [name, value] : sample.counts.entries()) counts[name] = value;
   counts["total"] = sample.counts.total();
+  counts["user_control"] = sample.user_control;
   return {
       {"seed", sample.seed},
       {"completed", sample.end == model::RunEnd::completed},

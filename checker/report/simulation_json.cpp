@@ -131,6 +131,7 @@ Json to_json(const Simulation& s) {
   json["t_disc_ns"] = result.discovery_time ? Json(result.discovery_time->count()) : Json(nullptr);
   json["end_ns"] = result.end_time.count();
   json["counts"] = counts_json(result.counts);
+  json["counts"]["user_control"] = result.user_control;
   json["failure_free"] = counts_json(s.failure_free);
   json["amplification"] = amplification_json(result.counts, s.failure_free);
   json["user_control"] = result.user_control;

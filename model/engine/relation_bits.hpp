@@ -66,6 +66,23 @@ class RelationBits {
     return DescriptorSet{scratch_};
   }
 
+  /// The first `limit` required descriptors that have not reached their readers, in ascending
+  /// order.
+  [[nodiscard]] std::vector<MissingDescriptor> list_missing(std::size_t limit) {
+    std::vector<MissingDescriptor> list;
+    for (std::uint32_t relation = 0; relation < run_.topology.relation_count(); ++relation) {
+      const Pair& ends = run_.topology.pair(relation / 2);
+      if (!ends.cross_host) continue;
+      missing(relation).for_each([&](std::uint32_t d) {
+        if (list.size() == limit) return;
+        list.push_back({ParticipantId{ends.source}, ParticipantId{ends.destination},
+                        streams[relation % 2], DescriptorId{d}});
+      });
+      if (list.size() == limit) break;
+    }
+    return list;
+  }
+
   /// All descriptors 0 … D-1 of the relation.
   [[nodiscard]] DescriptorSet all(std::uint32_t relation) {
     scratch_.clear();

@@ -15,21 +15,6 @@ void Protocol::create_endpoint(std::uint32_t i, std::uint32_t k) {
   control_.created(i, stream, d);
 }
 
-void Protocol::announcement_due(std::uint32_t i) {
-  Participant& participant = participants_[i];
-  const auto output = announcer_driver_.step<fsm::announcer::AnnouncementDue>(
-      run_, participant.announcer,
-      {.now = run_.now.count(),
-       .number = participant.announcements,
-       .startup = spdp_.startup_announcements,
-       .startup_period = spdp_.startup_period.count(),
-       .period = spdp_.period.count()},
-      i);
-  ++participant.announcements;
-  if (output.announce) send_spdp(i);
-  run_.schedule(Nanoseconds{output.next_at}, EventKind::announcement_due, i);
-}
-
 void Protocol::send_spdp(std::uint32_t i) {
   for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
        ++pair) {
@@ -100,7 +85,7 @@ void Protocol::open_reader(std::uint32_t relation) {
   Relation& r = relations_[relation];
   const auto output = reader_driver_.step<fsm::discovery_reader::AnnouncementReceived>(
       run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
-  if (output.opened) step_initial(relation, true);
+  if (output.opened) initial_attempts_.open(r.initial, relation);
 }
 
 /// The writer side opens: existing descriptors wait until the reader asks for them.

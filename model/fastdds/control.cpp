@@ -14,7 +14,10 @@ Stream other(Stream s) { return s == Stream::pub ? Stream::sub : Stream::pub; }
 }  // namespace
 
 ControlTraffic::ControlTraffic(RunState& run, Network& network, const Discovered& discovered)
-    : run_{run}, network_{network}, discovered_{discovered} {
+    : run_{run},
+      network_{network},
+      discovered_{discovered},
+      initial_attempts_{run, MachineRef::Kind::control_relation, EventKind::control_initial_due} {
   for (std::uint32_t pair = 0; pair < run.topology.pair_count(); ++pair) {
     first_relation_.push_back(static_cast<std::uint32_t>(relations_.size()));
     const Pair& p = run.topology.pair(pair);
@@ -81,26 +84,7 @@ void ControlTraffic::open_writer(std::uint32_t relation) {
 void ControlTraffic::open_reader(std::uint32_t relation) {
   const auto output = reader_driver_.step<fsm::control_relation::Opened>(
       run_, relations_[relation].reader, {}, relation);
-  if (output.start_initial) step_initial(relation, true);
-}
-
-void ControlTraffic::step_initial(std::uint32_t relation, bool opened) {
-  using namespace fsm::initial_acknack;
-  Relation& r = relations_[relation];
-  const std::int64_t first = run_.scenario.dds.sedp.initial_acknack_delay.count();
-  const Driver<fsm::InitialAckNack>::Input input{.now = run_.now.count(),
-                                                 .first_delay = first,
-                                                 .last_delay = first << r.attempts,
-                                                 .heartbeat_seen = r.heartbeat_seen};
-  const auto timer = opened ? initial_driver_.step<ReaderOpened>(run_, r.initial, input, relation)
-                            : initial_driver_.step<AttemptDue>(run_, r.initial, input, relation);
-  if (timer.attempt) {
-    ++r.attempts;
-    emit_acknack(relation, true);
-  }
-  if (timer.schedule) {
-    run_.schedule(Nanoseconds{timer.next_at}, EventKind::control_initial_due, relation);
-  }
+  if (output.start_initial) initial_attempts_.open(relations_[relation].initial, relation);
 }
 
 void ControlTraffic::received(const Packet& packet) {
@@ -126,7 +110,9 @@ void ControlTraffic::received(const Packet& packet) {
 
 void ControlTraffic::handle(const Event& event) {
   if (event.kind == EventKind::control_initial_due) {
-    step_initial(event.subject, false);
+    Relation& r = relations_[event.subject];
+    initial_attempts_.attempt(r.initial, r.heartbeat_seen, event.subject,
+                              [&] { emit_acknack(event.subject, true); });
     return;
   }
   const auto timer = reply_driver_.step<fsm::single_shot::Due>(

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "fsm/control_relation.hpp"
-#include "fsm/initial_acknack.hpp"
 #include "fsm/single_shot.hpp"
 #include "model/engine/driver.hpp"
+#include "model/engine/initial_attempts.hpp"
 #include "model/engine/network.hpp"
 #include "model/fastdds/endpoints.hpp"
 
@@ -49,10 +49,9 @@ class ControlTraffic {
     std::uint32_t pair = 0;
     fsm::StateId writer = fsm::Flyweight<fsm::ControlWriter>::initial;
     fsm::StateId reader = fsm::Flyweight<fsm::ControlReader>::initial;
-    fsm::StateId initial = fsm::Flyweight<fsm::InitialAckNack>::initial;
+    InitialTimer initial;
     fsm::StateId reply = fsm::Flyweight<fsm::SingleShot>::initial;
     bool heartbeat_seen = false;
-    std::uint8_t attempts = 0;
   };
 
   /// Whether the pair has a relation on the topic: the source publishes it and the destination
@@ -63,18 +62,17 @@ class ControlTraffic {
   }
   void open_writer(std::uint32_t relation);
   void open_reader(std::uint32_t relation);
-  void step_initial(std::uint32_t relation, bool opened);
   void emit_heartbeat(std::uint32_t relation);
   void emit_acknack(std::uint32_t relation, bool initial);
 
   RunState& run_;
   Network& network_;
   const Discovered& discovered_;
+  InitialAttempts initial_attempts_;
   std::vector<std::uint32_t> first_relation_;  // by pair
   std::vector<Relation> relations_;
   Driver<fsm::ControlWriter> writer_driver_{MachineRef::Kind::control_relation};
   Driver<fsm::ControlReader> reader_driver_{MachineRef::Kind::control_relation};
-  Driver<fsm::InitialAckNack> initial_driver_{MachineRef::Kind::control_relation};
   Driver<fsm::SingleShot> reply_driver_{MachineRef::Kind::control_relation};
 };
 

@@ -10,6 +10,8 @@ Protocol::Protocol(RunState& run, Network& network)
       sedp_{run.scenario.dds.sedp},
       changes_{run},
       heartbeats_{run, *this},
+      announcements_{run},
+      initial_attempts_{run, MachineRef::Kind::relation, EventKind::initial_acknack_due},
       control_{run, network, *this},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
@@ -31,7 +33,7 @@ void Protocol::start() {
     const std::int64_t span = participant.endpoints_done.count() - start;
     const std::int64_t endpoints = run_.topology.descriptor_count(i, Stream::pub) +
                                    run_.topology.descriptor_count(i, Stream::sub);
-    run_.schedule(participant.start, EventKind::announcement_due, i);
+    announcements_.start(i);
     for (std::int64_t k = 0; k < endpoints; ++k) {
       run_.schedule(Nanoseconds{start + span * (k + 1) / endpoints}, EventKind::endpoint_creation,
                     i, static_cast<std::uint32_t>(k));
@@ -43,7 +45,7 @@ void Protocol::handle(const Event& event) {
   const std::uint32_t subject = event.subject;
   switch (event.kind) {
     case EventKind::announcement_due:
-      announcement_due(subject);
+      announcements_.due(subject, [&] { send_spdp(subject); });
       break;
     case EventKind::endpoint_creation:
       create_endpoint(subject, event.detail);
@@ -52,7 +54,7 @@ void Protocol::handle(const Event& event) {
       acknack_generation(subject);
       break;
     case EventKind::initial_acknack_due:
-      step_initial(subject, false);
+      initial_acknack_due(subject);
       break;
     case EventKind::nack_response:
       nack_response(subject);
@@ -137,18 +139,7 @@ bool Protocol::expire(SingleShots& driver, fsm::StateId& timer, std::uint32_t su
 }
 
 std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {
-  std::vector<MissingDescriptor> list;
-  for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) {
-    if (relations_[relation].missing == 0 || !crosses(relation)) continue;
-    changes_.missing(relation).for_each([&](std::uint32_t d) {
-      if (list.size() == limit) return;
-      list.push_back({ParticipantId{ends(relation).source},
-                      ParticipantId{ends(relation).destination}, stream_of(relation),
-                      DescriptorId{d}});
-    });
-    if (list.size() == limit) break;
-  }
-  return list;
+  return changes_.list_missing(limit);
 }
 
 }  // namespace stormproof::model::fastdds

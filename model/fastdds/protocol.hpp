@@ -13,13 +13,13 @@
 #include <deque>
 #include <vector>
 
-#include "fsm/announcer.hpp"
 #include "fsm/discovery_reader.hpp"
-#include "fsm/initial_acknack.hpp"
 #include "fsm/single_shot.hpp"
+#include "model/engine/announcement_schedule.hpp"
 #include "model/engine/driver.hpp"
 #include "model/engine/heartbeat_schedule.hpp"
 #include "model/engine/implementation.hpp"
+#include "model/engine/initial_attempts.hpp"
 #include "model/engine/network.hpp"
 #include "model/fastdds/change_states.hpp"
 #include "model/fastdds/control.hpp"
@@ -50,10 +50,9 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
     fsm::StateId suppression = fsm::Flyweight<fsm::SingleShot>::initial;
     // Reader side.
     fsm::StateId reader = fsm::Flyweight<fsm::DiscoveryReader>::initial;
-    fsm::StateId initial = fsm::Flyweight<fsm::InitialAckNack>::initial;
+    InitialTimer initial;
     fsm::StateId reply = fsm::Flyweight<fsm::SingleShot>::initial;
     bool heartbeat_seen = false;
-    std::uint8_t attempts = 0;    ///< the current initial delay is τ_I · 2^attempts
     std::uint32_t missing = 0;    ///< descriptors with X = 0
     std::uint32_t announced = 0;  ///< descriptors that the reader knows to exist
     std::uint32_t notified = 0;   ///< descriptors received without a gap
@@ -66,8 +65,6 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
     std::vector<std::uint64_t> enqueued;  ///< bit per descriptor: in the participant's async queue
   };
   struct Participant {
-    fsm::StateId announcer = fsm::Flyweight<fsm::Announcer>::initial;
-    std::uint32_t announcements = 0;
     fsm::StateId async_run = fsm::Flyweight<fsm::SingleShot>::initial;
     std::deque<Endpoint> queue;   ///< what the async run will send
     std::int64_t sent_bytes = 0;  ///< all bytes that the async sender has ever sent
@@ -75,7 +72,6 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
 
   // announcements.cpp
   void create_endpoint(std::uint32_t i, std::uint32_t k);
-  void announcement_due(std::uint32_t i);
   void send_spdp(std::uint32_t i);
   void send_spdp_multicast(std::uint32_t i);
   void send_spdp_copy(std::uint32_t pair);
@@ -114,7 +110,7 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   void data_received(const Packet& packet);
   void heartbeat_received(std::uint32_t relation, std::uint32_t announced);
   void acknack_generation(std::uint32_t relation);
-  void step_initial(std::uint32_t relation, bool opened);
+  void initial_acknack_due(std::uint32_t relation);
   void emit_acknack(std::uint32_t relation, bool initial);
   void take(std::uint32_t relation, const DescriptorSet& descriptors, std::uint32_t fresh);
 
@@ -152,6 +148,8 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   const SedpProfile& sedp_;
   ChangeStates changes_;
   HeartbeatSchedule heartbeats_;
+  AnnouncementSchedule announcements_;
+  InitialAttempts initial_attempts_;
   ControlTraffic control_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
@@ -161,9 +159,7 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   Message async_message_;
   std::vector<std::uint32_t> targets_;
 
-  Driver<fsm::Announcer> announcer_driver_{MachineRef::Kind::participant};
   Driver<fsm::DiscoveryReader> reader_driver_{MachineRef::Kind::relation};
-  Driver<fsm::InitialAckNack> initial_driver_{MachineRef::Kind::relation};
   SingleShots participant_shots_{MachineRef::Kind::participant};
   SingleShots writer_shots_{MachineRef::Kind::writer};
   SingleShots relation_shots_{MachineRef::Kind::relation};

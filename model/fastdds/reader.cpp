@@ -62,26 +62,13 @@ void Protocol::acknack_generation(std::uint32_t relation) {
   if (output.send_acknack) emit_acknack(relation, false);
 }
 
-/// Opens the timer of the initial ACKNACK, or lets an attempt of it happen.
-void Protocol::step_initial(std::uint32_t relation, bool opened) {
-  using namespace fsm::initial_acknack;
+void Protocol::initial_acknack_due(std::uint32_t relation) {
   Relation& r = relations_[relation];
-  const Driver<fsm::InitialAckNack>::Input input{.now = run_.now.count(),
-                                                 .first_delay = sedp_.initial_acknack_delay.count(),
-                                                 .last_delay = sedp_.initial_acknack_delay.count()
-                                                               << r.attempts,
-                                                 .heartbeat_seen = r.heartbeat_seen};
-  const auto timer = opened ? initial_driver_.step<ReaderOpened>(run_, r.initial, input, relation)
-                            : initial_driver_.step<AttemptDue>(run_, r.initial, input, relation);
-  if (timer.attempt) {
-    ++r.attempts;
+  initial_attempts_.attempt(r.initial, r.heartbeat_seen, relation, [&] {
     const auto output = reader_driver_.step<reader::InitialAckNackDue>(
         run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
     if (output.send_initial) emit_acknack(relation, true);
-  }
-  if (timer.schedule) {
-    run_.schedule(Nanoseconds{timer.next_at}, EventKind::initial_acknack_due, relation);
-  }
+  });
 }
 
 /// The base is the first missing descriptor; the bitmap lists what is missing of what was

@@ -6,21 +6,6 @@
 
 namespace stormproof::model::paper {
 
-void Protocol::announcement_due(std::uint32_t i) {
-  Participant& participant = participants_[i];
-  const auto output = announcer_driver_.step<fsm::announcer::AnnouncementDue>(
-      run_, participant.announcer,
-      {.now = run_.now.count(),
-       .number = participant.announcements,
-       .startup = spdp_.startup_announcements,
-       .startup_period = spdp_.startup_period.count(),
-       .period = spdp_.period.count()},
-      i);
-  ++participant.announcements;
-  if (output.announce) send_spdp(i);
-  run_.schedule(Nanoseconds{output.next_at}, EventKind::announcement_due, i);
-}
-
 /// One multicast packet, then a unicast copy to every cross-host participant that i knows.
 void Protocol::send_spdp(std::uint32_t i) {
   send_spdp_multicast(i);
@@ -95,7 +80,7 @@ void Protocol::open_reader(std::uint32_t relation) {
   const auto output = reader_driver_.step<fsm::discovery_reader::AnnouncementReceived>(
       run_, r.reader, {.accepts_unmatched = accepts_unmatched_, .missing_after = r.missing},
       relation);
-  if (output.opened) step_initial(relation, true);
+  if (output.opened) initial_attempts_.open(r.initial, relation);
 }
 
 void Protocol::open_writer(std::uint32_t relation) {

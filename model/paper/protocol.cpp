@@ -14,6 +14,8 @@ Protocol::Protocol(RunState& run, Network& network)
                          run.scenario.dds.sedp.relation_opening != RelationOpening::each_side},
       descriptors_{run},
       heartbeats_{run, *this},
+      announcements_{run},
+      initial_attempts_{run, MachineRef::Kind::relation, EventKind::initial_acknack_due},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
@@ -35,14 +37,14 @@ Protocol::Protocol(RunState& run, Network& network)
 
 void Protocol::start() {
   for (std::uint32_t i = 0; i < run_.topology.participant_count(); ++i) {
-    run_.schedule(run_.topology.start(i), EventKind::announcement_due, i);
+    announcements_.start(i);
   }
 }
 
 void Protocol::handle(const Event& event) {
   switch (event.kind) {
     case EventKind::announcement_due:
-      announcement_due(event.subject);
+      announcements_.due(event.subject, [&] { send_spdp(event.subject); });
       break;
     case EventKind::acknack_generation:
       acknack_generation(event.subject);
@@ -132,18 +134,7 @@ std::uint32_t Protocol::announced(std::uint32_t w) const {
 }
 
 std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {
-  std::vector<MissingDescriptor> list;
-  for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) {
-    if (relations_[relation].missing == 0) continue;
-    descriptors_.missing(relation).for_each([&](std::uint32_t d) {
-      if (list.size() == limit) return;
-      list.push_back({ParticipantId{ends(relation).source},
-                      ParticipantId{ends(relation).destination}, stream_of(relation),
-                      DescriptorId{d}});
-    });
-    if (list.size() == limit) break;
-  }
-  return list;
+  return descriptors_.list_missing(limit);
 }
 
 }  // namespace stormproof::model::paper

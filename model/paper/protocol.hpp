@@ -11,13 +11,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsm/announcer.hpp"
 #include "fsm/discovery_reader.hpp"
-#include "fsm/initial_acknack.hpp"
 #include "model/descriptor_sizes.hpp"
+#include "model/engine/announcement_schedule.hpp"
 #include "model/engine/driver.hpp"
 #include "model/engine/heartbeat_schedule.hpp"
 #include "model/engine/implementation.hpp"
+#include "model/engine/initial_attempts.hpp"
 #include "model/engine/network.hpp"
 #include "model/paper/descriptor_states.hpp"
 
@@ -47,9 +47,8 @@ class Protocol final : public Implementation, private HeartbeatSender {
     std::uint32_t open_rank =
         no_rank;  ///< writer side: how many relations of the writer opened before
     fsm::StateId reader = 0;
-    fsm::StateId initial = fsm::Flyweight<fsm::InitialAckNack>::initial;
+    InitialTimer initial;
     bool heartbeat_seen = false;
-    std::uint8_t attempts = 0;  ///< the current initial delay is τ_I · 2^attempts
   };
 
   struct Writer {
@@ -61,15 +60,12 @@ class Protocol final : public Implementation, private HeartbeatSender {
   };
 
   struct Participant {
-    fsm::StateId announcer = fsm::Flyweight<fsm::Announcer>::initial;
-    std::uint32_t announcements = 0;
     std::uint32_t known = 0;  ///< cross-host participants it has recognised
     std::uint32_t first_known_pair = UINT32_MAX;
     std::int64_t sent_bytes = 0;  ///< the cumulative charge of the piggyback rule
   };
 
   // announcements.cpp
-  void announcement_due(std::uint32_t i);
   void send_spdp(std::uint32_t i);
   void send_spdp_multicast(std::uint32_t i);
   void send_spdp_copy(std::uint32_t pair);
@@ -83,7 +79,6 @@ class Protocol final : public Implementation, private HeartbeatSender {
   void heartbeat_received(std::uint32_t relation);
   void acknack_generation(std::uint32_t relation);
   void initial_acknack_due(std::uint32_t relation);
-  void step_initial(std::uint32_t relation, bool opened);
   void emit_acknack(std::uint32_t relation, bool initial);
   [[nodiscard]] bool has_started(std::uint32_t participant) const;
 
@@ -124,15 +119,15 @@ class Protocol final : public Implementation, private HeartbeatSender {
   const bool accepts_unmatched_;
   DescriptorStates descriptors_;
   HeartbeatSchedule heartbeats_;
+  AnnouncementSchedule announcements_;
+  InitialAttempts initial_attempts_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
   std::vector<Relation> relations_;
   std::vector<std::uint32_t> known_rank_;  // by pair (i, j): when i recognised j
   const DescriptorSizes sizes_;
 
-  Driver<fsm::Announcer> announcer_driver_{MachineRef::Kind::participant};
   Driver<fsm::DiscoveryReader> reader_driver_{MachineRef::Kind::relation};
-  Driver<fsm::InitialAckNack> initial_driver_{MachineRef::Kind::relation};
 };
 
 }  // namespace stormproof::model::paper
