@@ -5,10 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fsm/change_for_reader.hpp"
-#include "fsm/control_relation.hpp"
 #include "fsm/machines.hpp"
-#include "fsm/single_shot.hpp"
 #include "tests/model/trace/recording.hpp"
 
 namespace stormproof::model::trace {
@@ -17,14 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const fsm::MachineInfo* machine_named(const std::string& name) {
-  static const std::vector<fsm::MachineInfo> machines = [] {
-    std::vector<fsm::MachineInfo> list = fsm::machines();
-    list.push_back(fsm::Reflect<fsm::ChangeForReader>::info());
-    list.push_back(fsm::Reflect<fsm::ControlReader>::info());
-    list.push_back(fsm::Reflect<fsm::ControlWriter>::info());
-    list.push_back(fsm::Reflect<fsm::SingleShot>::info());
-    return list;
-  }();
+  static const std::vector<fsm::MachineInfo> machines = fsm::machines();
   const auto found =
       std::ranges::find_if(machines, [&](const auto& machine) { return machine.name == name; });
   return found == machines.end() ? nullptr : &*found;
