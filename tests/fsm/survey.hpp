@@ -1,6 +1,7 @@
 // What a machine does on every (state, event, input) of an enumeration, found by evaluating the
-// guards of its reflected rows and by letting Boost.MSM process the same event. It exists so that
-// totality, determinism, reachability and the agreement of the two are one loop and four questions.
+// guards of its reflected rows, by letting Boost.MSM process the same event and by interpreting the
+// table. It exists so that totality, determinism, reachability and the agreement of the three are
+// one loop and a few questions.
 // The result is plain data, so that each machine's template code is compiled once, in the test file
 // of that machine.
 #pragma once
@@ -15,6 +16,7 @@
 
 #include "fsm/flyweight.hpp"
 #include "fsm/reflect.hpp"
+#include "tests/fsm/table_law.hpp"
 
 namespace stormproof::fsm {
 
@@ -27,6 +29,7 @@ struct PairSurvey {
   std::uint64_t none_enabled = 0;     ///< inputs on which no row is enabled
   std::uint64_t several_enabled = 0;  ///< inputs on which two rows or more are enabled
   std::uint64_t disagreements = 0;    ///< inputs on which MSM did not do what the enabled row says
+  std::uint64_t interpreted_otherwise = 0;  ///< inputs on which the interpreted table differs
 };
 
 struct MachineSurvey {
@@ -97,6 +100,8 @@ class Surveyor {
       const StateId after = engine_.template step<Event>(state, input, output);
       const bool same = after == expected.target && boost::pfr::eq_fields(output, expected.output);
       pair.disagreements += same ? 0 : 1;
+      const bool agrees = interpreter_agrees<Machine, Event>(table_, engine_, state, input);
+      pair.interpreted_otherwise += agrees ? 0 : 1;
     }
     result_.pairs.push_back(pair);
   }
@@ -147,6 +152,7 @@ class Surveyor {
 
   std::vector<Input> inputs_;
   Flyweight<Machine> engine_;
+  TableInterpreter<Machine> table_;
   MachineSurvey result_;
 };
 

@@ -48,6 +48,14 @@ TEST(Surveys, MsmDoesWhatTheReflectedRowsSay) {
   }
 }
 
+TEST(Surveys, TheInterpretedTableDoesWhatMsmDoes) {
+  for (const MachineSurvey& survey : surveys()) {
+    for (const PairSurvey& pair : survey.pairs) {
+      EXPECT_EQ(pair.interpreted_otherwise, 0U) << describe(survey, pair);
+    }
+  }
+}
+
 TEST(Surveys, EveryStateIsReachableFromTheInitialOne) {
   for (const MachineSurvey& survey : surveys()) {
     EXPECT_EQ(survey.reached.size(), survey.info.states.size()) << survey.info.name;

@@ -1,0 +1,134 @@
+// The rows of a table as values that can be looked through, evaluated in any domain, and mutated.
+// Boost.MSM executes the table as it is written; proofs evaluate it over solver expressions, and
+// `stormproof mutate` needs versions of it with a mistake in them. All of these read the same
+// reflected rows. Over `Plain`, an unmutated RowTable does what MSM does; tests/fsm checks that
+// exhaustively.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fsm/reflect.hpp"
+#include "fsm/table_mutation.hpp"
+
+namespace stormproof::fsm {
+
+template <class Machine, class D = Plain>
+class RowTable {
+ public:
+  using Input = typename Machine::Io::template Input<D>;
+  using Output = typename Machine::Io::template Output<D>;
+  using Bool = typename D::Bool;
+
+  struct Row {
+    StateId source = 0;
+    std::uint8_t event = 0;
+    StateId target = 0;
+    Bool (*guard)(const Input&) = nullptr;            ///< null: no guard
+    void (*action)(const Input&, Output&) = nullptr;  ///< null: no action
+    bool negated = false;
+
+    [[nodiscard]] Bool enabled(const Input& input) const {
+      if (guard == nullptr) return Bool(!negated);
+      return negated ? Bool(!guard(input)) : guard(input);
+    }
+  };
+
+  /// The table with the mutations that concern this machine.
+  explicit RowTable(std::span<const TableMutation> mutations = {}) {
+    add_rows(typename Reflect<Machine>::Rows{});
+    // Rows are numbered as written: removals come last.
+    for (const TableMutation& mutation : mutations) {
+      if (mutation.machine == name_of<Machine>()) mutate(mutation);
+    }
+    std::erase_if(rows_, [](const Row& row) { return row.source == dropped; });
+  }
+
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+ private:
+  static constexpr StateId dropped = UINT8_MAX;
+
+  template <class... Rs>
+  void add_rows(TypeList<Rs...>) {
+    (add_row<Rs>(), ...);
+  }
+
+  template <class R>
+  void add_row() {
+    using Info = Reflect<Machine>;
+    Row row;
+    row.source = Info::template id<typename R::Source>;
+    row.event = Info::template event_id<typename R::Evt>;
+    row.target = Info::template id<typename R::Target>;
+    if constexpr (!std::is_same_v<typename R::Guard, none>) {
+      row.guard = [](const Input& in) -> Bool { return R::Guard::template test<D>(in); };
+    }
+    if constexpr (!std::is_same_v<typename R::Action, none>) {
+      row.action = [](const Input& in, Output& out) { R::Action::template act<D>(in, out); };
+    }
+    rows_.push_back(row);
+  }
+
+  void mutate(const TableMutation& mutation) {
+    Row& row = rows_.at(mutation.row);
+    switch (mutation.kind) {
+      case TableMutation::Kind::drop_row:
+        row.source = dropped;
+        break;
+      case TableMutation::Kind::retarget:
+        row.target = mutation.target;
+        break;
+      case TableMutation::Kind::negate_guard:
+        row.negated = !row.negated;
+        break;
+      case TableMutation::Kind::ignore_guard:
+        row.guard = nullptr;
+        break;
+      case TableMutation::Kind::drop_action:
+        row.action = nullptr;
+        break;
+      case TableMutation::Kind::copy_row: {
+        Row copy = row;
+        copy.source = mutation.source;
+        copy.target = mutation.target;
+        rows_.push_back(copy);
+        break;
+      }
+    }
+  }
+
+  std::vector<Row> rows_;
+};
+
+/// What one event did to one machine.
+struct StepResult {
+  StateId state = 0;
+  bool fired = false;  ///< a row was enabled
+};
+
+/// Executes a table over plain values, in place of MSM, so that it can be a mutated one. Of two
+/// enabled rows the later one wins, as in MSM.
+template <class Machine>
+class TableInterpreter {
+ public:
+  using Table = RowTable<Machine, Plain>;
+
+  explicit TableInterpreter(std::span<const TableMutation> mutations = {}) : table_{mutations} {}
+
+  StepResult step(StateId state, std::uint8_t event, const typename Table::Input& input,
+                  typename Table::Output& output) const {
+    const auto& rows = table_.rows();
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+      if (row->source != state || row->event != event || !row->enabled(input)) continue;
+      if (row->action != nullptr) row->action(input, output);
+      return {row->target, true};
+    }
+    return {state, false};
+  }
+
+ private:
+  Table table_;
+};
+
+}  // namespace stormproof::fsm
