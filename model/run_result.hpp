@@ -12,7 +12,8 @@
 
 namespace stormproof::model {
 
-/// Why a run ended.
+/// Why a run ended. `completed` is the end of a run that the completion of discovery ends; a run
+/// with `run_until: time_limit` may have completed discovery and yet ended otherwise.
 enum class RunEnd : std::uint8_t { completed, time_limit, no_more_events, interrupted };
 
 /// A descriptor that had not reached one of its receivers when the run ended.
@@ -78,7 +79,7 @@ struct RunResult {
 
   RunEnd end = RunEnd::no_more_events;
   Nanoseconds end_time;                       ///< time of the last processed event
-  std::optional<Nanoseconds> discovery_time;  ///< T_disc; only a complete run has one
+  std::optional<Nanoseconds> discovery_time;  ///< T_disc, if discovery was completed
   Counts counts;
   std::uint64_t user_control = 0;  ///< messages of control-only relations, in no class
   std::uint64_t events = 0;        ///< processed events
@@ -91,7 +92,8 @@ struct RunResult {
   std::array<Latency, traffic_class_count> latency{};
   std::optional<LastDelivery> last_delivery;
 
-  [[nodiscard]] bool completed() const { return end == RunEnd::completed; }
+  /// Whether discovery was completed, whatever ended the run.
+  [[nodiscard]] bool completed() const { return discovery_time.has_value(); }
 };
 
 }  // namespace stormproof::model

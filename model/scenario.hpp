@@ -2,6 +2,7 @@
 // one trajectory, to the nanosecond. `model/config/scenario_file.hpp` reads it from YAML.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "model/dds_profile.hpp"
@@ -11,11 +12,16 @@
 
 namespace stormproof::model {
 
+/// What ends a run: the completion of discovery, in the middle of the packet that completes it, or
+/// the time limit alone, so that what follows discovery is part of the run.
+enum class RunUntil : std::uint8_t { completion, time_limit };
+
 struct Scenario {
   Deployment deployment;
   DdsProfile dds;
   WirelessProfile wireless;
   Nanoseconds time_limit{200'000'000'000};  ///< events up to and including this time are processed
+  RunUntil run_until = RunUntil::completion;
 
   bool operator==(const Scenario&) const = default;
 };

@@ -1,7 +1,9 @@
 // The event loop: the least event of the one queue, again and again (paper, event evolution).
 #include "model/simulator.hpp"
 
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "model/engine/network.hpp"
 #include "model/engine/run_state.hpp"
@@ -30,7 +32,7 @@ class Simulator {
  public:
   Simulator(const Scenario& scenario, const RunOptions& options)
       : options_{options},
-        run_{scenario, options.probe},
+        run_{scenario, options.probe, options.mutation},
         network_{run_},
         implementation_{make_implementation(run_, network_)} {
     network_.attach(*implementation_);
@@ -47,14 +49,19 @@ class Simulator {
 
  private:
   RunEnd loop() {
-    if (run_.complete()) return RunEnd::completed;  // nobody advertises anything
+    const std::uint64_t most =
+        options_.max_events == 0 ? std::numeric_limits<std::uint64_t>::max() : options_.max_events;
+    if (run_.complete()) discovery_time_ = run_.now;  // nobody advertises anything
+    if (run_.ends_now()) return RunEnd::completed;
     while (!run_.queue.empty()) {
       if (run_.queue.next_time() > run_.scenario.time_limit) return RunEnd::time_limit;
       const Event event = run_.queue.pop();
       run_.now = event.time;
       ++events_;
       process(event);
-      if (run_.complete()) return RunEnd::completed;
+      if (run_.complete() && !discovery_time_) discovery_time_ = run_.now;
+      if (run_.ends_now()) return RunEnd::completed;
+      if (events_ >= most) return RunEnd::interrupted;
       if (events_ % RunOptions::progress_interval == 0 && !report_progress()) {
         return RunEnd::interrupted;
       }
@@ -79,7 +86,7 @@ class Simulator {
 
   void report(RunResult& result) {
     result.end_time = run_.now;
-    if (result.completed()) result.discovery_time = run_.now;
+    result.discovery_time = discovery_time_;
     result.counts = run_.counts;
     result.user_control = run_.user_control;
     result.events = events_;
@@ -95,6 +102,7 @@ class Simulator {
   Network network_;
   std::unique_ptr<Implementation> implementation_;
   std::uint64_t events_ = 0;
+  std::optional<Nanoseconds> discovery_time_;
 };
 
 }  // namespace

@@ -1,9 +1,11 @@
 // Runs a scenario: one deterministic trajectory, to the nanosecond, from the start of the first
-// participant until discovery is complete, the time limit has passed or the caller stops it.
+// participant until discovery is complete (or beyond, with `run_until: time_limit`), the time limit
+// has passed or the caller stops it.
 #pragma once
 
 #include <functional>
 
+#include "model/mutation.hpp"
 #include "model/probe.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
@@ -19,7 +21,9 @@ struct Progress {
 };
 
 struct RunOptions {
-  Probe* probe = nullptr;  ///< observer, or none
+  Probe* probe = nullptr;              ///< observer, or none
+  const Mutation* mutation = nullptr;  ///< a deliberate mistake in the rules, or none
+  std::uint64_t max_events = 0;  ///< interrupts the run after so many events; 0: no such limit
   /// Called every `progress_interval` events; returning false interrupts the run.
   std::function<bool(const Progress&)> on_progress;
   static constexpr std::uint64_t progress_interval = 1U << 14U;

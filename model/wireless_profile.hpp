@@ -34,6 +34,16 @@ struct Stage {
   bool operator==(const Stage&) const = default;
 };
 
+/// How long one packet takes with `constant_delay`, instead of the profile's `one_way`. A schedule
+/// of such delays is how a proof or a search tells what the network did.
+struct PacketDelay {
+  std::uint64_t packet = 0;  ///< number in emission order, from 0
+  Nanoseconds leaves_after;  ///< from its emission until it has left the source; at most `one_way`
+  Nanoseconds one_way;       ///< from its emission until its reception
+
+  bool operator==(const PacketDelay&) const = default;
+};
+
 struct WirelessProfile {
   /// Value of `source_queue_bytes` that stands for "no limit"; the key then reads `unlimited`.
   static constexpr Bytes unlimited{std::numeric_limits<std::int64_t>::max()};
@@ -52,6 +62,7 @@ struct WirelessProfile {
   std::vector<std::uint64_t>
       lost_packets;        ///< packet numbers in emission order, ascending, no duplicates
   Nanoseconds one_way{0};  ///< delay of `constant_delay`
+  std::vector<PacketDelay> packet_delays;  ///< exceptions to it, by ascending packet number
   std::vector<Stage> stages{{"uplink", "air", MulticastAs::unicast, {}, {}, {}, {}},
                             {"downlink", "air", MulticastAs::multicast, {}, {}, {}, {}}};
 

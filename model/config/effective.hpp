@@ -10,10 +10,11 @@
 
 namespace stormproof::model::config {
 
-/// deployment (list form), dds (only the keys of its implementation), wireless, time_limit, in the
-/// syntax of scenario files. JSON is YAML: read back by `parse_scenario`, it gives an equal
-/// scenario, for every scenario that a file can describe. A schedule stays beside the times drawn
-/// from it; to draw others from the text, take the times out of the participants.
+/// deployment (list form), dds (only the keys of its implementation), wireless, time_limit (and
+/// run_until, if it is not the usual one), in the syntax of scenario files. JSON is YAML: read back
+/// by `parse_scenario`, it gives an equal scenario, for every scenario that a file can describe. A
+/// schedule stays beside the times drawn from it; to draw others from the text, take the times out
+/// of the participants.
 [[nodiscard]] nlohmann::ordered_json effective_json(const Scenario& scenario);
 [[nodiscard]] nlohmann::ordered_json effective_json(const DdsProfile& dds);
 [[nodiscard]] nlohmann::ordered_json effective_json(const WirelessProfile& wireless);

@@ -3,6 +3,7 @@
 #include "model/config/knob_reader.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/ranges.h>
 
@@ -164,6 +165,24 @@ void read_knobs(const Node& map, const std::string& path, DdsProfile& value,
   const Node* word = map.find(implementation_key);
   if (word != nullptr) (void)ChoiceType<ImplementationKind>{}.read(*word, value.implementation);
   read_table(map, path, value, error);
+}
+
+void read_knobs(const Node& map, const std::string& path, WirelessProfile& value,
+                std::optional<InputError>& error) {
+  read_table(map, path, value, error);
+  if (error || value.packet_delays.empty()) return;
+  const Node& list = *map.find(packet_delays_key);
+  std::set<std::uint64_t> packets;
+  for (std::size_t k = 0; k < value.packet_delays.size(); ++k) {
+    const Node& packet = *list.items[k].find(packet_key);
+    if (packets.insert(value.packet_delays[k].packet).second) continue;
+    const std::string name = fmt::format("{}.{}.{}", packet_delays_key, k, packet_key);
+    error = error_at(packet.place,
+                     fmt::format("{}: packet {} is given twice; expected one entry for each packet",
+                                 join_path(path, name), packet.shown()));
+    return;
+  }
+  std::ranges::sort(value.packet_delays, {}, &PacketDelay::packet);
 }
 
 }  // namespace stormproof::model::config

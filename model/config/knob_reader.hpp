@@ -74,6 +74,9 @@ void read_knobs(const Node& map, const std::string& path, Schedule& value,
 /// The implementation decides which keys there are.
 void read_knobs(const Node& map, const std::string& path, DdsProfile& value,
                 std::optional<InputError>& error);
+/// Packet delays are sorted; a packet has one of them.
+void read_knobs(const Node& map, const std::string& path, WirelessProfile& value,
+                std::optional<InputError>& error);
 
 class KnobReader {
  public:

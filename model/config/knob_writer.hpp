@@ -42,7 +42,8 @@ class KnobWriter {
   }
   template <class Item>
   void list(std::string_view key, const std::vector<Item>& members, ListSize, std::string_view,
-            Presence = {}) {
+            Presence presence = {}) {
+    if (presence == Presence::optional && members.empty()) return;
     Json& items = json[std::string{key}] = Json::array();
     for (const Item& member : members) {
       KnobWriter inner;

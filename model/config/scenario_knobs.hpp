@@ -85,6 +85,9 @@ void visit_knobs(auto& visit, Is<Deployment> auto& deployment) {
   visit_common_knobs(visit, deployment);
 }
 
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<RunUntil>{"completion", "time_limit"};
+
 /// The keys whose values may be the name of a file.
 inline constexpr std::string_view dds_key = "dds";
 inline constexpr std::string_view wireless_key = "wireless";
@@ -95,6 +98,10 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
   visit.section(wireless_key, scenario.wireless, "wireless profile");
   visit.knob("time_limit", scenario.time_limit, period_range,
              "events after this time are not processed");
+  visit.knob("run_until", scenario.run_until, UsualChoiceType<RunUntil>{{}, RunUntil::completion},
+             "whether the run ends when discovery is complete, as it does if absent, or goes on "
+             "until the time limit",
+             Presence::optional);
 
   const DescriptorProfile& defaults = scenario.dds.descriptors;
   const auto has_descriptors = [&defaults](const Participant& participant) {

@@ -152,6 +152,16 @@ struct ChoiceType {
   TypeInfo info() const { return choice_info(names()); }
 };
 
+/// A choice that is written only if it is not the usual one.
+template <class Enum>
+struct UsualChoiceType : ChoiceType<Enum> {
+  Enum usual{};
+
+  Json write(const Enum& value) const {
+    return value == usual ? Json() : ChoiceType<Enum>::write(value);
+  }
+};
+
 /// Text that is not empty.
 struct TextType {
   Complaint read(const Node& node, std::string& value) const;

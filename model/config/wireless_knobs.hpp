@@ -42,6 +42,21 @@ void visit_knobs(auto& visit, Is<Stage> auto& stage) {
              "replaces the profile's value in this stage", Presence::optional);
 }
 
+/// Numbers of packets, in `lost_packets` and `packet_delays`.
+inline constexpr NumberType packet_number = count_range(0, 1'000'000'000'000'000);
+inline constexpr std::size_t max_packet_delays = 1'000'000;
+inline constexpr std::string_view packet_delays_key = "packet_delays";
+inline constexpr std::string_view packet_key = "packet";
+
+void visit_knobs(auto& visit, Is<PacketDelay> auto& delay) {
+  visit.knob(packet_key, delay.packet, packet_number, "its number, by emission order from 0");
+  visit.knob("leaves_after", delay.leaves_after, delay_range,
+             "from its emission until it has left its source; 0 if absent", Presence::optional);
+  visit.knob("one_way", delay.one_way, delay_range, "from its emission until its reception");
+  visit.rule(delay.leaves_after <= delay.one_way, "leaves_after",
+             "at most the one_way of the same packet");
+}
+
 void visit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
   visit.knob("kind", wireless.kind, ChoiceType<ServiceKind>{},
              "a channel that is shared, or a fixed delay");
@@ -69,11 +84,14 @@ void visit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
              "which stage goes first among fragments that wait since the same instant", of_channel);
   visit.knob("fragment_request", wireless.fragment_request, ChoiceType<FragmentRequest>{},
              "whether admission requests service for the first fragment or for all", of_channel);
-  visit.knob("lost_packets", wireless.lost_packets,
-             NumberSetType{count_range(0, 1'000'000'000'000'000)},
+  visit.knob("lost_packets", wireless.lost_packets, NumberSetType{packet_number},
              "packets that are not received, by emission order from 0", Presence::optional);
   visit.knob("one_way", wireless.one_way, delay_range,
              "delay of every packet with kind: constant_delay", of_delay);
+  visit.list(packet_delays_key, wireless.packet_delays, ListSize{0, max_packet_delays},
+             "packets with delays of their own, with kind: constant_delay", Presence::optional);
+  visit.rule(!is_shared || wireless.packet_delays.empty(), packet_delays_key,
+             "no such list, or kind: constant_delay");
   visit.list("stages", wireless.stages, ListSize{1, WirelessProfile::max_stages},
              "the route of every packet, in order", of_channel);
 }

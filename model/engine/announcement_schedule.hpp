@@ -34,7 +34,8 @@ class AnnouncementSchedule {
          .period = spdp.period.count()},
         i);
     ++announcer.sent;
-    if (output.announce) send();
+    if (!output.announce) return;  // only a mutated table stays silent
+    send();
     run_.schedule(Nanoseconds{output.next_at}, EventKind::announcement_due, i);
   }
 
@@ -46,7 +47,7 @@ class AnnouncementSchedule {
 
   RunState& run_;
   std::vector<Announcer> announcers_;
-  Driver<fsm::Announcer> driver_{MachineRef::Kind::participant};
+  Driver<fsm::Announcer> driver_{run_, MachineRef::Kind::participant};
 };
 
 }  // namespace stormproof::model

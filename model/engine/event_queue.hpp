@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/engine/event_order.hpp"
 #include "model/engine/ring_buffer.hpp"
 #include "model/units.hpp"
 
@@ -59,8 +60,9 @@ struct Event {
   EventKind kind{};
 
   [[nodiscard]] std::uint64_t insertion() const { return order & ((std::uint64_t{1} << 62) - 1); }
+  [[nodiscard]] EventClass event_class() const { return static_cast<EventClass>(order >> 62); }
   [[nodiscard]] bool before(const Event& other) const {
-    return time != other.time ? time < other.time : order < other.order;
+    return is_before(time, order, other.time, other.order);
   }
 };
 
@@ -69,9 +71,15 @@ class EventQueue {
   /// Inserts an event with the next insertion number; returns that number.
   std::uint64_t schedule(Nanoseconds time, EventKind kind, std::uint32_t subject,
                          std::uint32_t detail = 0) {
+    return schedule_as(class_of(kind), time, kind, subject, detail);
+  }
+
+  /// The same in a class that need not be the one of its kind: a deliberate mistake.
+  std::uint64_t schedule_as(EventClass event_class, Nanoseconds time, EventKind kind,
+                            std::uint32_t subject, std::uint32_t detail) {
     const std::uint64_t insertion = inserted_++;
-    const auto event_class = static_cast<std::uint64_t>(class_of(kind));
-    const Event event{time, event_class << 62 | insertion, subject, detail, kind};
+    const std::uint64_t order = static_cast<std::uint64_t>(event_class) << 62 | insertion;
+    const Event event{time, order, subject, detail, kind};
     const auto lane = static_cast<std::size_t>(kind);
     if (lanes_[lane].empty()) {
       lanes_[lane].push_back(event);

@@ -103,6 +103,7 @@ void HeartbeatSchedule::plan_batches(std::uint32_t w, Nanoseconds stretched) {
 }
 
 void HeartbeatSchedule::send_batch(Cycle& cycle) {
+  if (cycle.next_batch == cycle.batches.size()) return;  // the event was scheduled twice
   for (const std::uint32_t relation : cycle.batches[cycle.next_batch++]) {
     if (sender_.is_unacknowledged(relation)) sender_.send_heartbeat(relation);
   }
@@ -111,7 +112,7 @@ void HeartbeatSchedule::send_batch(Cycle& cycle) {
 void HeartbeatSchedule::handle(const Event& event) {
   const std::uint32_t w = event.subject;
   if (event.kind == EventKind::heartbeat_expiry) {
-    --timers_[w].pending;
+    if (timers_[w].pending > 0) --timers_[w].pending;  // 0: the event was scheduled twice
     step<timer::Expired>(w);
     return;
   }

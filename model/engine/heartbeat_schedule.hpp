@@ -83,7 +83,7 @@ class HeartbeatSchedule {
   const SedpProfile& sedp_;
   const bool adaptive_;
   std::vector<Timer> timers_;
-  TimerDriver driver_{MachineRef::Kind::writer};
+  TimerDriver driver_{run_, MachineRef::Kind::writer};
 };
 
 }  // namespace stormproof::model

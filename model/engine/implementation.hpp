@@ -29,6 +29,9 @@ class Implementation {
   /// The packet has arrived completely, and was not lost. `receiver` means something only if
   /// `receives_separately`.
   virtual void received(const Packet& packet, std::uint32_t receiver) = 0;
+  /// Makes an ACKNACK ask for what is missing now. A correct run never does: the bitmap is a
+  /// snapshot (`Mutation::live_bitmaps`).
+  virtual void renew_bitmap(Packet& acknack) = 0;
   /// The first pair from `pair` on, among those of one source, that a packet with several copies
   /// goes to.
   [[nodiscard]] virtual std::uint32_t next_recipient(const Packet& packet,

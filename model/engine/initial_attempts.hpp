@@ -19,7 +19,7 @@ class InitialAttempts {
  public:
   /// `due` is the event kind of an attempt; its subject is the relation.
   InitialAttempts(RunState& run, MachineRef::Kind relations, EventKind due)
-      : run_{run}, driver_{relations}, due_{due} {}
+      : run_{run}, driver_{run, relations}, due_{due} {}
 
   /// The reader side has opened.
   void open(InitialTimer& timer, std::uint32_t relation) {
@@ -33,6 +33,8 @@ class InitialAttempts {
   }
 
  private:
+  static constexpr std::int64_t longest_delay = std::int64_t{1} << 60;
+
   template <class TimerEvent, class Send>
   void step(InitialTimer& timer, bool heartbeat_seen, std::uint32_t relation, Send&& send) {
     const std::int64_t first = run_.scenario.dds.sedp.initial_acknack_delay.count();
@@ -43,7 +45,8 @@ class InitialAttempts {
                                                            .heartbeat_seen = heartbeat_seen},
                                                           relation);
     if (output.attempt) {
-      ++timer.attempts;
+      // Only events that are scheduled twice get near the end of the clock.
+      if (first << timer.attempts < longest_delay) ++timer.attempts;
       send();
     }
     if (output.schedule) run_.schedule(Nanoseconds{output.next_at}, due_, relation);

@@ -143,8 +143,10 @@ void Network::step(std::uint32_t channel) {
 
 void Network::serve(std::uint32_t channel) {
   ChannelState& c = channels_[channel];
+  if (c.waiting.empty()) return;  // only a mutated table serves nothing
   const WaitingFragments::Choice choice = c.waiting.pop();
   c.serving = choice.request;
+  c.serves = true;
   c.serving_stage = c.stages[choice.position];
   c.serving_since = run_.now;
   const Packet& packet = flights_[choice.request.slot].packet;
@@ -173,6 +175,7 @@ void Network::handle(const Event& event) {
       release(event.subject);
       break;
     case EventKind::reception:
+      renew_bitmap(flights_[event.subject]);
       note_journey(flights_[event.subject]);
       if (run_.probe != nullptr) {
         run_.probe->received(flights_[event.subject].packet, event.detail);
@@ -188,6 +191,8 @@ void Network::handle(const Event& event) {
 
 void Network::service_finished(std::uint32_t channel) {
   ChannelState& c = channels_[channel];
+  if (!c.serves) return;  // only an event that was scheduled twice finds nothing served
+  c.serves = false;
   const auto [time, number, slot, fragment] = c.serving;
   const std::uint32_t stage = c.serving_stage;
   const InFlight& flight = flights_[slot];
@@ -218,7 +223,8 @@ void Network::leave_source(std::uint32_t slot) {
 }
 
 void Network::arrive(std::uint32_t slot) {
-  const InFlight& flight = flights_[slot];
+  InFlight& flight = flights_[slot];
+  renew_bitmap(flight);
   const bool lost = is_lost(flight.packet.number);
   if (run_.probe != nullptr) run_.probe->arrived(flight.packet, lost);
   if (!lost) {
@@ -238,8 +244,7 @@ void Network::arrive(std::uint32_t slot) {
 void Network::schedule_receptions(std::uint32_t slot, Nanoseconds time) {
   InFlight& flight = flights_[slot];
   for (const std::uint32_t receiver : implementation_->receivers(flight.packet)) {
-    ++flight.uses;
-    run_.schedule(time, EventKind::reception, slot, receiver);
+    flight.uses += run_.schedule(time, EventKind::reception, slot, receiver);
   }
 }
 
@@ -247,9 +252,11 @@ void Network::loop_back(Packet&& packet, std::uint32_t receiver) {
   packet.emitted = run_.now;
   if (run_.probe != nullptr) run_.probe->looped_back(packet, receiver);
   const std::uint32_t slot = allocate(std::move(packet), receiver, 1);
-  flights_[slot].admitted = run_.now;
-  run_.schedule(run_.now + run_.scenario.deployment.loopback_delay, EventKind::reception, slot,
-                receiver);
+  InFlight& flight = flights_[slot];
+  flight.admitted = run_.now;
+  flight.uses += run_.schedule(run_.now + run_.scenario.deployment.loopback_delay,
+                               EventKind::reception, slot, receiver);
+  release(slot);
 }
 
 void Network::emit_with_delay(std::uint32_t source, Packet&& packet) {
@@ -257,19 +264,28 @@ void Network::emit_with_delay(std::uint32_t source, Packet&& packet) {
     const bool last_copy = packet.copies == 1;
     const std::uint32_t slot =
         allocate(last_copy ? std::move(packet) : take_copy(packet), source, 1);
-    flights_[slot].admitted = run_.now;
+    InFlight& flight = flights_[slot];
+    flight.admitted = run_.now;
+    const PacketDelay delay = delay_of(flight.packet.number);
     if (implementation_->receives_separately()) {
-      if (!is_lost(flights_[slot].packet.number)) {
-        schedule_receptions(slot, run_.now + wireless_.one_way);
-      }
-      release(slot);
+      if (!is_lost(flight.packet.number)) schedule_receptions(slot, run_.now + delay.one_way);
     } else {
-      flights_[slot].uses = 2;
-      run_.schedule(run_.now, EventKind::source_completion, slot);
-      run_.schedule(run_.now + wireless_.one_way, EventKind::delayed_reception, slot);
+      flight.uses +=
+          run_.schedule(run_.now + delay.leaves_after, EventKind::source_completion, slot);
+      flight.uses += run_.schedule(run_.now + delay.one_way, EventKind::delayed_reception, slot);
     }
+    release(slot);
     if (last_copy) return;
   }
+}
+
+PacketDelay Network::delay_of(std::uint64_t number) const {
+  const auto& delays = wireless_.packet_delays;
+  const auto found = std::lower_bound(
+      delays.begin(), delays.end(), number,
+      [](const PacketDelay& delay, std::uint64_t wanted) { return delay.packet < wanted; });
+  if (found != delays.end() && found->packet == number) return *found;
+  return {number, Nanoseconds{0}, wireless_.one_way};
 }
 
 bool Network::is_lost(std::uint64_t number) const {
@@ -285,7 +301,14 @@ void Network::note_latency(const InFlight& flight) {
   latency.longest = std::max(latency.longest, run_.now - flight.packet.emitted);
 }
 
+/// Of the mistake that an ACKNACK's bitmap is not a snapshot.
+void Network::renew_bitmap(InFlight& flight) {
+  if (run_.mutation == nullptr || !run_.mutation->live_bitmaps) return;
+  if (flight.packet.kind == PacketKind::acknack) implementation_->renew_bitmap(flight.packet);
+}
+
 void Network::note_journey(const InFlight& flight) {
+  if (run_.complete()) return;  // discovery is over; the packet that completed it is known
   last_arrival_ = LastDelivery{
       {}, !flight.packet.carries_initial, flight.packet.emitted, flight.admitted, run_.now};
 }
@@ -305,7 +328,7 @@ Depths Network::depths() const {
 void Network::report(RunResult& result) const {
   for (const ChannelState& c : channels_) {
     ChannelUse use{c.name, c.busy};
-    if (c.state == fsm::Reflect<fsm::Channel>::id<fsm::channel::Busy>) {
+    if (c.serves) {
       const Packet& packet = flights_[c.serving.slot].packet;
       use.busy[static_cast<std::size_t>(traffic_class(packet))] +=
           result.end_time - c.serving_since;

@@ -62,7 +62,8 @@ class Network {
     WaitingFragments waiting;
     std::vector<std::uint32_t> stages;  // by position
     std::uint32_t serving_stage = 0;
-    ServiceRequest serving{};
+    bool serves = false;
+    ServiceRequest serving{};  // if it serves
     Nanoseconds serving_since;
     std::array<Nanoseconds, traffic_class_count> busy{};
   };
@@ -84,6 +85,9 @@ class Network {
   void arrive(std::uint32_t slot);
   void schedule_receptions(std::uint32_t slot, Nanoseconds time);
   void emit_with_delay(std::uint32_t source, Packet&& packet);
+  void renew_bitmap(InFlight& flight);
+  /// How long the packet with this number takes, with a constant delay.
+  [[nodiscard]] PacketDelay delay_of(std::uint64_t number) const;
   [[nodiscard]] bool is_lost(std::uint64_t number) const;
   void note_latency(const InFlight& flight);
   void note_journey(const InFlight& flight);
@@ -92,7 +96,7 @@ class Network {
   Implementation* implementation_ = nullptr;
   const WirelessProfile& wireless_;
   Fragmentation fragmentation_;
-  Driver<fsm::Channel> channel_driver_{MachineRef::Kind::channel};
+  Driver<fsm::Channel> channel_driver_{run_, MachineRef::Kind::channel};
   std::vector<StageState> stages_;
   std::vector<ChannelState> channels_;
   std::vector<SourceQueue> sources_;

@@ -9,10 +9,12 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "fsm/flyweight.hpp"
 #include "model/engine/descriptor_set.hpp"
+#include "model/engine/mutated_table.hpp"
 #include "model/engine/run_state.hpp"
 
 namespace stormproof::model {
@@ -23,7 +25,7 @@ class RelationBits {
   using Input = typename fsm::Flyweight<Machine>::Input;
   using Output = typename fsm::Flyweight<Machine>::Output;
 
-  explicit RelationBits(RunState& run) : run_{run} {
+  explicit RelationBits(RunState& run) : run_{run}, mutated_{mutated_table<Machine>(run.mutation)} {
     static_assert(fsm::Flyweight<Machine>::initial == 0,
                   "zeroed planes must mean the initial state");
     std::uint32_t next = 0;
@@ -157,7 +159,18 @@ class RelationBits {
     return words_[first_word_[relation] + k];
   }
 
+  /// One step of one machine.
+  template <class Event>
+  fsm::StateId next_state(fsm::StateId before, const Input& input, Output& output) {
+    if (mutated_ != nullptr) [[unlikely]] {
+      return mutated_->step(before, fsm::Reflect<Machine>::template event_id<Event>, input, output)
+          .state;
+    }
+    return machine_.template step<Event>(before, input, output);
+  }
+
   fsm::Flyweight<Machine> machine_;
+  std::unique_ptr<const fsm::TableInterpreter<Machine>> mutated_;  // in place of MSM, if any
   std::vector<Word> words_;
   std::vector<std::uint32_t> first_word_;  // by relation
 };
@@ -177,7 +190,7 @@ void RelationBits<Machine>::step(std::uint32_t relation, std::uint32_t k, std::u
     if (classes[s] == 0) continue;
     Output output{};
     const auto before = static_cast<fsm::StateId>(s);
-    const fsm::StateId after = machine_.template step<Event>(before, input, output);
+    const fsm::StateId after = next_state<Event>(before, input, output);
     for (std::size_t b = 0; b < state_bits; ++b) {
       if ((after >> b & 1) != 0)
         planes.state[b] |= classes[s];

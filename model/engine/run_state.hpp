@@ -6,6 +6,7 @@
 #include "model/counts.hpp"
 #include "model/engine/event_queue.hpp"
 #include "model/engine/topology.hpp"
+#include "model/mutation.hpp"
 #include "model/probe.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
@@ -13,25 +14,36 @@
 namespace stormproof::model {
 
 struct RunState {
-  RunState(const Scenario& scenario_, Probe* probe_)
+  RunState(const Scenario& scenario_, Probe* probe_, const Mutation* mutation_ = nullptr)
       : scenario{scenario_},
         topology{scenario_.deployment, scenario_.dds.descriptors,
                  scenario_.dds.implementation == ImplementationKind::fastdds
                      ? SameHostPairs::included
                      : SameHostPairs::left_out},
         probe{probe_},
+        mutation{mutation_},
+        ends_when_complete{scenario_.run_until == RunUntil::completion},
         missing{topology.required_deliveries()} {}
 
-  void schedule(Nanoseconds time, EventKind kind, std::uint32_t subject, std::uint32_t detail = 0) {
+  /// Schedules an event. Returns how many were scheduled: one, unless the run has a mistake in it.
+  std::uint32_t schedule(Nanoseconds time, EventKind kind, std::uint32_t subject,
+                         std::uint32_t detail = 0) {
+    if (mutation != nullptr) [[unlikely]]
+      return schedule_mutated(time, kind, subject, detail);
     const std::uint64_t insertion = queue.schedule(time, kind, subject, detail);
     if (probe != nullptr) probe->scheduled(insertion, time, kind, subject);
+    return 1;
   }
 
   [[nodiscard]] bool complete() const { return missing == 0; }
+  /// Whether the run ends at once, in the middle of a packet.
+  [[nodiscard]] bool ends_now() const { return complete() && ends_when_complete; }
 
   const Scenario& scenario;
   const Topology topology;
   Probe* const probe;
+  const Mutation* const mutation;  ///< a deliberate mistake, or none
+  const bool ends_when_complete;
   EventQueue queue;
   Nanoseconds now;
   Counts counts;
@@ -40,7 +52,11 @@ struct RunState {
   std::uint64_t useful_deliveries = 0;
   std::uint64_t duplicate_deliveries = 0;
   MissingDescriptor
-      last_delivered{};  ///< of a complete run: a descriptor of the packet that ended it
+      last_delivered{};  ///< of a complete run: a descriptor of the packet that completed it
+
+ private:
+  std::uint32_t schedule_mutated(Nanoseconds time, EventKind kind, std::uint32_t subject,
+                                 std::uint32_t detail);
 };
 
 }  // namespace stormproof::model

@@ -71,9 +71,9 @@ class ControlTraffic {
   InitialAttempts initial_attempts_;
   std::vector<std::uint32_t> first_relation_;  // by pair
   std::vector<Relation> relations_;
-  Driver<fsm::ControlWriter> writer_driver_{MachineRef::Kind::control_relation};
-  Driver<fsm::ControlReader> reader_driver_{MachineRef::Kind::control_relation};
-  Driver<fsm::SingleShot> reply_driver_{MachineRef::Kind::control_relation};
+  Driver<fsm::ControlWriter> writer_driver_{run_, MachineRef::Kind::control_relation};
+  Driver<fsm::ControlReader> reader_driver_{run_, MachineRef::Kind::control_relation};
+  Driver<fsm::SingleShot> reply_driver_{run_, MachineRef::Kind::control_relation};
 };
 
 }  // namespace stormproof::model::fastdds

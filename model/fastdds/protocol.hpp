@@ -37,6 +37,7 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   [[nodiscard]] bool receives_separately() const override { return true; }
   [[nodiscard]] std::vector<std::uint32_t> receivers(const Packet& packet) const override;
   void received(const Packet& packet, std::uint32_t receiver) override;
+  void renew_bitmap(Packet& acknack) override;
   [[nodiscard]] std::uint32_t next_recipient(const Packet&, std::uint32_t pair) const override {
     return pair;  // every packet stands for itself
   }
@@ -112,6 +113,7 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   void acknack_generation(std::uint32_t relation);
   void initial_acknack_due(std::uint32_t relation);
   void emit_acknack(std::uint32_t relation, bool initial);
+  void ask(Packet& acknack);
   void take(std::uint32_t relation, const DescriptorSet& descriptors, std::uint32_t fresh);
 
   // Discovered, for the control traffic
@@ -159,10 +161,10 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   Message async_message_;
   std::vector<std::uint32_t> targets_;
 
-  Driver<fsm::DiscoveryReader> reader_driver_{MachineRef::Kind::relation};
-  SingleShots participant_shots_{MachineRef::Kind::participant};
-  SingleShots writer_shots_{MachineRef::Kind::writer};
-  SingleShots relation_shots_{MachineRef::Kind::relation};
+  Driver<fsm::DiscoveryReader> reader_driver_{run_, MachineRef::Kind::relation};
+  SingleShots participant_shots_{run_, MachineRef::Kind::participant};
+  SingleShots writer_shots_{run_, MachineRef::Kind::writer};
+  SingleShots relation_shots_{run_, MachineRef::Kind::relation};
 };
 
 }  // namespace stormproof::model::fastdds

@@ -19,7 +19,7 @@ void Protocol::data_received(const Packet& packet) {
     if (output.take_data) run_.useful_deliveries += fresh;
   }
   if (output.take_data) take(relation, packet.descriptors, fresh);
-  if (run_.complete()) return;  // T_disc is now; the rest of the packet is not processed
+  if (run_.ends_now()) return;  // T_disc is now; the rest of the packet is not processed
   if (packet.carries_heartbeat) heartbeat_received(relation, packet.detail);
 }
 
@@ -35,7 +35,7 @@ void Protocol::take(std::uint32_t relation, const DescriptorSet& descriptors, st
   r.announced = std::max(r.announced, descriptors.highest() + 1);
   if (!crosses(relation)) return;
   run_.missing -= fresh;
-  if (run_.complete()) return;
+  if (run_.ends_now()) return;
   const std::uint32_t count = run_.topology.descriptor_count(relation);
   while (r.notified < count && changes_.has_received(relation, r.notified)) {
     const std::uint32_t d = r.notified++;
@@ -82,14 +82,23 @@ void Protocol::emit_acknack(std::uint32_t relation, bool initial) {
   packet.initial_acknack = initial;
   packet.payload_bytes = static_cast<std::uint32_t>(acknack_bytes);
   if (!initial) {
-    packet.detail =
-        std::min(changes_.missing(relation).lowest(), run_.topology.descriptor_count(relation));
-    packet.descriptors = changes_.missing(relation, relations_[relation].announced);
+    ask(packet);
     if (!packet.descriptors.empty()) {
       packet.payload_bytes += static_cast<std::uint32_t>(acknack_bitmap_bytes);
     }
   }
   send(std::move(packet));
+}
+
+void Protocol::ask(Packet& acknack) {
+  const std::uint32_t relation = acknack.relation();
+  acknack.detail =
+      std::min(changes_.missing(relation).lowest(), run_.topology.descriptor_count(relation));
+  acknack.descriptors = changes_.missing(relation, relations_[relation].announced);
+}
+
+void Protocol::renew_bitmap(Packet& acknack) {
+  if (!acknack.initial_acknack) ask(acknack);
 }
 
 }  // namespace stormproof::model::fastdds

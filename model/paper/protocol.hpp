@@ -36,6 +36,7 @@ class Protocol final : public Implementation, private HeartbeatSender {
   [[nodiscard]] bool receives_separately() const override { return false; }
   [[nodiscard]] std::vector<std::uint32_t> receivers(const Packet&) const override { return {}; }
   void received(const Packet& packet, std::uint32_t receiver) override;
+  void renew_bitmap(Packet& acknack) override;
   [[nodiscard]] std::uint32_t next_recipient(const Packet& packet,
                                              std::uint32_t pair) const override;
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
@@ -127,7 +128,7 @@ class Protocol final : public Implementation, private HeartbeatSender {
   std::vector<std::uint32_t> known_rank_;  // by pair (i, j): when i recognised j
   const DescriptorSizes sizes_;
 
-  Driver<fsm::DiscoveryReader> reader_driver_{MachineRef::Kind::relation};
+  Driver<fsm::DiscoveryReader> reader_driver_{run_, MachineRef::Kind::relation};
 };
 
 }  // namespace stormproof::model::paper

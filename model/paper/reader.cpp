@@ -26,7 +26,7 @@ void Protocol::data_received(const Packet& packet) {
     run_.useful_deliveries += fresh;
   }
   run_.duplicate_deliveries += packet.descriptors.count() - fresh;
-  if (run_.complete()) return;  // T_disc is now; the rest of the packet is not processed
+  if (run_.ends_now()) return;  // T_disc is now; the rest of the packet is not processed
   if (packet.carries_heartbeat) heartbeat_received(relation);
 }
 
@@ -72,6 +72,10 @@ void Protocol::emit_acknack(std::uint32_t relation, bool initial) {
     packet.payload_bytes += 4 * ((run_.topology.descriptor_count(relation) + 31) / 32);
   }
   network_.emit(ends(relation).destination, std::move(packet));
+}
+
+void Protocol::renew_bitmap(Packet& acknack) {
+  acknack.descriptors = descriptors_.missing(acknack.relation());
 }
 
 }  // namespace stormproof::model::paper

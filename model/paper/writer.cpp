@@ -1,5 +1,7 @@
 // The writer side of a relation: what an ACKNACK changes, when repair DATA is made, and how
 // suppression ends.
+#include <algorithm>
+
 #include "model/paper/protocol.hpp"
 
 namespace stormproof::model::paper {
@@ -14,8 +16,10 @@ void Protocol::acknack_received(const Packet& packet) {
   }
   const auto effect =
       descriptors_.acknack(relation, packet.descriptors, sedp_.acknowledge == Acknowledge::prefix);
-  r.unacknowledged -= effect.acknowledged;
-  if (effect.acknowledged > 0 && r.unacknowledged == 0) {
+  // A mutated table may acknowledge a descriptor twice.
+  const std::uint32_t acknowledged = std::min(effect.acknowledged, r.unacknowledged);
+  r.unacknowledged -= acknowledged;
+  if (acknowledged > 0 && r.unacknowledged == 0) {
     Writer& writer = writers_[writer_of(relation)];
     --writer.unacknowledged;
     const std::uint32_t peer = relation / 2 - run_.topology.first_pair(ends(relation).source);

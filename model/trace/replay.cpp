@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/config/scenario_file.hpp"
+#include "model/trace/probe_list.hpp"
 #include "model/trace/trace_comparison.hpp"
 #include "model/trace/trace_writer.hpp"
 
@@ -57,7 +58,67 @@ Result<Scenario> read_scenario(const Json& header, const std::string& line, cons
   return config::parse_scenario(indent + text, file, {}, specs);
 }
 
+/// The violation that a counterexample announces in its header; nothing in any other trace.
+Result<std::optional<TraceViolation>> read_expected(const Json& header, const std::string& file) {
+  if (!header.contains("expect")) return std::optional<TraceViolation>{};
+  const Json& expect = header["expect"];
+  const auto wrong = [&](const std::string& key, const Json& value, const char* type) {
+    return InputError{file + ":1", "'" + key + "' is " + value.dump() + "; expected " + type};
+  };
+  if (!expect.is_object()) return wrong("expect", expect, "an object with the violation");
+  const auto at = [&](const char* key) { return expect.value(key, Json{}); };
+  for (const char* key : {"property", "reason"}) {
+    if (!at(key).is_string()) return wrong(std::string{"expect."} + key, at(key), "a text");
+  }
+  for (const char* key : {"event", "t"}) {
+    const Json value = at(key);
+    const bool natural = value.is_number_unsigned() && value.get<std::uint64_t>() <= INT64_MAX;
+    if (!natural) return wrong(std::string{"expect."} + key, value, "a natural number");
+  }
+  return std::optional{
+      TraceViolation{at("property").get<std::string>(), at("event").get<std::uint64_t>(),
+                     Nanoseconds{at("t").get<std::int64_t>()}, at("reason").get<std::string>()}};
+}
+
+Result<Replay> run_again(const Scenario& scenario, TraceComparison& comparison,
+                         ViolationWatch* watch,
+                         const std::function<bool(const Progress&)>& on_progress) {
+  TraceWriter writer{[&](std::string_view line) { comparison.take(line); }, scenario};
+  ProbeList probes;
+  probes.add(writer);
+  if (watch != nullptr) probes.add(watch->probe());
+  const auto enough = [&] {
+    return comparison.decided() || (comparison.awaits_violation() && watch->violation());
+  };
+  RunOptions options;
+  options.probe = &probes;
+  options.on_progress = [&](const Progress& state) {
+    return !enough() && (!on_progress || on_progress(state));
+  };
+  const RunResult result = simulate(scenario, options);
+  const bool stopped = result.end == RunEnd::interrupted;
+  if (!stopped) writer.finish(result);
+  if (watch != nullptr && (!stopped || enough())) {
+    if (!stopped) watch->finish(known_until(result, scenario));
+    comparison.conclude(watch->violation());
+  }
+  if (stopped) comparison.stop();  // changes nothing that is decided
+  return comparison.result(result);
+}
+
 }  // namespace
+
+Json to_json(const TraceViolation& violation) {
+  return {{"property", violation.property},
+          {"event", violation.event},
+          {"t", violation.time.count()},
+          {"reason", violation.reason}};
+}
+
+Nanoseconds known_until(const RunResult& result, const Scenario& scenario) {
+  const bool cut = result.end == RunEnd::completed || result.end == RunEnd::interrupted;
+  return cut ? result.end_time : scenario.time_limit;
+}
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {
@@ -69,12 +130,17 @@ const char* name_of(Verdict verdict) {
       return "ends_early";
     case Verdict::stopped:
       return "stopped";
+    case Verdict::violated:
+      return "violated";
+    case Verdict::not_violated:
+      return "not_violated";
   }
   return "";
 }
 
 Result<Replay> replay(const std::string& file, const config::SpecPath& specs,
-                      const std::function<bool(const Progress&)>& on_progress) {
+                      const std::function<bool(const Progress&)>& on_progress,
+                      const WatchMaker& watch_for) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     return InputError{file, "is a folder; expected a file"};
@@ -84,20 +150,19 @@ Result<Replay> replay(const std::string& file, const config::SpecPath& specs,
   if (!header) return header.error();
   const auto scenario = read_scenario(*header, reader.text(), file, specs);
   if (!scenario) return scenario.error();
-
-  TraceComparison comparison{reader, file, *header};
-  TraceWriter writer{[&](std::string_view line) { comparison.take(line); }, *scenario};
-  RunOptions options;
-  options.probe = &writer;
-  options.on_progress = [&](const Progress& state) {
-    return !comparison.decided() && (!on_progress || on_progress(state));
-  };
-  const RunResult result = simulate(*scenario, options);
-  if (result.end == RunEnd::interrupted)
-    comparison.stop();
-  else
-    writer.finish(result);
-  return comparison.result(result);
+  const auto expected = read_expected(*header, file);
+  if (!expected) return expected.error();
+  std::unique_ptr<ViolationWatch> watch;
+  if (*expected) {
+    const std::string& property = (*expected)->property;
+    if (watch_for) watch = watch_for(property, *scenario);
+    if (!watch) {
+      return InputError{file + ":1", "'expect.property' is '" + property +
+                                         "'; expected a property that a replay can observe"};
+    }
+  }
+  TraceComparison comparison{reader, file, *header, *expected};
+  return run_again(*scenario, comparison, watch.get(), on_progress);
 }
 
 }  // namespace stormproof::model::trace

@@ -29,16 +29,18 @@ Nanoseconds time_of(std::string_view line) {
 
 }  // namespace
 
-TraceComparison::TraceComparison(LineReader& reader, std::string file, Json header)
+TraceComparison::TraceComparison(LineReader& reader, std::string file, Json header,
+                                 std::optional<TraceViolation> expected)
     : reader_{reader},
       file_{std::move(file)},
       header_(std::move(header)) {  // braces would make an array of it
+  replay_.expected = std::move(expected);
   const Json program = header_.value("program", Json{});
   if (program.is_string()) replay_.recorded_by = program.get<std::string>();
 }
 
 void TraceComparison::take(std::string_view line) {
-  if (decided_) return;
+  if (decided_ || awaits_violation()) return;
   line.remove_suffix(1);  // the line feed
   if (replay_.lines == 0) {
     take_header(line);
@@ -114,6 +116,39 @@ void TraceComparison::agree(std::string_view line) {
 }
 
 void TraceComparison::stop() { decide(Verdict::stopped); }
+
+void TraceComparison::conclude(std::optional<TraceViolation> violation) {
+  replay_.violation = std::move(violation);
+  if (!awaits_violation()) return;
+  const TraceViolation& expected = *replay_.expected;
+  const auto& found = replay_.violation;
+  if (!found || found->event != expected.event || found->time != expected.time) {
+    decide(Verdict::not_violated);
+    return;
+  }
+  if (reader_.next() == LineReader::Status::end) {
+    decide(Verdict::ends_early);
+    return;
+  }
+  const auto recorded = parse_line(reader_.text());
+  if (!recorded || !recorded->is_object()) {
+    fail("not a JSON object; expected the violation");
+    return;
+  }
+  // The reason is for people; another version of the program may word it otherwise.
+  Json replayed{{"violation", to_json(*found)}};
+  const Json said = recorded->value("violation", Json{});
+  if (said.is_object() && said.contains("reason") && said["reason"].is_string()) {
+    replayed["violation"]["reason"] = said["reason"];
+  }
+  if (auto mismatch = first_difference(*recorded, replayed)) {
+    differ(std::move(*mismatch), replayed.dump());
+    return;
+  }
+  ++replay_.lines;
+  expect_end_of_file();
+  decide(Verdict::violated);
+}
 
 void TraceComparison::expect_end_of_file() {
   if (reader_.next() != LineReader::Status::end) {

@@ -12,8 +12,10 @@ namespace stormproof::model::trace {
 
 class TraceComparison {
  public:
-  /// `reader` has just read the header of the trace `file`.
-  TraceComparison(LineReader& reader, std::string file, Json header);
+  /// `reader` has just read the header of the trace `file`, which is a counterexample if something
+  /// is `expected`.
+  TraceComparison(LineReader& reader, std::string file, Json header,
+                  std::optional<TraceViolation> expected = {});
 
   /// Takes the next line of the replay, the header first.
   void take(std::string_view line);
@@ -22,6 +24,13 @@ class TraceComparison {
 
   /// Whether the lines taken so far decide; more of them change nothing.
   [[nodiscard]] bool decided() const { return decided_; }
+  /// Whether every event of a counterexample has happened again; `conclude` decides.
+  [[nodiscard]] bool awaits_violation() const {
+    return !decided_ && replay_.expected && replay_.events > replay_.expected->event;
+  }
+  /// The replay of a counterexample is over, and this is what its monitor objected to.
+  void conclude(std::optional<TraceViolation> violation);
+
   [[nodiscard]] config::Result<Replay> result(const RunResult& run) const;
 
  private:

@@ -156,7 +156,7 @@ void TraceWriter::received(const Packet& packet, std::uint32_t receiver) {
 void TraceWriter::event_finished(const Depths& depths) {
   line_.clear();
   append(line_, R"({"n":)", next_number_, R"(,"t":)", event_.time.count(), R"(,"class":")",
-         name_of(class_of(event_.kind)), R"(","insertion":)", event_.insertion(), R"(,"event":")",
+         name_of(event_.event_class()), R"(","insertion":)", event_.insertion(), R"(,"event":")",
          name_of(event_.kind), "\"");
   append_event_subject();
   append_cause();

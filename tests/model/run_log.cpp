@@ -93,11 +93,12 @@ std::vector<Scheduled> RunLog::scheduled_of(EventKind kind, std::uint32_t subjec
   return found;
 }
 
-RunLog run_and_log(const Scenario& scenario) {
+RunLog run_and_log(const Scenario& scenario, const Mutation* mutation) {
   RunLog log;
   Recorder recorder{log};
   RunOptions options;
   options.probe = &recorder;
+  options.mutation = mutation;
   log.result = simulate(scenario, options);
   return log;
 }

@@ -74,7 +74,8 @@ struct RunLog {
   [[nodiscard]] std::vector<Scheduled> scheduled_of(EventKind kind, std::uint32_t subject) const;
 };
 
-[[nodiscard]] RunLog run_and_log(const Scenario& scenario);
+/// Runs the scenario, with a deliberate mistake in the rules if there is one.
+[[nodiscard]] RunLog run_and_log(const Scenario& scenario, const Mutation* mutation = nullptr);
 
 /// Participants of one default-free deployment: so many publications and no subscriptions on the
 /// given hosts.

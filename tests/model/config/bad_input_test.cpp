@@ -150,8 +150,11 @@ INSTANTIATE_TEST_SUITE_P(
                  "tag '!special' is not known"},
         BadInput{"unknown_key", good + "timelimit: 5s\n", 52, 1,
                  "unknown key 'timelimit'; did you mean 'time_limit'?"},
-        BadInput{"far_key", good + "x: 5s\n", 52, 1,
-                 "unknown key 'x'; expected one of deployment, dds, wireless, time_limit"},
+        BadInput{
+            "far_key", good + "x: 5s\n", 52, 1,
+            "unknown key 'x'; expected one of deployment, dds, wireless, time_limit, run_until"},
+        BadInput{"run_until", with("time_limit: 200s", "time_limit: 200s\nrun_until: forever"), 52,
+                 12, "run_until: 'forever' is not known; expected one of completion, time_limit"},
         BadInput{"description", "description: [1]\n" + good, 1, 14,
                  "description: a list; expected text"},
         BadInput{"no_deployment", "dds: paper\nwireless: wired\ntime_limit: 1s\n", 1, 1,
@@ -387,7 +390,44 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"lost_negative", with("order:", "lost_packets: [1, -1]\n  order:"), 46, 21,
                  "'-1' is negative"},
         BadInput{"lost_scalar", with("order:", "lost_packets: 4\n  order:"), 46, 17,
-                 "'4' is not a list"}),
+                 "'4' is not a list"},
+        BadInput{"packet_delays_with_a_channel",
+                 with("order:", "packet_delays: [{packet: 0, one_way: 1ms}]\n  order:"), 46, 18,
+                 "wireless.packet_delays: a list; expected no such list, or kind: constant_delay"}),
+    name_of_case);
+
+/// The good profile of Fast DDS with these packet delays, which stand in line 7.
+std::string delays(const std::string& list) {
+  std::string text = fastdds("", "", "");
+  const std::string key = "one_way: 0";
+  return text.replace(text.find(key), key.size(), key + ",\npacket_delays: " + list);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    PacketDelays, BadInputs,
+    testing::Values(
+        BadInput{"delays_scalar", delays("4"), 7, 16,
+                 "wireless.packet_delays: '4' is not a list; expected a list of 0 to 1000000 maps"},
+        BadInput{"delay_of_nothing", delays("[{one_way: 1ms}]"), 7, 17,
+                 "missing key 'packet' in wireless.packet_delays.0"},
+        BadInput{"delay_without_one_way", delays("[{packet: 1}]"), 7, 17,
+                 "missing key 'one_way' in wireless.packet_delays.0"},
+        BadInput{"delay_negative", delays("[{packet: 1, one_way: -1ms}]"), 7, 38,
+                 "wireless.packet_delays.0.one_way: '-1ms' is negative"},
+        BadInput{"delay_leaves_before", delays("[{packet: 1, leaves_after: -1ns, one_way: 1ms}]"),
+                 7, 43, "wireless.packet_delays.0.leaves_after: '-1ns' is negative"},
+        BadInput{"delay_leaves_too_late",
+                 delays("[{packet: 1, leaves_after: 1001us, one_way: 1ms}]"), 7, 43,
+                 "wireless.packet_delays.0.leaves_after: '1001us'; expected at most the one_way of "
+                 "the same packet"},
+        BadInput{"delay_given_twice",
+                 delays("[{packet: 7, one_way: 1ms}, {packet: 2, one_way: 1ms},\n"
+                        "{packet: 7, one_way: 1ms}]"),
+                 8, 10,
+                 "wireless.packet_delays.2.packet: packet '7' is given twice; expected one entry "
+                 "for each packet"},
+        BadInput{"delay_unknown_key", delays("[{packet: 1, oneway: 1ms}]"), 7, 29,
+                 "unknown key 'oneway' in wireless.packet_delays.0; did you mean 'one_way'?"}),
     name_of_case);
 
 TEST(BadInput, the_good_scenario_is_good) {

@@ -88,6 +88,31 @@ RC_GTEST_PROP(Effective, drawn_times_survive_with_their_schedule, (std::uint64_t
   RC_ASSERT((from_yaml && *from_yaml == scenario));
 }
 
+TEST(Effective, packet_delays_and_the_end_of_the_run_survive) {
+  Scenario scenario;
+  scenario.deployment = Deployment::homogeneous(2, 1, 2);
+  scenario.wireless.kind = ServiceKind::constant_delay;
+  scenario.wireless.packet_delays = {{0, Nanoseconds{0}, Nanoseconds{0}},
+                                     {3, Nanoseconds{17}, Nanoseconds{17}},
+                                     {1'000'000'000'000'000, Nanoseconds{1}, Nanoseconds{1'500}}};
+  scenario.run_until = RunUntil::time_limit;
+  expect_round_trip(scenario);
+  const auto json = effective_json(scenario);
+  EXPECT_EQ(json["wireless"]["packet_delays"][1].dump(),
+            R"({"packet":3,"leaves_after":"17ns","one_way":"17ns"})");
+  EXPECT_EQ(json["run_until"], "time_limit");
+}
+
+TEST(Effective, no_packet_delays_and_the_usual_end_are_left_out) {
+  Scenario scenario;
+  scenario.deployment = Deployment::homogeneous(2, 1, 2);
+  scenario.wireless.kind = ServiceKind::constant_delay;
+  const auto json = effective_json(scenario);
+  EXPECT_FALSE(json["wireless"].contains("packet_delays"));
+  EXPECT_FALSE(json.contains("run_until"));
+  expect_round_trip(scenario);
+}
+
 TEST(Effective, every_dds_profile_survives) {
   const SpecPath specs = source_specs();
   for (const std::string& name : specs.names(SpecKind::dds)) {

@@ -28,7 +28,8 @@ TEST(KnobList, every_knob_is_there_once_with_its_documentation) {
         "deployment.participants.*.endpoints_done", "deployment.loopback_delay",
         "deployment.schedule.start", "deployment.schedule.seed", "dds.implementation",
         "dds.sedp.heartbeat_period", "dds.sedp.adaptive.epsilon", "dds.descriptors.default_bytes",
-        "wireless.source_queue_bytes", "wireless.stages.*.rate_multicast"}) {
+        "wireless.source_queue_bytes", "wireless.stages.*.rate_multicast", "run_until",
+        "wireless.packet_delays.*.leaves_after"}) {
     EXPECT_TRUE(keys.contains(key)) << key;
   }
 }
@@ -75,6 +76,7 @@ TEST(KnobList, the_keys_of_the_paper_are_refused_with_fast_dds) {
 TEST(KnobList, defaults_ranges_and_choices_can_be_set) {
   for (const KnobInfo& knob : scenario_knob_list()) {
     if (knob.key.starts_with("deployment.") || knob.key == "dds.implementation") continue;
+    if (knob.key.starts_with("wireless.packet_delays.")) continue;  // no list to reach into
     std::string key = knob.key;
     if (const auto star = key.find('*'); star != std::string::npos) key.replace(star, 1, "0");
     std::vector<std::string> values = knob.type.choices;

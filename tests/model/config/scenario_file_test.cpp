@@ -262,5 +262,26 @@ TEST(ScenarioFile, profiles_are_found_beside_the_scenario) {
   EXPECT_EQ(read->wireless.order, ServiceOrder::fifo);
 }
 
+TEST(ScenarioFile, packet_delays_are_sorted_by_packet) {
+  const std::string text =
+      "deployment: {hosts: 2, participants_per_host: 1, endpoints_per_participant: 2}\n"
+      "dds: paper\n"
+      "wireless: {kind: constant_delay, one_way: 1ms, packet_delays: [{packet: 5, one_way: 2ms}, "
+      "{packet: 0, leaves_after: 3us, one_way: 1s}]}\n"
+      "time_limit: 5s\n"
+      "run_until: time_limit\n";
+  const auto read = parse_scenario(text, "f", {}, source_specs());
+  ASSERT_TRUE(read) << to_string(read.error());
+  const std::vector<PacketDelay> expected{{0, Nanoseconds{3'000}, Nanoseconds{1'000'000'000}},
+                                          {5, Nanoseconds{0}, Nanoseconds{2'000'000}}};
+  EXPECT_EQ(read->wireless.packet_delays, expected);
+  EXPECT_EQ(read->run_until, RunUntil::time_limit);
+  const std::vector<std::string> changes{"wireless.packet_delays=[]", "run_until=completion"};
+  const auto changed = parse_scenario(text, "f", changes, source_specs());
+  ASSERT_TRUE(changed) << to_string(changed.error());
+  EXPECT_TRUE(changed->wireless.packet_delays.empty());
+  EXPECT_EQ(changed->run_until, RunUntil::completion);
+}
+
 }  // namespace
 }  // namespace stormproof::model::config

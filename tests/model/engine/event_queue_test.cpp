@@ -128,6 +128,21 @@ TEST(EventQueue, SameTimeIsOrderedByClassThenInsertion) {
   EXPECT_EQ(subjects, (std::vector<std::uint32_t>{3, 4, 1, 2, 5, 0}));
 }
 
+TEST(EventQueue, AnEventMayHaveAnotherClassThanItsKind) {
+  static_assert(class_of(EventKind::reception) == EventClass::service);
+  EventQueue queue;
+  queue.schedule(Nanoseconds{5}, EventKind::dispatch, 1);
+  queue.schedule_as(EventClass::dispatch, Nanoseconds{5}, EventKind::reception, 2, 7);
+  queue.schedule(Nanoseconds{5}, EventKind::reception, 3);  // overtakes the other of its kind
+  queue.schedule_as(EventClass::service, Nanoseconds{5}, EventKind::dispatch, 4, 0);
+  std::string order;
+  while (!queue.empty()) {
+    const Event event = queue.pop();
+    order += std::to_string(event.subject) + name_of(event.event_class()) + " ";
+  }
+  EXPECT_EQ(order, "3service 4service 1dispatch 2dispatch ");
+}
+
 TEST(EventQueue, EveryKindHasANameAndAClass) {
   std::set<std::string> names;
   for (std::uint32_t k = 0; k < kind_count; ++k) {
