@@ -1,0 +1,169 @@
+// The property catalogue. Symbols as in specs/model.md: D a descriptor of a relation (i, j, s), X
+// its bit at the reader j, C its state at the writer i, W the size of a source queue, Δ a bound on
+// the delay of a packet from its emission to its reception.
+#include <array>
+
+#include "props/property.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+using enum Engine;
+
+const std::array entries{
+    Property{"fsm.determinism",
+             "In no state do two rows of a machine fire on one event.",
+             "∀ machine, state q, event e, input x: at most one row (q, e, g) has g(x)",
+             "",
+             "",
+             {tables},
+             "transition tables in fsm/"},
+    Property{"fsm.totality",
+             "Every pair of state and event is handled or listed as legally ignored.",
+             "∀ machine, q, e: (∃ row (q, e, g): g ≡ true over the rows) ∨ (q, e) listed",
+             "",
+             "inputs range freely",
+             {tables},
+             "specs/ignored-pairs.yaml"},
+    Property{"fsm.reachability",
+             "Every state and every row can be reached; a row that cannot is dead.",
+             "∀ q: initial →* q over rows with satisfiable guards; ∀ row: g satisfiable",
+             "",
+             "inputs range freely",
+             {tables},
+             "transition tables in fsm/"},
+    Property{"order.total",
+             "(time, class, insertion) is a strict total order on events.",
+             "irreflexive, asymmetric, transitive, and total for distinct insertion numbers",
+             "",
+             "",
+             {tables},
+             "model.md, events and their order"},
+    Property{"order.reception-first",
+             "No protocol decision at time t misses a reception that completes at t; the channel "
+             "starts last.",
+             "∀ events a, b at t: reception(a) ∧ decision(b) ⇒ a before b; dispatch after both",
+             "",
+             "a service or delay takes at least 1 ns",
+             {tables, exact_run},
+             "model.md, events and their order"},
+    Property{"order.commutation",
+             "Same-time events of one relation commute, except for the listed pairs, which the tie "
+             "rule decides.",
+             "∀ kinds a, b, states σ: a(b(σ)) = b(a(σ)) with equal outputs, or (a, b) listed",
+             "The kinds are those of Fast DDS's writer: creation, nack response, serialization.",
+             "one relation",
+             {tables},
+             "specs/expected/commutation.yaml"},
+    Property{"safety.ack-implies-received",
+             "A descriptor that the writer takes as acknowledged has been received.",
+             "□ (C = A ⇒ X = 1)",
+             "",
+             "",
+             {tables, explorer, exact_run},
+             "model.md, reception of an ACKNACK"},
+    Property{
+        "safety.repair-only-if-asked",
+        "Repair DATA carries only descriptors that some ACKNACK listed as missing.",
+        "□ (repair DATA carries D ⇒ an ACKNACK with D reached the writer since D was last sent)",
+        "Also for what was announced but never pushed: it is sent when an ACKNACK asks for it.",
+        "",
+        {tables, explorer, exact_run},
+        "model.md, repair"},
+    Property{"safety.snapshot",
+             "The bitmap of an ACKNACK never changes after its generation.",
+             "□ (bitmap at reception = bitmap at generation = {D : X = 0 at generation})",
+             "The bitmap lists what was announced and is missing; base and bitmap are both fixed.",
+             "",
+             {tables, explorer, exact_run},
+             "model.md, ACKNACK generation"},
+    Property{"safety.conservation",
+             "Admitted bytes equal the demand in the queue and exceed W only for one oversized "
+             "packet; the channel never idles while something waits.",
+             "□ (I = Σ demand of admitted packets ∧ (I ≤ W ∨ one packet) ∧ (waiting ⇒ busy))",
+             "",
+             "",
+             {exact_run},
+             "model.md, packets, fragments, queue, channel"},
+    Property{"timer.single-heartbeat",
+             "A writer never has two HEARTBEAT expiries pending.",
+             "□ (pending expiries of (i, s) ≤ 1)",
+             "",
+             "",
+             {tables, explorer, exact_run},
+             "model.md, periodic HEARTBEAT"},
+    Property{"timer.suppression-honoured",
+             "No descriptor leaves S for U earlier than τ_S after its own repair left the source.",
+             "□ (S → U of D at t ⇒ t ≥ (source completion of D's last repair) + τ_S)",
+             "Suppression runs from serialization: no descriptor leaves S for U earlier than τ_S "
+             "after it was put into a message.",
+             "",
+             {explorer, exact_run},
+             "model.md, repair; fastdds.md, writer"},
+    Property{"live.no-stall",
+             "While a receiver lacks a descriptor, some pending event can still bring it there.",
+             "□ (X = 0 ⇒ ∃ pending event from which X = 1 is reachable without further loss)",
+             "",
+             "stated over X, what the receiver has, whatever the writer believes",
+             {explorer, exact_run},
+             "model.md, all rules of the writer and the reader"},
+    Property{"live.completion",
+             "With per-packet delay ≤ Δ and at most k lost packets every descriptor is received "
+             "within B(k, Δ, τ).",
+             "X = 1 at most B after the relation opens: B(0) = Δ, "
+             "B(k) = 3Δ + τ_A + τ_N + (k−1)·(1 + ⌊(2Δ + τ_N + τ_S)/τ_H⌋)·τ_H",
+             "Counted from the match or the creation of the descriptor, whichever comes last.",
+             "delays ≤ Δ, losses ≤ k, the region in which the bound is proved",
+             {timelines, explorer, exact_run},
+             "specs/bounds.md"},
+    Property{"live.quiescence",
+             "After completion and without further loss SEDP traffic stops, within a bound.",
+             "no DATA, HEARTBEAT or ACKNACK is sent later than T_disc + Q(Δ, τ)",
+             "",
+             "delays ≤ Δ, no loss after completion",
+             {timelines, explorer, exact_run},
+             "specs/bounds.md"},
+    Property{"storm.single-copy",
+             "Without loss no descriptor reaches a receiver twice.",
+             "no losses ⇒ □ (each D is received at most once); for constant delay Δ and two "
+             "HEARTBEATs g apart a needless repair appears iff τ_N + τ_S < g < 2Δ + τ_N",
+             "",
+             "no loss",
+             {timelines, explorer, exact_run},
+             "specs/bounds.md"},
+    Property{"storm.free-threshold",
+             "No repair is possible as long as no packet takes longer than a threshold.",
+             "∀ delays ≤ Δ: no repair, iff Δ ≤ Δ*(τ_A, τ_N, τ_H, τ_I)",
+             "Also for descriptors that are pulled: none is sent twice.",
+             "no loss",
+             {timelines, explorer, exact_run},
+             "specs/bounds.md"},
+};
+
+}  // namespace
+
+const char* name_of(Engine engine) {
+  switch (engine) {
+    case tables:
+      return "tables";
+    case explorer:
+      return "explorer";
+    case timelines:
+      return "timelines";
+    case exact_run:
+      return "exact run";
+  }
+  return "";
+}
+
+std::span<const Property> catalogue() { return entries; }
+
+const Property* find_property(std::string_view id) {
+  for (const Property& property : catalogue()) {
+    if (property.id == id) return &property;
+  }
+  return nullptr;
+}
+
+}  // namespace stormproof::props

@@ -1,0 +1,209 @@
+// live.completion: under per-packet delay ≤ Δ and at most k lost packets, every descriptor is
+// received within a bound. This monitor measures the Δ and k of the run and, for each relation, the
+// time from the opening of its writer side to its last descriptor. A relation opens with a
+// HEARTBEAT to its reader, so the first packet on it tells when. Only cross-host relations count.
+//
+// It objects if that time exceeds the bound that it was given; and, at the end, if a descriptor
+// came later, or is later than, completion_bound() after the start of both ends. That bound is not
+// tight: it is for runs that never come to an end although packets arrive.
+//   * From the start of both, each hears of the other within (k + 1)·max(τ_P, startup period) + Δ.
+//   * Then the relation is open. While the reader lacks a descriptor the writer has it not in A, so
+//     a HEARTBEAT leaves within P (τ_H; adaptive: max(τ_H, T_max) + 1 ns) and an ACKNACK comes back
+//     within 2Δ + τ_A. In U the descriptor is then repaired: τ_N + Δ. In R it was already asked
+//     for: the same. In Q or S its DATA is on its way, or it is in U again within Δ + τ_S.
+//   * So each round of P + 3Δ + τ_A + τ_N + τ_S delivers it, takes it back to U, or loses a packet:
+//     at most 2(k + 1) rounds.
+#include "props/monitors/completion.hpp"
+
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "props/monitors/delay_meter.hpp"
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+#include "props/monitors/received_descriptors.hpp"
+
+namespace stormproof::props {
+
+model::Nanoseconds completion_bound(const model::DdsProfile& dds, model::Nanoseconds delay,
+                                    std::uint64_t losses) {
+  const model::SedpProfile& sedp = dds.sedp;
+  const model::Nanoseconds announced = std::max(dds.spdp.period, dds.spdp.startup_period);
+  model::Nanoseconds asked = sedp.heartbeat_period;
+  if (sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive) {
+    asked = std::max(asked, sedp.adaptive.max_period) + model::Nanoseconds{1};
+  }
+  const model::Nanoseconds round = asked + delay * 3 + sedp.heartbeat_response_delay +
+                                   sedp.nack_response_delay + sedp.nack_suppression_duration;
+  const auto attempts = static_cast<std::int64_t>(losses) + 1;
+  return announced * attempts + delay + round * (2 * attempts);
+}
+
+namespace {
+
+class Completion final : public Observer {
+ public:
+  Completion(const model::Scenario& scenario, std::optional<model::Nanoseconds> bound)
+      : Observer{"live.completion"}, dds_{scenario.dds}, delays_{scenario}, bound_{bound} {
+    for (const model::Participant& participant : scenario.deployment.participants) {
+      const bool created_later = dds_.implementation == model::ImplementationKind::fastdds;
+      ready_.push_back(created_later ? participant.endpoints_done : participant.start);
+    }
+  }
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    received_.reset(topology);
+    relations_.assign(topology.relation_count(), {});
+    for (std::uint32_t r = 0; r < topology.relation_count(); ++r) {
+      const model::Pair& ends = topology.pair(r / 2);
+      relations_[r].missing = topology.descriptor_count(r);
+      relations_[r].cross_host = ends.cross_host;
+      relations_[r].ready = std::max(ready_[ends.source], ready_[ends.destination]);
+    }
+    missing_ = topology.required_deliveries();
+  }
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t> destinations) override {
+    delays_.emitted(packet, now());
+    const bool by_writer =
+        packet.kind == model::PacketKind::data || packet.kind == model::PacketKind::heartbeat;
+    if (!by_writer || done_) return;
+    if (packet.copies == 1) {
+      note_opening(packet.relation());
+      return;
+    }
+    for (const std::uint32_t destination : destinations) {
+      const std::uint32_t source = topology().pair(packet.pair).source;
+      note_opening(2 * topology().pair_between(source, destination) + packet.relation() % 2);
+    }
+  }
+  void arrived(const model::Packet& packet, bool lost) override { delays_.arrived(packet, lost); }
+  void received(const model::Packet& packet, std::uint32_t receiver) override {
+    received_.arriving(packet);
+    delays_.received(topology(), packet, receiver, now());
+  }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+                  std::string_view, std::uint32_t, std::uint64_t) override {
+    if (const model::Packet* data = received_.taken(machine, event)) take(*data);
+  }
+  void finish(model::Nanoseconds end) override {
+    largest_delay_ = delays_.largest(end);
+    general_bound_ = completion_bound(dds_, largest_delay_, delays_.lost());
+    if (bound_) judge_open_ends(end);
+    judge_general_bound(end);
+  }
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    std::vector<std::string> lines{
+        fmt::format("Largest per-packet delay {}, {} packets lost.", time_text(largest_delay_),
+                    delays_.lost()),
+        fmt::format("A relation took at most {} from its opening to its last descriptor.",
+                    time_text(longest_))};
+    lines.push_back(fmt::format("No relation may take longer than {} from the start of both ends.",
+                                time_text(general_bound_)));
+    if (!done_) lines.push_back(fmt::format("{} descriptors were not delivered.", missing_));
+    return lines;
+  }
+
+ private:
+  struct Relation {
+    std::optional<model::Nanoseconds> opened;
+    std::uint32_t missing = 0;
+    model::Nanoseconds ready;  ///< both ends have started, all descriptors exist
+    bool cross_host = true;
+  };
+  struct Latest {
+    model::Nanoseconds took;
+    model::Nanoseconds time;
+    std::uint64_t event = 0;
+    std::string what;
+  };
+
+  void note_opening(std::uint32_t relation) {
+    if (!relations_[relation].opened) relations_[relation].opened = now();
+  }
+
+  void take(const model::Packet& data) {
+    const std::uint32_t r = data.relation();
+    std::uint32_t fresh = 0;
+    data.descriptors.for_each([&](std::uint32_t d) {
+      if (!received_.words().test(r, d)) ++fresh;
+    });
+    received_.take(data);
+    relations_[r].missing -= fresh;
+    if (fresh == 0 || !topology().pair(r / 2).cross_host) return;
+    missing_ -= fresh;
+    done_ = missing_ == 0;
+    if (relations_[r].missing > 0) return;
+    note_latest(r);
+    if (!relations_[r].opened) return;
+    const model::Nanoseconds took = now() - *relations_[r].opened;
+    longest_ = std::max(longest_, took);
+    if (!bound_ || took <= *bound_) return;
+    object_now(fmt::format(
+        "The last descriptor of {} arrives at {}, {} after its opening; the "
+        "bound is {}.",
+        relation_text(topology(), r), time_text(now()), time_text(took), time_text(*bound_)));
+  }
+
+  void note_latest(std::uint32_t relation) {
+    const model::Nanoseconds took = now() - relations_[relation].ready;
+    if (took <= latest_.took) return;
+    latest_ = {took, now(), event(), relation_text(topology(), relation)};
+  }
+  void judge_open_ends(model::Nanoseconds end) {
+    for (const Relation& relation : relations_) {
+      if (!relation.cross_host || !relation.opened || relation.missing == 0) continue;
+      if (end <= *relation.opened + *bound_) continue;
+      object(event(), end,
+             fmt::format("At {} a relation that opened at {} still lacks {} descriptors; the bound "
+                         "is {}.",
+                         time_text(end), time_text(*relation.opened), relation.missing,
+                         time_text(*bound_)));
+    }
+  }
+  void judge_general_bound(model::Nanoseconds end) {
+    if (latest_.took > general_bound_) {
+      object(latest_.event, latest_.time,
+             fmt::format("The last descriptor of {} arrives {} after the start of both ends; with "
+                         "packets that take at most {} and {} losses it must be there after {}.",
+                         latest_.what, time_text(latest_.took), time_text(largest_delay_),
+                         delays_.lost(), time_text(general_bound_)));
+    }
+    for (const Relation& relation : relations_) {
+      if (!relation.cross_host || relation.missing == 0) continue;
+      if (end <= relation.ready + general_bound_) continue;
+      object(event(), end,
+             fmt::format("At {} a relation whose ends are there since {} still lacks {} "
+                         "descriptors; with packets that take at most {} and {} losses they must "
+                         "be there after {}.",
+                         time_text(end), time_text(relation.ready), relation.missing,
+                         time_text(largest_delay_), delays_.lost(), time_text(general_bound_)));
+    }
+  }
+
+  model::DdsProfile dds_;
+  std::vector<model::Nanoseconds> ready_;  // by participant
+  DelayMeter delays_;
+  std::optional<model::Nanoseconds> bound_;
+  ReceivedDescriptors received_;
+  std::vector<Relation> relations_;
+  std::uint64_t missing_ = 0;
+  bool done_ = false;
+  model::Nanoseconds longest_;
+  model::Nanoseconds largest_delay_;
+  model::Nanoseconds general_bound_;
+  Latest latest_;
+};
+
+}  // namespace
+
+MonitorPtr watch_completion(const model::Scenario& scenario,
+                            std::optional<model::Nanoseconds> bound) {
+  return std::make_unique<Completion>(scenario, bound);
+}
+
+}  // namespace stormproof::props

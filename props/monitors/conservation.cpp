@@ -1,0 +1,225 @@
+// safety.conservation: what a source has admitted is the demand of the packets that were admitted
+// and have not left it, never more than W except for one packet alone; a channel never idles while
+// a fragment waits for it, once all events of an instant are processed; no packet is admitted twice
+// or lost between the backlog and its reception; a channel serves one fragment at a time
+// (specs/model.md, "Packets, fragments, queue, channel"). With `constant_delay` there is neither
+// queue nor channel, so nothing can break.
+//
+// Packets are admitted in the order of their emission, so the length of a backlog tells which ones.
+#include <algorithm>
+#include <deque>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "model/airtime.hpp"
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+class Conservation final : public Observer {
+ public:
+  explicit Conservation(const model::Scenario& scenario)
+      : Observer{"safety.conservation"},
+        fragmentation_{scenario.wireless},
+        capacity_{scenario.wireless.source_queue_bytes.count()},
+        stages_{static_cast<std::uint32_t>(scenario.wireless.stages.size())},
+        shared_{scenario.wireless.kind == model::ServiceKind::shared_channel} {}
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    sources_.resize(topology.participant_count());
+  }
+  void event_started(const model::Event& event) override {
+    const model::Nanoseconds before = now();
+    Observer::event_started(event);
+    if (event.time > before) check_instant(before, event.time);
+  }
+  void finish(model::Nanoseconds end) override {
+    if (end > now()) check_instant(now(), end);
+  }
+
+  void emitted(const model::Packet& packet, std::uint32_t source,
+               std::span<const std::uint32_t>) override {
+    if (!shared_) return;
+    const std::int64_t fragments = fragmentation_.count(packet.payload_bytes);
+    sources_[source].backlog.push_back({packet.number, packet.copies,
+                                        fragmentation_.demand(packet.payload_bytes, fragments),
+                                        static_cast<std::uint32_t>(fragments)});
+    sources_[source].waiting += packet.copies;
+  }
+  void backlog_changed(std::uint32_t participant, std::uint64_t packets,
+                       std::int64_t admitted_bytes) override {
+    Source& source = sources_[participant];
+    if (packets > source.waiting) {
+      object_now(
+          fmt::format("At {} the backlog of participant {} holds {} packets, of {} that "
+                      "were emitted and not admitted.",
+                      time_text(now()), participant, packets, source.waiting));
+      return;
+    }
+    while (source.waiting > packets) admit(participant, source);
+    if (admitted_bytes != source.admitted_bytes) {
+      object_now(
+          fmt::format("At {} the queue of participant {} holds {} bytes, but the packets "
+                      "that are admitted and have not left it make {}.",
+                      time_text(now()), participant, admitted_bytes, source.admitted_bytes));
+    }
+    peak_ = std::max(peak_, admitted_bytes);
+    if (admitted_bytes > capacity_ && source.admitted_packets > 1) {
+      object_now(fmt::format(
+          "At {} the queue of participant {} holds {} bytes in {} packets; it "
+          "has room for {} bytes.",
+          time_text(now()), participant, admitted_bytes, source.admitted_packets, capacity_));
+    }
+  }
+  void service_started(std::uint32_t channel, std::uint32_t stage, const model::Packet& packet,
+                       std::uint32_t fragment, model::Nanoseconds until) override {
+    ChannelUse& use = channel_at(channel);
+    if (now() < use.busy_until) {
+      object_now(
+          fmt::format("At {} channel {} serves packet {}, though its last service ends at {}.",
+                      time_text(now()), channel, packet.number, time_text(use.busy_until)));
+    }
+    use.busy_until = until;
+    const auto found = admitted_.find(packet.number);
+    if (found == admitted_.end()) {
+      object_now(
+          fmt::format("At {} fragment {} of packet {} is served in stage {}, though the "
+                      "packet is not in the queue.",
+                      time_text(now()), fragment, packet.number, stage));
+      return;
+    }
+    Admitted& flight = found->second;
+    ++flight.served;
+    if (stage == 0) ++flight.served_at_source;
+    if (flight.served > flight.fragments * stages_ || flight.served_at_source > flight.fragments) {
+      object_now(fmt::format("At {} a fragment of packet {} is served a second time in a stage.",
+                             time_text(now()), packet.number));
+    }
+  }
+  void waiting_changed(std::uint32_t channel, std::uint64_t fragments) override {
+    channel_at(channel).waiting = fragments;
+  }
+  void source_completed(const model::Packet& packet) override {
+    if (!shared_) return;
+    const auto found = admitted_.find(packet.number);
+    if (found == admitted_.end() || found->second.left) {
+      object_now(fmt::format("At {} packet {} leaves its source without being in the queue.",
+                             time_text(now()), packet.number));
+      return;
+    }
+    Admitted& flight = found->second;
+    if (flight.served_at_source < flight.fragments) {
+      object_now(fmt::format("At {} packet {} leaves its source with {} of {} fragments served.",
+                             time_text(now()), packet.number, flight.served_at_source,
+                             flight.fragments));
+    }
+    flight.left = true;
+    sources_[flight.source].admitted_bytes -= flight.demand;
+    --sources_[flight.source].admitted_packets;
+  }
+  void arrived(const model::Packet& packet, bool lost) override {
+    if (!shared_) return;
+    if (!lost) to_be_received_.push_back(packet.number);
+    const auto found = admitted_.find(packet.number);
+    if (found == admitted_.end() || !found->second.left ||
+        found->second.served != found->second.fragments * stages_) {
+      object_now(fmt::format("At {} packet {} arrives without having had all its services.",
+                             time_text(now()), packet.number));
+    }
+    if (found != admitted_.end()) admitted_.erase(found);
+  }
+
+  void received(const model::Packet& packet, std::uint32_t) override {
+    if (!to_be_received_.empty()) std::erase(to_be_received_, packet.number);
+  }
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    if (!shared_) return {"With constant_delay there is no queue and no channel."};
+    return {fmt::format("A source queue held at most {} bytes.", peak_)};
+  }
+
+ private:
+  /// Packets of consecutive numbers in a backlog.
+  struct Emitted {
+    std::uint64_t number = 0;
+    std::uint32_t copies = 0;
+    std::int64_t demand = 0;
+    std::uint32_t fragments = 0;
+  };
+  struct Source {
+    std::deque<Emitted> backlog;
+    std::uint64_t waiting = 0;  // copies in the backlog
+    std::int64_t admitted_bytes = 0;
+    std::uint64_t admitted_packets = 0;
+  };
+  struct Admitted {
+    std::uint32_t source = 0;
+    std::int64_t demand = 0;
+    std::uint32_t fragments = 0;
+    std::uint32_t served = 0;  // over all stages
+    std::uint32_t served_at_source = 0;
+    bool left = false;  // its source
+  };
+  struct ChannelUse {
+    model::Nanoseconds busy_until;
+    std::uint64_t waiting = 0;
+  };
+
+  void admit(std::uint32_t participant, Source& source) {
+    Emitted& head = source.backlog.front();
+    const Admitted flight{participant, head.demand, head.fragments, 0, 0, false};
+    if (!admitted_.emplace(head.number, flight).second) {
+      object_now(
+          fmt::format("At {} packet {} is admitted a second time.", time_text(now()), head.number));
+    }
+    source.admitted_bytes += head.demand;
+    ++source.admitted_packets;
+    --source.waiting;
+    ++head.number;
+    if (--head.copies == 0) source.backlog.pop_front();
+  }
+
+  ChannelUse& channel_at(std::uint32_t channel) {
+    if (channel >= channels_.size()) channels_.resize(channel + 1);
+    return channels_[channel];
+  }
+
+  /// Nothing happens between `from`, whose events are all processed, and `to`.
+  void check_instant(model::Nanoseconds from, model::Nanoseconds to) {
+    if (!to_be_received_.empty()) {
+      object_now(fmt::format("Packet {} had its last service at {}, but nobody receives it then.",
+                             to_be_received_.front(), time_text(from)));
+    }
+    for (std::uint32_t c = 0; c < channels_.size(); ++c) {
+      const ChannelUse& channel = channels_[c];
+      if (channel.waiting == 0 || channel.busy_until >= to) continue;
+      object_now(fmt::format("From {} to {} channel {} idles while {} fragments wait for it.",
+                             time_text(std::max(from, channel.busy_until)), time_text(to), c,
+                             channel.waiting));
+    }
+  }
+
+  model::Fragmentation fragmentation_;
+  std::int64_t capacity_;
+  std::uint32_t stages_;
+  bool shared_;
+  std::vector<Source> sources_;
+  std::vector<ChannelUse> channels_;
+  std::unordered_map<std::uint64_t, Admitted> admitted_;  // by packet number
+  std::vector<std::uint64_t> to_be_received_;             // arrived in this instant
+  std::int64_t peak_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_conservation(const model::Scenario& scenario) {
+  return std::make_unique<Conservation>(scenario);
+}
+
+}  // namespace stormproof::props

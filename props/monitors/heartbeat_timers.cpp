@@ -1,0 +1,54 @@
+// timer.single-heartbeat: a writer never has two HEARTBEAT expiries pending. With the adaptive
+// policy: at most one cycle start or cycle end is pending and not void. The expiry that is being
+// processed is not pending any more. The six rules of the paper read literally
+// (`heartbeat_timer: additive`) break it: the end of a suppression adds an expiry to the one that
+// is pending.
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+#include "props/monitors/pending_heartbeats.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+class HeartbeatTimers final : public Observer {
+ public:
+  HeartbeatTimers() : Observer{"timer.single-heartbeat"} {}
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    pending_.reset(topology);
+  }
+  void event_started(const model::Event& event) override {
+    Observer::event_started(event);
+    pending_.started(event);
+  }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+                  std::string_view after, std::uint32_t, std::uint64_t) override {
+    pending_.transition(machine, event, after);
+  }
+  void scheduled(std::uint64_t insertion, model::Nanoseconds due, model::EventKind kind,
+                 std::uint32_t subject) override {
+    if (!pending_.scheduled(insertion, kind, subject)) return;
+    ++scheduled_;
+    if (pending_.count(subject) < 2) return;
+    object_now("At " + time_text(now()) + " a " + name_of(kind) + " of " + writer_text(subject) +
+               " is scheduled for " + time_text(due) + ", while another one is pending.");
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {std::to_string(scheduled_) + " HEARTBEAT timer events were scheduled."};
+  }
+
+ private:
+  PendingHeartbeats pending_;
+  std::uint64_t scheduled_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_heartbeat_timers(const model::Scenario&) {
+  return std::make_unique<HeartbeatTimers>();
+}
+
+}  // namespace stormproof::props

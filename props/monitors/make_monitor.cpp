@@ -1,0 +1,43 @@
+// Which monitor decides which property.
+#include "props/monitors/monitors.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+struct Entry {
+  std::string_view property;
+  MonitorPtr (*make)(const model::Scenario&);
+};
+
+constexpr Entry entries[] = {
+    {"order.reception-first", watch_event_order},
+    {"safety.ack-implies-received", watch_acknowledgments},
+    {"safety.repair-only-if-asked", watch_repair_requests},
+    {"safety.snapshot", watch_snapshots},
+    {"safety.conservation", watch_conservation},
+    {"timer.single-heartbeat", watch_heartbeat_timers},
+    {"timer.suppression-honoured", watch_suppression},
+    {"live.no-stall", watch_stalls},
+    {"live.completion", [](const model::Scenario& s) { return watch_completion(s); }},
+    {"live.quiescence", watch_quiescence},
+    {"storm.single-copy", watch_single_copies},
+    {"storm.free-threshold", watch_needless_repairs},
+};
+
+}  // namespace
+
+std::unique_ptr<Monitor> make_monitor(std::string_view property, const model::Scenario& scenario) {
+  for (const Entry& entry : entries) {
+    if (entry.property == property) return entry.make(scenario);
+  }
+  return nullptr;
+}
+
+std::vector<std::string_view> monitored_properties() {
+  std::vector<std::string_view> properties;
+  for (const Entry& entry : entries) properties.push_back(entry.property);
+  return properties;
+}
+
+}  // namespace stormproof::props

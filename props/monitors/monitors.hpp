@@ -1,0 +1,30 @@
+// The monitors, one function each; every one is defined in a file of its own that says what it
+// observes. `make_monitor` (props/monitor.hpp) picks by property.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "props/monitor.hpp"
+
+namespace stormproof::props {
+
+using MonitorPtr = std::unique_ptr<Monitor>;
+
+[[nodiscard]] MonitorPtr watch_event_order(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_acknowledgments(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_repair_requests(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_snapshots(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_conservation(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_heartbeat_timers(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_suppression(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_stalls(const model::Scenario&);
+/// `bound` is the longest time that a relation may take from its opening to its last descriptor;
+/// without one the monitor only measures.
+[[nodiscard]] MonitorPtr watch_completion(const model::Scenario&,
+                                          std::optional<model::Nanoseconds> bound = {});
+[[nodiscard]] MonitorPtr watch_quiescence(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_single_copies(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_needless_repairs(const model::Scenario&);
+
+}  // namespace stormproof::props

@@ -1,0 +1,76 @@
+// safety.repair-only-if-asked: DATA that is made as a repair carries only descriptors that some
+// ACKNACK listed since they were last generated. What counts is what the writer's participant has
+// received after its start; an initial ACKNACK asks for something only if the profile says so.
+// Fast DDS: what a creation pushes is initial, everything that the async run sends must be asked
+// for, and an ACKNACK asks for its bitmap from its base on.
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+#include "props/monitors/relation_words.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+class RepairRequests final : public Observer {
+ public:
+  explicit RepairRequests(const model::Scenario& scenario)
+      : Observer{"safety.repair-only-if-asked"},
+        fastdds_{scenario.dds.implementation == model::ImplementationKind::fastdds},
+        initial_asks_{!fastdds_ &&
+                      scenario.dds.sedp.initial_acknack == model::InitialAckNackReply::bitmap} {}
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    asked_.reset(topology);
+  }
+  void event_started(const model::Event& event) override {
+    Observer::event_started(event);
+    creating_ = event.kind == model::EventKind::endpoint_creation;
+  }
+  void received(const model::Packet& packet, std::uint32_t) override {
+    if (packet.kind != model::PacketKind::acknack) return;
+    if (packet.initial_acknack && !initial_asks_) return;
+    if (now() < topology().start(topology().pair(packet.pair).source)) return;
+    asked_.add(packet.relation(), packet.descriptors);
+  }
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t>) override {
+    generated(packet);
+  }
+  void looped_back(const model::Packet& packet, std::uint32_t) override { generated(packet); }
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {std::to_string(repairs_) + " descriptors were generated on request."};
+  }
+
+ private:
+  void generated(const model::Packet& packet) {
+    if (packet.kind != model::PacketKind::data) return;
+    const bool repair = fastdds_ ? !creating_ : packet.from_repair;
+    if (repair) {
+      repairs_ += packet.descriptors.count();
+      const std::uint32_t d = asked_.first_of(packet.relation(), packet.descriptors, false);
+      if (d != UINT32_MAX) {
+        object_now("At " + time_text(now()) + " the writer repairs " +
+                   descriptor_text(topology(), packet.relation(), d) +
+                   ", which no ACKNACK has listed since it was last generated.");
+      }
+    }
+    asked_.remove(packet.relation(), packet.descriptors);
+  }
+
+  bool fastdds_;
+  bool initial_asks_;
+  bool creating_ = false;
+  RelationWords asked_;
+  std::uint64_t repairs_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_repair_requests(const model::Scenario& scenario) {
+  return std::make_unique<RepairRequests>(scenario);
+}
+
+}  // namespace stormproof::props

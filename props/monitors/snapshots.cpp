@@ -1,0 +1,153 @@
+// safety.snapshot: the bitmap of an ACKNACK is what the reader lacked when it was generated, and it
+// reaches the writer as it was generated, however much the reader has received since. Fast DDS: it
+// lists what was lacking below `announced`, and its base is the first descriptor that was lacking;
+// an initial ACKNACK claims nothing (base 0, empty bitmap).
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+#include "props/monitors/received_descriptors.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+struct Snapshot {
+  std::vector<std::uint64_t> words;
+  std::uint32_t base = 0;
+  bool operator==(const Snapshot&) const = default;
+};
+
+class Snapshots final : public Observer {
+ public:
+  explicit Snapshots(const model::Scenario& scenario)
+      : Observer{"safety.snapshot"},
+        fastdds_{scenario.dds.implementation == model::ImplementationKind::fastdds} {}
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    received_.reset(topology);
+    announced_.assign(topology.relation_count(), 0);
+  }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+                  std::string_view, std::uint32_t, std::uint64_t) override {
+    if (const model::Packet* data = received_.taken(machine, event)) {
+      received_.take(*data);
+      if (!data->descriptors.empty()) raise(data->relation(), data->descriptors.highest() + 1);
+    } else if (announcing_ != nullptr && event == "HeartbeatReceived" &&
+               machine.machine == "DiscoveryReader" && machine.subject == announcing_->relation()) {
+      raise(machine.subject, announcing_->detail);
+    }
+  }
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t>) override {
+    if (packet.kind == model::PacketKind::acknack) under_way_[packet.number] = check(packet);
+  }
+  void looped_back(const model::Packet& packet, std::uint32_t) override {
+    if (packet.kind == model::PacketKind::acknack) looped_[key(packet)].push_back(check(packet));
+  }
+  void arrived(const model::Packet& packet, bool lost) override {
+    if (lost && packet.kind == model::PacketKind::acknack) under_way_.erase(packet.number);
+  }
+  void received(const model::Packet& packet, std::uint32_t) override {
+    received_.arriving(packet);
+    const bool announces = packet.kind == model::PacketKind::heartbeat || packet.carries_heartbeat;
+    announcing_ = announces ? &packet : nullptr;
+    if (packet.kind == model::PacketKind::acknack) compare(packet);
+  }
+  void event_finished(const model::Depths&) override { announcing_ = nullptr; }
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {std::to_string(compared_) + " ACKNACKs reached their writer as generated."};
+  }
+
+ private:
+  using LoopKey = std::tuple<std::uint32_t, std::int64_t, bool>;
+  static LoopKey key(const model::Packet& packet) {
+    return {packet.relation(), packet.emitted.count(), packet.initial_acknack};
+  }
+  void raise(std::uint32_t relation, std::uint32_t announced) {
+    announced_[relation] = std::max(announced_[relation], announced);
+  }
+
+  Snapshot content(const model::Packet& packet) const {
+    Snapshot snapshot;
+    for (std::uint32_t k = 0; k < received_.word_count(packet.relation()); ++k) {
+      snapshot.words.push_back(packet.descriptors.word(k));
+    }
+    if (fastdds_) snapshot.base = packet.detail;
+    return snapshot;
+  }
+
+  /// What the reader lacks now, as an ACKNACK should say it.
+  Snapshot expected(const model::Packet& packet) const {
+    const std::uint32_t relation = packet.relation();
+    const std::uint32_t count = topology().descriptor_count(relation);
+    const bool claims = !(fastdds_ && packet.initial_acknack);
+    Snapshot snapshot;
+    std::uint32_t first = count;
+    for (std::uint32_t k = 0; k < received_.word_count(relation); ++k) {
+      const std::uint64_t lacking = RelationWords::below(count, k) & ~received_.word(relation, k);
+      const std::uint32_t limit = fastdds_ ? announced_[relation] : count;
+      snapshot.words.push_back(claims ? lacking & RelationWords::below(limit, k) : 0);
+      if (lacking != 0 && first == count) {
+        first = 64 * k + static_cast<std::uint32_t>(std::countr_zero(lacking));
+      }
+    }
+    if (fastdds_ && claims) snapshot.base = first;
+    return snapshot;
+  }
+
+  Snapshot check(const model::Packet& packet) {
+    Snapshot snapshot = content(packet);
+    if (snapshot != expected(packet)) {
+      object_now("The ACKNACK about " + relation_text(topology(), packet.relation()) +
+                 " that is generated at " + time_text(now()) +
+                 " does not list what its reader lacks then.");
+    }
+    return snapshot;
+  }
+
+  void compare(const model::Packet& packet) {
+    const Snapshot arriving = content(packet);
+    bool same = true;
+    if (topology().pair(packet.pair).cross_host) {
+      const auto found = under_way_.find(packet.number);
+      if (found == under_way_.end()) return;
+      same = found->second == arriving;
+      under_way_.erase(found);
+    } else {
+      const auto found = looped_.find(key(packet));
+      if (found == looped_.end()) return;
+      const auto match = std::ranges::find(found->second, arriving);
+      same = match != found->second.end();
+      if (same) found->second.erase(match);
+      if (found->second.empty()) looped_.erase(found);
+    }
+    ++compared_;
+    if (same) return;
+    object_now("The ACKNACK about " + relation_text(topology(), packet.relation()) +
+               " that was generated at " + time_text(packet.emitted) +
+               " arrives with another bitmap at " + time_text(now()) + ".");
+  }
+
+  bool fastdds_;
+  ReceivedDescriptors received_;
+  const model::Packet* announcing_ = nullptr;
+  std::vector<std::uint32_t> announced_;  // by relation
+  std::unordered_map<std::uint64_t, Snapshot> under_way_;
+  std::map<LoopKey, std::vector<Snapshot>> looped_;
+  std::uint64_t compared_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_snapshots(const model::Scenario& scenario) {
+  return std::make_unique<Snapshots>(scenario);
+}
+
+}  // namespace stormproof::props

@@ -1,0 +1,88 @@
+// live.no-stall: while a started receiver lacks a descriptor (X = 0), some pending event can still
+// bring it there. It is stated over what the receiver has: if the writer wrongly believes it
+// acknowledged, HEARTBEATs and timers do not count, only DATA on its way does. What counts when is
+// in prospects_judgment.cpp. Only cross-host relations are looked at, each after the events that
+// concern it.
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+#include "props/monitors/prospects.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+class Stalls final : public Observer {
+ public:
+  explicit Stalls(const model::Scenario& scenario)
+      : Observer{"live.no-stall"}, prospects_{scenario} {}
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    topology_.emplace(topology);
+    prospects_.run_started(topology);
+  }
+  void event_started(const model::Event& event) override {
+    Observer::event_started(event);
+    prospects_.event_started(event);
+  }
+  void event_finished(const model::Depths&) override { judge(now()); }
+  void finish(model::Nanoseconds end) override {
+    if (!topology_) return;
+    prospects_.touch_all();
+    judge(end);
+  }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
+                  std::string_view after, std::uint32_t first_word,
+                  std::uint64_t descriptors) override {
+    prospects_.transition(machine, event, before, after, first_word, descriptors);
+  }
+  void scheduled(std::uint64_t insertion, model::Nanoseconds, model::EventKind kind,
+                 std::uint32_t subject) override {
+    prospects_.scheduled(insertion, kind, subject);
+  }
+  void emitted(const model::Packet& packet, std::uint32_t source,
+               std::span<const std::uint32_t> destinations) override {
+    prospects_.emitted(packet, source, destinations);
+  }
+  void source_completed(const model::Packet& packet) override {
+    prospects_.source_completed(packet);
+  }
+  void arrived(const model::Packet& packet, bool lost) override {
+    prospects_.arrived(packet, lost);
+  }
+  void received(const model::Packet& packet, std::uint32_t receiver) override {
+    prospects_.received(packet, receiver);
+  }
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {std::to_string(judged_) + " times a relation was looked at."};
+  }
+
+ private:
+  void judge(model::Nanoseconds time) {
+    for (const std::uint32_t relation : prospects_.take_touched()) {
+      const model::Pair& ends = topology_->pair(relation / 2);
+      if (!ends.cross_host || time < topology_->start(ends.destination) || violation()) continue;
+      ++judged_;
+      const auto d = prospects_.hopeless(relation);
+      if (!d) continue;
+      object(event(), time,
+             "From " + time_text(time) + " on nothing can bring " +
+                 descriptor_text(*topology_, relation, *d) + ", which lacks it: " +
+                 prospects_.situation(relation, *d) + ", and no DATA with it is under way.");
+    }
+  }
+
+  Prospects prospects_;
+  std::optional<model::Topology> topology_;  // a copy: needed after the run, too
+  std::uint64_t judged_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_stalls(const model::Scenario& scenario) {
+  return std::make_unique<Stalls>(scenario);
+}
+
+}  // namespace stormproof::props

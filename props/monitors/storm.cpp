@@ -1,0 +1,133 @@
+// The two properties of a discovery without a storm, both for runs in which no packet is lost:
+// storm.single-copy: no descriptor reaches a receiver that has it already; what a reader side drops
+//   because it is not open does not count, a complete reader that has no use for it does;
+// storm.free-threshold: no descriptor is generated a second time for a receiver. Under push the
+// first generation is the initial DATA; under pull, and with Fast DDS, it may answer an ACKNACK.
+// From the first loss on, neither claims anything. Only cross-host relations count.
+#include <fmt/format.h>
+
+#include "props/monitors/delay_meter.hpp"
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+#include "props/monitors/received_descriptors.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+/// Knows what has been lost so far, and how long packets take.
+class LossAware : public Observer {
+ public:
+  LossAware(std::string_view property, const model::Scenario& scenario)
+      : Observer{property}, delays_{scenario} {}
+
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t>) override {
+    delays_.emitted(packet, now());
+  }
+  void arrived(const model::Packet& packet, bool lost) override { delays_.arrived(packet, lost); }
+  void received(const model::Packet& packet, std::uint32_t receiver) override {
+    delays_.received(topology(), packet, receiver, now());
+  }
+  void finish(model::Nanoseconds end) override { largest_ = delays_.largest(end); }
+
+ protected:
+  [[nodiscard]] bool lossless() const { return delays_.lost() == 0; }
+  [[nodiscard]] std::vector<std::string> delay_remarks() const {
+    std::vector<std::string> lines;
+    lines.push_back(fmt::format("Largest per-packet delay {}, of initial DATA {}.",
+                                time_text(largest_), time_text(delays_.largest_initial_data())));
+    if (!lossless()) {
+      lines.push_back(fmt::format("{} packets were lost; the claim ends with the first of them.",
+                                  delays_.lost()));
+    }
+    return lines;
+  }
+
+ private:
+  DelayMeter delays_;
+  model::Nanoseconds largest_;
+};
+
+class SingleCopies final : public LossAware {
+ public:
+  explicit SingleCopies(const model::Scenario& scenario)
+      : LossAware{"storm.single-copy", scenario} {}
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    received_.reset(topology);
+  }
+  void received(const model::Packet& packet, std::uint32_t receiver) override {
+    LossAware::received(packet, receiver);
+    received_.arriving(packet);
+    if (packet.kind != model::PacketKind::data || !lossless()) return;
+    const model::Pair& ends = topology().pair(packet.pair);
+    if (ends.cross_host && now() >= topology().start(ends.destination)) look_for_copies(packet);
+  }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+                  std::string_view, std::uint32_t, std::uint64_t) override {
+    if (const model::Packet* data = received_.taken(machine, event)) received_.take(*data);
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    auto lines = delay_remarks();
+    lines.push_back(fmt::format("{} descriptors arrived again without a loss.", copies_));
+    return lines;
+  }
+
+ private:
+  void look_for_copies(const model::Packet& data) {
+    const std::uint32_t relation = data.relation();
+    const std::uint32_t d = received_.words().first_of(relation, data.descriptors, true);
+    if (d == UINT32_MAX) return;
+    data.descriptors.for_each([&](std::uint32_t one) {
+      if (received_.words().test(relation, one)) ++copies_;
+    });
+    object_now("At " + time_text(now()) + " " + descriptor_text(topology(), relation, d) +
+               " is received again, though nothing was lost; this copy was emitted at " +
+               time_text(data.emitted) + ".");
+  }
+
+  ReceivedDescriptors received_;
+  std::uint64_t copies_ = 0;
+};
+
+class NeedlessRepairs final : public LossAware {
+ public:
+  explicit NeedlessRepairs(const model::Scenario& scenario)
+      : LossAware{"storm.free-threshold", scenario} {}
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    generated_.reset(topology);
+  }
+  void emitted(const model::Packet& packet, std::uint32_t source,
+               std::span<const std::uint32_t> destinations) override {
+    LossAware::emitted(packet, source, destinations);
+    if (packet.kind != model::PacketKind::data) return;
+    const std::uint32_t relation = packet.relation();
+    const std::uint32_t d = generated_.first_of(relation, packet.descriptors, true);
+    if (d != UINT32_MAX && lossless()) {
+      object_now("At " + time_text(now()) + " " + descriptor_text(topology(), relation, d) +
+                 " is generated again, though nothing was lost.");
+    }
+    generated_.add(relation, packet.descriptors);
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return delay_remarks(); }
+
+ private:
+  RelationWords generated_;
+};
+
+}  // namespace
+
+MonitorPtr watch_single_copies(const model::Scenario& scenario) {
+  return std::make_unique<SingleCopies>(scenario);
+}
+
+MonitorPtr watch_needless_repairs(const model::Scenario& scenario) {
+  return std::make_unique<NeedlessRepairs>(scenario);
+}
+
+}  // namespace stormproof::props

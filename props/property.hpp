@@ -1,0 +1,32 @@
+// The catalogue of properties. Ids are stable and part of the interface: scripts, reports and
+// expected verdicts refer to them.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace stormproof::props {
+
+/// The ways to decide a property.
+enum class Engine : unsigned char { tables, explorer, timelines, exact_run };
+
+[[nodiscard]] const char* name_of(Engine engine);
+
+struct Property {
+  std::string_view id;           ///< "safety.snapshot"
+  std::string_view statement;    ///< one sentence
+  std::string_view formal;       ///< the same in symbols; D(ata), X, C as in specs/model.md
+  std::string_view fastdds;      ///< the statement for `implementation: fastdds`; empty: the same
+  std::string_view assumptions;  ///< what it is claimed under; empty: nothing
+  std::vector<Engine> engines;   ///< which can decide it
+  std::string_view source;       ///< rule or section
+};
+
+/// All properties, in the order in which reports show them.
+[[nodiscard]] std::span<const Property> catalogue();
+
+/// The property with this id, or null.
+[[nodiscard]] const Property* find_property(std::string_view id);
+
+}  // namespace stormproof::props

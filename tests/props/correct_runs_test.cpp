@@ -1,0 +1,114 @@
+// All monitors on correct runs: the shipped scenarios, and random ones of both implementations that
+// use every knob. What they find there is true, so the test says for which scenarios a property may
+// be violated, and that all others never are.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "model/airtime.hpp"
+#include "tests/oracle/random_fastdds_scenario.hpp"
+#include "tests/oracle/random_scenario.hpp"
+#include "tests/props/monitored_run.hpp"
+
+namespace stormproof::props {
+namespace {
+
+using model::Scenario;
+
+bool is_fastdds(const Scenario& scenario) {
+  return scenario.dds.implementation == model::ImplementationKind::fastdds;
+}
+
+/// A packet may arrive at the very instant of its emission.
+bool has_link_without_delay(const Scenario& scenario) {
+  if (is_fastdds(scenario) && scenario.deployment.loopback_delay.count() == 0) return true;
+  if (scenario.wireless.kind == model::ServiceKind::constant_delay) {
+    return scenario.wireless.one_way.count() == 0;
+  }
+  return std::ranges::any_of(scenario.wireless.stages, [&](const model::Stage& stage) {
+    return model::service_rate(scenario.wireless, stage, false).airtime_ns(1) == 0 ||
+           model::service_rate(scenario.wireless, stage, true).airtime_ns(1) == 0;
+  });
+}
+
+/// A HEARTBEAT may get lost: on its way, or at a reader side that is not open yet.
+bool may_lose_heartbeats(const Scenario& scenario) {
+  return !scenario.wireless.lost_packets.empty() ||
+         (!is_fastdds(scenario) &&
+          scenario.dds.sedp.relation_opening == model::RelationOpening::each_side);
+}
+
+/// Whether a correct run of the scenario may violate the property.
+bool may_violate(const Scenario& scenario, std::string_view property) {
+  if (property == "order.reception-first") return has_link_without_delay(scenario);
+  if (property == "timer.single-heartbeat") {
+    return !is_fastdds(scenario) &&
+           scenario.dds.sedp.heartbeat_timer == model::HeartbeatTimerKind::additive &&
+           scenario.dds.sedp.heartbeat_policy == model::HeartbeatPolicy::periodic;
+  }
+  if (property == "live.quiescence") {
+    return !is_fastdds(scenario) && may_lose_heartbeats(scenario);
+  }
+  return property == "timer.suppression-honoured" || property == "storm.single-copy" ||
+         property == "storm.free-threshold";
+}
+
+void expect_only_true_findings(const Scenario& scenario, const std::string& name) {
+  const MonitoredRun run = run_monitored(scenario);
+  for (const auto& monitor : run.monitors) {
+    if (!monitor->violation() || may_violate(scenario, monitor->property())) continue;
+    ADD_FAILURE() << name << ": " << monitor->property() << " at event "
+                  << monitor->violation()->event << ": " << monitor->violation()->reason;
+  }
+}
+
+class ShippedScenarios : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedScenarios, HaveTrueFindingsOnly) {
+  expect_only_true_findings(shipped(GetParam()), GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedScenarios,
+                         testing::Values("smallest", "staggered-joins", "three-hosts", "wired-5x20",
+                                         "wifi-5x20", "live-5x20"),
+                         [](const auto& tested) {
+                           std::string name = tested.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(CorrectRuns, ConstantDelayHasNothingToObjectTo) {
+  const MonitoredRun run =
+      run_monitored(shipped("wifi-5x20", {"wireless={kind: constant_delay, one_way: 100us}",
+                                          "dds.sedp.piggyback=off", "run_until=time_limit"}));
+  EXPECT_EQ(run.violated(), "");
+  EXPECT_EQ(run.result.counts.repair_data, 0U);
+}
+
+class RandomRuns : public testing::TestWithParam<int> {};
+
+constexpr int runs_each = 40;
+
+TEST_P(RandomRuns, OfThePapersProtocolHaveTrueFindingsOnly) {
+  for (int k = 0; k < runs_each; ++k) {
+    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
+    Scenario scenario = oracle::random_scenario(seed);
+    if (k % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
+    expect_only_true_findings(scenario, "paper, seed " + std::to_string(seed));
+  }
+}
+
+TEST_P(RandomRuns, OfFastDdsHaveTrueFindingsOnly) {
+  for (int k = 0; k < runs_each; ++k) {
+    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
+    Scenario scenario = oracle::random_fastdds_scenario(seed);
+    scenario.dds.implementation = model::ImplementationKind::fastdds;
+    if (k % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
+    expect_only_true_findings(scenario, "fastdds, seed " + std::to_string(seed));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomRuns, testing::Range(0, 6));
+
+}  // namespace
+}  // namespace stormproof::props
