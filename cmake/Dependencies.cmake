@@ -25,6 +25,8 @@ find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Threads REQUIRED)
+find_package(tinyxml2 REQUIRED)
+find_package(Z3 4.8.12 REQUIRED)
 
 # yaml-cpp 0.8 put its target into a namespace; give 0.7's the same name.
 if(NOT TARGET yaml-cpp::yaml-cpp)

@@ -1,0 +1,68 @@
+// Decides queries: Z3 first, with a time-out on every query; then, if cvc5 is installed, the same
+// query in SMT-LIB 2 once more. Only two solvers that agree, or one that is alone, give an answer.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <z3++.h>
+
+namespace stormproof::smt {
+
+enum class Answer : unsigned char { unsat, sat, unknown };
+
+struct Options {
+  std::chrono::milliseconds timeout{10'000};  ///< of each query, for each solver
+  unsigned seed = 0;
+  std::string export_dir{};   ///< where queries are written as <property>.smt2; empty: nowhere
+  bool second_solver = true;  ///< ask cvc5, too, if it is installed
+};
+
+struct Decision {
+  Answer answer = Answer::unknown;
+  std::string why;  ///< of `unknown`: time-out, disagreement, …
+  double seconds = 0;
+  std::optional<z3::model> model;  ///< of `sat`
+};
+
+/// The outcome of the second opinion on all queries of one property.
+struct SecondOpinion {
+  bool asked = false;
+  bool agrees = true;
+  std::string solver;      ///< for example "cvc5 1.0.3"
+  std::string difference;  ///< the first query on which it does not agree, or has no answer
+  std::string problem;  ///< why the export could not be written; empty: it was, or none was asked
+  double seconds = 0;
+};
+
+/// One per check: it remembers every query. Contexts and expressions belong to the caller, who may
+/// drop them once `decide` has returned (a model needs its context, though).
+class Claims {
+ public:
+  explicit Claims(Options options = {});
+  ~Claims();
+  Claims(const Claims&) = delete;
+  Claims& operator=(const Claims&) = delete;
+
+  [[nodiscard]] const Options& options() const;
+  /// "z3 4.8.12"
+  [[nodiscard]] std::string solver_name() const;
+
+  /// Asks Z3 whether the conjunction is satisfiable. `property` and `query` name it in exports; the
+  /// query is remembered for `second_opinion`. Plain conditions only: no fixed points, no
+  /// optimisation. Never throws because of Z3: its errors are `unknown` with the reason.
+  Decision decide(std::string_view property, std::string_view query,
+                  const z3::expr_vector& assertions);
+
+  /// Puts all queries of the property to the second solver and compares. Writes the export file.
+  SecondOpinion second_opinion(std::string_view property);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace stormproof::smt
