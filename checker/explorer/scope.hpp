@@ -1,0 +1,31 @@
+// How far the explorer looks: the small world in which it tries every interleaving. The scope is
+// part of every verdict, because a claim about a small world is no more than that.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "model/units.hpp"
+
+namespace stormproof::explorer {
+
+struct Scope {
+  unsigned descriptors = 1;        ///< D, 1 … 3 (paper); the 9 default publications with Fast DDS
+  unsigned losses = 0;             ///< k, at most this many packets are lost
+  model::Nanoseconds least_delay;  ///< of a packet, from generation to reception
+  model::Nanoseconds largest_delay;  ///< Δ
+  model::Nanoseconds
+      leaves_within;    ///< Δ_s: repair DATA leave the source at most this long after generation
+  bool fifo = false;    ///< packets of one source arrive in the order of their generation
+  unsigned pushed = 0;  ///< Fast DDS: this many descriptors are created after the match
+  bool side_by_side = false;  ///< the two sides of the relation open apart, at most Δ
+};
+
+/// "D = 2, delays in [0 ms, 250 ms], at most 1 loss, any interleaving".
+[[nodiscard]] std::string to_text(const Scope& scope);
+/// What tells the scopes of one scenario apart: "D = 2, k = 1".
+[[nodiscard]] std::string short_text(const Scope& scope);
+/// "250 ms", "10 µs": the largest unit that gives a whole number.
+[[nodiscard]] std::string duration_text(model::Nanoseconds time);
+
+}  // namespace stormproof::explorer

@@ -1,0 +1,80 @@
+// What a variable of a zone stands for: a pending event of the relation, a packet in flight, or a
+// mark in the past. The slots of a state stand in the order of their insertion, which decides
+// between same-time events of one class.
+#pragma once
+
+#include <cstdint>
+
+#include "model/engine/event_queue.hpp"
+
+namespace stormproof::explorer {
+
+enum class What : std::uint8_t {
+  // Pending.
+  data,               ///< reception of DATA; `set`: its descriptors
+  heartbeat,          ///< reception of a HEARTBEAT
+  acknack,            ///< reception of an ACKNACK; `set`: its bitmap
+  source_completion,  ///< repair DATA leave the source; `set`: their descriptors
+  heartbeat_expiry,
+  acknack_generation,
+  initial_acknack_due,
+  repair_generation,
+  suppression_end,
+  nack_response,  ///< Fast DDS
+  async_run,      ///< Fast DDS
+  creation,       ///< Fast DDS: a descriptor comes into being; `set`: which
+  reader_opens,   ///< the reader processes the writer's announcement
+  writer_opens,   ///< the writer processes the reader's announcement
+  // Past.
+  repair_left,  ///< the last repair of the descriptor in `set` left the source
+  opened,       ///< the relation opened
+  completed,    ///< the reader received its last descriptor
+};
+
+[[nodiscard]] constexpr bool is_mark(What what) { return what >= What::repair_left; }
+[[nodiscard]] constexpr bool is_packet(What what) { return what <= What::acknack; }
+[[nodiscard]] constexpr bool from_writer(What what) { return what <= What::heartbeat; }
+
+struct Slot {
+  What what{};
+  std::uint8_t flags = 0;
+  std::uint16_t set = 0;    ///< descriptors, bit d is descriptor d
+  std::uint8_t number = 0;  ///< Fast DDS: what a HEARTBEAT announces; the base of an ACKNACK
+  std::uint8_t unused = 0;  ///< no padding: slots are compared and hashed bytewise
+
+  static constexpr std::uint8_t carries_heartbeat = 1;  ///< DATA with a piggybacked HEARTBEAT
+  static constexpr std::uint8_t initial = 2;            ///< ACKNACK marked initial
+  static constexpr std::uint8_t from_repair = 4;        ///< DATA made by repair generation
+
+  [[nodiscard]] bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
+  bool operator==(const Slot&) const = default;
+};
+
+/// The simulator's kind of event. Packets are received after the constant delay of their own.
+[[nodiscard]] constexpr model::EventKind kind_of(What what, bool receives_separately) {
+  switch (what) {
+    case What::source_completion:
+      return model::EventKind::source_completion;
+    case What::heartbeat_expiry:
+      return model::EventKind::heartbeat_expiry;
+    case What::acknack_generation:
+      return model::EventKind::acknack_generation;
+    case What::initial_acknack_due:
+      return model::EventKind::initial_acknack_due;
+    case What::repair_generation:
+      return model::EventKind::repair_generation;
+    case What::suppression_end:
+      return model::EventKind::suppression_end;
+    case What::nack_response:
+      return model::EventKind::nack_response;
+    case What::async_run:
+      return model::EventKind::async_run;
+    case What::creation:
+      return model::EventKind::endpoint_creation;
+    default:  // packets, the announcements among them
+      return receives_separately ? model::EventKind::reception
+                                 : model::EventKind::delayed_reception;
+  }
+}
+
+}  // namespace stormproof::explorer

@@ -1,0 +1,76 @@
+// How fast the explorer steps: fired events per second, through Boost.MSM and with difference-bound
+// matrices, on its own scopes; and beside it, if SPIN is installed, the states per second of SPIN
+// on the exported descriptor machine. A state of the explorer is a zone (all times at once), one of
+// SPIN has no times. Started by hand; a time says more about the machine than about the code.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+#include "checker/explorer/fastdds_world.hpp"
+#include "checker/explorer/paper_world.hpp"
+#include "checker/explorer/plan.hpp"
+#include "checker/explorer/search.hpp"
+#include "checker/promela/promela.hpp"
+#include "checker/promela/run_spin.hpp"
+
+namespace {
+
+using namespace stormproof;
+using namespace stormproof::explorer;
+
+template <class World>
+void measure(const char* name, const model::Scenario& scenario, const Scope& scope) {
+  World world{scenario, scenario, scope, {}};
+  SearchOptions options;
+  // Everything that a search can look for in one go, and that correct rules keep.
+  options.claims = bit(Claim::ack_implies_received) | bit(Claim::repair_only_if_asked) |
+                   bit(Claim::snapshot) | bit(Claim::single_heartbeat) | bit(Claim::no_stall);
+  options.max_states = 400'000;
+  const auto start = std::chrono::steady_clock::now();
+  const SearchResult result = Search<World>{world, options}.run();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf("%-9s %-75s %8llu states %9llu steps %6.2f s %9.0f steps/s%s\n", name,
+              to_text(scope).c_str(), static_cast<unsigned long long>(result.states),
+              static_cast<unsigned long long>(result.steps), seconds,
+              static_cast<double>(result.steps) / seconds, result.exhausted ? "" : " (cut off)");
+}
+
+void measure_spin(unsigned descriptors) {
+  if (!promela::spin_is_available()) {
+    std::puts("spin      not installed");
+    return;
+  }
+  std::error_code error;
+  const auto folder = std::filesystem::temp_directory_path(error) / "stormproof-explorer-bench";
+  std::filesystem::create_directories(folder, error);
+  const auto run =
+      promela::run_spin(promela::promela_of_descriptor_repair(descriptors), folder.string());
+  std::filesystem::remove_all(folder, error);
+  if (!run) {
+    std::printf("spin      %s\n", run.error().c_str());
+    return;
+  }
+  std::printf("spin      D = %u %85llu states %23.2f s %9.0f states/s\n", descriptors,
+              static_cast<unsigned long long>(run->states), run->seconds,
+              static_cast<double>(run->states) / run->seconds);
+}
+
+}  // namespace
+
+int main() {
+  model::Scenario scenario;  // the paper's timers
+  const model::Nanoseconds delay{scenario.dds.sedp.heartbeat_period.count() / 4};
+  for (const Scope& scope : scopes(scenario, delay)) measure<PaperWorld>("paper", scenario, scope);
+  scenario.dds.sedp.grouping = model::Grouping::single;
+  for (const Scope& scope : scopes(scenario, delay)) {
+    if (scope.descriptors == 2) measure<PaperWorld>("single", scenario, scope);
+  }
+  scenario = {};
+  scenario.dds.implementation = model::ImplementationKind::fastdds;
+  for (const Scope& scope : scopes(scenario, delay)) {
+    measure<FastDdsWorld>("fastdds", scenario, scope);
+  }
+  for (const unsigned descriptors : {1U, 2U}) measure_spin(descriptors);
+  return 0;
+}
