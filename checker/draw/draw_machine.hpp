@@ -1,0 +1,32 @@
+// Diagrams of the protocol machines, drawn from the reflected transition tables that the simulator
+// executes: nothing in them is maintained by hand.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "fsm/reflect.hpp"
+
+namespace stormproof::draw {
+
+enum class Format : std::uint8_t {
+  mermaid,  ///< stateDiagram-v2
+  dot,      ///< graphviz
+  svg       ///< self-contained, for light and dark
+};
+
+/// "mermaid", "dot", "svg".
+[[nodiscard]] const char* name_of(Format format);
+/// The ending of files in this format: "mmd", "dot", "svg".
+[[nodiscard]] const char* file_ending(Format format);
+[[nodiscard]] std::optional<Format> format_named(std::string_view name);
+
+/// The diagram of a machine: its states, and each row of its table as "event [guard] / action".
+[[nodiscard]] std::string draw_machine(const fsm::MachineInfo& machine, Format format);
+
+/// "AckNackReceived [Listed] / Request": a row without its states.
+[[nodiscard]] std::string row_text(const fsm::MachineInfo& machine, const fsm::RowInfo& row);
+
+}  // namespace stormproof::draw

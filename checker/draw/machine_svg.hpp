@@ -1,0 +1,12 @@
+// The SVG diagram of a machine.
+#pragma once
+
+#include <string>
+
+#include "fsm/reflect.hpp"
+
+namespace stormproof::draw {
+
+[[nodiscard]] std::string machine_svg(const fsm::MachineInfo& machine);
+
+}  // namespace stormproof::draw
