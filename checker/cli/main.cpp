@@ -1,86 +1,30 @@
-// The command line: parses arguments, calls the command, turns what nobody expected into exit
-// code 70.
+// The program: parses arguments, runs the command, turns what nobody expected into exit code 70.
+#include <algorithm>
 #include <exception>
 #include <new>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "checker/cli/command_line.hpp"
 #include "checker/cli/exit_code.hpp"
-#include "checker/cli/replay_command.hpp"
-#include "checker/cli/simulate_command.hpp"
+#include "model/config/suggestion.hpp"
 
 namespace {
 
 using namespace stormproof;
 
-/// `--format text|json`, the same on every command.
-void add_format(CLI::App& command, bool& json) {
-  command
-      .add_option_function<std::string>(
-          "--format", [&json](const std::string& value) { json = value == "json"; },
-          "Output format: text (default) or json")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->type_name("FORMAT");
-}
-
-CLI::App* add_simulate(CLI::App& app, cli::SimulateArguments& arguments) {
-  CLI::App* command = app.add_subcommand(
-      "simulate", "Predict the discovery of a scenario: completion time, messages, channel use");
-  command->add_option("scenario", arguments.scenario, "Scenario file, or name of a shipped one")
-      ->required()
-      ->type_name("SCENARIO");
-  command
-      ->add_option("--set", arguments.overrides,
-                   "Override a key of the scenario: key.path=value (repeatable)")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  add_format(*command, arguments.json);
-  command->add_option("--trace", arguments.trace_file, "Write every event as JSON Lines")
-      ->type_name("FILE");
-  command
-      ->add_option("--perfetto", arguments.perfetto_file,
-                   "Write a trace that ui.perfetto.dev opens")
-      ->type_name("FILE");
-  command->add_flag_callback(
-      "--progress", [&arguments] { arguments.progress = true; },
-      "Show progress on stderr (default on a terminal)");
-  command->add_flag_callback(
-      "--no-progress", [&arguments] { arguments.progress = false; }, "Show no progress");
-  CLI::Option* samples =
-      command
-          ->add_option("--samples", arguments.samples,
-                       "Run N schedules drawn from deployment.schedule, on all cores")
-          ->check(CLI::Range(1, 1'000'000))
-          ->type_name("N");
-  command->add_option("--seed", arguments.seed, "Seed of the first sampled schedule")
-      ->needs(samples)
-      ->type_name("S");
-  CLI::Option* compare =
-      command
-          ->add_option("--compare", arguments.compare,
-                       "Run another DDS profile on the same schedules, side by side (repeatable)")
-          ->allow_extra_args(false)
-          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-          ->type_name("PROFILE");
-  for (const char* recording : {"--trace", "--perfetto"}) {
-    command->get_option(recording)->excludes(samples)->excludes(compare);
-  }
-  command->footer(
-      "Exit code: 0 discovery completes, 3 it does not within the time limit, 2 bad input.");
-  return command;
-}
-
-CLI::App* add_replay(CLI::App& app, cli::ReplayArguments& arguments) {
-  CLI::App* command =
-      app.add_subcommand("replay", "Run the scenario of a trace again and compare every event");
-  command->add_option("trace", arguments.file, "File written by simulate --trace")
-      ->required()
-      ->type_name("FILE");
-  add_format(*command, arguments.json);
-  command->footer("Exit code: 0 identical, 1 different, 3 the trace ends early, 2 bad input.");
-  return command;
+/// Whether the first argument is a word that is no command; says so, if it is.
+bool names_no_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return false;
+  const std::string word = argv[1];
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return false;
+  std::string list;
+  for (const std::string& command : commands) list += (list.empty() ? "" : ", ") + command;
+  fmt::print(stderr, "stormproof: '{}' is not a command; expected one of {}{}\n", word, list,
+             model::config::suggestion(word, commands));
+  return true;
 }
 
 int run(int argc, char** argv) {
@@ -88,16 +32,15 @@ int run(int argc, char** argv) {
   app.name("stormproof");
   app.set_version_flag("--version", "stormproof " STORMPROOF_VERSION);
   app.require_subcommand(1);
-  cli::SimulateArguments simulate_arguments;
-  cli::ReplayArguments replay_arguments;
-  const CLI::App* simulate = add_simulate(app, simulate_arguments);
-  add_replay(app, replay_arguments);
+  cli::Command chosen;
+  cli::declare_commands(app, chosen);
+  if (names_no_command(app, argc, argv)) return cli::bad_input;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? cli::established : cli::bad_input;
   }
-  return *simulate ? cli::simulate(simulate_arguments) : cli::replay(replay_arguments);
+  return chosen();
 }
 
 }  // namespace

@@ -7,8 +7,12 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/run_monitor.hpp"
+#include "checker/counterexample/observe.hpp"
+#include "checker/counterexample/time_text.hpp"
 #include "checker/report/numbers.hpp"
+#include "checker/report/paragraph.hpp"
 #include "model/trace/replay.hpp"
+#include "props/property.hpp"
 
 namespace stormproof::cli {
 
@@ -16,19 +20,29 @@ namespace {
 
 using model::trace::Difference;
 using model::trace::Replay;
+using model::trace::TraceViolation;
 using model::trace::Verdict;
 
-int exit_code(Verdict verdict) {
-  switch (verdict) {
+int exit_code(const Replay& replay) {
+  switch (replay.verdict) {
     case Verdict::identical:
       return established;
     case Verdict::different:
+      // A counterexample that does not happen again says nothing about its property.
+      return replay.expected ? inconclusive : violated;
+    case Verdict::violated:
       return violated;
+    case Verdict::not_violated:
     case Verdict::ends_early:
     case Verdict::stopped:
       return inconclusive;
   }
   return internal_error;
+}
+
+nlohmann::ordered_json to_json(const std::optional<TraceViolation>& violation) {
+  if (!violation) return nullptr;
+  return to_json(*violation);
 }
 
 nlohmann::ordered_json to_json(const std::string& file, const Replay& replay) {
@@ -41,6 +55,8 @@ nlohmann::ordered_json to_json(const std::string& file, const Replay& replay) {
   json["last_event_ns"] = replay.last_time.count();
   json["t_disc_ns"] = nullptr;
   if (replay.discovery_time) json["t_disc_ns"] = replay.discovery_time->count();
+  json["expected"] = to_json(replay.expected);
+  json["violation"] = to_json(replay.violation);
   json["difference"] = nullptr;
   if (!replay.difference) return json;
   const Difference& difference = *replay.difference;
@@ -60,14 +76,38 @@ std::string agreement(const Replay& replay) {
                      replay.events == 1 ? "s" : "", report::duration(replay.last_time));
 }
 
-std::string text_of(const std::string& file, const Difference& difference) {
+std::string text_of(const std::string& file, const Replay& replay) {
+  const Difference& difference = *replay.difference;
   std::string text =
-      fmt::format("DIFFERENT: {}:{} is not what happens in the replay\n\n", file, difference.line);
+      fmt::format("{}: {}:{} is not what happens in the replay\n\n",
+                  replay.expected ? "INCONCLUSIVE" : "DIFFERENT", file, difference.line);
   const std::string& key = difference.mismatch.key;
   text += fmt::format("  key       {}\n", key.empty() ? "(the whole line)" : key);
   text += fmt::format("  recorded  {}\n", difference.mismatch.recorded);
   text += fmt::format("  replayed  {}\n\n", difference.mismatch.replayed);
   return text;
+}
+
+std::string text_of(const TraceViolation& violation) {
+  const props::Property* property = props::find_property(violation.property);
+  std::string text =
+      fmt::format("VIOLATED: {} at event {}, {}\n\n", violation.property,
+                  report::grouped(violation.event), counterexample::exact_time(violation.time));
+  if (property != nullptr) text += report::paragraph("  statement  ", property->statement);
+  return text + report::paragraph("  reason     ", violation.reason) + "\n";
+}
+
+/// Why a counterexample whose events all happen again is none.
+std::string text_of_absence(const std::string& file, const Replay& replay) {
+  std::string text =
+      fmt::format("INCONCLUSIVE: {} expects a violation of {} at event {}, {}.\n", file,
+                  replay.expected->property, report::grouped(replay.expected->event),
+                  counterexample::exact_time(replay.expected->time));
+  if (!replay.violation) return text + "Its events happen again, but nothing violates it.\n";
+  return text +
+         fmt::format("Its events happen again, but the violation occurs at event {}, {}:\n{}\n",
+                     report::grouped(replay.violation->event),
+                     counterexample::exact_time(replay.violation->time), replay.violation->reason);
 }
 
 std::string to_text(const std::string& file, const Replay& replay) {
@@ -80,7 +120,13 @@ std::string to_text(const std::string& file, const Replay& replay) {
                          report::grouped(replay.events), file, end);
     }
     case Verdict::different:
-      return text_of(file, *replay.difference) + "Before that, " + agreement(replay) + ".\n";
+      return text_of(file, replay) + "Before that, " + agreement(replay) + ".\n";
+    case Verdict::violated:
+      return text_of(*replay.violation) +
+             fmt::format("All {} events of {} happen again, to the nanosecond.\n",
+                         report::grouped(replay.events), file);
+    case Verdict::not_violated:
+      return text_of_absence(file, replay);
     case Verdict::ends_early:
       return fmt::format(
           "INCONCLUSIVE: {} ends before the run does; it was interrupted.\nAll that it has "
@@ -99,11 +145,13 @@ int replay(const ReplayArguments& arguments) {
   const InterruptGuard guard;
   const auto result = [&] {
     ProgressLine progress{isatty(STDERR_FILENO) != 0};
-    return model::trace::replay(arguments.file, model::config::SpecPath::standard(),
-                                [&](const model::Progress& state) {
-                                  progress.update(state);
-                                  return !InterruptGuard::interrupted();
-                                });
+    return model::trace::replay(
+        arguments.file, model::config::SpecPath::standard(),
+        [&](const model::Progress& state) {
+          progress.update(state);
+          return !InterruptGuard::interrupted();
+        },
+        counterexample::catalogue_watches());
   }();
   if (!result) {
     fmt::print(stderr, "stormproof: {}\n", to_string(result.error()));
@@ -116,7 +164,7 @@ int replay(const ReplayArguments& arguments) {
           ? to_json(arguments.file, *result).dump(2, ' ', false, Json::error_handler_t::replace) +
                 "\n"
           : to_text(arguments.file, *result));
-  return exit_code(result->verdict);
+  return exit_code(*result);
 }
 
 }  // namespace stormproof::cli

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "checker/report/paragraph.hpp"
+
 namespace stormproof::report {
 
 namespace {
@@ -14,12 +16,6 @@ namespace {
 std::string significant(double value, int digits) {
   const int magnitude = value > 0 ? static_cast<int>(std::floor(std::log10(value))) : 0;
   return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - magnitude));
-}
-
-std::size_t columns(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  }));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ Json sample_json(const Sample& sample) {
   counts["user_control"] = sample.user_control;
   return {
       {"seed", sample.seed},
-      {"completed", sample.end == model::RunEnd::completed},
+      {"completed", sample.discovery_time.has_value()},
       {"end", name_of(sample.end)},
       {"t_disc_ns", sample.discovery_time ? Json(sample.discovery_time->count()) : Json(nullptr)},
       {"counts", counts},

@@ -33,7 +33,13 @@ std::string plural(std::uint64_t count, const std::string& noun) {
 std::string headline(const Simulation& s) {
   const RunResult& result = s.result;
   if (result.completed()) {
-    return fmt::format("Discovery completes after {}.\n", duration(*result.discovery_time));
+    const std::string answer =
+        fmt::format("Discovery completes after {}.\n", duration(*result.discovery_time));
+    if (result.end == model::RunEnd::completed) return answer;
+    return answer + fmt::format(
+                        "The run goes on after that, as run_until: {} asks for, and ends after {}; "
+                        "what follows covers all of it.\n",
+                        "time_limit", duration(result.end_time));
   }
   const std::string limit = duration(s.scenario.time_limit);
   std::string reason;
@@ -69,7 +75,7 @@ std::string baseline(const Simulation& s) {
   std::string text = fmt::format("Everything sent once would need {} of airtime (open loop)",
                                  duration(*s.open_loop));
   const auto open_loop = static_cast<double>(s.open_loop->count());
-  const auto end = static_cast<double>(s.result.end_time.count());
+  const auto end = static_cast<double>(s.result.discovery_time.value_or(s.result.end_time).count());
   if (s.result.completed()) {
     return text + fmt::format("; the closed loop takes {} as long.\n", ratio(end, open_loop));
   }

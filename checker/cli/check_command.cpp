@@ -1,0 +1,130 @@
+// Reads the scenario, checks it, writes the counterexamples, prints the report.
+#include "checker/cli/check_command.hpp"
+
+#include <filesystem>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "checker/check/check.hpp"
+#include "checker/check/check_report.hpp"
+#include "checker/cli/counterexample_files.hpp"
+#include "checker/cli/exit_code.hpp"
+#include "checker/cli/run_monitor.hpp"
+#include "checker/smt/claims.hpp"
+#include "model/config/scenario_file.hpp"
+#include "model/config/suggestion.hpp"
+
+namespace stormproof::cli {
+
+namespace {
+
+using props::VerdictKind;
+
+int complain(const std::string& message) {
+  fmt::print(stderr, "stormproof: {}\n", message);
+  return bad_input;
+}
+
+/// What is wrong with the ids on the command line, or nothing.
+std::optional<std::string> unknown_property(const std::vector<std::string>& ids) {
+  std::vector<std::string> known;
+  for (const props::Property& property : props::catalogue()) known.emplace_back(property.id);
+  for (const std::string& id : ids) {
+    if (props::find_property(id) != nullptr) continue;
+    return fmt::format("--property {}: no such property{}; 'stormproof properties' lists them", id,
+                       model::config::suggestion(id, known));
+  }
+  return std::nullopt;
+}
+
+/// Proved 3, bounded 2, sampled 1, anything else 0.
+int strength(VerdictKind kind) {
+  switch (kind) {
+    case VerdictKind::proved:
+      return 3;
+    case VerdictKind::bounded:
+      return 2;
+    case VerdictKind::sampled:
+      return 1;
+    case VerdictKind::violated:
+    case VerdictKind::inconclusive:
+      return 0;
+  }
+  return 0;
+}
+
+int required_strength(const std::string& require) {
+  if (require == "proved") return 3;
+  if (require == "bounded") return 2;
+  return 1;
+}
+
+int exit_code(const checker::CheckReport& report, const std::string& require) {
+  if (report.count(VerdictKind::violated) > 0) return violated;
+  for (const checker::PropertyResult& result : report.results) {
+    if (strength(result.verdict) < required_strength(require)) return inconclusive;
+  }
+  return report.interrupted ? inconclusive : established;
+}
+
+checker::CheckReport run_check(const CheckArguments& arguments, const model::Scenario& scenario) {
+  smt::Options solver;
+  solver.timeout =
+      std::chrono::milliseconds{static_cast<std::int64_t>(arguments.timeout_seconds * 1000)};
+  solver.seed = arguments.seed;
+  solver.export_dir = arguments.export_directory;
+  solver.second_solver = !arguments.single_solver;
+  smt::Claims claims{solver};
+
+  const InterruptGuard guard;
+  StatusLine status{arguments.progress.value_or(isatty(STDERR_FILENO) != 0)};
+  const auto on_progress = [&](std::string_view what) {
+    if (status.due()) status.show(fmt::format("checking, {}: {:.0f} s", what, status.seconds()));
+    return !InterruptGuard::interrupted();
+  };
+  const checker::CheckRequest request{scenario,          claims,     nullptr, arguments.seed,
+                                      arguments.samples, on_progress};
+  return checker::check({arguments.properties.begin(), arguments.properties.end()}, request);
+}
+
+std::string render(const CheckArguments& arguments, const checker::CheckReport& report,
+                   const checker::CheckContext& context) {
+  using Json = nlohmann::ordered_json;
+  switch (arguments.format) {
+    case CheckFormat::json:
+      return to_json(report, context).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    case CheckFormat::junit:
+      return to_junit(report, context);
+    case CheckFormat::text:
+      break;
+  }
+  return to_text(report, context);
+}
+
+}  // namespace
+
+int check(const CheckArguments& arguments) {
+  const auto scenario = model::config::read_scenario(arguments.scenario, arguments.overrides,
+                                                     model::config::SpecPath::standard());
+  if (!scenario) return complain(to_string(scenario.error()));
+  if (const auto error = unknown_property(arguments.properties)) return complain(*error);
+  if (!arguments.export_directory.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(arguments.export_directory, error);
+    if (error) {
+      return complain(fmt::format("--export {}: cannot be created: {}", arguments.export_directory,
+                                  error.message()));
+    }
+  }
+  checker::CheckReport report = run_check(arguments, *scenario);
+  checker::CheckContext context{arguments.scenario, *scenario, {}, {}, arguments.verbose};
+  if (const auto error = write_counterexamples(arguments, report, context)) {
+    return complain(*error);
+  }
+  fmt::print("{}", render(arguments, report, context));
+  return exit_code(report, arguments.require);
+}
+
+}  // namespace stormproof::cli

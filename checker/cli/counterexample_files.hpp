@@ -1,0 +1,20 @@
+// The files that a check writes for each violated property: the trace that `replay` runs again, the
+// sequence charts, and the GoogleTest cases.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "checker/check/check.hpp"
+#include "checker/check/check_report.hpp"
+#include "checker/cli/check_command.hpp"
+
+namespace stormproof::cli {
+
+/// Writes PROPERTY.jsonl, .svg and .mmd into the output directory and notes paths and stories in
+/// `context`. Returns what could not be written, or nothing.
+[[nodiscard]] std::optional<std::string> write_counterexamples(const CheckArguments& arguments,
+                                                               const checker::CheckReport& report,
+                                                               checker::CheckContext& context);
+
+}  // namespace stormproof::cli

@@ -1,0 +1,42 @@
+// `stormproof mutate` without its command line: runs the checks against every mutant and says which
+// property notices which.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "checker/mutate/mutants.hpp"
+#include "checker/smt/claims.hpp"
+
+namespace stormproof::mutate {
+
+struct MutantResult {
+  std::string id;
+  std::string description;
+  std::vector<std::string> killed_by;  ///< property ids, in the order of the catalogue
+  std::string reason;                  ///< of a survivor: why nothing noticed it
+};
+
+struct MutationReport {
+  std::vector<MutantResult> mutants;
+  double seconds = 0;
+  bool interrupted = false;
+
+  [[nodiscard]] std::size_t killed() const;
+  /// How many mutants the property notices.
+  [[nodiscard]] std::size_t killed_by(std::string_view property) const;
+};
+
+struct MutateOptions {
+  std::vector<std::string> only;  ///< ids of mutants; empty: all
+  smt::Options solver;            ///< the second solver is not asked
+  std::function<bool(std::string_view)> on_progress;
+};
+
+/// A property kills a mutant if it is violated with the mutant and not without, on one of a few
+/// small scenarios of each implementation.
+[[nodiscard]] MutationReport mutate(const MutateOptions& options);
+
+}  // namespace stormproof::mutate

@@ -1,0 +1,60 @@
+// Tables of mutants and of properties.
+#include "checker/mutate/mutate_report.hpp"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "checker/report/numbers.hpp"
+#include "checker/report/paragraph.hpp"
+#include "props/property.hpp"
+
+namespace stormproof::mutate {
+
+std::string to_text(const MutationReport& report) {
+  constexpr std::size_t id_columns = 34;
+  std::string text = report::left("mutant", id_columns) + "what is wrong, and who notices\n";
+  for (const MutantResult& mutant : report.mutants) {
+    text += report::paragraph(report::left(mutant.id, id_columns), mutant.description);
+    const bool survives = mutant.killed_by.empty();
+    text += report::paragraph(
+        std::string(id_columns, ' ') + (survives ? "SURVIVES: " : "→ "),
+        survives ? mutant.reason : fmt::format("{}", fmt::join(mutant.killed_by, ", ")));
+  }
+  text += "\n" + report::left("property", id_columns) + "mutants that it notices\n";
+  for (const props::Property& property : props::catalogue()) {
+    text += fmt::format("{}{}\n", report::left(std::string{property.id}, id_columns),
+                        report.killed_by(property.id));
+  }
+  const std::size_t total = report.mutants.size();
+  text +=
+      fmt::format("\n{} of {} mutants are noticed ({}), in {:.1f} s\n", report.killed(), total,
+                  report::percent(static_cast<double>(report.killed()), static_cast<double>(total)),
+                  report.seconds);
+  if (report.interrupted) text += "Interrupted: the other mutants were not tried.\n";
+  return text;
+}
+
+nlohmann::ordered_json to_json(const MutationReport& report) {
+  using Json = nlohmann::ordered_json;
+  Json json;
+  json["mutants"] = Json::array();
+  for (const MutantResult& mutant : report.mutants) {
+    Json entry;
+    entry["id"] = mutant.id;
+    entry["description"] = mutant.description;
+    entry["killed_by"] = mutant.killed_by;
+    entry["reason"] = mutant.killed_by.empty() ? Json(mutant.reason) : Json();
+    json["mutants"].push_back(entry);
+  }
+  json["killed"] = report.killed();
+  json["properties"] = Json::object();
+  for (const props::Property& property : props::catalogue()) {
+    json["properties"][std::string{property.id}] = report.killed_by(property.id);
+  }
+  json["seconds"] = report.seconds;
+  json["interrupted"] = report.interrupted;
+  return json;
+}
+
+}  // namespace stormproof::mutate
