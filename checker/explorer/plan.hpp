@@ -19,9 +19,9 @@ struct DelayBound {
   std::string origin;  ///< one sentence: measured, or why not
 };
 
-/// The delay of `kind: constant_delay`; otherwise the largest delay from generation to reception that
-/// a discovery packet has in the scenario's run, or τ_H/4 if that is less. `go_on` interrupts the
-/// run.
+/// The delay of `kind: constant_delay`; otherwise the largest delay from generation to reception
+/// that a discovery packet has in the scenario's run, or τ_H/4 if that is less. `go_on` interrupts
+/// the run.
 [[nodiscard]] DelayBound delay_bound(const model::Scenario& scenario,
                                      const std::function<bool()>& go_on);
 

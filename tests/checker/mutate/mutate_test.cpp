@@ -2,6 +2,7 @@
 // one, and survivors say why.
 #include "checker/mutate/mutate.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -35,6 +36,29 @@ TEST(Mutants, CoverEveryMachine) {
        {"DescriptorRepair", "DiscoveryReader", "HeartbeatTimer", "InitialAckNack", "Announcer",
         "Channel", "ChangeForReader", "SingleShot", "ControlReader"}) {
     EXPECT_TRUE(mutated.contains(machine)) << machine;
+  }
+}
+
+/// One mutant of each kind with a property that must notice it.
+TEST(Mutate, EachKindOfMistakeIsNoticedByTheRightProperty) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"acknowledges-everything", "safety.ack-implies-received"},
+      {"repairs-unasked", "safety.repair-only-if-asked"},
+      {"live-bitmap", "safety.snapshot"},
+      {"expiry-doubled", "timer.single-heartbeat"},
+      {"queue-twice-as-large", "safety.conservation"},
+      {"order-pairwise", "order.total"},
+      {"base-ignored", "safety.ack-implies-received"}};
+  MutateOptions options;
+  for (const auto& [mutant, property] : cases) options.only.push_back(mutant);
+  const MutationReport report = mutate(options);
+  ASSERT_EQ(report.mutants.size(), cases.size());
+  for (const auto& [mutant, property] : cases) {
+    const auto found = std::find_if(report.mutants.begin(), report.mutants.end(),
+                                    [&, id = mutant](const auto& each) { return each.id == id; });
+    ASSERT_NE(found, report.mutants.end()) << mutant;
+    EXPECT_EQ(std::count(found->killed_by.begin(), found->killed_by.end(), property), 1)
+        << mutant << " is not noticed by " << property;
   }
 }
 
