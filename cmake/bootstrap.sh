@@ -108,11 +108,16 @@ configure() (
   cmake --preset "$preset" --fresh "$@" >"$root/$folder/configure.log" 2>&1 </dev/null
 )
 
-# configured <folder> : whether the folder holds a complete build system of this very tree, made
-# after the list of packages changed for the last time
+# configured <folder> <line>... : whether the folder holds a complete build system of this very tree,
+# with these lines in its cache, made after the list of packages changed for the last time
 configured() {
-  grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$root/$1/CMakeCache.txt" 2>/dev/null &&
-    { [ -f "$root/$1/build.ninja" ] || [ -f "$root/$1/Makefile" ]; } &&
+  folder=$1
+  shift
+  for line in "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$@"; do
+    grep -qxF "$line" "$root/$folder/CMakeCache.txt" 2>/dev/null || return 1
+  done
+  set -- "$folder"
+  { [ -f "$root/$1/build.ninja" ] || [ -f "$root/$1/Makefile" ]; } &&
     [ -z "$(find "$root/cmake/debian-packages.txt" -newer "$root/$1/configure.log" 2>/dev/null)" ]
 }
 
@@ -128,9 +133,14 @@ build() {
   [ "$(cat "$build_status")" -eq 0 ]
 }
 
-# bootstrap <preset> <folder> <target> <package groups> : the whole way to an up-to-date build;
-# exits if it fails
+# bootstrap <preset> <folder> <target> <package groups> [with_tests] : the whole way to an up-to-date
+# build; exits if it fails
 bootstrap() {
+  tests_option= tests_line=
+  if [ "${5:-}" = with_tests ]; then
+    tests_option=-DSTORMPROOF_BUILD_TESTS=ON
+    tests_line=STORMPROOF_BUILD_TESTS:BOOL=ON
+  fi
   # A read-only copy that was built before is used as it is.
   if [ -f "$root/$2/CMakeCache.txt" ] && [ ! -w "$root/$2" ]; then return 0; fi
   mkdir -p "$root/$2" || exit 2
@@ -139,12 +149,12 @@ bootstrap() {
   exec 9>"$root/$2/.lock"
   ! have flock || flock 9
 
-  if ! configured "$2"; then
+  if ! configured "$2" ${tests_line:+"$tests_line"}; then
     say "preparing $2 (once)"
     # Try first: the libraries may be there without their packages. Install only if that fails.
-    if ! have cmake || ! configure "$1" "$2"; then
+    if ! have cmake || ! configure "$1" "$2" $tests_option; then
       # shellcheck disable=SC2086  # the groups are words
-      if ! install_missing $4 || ! configure "$1" "$2"; then
+      if ! install_missing $4 || ! configure "$1" "$2" $tests_option; then
         [ ! -s "$root/$2/configure.log" ] || cat "$root/$2/configure.log" >&2
         say "cannot configure the build"
         exit 2

@@ -169,6 +169,16 @@ std::string difference(const std::vector<Query>& queries, const SolverRun& run,
   return {};
 }
 
+/// Whether one solver says sat and the other unsat.
+bool contradiction(const std::vector<Query>& queries, const SolverRun& run) {
+  for (std::size_t k = 0; k < std::min(queries.size(), run.answers.size()); ++k) {
+    const Answer first = queries[k].answer;
+    const Answer second = run.answers[k];
+    if (first != Answer::unknown && second != Answer::unknown && first != second) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 struct Claims::State {
@@ -244,6 +254,7 @@ SecondOpinion Claims::second_opinion(std::string_view property) {
       const SolverRun run =
           ask_second_solver(file.path(), found->second.size(), options.timeout, options.seed);
       opinion.difference = difference(found->second, run, opinion.solver);
+      opinion.contradicts = contradiction(found->second, run);
     }
     opinion.agrees = opinion.difference.empty();
   }

@@ -46,6 +46,7 @@ props::Finding Proof::finish(std::string how) {
     finding_.solver += " + " + opinion.solver;
     if (opinion.agrees) finding_.how += " and " + opinion.solver.substr(0, 4);
     if (!opinion.agrees) give_up("the solvers do not agree: " + opinion.difference);
+    finding_.disputed = opinion.contradicts;
   }
   if (!opinion.problem.empty()) detail("export: " + opinion.problem);
   finding_.kind = violated_ ? props::VerdictKind::violated : props::VerdictKind::proved;

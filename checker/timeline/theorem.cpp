@@ -71,7 +71,7 @@ props::Finding Theorem::finish(std::string how) {
     if (opinion.agrees) {
       finding.how += " and " + opinion.solver.substr(0, opinion.solver.find(' '));
     } else {
-      finding.disputed = true;
+      finding.disputed = opinion.contradicts;
       give_up("the solvers do not agree: " + opinion.difference);
     }
   }

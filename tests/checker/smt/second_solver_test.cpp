@@ -72,6 +72,7 @@ TEST(SecondOpinion, ASolverThatSaysTheOppositeDisagrees) {
   const SecondOpinion opinion = opinion_of("echo sat; echo unsat; echo sat");
   EXPECT_TRUE(opinion.asked);
   EXPECT_FALSE(opinion.agrees);
+  EXPECT_TRUE(opinion.contradicts);
   EXPECT_EQ(opinion.difference, "first: z3 says unsat, cvc5 0.0.7 says sat");
 }
 
@@ -82,12 +83,15 @@ TEST(SecondOpinion, OneWrongAnswerIsEnough) {
 }
 
 TEST(SecondOpinion, TheRightAnswersAgree) {
-  EXPECT_TRUE(opinion_of("echo unsat; echo sat; echo unsat").agrees);
+  const SecondOpinion opinion = opinion_of("echo unsat; echo sat; echo unsat");
+  EXPECT_TRUE(opinion.agrees);
+  EXPECT_FALSE(opinion.contradicts);
 }
 
 TEST(SecondOpinion, NoAnswerIsNoAgreement) {
   const SecondOpinion unknown = opinion_of("echo unsat; echo unknown; echo unsat");
   EXPECT_FALSE(unknown.agrees);
+  EXPECT_FALSE(unknown.contradicts);
   EXPECT_NE(unknown.difference.find("second"), std::string::npos);
   const SecondOpinion silent = opinion_of("echo unsat; echo sat");
   EXPECT_FALSE(silent.agrees);
