@@ -65,7 +65,7 @@ class NodeStore {
   /// Fills `frame` with the pending events of the node.
   void load(std::uint32_t number, Frame& frame) const {
     const Node& node = nodes_[number];
-    frame.restore(&slots_[node.first_slot], node.count, &zones_[node.first_bound],
+    frame.restore(slots_.data() + node.first_slot, node.count, zones_.data() + node.first_bound,
                   node.losses_left);
   }
 

@@ -28,7 +28,8 @@ class Solutions {
     std::erase_if(rows_, [&](const auto& row) { return row[a] - row[b] > c; });
   }
   void advance(unsigned e, const Zone::Limits& limits) {
-    for (unsigned f = 1; f < columns(); ++f) {
+    const unsigned count = columns();
+    for (unsigned f = 1; f < count; ++f) {
       if (f != e && limits[f] != Zone::free) constrain(e, f, limits[f]);
     }
     for (auto& row : rows_) {
