@@ -33,8 +33,8 @@ struct SecondOpinion {
   bool asked = false;
   bool agrees = true;        ///< it gave the same answer to every query
   bool contradicts = false;  ///< it answered one of them the other way round
-  std::string solver;      ///< for example "cvc5 1.0.3"
-  std::string difference;  ///< the first query on which it does not agree, or has no answer
+  std::string solver;        ///< for example "cvc5 1.0.3"
+  std::string difference;    ///< the first query on which it does not agree, or has no answer
   std::string problem;  ///< why the export could not be written; empty: it was, or none was asked
   double seconds = 0;
 };
