@@ -8,10 +8,10 @@
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/counterexample/observe.hpp"
-#include "checker/counterexample/time_text.hpp"
 #include "checker/report/numbers.hpp"
 #include "checker/report/paragraph.hpp"
 #include "model/trace/replay.hpp"
+#include "props/monitors/describe.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::cli {
@@ -92,7 +92,7 @@ std::string text_of(const TraceViolation& violation) {
   const props::Property* property = props::find_property(violation.property);
   std::string text =
       fmt::format("VIOLATED: {} at event {}, {}\n\n", violation.property,
-                  report::grouped(violation.event), counterexample::exact_time(violation.time));
+                  report::grouped(violation.event), props::time_text(violation.time));
   if (property != nullptr) text += report::paragraph("  statement  ", property->statement);
   return text + report::paragraph("  reason     ", violation.reason) + "\n";
 }
@@ -102,12 +102,12 @@ std::string text_of_absence(const std::string& file, const Replay& replay) {
   std::string text =
       fmt::format("INCONCLUSIVE: {} expects a violation of {} at event {}, {}.\n", file,
                   replay.expected->property, report::grouped(replay.expected->event),
-                  counterexample::exact_time(replay.expected->time));
+                  props::time_text(replay.expected->time));
   if (!replay.violation) return text + "Its events happen again, but nothing violates it.\n";
   return text +
          fmt::format("Its events happen again, but the violation occurs at event {}, {}:\n{}\n",
                      report::grouped(replay.violation->event),
-                     counterexample::exact_time(replay.violation->time), replay.violation->reason);
+                     props::time_text(replay.violation->time), replay.violation->reason);
 }
 
 std::string to_text(const std::string& file, const Replay& replay) {

@@ -11,6 +11,7 @@
 #include "checker/counterexample/acts.hpp"
 #include "checker/counterexample/selection.hpp"
 #include "checker/counterexample/story.hpp"
+#include "props/monitors/describe.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::counterexample {
@@ -123,7 +124,8 @@ class Builder {
     }
     if (!history_.channels.empty()) return;
     chart_.lanes.push_back(
-        {"network", "constant delay " + exact_time(history_.scenario.wireless.one_way), true});
+        {"network", "constant delay " + props::time_text(history_.scenario.wireless.one_way),
+         true});
   }
 
   /// Packets that a shown event sends, receives or loses.

@@ -9,6 +9,7 @@
 #include "checker/counterexample/selection.hpp"
 #include "checker/report/numbers.hpp"
 #include "checker/report/paragraph.hpp"
+#include "props/monitors/describe.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::counterexample {
@@ -24,7 +25,7 @@ std::string user_endpoints(const model::Participant& participant) {
 std::string network_text(const model::WirelessProfile& wireless) {
   std::string text;
   if (wireless.kind == model::ServiceKind::constant_delay) {
-    text = "constant delay " + exact_time(wireless.one_way);
+    text = "constant delay " + props::time_text(wireless.one_way);
   } else {
     text = fmt::format("shared channel with {} stage{}", wireless.stages.size(),
                        wireless.stages.size() == 1 ? "" : "s");
@@ -33,7 +34,7 @@ std::string network_text(const model::WirelessProfile& wireless) {
   const auto& delays = wireless.packet_delays;
   for (std::size_t k = 0; k < std::min(delays.size(), listed); ++k) {
     text += fmt::format("{}p{} {}", k == 0 ? ", except " : ", ", delays[k].packet,
-                        exact_time(delays[k].one_way));
+                        props::time_text(delays[k].one_way));
   }
   if (delays.size() > listed) text += fmt::format(" and {} more", delays.size() - listed);
   const auto& lost = wireless.lost_packets;
@@ -89,13 +90,13 @@ std::string deployment_text(const model::Scenario& scenario) {
                                  scenario.deployment.host_count());
   if (std::ranges::all_of(participants, alike)) {
     text += fmt::format(", each with {}, start at {}", user_endpoints(participants[0]),
-                        exact_time(participants[0].start));
+                        props::time_text(participants[0].start));
   } else {
     constexpr std::size_t listed = 8;
     for (std::size_t k = 0; k < std::min(participants.size(), listed); ++k) {
       const model::Participant& p = participants[k];
       text += fmt::format("{}{} (host {}, {}, start {})", k == 0 ? ": " : "; ", k, p.host.value,
-                          user_endpoints(p), exact_time(p.start));
+                          user_endpoints(p), props::time_text(p.start));
     }
     if (participants.size() > listed) text += "; …";
   }
@@ -107,10 +108,11 @@ std::string deployment_text(const model::Scenario& scenario) {
 std::string timers_text(const model::Scenario& scenario) {
   const model::SedpProfile& sedp = scenario.dds.sedp;
   std::string text = fmt::format(
-      "τ_H {}, τ_A {}, τ_N {}, τ_S {}, τ_I {}", exact_time(sedp.heartbeat_period),
-      exact_time(sedp.heartbeat_response_delay), exact_time(sedp.nack_response_delay),
-      exact_time(sedp.nack_suppression_duration),
-      sedp.initial_acknack_delay.count() == 0 ? "off" : exact_time(sedp.initial_acknack_delay));
+      "τ_H {}, τ_A {}, τ_N {}, τ_S {}, τ_I {}", props::time_text(sedp.heartbeat_period),
+      props::time_text(sedp.heartbeat_response_delay), props::time_text(sedp.nack_response_delay),
+      props::time_text(sedp.nack_suppression_duration),
+      sedp.initial_acknack_delay.count() == 0 ? "off"
+                                              : props::time_text(sedp.initial_acknack_delay));
   if (sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive)
     text += "; adaptive HEARTBEATs";
   else if (sedp.heartbeat_timer == model::HeartbeatTimerKind::additive)
@@ -127,7 +129,7 @@ std::string story(const props::Counterexample& counterexample) {
 
   std::string text =
       fmt::format("{} is violated at event {}, {}\n", counterexample.property,
-                  report::grouped(counterexample.event), exact_time(counterexample.time));
+                  report::grouped(counterexample.event), props::time_text(counterexample.time));
   if (property != nullptr) {
     const bool own = fastdds && !property->fastdds.empty();
     text += report::paragraph("  statement  ", own ? property->fastdds : property->statement);

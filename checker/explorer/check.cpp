@@ -10,6 +10,7 @@
 #include "checker/explorer/paper_world.hpp"
 #include "checker/explorer/plan.hpp"
 #include "checker/explorer/replay.hpp"
+#include "props/monitors/describe.hpp"
 #include "props/monitors/quiescence.hpp"
 
 namespace stormproof::explorer {
@@ -170,9 +171,9 @@ class Exploration {
                                            to_text(scope), result.states, result.depth));
     }
     if (bounds.completion) {
-      answer.remarks.push_back(fmt::format("{}: the latest completion is at {}, B = {}.",
-                                           to_text(scope), duration_text(result.latest_completion),
-                                           duration_text(*bounds.completion)));
+      answer.remarks.push_back(fmt::format(
+          "{}: the latest completion is at {}, B = {}.", to_text(scope),
+          props::time_text(result.latest_completion), props::time_text(*bounds.completion)));
     }
   }
 
@@ -223,7 +224,7 @@ Finding Exploration::finding(Claim claim) const {
   finding.how = fmt::format(
       "all interleavings of one relation with packet delays up to {}, {} zone "
       "states: {}",
-      duration_text(delay_.delay), answer.states, answer.scopes);
+      props::time_text(delay_.delay), answer.states, answer.scopes);
   return finding;
 }
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "props/monitors/describe.hpp"
+
 namespace stormproof::explorer {
 
 std::optional<std::vector<std::int64_t>> earliest_times(
@@ -103,7 +105,8 @@ std::string what_text(const Slot& slot) {
 }  // namespace
 
 std::string step_text(const ConcretePath::Step& step) {
-  return fmt::format("t = {}: {} [{}]", duration_text(step.time), what_text(step.slot), step.state);
+  return fmt::format("t = {}: {} [{}]", props::time_text(step.time), what_text(step.slot),
+                     step.state);
 }
 
 }  // namespace stormproof::explorer

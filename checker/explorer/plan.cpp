@@ -8,6 +8,7 @@
 #include "checker/timeline/completion_bound.hpp"
 #include "model/descriptor_sizes.hpp"
 #include "model/simulator.hpp"
+#include "props/monitors/describe.hpp"
 
 namespace stormproof::explorer {
 
@@ -26,7 +27,7 @@ bool has_one_delay(const model::Scenario& scenario) {
 DelayBound delay_bound(const model::Scenario& scenario, const std::function<bool()>& go_on) {
   if (has_one_delay(scenario)) {
     return {scenario.wireless.one_way, fmt::format("Every packet takes {}, as the profile says.",
-                                                   duration_text(scenario.wireless.one_way))};
+                                                   props::time_text(scenario.wireless.one_way))};
   }
   constexpr std::uint64_t most_events = 20'000'000;
   model::RunOptions options;
@@ -44,17 +45,17 @@ DelayBound delay_bound(const model::Scenario& scenario, const std::function<bool
   if (measured.count() > 0 && measured <= quarter) {
     return {measured, fmt::format("Every packet takes at most {}, the largest delay in the "
                                   "scenario's run.",
-                                  duration_text(measured))};
+                                  props::time_text(measured))};
   }
   if (measured.count() == 0) {
     return {quarter, fmt::format("Every packet takes at most {}, a quarter of the HEARTBEAT "
                                  "period; the scenario's run has no discovery packet.",
-                                 duration_text(quarter))};
+                                 props::time_text(quarter))};
   }
   return {quarter,
           fmt::format("Every packet takes at most {}, a quarter of the HEARTBEAT period; in the "
                       "scenario's run packets take up to {}.",
-                      duration_text(quarter), duration_text(measured))};
+                      props::time_text(quarter), props::time_text(measured))};
 }
 
 bool splits_packets(const model::Scenario& scenario) {

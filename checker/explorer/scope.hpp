@@ -25,7 +25,5 @@ struct Scope {
 [[nodiscard]] std::string to_text(const Scope& scope);
 /// What tells the scopes of one scenario apart: "D = 2, k = 1".
 [[nodiscard]] std::string short_text(const Scope& scope);
-/// "250 ms", "10 µs": the largest unit that gives a whole number.
-[[nodiscard]] std::string duration_text(model::Nanoseconds time);
 
 }  // namespace stormproof::explorer

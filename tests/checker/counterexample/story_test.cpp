@@ -176,10 +176,6 @@ TEST(Selection, CoversEveryEventOnceAndKeepsTheLimit) {
 TEST(Words, TimesAndMembers) {
   EXPECT_EQ(milliseconds(model::Nanoseconds{13'653'072}), "13.653072");
   EXPECT_EQ(milliseconds(model::Nanoseconds{7}), "0.000007");
-  EXPECT_EQ(exact_time(model::Nanoseconds{0}), "0 ns");
-  EXPECT_EQ(exact_time(model::Nanoseconds{10'000}), "10 µs");
-  EXPECT_EQ(exact_time(model::Nanoseconds{16'136'228}), "16.136228 ms");
-  EXPECT_EQ(exact_time(model::Nanoseconds{2'500'000'000}), "2.5 s");
   const std::vector<std::uint64_t> words{0b1'0111, 1, 0};
   EXPECT_EQ(members_text(words), "0–2, 4, 64");
   const std::vector<std::uint64_t> crossing{std::uint64_t{1} << 63U, 1};

@@ -49,7 +49,7 @@ TEST(Explorer, AConstantDelayLetsNothingOvertake) {
   scenario.wireless.packet_delays.clear();
   const Finding finding = find(scenario, "storm.single-copy");
   EXPECT_EQ(finding.kind, VerdictKind::bounded) << finding.how;
-  EXPECT_NE(finding.how.find("100 us"), std::string::npos) << finding.how;
+  EXPECT_NE(finding.how.find("100 µs"), std::string::npos) << finding.how;
 }
 
 TEST(Explorer, HoldsWhatTheTablesProve) {
