@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "model/dds_profile.hpp"
 #include "model/deployment.hpp"
+#include "model/limits.hpp"
 #include "model/units.hpp"
 #include "model/wireless_profile.hpp"
 
@@ -22,6 +24,8 @@ struct Scenario {
   WirelessProfile wireless;
   Nanoseconds time_limit{200'000'000'000};  ///< events up to and including this time are processed
   RunUntil run_until = RunUntil::completion;
+  std::optional<Limits> limits;   ///< what the author demands; they change no run
+  std::optional<Variation> vary;  ///< ranges for `stormproof fuzz`; they change no run
 
   bool operator==(const Scenario&) const = default;
 };

@@ -88,6 +88,50 @@ void visit_knobs(auto& visit, Is<Deployment> auto& deployment) {
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<RunUntil>{"completion", "time_limit"};
 
+/// Most descriptors to be delivered, over all ordered pairs of participants. A run keeps five bits
+/// for each, in words of 64: 6.25 GB at this limit.
+inline constexpr std::uint64_t max_descriptor_deliveries = 10'000'000'000;
+
+/// How many deliveries there are if each participant has to learn every descriptor of every other
+/// one.
+[[nodiscard]] inline std::uint64_t descriptor_deliveries(const Scenario& scenario) {
+  const DescriptorProfile& defaults = scenario.dds.descriptors;
+  std::uint64_t descriptors = 0;
+  for (const Participant& participant : scenario.deployment.participants) {
+    descriptors += std::uint64_t{defaults.default_publications} + defaults.default_subscriptions +
+                   participant.publications + participant.subscriptions;
+  }
+  return descriptors * (scenario.deployment.participants.size() - 1);
+}
+
+/// Amplifications of real storms are around 10; the limit keeps products within 64 bits.
+inline constexpr std::int64_t max_amplification = 1'000'000;
+
+void visit_knobs(auto& visit, Is<Limits> auto& limits) {
+  visit.knob("completion", limits.completion, period_range,
+             "discovery is complete at this time, at the latest", Presence::optional);
+  visit.knob("messages", limits.messages, count_range(0, 1'000'000'000'000),
+             "messages of all classes, at most", Presence::optional);
+  visit.knob("amplification", limits.amplification, RatioType{max_amplification},
+             "messages over those of the failure-free reference, at most", Presence::optional);
+  visit.knob("backlog", limits.backlog, count_range(0, 1'000'000'000'000),
+             "packets that wait for the source queue of one participant, at most",
+             Presence::optional);
+}
+
+void visit_knobs(auto& visit, Is<Variation> auto& vary) {
+  visit.knob("start_jitter", vary.start_jitter, delay_range,
+             "each participant starts up to this much later", Presence::optional);
+  visit.knob("loss", vary.loss, RatioType{1}, "probability that a packet is lost",
+             Presence::optional);
+  visit.knob("sizes", vary.sizes, RatioType{1}, "relative range of packet sizes",
+             Presence::optional);
+  visit.knob("delays", vary.delays, RatioType{1},
+             "relative range of airtime overheads, rates and constant delays", Presence::optional);
+  visit.knob("timers", vary.timers, RatioType{1},
+             "relative range of the periods and delays of the DDS profile", Presence::optional);
+}
+
 /// The keys whose values may be the name of a file.
 inline constexpr std::string_view dds_key = "dds";
 inline constexpr std::string_view wireless_key = "wireless";
@@ -102,6 +146,10 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
              "whether the run ends when discovery is complete, as it does if absent, or goes on "
              "until the time limit",
              Presence::optional);
+  visit.section("limits", scenario.limits, "what a run may cost, for stormproof fuzz",
+                Presence::optional);
+  visit.section("vary", scenario.vary, "ranges around the scenario, for stormproof fuzz",
+                Presence::optional);
 
   const DescriptorProfile& defaults = scenario.dds.descriptors;
   const auto has_descriptors = [&defaults](const Participant& participant) {
@@ -113,6 +161,15 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
              "participants on at least two hosts; otherwise there is nothing to discover");
   visit.rule(std::ranges::any_of(scenario.deployment.participants, has_descriptors), "deployment",
              "at least one endpoint, user or default; otherwise there is nothing to discover");
+  visit.rule(descriptor_deliveries(scenario) <= max_descriptor_deliveries, "deployment",
+             fmt::format("at most {} descriptors over all pairs of participants; each keeps state",
+                         max_descriptor_deliveries));
+
+  visit.rule(!scenario.limits || !scenario.limits->completion ||
+                 *scenario.limits->completion <= scenario.time_limit,
+             "limits.completion",
+             fmt::format("at most the time_limit of {}, as the run ends there",
+                         print_duration(scenario.time_limit)));
 
   const LargestPacket packet = largest_packet(scenario);
   visit.rule(scenario.wireless.kind == ServiceKind::constant_delay ||

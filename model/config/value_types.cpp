@@ -168,33 +168,45 @@ TypeInfo TextType::info() const {
           .schema = {{"type", "string"}, {"minLength", 1}}};
 }
 
-Complaint FractionType::read(const Node& node, FractionParts<std::int64_t> value) const {
+Complaint RatioType::read(const Node& node, Ratio& value) const {
   if (!node.is_scalar()) return fault(node, " is not a number");
   const auto fraction = parse_fraction(node.text);
   if (!fraction) return Fault{node.place, fraction.error()};
-  if (fraction->numerator > fraction->denominator || fraction->denominator > max_denominator) {
+  // The first condition keeps the product of the second within 64 bits.
+  if (fraction->denominator > max_denominator ||
+      fraction->numerator > maximum * fraction->denominator) {
     return fault(node, fmt::format(" = {} is out of range", print_fraction(*fraction)));
   }
-  value.numerator = fraction->numerator;
-  value.denominator = fraction->denominator;
+  value = {fraction->numerator, fraction->denominator};
   return std::nullopt;
+}
+
+Json RatioType::write(const Ratio& value) const {
+  return print_fraction({value.numerator, value.denominator});
+}
+
+TypeInfo RatioType::info() const {
+  const Json number = {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", maximum}};
+  const Json text = {{"type", "string"}, {"pattern", "^([0-9]+/[0-9]+|[0-9]+([.][0-9]+)?)$"}};
+  return {.name = "fraction",
+          .expected = fmt::format(
+              "a decimal or a fraction greater than 0 and at most {}, such as 0.05 or 1/20, "
+              "with a reduced denominator of at most {}",
+              maximum, max_denominator),
+          .minimum = fmt::format("1/{}", max_denominator),
+          .maximum = fmt::to_string(maximum),
+          .schema = {{"anyOf", {number, text}}}};
+}
+
+Complaint FractionType::read(const Node& node, FractionParts<std::int64_t> value) const {
+  Ratio ratio;
+  Complaint complaint = RatioType{1, max_denominator}.read(node, ratio);
+  if (!complaint) value.numerator = ratio.numerator, value.denominator = ratio.denominator;
+  return complaint;
 }
 
 Json FractionType::write(FractionParts<const std::int64_t> value) const {
   return print_fraction({value.numerator, value.denominator});
-}
-
-TypeInfo FractionType::info() const {
-  const Json number = {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", 1}};
-  const Json text = {{"type", "string"}, {"pattern", "^([0-9]+/[0-9]+|[0-9]+([.][0-9]+)?)$"}};
-  return {.name = "fraction",
-          .expected = fmt::format(
-              "a decimal or a fraction greater than 0 and at most 1, such as 0.05 or 1/20, "
-              "with a reduced denominator of at most {}",
-              max_denominator),
-          .minimum = fmt::format("1/{}", max_denominator),
-          .maximum = "1",
-          .schema = {{"anyOf", {number, text}}}};
 }
 
 Complaint BytesPairType::read(const Node& node, std::array<Bytes, 2>& value) const {

@@ -21,6 +21,7 @@
 
 #include "model/config/quantities.hpp"
 #include "model/config/tree.hpp"
+#include "model/limits.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model::config {
@@ -75,6 +76,13 @@ class NumberType {
     return write_count(static_cast<std::int64_t>(value));
   }
   TypeInfo info() const;
+
+  constexpr Unit unit() const { return unit_; }
+  constexpr std::int64_t minimum() const { return minimum_; }
+  constexpr std::int64_t maximum() const { return maximum_; }
+  constexpr bool contains(std::int64_t count) const {
+    return count >= minimum_ && count <= maximum_;
+  }
 
  private:
   Complaint read_count(const Node& node, std::int64_t& count) const;
@@ -169,6 +177,17 @@ struct TextType {
   TypeInfo info() const;
 };
 
+/// A decimal or fraction, greater than 0 and at most `maximum`, whose reduced denominator is at
+/// most `max_denominator`.
+struct RatioType {
+  std::int64_t maximum;
+  std::int64_t max_denominator = 1'000'000;
+
+  Complaint read(const Node& node, Ratio& value) const;
+  Json write(const Ratio& value) const;
+  TypeInfo info() const;
+};
+
 /// The two members of a profile that hold one fraction.
 template <class Integer>
 struct FractionParts {
@@ -186,7 +205,7 @@ struct FractionType {
 
   Complaint read(const Node& node, FractionParts<std::int64_t> value) const;
   Json write(FractionParts<const std::int64_t> value) const;
-  TypeInfo info() const;
+  TypeInfo info() const { return RatioType{1, max_denominator}.info(); }
 };
 
 /// `[first, last]`, two byte counts.

@@ -19,6 +19,17 @@ using config::Result;
 constexpr const char* expected_header =
     R"(expected a trace, which starts with {"format":"stormproof-trace","version":1,...})";
 
+/// No line of an event is shorter.
+constexpr std::uintmax_t shortest_line_bytes = 8;
+
+/// More events than the file has lines, so that replaying a short file is short, whatever its
+/// header asks for; 0, no such limit, if the file has no size (a pipe).
+std::uint64_t events_beyond(const std::string& file) {
+  std::error_code failed;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, failed);
+  return failed ? 0 : bytes / shortest_line_bytes + 1;
+}
+
 /// Reads the first line and what must be in it.
 Result<Json> read_header(LineReader& reader, const std::string& file) {
   switch (reader.next()) {
@@ -81,7 +92,7 @@ Result<std::optional<TraceViolation>> read_expected(const Json& header, const st
 }
 
 Result<Replay> run_again(const Scenario& scenario, TraceComparison& comparison,
-                         ViolationWatch* watch,
+                         std::uint64_t max_events, ViolationWatch* watch,
                          const std::function<bool(const Progress&)>& on_progress) {
   TraceWriter writer{[&](std::string_view line) { comparison.take(line); }, scenario};
   ProbeList probes;
@@ -92,6 +103,7 @@ Result<Replay> run_again(const Scenario& scenario, TraceComparison& comparison,
   };
   RunOptions options;
   options.probe = &probes;
+  options.max_events = max_events;
   options.on_progress = [&](const Progress& state) {
     return !enough() && (!on_progress || on_progress(state));
   };
@@ -162,7 +174,7 @@ Result<Replay> replay(const std::string& file, const config::SpecPath& specs,
     }
   }
   TraceComparison comparison{reader, file, *header, *expected};
-  return run_again(*scenario, comparison, watch.get(), on_progress);
+  return run_again(*scenario, comparison, events_beyond(file), watch.get(), on_progress);
 }
 
 }  // namespace stormproof::model::trace

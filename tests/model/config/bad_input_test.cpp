@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "model/config/effective.hpp"
 #include "model/config/scenario_file.hpp"
 #include "tests/model/config/test_files.hpp"
 
@@ -502,6 +503,80 @@ TEST(BadInput, a_mistake_in_a_base_is_placed_in_that_file) {
   ASSERT_FALSE(read);
   EXPECT_EQ(to_string(read.error()),
             path + ":3:3: unknown key 'groupin' in dds.sedp; did you mean 'grouping'?");
+}
+
+/// `good` with a last line; its time limit of 200 s is line 51.
+std::string with_last_line(const std::string& line) { return good + line + "\n"; }
+
+INSTANTIATE_TEST_SUITE_P(
+    LimitsAndRanges, BadInputs,
+    testing::Values(
+        BadInput{"limits_scalar", with_last_line("limits: 3s"), 52, 9,
+                 "limits: '3s' is not a map; expected the keys completion, messages, "
+                 "amplification, backlog"},
+        BadInput{"limit_unknown", with_last_line("limits: {completon: 3s}"), 52, 10,
+                 "unknown key 'completon' in limits; did you mean 'completion'?"},
+        BadInput{"limit_without_unit", with_last_line("limits: {completion: 3}"), 52, 22,
+                 "'3' has no unit"},
+        BadInput{"limit_zero", with_last_line("limits: {completion: 0}"), 52, 22, period},
+        BadInput{"limit_beyond_the_end", with_last_line("limits: {completion: 201s}"), 52, 22,
+                 "limits.completion: '201s'; expected at most the time_limit of 200s"},
+        BadInput{"limit_messages", with_last_line("limits: {messages: -1}"), 52, 20,
+                 "expected an integer from 0 to 1000000000000"},
+        BadInput{"limit_amplification_zero", with_last_line("limits: {amplification: 0}"), 52, 25,
+                 "'0' is not greater than 0"},
+        BadInput{"limit_amplification_large", with_last_line("limits: {amplification: 1000001}"),
+                 52, 25, "greater than 0 and at most 1000000"},
+        BadInput{"limit_backlog", with_last_line("limits: {backlog: 1.5}"), 52, 19,
+                 "expected an integer from 0 to"},
+        BadInput{"vary_list", with_last_line("vary: [1]"), 52, 7,
+                 "expected the keys start_jitter, loss, sizes, delays, timers"},
+        BadInput{"vary_unknown", with_last_line("vary: {jitter: 1ms}"), 52, 8,
+                 "unknown key 'jitter' in vary"},
+        BadInput{"jitter_long", with_last_line("vary: {start_jitter: 1000001s}"), 52, 22, duration},
+        BadInput{"loss_zero", with_last_line("vary: {loss: 0}"), 52, 14,
+                 "'0' is not greater than 0"},
+        BadInput{"loss_large", with_last_line("vary: {loss: 1.01}"), 52, 14,
+                 "greater than 0 and at most 1"},
+        BadInput{"loss_percent", with_last_line("vary: {loss: 2%}"), 52, 14,
+                 "expected a decimal or a fraction"},
+        BadInput{"sizes_negative", with_last_line("vary: {sizes: -0.1}"), 52, 15, "vary.sizes: "},
+        BadInput{"delays_map", with_last_line("vary: {delays: {a: 1}}"), 52, 16, "is not a number"},
+        BadInput{"timers_fine", with_last_line("vary: {timers: 1/1000001}"), 52, 16,
+                 "reduced denominator of at most 1000000"}),
+    name_of_case);
+
+TEST(LimitsAndRanges, are_read_and_written) {
+  const auto read = parse_scenario(
+      with_last_line("limits: {completion: 3s, messages: 0, amplification: 2.5, backlog: 7}\n"
+                     "vary: {start_jitter: 0, loss: 1/50, sizes: 1, delays: 0.1, timers: 0.25}"),
+      "good.yaml", {}, SpecPath{});
+  ASSERT_TRUE(read) << to_string(read.error());
+  ASSERT_TRUE(read->limits && read->vary);
+  EXPECT_EQ(read->limits->completion, Nanoseconds{3'000'000'000});
+  EXPECT_EQ(read->limits->messages, 0U);
+  EXPECT_EQ(read->limits->amplification, (Ratio{5, 2}));
+  EXPECT_EQ(read->limits->backlog, 7U);
+  EXPECT_EQ(read->vary->start_jitter, Nanoseconds{0});
+  EXPECT_EQ(read->vary->loss, (Ratio{1, 50}));
+  EXPECT_EQ(read->vary->sizes, (Ratio{1, 1}));
+  EXPECT_EQ(read->vary->delays, (Ratio{1, 10}));
+  EXPECT_EQ(read->vary->timers, (Ratio{1, 4}));
+  const auto again = parse_scenario(effective_yaml(*read), "effective", {}, SpecPath{});
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_EQ(*again, *read);
+}
+
+TEST(LimitsAndRanges, are_absent_unless_given) {
+  const auto read = parse_scenario(good, "good.yaml", {}, SpecPath{});
+  ASSERT_TRUE(read);
+  EXPECT_FALSE(read->limits.has_value());
+  EXPECT_FALSE(read->vary.has_value());
+  const std::vector<std::string> overrides{"limits.backlog=3"};
+  const auto limited = parse_scenario(good, "good.yaml", overrides, SpecPath{});
+  ASSERT_TRUE(limited && limited->limits);
+  EXPECT_EQ(limited->limits->backlog, 3U);
+  EXPECT_FALSE(limited->limits->completion.has_value());
 }
 
 TEST(BadInput, nothing_to_discover_is_refused) {

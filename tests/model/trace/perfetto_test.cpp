@@ -30,7 +30,7 @@ class PerfettoTest : public testing::TestWithParam<Case> {
 };
 
 TEST_P(PerfettoTest, SlicesOfARowNestAndEnd) {
-  const Timeline timeline = record_timeline(GetParam().scenario);
+  const Timeline& timeline = recorded_timeline(GetParam());
   std::map<TrackKey, std::vector<std::int64_t>> open;
   std::int64_t last = 0;
   for (const Json& event : timeline.document["traceEvents"]) {
@@ -47,7 +47,7 @@ TEST_P(PerfettoTest, SlicesOfARowNestAndEnd) {
 }
 
 TEST_P(PerfettoTest, ChannelsAreBusyAsLongAsTheRunSays) {
-  const Timeline timeline = record_timeline(GetParam().scenario);
+  const Timeline& timeline = recorded_timeline(GetParam());
   std::map<std::uint32_t, std::int64_t> busy;
   std::map<std::uint32_t, int> depth;
   for (const Json& event : timeline.document["traceEvents"]) {
@@ -67,7 +67,7 @@ TEST_P(PerfettoTest, ChannelsAreBusyAsLongAsTheRunSays) {
 }
 
 TEST_P(PerfettoTest, ArrowsStartOnceInsideASliceAndEndAfterThat) {
-  const Timeline timeline = record_timeline(GetParam().scenario);
+  const Timeline& timeline = recorded_timeline(GetParam());
   std::map<TrackKey, int> depth;
   std::set<std::pair<std::string, std::uint64_t>> started;
   std::set<std::pair<std::string, std::uint64_t>> ended;
@@ -83,7 +83,7 @@ TEST_P(PerfettoTest, ArrowsStartOnceInsideASliceAndEndAfterThat) {
   }
   std::set<std::pair<std::string, std::uint64_t>> emitted;
   std::set<std::pair<std::string, std::uint64_t>> arrived;
-  for (const Json& event : record(GetParam().scenario).events) {
+  for (const Json& event : recorded(GetParam()).events) {
     for (const Json& packet : event.value("emitted", Json::array())) {
       const std::size_t copies = packet["to"].is_array() ? packet["to"].size() : 1;
       for (std::size_t k = 0; k < copies; ++k) {
@@ -103,7 +103,7 @@ TEST_P(PerfettoTest, ArrowsStartOnceInsideASliceAndEndAfterThat) {
 }
 
 TEST_P(PerfettoTest, CountersEndWhereTheRunEnds) {
-  const Timeline timeline = record_timeline(GetParam().scenario);
+  const Timeline& timeline = recorded_timeline(GetParam());
   std::uint64_t missing = 0;
   std::map<std::uint32_t, std::uint64_t> backlog;
   for (const Json& event : timeline.document["traceEvents"]) {
@@ -118,7 +118,7 @@ TEST_P(PerfettoTest, CountersEndWhereTheRunEnds) {
 }
 
 TEST_P(PerfettoTest, EveryRowHasAName) {
-  const Timeline timeline = record_timeline(GetParam().scenario);
+  const Timeline& timeline = recorded_timeline(GetParam());
   std::set<TrackKey> named;
   std::set<std::uint32_t> threads;
   for (const Json& event : timeline.document["traceEvents"]) {

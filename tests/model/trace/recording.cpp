@@ -2,6 +2,7 @@
 #include "tests/model/trace/recording.hpp"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -45,6 +46,20 @@ Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress
   writer.finish();
   timeline.document = ordered_json::parse(out.str());
   return timeline;
+}
+
+const Recording& recorded(const Case& recorded_case) {
+  static std::map<std::string, Recording> recordings;
+  const auto [entry, is_new] = recordings.try_emplace(recorded_case.name);
+  if (is_new) entry->second = record(recorded_case.scenario);
+  return entry->second;
+}
+
+const Timeline& recorded_timeline(const Case& recorded_case) {
+  static std::map<std::string, Timeline> timelines;
+  const auto [entry, is_new] = timelines.try_emplace(recorded_case.name);
+  if (is_new) entry->second = record_timeline(recorded_case.scenario);
+  return entry->second;
 }
 
 const std::vector<Case>& trace_cases() {

@@ -38,6 +38,9 @@ struct Case {
   std::string name;
   Scenario scenario;
 };
+/// The trace and the timeline of a case, recorded once in a process.
+[[nodiscard]] const Recording& recorded(const Case& recorded_case);
+[[nodiscard]] const Timeline& recorded_timeline(const Case& recorded_case);
 /// One scenario for each thing that changes what a trace contains.
 [[nodiscard]] const std::vector<Case>& trace_cases();
 [[nodiscard]] const Scenario& case_named(const std::string& name);

@@ -32,7 +32,7 @@ void replace(std::string& line, const std::string& from, const std::string& to) 
 class ReplayTest : public testing::TestWithParam<Case> {};
 
 TEST_P(ReplayTest, ATraceHappensAgain) {
-  const Recording trace = record(GetParam().scenario);
+  const Recording& trace = recorded(GetParam());
   const Replay replay = Replaying{}(trace.text);
   EXPECT_EQ(replay.verdict, Verdict::identical);
   EXPECT_EQ(replay.lines, trace.lines.size());

@@ -61,7 +61,7 @@ class TraceMachinesTest : public testing::TestWithParam<Case> {};
 
 TEST_P(TraceMachinesTest, TransitionsAreRowsAndFollowEachOther) {
   States states;
-  for (const Json& event : record(GetParam().scenario).events) {
+  for (const Json& event : recorded(GetParam()).events) {
     for (const Json& transition : event.value("transitions", Json::array())) {
       const fsm::MachineInfo* machine = machine_named(transition["machine"]);
       ASSERT_NE(machine, nullptr) << transition;

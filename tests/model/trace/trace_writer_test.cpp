@@ -41,7 +41,7 @@ Counts counted(const std::vector<Json>& events, std::uint64_t& user_control) {
 class TraceWriterTest : public testing::TestWithParam<Case> {};
 
 TEST_P(TraceWriterTest, HeaderGivesTheScenarioBack) {
-  const Recording trace = record(GetParam().scenario);
+  const Recording& trace = recorded(GetParam());
   EXPECT_EQ(trace.header["format"], "stormproof-trace");
   EXPECT_EQ(trace.header["version"], 1);
   EXPECT_EQ(trace.header["program"].get<std::string>().rfind("stormproof ", 0), 0U);
@@ -52,7 +52,7 @@ TEST_P(TraceWriterTest, HeaderGivesTheScenarioBack) {
 }
 
 TEST_P(TraceWriterTest, SumsOverTheLinesAreTheCountsOfTheRun) {
-  const Recording trace = record(GetParam().scenario);
+  const Recording& trace = recorded(GetParam());
   std::uint64_t user_control = 0;
   EXPECT_EQ(counted(trace.events, user_control), trace.result.counts);
   EXPECT_EQ(user_control, trace.result.user_control);
@@ -64,7 +64,7 @@ TEST_P(TraceWriterTest, SumsOverTheLinesAreTheCountsOfTheRun) {
 }
 
 TEST_P(TraceWriterTest, OneLineForEachEventInOrder) {
-  const Recording trace = record(GetParam().scenario);
+  const Recording& trace = recorded(GetParam());
   ASSERT_EQ(trace.events.size(), trace.result.events);
   EXPECT_EQ(trace.end["events"], trace.result.events);
   std::int64_t time = 0;
@@ -80,7 +80,7 @@ TEST_P(TraceWriterTest, OneLineForEachEventInOrder) {
 }
 
 TEST_P(TraceWriterTest, EveryEventHasAnEarlierCauseOrIsFromBeforeTheRun) {
-  const Recording trace = record(GetParam().scenario);
+  const Recording& trace = recorded(GetParam());
   std::uint64_t before_run = 0;  // announcements, and with Fast DDS the creation of endpoints
   for (const Json& event : trace.events) {
     before_run += event["event"] == "endpoint_creation" ? 1U : 0U;
@@ -94,7 +94,7 @@ TEST_P(TraceWriterTest, EveryEventHasAnEarlierCauseOrIsFromBeforeTheRun) {
 }
 
 TEST_P(TraceWriterTest, EndSaysHowTheRunEnded) {
-  const Recording trace = record(GetParam().scenario);
+  const Recording& trace = recorded(GetParam());
   if (trace.result.discovery_time) {
     EXPECT_EQ(trace.end["end"], "completed");
     EXPECT_EQ(trace.end["t_disc_ns"], trace.result.discovery_time->count());
@@ -107,7 +107,7 @@ TEST_P(TraceWriterTest, EndSaysHowTheRunEnded) {
 
 TEST_P(TraceWriterTest, AChannelFinishesWhatItServes) {
   std::map<std::string, Json> serving;
-  for (const Json& event : record(GetParam().scenario).events) {
+  for (const Json& event : recorded(GetParam()).events) {
     if (event["event"] == "service_finished") {
       const auto found = serving.find(event["channel"]);
       ASSERT_NE(found, serving.end()) << event;
@@ -127,7 +127,7 @@ TEST_P(TraceWriterTest, PacketsLeaveTheirSourceAndArriveOnceAfterTheyWereEmitted
   std::map<std::uint64_t, Json> under_way;
   std::set<std::uint64_t> left;
   std::vector<std::uint64_t> lost;
-  for (const Json& event : record(GetParam().scenario).events) {
+  for (const Json& event : recorded(GetParam()).events) {
     for (const Json& packet : event.value("emitted", Json::array())) {
       for (std::uint64_t k = 0; k < copies(packet); ++k) {
         Json one = packet;
@@ -156,7 +156,7 @@ TEST_P(TraceWriterTest, PacketsLeaveTheirSourceAndArriveOnceAfterTheyWereEmitted
 }
 
 TEST_P(TraceWriterTest, SecondRunGivesTheSameBytes) {
-  EXPECT_EQ(record(GetParam().scenario).text, record(GetParam().scenario).text);
+  EXPECT_EQ(record(GetParam().scenario).text, recorded(GetParam()).text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, TraceWriterTest, testing::ValuesIn(trace_cases()), CaseName{});
