@@ -27,6 +27,17 @@ find_package(CLI11 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(tinyxml2 REQUIRED)
 find_package(Z3 4.8.12 REQUIRED)
+find_package(rapidcheck REQUIRED)
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+find_package(SQLite3 REQUIRED)
+
+# Open MPI spreads a sweep over machines. A program without it sweeps on one machine; the tests need
+# it.
+if(STORMPROOF_BUILD_TESTS)
+  find_package(MPI REQUIRED COMPONENTS CXX)
+else()
+  find_package(MPI QUIET COMPONENTS CXX)
+endif()
 
 # yaml-cpp 0.8 put its target into a namespace; give 0.7's the same name.
 if(NOT TARGET yaml-cpp::yaml-cpp)

@@ -1,11 +1,9 @@
 // Distributes the sampled runs over threads.
 #include "checker/sampling/sample_runs.hpp"
 
-#include <algorithm>
-#include <atomic>
 #include <mutex>
-#include <thread>
 
+#include "checker/parallel.hpp"
 #include "model/simulator.hpp"
 
 namespace stormproof::sampling {
@@ -18,14 +16,8 @@ class Pool {
       : scenario_{scenario}, options_{options}, results_(options.samples) {}
 
   std::vector<Sample> run() {
-    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-    const std::size_t wanted = options_.threads == 0 ? cores : options_.threads;
-    std::vector<std::thread> threads;
-    for (std::size_t k = 1; k < std::min(wanted, options_.samples); ++k) {
-      threads.emplace_back([this] { work(); });
-    }
-    work();
-    for (std::thread& thread : threads) thread.join();
+    checker::parallel_for(options_.samples, options_.threads,
+                          [this](std::size_t k) { return run_sample(k); });
     std::vector<Sample> finished;
     for (auto& result : results_) {
       if (result) finished.push_back(*result);
@@ -34,19 +26,17 @@ class Pool {
   }
 
  private:
-  void work() {
-    for (std::size_t k = next_++; k < options_.samples && !stopped_; k = next_++) {
-      model::Scenario scenario = scenario_;
-      const std::uint64_t seed = options_.first_seed + k;
-      if (scenario.deployment.schedule) scenario.deployment.draw_schedule(seed);
-      model::RunOptions run_options;
-      run_options.on_progress = [this](const model::Progress&) { return report(0); };
-      const model::RunResult run = model::simulate(scenario, run_options);
-      if (run.end == model::RunEnd::interrupted) return;
-      results_[k] =
-          Sample{seed, run.end, run.discovery_time, run.counts, run.user_control, run.events};
-      report(1);
-    }
+  bool run_sample(std::size_t k) {
+    model::Scenario scenario = scenario_;
+    const std::uint64_t seed = options_.first_seed + k;
+    if (scenario.deployment.schedule) scenario.deployment.draw_schedule(seed);
+    model::RunOptions run_options;
+    run_options.on_progress = [this](const model::Progress&) { return report(0); };
+    const model::RunResult run = model::simulate(scenario, run_options);
+    if (run.end == model::RunEnd::interrupted) return false;
+    results_[k] =
+        Sample{seed, run.end, run.discovery_time, run.counts, run.user_control, run.events};
+    return report(1);
   }
 
   bool report(std::size_t newly_finished) {
@@ -59,8 +49,7 @@ class Pool {
   const model::Scenario& scenario_;
   const SampleOptions& options_;
   std::vector<std::optional<Sample>> results_;
-  std::atomic<std::size_t> next_ = 0;
-  std::atomic<bool> stopped_ = false;
+  bool stopped_ = false;
   std::mutex mutex_;
   std::size_t finished_ = 0;
 };
