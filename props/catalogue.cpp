@@ -3,6 +3,7 @@
 // the delay of a packet from its emission to its reception.
 #include <array>
 
+#include "props/limits.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::props {
@@ -163,6 +164,9 @@ std::span<const Property> catalogue() { return entries; }
 
 const Property* find_property(std::string_view id) {
   for (const Property& property : catalogue()) {
+    if (property.id == id) return &property;
+  }
+  for (const Property& property : limit_properties()) {
     if (property.id == id) return &property;
   }
   return nullptr;

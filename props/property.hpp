@@ -26,7 +26,7 @@ struct Property {
 /// All properties, in the order in which reports show them.
 [[nodiscard]] std::span<const Property> catalogue();
 
-/// The property with this id, or null.
+/// The property of the catalogue, or the limit (props/limits.hpp), with this id; or null.
 [[nodiscard]] const Property* find_property(std::string_view id);
 
 }  // namespace stormproof::props

@@ -1,6 +1,7 @@
 // Reads the scenario, checks it, writes the counterexamples, prints the report.
 #include "checker/cli/check_command.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/core.h>
@@ -32,7 +33,7 @@ std::optional<std::string> unknown_property(const std::vector<std::string>& ids)
   std::vector<std::string> known;
   for (const props::Property& property : props::catalogue()) known.emplace_back(property.id);
   for (const std::string& id : ids) {
-    if (props::find_property(id) != nullptr) continue;
+    if (std::ranges::find(known, id) != known.end()) continue;
     return fmt::format("--property {}: no such property{}; 'stormproof properties' lists them", id,
                        model::config::suggestion(id, known));
   }

@@ -24,6 +24,8 @@ std::optional<std::string> write_file(const std::string& path, Fill&& fill) {
   return file.commit();
 }
 
+}  // namespace
+
 std::optional<std::string> write_text(const std::string& path, const std::string& text) {
   return write_file(path, [&](std::ostream& out) -> std::optional<std::string> {
     out << text;
@@ -31,8 +33,8 @@ std::optional<std::string> write_text(const std::string& path, const std::string
   });
 }
 
-std::optional<std::string> write_one(const props::Counterexample& counterexample,
-                                     const std::string& stem) {
+std::optional<std::string> write_counterexample(const props::Counterexample& counterexample,
+                                                const std::string& stem) {
   auto error = write_file(stem + ".jsonl", [&](std::ostream& out) {
     return counterexample::write_counterexample(counterexample, out);
   });
@@ -43,8 +45,6 @@ std::optional<std::string> write_one(const props::Counterexample& counterexample
   }
   return error;
 }
-
-}  // namespace
 
 std::optional<std::string> write_counterexamples(const CheckArguments& arguments,
                                                  const checker::CheckReport& report,
@@ -63,7 +63,7 @@ std::optional<std::string> write_counterexamples(const CheckArguments& arguments
     }
     const std::string id{result.property->id};
     const std::string stem = (std::filesystem::path{arguments.output_directory} / id).string();
-    if (auto error = write_one(*found, stem)) return error;
+    if (auto error = write_counterexample(*found, stem)) return error;
     context.counterexamples.emplace(id, stem + ".jsonl");
     context.stories.emplace(id, counterexample::story(*found));
     all.push_back(*found);

@@ -11,6 +11,14 @@
 
 namespace stormproof::cli {
 
+/// Writes a text file; what went wrong, or nothing.
+[[nodiscard]] std::optional<std::string> write_text(const std::string& path,
+                                                    const std::string& text);
+
+/// Writes STEM.jsonl, .svg and .mmd. Returns what could not be written, or nothing.
+[[nodiscard]] std::optional<std::string> write_counterexample(
+    const props::Counterexample& counterexample, const std::string& stem);
+
 /// Writes PROPERTY.jsonl, .svg and .mmd into the output directory and notes paths and stories in
 /// `context`. Returns what could not be written, or nothing.
 [[nodiscard]] std::optional<std::string> write_counterexamples(const CheckArguments& arguments,

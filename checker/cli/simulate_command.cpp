@@ -1,5 +1,8 @@
-// Reads the scenario, runs it with the observers that were asked for, and prints the report.
+// Reads the scenario, runs it with the observers that were asked for and those of its limits, and
+// prints the report.
 #include "checker/cli/simulate_command.hpp"
+
+#include <algorithm>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -14,7 +17,9 @@
 #include "model/simulator.hpp"
 #include "model/trace/perfetto.hpp"
 #include "model/trace/probe_list.hpp"
+#include "model/trace/replay.hpp"
 #include "model/trace/trace_writer.hpp"
+#include "props/limits.hpp"
 
 namespace stormproof::cli {
 
@@ -29,7 +34,10 @@ int complain(const std::string& message) {
 class Recorders {
  public:
   Recorders(const SimulateArguments& arguments, const model::Scenario& scenario)
-      : trace_file_{arguments.trace_file}, perfetto_file_{arguments.perfetto_file} {
+      : trace_file_{arguments.trace_file},
+        perfetto_file_{arguments.perfetto_file},
+        limits_{scenario} {
+    for (model::Probe* probe : limits_.probes()) probes_.add(*probe);
     if (trace_file_.wanted()) {
       trace_.emplace(trace_file_.stream(), scenario);
       probes_.add(*trace_);
@@ -50,6 +58,12 @@ class Recorders {
     return perfetto_file_.commit();
   }
 
+  /// How far the run went with respect to the limits of the scenario.
+  [[nodiscard]] std::vector<props::LimitReading> limits(const model::RunResult& result,
+                                                        const model::Scenario& scenario) {
+    return limits_.finish(model::trace::known_until(result, scenario));
+  }
+
   [[nodiscard]] std::optional<std::string> open_error() const {
     if (auto error = trace_file_.open_error()) return error;
     return perfetto_file_.open_error();
@@ -58,6 +72,7 @@ class Recorders {
  private:
   OutputFile trace_file_;
   OutputFile perfetto_file_;
+  props::LimitWatch limits_;
   std::optional<model::trace::TraceWriter> trace_;
   std::optional<model::trace::PerfettoWriter> perfetto_;
   model::trace::ProbeList probes_;
@@ -86,11 +101,14 @@ int simulate(const SimulateArguments& arguments) {
     result = model::simulate(*scenario, options);
   }
   const auto error = recorders.finish(result);
-  const report::Simulation simulation =
+  std::vector<props::LimitReading> limits = recorders.limits(result, *scenario);
+  report::Simulation simulation =
       report::describe(arguments.scenario, *scenario, std::move(result));
+  simulation.limits = std::move(limits);
   fmt::print("{}", arguments.json ? report::to_json(simulation).dump(2) + "\n"
                                   : report::to_text(simulation));
   if (error) return complain(*error);
+  if (std::ranges::any_of(simulation.limits, &props::LimitReading::exceeded)) return violated;
   return simulation.result.completed() ? established : inconclusive;
 }
 

@@ -20,8 +20,9 @@ struct SimulateArguments {
   std::optional<bool> progress;        ///< not given: when stderr is a terminal
 };
 
-/// Exit code: established if discovery completes (with samples: in every run of the scenario's own
-/// profile), inconclusive if not within the limit or interrupted, bad_input.
+/// Exit code: violated if a limit of the scenario is exceeded (not with samples), established if
+/// discovery completes (with samples: in every run of the scenario's own profile), inconclusive if
+/// not within the time limit or interrupted, bad_input.
 [[nodiscard]] int simulate(const SimulateArguments& arguments);
 
 }  // namespace stormproof::cli

@@ -90,6 +90,22 @@ Json latency_json(const RunResult& result) {
   return json;
 }
 
+/// In ns, messages, a ratio, packets.
+Json limits_json(const std::vector<props::LimitReading>& limits) {
+  Json json;
+  for (const props::LimitReading& reading : limits) {
+    const auto number = [&](double value) {
+      const bool is_ratio = reading.id == "limit.amplification";
+      return is_ratio ? Json(value) : Json(static_cast<std::uint64_t>(value));
+    };
+    const std::string name{reading.id.substr(reading.id.find('.') + 1)};
+    json[name] = {{"limit", number(reading.limit)},
+                  {"reached", reading.reached ? number(*reading.reached) : Json(nullptr)},
+                  {"exceeded", reading.exceeded}};
+  }
+  return json;
+}
+
 Json last_delivery_json(const RunResult& result) {
   if (!result.last_delivery) return nullptr;
   const model::LastDelivery& last = *result.last_delivery;
@@ -141,6 +157,7 @@ Json to_json(const Simulation& s) {
                                     ? Json(static_cast<double>(result.discovery_time->count()) /
                                            static_cast<double>(s.open_loop->count()))
                                     : Json(nullptr);
+  if (!s.limits.empty()) json["limits"] = limits_json(s.limits);
   json["missing"] = missing_json(result);
   json["channels"] = channels_json(result);
   json["backlog"] = backlog_json(result);

@@ -4,12 +4,14 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "model/counts.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
+#include "props/limits.hpp"
 
 namespace stormproof::report {
 
@@ -19,6 +21,7 @@ struct Simulation {
   model::RunResult result;
   model::Counts failure_free;
   std::optional<model::Nanoseconds> open_loop;
+  std::vector<props::LimitReading> limits = {};  ///< those that the scenario sets
 };
 
 /// Completes a run with its reference and its baseline.
@@ -29,8 +32,8 @@ struct Simulation {
 [[nodiscard]] std::string to_text(const Simulation& simulation);
 
 /// Keys: scenario, completed, end, t_disc_ns, end_ns, counts, failure_free, amplification, events,
-/// open_loop_ns, closed_to_open_loop, missing, channels, backlog, latency, deliveries,
-/// last_delivery, profile. specs/output.md describes them.
+/// open_loop_ns, closed_to_open_loop, limits (if the scenario has any), missing, channels, backlog,
+/// latency, deliveries, last_delivery, profile. specs/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Simulation& simulation);
 
 /// How a run ended, as the JSON and traces spell it.

@@ -82,6 +82,23 @@ std::string baseline(const Simulation& s) {
   return text + fmt::format("; the run ended after {} of that.\n", ratio(end, open_loop));
 }
 
+/// "limit completion 3 s: exceeded (6.263 s)", a line each.
+std::string limits(const Simulation& s) {
+  std::string text;
+  for (const props::LimitReading& reading : s.limits) {
+    const std::string name{reading.id.substr(reading.id.find('.') + 1)};
+    const auto print = [&](double value) -> std::string {
+      if (name == "completion") return duration(Nanoseconds{static_cast<std::int64_t>(value)});
+      if (name == "amplification") return ratio(value, 1);
+      return grouped(static_cast<std::uint64_t>(value));
+    };
+    const char* verdict = reading.exceeded ? "exceeded" : reading.reached ? "kept" : "not known";
+    text += fmt::format("limit {} {}: {} ({})\n", name, print(reading.limit), verdict,
+                        reading.reached ? print(*reading.reached) : "not complete");
+  }
+  return text;
+}
+
 std::string messages(const Simulation& s) {
   std::string text = fmt::format("{}{}{}{}\n", left("messages", 20), right("this run", 14),
                                  right("failure-free", 14), right("amplification", 15));
@@ -247,8 +264,8 @@ std::string footer(const Simulation& s) {
 }  // namespace
 
 std::string to_text(const Simulation& s) {
-  return deployment(s) + headline(s) + baseline(s) + "\n" + messages(s) + channel_use(s.result) +
-         delays(s.result) + (s.result.channels.empty() ? "" : backlogs(s)) +
+  return deployment(s) + headline(s) + baseline(s) + limits(s) + "\n" + messages(s) +
+         channel_use(s.result) + delays(s.result) + (s.result.channels.empty() ? "" : backlogs(s)) +
          last_delivery(s.result) + missing(s.result) + reading(s) + footer(s);
 }
 

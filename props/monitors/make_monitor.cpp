@@ -1,4 +1,5 @@
-// Which monitor decides which property.
+// Which monitor decides which property. Limits of a scenario have monitors, too, but are not in the
+// list of monitored properties: they exist only if the scenario sets them.
 #include "props/monitors/monitors.hpp"
 
 namespace stormproof::props {
@@ -31,7 +32,7 @@ std::unique_ptr<Monitor> make_monitor(std::string_view property, const model::Sc
   for (const Entry& entry : entries) {
     if (entry.property == property) return entry.make(scenario);
   }
-  return nullptr;
+  return watch_limit(property, scenario);
 }
 
 std::vector<std::string_view> monitored_properties() {
