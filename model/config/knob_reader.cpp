@@ -56,13 +56,8 @@ std::optional<InputError> check_keys(const Node& map, std::string_view path,
   return std::nullopt;
 }
 
-const Node* KnobReader::find(std::string_view key, Presence presence, std::string_view expected) {
-  if (error_) return nullptr;
-  const Node* node = map_.find(key);
-  if (node == nullptr && presence == Presence::required) {
-    fail(map_.place, fmt::format("missing key '{}'{}; expected {}", key, inside(path_), expected));
-  }
-  return node;
+void KnobReader::complain_missing(std::string_view key, std::string_view expected) {
+  fail(map_.place, fmt::format("missing key '{}'{}; expected {}", key, inside(path_), expected));
 }
 
 void KnobReader::fail(const Place& place, std::string message) {

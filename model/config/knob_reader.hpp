@@ -89,7 +89,7 @@ class KnobReader {
   void knob(std::string_view key, T&& member, const auto& type, std::string_view,
             Presence presence = Presence::required) {
     if (presence == Presence::of_paper) return;
-    const Node* node = find(key, presence, type.info().expected);
+    const Node* node = find(key, presence, [&type] { return type.info().expected; });
     if (node == nullptr) return;
     Complaint complaint;
     if constexpr (requires { member.emplace(); }) {  // an optional value: present from now on
@@ -106,7 +106,7 @@ class KnobReader {
   void section(std::string_view key, auto& member, std::string_view,
                Presence presence = Presence::required, const auto&... context) {
     if (presence == Presence::of_paper) return;
-    const Node* node = find(key, presence, "a map");
+    const Node* node = find(key, presence, [] { return "a map"; });
     if (node == nullptr) return;
     if constexpr (requires { member.emplace(); }) {  // an optional table: present from now on
       read_knobs(*node, join_path(path_, key), member.emplace(), error_, context...);
@@ -119,7 +119,7 @@ class KnobReader {
   void list(std::string_view key, std::vector<Item>& members, ListSize size, std::string_view,
             Presence presence = Presence::required) {
     const std::string expected = fmt::format("a list of {} to {} maps", size.minimum, size.maximum);
-    const Node* node = find(key, presence, expected);
+    const Node* node = find(key, presence, [&expected] { return expected; });
     if (node == nullptr) return;
     const std::string path = join_path(path_, key);
     if (!node->is_sequence()) {
@@ -140,7 +140,15 @@ class KnobReader {
   void rule(bool holds, std::string_view key, std::string_view expected);
 
  private:
-  const Node* find(std::string_view key, Presence presence, std::string_view expected);
+  /// `expected` is called only if a required key is missing: what it says takes long to put
+  /// together.
+  const Node* find(std::string_view key, Presence presence, const auto& expected) {
+    if (error_) return nullptr;
+    const Node* node = map_.find(key);
+    if (node == nullptr && presence == Presence::required) complain_missing(key, expected());
+    return node;
+  }
+  void complain_missing(std::string_view key, std::string_view expected);
   void fail(const Place& place, std::string message);
 
   const Node& map_;
