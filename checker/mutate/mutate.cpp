@@ -8,6 +8,7 @@
 
 #include "checker/exact/exact.hpp"
 #include "checker/explorer/explorer.hpp"
+#include "checker/mutate/law_trials.hpp"
 #include "checker/mutate/trial_scenarios.hpp"
 #include "checker/tables/tables.hpp"
 #include "checker/timeline/timeline.hpp"
@@ -134,7 +135,8 @@ class Mutator {
                                request(ground.trial, &entry.mutant)));
       }
     }
-    MutantResult result{entry.mutant.id, entry.mutant.description, {}, {}};
+    MutantResult result{entry.mutant.id, entry.mutant.description, {}, {}, {}};
+    if (shows_in_runs(entry.mutant)) result.killed_by_laws = laws_.killers(entry);
     for (const props::Property& property : props::catalogue()) {
       if (killers.contains(property.id)) result.killed_by.emplace_back(property.id);
     }
@@ -149,6 +151,7 @@ class Mutator {
   const MutateOptions& options_;
   smt::Claims claims_;
   std::array<std::vector<Ground>, 2> grounds_;
+  LawTrials laws_;
 };
 
 }  // namespace
@@ -164,6 +167,27 @@ std::size_t MutationReport::killed_by(std::string_view property) const {
       std::count_if(mutants.begin(), mutants.end(), [&](const MutantResult& mutant) {
         const auto& list = mutant.killed_by;
         return std::find(list.begin(), list.end(), property) != list.end();
+      }));
+}
+
+std::size_t MutationReport::killed_by_laws() const {
+  return static_cast<std::size_t>(
+      std::count_if(mutants.begin(), mutants.end(), [](const MutantResult& mutant) {
+        return mutant.killed_by_laws && !mutant.killed_by_laws->empty();
+      }));
+}
+
+std::size_t MutationReport::tried_on_laws() const {
+  return static_cast<std::size_t>(
+      std::count_if(mutants.begin(), mutants.end(),
+                    [](const MutantResult& mutant) { return mutant.killed_by_laws.has_value(); }));
+}
+
+std::size_t MutationReport::killed_by_law(std::string_view law) const {
+  return static_cast<std::size_t>(
+      std::count_if(mutants.begin(), mutants.end(), [&](const MutantResult& mutant) {
+        const auto& list = mutant.killed_by_laws;
+        return list && std::find(list->begin(), list->end(), law) != list->end();
       }));
 }
 

@@ -1,8 +1,9 @@
 // `stormproof mutate` without its command line: runs the checks against every mutant and says which
-// property notices which.
+// property and which law notices which.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,9 @@ struct MutantResult {
   std::string id;
   std::string description;
   std::vector<std::string> killed_by;  ///< property ids, in the order of the catalogue
-  std::string reason;                  ///< of a survivor: why nothing noticed it
+  std::string reason;                  ///< of a survivor: why no property noticed it
+  /// Laws that the mutant breaks; absent if no run can show it.
+  std::optional<std::vector<std::string>> killed_by_laws;
 };
 
 struct MutationReport {
@@ -27,6 +30,11 @@ struct MutationReport {
   [[nodiscard]] std::size_t killed() const;
   /// How many mutants the property notices.
   [[nodiscard]] std::size_t killed_by(std::string_view property) const;
+  /// How many mutants at least one law notices, and on how many the laws were tried.
+  [[nodiscard]] std::size_t killed_by_laws() const;
+  [[nodiscard]] std::size_t tried_on_laws() const;
+  /// How many mutants the law notices.
+  [[nodiscard]] std::size_t killed_by_law(std::string_view law) const;
 };
 
 struct MutateOptions {
@@ -36,7 +44,8 @@ struct MutateOptions {
 };
 
 /// A property kills a mutant if it is violated with the mutant and not without, on one of a few
-/// small scenarios of each implementation.
+/// small scenarios of each implementation. A law does if it is broken with the mutant and not
+/// without.
 [[nodiscard]] MutationReport mutate(const MutateOptions& options);
 
 }  // namespace stormproof::mutate

@@ -171,16 +171,19 @@ std::vector<Case> fastdds_cases() {
   };
 }
 
-std::vector<Case> all_cases() {
-  std::vector<Case> cases = paper_cases();
-  for (Case& one : fastdds_cases()) cases.push_back(std::move(one));
-  return cases;
+const std::vector<Case>& all_cases() {
+  static const std::vector<Case> all = [] {
+    std::vector<Case> cases = paper_cases();
+    for (Case& one : fastdds_cases()) cases.push_back(std::move(one));
+    return cases;
+  }();
+  return all;
 }
 
 class Mistakes : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Mistakes, AreNoticed) {
-  const Case tested = all_cases()[GetParam()];
+  const Case& tested = all_cases()[GetParam()];
   const MonitoredRun correct = run_monitored(tested.scenario);
   EXPECT_EQ(correct.violation(tested.property), nullptr)
       << tested.name << ": " << correct.violation(tested.property)->reason;

@@ -1,0 +1,27 @@
+// The families of laws, each in a file of its own; `laws()` joins them.
+#pragma once
+
+#include <span>
+
+#include "props/laws/law.hpp"
+
+namespace stormproof::props {
+
+[[nodiscard]] std::span<const Law> repetition_laws();  ///< runs of the same scenario, cut or not
+[[nodiscard]] std::span<const Law> naming_laws();      ///< names and numbers
+[[nodiscard]] std::span<const Law> time_laws();        ///< other units and another origin of time
+[[nodiscard]] std::span<const Law> byte_laws();        ///< another unit of size
+[[nodiscard]] std::span<const Law> workload_laws();    ///< what has to be delivered, at least
+[[nodiscard]] std::span<const Law>
+quiet_laws();  ///< a network without delays or losses to speak of
+[[nodiscard]] std::span<const Law> obligation_laws();  ///< what has to happen, and when
+[[nodiscard]] std::span<const Law> accounting_laws();  ///< totals against what happened
+[[nodiscard]] std::span<const Law> causality_laws();   ///< effects and causes
+[[nodiscard]] std::span<const Law> service_laws();     ///< queue, order and losses
+[[nodiscard]] std::span<const Law> bound_laws();       ///< how fast and how slow discovery can be
+[[nodiscard]] std::span<const Law> adaptive_laws();    ///< the response-aware policy
+
+/// Of laws that say something about every scenario.
+[[nodiscard]] inline bool always(const model::Scenario&) { return true; }
+
+}  // namespace stormproof::props

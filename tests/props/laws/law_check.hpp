@@ -1,0 +1,25 @@
+// Tries a law on random scenarios, with RapidCheck, and shrinks what breaks it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "props/laws/law.hpp"
+
+namespace stormproof::props {
+
+struct Effort {
+  int scenarios = 100;  ///< that the law applies to
+  bool shrink = true;
+};
+
+/// What breaks the law with the smallest scenario found, as text, or nothing. The scenarios are the
+/// same on every machine.
+[[nodiscard]] std::optional<std::string> broken_on_random_scenarios(const Law& law,
+                                                                    const Simulate& simulate,
+                                                                    const Effort& effort = {});
+
+/// The simulator as it is.
+[[nodiscard]] model::RunResult correct(const model::Scenario& scenario, model::Probe* probe);
+
+}  // namespace stormproof::props

@@ -1,0 +1,54 @@
+// Every law holds on random scenarios of both implementations; and says something about a fair
+// share of them, so that none holds because it is never tried.
+#include <algorithm>
+#include <ostream>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "props/generators/space.hpp"
+#include "tests/props/laws/law_check.hpp"
+
+namespace stormproof::props {
+
+/// GoogleTest prints the law of a failing test by its statement.
+static void PrintTo(const Law& law, std::ostream* out) { *out << law.id << ": " << law.statement; }
+
+namespace {
+
+std::string test_name(const testing::TestParamInfo<Law>& info) {
+  std::string name{info.param.id.substr(info.param.id.find('.') + 1)};
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
+class LawTest : public testing::TestWithParam<Law> {};
+INSTANTIATE_TEST_SUITE_P(Every, LawTest, testing::ValuesIn(laws().begin(), laws().end()),
+                         test_name);
+
+TEST_P(LawTest, Holds) {
+  const auto broken = broken_on_random_scenarios(GetParam(), correct);
+  EXPECT_FALSE(broken) << *broken;
+}
+
+TEST_P(LawTest, AppliesOften) {
+  int applied = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    if (GetParam().applies(draw_scenario(seed, 50))) ++applied;
+  }
+  EXPECT_GE(applied, 15);
+}
+
+TEST(Laws, HaveUniqueIdsAndStatementsOfOneLine) {
+  std::set<std::string_view> ids;
+  for (const Law& law : laws()) {
+    EXPECT_TRUE(ids.insert(law.id).second) << law.id;
+    EXPECT_TRUE(law.id.starts_with("law."));
+    EXPECT_TRUE(law.statement.ends_with('.')) << law.id;
+    EXPECT_EQ(law.statement.find('\n'), std::string_view::npos) << law.id;
+  }
+  EXPECT_GE(ids.size(), 20U);
+}
+
+}  // namespace
+}  // namespace stormproof::props
