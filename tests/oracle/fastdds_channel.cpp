@@ -1,6 +1,8 @@
 // The way of a packet from its emission to its receptions: over the loopback to participants on the
 // same host, and over its source's queue and the stages of the route to the others. Nothing here
 // looks at what is in a packet.
+#include <algorithm>
+
 #include "tests/oracle/fastdds_world.hpp"
 #include "tests/oracle/oracle_sizes.hpp"
 
@@ -81,7 +83,9 @@ std::vector<Id> receivers(const World& w, const Packet& packet, bool same_host) 
 }
 
 void schedule_receptions(World& w, const Packet& packet, bool same_host, Time at) {
-  for (const Id j : receivers(w, packet, same_host)) {
+  std::vector<Id> ids = receivers(w, packet, same_host);
+  if (w.makes(Mistake::receptions_reversed)) std::reverse(ids.begin(), ids.end());
+  for (const Id j : ids) {
     Event event = make_event(EventKind::reception, packet.source, j, packet.stream);
     event.packet = packet.id;
     schedule(w, at, EventClass::service, event);
@@ -94,18 +98,21 @@ void emit(World& w, Packet packet) {
   packet.id = w.packets.size();
   packet.fragments = cut_into_fragments(w.scenario.wireless, packet.payload);
   const bool on_channel = !receivers(w, packet, false).empty();
-  if (on_channel) {
-    packet.lost = w.lost_packets.contains(w.outcome.packets);
-    ++w.outcome.packets;
-  }
+  const std::uint64_t number = w.outcome.packets;
+  if (on_channel) packet.lost = w.lost_packets.contains(number);
+  if (on_channel || w.makes(Mistake::loopback_takes_a_number)) ++w.outcome.packets;
   w.packets[packet.id] = packet;
 
-  const Time loopback = w.scenario.deployment.loopback_delay.count();
+  const Time loopback =
+      w.makes(Mistake::loopback_without_delay) ? 0 : w.scenario.deployment.loopback_delay.count();
   schedule_receptions(w, packet, true, w.now + loopback);
   if (!on_channel) return;
   if (w.scenario.wireless.kind == model::ServiceKind::constant_delay) {
-    const Time at = w.now + w.scenario.wireless.one_way.count();
-    if (!packet.lost) schedule_receptions(w, packet, false, at);
+    Time one_way = w.scenario.wireless.one_way.count();
+    for (const model::PacketDelay& delay : w.scenario.wireless.packet_delays) {
+      if (delay.packet == number) one_way = delay.one_way.count();
+    }
+    if (!packet.lost) schedule_receptions(w, packet, false, w.now + one_way);
     return;
   }
   w.participants.at(packet.source).backlog.push_back(packet.id);

@@ -85,7 +85,7 @@ void receive_control_heartbeat(World& w, const Packet& packet) {
   Control& c = control(w, i, j, packet.topic);
   if (!c.reader_open) return;
   c.heartbeat_seen = true;
-  if (c.reply_pending) return;
+  if (c.reply_pending && !w.makes(Mistake::control_reply_doubled)) return;
   c.reply_pending = true;
   schedule_after(w, reply_delay, control_event(EventKind::control_reply, j, i, packet.topic));
 }
@@ -93,6 +93,7 @@ void receive_control_heartbeat(World& w, const Packet& packet) {
 void receive_control_acknack(World& w, const Packet& packet) {
   const Id i = *packet.destination;
   const Id j = packet.source;
+  if (w.makes(Mistake::control_initial_ignored)) return;
   if (!packet.initial || !control(w, i, j, packet.topic).writer_open) return;
   send(w, PacketKind::control_heartbeat, i, j, packet.topic, false);
 }

@@ -31,12 +31,13 @@ struct Sending {
   std::optional<Message> open;
 };
 
-void open_message(Sending& sending, int s, const std::vector<Id>& destinations) {
+void open_message(const World& w, Sending& sending, int s, const std::vector<Id>& destinations) {
   Message message;
   message.stream = s;
   message.destinations = destinations;
   message.bytes = message_header;
-  if (destinations.size() == 1) message.bytes += destination_bytes;
+  const bool to_one = destinations.size() == 1 && !w.makes(Mistake::no_destination_bytes);
+  if (to_one) message.bytes += destination_bytes;
   sending.open = message;
 }
 
@@ -45,7 +46,9 @@ void flush(World& w, Sending& sending) {
   const Message message = *sending.open;
   sending.open.reset();
   if (message.descriptors.empty() && !message.announced.has_value()) return;
-  if (sending.async) w.participants.at(sending.i).sent_bytes += message.bytes;
+  std::int64_t sent = message.bytes;
+  if (w.makes(Mistake::charge_per_packet)) sent *= std::int64_t(message.destinations.size());
+  if (sending.async) w.participants.at(sending.i).sent_bytes += sent;
   for (const Id j : message.destinations) {
     Packet packet;
     packet.kind = PacketKind::sedp;
@@ -81,7 +84,7 @@ void count_data(World& w, Id i, Id j, int s, Id d) {
 void suppress(World& w, Id i, Id j, int s, Id d) {
   Relation& r = relation(w, i, j, s);
   r.state.at(d) = DescriptorState::suppressed;
-  if (!r.suppression_pending) {
+  if (!r.suppression_pending || w.makes(Mistake::suppression_per_descriptor)) {
     r.suppression_pending = true;
     schedule_after(w, w.sedp.nack_suppression_duration,
                    make_event(EventKind::suppression_end, i, j, s));
@@ -93,7 +96,7 @@ std::int64_t charge(const World& w, const Sending& sending, int s, Id d) {
   const std::int64_t alone = message_header + timestamp_bytes + submessage_bytes(s, d);
   switch (w.sedp.piggyback) {
     case model::Piggyback::cumulative:
-      if (!sending.async) return alone;
+      if (!sending.async && !w.makes(Mistake::sync_charges_message)) return alone;
       return w.participants.at(sending.i).sent_bytes + sending.open->bytes;
     case model::Piggyback::linear:
       return alone;
@@ -105,9 +108,10 @@ std::int64_t charge(const World& w, const Sending& sending, int s, Id d) {
 
 void piggyback(World& w, Sending& sending, int s) {
   Writer& wr = writer(w, sending.i, s);
-  if (sending.open->destinations != wr.readers) {
+  const bool ride = w.makes(Mistake::piggyback_rides_along);
+  if (sending.open->destinations != wr.readers && !ride) {
     flush(w, sending);
-    open_message(sending, s, wr.readers);
+    open_message(w, sending, s, wr.readers);
     ++w.outcome.replaced_messages;
   }
   sending.open->bytes += heartbeat_bytes;
@@ -121,7 +125,7 @@ void piggyback(World& w, Sending& sending, int s) {
 
 void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& destinations) {
   if (sending.open.has_value() && !joins(*sending.open, s, d, destinations)) flush(w, sending);
-  if (!sending.open.has_value()) open_message(sending, s, destinations);
+  if (!sending.open.has_value()) open_message(w, sending, s, destinations);
   sending.open->descriptors.push_back(d);
   sending.open->bytes += timestamp_bytes + submessage_bytes(s, d);
   for (const Id j : destinations) {
@@ -139,7 +143,7 @@ void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& des
 void create(World& w, Id i, int s, Id d) {
   Writer& wr = writer(w, i, s);
   wr.existing = d + 1;
-  if (!wr.readers.empty()) {
+  if (!wr.readers.empty() && !w.makes(Mistake::creation_not_pushed)) {
     for (const Id j : wr.readers) relation(w, i, j, s).state.at(d) = DescriptorState::queued;
     Sending sending;
     sending.i = i;

@@ -16,10 +16,12 @@ struct FastddsOutcome : Outcome {
   std::uint64_t replaced_messages = 0;  ///< piggybacks that needed a new message, to all readers
 };
 
-/// Runs the scenario to completion, to its time limit, or until nothing is left to do. Takes the
-/// profile for one of `implementation: fastdds`, whatever it says.
+/// Runs the scenario as `run` does. Takes the profile for one of `implementation: fastdds`,
+/// whatever it says.
 /// Throws std::invalid_argument if the deployment has no cross-host pair or a participant is done
 /// before it starts.
-[[nodiscard]] FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log = {});
+[[nodiscard]] FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log = {},
+                                         FastddsMistake mistake = FastddsMistake::none,
+                                         std::uint64_t max_events = 0);
 
 }  // namespace stormproof::oracle

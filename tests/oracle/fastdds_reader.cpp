@@ -15,15 +15,17 @@ void take_data(World& w, Relation& r, const Packet& packet, Id j) {
   for (const Id d : packet.descriptors) {
     if (!r.received.at(d) && cross_host(w, packet.source, j)) --w.missing;
     r.received.at(d) = true;
-    r.announced = std::max(r.announced, d + 1);
+    if (!w.makes(Mistake::data_announces_nothing)) r.announced = std::max(r.announced, d + 1);
   }
-  if (w.missing > 0) return;
+  if (w.missing > 0 || w.outcome.completed) return;
   w.outcome.completed = true;
   w.outcome.t_disc_ns = w.now;
+  w.ended = w.scenario.run_until == model::RunUntil::completion;
 }
 
 void notify_in_order(World& w, Relation& r, Id i, Id j, int s) {
-  while (r.notified < r.received.size() && r.received.at(r.notified)) {
+  const Id ahead = w.makes(Mistake::notified_late) ? 1 : 0;
+  while (r.notified + ahead < r.received.size() && r.received.at(r.notified + ahead)) {
     ++r.notified;
     notified(w, i, j, s, r.notified - 1);
   }
@@ -35,12 +37,12 @@ void receive_sedp(World& w, Id j, const Packet& packet) {
   Relation& r = relation(w, i, j, s);
   if (!r.reader_open) return;
   take_data(w, r, packet, j);
-  if (w.outcome.completed) return;
+  if (w.ended) return;
   notify_in_order(w, r, i, j, s);
   if (!packet.announced.has_value()) return;
   r.heartbeat_seen = true;
   r.announced = std::max(r.announced, *packet.announced);
-  if (r.acknack_pending) return;
+  if (r.acknack_pending && !w.makes(Mistake::acknack_per_heartbeat)) return;
   r.acknack_pending = true;
   schedule_after(w, w.sedp.heartbeat_response_delay,
                  make_event(EventKind::acknack_generation, j, i, s));

@@ -1,5 +1,7 @@
 // The main loop: the next event is the least of (time, class, insertion number), and one switch
 // says what it does. Also what is scheduled before the run, and the report at its end.
+#include <algorithm>
+
 #include "tests/oracle/fastdds_world.hpp"
 
 namespace stormproof::oracle::fastdds {
@@ -85,9 +87,10 @@ void schedule_creations(World& w, Id i) {
   const model::Participant& p = w.scenario.deployment.participants.at(i);
   const Time start = p.start.count();
   const Time span = p.endpoints_done.count() - start;
-  const std::vector<std::pair<int, Id>> order = creation_order(w.scenario, i);
+  std::vector<std::pair<int, Id>> order = creation_order(w.scenario, i);
+  if (w.makes(Mistake::publications_first)) std::sort(order.begin(), order.end());
   const auto count = static_cast<std::int64_t>(order.size());
-  std::int64_t k = 0;
+  std::int64_t k = w.makes(Mistake::creation_a_step_early) ? -1 : 0;
   for (const auto& [s, d] : order) {
     Event event = make_event(EventKind::creation, i, i, s);
     event.descriptor = d;
@@ -130,13 +133,15 @@ std::vector<Missing> missing_descriptors(const World& w) {
   return missing;
 }
 
-FastddsOutcome run(const model::Scenario& scenario, const EventLog& log) {
-  World w{scenario};
+FastddsOutcome run(const model::Scenario& scenario, const EventLog& log, Mistake mistake,
+                   std::uint64_t max_events) {
+  World w{scenario, mistake};
   schedule_beginning(w);
-  while (!w.queue.empty() && !w.outcome.completed) {
+  while (!w.queue.empty() && !w.ended) {
     const auto key = w.queue.begin()->first;
     const Event event = w.queue.begin()->second;
     if (std::get<0>(key) > scenario.time_limit.count()) break;
+    if (max_events > 0 && w.outcome.events == max_events) break;
     w.queue.erase(w.queue.begin());
     w.now = std::get<0>(key);
     ++w.outcome.events;
@@ -153,8 +158,9 @@ FastddsOutcome run(const model::Scenario& scenario, const EventLog& log) {
 
 namespace stormproof::oracle {
 
-FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log) {
-  return fastdds::run(scenario, log);
+FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log,
+                           FastddsMistake mistake, std::uint64_t max_events) {
+  return fastdds::run(scenario, log, mistake, max_events);
 }
 
 }  // namespace stormproof::oracle

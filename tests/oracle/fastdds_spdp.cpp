@@ -28,8 +28,9 @@ void send_copy(World& w, Id i, Id j) {
 }
 
 void send_spdp(World& w, Id i) {
+  if (w.makes(Mistake::multicast_first)) send_multicast(w, i);
   for (const Id j : w.participants.at(i).known) send_copy(w, i, j);
-  send_multicast(w, i);
+  if (!w.makes(Mistake::multicast_first)) send_multicast(w, i);
 }
 
 void resend(World& w, Id j, Id newcomer) {

@@ -28,7 +28,8 @@ void create_relations(World& w) {
 
 }  // namespace
 
-World::World(const model::Scenario& s) : scenario{s}, sedp{s.dds.sedp} {
+World::World(const model::Scenario& s, FastddsMistake m)
+    : scenario{s}, sedp{s.dds.sedp}, mistake{m} {
   for (const model::Participant& p : s.deployment.participants) {
     if (p.endpoints_done < p.start) throw std::invalid_argument{"done before the start"};
     Participant participant;

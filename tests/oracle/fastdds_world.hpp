@@ -18,6 +18,7 @@
 
 namespace stormproof::oracle::fastdds {
 
+using Mistake = FastddsMistake;
 using Id = std::uint32_t;  // a participant or a descriptor
 using Time = std::int64_t;
 
@@ -145,11 +146,15 @@ struct Channel {
 };
 
 struct World {
-  explicit World(const model::Scenario& s);
+  explicit World(const model::Scenario& s, FastddsMistake m = FastddsMistake::none);
+
+  [[nodiscard]] bool makes(FastddsMistake m) const { return mistake == m; }
 
   const model::Scenario& scenario;
   const model::SedpProfile& sedp;
+  const FastddsMistake mistake;
   Time now = 0;
+  bool ended = false;  // by the completion of discovery
   std::map<std::tuple<Time, EventClass, std::uint64_t>, Event> queue;
   std::uint64_t insertions = 0;
   std::uint64_t requests = 0;

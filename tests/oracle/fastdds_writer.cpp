@@ -20,6 +20,8 @@ bool needs_heartbeat(World& w, Id i, Id j, int s) {
   if (existing > 0 && r.low == 0) return true;
   for (Id d = r.low; d < existing; ++d) {
     if (r.state.at(d) == DescriptorState::unsent) return true;
+    const bool acknowledged = r.state.at(d) == DescriptorState::acknowledged;
+    if (w.makes(Mistake::expiry_until_acknowledged) && !acknowledged) return true;
   }
   return false;
 }
@@ -30,15 +32,19 @@ void take_initial_acknack(World& w, Id i, Id j, int s) {
     DescriptorState& state = r.state.at(d);
     if (d < r.low || state == DescriptorState::acknowledged) state = DescriptorState::unsent;
   }
-  r.low = 0;
+  if (!w.makes(Mistake::initial_keeps_low)) r.low = 0;
   heartbeat_to(w, i, j, s);
-  arm(w, i, s);
+  if (!w.makes(Mistake::initial_does_not_arm)) arm(w, i, s);
 }
 
 // Returns whether at least one descriptor went from U to R.
-bool take_bitmap(Relation& r, const Packet& packet) {
-  for (Id d = 0; d < packet.base; ++d) r.state.at(d) = DescriptorState::acknowledged;
-  r.low = std::max(r.low, packet.base);
+bool take_bitmap(const World& w, Relation& r, const Packet& packet) {
+  for (Id d = 0; d < packet.base; ++d) {
+    const bool unsent = r.state.at(d) == DescriptorState::unsent;
+    if (w.makes(Mistake::base_confirms_unsent_only) && !unsent) continue;
+    r.state.at(d) = DescriptorState::acknowledged;
+  }
+  if (!w.makes(Mistake::low_not_raised)) r.low = std::max(r.low, packet.base);
   bool requested = false;
   for (const Id d : packet.bitmap) {
     if (r.state.at(d) != DescriptorState::unsent) continue;
@@ -58,6 +64,7 @@ void heartbeat(World& w, Id i, Id j, int s, std::int64_t payload) {
   packet.stream = s;
   packet.payload = payload;
   packet.announced = writer(w, i, s).existing;
+  if (w.makes(Mistake::announces_all)) packet.announced = descriptor_count(w.scenario, i, s);
   if (cross_host(w, i, j)) ++w.outcome.heartbeat;
   emit(w, packet);
   writer(w, i, s).budget = w.sedp.piggyback_threshold_bytes.count();
@@ -87,7 +94,8 @@ void heartbeat_expiry(World& w, Id i, int s) {
   bool needed = false;
   for (const Id j : wr.readers) needed = needed || needs_heartbeat(w, i, j, s);
   if (!needed) return;
-  const std::int64_t payload = wr.readers.size() == 1 ? heartbeat_to_one : heartbeat_to_several;
+  const bool alone = wr.readers.size() == 1 || w.makes(Mistake::expiry_to_several_larger);
+  const std::int64_t payload = alone ? heartbeat_to_one : heartbeat_to_several;
   for (const Id j : wr.readers) heartbeat(w, i, j, s, payload);
   arm(w, i, s);
 }
@@ -103,15 +111,16 @@ void receive_acknack(World& w, const Packet& packet) {
     return;
   }
   Writer& wr = writer(w, i, s);
-  if (take_bitmap(r, packet)) {
-    if (!wr.response_pending) {
+  if (take_bitmap(w, r, packet)) {
+    if (!wr.response_pending || w.makes(Mistake::response_per_request)) {
       wr.response_pending = true;
       schedule_after(w, w.sedp.nack_response_delay, make_event(EventKind::nack_response, i, i, s));
     }
-  } else if (!packet.bitmap.empty()) {
+  } else if (!packet.bitmap.empty() && !w.makes(Mistake::vain_request_does_not_arm)) {
     arm(w, i, s);
   }
-  const bool clean = packet.bitmap.empty() && packet.base >= wr.cycle_existing;
+  const bool recent = packet.base >= wr.cycle_existing;
+  const bool clean = packet.bitmap.empty() && (recent || w.makes(Mistake::response_with_old_base));
   if (adaptive(w) && clean) response(w, i, j, s);
 }
 
@@ -129,7 +138,8 @@ void nack_response(World& w, Id i, int s) {
       if (found == p.async_queue.end()) p.async_queue.push_back(entry);
     }
   }
-  if (p.async_queue.empty() || p.run_pending) return;
+  const bool pending = p.run_pending && !w.makes(Mistake::run_per_response);
+  if (p.async_queue.empty() || pending) return;
   p.run_pending = true;
   schedule(w, w.now, EventClass::protocol, make_event(EventKind::async_run, i, i, s));
 }
@@ -140,7 +150,7 @@ void suppression_end(World& w, Id i, Id j, int s) {
   for (DescriptorState& state : r.state) {
     if (state == DescriptorState::suppressed) state = DescriptorState::unsent;
   }
-  arm(w, i, s);
+  if (!w.makes(Mistake::suppression_end_arms_not)) arm(w, i, s);
 }
 
 }  // namespace stormproof::oracle::fastdds

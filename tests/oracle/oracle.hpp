@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/scenario.hpp"
+#include "tests/oracle/mistake.hpp"
 
 namespace stormproof::oracle {
 
@@ -23,7 +24,7 @@ struct Missing {
 };
 
 struct Outcome {
-  bool completed = false;
+  bool completed = false;       ///< discovery was completed, whatever ended the run
   std::int64_t t_disc_ns = -1;  ///< −1 if the run did not complete
   std::int64_t initial_data = 0;
   std::int64_t repair_data = 0;
@@ -55,9 +56,12 @@ struct LogEntry {
 /// Called for each event just before it is processed.
 using EventLog = std::function<void(const LogEntry&)>;
 
-/// Runs the scenario to completion, to its time limit, or until nothing is left to do.
+/// Runs the scenario to completion (unless it says `run_until: time_limit`), to its time limit, or
+/// until nothing is left to do; with a deliberate mistake, if there is one. Ends after `max_events`
+/// events at the latest (0: no limit): a mistake may have no end.
 /// Throws std::invalid_argument if the deployment has no cross-host pair.
-[[nodiscard]] Outcome run(const model::Scenario& scenario, const EventLog& log = {});
+[[nodiscard]] Outcome run(const model::Scenario& scenario, const EventLog& log = {},
+                          Mistake mistake = Mistake::none, std::uint64_t max_events = 0);
 
 /// The airtime of everything a loss-free discovery has to send once, summed over all stages.
 [[nodiscard]] std::int64_t open_loop_ns(const model::Scenario& scenario);

@@ -39,7 +39,10 @@ Time next_period(const World& w, Time period, std::int64_t expected, std::int64_
   const std::int64_t denominator = w.sedp.adaptive.epsilon_denominator;
   Time next = 0;
   if (answered > 0 && denominator * answered >= numerator * expected) {
-    next = clamp_period(w, divide_half_up(period * expected, answered));
+    const bool down = w.makes(Mistake::stretch_rounded_down);
+    const std::int64_t quotient =
+        down ? period * expected / answered : divide_half_up(period * expected, answered);
+    next = clamp_period(w, quotient);
   } else if (numerator > 0) {
     next = clamp_period(w, divide_half_up(period * denominator, numerator));
   } else {
@@ -53,7 +56,8 @@ std::vector<std::vector<Id>> make_batches(const World& w, const Writer& writer) 
   const auto answered = static_cast<std::int64_t>(writer.responded.size());
   const model::AdaptiveProfile& a = w.sedp.adaptive;
   const std::int64_t floor = ceil_div(expected * a.epsilon_numerator, a.epsilon_denominator);
-  const auto size = static_cast<std::size_t>(std::max({std::int64_t{1}, answered, floor}));
+  auto size = static_cast<std::size_t>(std::max({std::int64_t{1}, answered, floor}));
+  if (w.makes(Mistake::batches_of_one)) size = 1;
   std::vector<std::vector<Id>> batches;
   for (const Id j : writer.cycle_readers) {
     if (writer.responded.contains(j)) continue;
@@ -92,10 +96,11 @@ void cycle_start(World& w, Id i, int s, std::uint64_t token) {
 void response(World& w, Id i, Id j, int s) {
   Writer& writer = w.writers.at({i, s});
   if (!writer.active || !writer.cycle_readers.contains(j)) return;
-  if (writer.responded.contains(j)) return;
+  if (writer.responded.contains(j) && !w.makes(Mistake::late_response_ends_cycle)) return;
   writer.responded.insert(j);
   if (writer.responded.size() != writer.cycle_readers.size()) return;
-  if (w.now >= writer.cycle_start + writer.period) return;
+  const Time tolerance = w.makes(Mistake::early_end_at_the_end) ? 1 : 0;
+  if (w.now >= writer.cycle_start + writer.period + tolerance) return;
   ++writer.token;
   writer.period = clamp_period(w, w.now - writer.cycle_start);
   if (lacking_readers(w, i, s).empty()) {

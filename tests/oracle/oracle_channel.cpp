@@ -7,6 +7,7 @@ namespace stormproof::oracle {
 namespace {
 
 int stage_rank(const World& w, std::size_t stage) {
+  if (w.makes(Mistake::rank_ignored)) return 0;
   switch (w.scenario.wireless.order) {
     case model::ServiceOrder::fifo_uplink:
     case model::ServiceOrder::datagram_uplink:
@@ -38,18 +39,24 @@ void request(World& w, std::uint64_t packet, std::size_t fragment, std::size_t s
 }
 
 void request_all(World& w, const Packet& packet, std::size_t stage) {
-  for (std::size_t k = 0; k < packet.fragments.size(); ++k) request(w, packet.number, k, stage);
+  const std::size_t count = packet.fragments.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool reversed = w.makes(Mistake::fragments_reversed);
+    request(w, packet.number, reversed ? count - 1 - k : k, stage);
+  }
 }
 
-std::int64_t demand(const Packet& packet) {
+std::int64_t demand(const World& w, const Packet& packet) {
   std::int64_t sum = 0;
   for (const std::int64_t bytes : packet.fragments) sum += bytes;
+  if (w.makes(Mistake::queue_drops_demand)) sum -= packet.fragments.back();
   return sum;
 }
 
 bool fits(const World& w, const Participant& p, std::int64_t bytes) {
   const model::Bytes limit = w.scenario.wireless.source_queue_bytes;
   if (p.queued_bytes == 0 || limit == model::WirelessProfile::unlimited) return true;
+  if (w.makes(Mistake::queue_admits_one_more)) return p.queued_bytes < limit.count();
   return p.queued_bytes + bytes <= limit.count();
 }
 
@@ -57,8 +64,8 @@ void admit(World& w, Id i) {
   Participant& p = w.participants.at(i);
   while (!p.backlog.empty()) {
     const Packet& head = w.packets.at(p.backlog.front());
-    if (!fits(w, p, demand(head))) return;
-    p.queued_bytes += demand(head);
+    if (!fits(w, p, demand(w, head))) return;
+    p.queued_bytes += demand(w, head);
     p.backlog.pop_front();
     if (w.scenario.wireless.fragment_request == model::FragmentRequest::sequential) {
       request(w, head.number, 0, 0);
@@ -74,10 +81,17 @@ void deliver_after_delay(World& w, const Packet& packet) {
   event.to = packet.destination.value_or(packet.source);
   event.stream = packet.stream;
   event.packet = packet.number;
+  Time leaves_after = 0;
+  Time one_way = w.scenario.wireless.one_way.count();
+  for (const model::PacketDelay& delay : w.scenario.wireless.packet_delays) {
+    if (delay.packet != packet.number) continue;
+    leaves_after = delay.leaves_after.count();
+    one_way = delay.one_way.count();
+  }
   event.kind = EventKind::source_completion;
-  schedule(w, w.now, EventClass::protocol, event);
+  schedule(w, w.now + leaves_after, EventClass::protocol, event);
   event.kind = EventKind::delayed_reception;
-  schedule(w, w.now + w.scenario.wireless.one_way.count(), EventClass::service, event);
+  schedule(w, w.now + one_way, EventClass::service, event);
 }
 
 }  // namespace
@@ -85,7 +99,7 @@ void deliver_after_delay(World& w, const Packet& packet) {
 void emit(World& w, Packet packet) {
   packet.number = w.outcome.packets;
   ++w.outcome.packets;
-  packet.lost = w.lost_packets.contains(packet.number);
+  packet.lost = w.lost_packets.contains(packet.number) && !w.makes(Mistake::loss_ignored);
   packet.fragments = cut_into_fragments(w.scenario.wireless, packet.payload);
   w.packets[packet.number] = packet;
   if (w.scenario.wireless.kind == model::ServiceKind::constant_delay) {
@@ -105,7 +119,7 @@ void dispatch(World& w, const std::string& name) {
   channel.busy = true;
 
   const Packet& packet = w.packets.at(next.packet);
-  const bool multicast = !packet.destination.has_value();
+  const bool multicast = !packet.destination.has_value() && !w.makes(Mistake::multicast_as_unicast);
   Event event;
   event.kind = EventKind::service_finished;
   event.from = packet.source;
@@ -116,7 +130,9 @@ void dispatch(World& w, const std::string& name) {
   event.fragment = next.fragment;
   event.channel = name;
   const std::int64_t bytes = packet.fragments.at(next.fragment);
-  const Time duration = airtime(w.scenario.wireless, next.stage, multicast, bytes);
+  const Rounding rounding =
+      w.makes(Mistake::airtime_rounded_down) ? Rounding::down : Rounding::to_nearest;
+  const Time duration = airtime(w.scenario.wireless, next.stage, multicast, bytes, rounding);
   schedule(w, w.now + duration, EventClass::service, event);
 }
 
@@ -132,17 +148,22 @@ void service_finished(World& w, const Event& event) {
   const bool whole_datagrams = wireless.order == model::ServiceOrder::datagram_uplink;
   const bool one_by_one = wireless.fragment_request == model::FragmentRequest::sequential;
 
+  const bool forward = !whole_datagrams && !last_stage;
+  const bool early = w.makes(Mistake::forwards_first);
+
   if (whole_datagrams && last && !last_stage) request_all(w, packet, event.stage + 1);
+  if (forward && early) request(w, packet.number, event.fragment, event.stage + 1);
   if (first_stage && !last && one_by_one) request(w, packet.number, event.fragment + 1, 0);
-  if (!whole_datagrams && !last_stage) request(w, packet.number, event.fragment, event.stage + 1);
+  if (forward && !early) request(w, packet.number, event.fragment, event.stage + 1);
   if (first_stage && last) {
-    w.participants.at(packet.source).queued_bytes -= demand(packet);
+    w.participants.at(packet.source).queued_bytes -= demand(w, packet);
+    if (w.makes(Mistake::admits_first)) admit(w, packet.source);
     source_completion(w, packet);
     admit(w, packet.source);
   }
   if (last_stage && last && !packet.lost) {
     receive(w, packet);
-    if (w.outcome.completed) return;
+    if (w.ended) return;
   }
   if (!w.channels.at(event.channel).waiting.empty()) schedule_dispatch(w, event.channel);
 }

@@ -20,7 +20,9 @@ Packet empty_packet(Id i, Id j, int s, bool repair) {
 // Whether a descriptor of z bytes may join a packet that already holds one.
 bool joins(const World& w, const Packet& packet, std::int64_t z) {
   if (w.sedp.grouping == model::Grouping::single) return false;
-  const std::int64_t payload = packet.payload + z - w.sedp.shared_header_bytes.count();
+  const std::int64_t shared =
+      w.makes(Mistake::grouping_forgets_header) ? 0 : w.sedp.shared_header_bytes.count();
+  const std::int64_t payload = packet.payload + z - shared;
   return payload <= grouping_limit(w.sedp);
 }
 
@@ -49,7 +51,7 @@ bool charge(World& w, Id i, int s, std::int64_t added) {
     case model::Piggyback::off:
       return false;
   }
-  if (writer.budget >= 0) return false;
+  if (w.makes(Mistake::budget_ends_at_zero) ? writer.budget > 0 : writer.budget >= 0) return false;
   writer.budget = w.sedp.piggyback_threshold_bytes.count();
   ++w.outcome.piggybacks;
   return true;
@@ -59,17 +61,19 @@ bool charge(World& w, Id i, int s, std::int64_t added) {
 Packet piggyback(World& w, Packet packet) {
   const Id i = packet.source;
   const int s = packet.stream;
-  const std::vector<Id> readers = open_readers(w, i, s);
+  const bool charged = !w.makes(Mistake::piggyback_uncharged);
+  std::vector<Id> readers = open_readers(w, i, s);
+  if (w.makes(Mistake::piggyback_to_one)) readers = {*packet.destination};
   if (readers.size() == 1) {
     const std::int64_t bytes = w.sedp.piggyback_heartbeat_bytes.count();
     ++w.outcome.heartbeat;
     packet.payload += bytes;
     packet.carries_heartbeat = true;
-    w.participants.at(i).sent_bytes += bytes;
+    if (charged) w.participants.at(i).sent_bytes += bytes;
     return packet;
   }
   emit(w, packet);
-  w.participants.at(i).sent_bytes += w.sedp.heartbeat_bytes.count();
+  if (charged) w.participants.at(i).sent_bytes += w.sedp.heartbeat_bytes.count();
   for (const Id j : readers) generate_heartbeat(w, i, j, s);
   return empty_packet(i, *packet.destination, s, packet.repair);
 }
@@ -78,7 +82,10 @@ Packet piggyback(World& w, Packet packet) {
 
 void generate_heartbeat(World& w, Id i, Id j, int s) {
   ++w.outcome.heartbeat;
-  w.writers.at({i, s}).budget = w.sedp.piggyback_threshold_bytes.count();
+  if (!w.makes(Mistake::heartbeat_keeps_budget)) {
+    w.writers.at({i, s}).budget = w.sedp.piggyback_threshold_bytes.count();
+  }
+  if (w.makes(Mistake::charge_starts_anew)) w.participants.at(i).sent_bytes = 0;
   Packet packet = empty_packet(i, j, s, false);
   packet.payload = w.sedp.heartbeat_bytes.count();
   packet.carries_heartbeat = true;

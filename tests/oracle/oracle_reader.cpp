@@ -14,7 +14,8 @@ void take_data(World& w, Relation& r, const Packet& packet) {
     if (w.missing == 0) {
       w.outcome.completed = true;
       w.outcome.t_disc_ns = w.now;
-      return;
+      w.ended = w.scenario.run_until == model::RunUntil::completion;
+      if (w.ended) return;
     }
   }
 }
@@ -25,8 +26,10 @@ void receive_sedp(World& w, Id j, const Packet& packet) {
                       w.sedp.relation_opening == model::RelationOpening::each_side;
   if (strict && !r.reader_open) return;
   take_data(w, r, packet);
-  if (w.outcome.completed || !packet.carries_heartbeat) return;
+  if (w.ended || !packet.carries_heartbeat) return;
   r.heartbeat_seen = true;
+  if (w.makes(Mistake::one_acknack_pending) && r.pending_acknacks > 0) return;
+  ++r.pending_acknacks;
   Event event;
   event.kind = EventKind::acknack_generation;
   event.from = j;
@@ -50,6 +53,12 @@ Packet acknack_packet(World& w, Id j, Id i, int s) {
   return packet;
 }
 
+// The same ACKNACK, listing what is missing now.
+Packet renewed(World& w, Packet packet) {
+  packet.bitmap = acknack_packet(w, packet.source, *packet.destination, packet.stream).bitmap;
+  return packet;
+}
+
 void receive_at(World& w, Id j, const Packet& packet) {
   if (!started(w, j)) return;
   switch (packet.kind) {
@@ -60,7 +69,7 @@ void receive_at(World& w, Id j, const Packet& packet) {
       receive_sedp(w, j, packet);
       break;
     case PacketKind::acknack:
-      receive_acknack(w, packet);
+      receive_acknack(w, w.makes(Mistake::bitmap_not_snapshot) ? renewed(w, packet) : packet);
       break;
   }
 }
@@ -72,21 +81,24 @@ void receive(World& w, const Packet& packet) {
     receive_at(w, *packet.destination, packet);
     return;
   }
-  for (Id j = 0; j < w.participants.size() && !w.outcome.completed; ++j) {
+  for (Id j = 0; j < w.participants.size() && !w.ended; ++j) {
     if (cross_host(w, packet.source, j)) receive_at(w, j, packet);
   }
 }
 
 void generate_acknack(World& w, Id j, Id i, int s) {
+  --relation(w, i, j, s).pending_acknacks;
   Packet packet = acknack_packet(w, j, i, s);
   const auto count = static_cast<std::int64_t>(relation(w, i, j, s).received.size());
-  if (!packet.bitmap.empty()) packet.payload += 4 * ceil_div(count, 32);
+  const std::int64_t words =
+      w.makes(Mistake::acknack_words_down) ? count / 32 : ceil_div(count, 32);
+  if (!packet.bitmap.empty()) packet.payload += 4 * words;
   ++w.outcome.acknack;
   emit(w, packet);
 }
 
 void initial_acknack(World& w, Id j, Id i, int s, Time delay) {
-  if (relation(w, i, j, s).heartbeat_seen) return;
+  if (relation(w, i, j, s).heartbeat_seen && !w.makes(Mistake::initial_never_ends)) return;
   Packet packet = acknack_packet(w, j, i, s);
   packet.initial = true;
   ++w.outcome.acknack;
@@ -96,8 +108,8 @@ void initial_acknack(World& w, Id j, Id i, int s, Time delay) {
   again.from = j;
   again.to = i;
   again.stream = s;
-  again.number = 2 * delay;
-  schedule(w, w.now + 2 * delay, EventClass::protocol, again);
+  again.number = w.makes(Mistake::initial_not_doubled) ? delay : 2 * delay;
+  schedule(w, w.now + again.number, EventClass::protocol, again);
 }
 
 }  // namespace stormproof::oracle

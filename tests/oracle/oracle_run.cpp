@@ -80,10 +80,10 @@ void schedule_first_announcements(World& w) {
   }
 }
 
-LogEntry log_entry(const std::tuple<Time, EventClass, std::uint64_t>& key, const Event& event) {
+LogEntry log_entry(const std::tuple<Time, int, std::uint64_t>& key, const Event& event) {
   LogEntry entry;
   entry.time_ns = std::get<0>(key);
-  entry.event_class = static_cast<int>(std::get<1>(key));
+  entry.event_class = static_cast<int>(event.event_class);
   entry.insertion = std::get<2>(key);
   entry.kind = name_of(event.kind);
   if (event.kind != EventKind::dispatch) {
@@ -107,13 +107,15 @@ std::vector<Missing> missing_descriptors(const World& w) {
 
 }  // namespace
 
-Outcome run(const model::Scenario& scenario, const EventLog& log) {
-  World w{scenario};
+Outcome run(const model::Scenario& scenario, const EventLog& log, Mistake mistake,
+            std::uint64_t max_events) {
+  World w{scenario, mistake};
   schedule_first_announcements(w);
-  while (!w.queue.empty() && !w.outcome.completed) {
+  while (!w.queue.empty() && !w.ended) {
     const auto key = w.queue.begin()->first;
     const Event event = w.queue.begin()->second;
     if (std::get<0>(key) > scenario.time_limit.count()) break;
+    if (max_events > 0 && w.outcome.events == max_events) break;
     w.queue.erase(w.queue.begin());
     w.now = std::get<0>(key);
     ++w.outcome.events;

@@ -61,7 +61,7 @@ std::vector<std::int64_t> cut_into_fragments(const model::WirelessProfile& wirel
 }
 
 Time airtime(const model::WirelessProfile& wireless, std::size_t stage, bool multicast,
-             std::int64_t bytes) {
+             std::int64_t bytes, Rounding rounding) {
   const model::Stage& st = wireless.stages.at(stage);
   Time overhead = 0;
   std::int64_t rate = 0;
@@ -72,7 +72,8 @@ Time airtime(const model::WirelessProfile& wireless, std::size_t stage, bool mul
     overhead = st.overhead_unicast.value_or(wireless.overhead_unicast).count();
     rate = st.rate_unicast.value_or(wireless.rate_unicast).count();
   }
-  return overhead + (8 * bytes * 1'000'000'000 + rate / 2) / rate;
+  const std::int64_t half = rounding == Rounding::to_nearest ? rate / 2 : 0;
+  return overhead + (8 * bytes * 1'000'000'000 + half) / rate;
 }
 
 }  // namespace stormproof::oracle

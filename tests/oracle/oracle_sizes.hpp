@@ -14,9 +14,12 @@ namespace stormproof::oracle {
 [[nodiscard]] std::vector<std::int64_t> cut_into_fragments(const model::WirelessProfile& wireless,
                                                            std::int64_t payload);
 
+enum class Rounding { to_nearest, down };
+
 /// Nanoseconds that a fragment of `bytes` takes in a stage.
 [[nodiscard]] std::int64_t airtime(const model::WirelessProfile& wireless, std::size_t stage,
-                                   bool multicast, std::int64_t bytes);
+                                   bool multicast, std::int64_t bytes,
+                                   Rounding rounding = Rounding::to_nearest);
 
 [[nodiscard]] std::int64_t ceil_div(std::int64_t a, std::int64_t b);
 

@@ -26,10 +26,11 @@ void send_copy(World& w, Id i, Id j) {
 }
 
 void send_spdp(World& w, Id i) {
-  send_multicast(w, i);
+  if (!w.makes(Mistake::copies_first)) send_multicast(w, i);
   for (Id j = 0; j < w.participants.size(); ++j) {
     if (cross_host(w, i, j) && w.participants.at(i).known.contains(j)) send_copy(w, i, j);
   }
+  if (w.makes(Mistake::copies_first)) send_multicast(w, i);
 }
 
 void resend(World& w, Id j, Id newcomer) {
@@ -72,7 +73,9 @@ void announce(World& w, Id i, std::int64_t k) {
   next.from = i;
   next.to = i;
   next.number = k + 1;
-  const bool startup = k < std::int64_t{spdp.startup_announcements};
+  std::int64_t startups = spdp.startup_announcements;
+  if (w.makes(Mistake::startup_one_more)) ++startups;
+  const bool startup = k < startups;
   const Time gap = startup ? spdp.startup_period.count() : spdp.period.count();
   schedule(w, w.now + gap, EventClass::protocol, next);
 }
@@ -80,8 +83,9 @@ void announce(World& w, Id i, std::int64_t k) {
 void receive_spdp(World& w, Id j, Id i) {
   std::set<Id>& known = w.participants.at(j).known;
   if (known.contains(i)) return;
-  known.insert(i);
+  if (!w.makes(Mistake::resend_too_early)) known.insert(i);
   resend(w, j, i);
+  known.insert(i);
   for (int s = 0; s < 2; ++s) open_reader(w, j, i, s);
   for (int s = 0; s < 2; ++s) {
     if (w.sedp.relation_opening == model::RelationOpening::receiver) {

@@ -28,7 +28,7 @@ void create_relations(World& w) {
 
 }  // namespace
 
-World::World(const model::Scenario& s) : scenario{s}, sedp{s.dds.sedp} {
+World::World(const model::Scenario& s, Mistake m) : scenario{s}, sedp{s.dds.sedp}, mistake{m} {
   for (const model::Participant& p : s.deployment.participants) {
     Participant participant;
     participant.host = p.host.value;
@@ -48,7 +48,12 @@ World::World(const model::Scenario& s) : scenario{s}, sedp{s.dds.sedp} {
 }
 
 void schedule(World& w, Time at, EventClass event_class, const Event& event) {
-  w.queue[{at, event_class, w.insertions}] = event;
+  int rank = static_cast<int>(event_class);
+  if (w.makes(Mistake::class_ignored)) rank = 0;
+  if (w.makes(Mistake::dispatch_first) && event_class == EventClass::dispatch) rank = -1;
+  Event& scheduled = w.queue[{at, rank, w.insertions}];
+  scheduled = event;
+  scheduled.event_class = event_class;
   ++w.insertions;
 }
 
@@ -56,7 +61,10 @@ bool cross_host(const World& w, Id i, Id j) {
   return w.participants.at(i).host != w.participants.at(j).host;
 }
 
-bool started(const World& w, Id i) { return w.now >= w.participants.at(i).start; }
+bool started(const World& w, Id i) {
+  if (w.makes(Mistake::receives_unstarted)) return true;
+  return w.now >= w.participants.at(i).start;
+}
 
 Relation& relation(World& w, Id i, Id j, int s) { return w.relations.at({i, j, s}); }
 

@@ -41,6 +41,7 @@ enum class EventKind {
 
 struct Event {
   EventKind kind = EventKind::dispatch;
+  EventClass event_class = EventClass::protocol;  // filled in by schedule
   Id from = 0;  // who acts or acted; for a reader's event the reader
   Id to = 0;
   int stream = 0;
@@ -82,6 +83,7 @@ struct Relation {
   std::vector<DescriptorState> state;  // at i
   std::vector<bool> generated;         // at i
   std::vector<bool> received;          // at j
+  int pending_acknacks = 0;            // at j; only a mistake asks for it
 };
 
 struct Writer {
@@ -117,12 +119,16 @@ struct Channel {
 };
 
 struct World {
-  explicit World(const model::Scenario& s);
+  explicit World(const model::Scenario& s, Mistake m = Mistake::none);
+
+  [[nodiscard]] bool makes(Mistake m) const { return mistake == m; }
 
   const model::Scenario& scenario;
   const model::SedpProfile& sedp;
+  const Mistake mistake;
   Time now = 0;
-  std::map<std::tuple<Time, EventClass, std::uint64_t>, Event> queue;
+  bool ended = false;                                           // by the completion of discovery
+  std::map<std::tuple<Time, int, std::uint64_t>, Event> queue;  // (time, class, insertion number)
   std::uint64_t insertions = 0;
   std::uint64_t requests = 0;
   std::vector<Participant> participants;

@@ -1,5 +1,7 @@
 // The sending end: opening of relations, periodic HEARTBEATs, what an ACKNACK does to the
 // descriptor states, and the repair that follows it.
+#include <algorithm>
+
 #include "tests/oracle/oracle_world.hpp"
 
 namespace stormproof::oracle {
@@ -23,6 +25,7 @@ void schedule_expiry(World& w, Id i, int s) {
 // Returns whether at least one descriptor went from U to R.
 bool apply_bitmap(World& w, Relation& r, const std::set<Id>& bitmap) {
   const bool prefix = w.sedp.acknowledge == model::Acknowledge::prefix;
+  const Id more = w.makes(Mistake::prefix_goes_too_far) ? 2 : 0;
   bool requested = false;
   for (Id d = 0; d < r.state.size(); ++d) {
     DescriptorState& state = r.state.at(d);
@@ -30,11 +33,30 @@ bool apply_bitmap(World& w, Relation& r, const std::set<Id>& bitmap) {
       if (state != DescriptorState::unsent) continue;
       state = DescriptorState::requested;
       requested = true;
-    } else if (!prefix || bitmap.empty() || d < *bitmap.begin()) {
+    } else if (w.makes(Mistake::confirms_unsent_only) && state != DescriptorState::unsent) {
+      continue;
+    } else if (!prefix || bitmap.empty() || d < *bitmap.begin() + more) {
       state = DescriptorState::acknowledged;
     }
   }
   return requested;
+}
+
+void arm_at_opening(World& w, Id i, int s) {
+  if (adaptive(w)) {
+    activate_cycles(w, i, s);
+  } else if (w.writers.at({i, s}).pending_expiries == 0) {
+    schedule_expiry(w, i, s);
+  }
+}
+
+// Only a mistake does this: an expiry that is scheduled stays.
+void cancel_expiry(World& w, Id i, int s) {
+  w.writers.at({i, s}).pending_expiries = 0;
+  std::erase_if(w.queue, [&](const auto& entry) {
+    const Event& event = entry.second;
+    return event.kind == EventKind::heartbeat_expiry && event.from == i && event.stream == s;
+  });
 }
 
 Event relation_event(EventKind kind, Id i, Id j, int s) {
@@ -57,16 +79,14 @@ void open_writer(World& w, Id i, Id j, int s) {
     for (Id d = 0; d < r.state.size(); ++d) all.push_back(d);
     generate_data(w, i, j, s, all, false);
   }
+  if (w.makes(Mistake::opening_arms_first)) arm_at_opening(w, i, s);
   generate_heartbeat(w, i, j, s);
-  if (adaptive(w)) {
-    activate_cycles(w, i, s);
-  } else if (w.writers.at({i, s}).pending_expiries == 0) {
-    schedule_expiry(w, i, s);
-  }
+  arm_at_opening(w, i, s);
 }
 
 void arm_heartbeat(World& w, Id i, int s) {
   const bool single = w.sedp.heartbeat_timer == model::HeartbeatTimerKind::single;
+  if (single && w.makes(Mistake::heartbeat_restarted)) cancel_expiry(w, i, s);
   if (single && w.writers.at({i, s}).pending_expiries > 0) return;
   schedule_expiry(w, i, s);
 }
@@ -75,7 +95,8 @@ void heartbeat_expiry(World& w, Id i, int s) {
   --w.writers.at({i, s}).pending_expiries;
   std::vector<Id> recipients = lacking_readers(w, i, s);
   if (recipients.empty()) return;
-  if (w.sedp.heartbeat_recipients == model::HeartbeatRecipients::matched) {
+  if (w.sedp.heartbeat_recipients == model::HeartbeatRecipients::matched ||
+      w.makes(Mistake::expiry_for_all)) {
     recipients = open_readers(w, i, s);
   }
   for (const Id j : recipients) generate_heartbeat(w, i, j, s);
@@ -121,8 +142,13 @@ void generate_repair(World& w, Id i, Id j, int s) {
 void source_completion(World& w, const Packet& packet) {
   if (!packet.repair) return;
   Relation& r = relation(w, packet.source, *packet.destination, packet.stream);
-  for (const Id d : packet.descriptors) {
-    if (r.state.at(d) == DescriptorState::queued) r.state.at(d) = DescriptorState::suppressed;
+  for (Id d = 0; d < r.state.size(); ++d) {
+    const std::vector<Id>& carried = packet.descriptors;
+    const bool left = std::find(carried.begin(), carried.end(), d) != carried.end();
+    if (!left && !w.makes(Mistake::repair_not_snapshot)) continue;
+    if (r.state.at(d) != DescriptorState::queued) continue;
+    r.state.at(d) = DescriptorState::suppressed;
+    if (w.makes(Mistake::suppression_ignored)) r.state.at(d) = DescriptorState::unsent;
   }
   const Event end =
       relation_event(EventKind::suppression_end, packet.source, *packet.destination, packet.stream);
@@ -136,6 +162,7 @@ void suppression_end(World& w, Id i, Id j, int s) {
     state = DescriptorState::unsent;
     released = true;
   }
+  if (w.makes(Mistake::suppression_does_not_arm)) return;
   if (released && !adaptive(w)) arm_heartbeat(w, i, s);
 }
 

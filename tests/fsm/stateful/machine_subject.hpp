@@ -1,0 +1,74 @@
+// A machine as the subject of a stateful test: executed by Boost.MSM, or by the interpreted table
+// if there is a mistake in it.
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "fsm/flyweight.hpp"
+#include "fsm/row_table.hpp"
+#include "tests/fsm/stateful/reactor.hpp"
+
+namespace stormproof::fsm::stateful {
+
+using namespace stormproof::stateful;
+
+using Mutations = std::span<const TableMutation>;
+
+struct MachineSubject : Subject {
+  std::string machine;  ///< `MachineInfo::name`
+  /// The machine, with these mistakes in its table.
+  std::function<std::unique_ptr<Reactor>(Mutations)> under_test;
+};
+
+[[nodiscard]] inline MachineSubject machine_subject(
+    std::string name, std::string machine, std::vector<EventShape> events,
+    std::function<std::unique_ptr<Model>()> model,
+    std::function<std::unique_ptr<Reactor>(Mutations)> under_test) {
+  return {{std::move(name), std::move(events), std::move(model)},
+          std::move(machine),
+          std::move(under_test)};
+}
+
+/// Executes a machine: with Boost.MSM, or with the interpreted table if there is a mistake in it.
+template <class Machine>
+class Stepper {
+ public:
+  using Input = typename Flyweight<Machine>::Input;
+  using Output = typename Flyweight<Machine>::Output;
+
+  explicit Stepper(Mutations mutations) {
+    if (!mutations.empty()) mutated_ = std::make_unique<TableInterpreter<Machine>>(mutations);
+  }
+
+  template <class Event>
+  Output step(StateId& state, const Input& input = {}) {
+    Output output{};
+    if (mutated_ != nullptr) {
+      state =
+          mutated_->step(state, Reflect<Machine>::template event_id<Event>, input, output).state;
+    } else {
+      state = engine_.template step<Event>(state, input, output);
+    }
+    return output;
+  }
+
+  static constexpr StateId initial = Flyweight<Machine>::initial;
+  static std::string name(StateId state) {
+    return std::string{Reflect<Machine>::state_names[state]};
+  }
+
+ private:
+  Flyweight<Machine> engine_;
+  std::unique_ptr<TableInterpreter<Machine>> mutated_;
+};
+
+/// The subjects, each list from the file that has the machines.
+[[nodiscard]] std::vector<MachineSubject> repair_subjects();
+[[nodiscard]] std::vector<MachineSubject> reader_subjects();
+[[nodiscard]] MachineSubject adaptive_subject();
+[[nodiscard]] MachineSubject change_subject();
+[[nodiscard]] std::vector<MachineSubject> timer_subjects();
+[[nodiscard]] std::vector<MachineSubject> channel_subjects();
+
+}  // namespace stormproof::fsm::stateful

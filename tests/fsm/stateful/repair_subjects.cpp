@@ -1,0 +1,176 @@
+// The paper's states of descriptors towards one reader (U R Q S A), for a relation of four
+// descriptors, against the rules about ACKNACKs, repairs and suppression.
+#include <algorithm>
+#include <deque>
+
+#include "fsm/descriptor_repair.hpp"
+#include "tests/fsm/stateful/machine_subject.hpp"
+
+namespace stormproof::fsm::stateful {
+
+namespace {
+
+constexpr std::size_t descriptors = 4;
+constexpr std::int64_t any_set = (1 << descriptors) - 1;
+
+bool has(std::int64_t set, std::size_t d) { return (set >> d & 1) != 0; }
+std::size_t lowest(std::int64_t set) {
+  std::size_t d = 0;
+  while (d < descriptors && !has(set, d)) ++d;
+  return d;
+}
+
+// ---- The paper. What the relation does besides changing states: how many repair generations and
+// suppression ends are pending, and which repair packets are at the source.
+
+enum RepairCall : std::size_t { acknack, generation, left_source, suppression_ended };
+
+struct Relation {
+  int generations = 0;
+  int suppressions = 0;
+  std::deque<std::int64_t> packets;
+  int arms = 0;
+  int acknowledgments = 0;
+
+  [[nodiscard]] std::string in_words_with(const std::string& states) const {
+    return states + ", generations " + std::to_string(generations) + ", suppressions " +
+           std::to_string(suppressions) + ", packets " + in_words(packets) + ", arms " +
+           std::to_string(arms) + ", acknowledged " + std::to_string(acknowledgments);
+  }
+};
+
+class PaperRules final : public PlainModel<PaperRules> {
+ public:
+  [[nodiscard]] bool possible(const Call& call) const override {
+    if (call.event == generation) return relation_.generations > 0;
+    if (call.event == left_source) return !relation_.packets.empty();
+    if (call.event == suppression_ended) return relation_.suppressions > 0;
+    return true;
+  }
+  std::string react(const Call& call) override {
+    switch (call.event) {
+      case acknack:
+        take_acknack(call.payload[0], call.payload[1] == 1);
+        break;
+      case generation:
+        generate(call.payload[0] == 1);
+        break;
+      case left_source:
+        for (std::size_t d = 0; d < descriptors; ++d) {
+          if (has(relation_.packets.front(), d) && states_[d] == 'Q') states_[d] = 'S';
+        }
+        relation_.packets.pop_front();
+        ++relation_.suppressions;
+        break;
+      default:
+        --relation_.suppressions;
+        if (states_.find('S') != std::string::npos) ++relation_.arms;
+        std::replace(states_.begin(), states_.end(), 'S', 'U');
+    }
+    return relation_.in_words_with(states_);
+  }
+
+ private:
+  void take_acknack(std::int64_t bitmap, bool prefix) {
+    bool asked = false;
+    for (std::size_t d = 0; d < descriptors; ++d) {
+      char& state = states_[d];
+      if (has(bitmap, d)) {
+        asked = asked || state == 'U';
+        if (state == 'U') state = 'R';
+      } else if (!prefix || d < lowest(bitmap)) {
+        if (state != 'A') ++relation_.acknowledgments;
+        state = 'A';
+      }
+    }
+    if (asked) ++relation_.generations;
+  }
+  void generate(bool one_each) {
+    --relation_.generations;
+    std::int64_t together = 0;
+    for (std::size_t d = 0; d < descriptors; ++d) {
+      if (states_[d] != 'R') continue;
+      states_[d] = 'Q';
+      if (one_each) relation_.packets.push_back(std::int64_t{1} << d);
+      together |= std::int64_t{1} << d;
+    }
+    if (!one_each && together != 0) relation_.packets.push_back(together);
+  }
+
+  std::string states_ = std::string(descriptors, 'U');
+  Relation relation_;
+};
+
+class PaperMachines final : public Reactor {
+ public:
+  explicit PaperMachines(Mutations mutations) : machine_{mutations} {}
+  std::string react(const Call& call) override {
+    using namespace descriptor_repair;
+    switch (call.event) {
+      case acknack: {
+        bool asked = false;
+        for (std::size_t d = 0; d < descriptors; ++d) {
+          const auto output = machine_.step<AckNackReceived>(
+              states_[d], {.listed = has(call.payload[0], d),
+                           .below_first_missing = d < lowest(call.payload[0]),
+                           .prefix_only = call.payload[1] == 1});
+          asked = asked || output.requested;
+          relation_.acknowledgments += output.acknowledged ? 1 : 0;
+        }
+        relation_.generations += asked ? 1 : 0;
+        break;
+      }
+      case generation: {
+        --relation_.generations;
+        std::int64_t together = 0;
+        for (std::size_t d = 0; d < descriptors; ++d) {
+          if (!machine_.step<RepairDue>(states_[d]).generate) continue;
+          if (call.payload[0] == 1) relation_.packets.push_back(std::int64_t{1} << d);
+          together |= std::int64_t{1} << d;
+        }
+        if (call.payload[0] == 0 && together != 0) relation_.packets.push_back(together);
+        break;
+      }
+      case left_source:
+        for (std::size_t d = 0; d < descriptors; ++d) {
+          if (has(relation_.packets.front(), d)) machine_.step<RepairSent>(states_[d]);
+        }
+        relation_.packets.pop_front();
+        ++relation_.suppressions;
+        break;
+      default: {
+        --relation_.suppressions;
+        bool returned = false;
+        for (StateId& state : states_) {
+          returned = machine_.step<SuppressionEnded>(state).returned || returned;
+        }
+        relation_.arms += returned ? 1 : 0;
+      }
+    }
+    std::string text;
+    for (const StateId state : states_) text += machine_.name(state);
+    return relation_.in_words_with(text);
+  }
+
+ private:
+  Stepper<DescriptorRepair> machine_;
+  std::vector<StateId> states_ =
+      std::vector<StateId>(descriptors, Stepper<DescriptorRepair>::initial);
+  Relation relation_;
+};
+
+}  // namespace
+
+std::vector<MachineSubject> repair_subjects() {
+  return {machine_subject(
+              "DescriptorRepair", "DescriptorRepair",
+              {{"ACKNACK (bitmap, prefix)", {any_set, 1}},
+               {"repair generation (one packet each)", {1}},
+               {"repair packet leaves its source"},
+               {"suppression end"}},
+              [] { return std::make_unique<PaperRules>(); },
+              [](Mutations m) { return std::make_unique<PaperMachines>(m); }),
+          change_subject()};
+}
+
+}  // namespace stormproof::fsm::stateful

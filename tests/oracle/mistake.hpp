@@ -1,0 +1,130 @@
+// Deliberate mistakes of the oracles. An oracle can only judge if a comparison with it is able to
+// fail: each of these breaks one rule at the place where the rule is, and a test wants the
+// comparison with the product to notice every one of them. A mistake that nobody notices says that
+// the random scenarios never reach its rule.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace stormproof::oracle {
+
+/// What the paper's oracle does wrong (specs/model.md has the rules).
+enum class Mistake : std::uint8_t {
+  none,
+  // Events, packets and the channel.
+  class_ignored,          ///< events of one time come in the order of insertion
+  dispatch_first,         ///< the channel picks before the other events of the instant
+  airtime_rounded_down,   ///< not to the nearest nanosecond
+  queue_admits_one_more,  ///< a packet is admitted while anything of W is left
+  queue_drops_demand,     ///< admission forgets the last fragment's bytes
+  rank_ignored,           ///< waiting fragments are served by request time and number alone
+  forwards_first,         ///< a fragment is forwarded before the source's next one is requested
+  fragments_reversed,     ///< a whole packet's fragments are requested from the last on
+  admits_first,           ///< the queue admits before the source completion is processed
+  loss_ignored,           ///< lost packets are received
+  multicast_as_unicast,   ///< a multicast frame takes a unicast frame's airtime
+  // SPDP.
+  startup_one_more,    ///< one startup announcement too many
+  resend_too_early,    ///< the newcomer is not among those that the resend goes to
+  copies_first,        ///< the copies of an announcement go before the multicast
+  receives_unstarted,  ///< a participant processes what arrives before its start
+  // The reader.
+  one_acknack_pending,  ///< a HEARTBEAT adds no ACKNACK to one that is pending
+  acknack_words_down,   ///< the bitmap takes floor(D/32) words
+  initial_not_doubled,  ///< initial ACKNACKs keep their distance
+  initial_never_ends,   ///< initial ACKNACKs go on after a HEARTBEAT
+  bitmap_not_snapshot,  ///< an ACKNACK lists what is missing at its reception
+  // The writer.
+  opening_arms_first,        ///< the HEARTBEAT of an opening comes after its expiry is scheduled
+  heartbeat_restarted,       ///< arming a pending timer moves it
+  expiry_for_all,            ///< an expiry goes to readers that lack nothing, too
+  confirms_unsent_only,      ///< an ACKNACK takes only U to A
+  prefix_goes_too_far,       ///< `acknowledge: prefix` confirms what follows the first missing one
+  repair_not_snapshot,       ///< a source completion suppresses all that is queued
+  suppression_ignored,       ///< a repair that has left its source can be requested at once
+  suppression_does_not_arm,  ///< the end of a suppression leaves the timer alone
+  // DATA and its piggyback.
+  heartbeat_keeps_budget,   ///< a HEARTBEAT of its own does not fill the budget
+  budget_ends_at_zero,      ///< a budget of exactly 0 triggers the piggyback
+  charge_starts_anew,       ///< the participant's byte counter starts anew with each HEARTBEAT
+  piggyback_uncharged,      ///< piggyback HEARTBEATs do not count in the byte counter
+  piggyback_to_one,         ///< the piggyback goes to the packet's receiver only
+  grouping_forgets_header,  ///< a descriptor that joins a packet brings its headers along
+  // The adaptive policy.
+  early_end_at_the_end,      ///< a response at the very end of the period counts as in time
+  stretch_rounded_down,      ///< T·H/A is not rounded to the nearest nanosecond
+  batches_of_one,            ///< the paced HEARTBEATs go one by one
+  late_response_ends_cycle,  ///< a second response of a reader can end the cycle, too
+};
+
+/// What the oracle of `implementation: fastdds` does wrong (specs/fastdds.md has the rules).
+enum class FastddsMistake : std::uint8_t {
+  none,
+  // Deployment, packets, SPDP.
+  creation_a_step_early,    ///< the k-th endpoint is created at k, not k+1, steps
+  publications_first,       ///< all publications are created before the subscriptions
+  creation_not_pushed,      ///< a descriptor that is created after the match waits to be asked for
+  loopback_without_delay,   ///< same-host packets arrive at once
+  loopback_takes_a_number,  ///< same-host packets have packet numbers
+  receptions_reversed,      ///< the receptions of a multicast go from the last participant on
+  multicast_first,          ///< the multicast of an announcement goes before the copies
+  // The writer.
+  expiry_to_several_larger,    ///< a HEARTBEAT to several readers has 68 B, too
+  expiry_until_acknowledged,   ///< an expiry goes on until everything is acknowledged
+  base_confirms_unsent_only,   ///< the base takes only U to A
+  low_not_raised,              ///< a base leaves the low mark
+  initial_keeps_low,           ///< an initial ACKNACK leaves the low mark
+  initial_does_not_arm,        ///< an initial ACKNACK does not arm the timer
+  vain_request_does_not_arm,   ///< a NACK that requests nothing new does not arm the timer
+  response_per_request,        ///< every NACK that requests schedules a nack response
+  run_per_response,            ///< a nack response adds an async run to one that is pending
+  suppression_per_descriptor,  ///< every delivery schedules a suppression end
+  suppression_end_arms_not,    ///< the end of a suppression leaves the timer alone
+  // Messages.
+  no_destination_bytes,   ///< a message to one reader lacks the 16 bytes of its destination
+  sync_charges_message,   ///< a creation is charged like a DATA of an async run
+  charge_per_packet,      ///< an async message counts once for each destination
+  piggyback_rides_along,  ///< a piggyback goes to the message's own destinations only
+  // The reader.
+  data_announces_nothing,  ///< DATA does not raise what the reader knows of
+  announces_all,           ///< a HEARTBEAT announces endpoints that do not exist yet
+  acknack_per_heartbeat,   ///< a HEARTBEAT adds an ACKNACK to one that is pending
+  // Control-only relations, adaptive policy.
+  notified_late,            ///< an endpoint is known only when the next one has been received
+  control_reply_doubled,    ///< every control HEARTBEAT is answered
+  control_initial_ignored,  ///< a control writer does not answer initial ACKNACKs
+  response_with_old_base,   ///< a clean ACKNACK counts whatever its base
+};
+
+inline constexpr std::size_t mistake_count =
+    static_cast<std::size_t>(Mistake::late_response_ends_cycle) + 1;
+inline constexpr std::size_t fastdds_mistake_count =
+    static_cast<std::size_t>(FastddsMistake::response_with_old_base) + 1;
+
+namespace detail {
+template <auto Value>
+constexpr std::string_view enumerator() {
+  const std::string_view text = __PRETTY_FUNCTION__;
+  const auto begin = text.rfind("::", text.find_first_of(";]", text.find("Value = "))) + 2;
+  return text.substr(begin, text.find_first_of(";]", begin) - begin);
+}
+template <class Enum, std::size_t... Ks>
+constexpr auto enumerators(std::index_sequence<Ks...>) {
+  return std::array{enumerator<static_cast<Enum>(Ks)>()...};
+}
+}  // namespace detail
+
+[[nodiscard]] inline std::string_view name_of(Mistake mistake) {
+  constexpr auto names = detail::enumerators<Mistake>(std::make_index_sequence<mistake_count>{});
+  return names[static_cast<std::size_t>(mistake)];
+}
+[[nodiscard]] inline std::string_view name_of(FastddsMistake mistake) {
+  constexpr auto names =
+      detail::enumerators<FastddsMistake>(std::make_index_sequence<fastdds_mistake_count>{});
+  return names[static_cast<std::size_t>(mistake)];
+}
+
+}  // namespace stormproof::oracle

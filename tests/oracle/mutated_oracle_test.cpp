@@ -1,0 +1,56 @@
+// The oracles with deliberate mistakes: the comparison with the product notices every one of them.
+// What it could not notice, it would not notice in the product either.
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "tests/oracle/judged_runs.hpp"
+#include "tests/oracle/sharp_scenario.hpp"
+
+namespace stormproof::oracle {
+namespace {
+
+constexpr std::size_t tries = 150;
+
+Observed correct_product(const model::Scenario& scenario, std::uint64_t max_events) {
+  return observe_product(scenario, nullptr, max_events);
+}
+
+/// Looks for a scenario on which each mistake shows; returns those that show on none.
+template <class SomeMistake>
+std::vector<std::string> unnoticed(JudgedRuns& runs, std::size_t count) {
+  std::vector<std::string> list;
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < count; ++k) {
+    const auto mistake = static_cast<SomeMistake>(k);
+    const std::size_t needed = runs.tries_until(tries, [&](const JudgedRun& run) {
+      // A run that is longer than the product's differs already.
+      const std::uint64_t enough = run.correct.events.size() + 1;
+      const Observed wrong = observe_oracle(run.scenario, mistake, enough);
+      return first_difference(run.correct, wrong).has_value();
+    });
+    if (needed > tries) list.emplace_back(name_of(mistake));
+    most = std::max(most, needed);
+  }
+  std::cout << count - 1 << " mistakes, noticed after at most " << most << " scenarios\n";
+  return list;
+}
+
+TEST(MutatedOracle, EveryMistakeOfThePaperOracleIsNoticed) {
+  JudgedRuns runs{varied_scenario, correct_product};
+  EXPECT_EQ(unnoticed<Mistake>(runs, mistake_count), std::vector<std::string>{});
+}
+
+TEST(MutatedOracle, EveryMistakeOfTheFastddsOracleIsNoticed) {
+  JudgedRuns runs{varied_fastdds_scenario, correct_product};
+  EXPECT_EQ(unnoticed<FastddsMistake>(runs, fastdds_mistake_count), std::vector<std::string>{});
+}
+
+TEST(MutatedOracle, MistakesHaveNames) {
+  EXPECT_EQ(name_of(Mistake::none), "none");
+  EXPECT_EQ(name_of(Mistake::class_ignored), "class_ignored");
+  EXPECT_EQ(name_of(FastddsMistake::response_with_old_base), "response_with_old_base");
+}
+
+}  // namespace
+}  // namespace stormproof::oracle

@@ -1,0 +1,127 @@
+// The edges, one function each.
+#include "tests/oracle/sharp_scenario.hpp"
+
+#include <algorithm>
+
+#include "tests/oracle/random_dice.hpp"
+#include "tests/oracle/random_fastdds_scenario.hpp"
+#include "tests/oracle/random_scenario.hpp"
+
+namespace stormproof::oracle {
+
+namespace {
+
+using model::Bytes;
+using model::Nanoseconds;
+using model::Scenario;
+
+constexpr std::int64_t ms = 1'000'000;
+
+void lose(Dice& dice, Scenario& s, int percent, std::uint64_t packets) {
+  s.wireless.lost_packets.clear();
+  for (std::uint64_t k = 0; k < packets; ++k) {
+    if (dice.chance(percent)) s.wireless.lost_packets.push_back(k);
+  }
+}
+
+// A constant delay without losses, short timers around it, and a run that goes on.
+std::int64_t calm_down(Dice& dice, Scenario& s) {
+  const std::int64_t delay = dice.between(1, 3) * ms;
+  s.wireless.kind = model::ServiceKind::constant_delay;
+  s.wireless.one_way = Nanoseconds{delay};
+  s.wireless.lost_packets.clear();
+  s.dds.sedp.heartbeat_response_delay = Nanoseconds{dice.between(0, 2) * 10'000};
+  s.dds.sedp.heartbeat_period = Nanoseconds{delay * dice.between(2, 5)};
+  s.run_until = model::RunUntil::time_limit;
+  s.time_limit = Nanoseconds{120 * delay};
+  for (model::Participant& p : s.deployment.participants) {
+    const std::int64_t start = std::min(p.start.count(), 10 * delay);
+    p.start = Nanoseconds{start};
+    p.endpoints_done = Nanoseconds{start + delay * dice.between(0, 10)};
+  }
+  return delay;
+}
+
+// Single packets take longer than the ones after them, or leave later: an old ACKNACK comes after a
+// new one, an initial one after both.
+void overtake(Dice& dice, Scenario& s) {
+  const std::int64_t delay = calm_down(dice, s);
+  const int percent = dice.pick<int>({20, 40, 60});
+  for (std::uint64_t packet = 0; packet < 1'500; ++packet) {
+    if (!dice.chance(percent)) continue;
+    const std::int64_t one_way = delay * dice.between(0, 32) / 2;
+    const Nanoseconds leaves{dice.pick<std::int64_t>({0, one_way, one_way / 2})};
+    s.wireless.packet_delays.push_back({packet, leaves, Nanoseconds{one_way}});
+  }
+  s.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
+  s.dds.sedp.initial_acknack_delay = Nanoseconds{dice.between(1, 3) * delay};
+}
+
+// The HEARTBEAT's answer is there in the very instant in which the cycle ends.
+void answer_at_the_end(Dice& dice, Scenario& s) {
+  const std::int64_t delay = calm_down(dice, s);
+  s.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
+  s.dds.sedp.heartbeat_period = Nanoseconds{2 * delay} + s.dds.sedp.heartbeat_response_delay;
+  s.dds.sedp.adaptive.min_period = Nanoseconds{1};
+  lose(dice, s, 40, 80);
+}
+
+// Periods that the number of answers does not divide, stretched without a bound.
+void odd_periods(Dice& dice, Scenario& s) {
+  while (s.deployment.participants.size() < 6) {
+    model::Participant another = s.deployment.participants.front();
+    another.host.value += 1;
+    s.deployment.participants.push_back(another);
+  }
+  const std::int64_t delay = calm_down(dice, s);
+  s.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
+  s.dds.sedp.heartbeat_period = Nanoseconds{4 * delay + 1};
+  s.dds.sedp.adaptive.min_period = Nanoseconds{1};
+  s.dds.sedp.adaptive.max_period = Nanoseconds{1'000 * delay};
+  lose(dice, s, 40, 300);
+}
+
+// The budget is exactly used up by one descriptor or by two.
+void exact_budget(Dice& dice, Scenario& s) {
+  s.dds.sedp.piggyback =
+      dice.pick<model::Piggyback>({model::Piggyback::cumulative, model::Piggyback::linear});
+  const Bytes first = s.dds.descriptors.default_bytes[0];
+  s.dds.descriptors.default_bytes[1] = first;
+  s.dds.descriptors.user_bytes = first;
+  s.dds.sedp.shared_header_bytes = Bytes{0};
+  s.dds.sedp.piggyback_threshold_bytes = first * dice.between(1, 4);
+}
+
+// An ACKNACK with a bitmap has two fragments, one without has one and overtakes it.
+void two_fragments(Dice& dice, Scenario& s) {
+  s.wireless.kind = model::ServiceKind::shared_channel;
+  s.wireless.fragment_request = model::FragmentRequest::sequential;
+  s.wireless.mtu_payload_bytes = s.dds.sedp.acknack_bytes + Bytes{dice.between(8, 11)};
+  s.dds.sedp.heartbeat_response_delay = Nanoseconds{dice.between(0, 1)};
+}
+
+}  // namespace
+
+Scenario sharpened(Scenario scenario, std::uint64_t seed) {
+  constexpr void (*edges[])(Dice&, Scenario&) = {overtake,    overtake,     answer_at_the_end,
+                                                 odd_periods, exact_budget, two_fragments};
+  Dice dice{seed};
+  edges[dice.between(0, static_cast<std::int64_t>(std::size(edges)) - 1)](dice, scenario);
+  return scenario;
+}
+
+namespace {
+Scenario varied(Scenario scenario, std::uint64_t seed) {
+  if (seed % 2 == 1) scenario = sharpened(std::move(scenario), seed);
+  if (seed % 4 == 3) scenario.run_until = model::RunUntil::time_limit;
+  return scenario;
+}
+}  // namespace
+
+Scenario varied_scenario(std::uint64_t seed) { return varied(random_scenario(seed), seed); }
+
+Scenario varied_fastdds_scenario(std::uint64_t seed) {
+  return varied(random_fastdds_scenario(seed), seed);
+}
+
+}  // namespace stormproof::oracle

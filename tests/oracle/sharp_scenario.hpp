@@ -1,0 +1,20 @@
+// Random scenarios at the edges of rules: where two times meet exactly, a budget is used up to the
+// last byte, a later packet overtakes an earlier one. Dice reach these edges hardly ever, and a
+// comparison that does not reach a rule's edge cannot judge the rule.
+#pragma once
+
+#include <cstdint>
+
+#include "model/scenario.hpp"
+
+namespace stormproof::oracle {
+
+/// The scenario, moved to one of the edges that the seed chooses.
+[[nodiscard]] model::Scenario sharpened(model::Scenario scenario, std::uint64_t seed);
+
+/// The scenario of this seed: as random_scenario(.hpp) or random_fastdds_scenario(.hpp)
+/// makes it, every other one sharpened; every fourth goes on after the completion of discovery.
+[[nodiscard]] model::Scenario varied_scenario(std::uint64_t seed);
+[[nodiscard]] model::Scenario varied_fastdds_scenario(std::uint64_t seed);
+
+}  // namespace stormproof::oracle
