@@ -4,55 +4,21 @@
 #include <memory>
 
 #include "checker/cli/check_command.hpp"
+#include "checker/cli/coverage_command.hpp"
 #include "checker/cli/draw_command.hpp"
+#include "checker/cli/fuzz_command.hpp"
 #include "checker/cli/mutate_command.hpp"
+#include "checker/cli/options.hpp"
 #include "checker/cli/properties_command.hpp"
 #include "checker/cli/replay_command.hpp"
+#include "checker/cli/reproduce_command.hpp"
+#include "checker/cli/sensitivity_command.hpp"
 #include "checker/cli/simulate_command.hpp"
+#include "checker/cli/sweep_command.hpp"
 
 namespace stormproof::cli {
 
 namespace {
-
-/// `--format text|json`, the same on every command.
-void add_format(CLI::App& command, bool& json) {
-  command
-      .add_option_function<std::string>(
-          "--format", [&json](const std::string& value) { json = value == "json"; },
-          "Output format: text (default) or json")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->type_name("FORMAT");
-}
-
-CLI::Option* add_repeatable(CLI::App& command, const char* name, std::vector<std::string>& values,
-                            const char* help) {
-  return command.add_option(name, values, help)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-void add_scenario(CLI::App& command, std::string& scenario, std::vector<std::string>& overrides) {
-  command.add_option("scenario", scenario, "Scenario file, or name of a shipped one")
-      ->required()
-      ->type_name("SCENARIO");
-  add_repeatable(command, "--set", overrides,
-                 "Override a key of the scenario: key.path=value (repeatable)")
-      ->type_name("KEY=VALUE");
-}
-
-void add_progress(CLI::App& command, std::optional<bool>& progress) {
-  command.add_flag_callback(
-      "--progress", [&progress] { progress = true; },
-      "Show progress on stderr (default on a terminal)");
-  command.add_flag_callback(
-      "--no-progress", [&progress] { progress = false; }, "Show no progress");
-}
-
-void add_timeout(CLI::App& command, double& seconds) {
-  command.add_option("--timeout", seconds, "Seconds for each query, for each solver (default 10)")
-      ->check(CLI::Range(0.001, 86'400.0))
-      ->type_name("SECONDS");
-}
 
 void declare_simulate(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<SimulateArguments>();
@@ -84,7 +50,8 @@ void declare_simulate(CLI::App& app, Command& chosen) {
     command->get_option(recording)->excludes(samples)->excludes(compare);
   }
   command->footer(
-      "Exit code: 0 discovery completes, 3 it does not within the time limit, 2 bad input.");
+      "Exit code: 0 discovery completes, 1 a limit of the scenario is exceeded,\n"
+      "3 it does not complete within the time limit, 2 bad input.");
   command->callback(
       [arguments, &chosen] { chosen = [arguments] { return simulate(*arguments); }; });
 }
@@ -215,8 +182,13 @@ void declare_commands(CLI::App& app, Command& chosen) {
   declare_check(app, chosen);
   declare_properties(app, chosen);
   declare_replay(app, chosen);
+  declare_coverage(app, chosen);
   declare_draw(app, chosen);
   declare_mutate(app, chosen);
+  declare_fuzz(app, chosen);
+  declare_sweep(app, chosen);
+  declare_sensitivity(app, chosen);
+  declare_reproduce(app, chosen);
 }
 
 }  // namespace stormproof::cli

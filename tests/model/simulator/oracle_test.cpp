@@ -23,13 +23,13 @@ class AgainstOracle : public testing::TestWithParam<int> {
 
 class AgainstPaperOracle : public AgainstOracle {};
 TEST_P(AgainstPaperOracle, SameEventsSameOutcome) { expect_agreement(oracle::varied_scenario); }
-INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstPaperOracle, testing::Range(0, 5));
+INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstPaperOracle, testing::Range(0, 20));
 
 class AgainstFastddsOracle : public AgainstOracle {};
 TEST_P(AgainstFastddsOracle, SameEventsSameOutcome) {
   expect_agreement(oracle::varied_fastdds_scenario);
 }
-INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstFastddsOracle, testing::Range(0, 4));
+INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstFastddsOracle, testing::Range(0, 14));
 
 }  // namespace
 }  // namespace stormproof
