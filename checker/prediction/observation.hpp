@@ -1,0 +1,83 @@
+// Measured discoveries, one JSON object per line: what `stormproof coverage` compares predictions
+// with. The format is open to anyone's measurements; specs/observations/README.md lists its fields.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/config/result.hpp"
+
+namespace stormproof::prediction {
+
+/// What is compared: the completion time (ms), all messages, and each class of messages.
+enum class Measure : std::uint8_t {
+  completion,
+  total,
+  spdp_multicast,
+  spdp_unicast,
+  initial_data,
+  repair_data,
+  heartbeat,
+  acknack
+};
+inline constexpr std::size_t measure_count = 8;
+[[nodiscard]] const char* name_of(Measure measure);
+
+/// Earliest and latest of one run's participants, in ms since the common start.
+struct Range {
+  double low = 0;
+  double high = 0;
+};
+
+/// What a row says of its network. A field that is absent says nothing.
+struct Channel {
+  std::optional<std::string> medium;          ///< "veth" and "wired": no shared channel
+  std::optional<double> overhead_unicast_us;  ///< O_u_us
+  std::optional<double> overhead_multicast_us;
+  std::optional<double> rate_unicast_mbps;
+  std::optional<double> rate_multicast_mbps;
+  std::optional<double> loss;               ///< probability, of each frame
+  std::optional<double> send_buffer_bytes;  ///< sndbuf_B; 0: the default of the system
+
+  [[nodiscard]] bool wired() const { return medium == "veth" || medium == "wired"; }
+  auto operator<=>(const Channel&) const = default;
+};
+
+/// One measured run.
+struct Observation {
+  std::string set;  ///< runs of different sets are never pooled; may be empty
+  std::uint32_t hosts = 0;
+  std::uint32_t participants_per_host = 0;
+  std::uint32_t endpoints = 0;  ///< user endpoints per participant
+  Channel channel;
+  bool completed = true;
+  /// By measure; of a run that did not complete these are lower bounds, the time limit for
+  /// `completion`.
+  std::array<std::optional<double>, measure_count> values;
+  std::optional<Range> start;           ///< start_ms: first announcements
+  std::optional<Range> create;          ///< create_ms: creation of the participant begins
+  std::optional<Range> endpoints_done;  ///< ep_done_ms: all endpoints of a participant exist
+};
+
+enum class CompletionTime : std::uint8_t { app, strict };
+
+struct ReadOptions {
+  CompletionTime completion = CompletionTime::app;
+  std::vector<std::string> select;  ///< "KEY=VALUE"; a row must have all of them
+};
+
+struct Observations {
+  std::vector<Observation> rows;
+  std::size_t not_selected = 0;
+};
+
+/// Reads all lines; `name` places errors ("name:line"). Empty lines are skipped.
+[[nodiscard]] model::config::Result<Observations> read_observations(std::istream& input,
+                                                                    const std::string& name,
+                                                                    const ReadOptions& options);
+
+}  // namespace stormproof::prediction

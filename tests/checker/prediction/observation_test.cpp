@@ -1,0 +1,89 @@
+// Rows of anyone's measurements are read, and what is wrong with a row is said with its line.
+#include <gtest/gtest.h>
+
+#include "examples.hpp"
+
+namespace stormproof::prediction {
+namespace {
+
+std::optional<double> value(const Observation& run, Measure measure) {
+  return run.values[static_cast<std::size_t>(measure)];
+}
+
+std::string error_of(const std::string& text, const ReadOptions& options = {}) {
+  const auto read = read_text(text, options);
+  return read ? "no error" : to_string(read.error());
+}
+
+TEST(Observations, FourFieldsAreEnough) {
+  const auto read = read_text(R"({"N_H":2,"N_P":3,"N_E":4,"completion_ms":12.5})");
+  ASSERT_TRUE(read);
+  const Observation& run = read->rows.front();
+  EXPECT_TRUE(run.completed);
+  EXPECT_EQ(run.participants_per_host, 3U);
+  EXPECT_EQ(value(run, Measure::completion), 12.5);
+  EXPECT_FALSE(value(run, Measure::total));
+}
+
+TEST(Observations, TotalIsTheSumOfAllClasses) {
+  const auto read = read_text(
+      R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"counts":{"spdp_m":1,"spdp_unicast":2,"init":3,)"
+      R"("repair":4,"heartbeat":5,"ack":6}})");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(value(read->rows[0], Measure::total), 21);
+  EXPECT_EQ(value(read->rows[0], Measure::spdp_unicast), 2);
+}
+
+TEST(Observations, ARunThatWasCutOffHasLowerBounds) {
+  const auto read =
+      read_text(R"({"N_H":2,"N_P":1,"N_E":2,"completed":false,"T_app_ms":null,"limit_s":16})");
+  ASSERT_TRUE(read);
+  EXPECT_FALSE(read->rows[0].completed);
+  EXPECT_EQ(value(read->rows[0], Measure::completion), 16'000);
+  EXPECT_EQ(observed_values(configurations(read->rows)[0], Measure::completion),
+            std::vector<double>{never});
+}
+
+TEST(Observations, StrictCompletionIsAnotherField) {
+  const std::string row = R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"T_strict_ms":8})";
+  EXPECT_EQ(value(read_text(row)->rows[0], Measure::completion), 9);
+  const auto strict = read_text(row, {CompletionTime::strict, {}});
+  EXPECT_EQ(value(strict->rows[0], Measure::completion), 8);
+}
+
+TEST(Observations, SelectsByAnyField) {
+  const std::string text = R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"lab":"a"})"
+                           "\n\n"
+                           R"({"N_H":2,"N_P":3,"N_E":2,"T_app_ms":9,"lab":"b"})";
+  const auto read = read_text(text, {CompletionTime::app, {"lab=b", "N_P=3"}});
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->rows.size(), 1U);
+  EXPECT_EQ(read->not_selected, 1U);
+  EXPECT_EQ(error_of(text, {CompletionTime::app, {"lab=c"}}),
+            "runs.jsonl: none of its 2 rows is selected by --select");
+}
+
+TEST(Observations, RefusesWithLineFieldAndExpectation) {
+  const std::string good = R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9})";
+  EXPECT_EQ(error_of(good + "\n" + R"({"N_H":2,"N_E":2,"T_app_ms":9})"),
+            "runs.jsonl:2: N_P is missing; expected an integer from 1 to 4000");
+  EXPECT_EQ(error_of(R"({"N_H":1,"N_P":1,"N_E":2,"T_app_ms":9})"),
+            "runs.jsonl:1: N_H is 1; expected an integer from 2 to 4000");
+  EXPECT_EQ(error_of(R"({"N_H":2,"N_P":1,"N_E":2})"),
+            "runs.jsonl:1: T_app_ms is missing; expected the completion time in ms, or completed: "
+            "false beside it");
+  EXPECT_EQ(error_of("not json"),
+            "runs.jsonl:1: not a JSON object; expected one measured run per line");
+  EXPECT_EQ(error_of(""), "runs.jsonl: has no rows; expected one measured run per line");
+}
+
+TEST(Observations, RefusesImpossibleValues) {
+  const std::string head = R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,)";
+  EXPECT_NE(error_of(head + R"("loss":1.5})").find("loss is 1.5"), std::string::npos);
+  EXPECT_NE(error_of(head + R"("ep_done_ms":[5,4]})").find("ascending"), std::string::npos);
+  EXPECT_NE(error_of(head + R"("counts":{"hb":-1}})").find("hb is -1"), std::string::npos);
+  EXPECT_NE(error_of(head + R"("completed":"yes"})").find("true or false"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stormproof::prediction

@@ -1,0 +1,97 @@
+// Where schedules are drawn from, and which rows belong to a channel.
+#include <gtest/gtest.h>
+
+#include "examples.hpp"
+#include "model/config/scenario_file.hpp"
+
+namespace stormproof::prediction {
+namespace {
+
+TEST(Schedule, MeasuredStartsAreTakenAsTheyAre) {
+  Configuration c = configuration_of({50, 60});
+  for (Observation& run : c.runs) run.start = Range{4, 20};
+  for (Observation& run : c.runs) run.endpoints_done = Range{30, 60};
+  const ScheduleRanges ranges = schedule_ranges(c);
+  EXPECT_EQ(ranges.start.low, 4);
+  EXPECT_EQ(ranges.start.high, 20);
+  EXPECT_EQ(ranges.endpoints_done.high, 60);
+}
+
+TEST(Schedule, RangesAreMediansOverTheRuns) {
+  Configuration c = configuration_of({50, 60, 70});
+  c.runs[0].endpoints_done = Range{10, 40};
+  c.runs[1].endpoints_done = Range{20, 90};
+  c.runs[2].endpoints_done = Range{30, 60};
+  EXPECT_EQ(schedule_ranges(c).endpoints_done.low, 20);
+  EXPECT_EQ(schedule_ranges(c).endpoints_done.high, 60);
+}
+
+TEST(Schedule, StartsEndWithTheShareOfTheParticipantInItsCreation) {
+  Configuration c = configuration_of({50}, 2, 17);  // 34 endpoints: half of the time is the
+  c.runs[0].endpoints_done = Range{30, 60};         // participant's own
+  EXPECT_EQ(schedule_ranges(c).start.low, 3);
+  EXPECT_EQ(schedule_ranges(c).start.high, 30);
+}
+
+TEST(Schedule, WithoutMeasurementTheFitOfTheLiveMachine) {
+  const ScheduleRanges ranges = schedule_ranges(configuration_of({50}, 5, 20));
+  EXPECT_NEAR(ranges.endpoints_done.low, 50.8, 1e-9);
+  EXPECT_NEAR(ranges.endpoints_done.high, 134.175, 1e-9);
+  const ScheduleRanges small = schedule_ranges(configuration_of({50}, 1, 2));
+  EXPECT_LE(small.endpoints_done.low, small.endpoints_done.high);
+  EXPECT_LE(small.start.low, small.start.high);
+}
+
+TEST(Schedule, TheProfileDecidesWhetherThereIsOne) {
+  const Configuration c = configuration_of({50}, 2, 4);
+  const auto fastdds = scenario_of(c, {"fastdds-2.6.11", "emulated-ap", {}, {}});
+  const auto paper = scenario_of(c, {"paper", "emulated-ap", {}, {}});
+  const auto asked =
+      scenario_of(c, {"paper", "emulated-ap", {"deployment.schedule.start=[0ms,5ms]"}, {}});
+  ASSERT_TRUE(fastdds && paper && asked);
+  EXPECT_TRUE(fastdds->deployment.schedule);
+  EXPECT_FALSE(paper->deployment.schedule);
+  EXPECT_TRUE(asked->deployment.schedule);
+}
+
+TEST(Channel, ADifferenceIsNamed) {
+  Configuration c = configuration_of({50});
+  const auto scenario = scenario_of(c, {"fastdds-2.6.11", "emulated-ap", {}, {}});
+  ASSERT_TRUE(scenario);
+  EXPECT_EQ(mismatch(c, *scenario), "");
+  c.channel.overhead_unicast_us = 150;
+  c.channel.rate_unicast_mbps = 144.4;
+  c.channel.send_buffer_bytes = 0;
+  c.channel.medium = "ap";
+  EXPECT_EQ(mismatch(c, *scenario), "");
+  c.channel.send_buffer_bytes = 4'000'000;
+  EXPECT_EQ(mismatch(c, *scenario), "sndbuf_B 4000000");
+  c.channel.rate_unicast_mbps = 54;
+  EXPECT_EQ(mismatch(c, *scenario), "R_u_Mbps 54");
+  c.channel.medium = "veth";
+  EXPECT_EQ(mismatch(c, *scenario), "medium veth");
+}
+
+TEST(Channel, ARowCanBringItsOwn) {
+  Configuration c = configuration_of({50});
+  c.channel.overhead_unicast_us = 77;
+  c.channel.send_buffer_bytes = 4'000'000;
+  const auto own = scenario_of(c, {"fastdds-2.6.11", "emulated-ap", {}, ChannelSource::row});
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->wireless.overhead_unicast.count(), 77'000);
+  EXPECT_EQ(own->dds.sedp.piggyback_threshold_bytes.count(), 4'000'000);
+  c.channel.medium = "veth";
+  const auto wired = scenario_of(c, {"fastdds-2.6.11", "emulated-ap", {}, ChannelSource::row});
+  EXPECT_EQ(wired->wireless.kind, model::ServiceKind::constant_delay);
+}
+
+TEST(Losses, AreDrawnWithTheirProbabilityAndFromTheirSeed) {
+  const auto lost = draw_losses(0.05, 3);
+  EXPECT_NEAR(static_cast<double>(lost.size()), 100'000, 2'000);
+  EXPECT_TRUE(std::is_sorted(lost.begin(), lost.end()));
+  EXPECT_NE(lost, draw_losses(0.05, 4));
+  EXPECT_TRUE(draw_losses(0, 3).empty());
+}
+
+}  // namespace
+}  // namespace stormproof::prediction
