@@ -10,7 +10,7 @@
 namespace stormproof::oracle {
 namespace {
 
-constexpr std::size_t tries = 150;
+constexpr std::size_t tries = 1'000;
 
 Observed correct_product(const model::Scenario& scenario, std::uint64_t max_events) {
   return observe_product(scenario, nullptr, max_events);

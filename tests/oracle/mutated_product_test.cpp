@@ -16,7 +16,7 @@ using mutate::CatalogueEntry;
 using mutate::Concerns;
 using Ids = std::vector<std::string>;
 
-constexpr std::size_t tries = 150;
+constexpr std::size_t tries = 1'000;
 
 bool runs_differently(const CatalogueEntry& entry) {
   const model::Mutation& rules = entry.mutant.rules;

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/oracle/fastdds_oracle.hpp"
-#include "tests/oracle/random_fastdds_scenario.hpp"
+#include "tests/oracle/random_scenario.hpp"
 
 namespace stormproof::oracle {
 namespace {

@@ -1,15 +1,23 @@
-// Random scenarios for the comparison of two simulators: small and heterogeneous, with every knob
-// of both profiles in play, timers from 1 ns up, and many events at the very same time.
+// The random scenarios on which two simulators are compared: those of the generators that property
+// tests use, by seed.
 #pragma once
 
 #include <cstdint>
 
-#include "model/scenario.hpp"
+#include "props/generators/space.hpp"
 
 namespace stormproof::oracle {
 
-/// The scenario of this seed, the same on every platform. It always has a cross-host pair and at
-/// least one descriptor, and its time limit keeps nearly every run below 200,000 events.
-[[nodiscard]] model::Scenario random_scenario(std::uint64_t seed);
+/// The scenario of this seed, the same on every platform; small seeds give the same sizes as large
+/// ones.
+inline model::Scenario random_scenario(std::uint64_t seed, model::ImplementationKind kind) {
+  return props::draw_scenario(seed, static_cast<int>(seed % 101), {.implementation = kind});
+}
+inline model::Scenario random_scenario(std::uint64_t seed) {
+  return random_scenario(seed, model::ImplementationKind::paper);
+}
+inline model::Scenario random_fastdds_scenario(std::uint64_t seed) {
+  return random_scenario(seed, model::ImplementationKind::fastdds);
+}
 
 }  // namespace stormproof::oracle

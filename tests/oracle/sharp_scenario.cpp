@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "tests/oracle/random_dice.hpp"
-#include "tests/oracle/random_fastdds_scenario.hpp"
+#include "props/generators/dice.hpp"
 #include "tests/oracle/random_scenario.hpp"
 
 namespace stormproof::oracle {
@@ -14,6 +13,7 @@ namespace {
 using model::Bytes;
 using model::Nanoseconds;
 using model::Scenario;
+using props::Dice;
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -30,6 +30,7 @@ std::int64_t calm_down(Dice& dice, Scenario& s) {
   s.wireless.kind = model::ServiceKind::constant_delay;
   s.wireless.one_way = Nanoseconds{delay};
   s.wireless.lost_packets.clear();
+  s.wireless.packet_delays.clear();
   s.dds.sedp.heartbeat_response_delay = Nanoseconds{dice.between(0, 2) * 10'000};
   s.dds.sedp.heartbeat_period = Nanoseconds{delay * dice.between(2, 5)};
   s.run_until = model::RunUntil::time_limit;

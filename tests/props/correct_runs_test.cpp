@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "model/airtime.hpp"
-#include "tests/oracle/random_fastdds_scenario.hpp"
 #include "tests/oracle/random_scenario.hpp"
 #include "tests/props/monitored_run.hpp"
 
@@ -23,7 +22,9 @@ bool is_fastdds(const Scenario& scenario) {
 bool has_link_without_delay(const Scenario& scenario) {
   if (is_fastdds(scenario) && scenario.deployment.loopback_delay.count() == 0) return true;
   if (scenario.wireless.kind == model::ServiceKind::constant_delay) {
-    return scenario.wireless.one_way.count() == 0;
+    const auto& delays = scenario.wireless.packet_delays;
+    return scenario.wireless.one_way.count() == 0 ||
+           std::ranges::any_of(delays, [](const auto& d) { return d.one_way.count() == 0; });
   }
   return std::ranges::any_of(scenario.wireless.stages, [&](const model::Stage& stage) {
     return model::service_rate(scenario.wireless, stage, false).airtime_ns(1) == 0 ||
