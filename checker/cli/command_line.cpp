@@ -180,15 +180,15 @@ void declare_mutate(CLI::App& app, Command& chosen) {
 void declare_commands(CLI::App& app, Command& chosen) {
   declare_simulate(app, chosen);
   declare_check(app, chosen);
+  declare_fuzz(app, chosen);
+  declare_sensitivity(app, chosen);
+  declare_sweep(app, chosen);
+  declare_reproduce(app, chosen);
+  declare_coverage(app, chosen);
   declare_properties(app, chosen);
   declare_replay(app, chosen);
-  declare_coverage(app, chosen);
   declare_draw(app, chosen);
   declare_mutate(app, chosen);
-  declare_fuzz(app, chosen);
-  declare_sweep(app, chosen);
-  declare_sensitivity(app, chosen);
-  declare_reproduce(app, chosen);
 }
 
 }  // namespace stormproof::cli

@@ -4,12 +4,17 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
 #include "tests/fuzzing/targets.hpp"
 
 namespace stormproof::fuzzing {
+
+/// For the names of the tests.
+void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
+
 namespace {
 
 namespace fs = std::filesystem;
