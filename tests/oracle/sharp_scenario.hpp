@@ -12,7 +12,8 @@ namespace stormproof::oracle {
 /// The scenario, moved to one of the edges that the seed chooses.
 [[nodiscard]] model::Scenario sharpened(model::Scenario scenario, std::uint64_t seed);
 
-/// The scenario of this seed: as random_scenario.hpp makes it, every other one sharpened; every fourth goes on after the completion of discovery.
+/// The scenario of this seed: as random_scenario.hpp makes it, every other one sharpened; every
+/// fourth goes on after the completion of discovery.
 [[nodiscard]] model::Scenario varied_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_fastdds_scenario(std::uint64_t seed);
 
