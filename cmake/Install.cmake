@@ -7,7 +7,9 @@ set(_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stormproof")
 set_target_properties(stormproof_fsm PROPERTIES EXPORT_NAME fsm)
 set_target_properties(stormproof_model PROPERTIES EXPORT_NAME model)
 install(TARGETS stormproof_fsm stormproof_model EXPORT stormproofTargets)
-install(TARGETS stormproof)
+if(TARGET stormproof)
+  install(TARGETS stormproof)
+endif()
 install(EXPORT stormproofTargets NAMESPACE stormproof:: DESTINATION "${_package_dir}")
 
 # Headers keep their folders: #include "model/scenario.hpp" reads the same in the tree and
