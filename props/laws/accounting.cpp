@@ -18,9 +18,6 @@ using model::PacketKind;
 using model::Scenario;
 using Broken = std::optional<std::string>;
 
-bool is_fastdds(const Scenario& scenario) {
-  return scenario.dds.implementation == model::ImplementationKind::fastdds;
-}
 bool is_shared(const Scenario& scenario) {
   return scenario.wireless.kind == model::ServiceKind::shared_channel;
 }

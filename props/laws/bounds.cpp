@@ -36,10 +36,6 @@ using model::Scenario;
 using model::Stream;
 using Broken = std::optional<std::string>;
 
-bool is_fastdds(const Scenario& scenario) {
-  return scenario.dds.implementation == model::ImplementationKind::fastdds;
-}
-
 /// Least bytes on the channel for the descriptors of one stream.
 std::int64_t least_bytes(const Scenario& scenario, Stream stream, std::uint32_t count) {
   const model::DescriptorSizes sizes{scenario.dds.descriptors};

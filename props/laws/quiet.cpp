@@ -26,10 +26,6 @@ using model::Participant;
 using model::Scenario;
 using Broken = std::optional<std::string>;
 
-bool is_fastdds(const Scenario& scenario) {
-  return scenario.dds.implementation == model::ImplementationKind::fastdds;
-}
-
 Nanoseconds least_timer(const Scenario& scenario) {
   const model::SedpProfile& sedp = scenario.dds.sedp;
   const model::SpdpProfile& spdp = scenario.dds.spdp;

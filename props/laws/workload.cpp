@@ -22,10 +22,6 @@ using model::Scenario;
 using model::Stream;
 using Broken = std::optional<std::string>;
 
-bool is_fastdds(const Scenario& scenario) {
-  return scenario.dds.implementation == ImplementationKind::fastdds;
-}
-
 /// Eq. (1): F, the descriptors of every participant, once for each participant of another host.
 std::uint64_t required(const Scenario& scenario) {
   const model::DescriptorProfile& defaults = scenario.dds.descriptors;
