@@ -39,11 +39,6 @@ double middle(const std::vector<double>& sorted) {
 
 }  // namespace
 
-double median_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  return middle(values);
-}
-
 Effect effect_of(std::vector<double> differences) {
   std::ranges::sort(differences);
   Effect effect;

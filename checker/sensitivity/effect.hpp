@@ -22,7 +22,4 @@ struct Effect {
 /// `differences` must not be empty.
 [[nodiscard]] Effect effect_of(std::vector<double> differences);
 
-/// The middle value, or the mean of the two middle ones. `values` must not be empty.
-[[nodiscard]] double median_of(std::vector<double> values);
-
 }  // namespace stormproof::sensitivity

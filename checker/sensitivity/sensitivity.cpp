@@ -9,6 +9,7 @@
 #include <random>
 
 #include "checker/parallel.hpp"
+#include "checker/sampling/quantiles.hpp"
 #include "model/simulator.hpp"
 
 namespace stormproof::sensitivity {
@@ -170,7 +171,7 @@ class Study {
     for (std::size_t m = 0; m < measures.size(); ++m) {
       std::vector<double> values;
       for (const auto& outcome : singles_.front()) values.push_back(outcome->cost[m]);
-      report_.base[m] = median_of(std::move(values));
+      report_.base[m] = *sampling::quantiles(std::move(values)).median;
     }
     report_.incomplete = incomplete_runs(singles_.front());
   }

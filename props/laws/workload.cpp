@@ -15,7 +15,6 @@ namespace stormproof::props {
 
 namespace {
 
-using model::ImplementationKind;
 using model::Nanoseconds;
 using model::Participant;
 using model::Scenario;
