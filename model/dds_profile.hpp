@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "model/units.hpp"
@@ -77,7 +78,9 @@ struct SedpProfile {
   HeartbeatPolicy heartbeat_policy = HeartbeatPolicy::periodic;
   AdaptiveProfile adaptive;
   Grouping grouping = Grouping::message;
-  Bytes grouping_limit_bytes{65'500};  ///< payload limit of `grouping: message`
+  /// Largest RTPS message: payload limit of `grouping: message`, and of pulled and repair DATA in
+  /// `implementation: fastdds`.
+  Bytes grouping_limit_bytes{65'500};
   Piggyback piggyback = Piggyback::cumulative;
   Bytes piggyback_threshold_bytes{106'496};
   Bytes heartbeat_bytes{68};            ///< UDP payload of a HEARTBEAT of its own
@@ -105,6 +108,9 @@ struct DdsProfile {
   SpdpProfile spdp;
   SedpProfile sedp;
   DescriptorProfile descriptors;
+  /// What the described system has and this model has not: the setting, and what it would do. No
+  /// run depends on it; every report of a run has to name it as an assumption.
+  std::map<std::string, std::string> unmodelled;
 
   bool operator==(const DdsProfile&) const = default;
 };

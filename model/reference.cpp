@@ -72,9 +72,11 @@ class FastddsSizes {
   [[nodiscard]] static std::int64_t descriptor(Stream s, std::uint32_t d) {
     return fastdds::timestamp_bytes + fastdds::submessage_bytes(s, d);
   }
-  [[nodiscard]] static bool is_full(std::int64_t payload, std::int64_t added) {
-    return payload + added > fastdds::message_limit_bytes;
+  [[nodiscard]] bool is_full(std::int64_t payload, std::int64_t added) const {
+    return payload + added > limit.count();
   }
+
+  Bytes limit;  ///< of a message
 };
 
 /// All `count` descriptors of one stream, grouped into packets without piggybacked HEARTBEATs.
@@ -156,7 +158,8 @@ std::optional<Nanoseconds> open_loop_airtime(const Scenario& scenario) {
   const Topology topology{scenario.deployment, scenario.dds.descriptors};
   const RouteAirtime route{scenario.wireless};
   if (scenario.dds.implementation == ImplementationKind::fastdds) {
-    return Nanoseconds{everything_once_ns(topology, route, FastddsSizes{})};
+    const FastddsSizes sizes{scenario.dds.sedp.grouping_limit_bytes};
+    return Nanoseconds{everything_once_ns(topology, route, sizes)};
   }
   return Nanoseconds{everything_once_ns(topology, route, PaperSizes{scenario.dds})};
 }

@@ -123,7 +123,8 @@ void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
   visit.knob("grouping", sedp.grouping, ChoiceType<Grouping>{},
              "how descriptors share packets: up to a limit, one MTU, or one a packet", of_paper);
   visit.knob("grouping_limit_bytes", sedp.grouping_limit_bytes, packet_bytes,
-             "largest UDP payload of a packet with grouping: message", of_paper);
+             "largest UDP payload of a packet with grouping: message, or that fastdds fills",
+             implementation == ImplementationKind::paper ? Presence::required : Presence::optional);
   visit.knob("piggyback", sedp.piggyback, ChoiceType<Piggyback>{},
              "what DATA is charged against the threshold of the piggyback HEARTBEAT");
   visit.knob("piggyback_threshold_bytes", sedp.piggyback_threshold_bytes,
@@ -168,6 +169,9 @@ void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
   visit.section("sedp", dds.sedp, "reliable exchange of endpoint descriptors", Presence::required,
                 dds.implementation);
   visit.section("descriptors", dds.descriptors, "number and size of descriptors", of_paper);
+  visit.knob("unmodelled", dds.unmodelled, TextMapType{},
+             "settings of the real system that the model has not, and what they do there",
+             Presence::optional);
 
   const Bytes header = dds.sedp.shared_header_bytes;
   const std::string more =

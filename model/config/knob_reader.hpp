@@ -92,7 +92,7 @@ class KnobReader {
     const Node* node = find(key, presence, [&type] { return type.info().expected; });
     if (node == nullptr) return;
     Complaint complaint;
-    if constexpr (requires { member.emplace(); }) {  // an optional value: present from now on
+    if constexpr (requires { member.has_value(); }) {  // an optional value: present from now on
       complaint = type.read(*node, member.emplace());
     } else {
       complaint = type.read(*node, member);

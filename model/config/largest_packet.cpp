@@ -44,8 +44,10 @@ LargestPacket largest_packet(const Scenario& scenario) {
   if (scenario.dds.implementation == ImplementationKind::paper) {
     return largest_paper_packet(scenario);
   }
-  return {Bytes{fastdds::message_limit_bytes + fastdds::heartbeat_submessage_bytes},
-          "dds.implementation: fastdds"};
+  const std::int64_t alone = fastdds::message_header_bytes + fastdds::destination_bytes +
+                             fastdds::timestamp_bytes + fastdds::largest_submessage_bytes;
+  const std::int64_t message = std::max(scenario.dds.sedp.grouping_limit_bytes.count(), alone);
+  return {Bytes{message + fastdds::heartbeat_submessage_bytes}, "dds.sedp.grouping_limit_bytes"};
 }
 
 }  // namespace stormproof::model::config

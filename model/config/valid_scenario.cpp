@@ -31,6 +31,10 @@ bool accepts(const TextType&, const std::string& value) {
   const auto is_control = [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; };
   return !value.empty() && std::ranges::none_of(value, is_control);
 }
+bool accepts(const TextMapType&, const std::map<std::string, std::string>& value) {
+  return std::ranges::all_of(value,
+                             [](const auto& entry) { return accepts(TextType{}, entry.second); });
+}
 bool accepts(const RatioType& type, const Ratio& value) {
   return value.numerator > 0 && value.denominator > 0 &&
          value.denominator <= type.max_denominator &&

@@ -168,6 +168,25 @@ TypeInfo TextType::info() const {
           .schema = {{"type", "string"}, {"minLength", 1}}};
 }
 
+Complaint TextMapType::read(const Node& node, std::map<std::string, std::string>& value) const {
+  if (!node.is_map()) return fault(node, " is not a map");
+  value.clear();
+  for (const Member& member : node.members) {
+    if (auto complaint = TextType{}.read(member.value, value[member.key])) return complaint;
+  }
+  return std::nullopt;
+}
+
+Json TextMapType::write(const std::map<std::string, std::string>& value) const {
+  return value.empty() ? Json() : Json(value);
+}
+
+TypeInfo TextMapType::info() const {
+  return {.name = "texts",
+          .expected = "a map of texts",
+          .schema = {{"type", "object"}, {"additionalProperties", TextType{}.info().schema}}};
+}
+
 Complaint RatioType::read(const Node& node, Ratio& value) const {
   if (!node.is_scalar()) return fault(node, " is not a number");
   const auto fraction = parse_fraction(node.text);

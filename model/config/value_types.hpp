@@ -11,6 +11,7 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -174,6 +175,13 @@ struct UsualChoiceType : ChoiceType<Enum> {
 struct TextType {
   Complaint read(const Node& node, std::string& value) const;
   Json write(const std::string& value) const { return value; }
+  TypeInfo info() const;
+};
+
+/// A map of texts with free keys; written only if it is not empty.
+struct TextMapType {
+  Complaint read(const Node& node, std::map<std::string, std::string>& value) const;
+  Json write(const std::map<std::string, std::string>& value) const;
   TypeInfo info() const;
 };
 

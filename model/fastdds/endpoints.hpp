@@ -24,7 +24,7 @@ inline constexpr std::int64_t message_header_bytes = 20;
 inline constexpr std::int64_t destination_bytes = 16;  ///< INFO_DST, if there is one destination
 inline constexpr std::int64_t timestamp_bytes = 12;    ///< INFO_TS before each descriptor
 inline constexpr std::int64_t heartbeat_submessage_bytes = 32;
-inline constexpr std::int64_t message_limit_bytes = 65'500;
+inline constexpr std::int64_t largest_submessage_bytes = 452;  ///< of one descriptor
 
 /// One endpoint of a participant: descriptor d of stream s.
 struct Endpoint {

@@ -34,7 +34,7 @@ void Protocol::deliver(Message& message, std::uint32_t w, std::uint32_t d,
                        const std::vector<std::uint32_t>& readers, SendMode mode) {
   const std::int64_t bytes = timestamp_bytes + submessage_bytes(stream_of(w), d);
   if (message.open && (message.writer != w || message.readers != readers || message.carries(d) ||
-                       message.bytes + bytes > message_limit_bytes)) {
+                       message.bytes + bytes > sedp_.grouping_limit_bytes.count())) {
     flush(message, mode);
   }
   if (!message.open) {

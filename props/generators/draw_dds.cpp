@@ -30,11 +30,15 @@ void draw_descriptors(Dice& dice, Scenario& scenario) {
   if (d.default_publications + d.default_subscriptions == 0) d.default_publications = 1;
 }
 
+void draw_message_limit(Dice& dice, model::SedpProfile& sedp) {
+  sedp.grouping_limit_bytes =
+      Bytes{dice.among({65'500, 65'500, 1'472, 60, dice.between(500, 9'000)})};
+}
+
 void draw_sizes(Dice& dice, Scenario& scenario) {
   model::SedpProfile& sedp = scenario.dds.sedp;
   sedp.grouping = dice.choice<model::Grouping>(3);
-  sedp.grouping_limit_bytes =
-      Bytes{dice.among({65'500, 65'500, 1'472, 60, dice.between(500, 9'000)})};
+  draw_message_limit(dice, sedp);
   if (dice.chance(60)) return;
   scenario.dds.spdp.payload_bytes = Bytes{dice.among({1, 420, 1'472, 1'473, 3'000})};
   sedp.heartbeat_bytes = Bytes{dice.among({1, 68, 100, dice.between(1, 2'000)})};
@@ -84,7 +88,10 @@ void draw_rules_and_sizes(Dice& dice, Scenario& scenario) {
   scenario.dds.spdp.resend = dice.choice<model::SpdpResend>(4);
   if (dice.chance(40)) scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
   draw_piggyback(dice, scenario.dds.sedp);
-  if (scenario.dds.implementation == model::ImplementationKind::fastdds) return;
+  if (scenario.dds.implementation == model::ImplementationKind::fastdds) {
+    draw_message_limit(dice, scenario.dds.sedp);
+    return;
+  }
   draw_relation_rules(dice, scenario.dds.sedp);
   draw_sizes(dice, scenario);
   draw_descriptors(dice, scenario);

@@ -91,6 +91,8 @@ class Collector {
   // Text is no number, and the set of lost packets has edits of its own.
   void add(std::string&, const auto&, bool) {}
   void add(std::vector<std::uint64_t>&, const auto&, bool) {}
+  // What no run depends on.
+  void add(std::map<std::string, std::string>&, const auto&, bool) {}
 
   void push(Knob::Kind kind, bool may_be_zero, bool is_used, auto get, auto set) {
     places.push_back({{kind, may_be_zero, 0, std::move(get), std::move(set)}, is_used_ && is_used});

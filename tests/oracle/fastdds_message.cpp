@@ -13,7 +13,6 @@ constexpr std::int64_t message_header = 20;
 constexpr std::int64_t destination_bytes = 16;
 constexpr std::int64_t timestamp_bytes = 12;
 constexpr std::int64_t heartbeat_bytes = 32;
-constexpr std::int64_t message_limit = 65500;
 
 /// The message that a call fills; there is at most one at a time.
 struct Message {
@@ -62,11 +61,13 @@ void flush(World& w, Sending& sending) {
   }
 }
 
-bool joins(const Message& message, int s, Id d, const std::vector<Id>& destinations) {
+bool joins(const World& w, const Message& message, int s, Id d,
+           const std::vector<Id>& destinations) {
   if (message.stream != s || message.destinations != destinations) return false;
   const std::vector<Id>& carried = message.descriptors;
   if (std::find(carried.begin(), carried.end(), d) != carried.end()) return false;
-  return message.bytes + timestamp_bytes + submessage_bytes(s, d) <= message_limit;
+  return message.bytes + timestamp_bytes + submessage_bytes(s, d) <=
+         w.sedp.grouping_limit_bytes.count();
 }
 
 void count_data(World& w, Id i, Id j, int s, Id d) {
@@ -124,7 +125,7 @@ void piggyback(World& w, Sending& sending, int s) {
 }
 
 void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& destinations) {
-  if (sending.open.has_value() && !joins(*sending.open, s, d, destinations)) flush(w, sending);
+  if (sending.open.has_value() && !joins(w, *sending.open, s, d, destinations)) flush(w, sending);
   if (!sending.open.has_value()) open_message(w, sending, s, destinations);
   sending.open->descriptors.push_back(d);
   sending.open->bytes += timestamp_bytes + submessage_bytes(s, d);

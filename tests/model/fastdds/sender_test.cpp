@@ -82,6 +82,20 @@ TEST(FastddsSender, AMessageIsFullAt65500BytesButAHeartbeatStillFits) {
   EXPECT_GT(full[0].bytes, 65'500);
 }
 
+TEST(FastddsSender, TheProfileLimitsTheMessageButNeverBelowOneDescriptor) {
+  Scenario scenario = charged(one_writer(0), Piggyback::off, 1);
+  const auto packets_with_limit = [&](std::int64_t bytes) {
+    scenario.dds.sedp.grouping_limit_bytes = Bytes{bytes};
+    return run(scenario).of(Kind::data, 0, 1);
+  };
+  const std::vector<Emission> fitting = packets_with_limit(1'472);
+  for (const Emission& packet : fitting) EXPECT_LE(packet.bytes, 1'472);
+  EXPECT_GT(fitting.front().descriptors.size(), 1U);
+  const std::vector<Emission> alone = packets_with_limit(1);
+  for (const Emission& packet : alone) EXPECT_EQ(packet.descriptors.size(), 1U);
+  EXPECT_EQ(alone.size(), 17U);
+}
+
 TEST(FastddsSender, AHeartbeatRidesInAMessageToAllReadersAndCountsOnceForEach) {
   const FastddsLog log = run(charged(one_writer(0, 2), Piggyback::linear, 1));
   for (const std::uint32_t j : {1U, 2U}) {

@@ -1,0 +1,45 @@
+// XML text to a tree that knows its places, for the profiles that DDS vendors read. Such a file
+// comes from anywhere, so what this accepts is bounded, and nothing outside of the text is ever
+// looked at: a document type declaration, and with it every entity of its own, is refused.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/config/tree.hpp"
+
+namespace stormproof::model::config::vendor {
+
+inline constexpr std::size_t max_xml_bytes = 4 * 1024 * 1024;
+inline constexpr std::size_t max_xml_depth = 64;
+inline constexpr std::size_t max_xml_elements = 100'000;
+
+struct XmlAttribute {
+  std::string name;
+  std::string value;
+};
+
+struct XmlElement {
+  std::string name;  ///< local name, without a namespace prefix
+  Place place;       ///< of its '<'
+  std::string text;  ///< all character data directly in it, trimmed
+  Place text_place;  ///< of the first character of `text`; `place` if there is none
+  std::vector<XmlAttribute> attributes;  ///< in the order of the file
+  std::vector<XmlElement> children;
+
+  /// The first child with this name, or null.
+  [[nodiscard]] const XmlElement* find(std::string_view child) const;
+  /// The value of an attribute, or null.
+  [[nodiscard]] const std::string* attribute(std::string_view name_of_it) const;
+};
+
+/// The root element. `source` is the name in error messages. Errors, each with line and column: not
+/// well-formed, not UTF-8 (or another encoding that the declaration names and the parser knows), a
+/// document type declaration, a text, depth or number of elements over the limits.
+[[nodiscard]] Result<XmlElement> parse_xml(std::string_view text, const std::string& source);
+
+/// Reads a file; in addition: not readable, a directory, longer than `max_xml_bytes`.
+[[nodiscard]] Result<XmlElement> load_xml(const std::string& path);
+
+}  // namespace stormproof::model::config::vendor
