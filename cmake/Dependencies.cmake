@@ -31,6 +31,9 @@ find_package(Z3 4.8.12 REQUIRED)
 find_package(rapidcheck REQUIRED)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(SQLite3 REQUIRED)
+find_package(PCAP REQUIRED)
+find_package(LibLZMA REQUIRED)
+find_package(ZLIB REQUIRED)
 
 # Open MPI spreads a sweep over machines. A program without it sweeps on one machine; the tests need
 # it.

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/check/check_report.hpp"
+#include "checker/report/assumptions.hpp"
 
 namespace stormproof::checker {
 
@@ -63,6 +64,7 @@ Json to_json(const CheckReport& report, const CheckContext& context) {
                                  VerdictKind::violated, VerdictKind::inconclusive}) {
     json["summary"][name_of(kind)] = report.count(kind);
   }
+  report::add_unmodelled(json, context.scenario.dds);
   json["verdicts"] = Json::array();
   for (const PropertyResult& result : report.results) {
     json["verdicts"].push_back(result_json(result, context));

@@ -1,4 +1,4 @@
-// A check as text for a person, as JSON and as JUnit XML for a CI system.
+// A check in the forms that people and machines read: text, JSON, Markdown, HTML, JUnit, SARIF.
 #pragma once
 
 #include <map>
@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/check/check.hpp"
+#include "model/config/provenance.hpp"
 
 namespace stormproof::checker {
 
@@ -17,6 +18,9 @@ struct CheckContext {
   std::map<std::string, std::string, std::less<>> counterexamples;  ///< property id → path
   std::map<std::string, std::string, std::less<>> stories;          ///< property id → text
   bool verbose = false;
+  model::config::Places places{};  ///< of the scenario's values; empty if they are not known
+  std::string command{};           ///< repeats the check; may be empty
+  int exit_code = 0;               ///< of the program that prints the report
 };
 
 /// One line for each property, then what is violated and why; at most 100 columns wide.
@@ -29,5 +33,16 @@ struct CheckContext {
 
 /// One test case for each property: violated is a failure, inconclusive an error.
 [[nodiscard]] std::string to_junit(const CheckReport& report, const CheckContext& context);
+
+/// For a comment on a pull request: what is violated first, details folded away.
+[[nodiscard]] std::string to_markdown(const CheckReport& report, const CheckContext& context);
+
+/// One self-contained page. It runs the scenario and its counterexamples once more, for what it
+/// draws.
+[[nodiscard]] std::string to_html(const CheckReport& report, const CheckContext& context);
+
+/// SARIF 2.1.0. Results point at the knobs in the user's own files.
+[[nodiscard]] nlohmann::ordered_json to_sarif(const CheckReport& report,
+                                              const CheckContext& context);
 
 }  // namespace stormproof::checker

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "checker/check/check_report.hpp"
+#include "checker/report/assumptions.hpp"
 #include "checker/report/numbers.hpp"
 #include "checker/report/paragraph.hpp"
 
@@ -100,6 +101,7 @@ std::string to_text(const CheckReport& report, const CheckContext& context) {
   for (const PropertyResult& result : report.results) {
     if (result.verdict == VerdictKind::violated) text += violation_text(result, context);
   }
+  text += report::unmodelled_text(context.scenario.dds);
   text += "\n" + summary_text(report);
   if (report.interrupted) text += "Interrupted: what was not checked is inconclusive.\n";
   return text;

@@ -12,9 +12,11 @@
 #include "checker/check/check_report.hpp"
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/exit_code.hpp"
+#include "checker/cli/report_files.hpp"
 #include "checker/cli/run_monitor.hpp"
+#include "checker/report/plain_text.hpp"
 #include "checker/smt/claims.hpp"
-#include "model/config/scenario_file.hpp"
+#include "model/config/provenance.hpp"
 #include "model/config/suggestion.hpp"
 
 namespace stormproof::cli {
@@ -90,26 +92,51 @@ checker::CheckReport run_check(const CheckArguments& arguments, const model::Sce
   return checker::check({arguments.properties.begin(), arguments.properties.end()}, request);
 }
 
-std::string render(const CheckArguments& arguments, const checker::CheckReport& report,
+std::string render(report::Format format, const checker::CheckReport& report,
                    const checker::CheckContext& context) {
   using Json = nlohmann::ordered_json;
-  switch (arguments.format) {
-    case CheckFormat::json:
-      return to_json(report, context).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    case CheckFormat::junit:
+  const auto dumped = [](const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  };
+  switch (format) {
+    case report::Format::json:
+      return dumped(to_json(report, context));
+    case report::Format::markdown:
+      return to_markdown(report, context);
+    case report::Format::html:
+      return to_html(report, context);
+    case report::Format::junit:
       return to_junit(report, context);
-    case CheckFormat::text:
+    case report::Format::sarif:
+      return dumped(to_sarif(report, context));
+    case report::Format::text:
       break;
   }
   return to_text(report, context);
 }
 
+/// The command that gives the same verdicts.
+std::string command_line(const CheckArguments& arguments) {
+  std::string command = "stormproof check " + report::shell_word(arguments.scenario);
+  for (const std::string& change : arguments.overrides)
+    command += " --set " + report::shell_word(change);
+  for (const std::string& id : arguments.properties) command += " --property " + id;
+  if (!arguments.require.empty()) command += " --require " + arguments.require;
+  if (arguments.seed != 0) command += fmt::format(" --seed {}", arguments.seed);
+  if (arguments.samples != CheckArguments{}.samples) {
+    command += fmt::format(" --samples {}", arguments.samples);
+  }
+  return command;
+}
+
 }  // namespace
 
 int check(const CheckArguments& arguments) {
-  const auto scenario = model::config::read_scenario(arguments.scenario, arguments.overrides,
-                                                     model::config::SpecPath::standard());
-  if (!scenario) return complain(to_string(scenario.error()));
+  const auto traced = model::config::trace_scenario(arguments.scenario, arguments.overrides,
+                                                    model::config::SpecPath::standard());
+  if (!traced) return complain(to_string(traced.error()));
+  const auto reports = parse_report_files(arguments.reports);
+  if (!reports) return complain(to_string(reports.error()));
   if (const auto error = unknown_property(arguments.properties)) return complain(*error);
   if (!arguments.export_directory.empty()) {
     std::error_code error;
@@ -119,13 +146,18 @@ int check(const CheckArguments& arguments) {
                                   error.message()));
     }
   }
-  checker::CheckReport report = run_check(arguments, *scenario);
-  checker::CheckContext context{arguments.scenario, *scenario, {}, {}, arguments.verbose};
+  const checker::CheckReport report = run_check(arguments, traced->scenario);
+  checker::CheckContext context{arguments.scenario, traced->scenario, {}, {}, arguments.verbose};
+  context.places = traced->places;
+  context.command = command_line(arguments);
+  context.exit_code = exit_code(report, arguments.require);
   if (const auto error = write_counterexamples(arguments, report, context)) {
     return complain(*error);
   }
-  fmt::print("{}", render(arguments, report, context));
-  return exit_code(report, arguments.require);
+  const auto rendered = [&](report::Format format) { return render(format, report, context); };
+  if (const auto error = write_report_files(*reports, rendered)) return complain(*error);
+  fmt::print("{}", rendered(arguments.format));
+  return context.exit_code;
 }
 
 }  // namespace stormproof::cli

@@ -7,18 +7,19 @@
 #include <string>
 #include <vector>
 
-namespace stormproof::cli {
+#include "checker/report/format.hpp"
 
-enum class CheckFormat : std::uint8_t { text, json, junit };
+namespace stormproof::cli {
 
 struct CheckArguments {
   std::string scenario;                 ///< file, or name of a shipped scenario
   std::vector<std::string> overrides;   ///< key.path=value
   std::vector<std::string> properties;  ///< ids; empty: the whole catalogue
-  CheckFormat format = CheckFormat::text;
-  std::string require;           ///< "proved", "bounded", "sampled", or empty
-  double timeout_seconds = 10;   ///< of each query, for each solver
-  std::string export_directory;  ///< for SMT-LIB 2 files; empty: none
+  report::Format format = report::Format::text;
+  std::vector<std::string> reports;  ///< FORMAT=FILE
+  std::string require;               ///< "proved", "bounded", "sampled", or empty
+  double timeout_seconds = 10;       ///< of each query, for each solver
+  std::string export_directory;      ///< for SMT-LIB 2 files; empty: none
   std::string output_directory = "counterexamples";
   std::string emit_test;  ///< GoogleTest file; empty: none
   unsigned seed = 0;

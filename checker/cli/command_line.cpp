@@ -3,18 +3,23 @@
 
 #include <memory>
 
+#include "checker/cli/capture_command.hpp"
 #include "checker/cli/check_command.hpp"
 #include "checker/cli/coverage_command.hpp"
+#include "checker/cli/diff_command.hpp"
 #include "checker/cli/draw_command.hpp"
 #include "checker/cli/fuzz_command.hpp"
 #include "checker/cli/mutate_command.hpp"
 #include "checker/cli/options.hpp"
+#include "checker/cli/profile_command.hpp"
 #include "checker/cli/properties_command.hpp"
 #include "checker/cli/replay_command.hpp"
+#include "checker/cli/report_files.hpp"
 #include "checker/cli/reproduce_command.hpp"
 #include "checker/cli/sensitivity_command.hpp"
 #include "checker/cli/simulate_command.hpp"
 #include "checker/cli/sweep_command.hpp"
+#include "checker/cli/tune_command.hpp"
 
 namespace stormproof::cli {
 
@@ -56,26 +61,13 @@ void declare_simulate(CLI::App& app, Command& chosen) {
       [arguments, &chosen] { chosen = [arguments] { return simulate(*arguments); }; });
 }
 
-void add_check_format(CLI::App& command, CheckFormat& format) {
-  command
-      .add_option_function<std::string>(
-          "--format",
-          [&format](const std::string& value) {
-            format = value == "json"    ? CheckFormat::json
-                     : value == "junit" ? CheckFormat::junit
-                                        : CheckFormat::text;
-          },
-          "Output format: text (default), json or junit")
-      ->check(CLI::IsMember({"text", "json", "junit"}))
-      ->type_name("FORMAT");
-}
-
 void declare_check(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand(
       "check", "Which properties hold for a scenario: proofs, exploration, counterexamples");
   add_scenario(*command, arguments->scenario, arguments->overrides);
-  add_check_format(*command, arguments->format);
+  add_format(*command, arguments->format);
+  add_report_files(*command, arguments->reports);
   add_repeatable(*command, "--property", arguments->properties,
                  "Check only this property (repeatable); 'stormproof properties' lists them")
       ->type_name("ID");
@@ -180,12 +172,16 @@ void declare_mutate(CLI::App& app, Command& chosen) {
 void declare_commands(CLI::App& app, Command& chosen) {
   declare_simulate(app, chosen);
   declare_check(app, chosen);
+  declare_diff(app, chosen);
   declare_fuzz(app, chosen);
   declare_sensitivity(app, chosen);
   declare_sweep(app, chosen);
+  declare_tune(app, chosen);
   declare_reproduce(app, chosen);
   declare_coverage(app, chosen);
+  declare_capture(app, chosen);
   declare_properties(app, chosen);
+  declare_profile(app, chosen);
   declare_replay(app, chosen);
   declare_draw(app, chosen);
   declare_mutate(app, chosen);

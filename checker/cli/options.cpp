@@ -12,6 +12,19 @@ void add_format(CLI::App& command, bool& json) {
       ->type_name("FORMAT");
 }
 
+void add_format(CLI::App& command, report::Format& format) {
+  using enum report::Format;
+  static const std::map<std::string, report::Format> names{
+      {"text", text}, {"json", json},   {"markdown", markdown},
+      {"html", html}, {"junit", junit}, {"sarif", sarif}};
+  command
+      .add_option_function<std::string>(
+          "--format", [&format](const std::string& value) { format = names.at(value); },
+          "Output format: text (default), json, markdown, html, junit or sarif")
+      ->check(CLI::IsMember({"text", "json", "markdown", "html", "junit", "sarif"}))
+      ->type_name("FORMAT");
+}
+
 CLI::Option* add_repeatable(CLI::App& command, const char* name, std::vector<std::string>& values,
                             const char* help) {
   return command.add_option(name, values, help)

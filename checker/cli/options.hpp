@@ -7,10 +7,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include "checker/report/format.hpp"
+
 namespace stormproof::cli {
 
 /// `--format text|json`.
 void add_format(CLI::App& command, bool& json);
+
+/// `--format text|json|markdown|html|junit|sarif`.
+void add_format(CLI::App& command, report::Format& format);
 
 /// An option that may be given several times, each time with one value.
 CLI::Option* add_repeatable(CLI::App& command, const char* name, std::vector<std::string>& values,

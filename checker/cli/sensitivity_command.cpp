@@ -84,6 +84,7 @@ model::config::Result<Description, std::string> describe(const SensitivityArgume
     options.start_jitter = *scenario.vary->start_jitter;
   }
   description.scenario = arguments.scenario;
+  description.dds = scenario.dds;
   description.has_schedule = scenario.deployment.schedule.has_value();
   description.shown = arguments.shown;
   options.samples = arguments.samples.value_or(description.is_sampled() ? usual_samples : 1);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include <fmt/core.h>
 #include <sys/resource.h>
@@ -13,6 +14,7 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/parallel.hpp"
+#include "checker/report/assumptions.hpp"
 #include "checker/report/numbers.hpp"
 #include "checker/sweep/mpi_ranks.hpp"
 #include "checker/sweep/sweep.hpp"
@@ -109,6 +111,17 @@ void print_summary(const SweepArguments& arguments, const Plan& plan, const Coll
   if (totals.failed > 0) fmt::print("first that cannot run: {}\n", totals.first_error);
 }
 
+/// What the model has not got of the systems in the plan: one line for each of their profiles.
+void print_unmodelled(const Plan& plan) {
+  std::set<std::string> lines;
+  for (std::size_t job = 0; job < plan.size(); ++job) {
+    if (plan.first_alike(job) != job || plan.error(job)) continue;
+    std::string line = report::unmodelled_line(plan.scenario(job).dds);
+    if (!line.empty()) lines.insert(std::move(line));
+  }
+  for (const std::string& line : lines) fmt::print(stderr, "{}\n", line);
+}
+
 /// How long it took and what of it was simulation; to standard error, because it is never twice the
 /// same.
 void print_times(const SweepArguments& arguments, const Collector& results, double seconds,
@@ -180,6 +193,7 @@ int lead(const SweepArguments& arguments, const Plan& plan, const sweep::MpiWorl
   const auto error = write_tables(csv, json, plan, *results);
   const Totals totals = count(plan, *results);
   print_summary(arguments, plan, *results, totals);
+  print_unmodelled(plan);
   print_times(arguments, *results,
               std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count(),
               sweep::launch().ranks);

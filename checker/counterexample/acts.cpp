@@ -2,6 +2,7 @@
 #include "checker/counterexample/acts.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -200,13 +201,11 @@ class Narrator {
   }
 
   void tell_emissions() {
-    std::size_t others = 0;
-    std::uint32_t source = 0;
+    std::map<std::uint32_t, std::size_t> others;     // by source
     std::vector<std::vector<std::uint64_t>> groups;  // that differ in their numbers only
     for (const std::uint64_t number : step_.emitted) {
-      source = history_.packets.at(number).from;
       if (!relevance_.packets.contains(number)) {
-        ++others;
+        ++others[history_.packets.at(number).from];
         continue;
       }
       const auto alike = std::ranges::find_if(groups, [&](const auto& group) {
@@ -218,10 +217,13 @@ class Narrator {
       else
         alike->push_back(number);
     }
-    for (const auto& group : groups) add(Act::Kind::sent, source, sending(group), group);
-    if (others > 0 && !acts_.empty()) {
+    for (const auto& group : groups) {
+      add(Act::Kind::sent, history_.packets.at(group.front()).from, sending(group), group);
+    }
+    if (acts_.empty()) return;
+    for (const auto& [source, count] : others) {
       add(Act::Kind::change, source,
-          fmt::format("sends {} other packet{}", others, others == 1 ? "" : "s"));
+          fmt::format("sends {} other packet{}", count, count == 1 ? "" : "s"));
     }
   }
 

@@ -38,12 +38,21 @@ Chart::Line::Kind line_kind(Act::Kind kind) {
   return Chart::Line::Kind::change;
 }
 
+/// `packets` that were sent are relevant, too.
+Relevance relevance_with(const History& history, std::span<const std::uint64_t> packets) {
+  Relevance relevance = relevance_of(history);
+  for (const std::uint64_t number : packets) {
+    if (history.packets.contains(number)) relevance.packets.insert(number);
+  }
+  return relevance;
+}
+
 class Builder {
  public:
-  explicit Builder(const props::Counterexample& counterexample)
+  Builder(const props::Counterexample& counterexample, std::span<const std::uint64_t> packets)
       : counterexample_{counterexample},
         history_{record(counterexample)},
-        relevance_{relevance_of(history_)},
+        relevance_{relevance_with(history_, packets)},
         selected_{select(history_, relevance_, most_events)} {}
 
   Chart run() && {
@@ -63,6 +72,8 @@ class Builder {
  private:
   void describe() {
     chart_.property = counterexample_.property;
+    chart_.title = counterexample_.property + " is violated";
+    chart_.closing = "Why the property breaks";
     chart_.reason = counterexample_.reason;
     chart_.deployment = deployment_text(counterexample_.scenario);
     chart_.timers = timers_text(counterexample_.scenario);
@@ -236,8 +247,9 @@ class Builder {
 
 }  // namespace
 
-Chart chart_of(const props::Counterexample& counterexample) {
-  return Builder{counterexample}.run();
+Chart chart_of(const props::Counterexample& counterexample,
+               std::span<const std::uint64_t> packets) {
+  return Builder{counterexample, packets}.run();
 }
 
 std::string mermaid_chart(const props::Counterexample& counterexample) {

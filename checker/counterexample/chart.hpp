@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,10 @@ struct Chart {
   };
 
   std::string property;
-  std::string statement;  ///< empty if the catalogue does not have the property
+  std::string title;       ///< "timer.single-heartbeat is violated"
+  std::string closing;     ///< heads `reason`: "Why the property breaks"
+  std::string sign = "✗";  ///< marks title, closing and the last event
+  std::string statement;   ///< empty if the catalogue does not have the property
   std::string reason;
   std::string deployment;
   std::string timers;
@@ -69,8 +73,10 @@ struct Chart {
   std::vector<Packet> packets;
 };
 
-/// At most 40 events; of more relevant ones those in the middle are left out.
-[[nodiscard]] Chart chart_of(const props::Counterexample& counterexample);
+/// At most 40 events; of more relevant ones those in the middle are left out. `packets` (numbers)
+/// are shown in any case, where a shown event sends or receives them.
+[[nodiscard]] Chart chart_of(const props::Counterexample& counterexample,
+                             std::span<const std::uint64_t> packets = {});
 
 /// Mermaid source, `sequenceDiagram`.
 [[nodiscard]] std::string mermaid_chart(const Chart& chart);

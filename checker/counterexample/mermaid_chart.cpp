@@ -17,7 +17,7 @@ class Mermaid {
 
   std::string run() && {
     text_ = "sequenceDiagram\n";
-    text_ += fmt::format("  %% {} is violated: {}\n", chart_.property, plain(chart_.reason));
+    text_ += fmt::format("  %% {}: {}\n", chart_.title, plain(chart_.reason));
     for (std::size_t k = 0; k < chart_.lanes.size(); ++k) {
       const Chart::Lane& lane = chart_.lanes[k];
       text_ += fmt::format("  participant {} as {}<br/>{}\n", id(k), escaped(lane.title),
@@ -58,8 +58,8 @@ class Mermaid {
     time_ = milliseconds(row.time) + " ms: ";
     for (std::size_t k = 0; k < row.lines.size();) k = add_line(row.lines, k);
     if (!row.violation) return;
-    text_ += fmt::format("  Note over {}: ✗ {} is violated at event {}<br/>{}\n", across(),
-                         escaped(chart_.property), row.event, escaped(chart_.reason));
+    text_ += fmt::format("  Note over {}: {} {} at event {}<br/>{}\n", across(), chart_.sign,
+                         escaped(chart_.title), row.event, escaped(chart_.reason));
     text_ += "  end\n";
   }
 

@@ -1,4 +1,5 @@
-// The chart as SVG. Time runs down, not to scale; each row says when.
+// The chart as SVG. Time runs down, not to scale; each row says when. A page that steps through the
+// chart finds row K as the element of classes `row rK`, and what draws packet K as `wK`.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@ namespace {
 using LineKind = Chart::Line::Kind;
 
 constexpr std::string_view style = R"(
+    .row { fill: none; }
     .lane { stroke: var(--rule); stroke-width: 2; }
     .channel { fill: var(--panel); stroke: var(--rule); }
     .packet { stroke: var(--packet); stroke-width: 1.5; marker-end: url(#arrow); }
@@ -58,13 +60,12 @@ const char* class_of(LineKind kind) {
 class Painter {
  public:
   explicit Painter(const Chart& chart)
-      : chart_{chart},
-        layout_{layout_of(chart)},
-        svg_{chart.property + " is violated", chart.reason} {}
+      : chart_{chart}, layout_{layout_of(chart)}, svg_{chart.title, chart.reason} {}
 
   std::string run() && {
     draw_violation_band();
     draw_lanes();
+    draw_row_areas();
     for (std::size_t p = 0; p < chart_.packets.size(); ++p) draw_way(p);
     for (std::size_t p = 0; p < chart_.packets.size(); ++p) draw_blocks(p);
     draw_header();
@@ -81,7 +82,7 @@ class Painter {
 
   void draw_header() {
     int y = ChartLayout::margin + 14;
-    svg_.text(ChartLayout::margin, y, "✗ " + chart_.property + " is violated", "title bad");
+    svg_.text(ChartLayout::margin, y, chart_.sign + " " + chart_.title, "title bad");
     y += 24;
     for (const std::string& line : layout_.header) {
       svg_.text(ChartLayout::margin, y, line, "quiet");
@@ -119,6 +120,14 @@ class Painter {
     }
   }
 
+  /// Nothing to see: what a page marks.
+  void draw_row_areas() {
+    for (std::size_t r = 0; r < chart_.rows.size(); ++r) {
+      svg_.rect(0, layout_.rows[r].y - 3, layout_.width, layout_.rows[r].height,
+                fmt::format("row r{}", r));
+    }
+  }
+
   void draw_row(std::size_t r) {
     const Chart::Row& row = chart_.rows[r];
     const ChartLayout::Row& placed = layout_.rows[r];
@@ -135,7 +144,7 @@ class Painter {
     const std::string classes = row.violation ? "bad" : event ? "" : "quiet small";
     if (event) {
       svg_.text(ChartLayout::margin, baseline,
-                fmt::format("{}{}", row.violation ? "✗" : "", row.event), classes);
+                fmt::format("{}{}", row.violation ? chart_.sign : "", row.event), classes);
     }
     if (r == 0 || chart_.rows[r - 1].time != row.time || event) {
       svg_.text(ChartLayout::margin + layout_.time_width, baseline, milliseconds(row.time), classes,
@@ -185,8 +194,9 @@ class Painter {
     return x < block.x ? block.x : block.x + block.width;
   }
 
+  /// Of the packet whose way is being drawn.
   void arrow(Point from, Point to, const char* classes) {
-    svg_.line(from.x, from.y, to.x, to.y, classes);
+    svg_.line(from.x, from.y, to.x, to.y, fmt::format("{} w{}", classes, packet_));
   }
   void cross(Point at) {
     svg_.line(at.x - 6, at.y - 6, at.x + 6, at.y + 6, "cross");
@@ -201,6 +211,7 @@ class Painter {
   }
 
   void draw_way(std::size_t p) {
+    packet_ = p;
     const auto sent = points(p, LineKind::sent);
     const auto received = points(p, LineKind::received);
     const auto lost = points(p, LineKind::lost);
@@ -247,7 +258,7 @@ class Painter {
   void draw_blocks(std::size_t p) {
     for (std::size_t b = 0; b < layout_.blocks[p].size(); ++b) {
       const ChartLayout::Block& block = layout_.blocks[p][b];
-      svg_.rect(block.x, block.y, block.width, block.height, "block", 3);
+      svg_.rect(block.x, block.y, block.width, block.height, fmt::format("block w{}", p), 3);
       svg_.text(block.x + block.width / 2, block.y + block.height / 2 + 4,
                 block_text(chart_.packets[p], chart_.packets[p].blocks[b]), "small",
                 draw::Anchor::middle);
@@ -264,7 +275,7 @@ class Painter {
     const int height = 40 + ChartLayout::line_height * static_cast<int>(lines.size());
     svg_.rect(ChartLayout::margin, top, width, height, "verdict", 6);
     int y = top + 22;
-    svg_.text(ChartLayout::margin + 16, y, "✗ Why the property breaks", "bad");
+    svg_.text(ChartLayout::margin + 16, y, chart_.sign + " " + chart_.closing, "bad");
     for (const std::string& line : lines) {
       y += ChartLayout::line_height;
       svg_.text(ChartLayout::margin + 16, y, line, "");
@@ -275,6 +286,7 @@ class Painter {
   const Chart& chart_;
   const ChartLayout layout_;
   draw::Svg svg_;
+  std::size_t packet_ = 0;  // whose way is being drawn
 };
 
 }  // namespace

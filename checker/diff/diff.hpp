@@ -25,7 +25,7 @@ namespace stormproof::diff {
 
 /// One knob of the profile that has different values.
 struct KnobChange {
-  std::string key;  ///< "sedp.heartbeat_period", or "unmodelled.SETTING"
+  std::string key;            ///< "sedp.heartbeat_period", or "unmodelled.SETTING"
   std::string before, after;  ///< as a file would say it; "–" where the profile has not got it
   model::config::Place before_place, after_place;
   bool matters = true;  ///< false: no rule of these profiles reads it (`why`)
@@ -39,6 +39,8 @@ enum class Relation : std::uint8_t {
   unmodelled,  ///< as one of the above, but they differ in settings that the model has not
   different
 };
+
+[[nodiscard]] const char* name_of(Relation relation);
 
 struct Comparison {
   Relation relation = Relation::different;
@@ -57,8 +59,8 @@ struct Comparison {
 
 enum class Judgment : std::uint8_t {
   better,
-  same,       ///< no change, or none that the policy minds
-  worse,      ///< a change for the worse that the policy allows
+  same,   ///< no change, or none that the policy minds
+  worse,  ///< a change for the worse that the policy allows
   regression,
   unclear  ///< the samples do not settle whether it is a regression
 };
@@ -113,7 +115,8 @@ struct MeasuredChange {
   Measure measure{};
   sampling::Quantiles before, after;
   std::optional<Shift> shift;  ///< absent: no run on one of the sides reached it
-  /// The shift relative to the median before, with the ends of its interval; absent if that is 0.
+  /// The relative change, candidate / base − 1, with the ends of its interval: the shift of the
+  /// logarithms, so it is never below −1. Absent if the median before is 0 or there is no shift.
   std::optional<double> relative, relative_low, relative_high;
   Judgment judgment = Judgment::same;
   std::string reason;  ///< why it is judged so; empty for `same`
@@ -121,8 +124,8 @@ struct MeasuredChange {
 
 /// A limit that a configuration keeps with one profile and not with the other.
 struct LimitCrossing {
-  std::string limit;            ///< "limit.completion"
-  std::string text;             ///< "completion 5s"
+  std::string limit;             ///< "limit.completion"
+  std::string text;              ///< "completion 5s"
   double before = 0, after = 0;  ///< share of runs that exceed it
   Judgment judgment = Judgment::same;
 };
@@ -136,7 +139,9 @@ struct Configuration {
   std::size_t samples = 0;        ///< of each side
   std::array<MeasuredChange, measure_count> measures;
   std::vector<LimitCrossing> crossings;
-  bool identical_runs = false;  ///< every pair of runs was the same, event by event
+  /// Every pair of runs had the same result, in every number that a run has: times, counts, number
+  /// of events, delays.
+  bool identical_runs = false;
   bool storm_before = false, storm_after = false;  ///< by the policy's definition
 
   [[nodiscard]] const MeasuredChange& operator[](Measure measure) const {
@@ -144,12 +149,24 @@ struct Configuration {
   }
 };
 
+/// The configurations together that do not settle by themselves whether a measure regresses: the
+/// median, over all their pairs of runs with the same schedule, of the relative change.
+struct PooledChange {
+  Measure measure{};
+  std::size_t configurations = 0, pairs = 0;
+  double estimate = 0, low = 0, high = 0;  ///< relative: 0.1 is 10 % more; may be infinite
+  double confidence = 0;                   ///< of the interval
+  Judgment judgment = Judgment::same;
+};
+
 struct CostComparison {
-  std::string grid;  ///< its name
-  std::size_t samples = 0;
+  std::string grid;         ///< its name
+  std::size_t samples = 0;  ///< of each side at first; configurations that stay unclear get more
   std::uint64_t seed = 0;
   std::vector<Configuration> configurations;  ///< those that were finished
-  std::size_t wanted = 0;                     ///< configurations
+  std::vector<PooledChange> pooled;           ///< of measures that some configurations leave open
+  double confidence = 0;   ///< of each single interval, so that all together have the policy's
+  std::size_t wanted = 0;  ///< configurations
 };
 
 // --- the storm-free margin ----------------------------------------------------------------------
@@ -176,13 +193,15 @@ struct MarginComparison {
 
 struct TellingApart {
   bool found = false;
-  std::string how;  ///< what was searched, or why there can be none
+  std::string how;           ///< what was searched, or why there can be none
   model::Scenario scenario;  ///< with the base profile; deployment, channel and limit serve both
   model::DdsProfile candidate;
-  std::uint64_t event = 0;  ///< number of the first event that differs, in both runs
+  std::uint64_t event = 0;  ///< number of the base's event; the other run may have it elsewhere
   std::string difference;   ///< one sentence: what one does and the other does not
   /// Both runs up to the first difference, as counterexamples that have a chart.
   props::Counterexample base_run, candidate_run;
+  /// The packets that each of them sends in its last event and that make the difference, by number.
+  std::vector<std::uint64_t> base_packets, candidate_packets;
   std::uint32_t tried = 0;  ///< scenarios
   bool finished = false;    ///< nothing simpler tells them apart; otherwise the effort was spent
 };
@@ -210,15 +229,18 @@ struct Policy {
     double increase = 0;  ///< of the median, relative: 0.1 is 10 %
   };
   std::string name;
-  std::vector<Tolerance> tolerances;
+  /// Each measure at most once.
+  std::vector<Tolerance> tolerances{{Measure::completion, 0.25}, {Measure::messages, 0.25}};
   std::optional<model::Limits> limits;  ///< crossing one is a regression
-  double limit_share = 0.05;  ///< a limit is kept if at most this share of runs exceeds it
-  bool verdicts = true;       ///< a property that newly is violated is a regression
-  bool margin = true;         ///< a smaller storm-free margin is a regression
-  double storm_repairs = 0.5;  ///< a configuration storms if its median repair DATA exceed this
-                               ///< share of its initial DATA, or if it does not complete
+  double limit_share = 0.05;     ///< a limit is kept if at most this share of runs exceeds it
+  bool verdicts = true;          ///< a property that newly is violated is a regression
+  bool strict_verdicts = false;  ///< and one whose answer is lost (inconclusive) is unclear
+  bool margin = true;            ///< a smaller storm-free margin is a regression
+  double storm_repairs = 0.5;    ///< a configuration storms if its median repair DATA exceed this
+                                 ///< share of its initial DATA, or if it does not complete
   double confidence = 0.95;
-  std::size_t samples = 12;  ///< of each configuration whose schedule is drawn
+  std::size_t samples = 12;       ///< of each configuration whose schedule is drawn
+  std::size_t most_samples = 48;  ///< of one that fewer leave unclear
 };
 
 /// Reads specs/policies/NAME.yaml, or a path. Errors with their place.
@@ -252,8 +274,12 @@ struct DiffRequest {
   Policy policy;
   std::string grid;      ///< name or path; empty: "review"
   std::string scenario;  ///< name or path, for the verdicts; empty: one that fits both profiles
-  std::uint64_t seed = 0;
+  /// Schedules of each configuration; absent: the grid's own number, or that of the policy, which
+  /// may grow where it leaves something unclear.
+  std::optional<std::size_t> samples;
+  std::optional<std::uint64_t> seed;  ///< of the first schedule; absent: the grid's, or 0
   bool check_verdicts = true;
+  bool tell_apart = true;
   std::size_t threads = 0;
   std::string command;
   std::function<bool(std::string_view what)> on_progress;  ///< false interrupts

@@ -13,8 +13,10 @@ namespace stormproof::diff {
 /// Files that were written beside the report, by what they show: "telling-apart.base", property id.
 using Files = std::map<std::string, std::string, std::less<>>;
 
-/// For a person at a terminal; at most 100 columns wide.
-[[nodiscard]] std::string to_text(const DiffReport& report, const Files& files);
+/// For a person at a terminal; at most 100 columns wide. `verbose`: all measures of all
+/// configurations.
+[[nodiscard]] std::string to_text(const DiffReport& report, const Files& files,
+                                  bool verbose = false);
 /// specs/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const DiffReport& report, const Files& files);
 /// For a pull-request comment: the judgment first, details folded away.

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/fuzz/fuzz_report.hpp"
+#include "checker/report/assumptions.hpp"
 
 namespace stormproof::fuzz {
 
@@ -102,6 +103,7 @@ Json to_json(const FuzzReport& report, const FuzzContext& context) {
     ranges[range.name] = range.text;
   }
   json["ranges"] = std::move(ranges);
+  report::add_unmodelled(json, context.scenario.dds);
   json["confidence"] = confidence_level;
   json["unperturbed"] = report.base_known ? run_json(report.base) : Json(nullptr);
   Json results = Json::array();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "checker/fuzz/fuzz_report.hpp"
+#include "checker/report/assumptions.hpp"
 #include "checker/report/numbers.hpp"
 #include "checker/report/paragraph.hpp"
 #include "model/config/quantities.hpp"
@@ -202,6 +203,9 @@ std::string to_text(const FuzzReport& report, const FuzzContext& context) {
                                     "confidence (exact interval of Clopper and Pearson). A sample "
                                     "proves nothing about the runs that it does not contain.",
                                     100 * confidence_level));
+  if (!context.scenario.dds.unmodelled.empty()) {
+    text += report::unmodelled_text(context.scenario.dds) + "\n";
+  }
   return text + "repeat it with: " + context.whole(report) + "\n";
 }
 

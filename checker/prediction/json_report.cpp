@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/prediction/report.hpp"
+#include "checker/report/assumptions.hpp"
 
 namespace stormproof::prediction {
 
@@ -104,6 +105,7 @@ Json to_json(const Heading& heading, const Study& study) {
                                 {"sampled", profile.sampled},
                                 {"skipped_runs", Json(profile.skipped)},
                                 {"configurations", configurations}});
+    report::add_unmodelled(json["profiles"].back(), profile.dds);
     for (const FitRow& row : profile.rows) json["rows"].push_back(row_json(profile, row));
     for (const Effect& e : profile.effects) json["effects"].push_back(effect_json(profile, e));
   }

@@ -36,6 +36,7 @@ std::optional<InputError> add_cases(const std::vector<Configuration>& measured,
       profile.skipped[difference] += configuration.runs.size();
       continue;
     }
+    profile.dds = scenario->dds;
     Case next{std::move(*scenario), own_channel ? configuration.channel.loss.value_or(0) : 0};
     profile.sampled = profile.sampled || next.sampled();
     cases.push_back(std::move(next));

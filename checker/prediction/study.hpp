@@ -36,6 +36,7 @@ struct ProfileStudy {
   std::string name;
   bool is_baseline = false;
   bool sampled = false;                        ///< whether schedules or losses were drawn
+  model::DdsProfile dds;                       ///< of its scenarios
   std::map<std::string, std::size_t> skipped;  ///< measured runs of other channels, by difference
   std::vector<Configuration> configurations;
   std::vector<Prediction> predictions;  ///< one for each configuration

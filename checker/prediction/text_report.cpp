@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "checker/prediction/report.hpp"
+#include "checker/report/assumptions.hpp"
 #include "checker/report/numbers.hpp"
 #include "checker/report/paragraph.hpp"
 
@@ -110,7 +111,8 @@ std::string profile_text(const ProfileStudy& profile, const Heading& heading,
         fmt::format("skipped: {} runs with {}, which is not of this profile\n", runs, difference);
   }
   if (profile.configurations.empty()) text += "nothing to predict\n";
-  return text + (baseline.empty() ? fit_table(profile) : effect_table(profile, baseline));
+  text += baseline.empty() ? fit_table(profile) : effect_table(profile, baseline);
+  return text + report::unmodelled_text(profile.dds);
 }
 
 }  // namespace

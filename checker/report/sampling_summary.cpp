@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "checker/report/assumptions.hpp"
 #include "checker/report/sampling_report.hpp"
 #include "checker/report/simulation_report.hpp"
 #include "model/config/effective.hpp"
@@ -68,6 +69,7 @@ void add_profile(Json& json, const SampledProfile& profile) {
   for (const Sample& sample : profile.samples) samples.push_back(sample_json(sample));
   json["samples"] = samples;
   json["summary"] = summary_json(summarize(profile.samples));
+  add_unmodelled(json, profile.scenario.dds);
   json["profile"] = model::config::effective_json(profile.scenario);
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/report/assumptions.hpp"
 #include "checker/report/numbers.hpp"
 #include "checker/report/sampling_report.hpp"
 
@@ -120,6 +121,10 @@ std::string to_text(const Sampling& sampling) {
     text += distribution(summary) + histogram(own.samples);
   } else {
     text += "All profiles run the same start times.\n\n" + side_by_side(sampling);
+  }
+  for (const SampledProfile& profile : sampling.profiles) {
+    const bool alone = sampling.profiles.size() == 1;
+    text += unmodelled_text(profile.scenario.dds, alone ? "" : profile.name);
   }
   text += fmt::format("\nReproduce: {}\n", sampling.command);
   if (drawn) {

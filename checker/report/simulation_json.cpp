@@ -2,6 +2,7 @@
 // null.
 #include <nlohmann/json.hpp>
 
+#include "checker/report/assumptions.hpp"
 #include "checker/report/simulation_report.hpp"
 #include "model/config/effective.hpp"
 #include "model/reference.hpp"
@@ -165,6 +166,7 @@ Json to_json(const Simulation& s) {
   json["deliveries"] = {{"useful", result.useful_deliveries},
                         {"duplicate", result.duplicate_deliveries}};
   json["last_delivery"] = last_delivery_json(result);
+  add_unmodelled(json, s.scenario.dds);
   json["profile"] = model::config::effective_json(s.scenario);
   return json;
 }

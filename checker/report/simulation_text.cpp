@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/report/assumptions.hpp"
 #include "checker/report/numbers.hpp"
 #include "checker/report/simulation_report.hpp"
 
@@ -266,7 +267,8 @@ std::string footer(const Simulation& s) {
 std::string to_text(const Simulation& s) {
   return deployment(s) + headline(s) + baseline(s) + limits(s) + "\n" + messages(s) +
          channel_use(s.result) + delays(s.result) + (s.result.channels.empty() ? "" : backlogs(s)) +
-         last_delivery(s.result) + missing(s.result) + reading(s) + footer(s);
+         last_delivery(s.result) + missing(s.result) + reading(s) +
+         unmodelled_text(s.scenario.dds) + footer(s);
 }
 
 }  // namespace stormproof::report

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "checker/draw/svg.hpp"
+#include "checker/report/drawings.hpp"
 #include "checker/reproduce/measures.hpp"
 #include "checker/reproduce/plots.hpp"
 #include "checker/reproduce/report.hpp"
@@ -15,6 +16,7 @@ namespace stormproof::reproduce {
 namespace {
 
 using draw::xml_text;
+using report::Drawings;
 
 constexpr std::string_view page_style = R"(
 :root { color-scheme: light dark; --page: #ffffff; --text: #1c2430; --soft: #5c6773;
@@ -47,27 +49,19 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, monospace; font-siz
 summary { cursor: pointer; color: var(--accent); margin: .6rem 0; }
 )";
 
-/// A drawing for use inside the page: without the arrow heads, whose names must not repeat.
-std::string inlined(std::string svg) {
-  const std::size_t begin = svg.find("  <defs>");
-  const std::size_t end = svg.find("</defs>\n");
-  if (begin != std::string::npos && end != std::string::npos) {
-    svg.erase(begin, end + 8 - begin);
-  }
-  return svg;
-}
-
-std::string plots(std::initializer_list<std::string> drawings) {
+std::string plots(Drawings& drawings, std::initializer_list<std::string> documents) {
   std::string html = "<div class=\"plots\">\n";
-  for (const std::string& svg : drawings) html += inlined(svg);
+  for (const std::string& svg : documents) html += drawings.add(svg);
   return html + "</div>\n";
 }
 
 /// One plot for each variant.
-std::string plots_of_variants(const Report& report,
+std::string plots_of_variants(const Report& report, Drawings& drawings,
                               const std::function<std::string(std::size_t)>& draw) {
   std::string html = "<div class=\"plots\">\n";
-  for (std::size_t v = 0; v < report.results.plan.variants.size(); ++v) html += inlined(draw(v));
+  for (std::size_t v = 0; v < report.results.plan.variants.size(); ++v) {
+    html += drawings.add(draw(v));
+  }
   return html + "</div>\n";
 }
 
@@ -135,31 +129,34 @@ std::string heading(const Report& report) {
   return html;
 }
 
-std::string sections(const Report& report) {
+std::string sections(const Report& report, Drawings& drawings) {
   const auto table = [&](const char* section) { return figure_table(report, section); };
   std::string html = "<h2>Message counts at N_P 5, N_E 20</h2>\n";
-  html += plots({counts_plot(report, Network::wired), counts_plot(report, Network::wireless)});
+  html += plots(drawings,
+                {counts_plot(report, Network::wired), counts_plot(report, Network::wireless)});
   html += table("repair_amplification");
   html += "<h2>Wi-Fi / wired over the 90 configurations</h2>\n";
-  html += plots_of_variants(report, [&](std::size_t v) { return surface_plot(report, v); });
+  html +=
+      plots_of_variants(report, drawings, [&](std::size_t v) { return surface_plot(report, v); });
   html +=
       "<h2>Loopback, wired and Wi-Fi</h2>\n<p>Loopback runs have l_P = (N_H − 1)·N_P + 1 "
       "participants; SEDP counts are multiplied by N_H·N_P / l_P, SPDP counts by its "
       "square.</p>\n";
   for (const Class what : {Class::total, Class::acknack}) {
-    html += plots_of_variants(report,
+    html += plots_of_variants(report, drawings,
                               [&](std::size_t v) { return environments_plot(report, v, what); });
   }
   html += table("loopback_reference_mape_pct") + table("loopback_configurations_with_repair");
   html += "<h2>Completion and messages over the workload</h2>\n";
-  html += plots({completion_plot(report), messages_plot(report)});
+  html += plots(drawings, {completion_plot(report), messages_plot(report)});
   html += table("open_loop_fraction_high_load");
   html += "<h2>Means by N_P, and both HEARTBEAT policies</h2>\n";
-  html += plots({ratio_plot(report, "completion_s"), ratio_plot(report, "messages")});
-  html += plots_of_variants(report, [&](std::size_t v) { return policies_plot(report, v); });
+  html += plots(drawings, {ratio_plot(report, "completion_s"), ratio_plot(report, "messages")});
+  html +=
+      plots_of_variants(report, drawings, [&](std::size_t v) { return policies_plot(report, v); });
   html += table("observed_means");
   html += "<h2>Upper range</h2>\n" + table("upper_range");
-  html += "<h2>Orders of service</h2>\n" + plots({spreads_plot(report)}) +
+  html += "<h2>Orders of service</h2>\n" + plots(drawings, {spreads_plot(report)}) +
           table("ordering_policy_spread");
   html += "<h2>Set-up of the experiments</h2>\n" + table("grid") + table("high_load");
   return html;
@@ -235,13 +232,16 @@ std::string configuration_table(const Report& report, std::size_t variant) {
 }  // namespace
 
 std::string to_html(const Report& report) {
+  report::Drawings drawings;
+  const std::string shown = sections(report, drawings);
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>The paper's evaluation, reproduced</title>\n<style>";
   html += page_style;
-  html += "</style>\n</head>\n<body>\n";
-  html += heading(report) + sections(report) + other_sections(report) + reasons(report);
+  html += drawings.style();
+  html += "</style>\n</head>\n<body>\n" + drawings.definitions();
+  html += heading(report) + shown + other_sections(report) + reasons(report);
   html += "<h2>Configurations</h2>\n";
   for (std::size_t v = 0; v < report.results.plan.variants.size(); ++v) {
     html += configuration_table(report, v);

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "checker/report/assumptions.hpp"
 #include "checker/sensitivity/report.hpp"
 
 namespace stormproof::sensitivity {
@@ -76,6 +77,7 @@ Json to_json(const Report& report, const Description& description) {
               {"incomplete", report.incomplete}}}};
   const auto by_completion = ranks(report, Measure::completion);
   const auto by_messages = ranks(report, Measure::messages);
+  report::add_unmodelled(json, description.dds);
   json["knobs"] = Json::array();
   for (const KnobResult& knob : report.knobs) {
     Json entry = to_json(knob);

@@ -14,6 +14,7 @@ struct Description {
   std::string scenario;  ///< as it was named
   std::string command;   ///< that gives the same output
   Options options;
+  model::DdsProfile dds;  ///< of the scenario
   bool has_schedule = false;
   std::size_t shown = 15;  ///< knobs in text and plot; the others are in the JSON
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "checker/report/assumptions.hpp"
 #include "checker/report/numbers.hpp"
 #include "checker/report/paragraph.hpp"
 #include "checker/sensitivity/report.hpp"
@@ -219,6 +220,9 @@ class TextReport {
                             "those of the sign test, {:.1f} %. Unclear: the interval has both "
                             "signs.",
                             100 * any.confidence));
+    }
+    if (!description_.dds.unmodelled.empty()) {
+      out_ += report::unmodelled_text(description_.dds) + "\n";
     }
     out_ += "  again: " + description_.command + "\n";
   }

@@ -122,9 +122,10 @@ void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
   const Presence of_paper = in_paper(implementation);
   visit.knob("grouping", sedp.grouping, ChoiceType<Grouping>{},
              "how descriptors share packets: up to a limit, one MTU, or one a packet", of_paper);
-  visit.knob("grouping_limit_bytes", sedp.grouping_limit_bytes, packet_bytes,
-             "largest UDP payload of a packet with grouping: message, or that fastdds fills",
-             implementation == ImplementationKind::paper ? Presence::required : Presence::optional);
+  visit.knob(
+      "grouping_limit_bytes", sedp.grouping_limit_bytes, packet_bytes,
+      "largest UDP payload of a packet with grouping: message, or that fastdds fills",
+      implementation == ImplementationKind::paper ? Presence::required : Presence::defaulted);
   visit.knob("piggyback", sedp.piggyback, ChoiceType<Piggyback>{},
              "what DATA is charged against the threshold of the piggyback HEARTBEAT");
   visit.knob("piggyback_threshold_bytes", sedp.piggyback_threshold_bytes,

@@ -12,10 +12,12 @@
 namespace stormproof::model::config {
 namespace {
 
+/// Words that are no text in YAML, or in some versions of it.
+constexpr std::string_view words[] = {"null", "true", "false", "yes", "no", "on"};
+
 /// Whether `text` needs no quotes: a word, or a number with a unit. Lone digits and YAML's own
 /// words need them.
 bool is_plain(const std::string& text) {
-  constexpr std::string_view words[] = {"null", "true", "false", "yes", "no", "on"};
   const auto is_word_character = [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
            c == '.';
@@ -26,9 +28,18 @@ bool is_plain(const std::string& text) {
          std::ranges::find(words, text) == std::end(words);
 }
 
+/// A key of a table as it is; the free keys of a map of texts in quotes, unless they are such a
+/// word.
+std::string shown_key(const std::string& key) {
+  const auto is_key_character = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+  const bool is_plain_key = !key.empty() && std::ranges::all_of(key, is_key_character) &&
+                            std::ranges::find(words, key) == std::end(words);
+  return is_plain_key ? key : Json(key).dump();
+}
+
 void append_yaml(std::string& out, const Json& value, int indent) {
   for (const auto& [key, member] : value.items()) {
-    out += fmt::format("{:{}}{}:", "", indent, key);
+    out += fmt::format("{:{}}{}:", "", indent, shown_key(key));
     if (member.is_object()) {
       out += '\n';
       append_yaml(out, member, indent + 2);

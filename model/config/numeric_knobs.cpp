@@ -54,7 +54,7 @@ class NumericVisitor {
     if (presence == Presence::of_paper) return;
     if constexpr (requires { member.has_value(); }) {
       if (member) knob(key, *member, type, doc);
-    } else {
+    } else if (presence != Presence::optional) {
       number(prefix_ + std::string{key}, member, type, doc);
     }
   }

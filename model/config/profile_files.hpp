@@ -1,12 +1,16 @@
 // Profiles build on each other: `base:` names another profile whose keys are taken over unless they
-// are given. This resolves a reference to a profile into one complete tree, in which every value
-// still knows its own file.
+// are given. A DDS vendor's XML file is such a profile, too: its base is the preset of a version of
+// the vendor's library. This resolves a reference to a profile into one complete tree, in which
+// every value still knows its own file.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "model/config/spec_path.hpp"
 #include "model/config/tree.hpp"
+#include "model/config/vendor/vendor_profile.hpp"
 
 namespace stormproof::model::config {
 
@@ -18,10 +22,24 @@ inline constexpr std::string_view description_key =
 /// Longest chain of profiles that build on each other.
 inline constexpr std::size_t max_base_chain = 32;
 
-/// `reference` is a name, a path (relative to the file in which it stands), or a map. Errors: no
-/// such profile, a file that cannot be read, a profile that is based on itself or on one with
-/// another implementation.
-[[nodiscard]] Result<Node> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs);
+/// What a chain of profiles was made of.
+struct ProfileOrigin {
+  std::string preset;  ///< the outermost file that has a name in `specs`; empty if there is none
+  std::optional<vendor::VendorProfile> vendor;  ///< the outermost vendor XML
+};
+
+/// Whether a vendor's file may say what the model cannot describe or the vendor's library refuses
+/// (remarks with `Severity::error`): whoever runs the profile refuses that, whoever explains the
+/// file takes it.
+enum class Outside : std::uint8_t { refused, admitted };
+
+/// `reference` is a name, a path (relative to the file in which it stands), a map, or, of a DDS
+/// profile, a vendor's XML file as `vendor::parse_reference` takes it. Errors: no such profile, a
+/// file that cannot be read, a profile that is based on itself, on one with another implementation
+/// or on a preset of another vendor, and what `outside` refuses. Fills `origin`, if there is one.
+[[nodiscard]] Result<Node> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs,
+                                           ProfileOrigin* origin = nullptr,
+                                           Outside outside = Outside::refused);
 
 /// An error if `replacement` is another implementation than that of `profile`, a resolved DDS
 /// profile: implementations have different keys, so one cannot be changed into the other. A profile

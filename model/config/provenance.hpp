@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "model/config/profile_files.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree.hpp"
 #include "model/config/vendor/vendor_profile.hpp"
@@ -26,13 +27,14 @@ struct TracedProfile {
   Places places;
   std::string preset;  ///< the outermost shipped preset that it builds on ("fastdds-2.6.11"): the
                        ///< first name in the chain of bases; empty if there is none
-  std::optional<vendor::VendorProfile> vendor;  ///< if it is (or is directly based on) vendor XML
+  std::optional<vendor::VendorProfile> vendor;  ///< if it is, or is based on, vendor XML
 };
 
-/// As `read_dds_profile`.
+/// As `read_dds_profile`. With `Outside::admitted` also what no run takes.
 [[nodiscard]] Result<TracedProfile> trace_dds_profile(const std::string& reference,
                                                       std::span<const std::string> overrides,
-                                                      const SpecPath& specs);
+                                                      const SpecPath& specs,
+                                                      Outside outside = Outside::refused);
 
 struct TracedScenario {
   Scenario scenario;

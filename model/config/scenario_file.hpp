@@ -28,8 +28,9 @@ namespace stormproof::model::config {
                                               std::span<const std::string> overrides,
                                               const SpecPath& specs);
 
-/// Reads a profile by name or path (relative to the current directory). Overrides are those of a
-/// scenario, without "dds." or "wireless." in front.
+/// Reads a profile by name or path (relative to the current directory); a DDS profile may be a
+/// vendor's XML file ("robots.xml#lidar@fastdds-2.14.5", see vendor/reference.hpp). Overrides are
+/// those of a scenario, without "dds." or "wireless." in front.
 [[nodiscard]] Result<DdsProfile> read_dds_profile(const std::string& reference,
                                                   std::span<const std::string> overrides,
                                                   const SpecPath& specs);

@@ -12,6 +12,7 @@
 
 #include "model/config/suggestion.hpp"
 #include "model/config/tree.hpp"
+#include "model/config/vendor/reference.hpp"
 
 namespace stormproof::model::config {
 namespace fs = std::filesystem;
@@ -26,7 +27,7 @@ bool file_exists(const fs::path& path) {
 
 bool is_path(const std::string& reference) {
   return reference.find('/') != std::string::npos || reference.ends_with(".yaml") ||
-         reference.ends_with(".yml");
+         reference.ends_with(".yml") || vendor::parse_reference(reference).has_value();
 }
 
 }  // namespace
@@ -72,6 +73,19 @@ std::vector<std::string> SpecPath::names(SpecKind kind) const {
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
+}
+
+std::optional<std::string> SpecPath::name_of(SpecKind kind, const std::string& file) const {
+  const fs::path path{file};
+  if (path.extension() != file_ending) return std::nullopt;
+  const std::string parent = path.has_parent_path() ? path.parent_path().string() : ".";
+  for (const std::string& directory : directories) {
+    std::error_code failed;
+    if (fs::equivalent(fs::path{directory} / folder_name(kind), parent, failed)) {
+      return path.stem().string();
+    }
+  }
+  return std::nullopt;
 }
 
 Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,

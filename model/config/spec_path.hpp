@@ -1,6 +1,7 @@
 // Where profiles and scenarios that are given by name are looked for: a list of `specs` folders.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,12 @@ struct SpecPath {
   /// All names of a kind, sorted.
   [[nodiscard]] std::vector<std::string> names(SpecKind kind) const;
 
-  /// The file that `reference` means: a path if it has a '/' or ends in .yaml or .yml (relative to
-  /// `from_directory`, then to the current directory), otherwise a name. `where` places the error.
+  /// The name of `file` if it is one of those that `find` can find by name.
+  [[nodiscard]] std::optional<std::string> name_of(SpecKind kind, const std::string& file) const;
+
+  /// The file that `reference` means: a path if it has a '/' or ends in .yaml, .yml or .xml
+  /// (relative to `from_directory`, then to the current directory), otherwise a name. `where`
+  /// places the error.
   [[nodiscard]] Result<std::string> find(SpecKind kind, const std::string& reference,
                                          const std::string& from_directory,
                                          const std::string& where) const;

@@ -13,6 +13,8 @@ namespace stormproof::fuzzing {
 /// What a reader made of its input.
 enum class Outcome : std::uint8_t { refused, accepted };
 
+/// A packet capture, or a single RTPS message.
+Outcome capture(std::string_view input);
 /// A scenario file.
 Outcome scenario(std::string_view input);
 /// A profile file; it may build on those of specs/.
@@ -22,6 +24,8 @@ Outcome wireless_profile(std::string_view input);
 Outcome overrides(std::string_view input);
 /// A duration, rate, count or fraction; accepted if it is at least one of them.
 Outcome quantities(std::string_view input);
+/// A file of a DDS vendor: Fast DDS or Cyclone DDS XML.
+Outcome vendor_xml(std::string_view input);
 /// A trace or a counterexample, to be replayed.
 Outcome trace(std::string_view input);
 
@@ -30,11 +34,13 @@ struct Target {
   Outcome (*run)(std::string_view);
 };
 
-inline constexpr std::array<Target, 6> targets{{{"scenario", scenario},
+inline constexpr std::array<Target, 8> targets{{{"capture", capture},
+                                                {"scenario", scenario},
                                                 {"dds_profile", dds_profile},
                                                 {"wireless_profile", wireless_profile},
                                                 {"overrides", overrides},
                                                 {"quantities", quantities},
-                                                {"trace", trace}}};
+                                                {"trace", trace},
+                                                {"vendor_xml", vendor_xml}}};
 
 }  // namespace stormproof::fuzzing

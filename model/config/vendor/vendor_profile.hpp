@@ -60,8 +60,8 @@ struct Remark {
 /// A vendor's file, read.
 struct VendorProfile {
   Vendor vendor{};
-  std::string name;            ///< of the profile in the file that was read; may be empty
-  std::string version_base;    ///< the preset that it changes: "fastdds-2.6.11"
+  std::string name;          ///< of the profile in the file that was read; may be empty
+  std::string version_base;  ///< the preset that it changes: "fastdds-2.6.11"
   /// A profile as a YAML file would have it: `base`, the changed keys of `spdp` and `sedp` with the
   /// places of their XML, and `unmodelled`.
   Node changes;
@@ -80,16 +80,17 @@ struct Selection {
 /// "fastdds-2.6.11", "cyclonedds-0.10".
 [[nodiscard]] std::string_view default_base(Vendor vendor);
 
-/// Reads a document of either vendor, which its root element tells apart. Errors, with their places:
-/// a root element of neither, a selected profile that is not there, several to choose from, values
-/// that the vendor's library refuses (not a number, out of range, a missing unit), elements that the
-/// model cannot take because of their value. An unknown element, and one with `Effect::outside`, is
-/// no error here but a remark with `Severity::error`.
+/// Reads a document of either vendor, which its root element tells apart. Errors, with their
+/// places: a root element of neither, a selected profile that is not there, several to choose from,
+/// values that the vendor's library refuses (not a number, out of range, a missing unit), elements
+/// that the model cannot take because of their value. An unknown element, and one with
+/// `Effect::outside`, is no error here but a remark with `Severity::error`.
 [[nodiscard]] Result<VendorProfile> read_vendor_profile(const XmlElement& root,
                                                         const Selection& selection);
 
 /// Of one vendor. `root` is `dds`, `profiles` or `participant` for Fast DDS, `CycloneDDS` for
-/// Cyclone DDS.
+/// Cyclone DDS. Fast DDS files are read as v2.6.11 reads them; a base of a later version
+/// ("fastdds-2.14.5") also knows the elements that came until then.
 [[nodiscard]] Result<VendorProfile> read_fastdds_profile(const XmlElement& root,
                                                          const Selection& selection);
 [[nodiscard]] Result<VendorProfile> read_cyclonedds_profile(const XmlElement& root,

@@ -38,10 +38,10 @@ TEST(Story, OfTheSmallestDeployment) {
        0        0.000000  0: announcement; sends p0 SPDP 0→all
        …                  (6 events: 5 on the channel, 1 of SPDP)
        7        1.221350  1: receives p0 SPDP 0→all; 0→1 pub DiscoveryReader: Unknown→Recognised;
-                          0→1 pub InitialAckNack: Dormant→Waiting; initial ACKNACK at 71.221350 ms |
-                          0: pub writer HeartbeatTimer: Idle→Armed; sends p4 DATA 0→1 pub, 0–9;
-                          sends p5 HEARTBEAT 0→1 pub; sends 4 other packets; HEARTBEAT expiry at
-                          1001.221350 ms
+                          0→1 pub InitialAckNack: Dormant→Waiting; sends 2 other packets; initial
+                          ACKNACK at 71.221350 ms | 0: pub writer HeartbeatTimer: Idle→Armed; sends
+                          p4 DATA 0→1 pub, 0–9; sends p5 HEARTBEAT 0→1 pub; sends 2 other packets;
+                          HEARTBEAT expiry at 1001.221350 ms
        …                  (35 events: 32 on the channel, 3 of SPDP)
       43        6.573343  1: receives p5 HEARTBEAT 0→1 pub; ACKNACK generation at 6.583343 ms
       45        6.583343  1: ACKNACK generation 0→1 pub; sends p14 ACKNACK 1→0 pub, lacks 0–9

@@ -275,8 +275,8 @@ INSTANTIATE_TEST_SUITE_P(
                         "unknown_key", fastdds("", "acknowledged: prefix", ""), 5, 1,
                         "unknown key 'acknowledged' in dds.sedp; expected one of heartbeat_period, "
                         "heartbeat_response_delay, nack_response_delay, nack_suppression_duration, "
-                        "initial_acknack_delay, heartbeat_policy, adaptive, piggyback, "
-                        "piggyback_threshold_bytes"},
+                        "initial_acknack_delay, heartbeat_policy, adaptive, "
+                        "grouping_limit_bytes, piggyback, piggyback_threshold_bytes"},
                     BadInput{"missing",
                              "{deployment: {hosts: 2, participants_per_host: 1, "
                              "endpoints_per_participant: 2},\n dds: {implementation: fastdds}}",

@@ -48,6 +48,17 @@ TEST(Effective, names_that_look_like_something_else_survive) {
   }
 }
 
+TEST(Effective, what_the_model_has_not_got_survives) {
+  Scenario scenario;
+  scenario.deployment = Deployment::homogeneous(2, 1, 2);
+  for (const char* key :
+       {"5",  "null",      "~",   "a: b",     "# x", "\"q\"", "'", "-", "- x", "[x]", "&a",
+        "*a", "a/b[@max]", "x.y", " padded ", "ä😀",  "a\\b",  "@", "{", "?",   "<<",  "|"}) {
+    scenario.dds.unmodelled[key] = std::string{key} + ": 5 # no comment";
+  }
+  expect_round_trip(scenario);
+}
+
 RC_GTEST_PROP(Effective, numbers_survive, ()) {
   const auto up_to = [](std::int64_t least, std::int64_t most) {
     return *rc::gen::inRange<std::int64_t>(least, most + 1);
@@ -134,10 +145,10 @@ TEST(Effective, fast_dds_has_only_its_keys) {
   EXPECT_EQ(keys(json["spdp"]), (std::vector<std::string>{"period", "startup_announcements",
                                                           "startup_period", "resend"}));
   EXPECT_EQ(keys(json["sedp"]),
-            (std::vector<std::string>{"heartbeat_period", "heartbeat_response_delay",
-                                      "nack_response_delay", "nack_suppression_duration",
-                                      "initial_acknack_delay", "heartbeat_policy", "adaptive",
-                                      "piggyback", "piggyback_threshold_bytes"}));
+            (std::vector<std::string>{
+                "heartbeat_period", "heartbeat_response_delay", "nack_response_delay",
+                "nack_suppression_duration", "initial_acknack_delay", "heartbeat_policy",
+                "adaptive", "grouping_limit_bytes", "piggyback", "piggyback_threshold_bytes"}));
 }
 
 TEST(Effective, a_schedule_stands_beside_the_times_drawn_from_it) {

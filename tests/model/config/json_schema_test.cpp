@@ -57,7 +57,9 @@ TEST(JsonSchemaContent, fast_dds_needs_fewer_keys_and_forbids_the_others) {
   const auto& forbidden = schema["allOf"][0]["then"]["properties"];
   EXPECT_EQ(forbidden["descriptors"], false);
   EXPECT_EQ(forbidden["spdp"]["properties"], nlohmann::json({{"payload_bytes", false}}));
-  EXPECT_EQ(forbidden["sedp"]["properties"].size(), 13U);
+  EXPECT_EQ(forbidden["sedp"]["properties"].size(), 12U);
+  EXPECT_EQ(forbidden.count("unmodelled"), 0U);
+  EXPECT_EQ(schema["properties"]["unmodelled"]["additionalProperties"]["type"], "string");
 }
 
 TEST(JsonSchemaContent, both_forms_of_a_deployment_take_a_schedule) {

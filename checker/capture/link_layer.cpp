@@ -1,0 +1,74 @@
+// Header lengths and protocol fields of the link types.
+#include "checker/capture/link_layer.hpp"
+
+#include <pcap.h>
+
+namespace stormproof::capture {
+
+namespace {
+
+constexpr std::uint16_t ethertype_v4 = 0x0800;
+constexpr std::uint16_t ethertype_v6 = 0x86dd;
+
+bool is_vlan_tag(std::uint16_t ethertype) {
+  return ethertype == 0x8100 || ethertype == 0x88a8 || ethertype == 0x9100;
+}
+
+/// What follows an EtherType at `offset`, after up to two VLAN tags.
+std::optional<Bytes> after_ethertype(Bytes frame, std::size_t offset) {
+  constexpr int most_tags = 2;
+  Cursor cursor{part(frame, offset)};
+  std::uint16_t ethertype = cursor.u16();
+  for (int tags = 0; tags < most_tags && is_vlan_tag(ethertype); ++tags) {
+    cursor.skip(2);
+    ethertype = cursor.u16();
+  }
+  if (cursor.failed() || (ethertype != ethertype_v4 && ethertype != ethertype_v6)) {
+    return std::nullopt;
+  }
+  return cursor.rest();
+}
+
+}  // namespace
+
+bool is_supported_link(int link_type) {
+  switch (link_type) {
+    case DLT_EN10MB:
+    case DLT_LINUX_SLL:
+    case DLT_LINUX_SLL2:
+    case DLT_RAW:
+    case DLT_IPV4:
+    case DLT_IPV6:
+    case DLT_NULL:
+    case DLT_LOOP:
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::optional<Bytes> ip_packet(Bytes frame, int link_type) {
+  constexpr std::size_t mac_addresses = 12;
+  constexpr std::size_t sll_protocol = 14;
+  constexpr std::size_t sll2_header = 20;
+  constexpr std::size_t address_family = 4;
+  switch (link_type) {
+    case DLT_EN10MB:
+      return after_ethertype(frame, mac_addresses);
+    case DLT_LINUX_SLL:
+      return after_ethertype(frame, sll_protocol);
+    case DLT_LINUX_SLL2: {
+      const std::uint16_t protocol = Cursor{frame}.u16();
+      if (protocol != ethertype_v4 && protocol != ethertype_v6) return std::nullopt;
+      return part(frame, sll2_header);
+    }
+    case DLT_NULL:
+    case DLT_LOOP:
+      // The family's number depends on the system that captured; the IP header has its version.
+      return part(frame, address_family);
+    default:
+      return frame;
+  }
+}
+
+}  // namespace stormproof::capture

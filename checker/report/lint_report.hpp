@@ -1,0 +1,40 @@
+// The answer of `stormproof profile lint`: remarks about profile files in the form that compilers
+// have made familiar, with the line that each is about.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "model/config/provenance.hpp"
+
+namespace stormproof::report {
+
+struct LintedFile {
+  std::string reference;                               ///< as the user gave it
+  std::optional<model::config::InputError> error;      ///< it cannot be read; then there is no more
+  std::string preset;                                  ///< that it builds on; empty: none
+  std::vector<model::config::vendor::Remark> remarks;  ///< by place
+  std::size_t unmodelled_below = 0;  ///< settings that the model has not got, of its bases
+};
+
+/// Reads a profile and takes its remarks: of a vendor's file those that its reader makes, and a
+/// note for each setting that the model has not got.
+[[nodiscard]] LintedFile lint_profile(const std::string& reference,
+                                      const model::config::SpecPath& specs);
+
+struct LintCounts {
+  std::size_t unreadable = 0, errors = 0, warnings = 0, notes = 0;
+};
+[[nodiscard]] LintCounts count(const std::vector<LintedFile>& files);
+
+/// "FILE:LINE:COLUMN: warning: MESSAGE [RULE]", hint, line and caret for each; then a summary.
+/// Reads the files again for their lines.
+[[nodiscard]] std::string to_text(const std::vector<LintedFile>& files);
+
+/// specs/output.md describes the keys.
+[[nodiscard]] nlohmann::ordered_json to_json(const std::vector<LintedFile>& files);
+
+}  // namespace stormproof::report

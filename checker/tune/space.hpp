@@ -1,0 +1,62 @@
+// What may be searched: the numeric knobs of the model that a user of the vendor's library can
+// change, within the ranges that the library and a sensible deployment allow. Values are rounded to
+// two digits: nobody wants to read 3,981,072 where 4,000,000 does the same, and a coarser space is
+// searched sooner.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/config/numeric_knobs.hpp"
+#include "model/config/vendor/vendor_knobs.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::tune {
+
+struct Dimension {
+  std::string key;      ///< "dds.spdp.period"
+  std::string setting;  ///< the vendor's element: "…/leaseAnnouncement"
+  std::string note;     ///< how the element's value relates to the knob's; may be empty
+  model::config::NumericKnob::Unit unit{};
+  std::int64_t minimum = 0, maximum = 0;  ///< what is searched
+  std::int64_t unchanged = 0;             ///< in the scenario; may be outside of what is searched
+
+  /// Whether the search thinks of this knob in factors: the range spans two decades or more.
+  [[nodiscard]] bool is_logarithmic() const;
+  /// The value at `position`, from 0 (minimum) to 1 (maximum), rounded to two digits.
+  [[nodiscard]] std::int64_t value_at(double position) const;
+  /// The inverse, but for rounding; the nearest end for a value outside of the range.
+  [[nodiscard]] double position_of(std::int64_t value) const;
+};
+
+/// A knob that is not searched, and why.
+struct Fixed {
+  std::string key;
+  std::string why;
+};
+
+/// A setting: one value for each dimension.
+using Point = std::vector<std::int64_t>;
+
+struct Space {
+  std::vector<Dimension> dimensions;
+  std::vector<Fixed> fixed;
+
+  [[nodiscard]] Point unchanged() const;
+  /// Numbers of the dimensions in which `point` differs from the unchanged setting.
+  [[nodiscard]] std::vector<std::size_t> changes(const Point& point) const;
+  /// The scenario with these settings.
+  [[nodiscard]] model::Scenario apply(model::Scenario scenario, const Point& point) const;
+  /// The position of `key` ("dds.…"), or nothing.
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view key) const;
+};
+
+/// The knobs of `scenario` that `knobs` let a user change.
+[[nodiscard]] Space space_of(const model::Scenario& scenario,
+                             std::span<const model::config::vendor::VendorKnob> knobs);
+
+}  // namespace stormproof::tune

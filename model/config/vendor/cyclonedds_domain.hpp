@@ -1,0 +1,50 @@
+// The walk over the elements of one Cyclone DDS domain: every name is looked up in the table of
+// settings, every value is read by its type, and what the table has not becomes a remark.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "model/config/vendor/cyclonedds_settings.hpp"
+
+namespace stormproof::model::config::vendor {
+
+/// Whether version 0.10 has a group (or an old name of one) like this in a Domain.
+[[nodiscard]] bool is_cyclone_group(std::string_view name);
+
+/// Collects settings and remarks of one Domain element after the other.
+class CycloneDomainReader {
+ public:
+  CycloneDomainReader(VendorProfile& profile, CycloneSettings& settings)
+      : profile_{profile}, settings_{settings} {}
+
+  /// The contents of a Domain element, or of what stands for one.
+  void read(const XmlElement& domain);
+  /// An element below `parent`, a path in the spelling of the table.
+  void read_element(const XmlElement& element, std::string_view parent);
+
+  /// The first value that the library refuses.
+  [[nodiscard]] const std::optional<InputError>& failure() const { return failure_; }
+
+ private:
+  void remark(Severity severity, std::string_view rule, const Place& place, std::string message,
+              std::string hint = {});
+  void fail(const Place& place, std::string message);
+  void resolve_alias(std::string& path, const XmlElement& element);
+  void read_attributes(const XmlElement& element, std::string_view path);
+  void read_text(const XmlElement& element, std::string_view path);
+  void read_value(std::string_view path, const std::string& text, const Place& place);
+  void read_opaque(const XmlElement& element, const CycloneGroup& group);
+  void refuse(const Place& place, const std::string& path, std::string_view parent,
+              const std::string& name, bool is_attribute);
+  void keep(CycloneReading reading);
+
+  VendorProfile& profile_;
+  CycloneSettings& settings_;
+  std::set<std::string_view> seen_;  ///< in this Domain
+  std::optional<InputError> failure_;
+};
+
+}  // namespace stormproof::model::config::vendor

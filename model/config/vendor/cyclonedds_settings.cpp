@@ -1,0 +1,255 @@
+// From settings to changes of a profile. The announcement period follows from two settings, the
+// HEARTBEAT period from two, multicast from several; all others stand alone.
+#include "model/config/vendor/cyclonedds_settings.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "model/config/value_types.hpp"
+
+namespace stormproof::model::config::vendor {
+namespace {
+
+const CycloneOption& option_of(std::string_view path) {
+  return *std::ranges::find(cyclone_options(), path, &CycloneOption::path);
+}
+
+CycloneValue usual_value(const CycloneOption& option) {
+  if (option.usual.empty()) return {};
+  return *parse_cyclone(option.type, option.usual);
+}
+
+/// The announcement period that a lease of this length asks for (q_xevent.c): some time before it
+/// ends, so that a lost announcement does not end it.
+std::int64_t lease_bound(std::int64_t lease) {
+  constexpr std::int64_t least = 10'000'000;
+  if (lease < 5 * least / 4) return least;
+  return lease < 10 * second_ns ? 4 * lease / 5 : lease - 2 * second_ns;
+}
+
+class Effects {
+ public:
+  Effects(const CycloneSettings& settings, VendorProfile& profile)
+      : settings_{settings}, profile_{profile} {}
+
+  std::optional<InputError> apply() {
+    for (const auto& [path, reading] : settings_.all()) apply_alone(reading);
+    apply_announcements();
+    apply_heartbeats();
+    apply_durations();
+    apply_message_size();
+    return failure_;
+  }
+
+ private:
+  Setting& setting(const CycloneReading& reading) { return profile_.settings[reading.setting]; }
+
+  void remark(Severity severity, std::string rule, const Place& place, std::string message,
+              std::string hint = {}) {
+    profile_.remarks.push_back(
+        {severity, "cyclonedds." + rule, place, std::move(message), std::move(hint)});
+  }
+
+  void fail(const Place& place, std::string message) {
+    if (!failure_) failure_ = error_at(place, std::move(message));
+  }
+
+  /// `value` of a knob in the syntax of profiles.
+  void change(const std::string& key, const Place& place, std::string value) {
+    (void)set_path(profile_.changes, key, scalar_node(place, std::move(value)));
+  }
+
+  void change_duration(const std::string& key, const CycloneReading& reading, std::int64_t ns,
+                       std::int64_t least) {
+    if (ns < least || ns > max_duration_ns || reading.value.word == "inf") {
+      fail(
+          reading.place,
+          fmt::format("{}: {} gives {} {}; expected {} to {}, which is what the "
+                      "model takes",
+                      reading.option->path, reading.shown, key,
+                      reading.value.word == "inf" ? "no end" : print_cyclone_duration(ns),
+                      print_cyclone_duration(least), print_duration(Nanoseconds{max_duration_ns})));
+      return;
+    }
+    change(key, reading.place, print_duration(Nanoseconds{ns}));
+  }
+
+  /// Leaves a setting that the model has not as an assumption, or says that it is the default.
+  void apply_alone(const CycloneReading& reading) {
+    const CycloneOption& option = *reading.option;
+    if (option.effect == Effect::unmodelled &&
+        (option.always || !is_usual(option, reading.value))) {
+      assume(profile_, option.path, reading.place,
+             fmt::format("{}; {}", reading.shown, option.note));
+      return;
+    }
+    if (option.effect != Effect::unmodelled && option.effect != Effect::outside) return;
+    if (!is_usual(option, reading.value)) return;
+    setting(reading).effect = Effect::none;
+    setting(reading).note = "the default, as in the model";
+  }
+
+  void apply_announcements() {
+    const CycloneReading* interval = settings_.find("Discovery/SPDPInterval");
+    const CycloneReading* lease = settings_.find("Discovery/LeaseDuration");
+    if (interval == nullptr && lease == nullptr) return;
+    const std::int64_t wanted = settings_.value("Discovery/SPDPInterval").number;
+    const std::int64_t bound = lease_bound(settings_.value("Discovery/LeaseDuration").number);
+    const CycloneReading* decides = bound < wanted ? lease : interval;
+    if (decides == nullptr) decides = interval != nullptr ? interval : lease;  // against a default
+    change_duration("spdp.period", *decides, std::min(wanted, bound), 1);
+    const std::string shown = print_cyclone_duration(std::min(wanted, bound));
+    if (bound < wanted && interval != nullptr) {
+      setting(*interval).effect = Effect::none;
+      setting(*interval).note =
+          fmt::format("no effect: LeaseDuration asks for announcements every {}", shown);
+      const bool is_default = is_usual(*interval->option, interval->value);
+      remark(is_default ? Severity::note : Severity::warning, "spdp-interval", interval->place,
+             fmt::format("SPDPInterval {} has no effect: with LeaseDuration {} announcements go "
+                         "out every {}",
+                         interval->shown, settings_.shown("Discovery/LeaseDuration"), shown),
+             "set Discovery/LeaseDuration to at least 2 s more than SPDPInterval");
+    }
+    if (wanted <= bound && lease != nullptr) {
+      setting(*lease).effect = Effect::none;
+      setting(*lease).note =
+          fmt::format("no effect on announcements: SPDPInterval asks for one every {}", shown);
+    }
+  }
+
+  void apply_heartbeats() {
+    constexpr std::string_view base_path = "Internal/HeartbeatInterval";
+    constexpr std::string_view least_path = "Internal/HeartbeatInterval[@minsched]";
+    const CycloneReading* base = settings_.find(base_path);
+    const CycloneReading* least = settings_.find(least_path);
+    if (base == nullptr && least == nullptr) return;
+    const auto count = [&](std::string_view path) {
+      const CycloneValue value = settings_.value(path);
+      return value.word == "inf" ? cyclone_longest_ns : value.number;
+    };
+    const bool is_held = count(least_path) > count(base_path);
+    const CycloneReading* cause = is_held ? least : base;
+    if (is_held && base != nullptr) {
+      remark(Severity::warning, "heartbeat-interval", base->place,
+             fmt::format("HeartbeatInterval {} has no effect: minsched holds it at {}", base->shown,
+                         settings_.shown(least_path)),
+             "set the attribute minsched, too");
+    }
+    if (is_held && cause == nullptr) cause = base;
+    if (cause != nullptr) {
+      change_duration("sedp.heartbeat_period", *cause,
+                      std::max(count(least_path), count(base_path)), 1);
+    }
+  }
+
+  void apply_durations() {
+    if (const CycloneReading* delay = settings_.find("Internal/NackDelay")) {
+      change_duration("sedp.nack_suppression_duration", *delay, delay->value.number, 0);
+    }
+    const CycloneReading* initial = settings_.find("Internal/PreEmptiveAckDelay");
+    if (initial == nullptr) return;
+    if (initial->value.number == 0) {
+      setting(*initial).note += "; at once is 1 ns here, because 0 disables it in the model";
+    }
+    change_duration("sedp.initial_acknack_delay", *initial,
+                    std::max<std::int64_t>(initial->value.number, 1), 0);
+  }
+
+  void apply_message_size() {
+    constexpr std::int64_t largest_datagram = 65'507;
+    constexpr std::int64_t unfragmented = 1'472;
+    for (const char* path : {"General/MaxMessageSize", "General/MaxRexmitMessageSize"}) {
+      const CycloneReading* size = settings_.find(path);
+      if (size == nullptr || size->value.number <= largest_datagram) continue;
+      remark(Severity::warning, "message-size", size->place,
+             fmt::format("{} {}: no UDP packet holds more than {} B", path, size->shown,
+                         largest_datagram),
+             "set 65500 B or less");
+    }
+    const CycloneReading* limit = settings_.find("General/MaxRexmitMessageSize");
+    if (limit == nullptr) return;
+    change("sedp.grouping_limit_bytes", limit->place,
+           fmt::format("{}", std::max<std::int64_t>(limit->value.number, 1)));
+    if (limit->value.number > unfragmented && limit->value.number <= largest_datagram) {
+      remark(
+          Severity::note, "message-size", limit->place,
+          fmt::format("MaxRexmitMessageSize {}: packets over {} B are sent in IP fragments where "
+                      "the MTU is 1500, and one lost fragment loses the packet",
+                      limit->shown, unfragmented));
+    }
+  }
+
+  const CycloneSettings& settings_;
+  VendorProfile& profile_;
+  std::optional<InputError> failure_;
+};
+
+}  // namespace
+
+Node scalar_node(const Place& place, std::string text) {
+  Node node;
+  node.kind = Node::Kind::scalar;
+  node.place = place;
+  node.text = std::move(text);
+  return node;
+}
+
+void assume(VendorProfile& profile, std::string_view setting, const Place& place,
+            std::string text) {
+  Node* map = profile.changes.find("unmodelled");
+  if (map == nullptr) {
+    profile.changes.members.push_back({"unmodelled", place, Node{}});
+    map = &profile.changes.members.back().value;
+    map->kind = Node::Kind::map;
+    map->place = place;
+  }
+  Node value = scalar_node(place, std::move(text));
+  if (Node* old = map->find(setting)) {
+    *old = std::move(value);
+  } else {
+    map->members.push_back({std::string{setting}, place, std::move(value)});
+  }
+}
+
+void CycloneSettings::add(CycloneReading reading) {
+  const std::string_view path = reading.option->path;
+  readings_.insert_or_assign(path, std::move(reading));
+}
+
+const CycloneReading* CycloneSettings::find(std::string_view path) const {
+  const auto found = readings_.find(path);
+  return found == readings_.end() ? nullptr : &found->second;
+}
+
+CycloneValue CycloneSettings::value(std::string_view path) const {
+  const CycloneReading* reading = find(path);
+  return reading != nullptr ? reading->value : usual_value(option_of(path));
+}
+
+std::string CycloneSettings::shown(std::string_view path) const {
+  return print_cyclone(option_of(path).type, value(path));
+}
+
+std::string print_cyclone(const CycloneType& type, const CycloneValue& value) {
+  if (!value.word.empty()) return value.word;
+  if (type.kind == CycloneKind::duration) return print_cyclone_duration(value.number);
+  return type.kind == CycloneKind::size ? fmt::format("{} B", value.number)
+                                        : fmt::format("{}", value.number);
+}
+
+bool is_usual(const CycloneOption& option, const CycloneValue& value) {
+  const CycloneValue usual = usual_value(option);
+  return usual.number == value.number && usual.word == value.word;
+}
+
+std::optional<InputError> apply_cyclone_settings(const CycloneSettings& settings,
+                                                 VendorProfile& profile) {
+  profile.changes.kind = Node::Kind::map;
+  std::optional<InputError> failure = Effects{settings, profile}.apply();
+  apply_cyclone_network(settings, profile);
+  look_for_contradictions(settings, profile);
+  return failure;
+}
+
+}  // namespace stormproof::model::config::vendor

@@ -1,0 +1,64 @@
+// What one Cyclone DDS file sets for one domain, between the reading of its XML and the changes of
+// the profile that follow from it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/config/vendor/cyclonedds_options.hpp"
+
+namespace stormproof::model::config::vendor {
+
+struct CycloneReading {
+  const CycloneOption* option = nullptr;
+  CycloneValue value;
+  std::string shown;  ///< the value, spelled in one way: "100 ms", "spdp"
+  Place place;
+  std::size_t setting = 0;  ///< its place in `VendorProfile::settings`
+};
+
+/// The last value of each setting, by its path.
+class CycloneSettings {
+ public:
+  void add(CycloneReading reading);
+
+  /// Null if the file does not set it.
+  [[nodiscard]] const CycloneReading* find(std::string_view path) const;
+  /// Its value, or the default.
+  [[nodiscard]] CycloneValue value(std::string_view path) const;
+  [[nodiscard]] std::string shown(std::string_view path) const;
+
+  [[nodiscard]] const auto& all() const { return readings_; }
+
+  std::vector<CycloneReading> peers;  ///< every address
+  std::vector<Place> interfaces;      ///< every NetworkInterface
+
+ private:
+  std::map<std::string_view, CycloneReading> readings_;
+};
+
+/// How a value is spelled in a report.
+[[nodiscard]] std::string print_cyclone(const CycloneType& type, const CycloneValue& value);
+[[nodiscard]] bool is_usual(const CycloneOption& option, const CycloneValue& value);
+
+[[nodiscard]] Node scalar_node(const Place& place, std::string text);
+
+/// Puts `setting` into the `unmodelled` of `profile.changes`.
+void assume(VendorProfile& profile, std::string_view setting, const Place& place, std::string text);
+
+/// Writes `profile.changes` (without its `base`), corrects what `profile.settings` say about
+/// settings whose effect depends on others, and adds remarks. An error: a value that the model
+/// cannot take.
+[[nodiscard]] std::optional<InputError> apply_cyclone_settings(const CycloneSettings& settings,
+                                                               VendorProfile& profile);
+
+/// The part of it that concerns multicast, transport and interfaces.
+void apply_cyclone_network(const CycloneSettings& settings, VendorProfile& profile);
+
+/// Adds remarks about settings that contradict each other or do nothing beside each other.
+void look_for_contradictions(const CycloneSettings& settings, VendorProfile& profile);
+
+}  // namespace stormproof::model::config::vendor

@@ -1,0 +1,238 @@
+// The participant's own settings of discovery. Rules of the library (v2.6.11): PDP.cpp:1341-1350
+// makes a startup period that is not positive one of 1 ms; RTPSDomain refuses a participant whose
+// lease is not longer than its announcement period; only <EDP>STATIC</EDP> reads static files.
+#include "model/config/vendor/fastdds_discovery.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "model/config/quantities.hpp"
+#include "model/config/suggestion.hpp"
+#include "model/config/value_types.hpp"
+
+namespace stormproof::model::config::vendor::fastdds {
+namespace {
+
+constexpr std::string_view discovery = "rtps/builtin/discovery_config/";
+constexpr std::int64_t max_announcements = 1'000'000;  ///< of spdp.startup_announcements
+
+const Found* find_discovery(const Reading& reading, std::string_view name) {
+  return reading.section.find(std::string{discovery} + std::string{name});
+}
+
+Node text_node(const Place& place, std::string text, bool is_quoted) {
+  Node node;
+  node.kind = Node::Kind::scalar;
+  node.place = place;
+  node.text = std::move(text);
+  node.quoted = is_quoted;
+  return node;
+}
+
+/// A period as a profile has it; what is longer than the longest one outlasts every run as well.
+std::string period_of(const Value& value) {
+  return print_duration(Nanoseconds{std::min(value.number, max_duration_ns)});
+}
+
+void interpret_startup(Reading& reading) {
+  const Found* count = find_discovery(reading, "initialAnnouncements/count");
+  const Found* period = find_discovery(reading, "initialAnnouncements/period");
+  if (count != nullptr) {
+    if (count->value.number > max_announcements) {
+      refuse(count->value.place, fmt::format("{} in <count>; expected {} announcements at most",
+                                             count->value.number, max_announcements));
+    }
+    set_knob(reading, *count, "spdp", "startup_announcements", count->value.shown);
+  }
+  if (period == nullptr) return;
+  if (count != nullptr && count->value.number == 0) {
+    set_inert(reading, *period, "no announcements at the startup period");
+    return add_remark(reading.profile, Severity::note, "fastdds.unused-startup-period",
+                      period->value.place, "<period> does nothing, because <count> is 0");
+  }
+  if (period->value.number > 0) {
+    return set_knob(reading, *period, "spdp", "startup_period", period_of(period->value));
+  }
+  set_knob(reading, *period, "spdp", "startup_period", "1ms");
+  reading.setting_of(*period).note = "not positive, so the library uses 1 ms";
+  add_remark(reading.profile, Severity::warning, "fastdds.startup-period", period->value.place,
+             fmt::format("a startup period of {} becomes 1 ms", period->value.shown),
+             "to switch startup announcements off, set <count> to 0");
+}
+
+void interpret_lease(Reading& reading) {
+  constexpr std::int64_t default_lease = 20'000'000'000;
+  constexpr std::int64_t default_period = 3'000'000'000;
+  const Found* lease = find_discovery(reading, "leaseDuration");
+  const Found* period = find_discovery(reading, "leaseAnnouncement");
+  if (period != nullptr) {
+    if (period->value.number <= 0) {
+      refuse(period->value.place,
+             fmt::format("{} in <leaseAnnouncement>; expected more than 0", period->value.shown));
+    }
+    set_knob(reading, *period, "spdp", "period", period_of(period->value));
+  }
+  if (lease != nullptr && lease->value.number > default_lease) {
+    set_inert(reading, *lease, "a longer lease runs out later; in the model none does");
+  }
+  const std::int64_t lasts = lease == nullptr ? default_lease : lease->value.number;
+  const bool is_infinite = lease != nullptr && lease->value.infinite;
+  const std::int64_t renewed = period == nullptr ? default_period : period->value.number;
+  if (is_infinite || lasts > renewed || (lease == nullptr && period == nullptr)) return;
+  const Found& cause = period != nullptr ? *period : *lease;
+  add_remark(reading.profile, Severity::error, "fastdds.lease-announcement", cause.value.place,
+             fmt::format("leaseAnnouncement is {}, leaseDuration {}{}; the library creates no "
+                         "participant unless the lease is longer",
+                         period == nullptr ? "3s" : period->value.shown,
+                         lease == nullptr ? "20s" : lease->value.shown,
+                         lease == nullptr || period == nullptr ? " (the default of one)" : ""),
+             "announce several times within a lease");
+}
+
+void interpret_protocol(Reading& reading) {
+  for (const std::string_view name : {"discoveryProtocol", "EDP", "simpleEDP/PUBWRITER_SUBREADER",
+                                      "simpleEDP/PUBREADER_SUBWRITER"}) {
+    const Found* found = find_discovery(reading, name);
+    if (found == nullptr || reading.setting_of(*found).effect != Effect::outside) continue;
+    set_outside(reading, *found, std::string{found->item->note});
+  }
+  if (const Found* flags = find_discovery(reading, "ignoreParticipantFlags")) {
+    const auto& items = flags->value.items;
+    if (std::ranges::find(items, "FILTER_DIFFERENT_HOST") != items.end()) {
+      set_outside(reading, *flags, "participants of different hosts ignore each other");
+    }
+  }
+  const Found* protocol = find_discovery(reading, "discoveryProtocol");
+  if (protocol == nullptr || protocol->value.shown == "SIMPLE") {
+    for (const std::string_view name : {"clientAnnouncementPeriod", "discoveryServersList"}) {
+      const Found* found = find_discovery(reading, name);
+      if (found == nullptr) continue;
+      add_remark(
+          reading.profile, Severity::warning, "fastdds.discovery-server-setting",
+          found->value.place,
+          fmt::format("<{}> does nothing with the discovery protocol SIMPLE", found->item->name()),
+          "set <discoveryProtocol>CLIENT</discoveryProtocol> to use a discovery server");
+    }
+  }
+  const Found* endpoints = find_discovery(reading, "EDP");
+  if (endpoints != nullptr && endpoints->value.shown == "STATIC") return;
+  for (const std::string_view name : {"staticEndpointXMLFilename", "static_edp_xml_config"}) {
+    const Found* found = find_discovery(reading, name);
+    if (found == nullptr) continue;
+    add_remark(reading.profile, Severity::warning, "fastdds.static-edp-file", found->value.place,
+               fmt::format("<{}> does nothing without <EDP>STATIC</EDP>", found->item->name()));
+  }
+}
+
+void interpret_throughput(Reading& reading) {
+  const Found* bytes = reading.section.find("rtps/throughputController/bytesPerPeriod");
+  const Found* period = reading.section.find("rtps/throughputController/periodMillisecs");
+  const Found* first = bytes != nullptr ? bytes : period;
+  if (first == nullptr) return;
+  const bool is_limited = bytes != nullptr && period != nullptr && period->value.number != 0 &&
+                          reading.setting_of(*bytes).effect == Effect::unmodelled;
+  if (!is_limited) {
+    for (const Found* found : {bytes, period}) {
+      if (found != nullptr) set_inert(reading, *found, "without the other one there is no limit");
+    }
+  }
+  add_remark(reading.profile, Severity::warning, "fastdds.throughput-controller",
+             first->value.place,
+             "a throughput controller does not pace SEDP: its writers are synchronous, and the "
+             "library ignores the controller for them",
+             "it delays announcements and user data only");
+}
+
+void interpret_peers(Reading& reading) {
+  if (reading.section.find("rtps/builtin/initialPeersList") == nullptr) return;
+  for (const Transport& transport : reading.transports) {
+    const Found* range = transport.section.find("maxInitialPeersRange");
+    if (!transport.is_used || range == nullptr || range->value.shown == "4") continue;
+    Setting& setting = reading.setting_of(*range);
+    setting.effect = Effect::unmodelled;
+    setting.note =
+        "an announcement goes to so many ports of each initial peer that has none; the "
+        "model announces by multicast";
+  }
+}
+
+void interpret_properties(Reading& reading) {
+  std::vector<std::string> known;
+  for (const SchemaItem& item : property_schema()) known.emplace_back(item.path);
+  const std::string security = "dds.sec.";
+  std::size_t hints_left = 1000;  // a hint compares with every name there is
+  for (const Found& found : reading.section.found) {
+    if (found.element->name != "property") continue;
+    const std::string& name = found.element->find("name")->text;
+    Setting& setting = reading.setting_of(found);
+    if (name.starts_with(security)) {
+      setting.effect = Effect::unmodelled;
+      setting.note =
+          "participants authenticate each other before SEDP, which is encrypted; the "
+          "model has no handshake";
+    } else if (found.item->path.empty() && hints_left > 0) {
+      --hints_left;
+      const std::string suggested = suggestion(name, known);
+      if (suggested.empty()) continue;
+      add_remark(
+          reading.profile, Severity::warning, "fastdds.unknown-property", found.element->place,
+          fmt::format("property {} is none that Fast DDS reads", quote(name)), suggested.substr(2));
+    }
+  }
+  if (const Found* push = reading.section.find("fastdds.push_mode")) {
+    add_remark(reading.profile, Severity::warning, "fastdds.push-mode", push->value.place,
+               "fastdds.push_mode does nothing in a participant's profile, and never acts on SEDP",
+               "it belongs into the profile of a writer");
+  }
+  if (const Found* metatraffic = reading.section.find("fastdds.shm.enforce_metatraffic")) {
+    const std::string& value = metatraffic->value.shown;
+    if (value != "none" && value != "unicast" && value != "all") {
+      refuse(metatraffic->value.place,
+             fmt::format("{} as fastdds.shm.enforce_metatraffic; expected none, unicast or all",
+                         quote(value)));
+    }
+  }
+}
+
+}  // namespace
+
+void set_knob(Reading& reading, const Found& found, std::string_view section, std::string_view key,
+              std::string value) {
+  Setting& setting = reading.setting_of(found);
+  setting.effect = Effect::knob;
+  setting.knob = fmt::format("{}.{}", section, key);
+  if (setting.note == "the library's default") setting.note = found.item->note;
+  // The path has no empty part and only maps on its way, so this cannot fail.
+  (void)set_path(reading.profile.changes, setting.knob,
+                 text_node(found.value.place, std::move(value), false));
+}
+
+void set_inert(Reading& reading, const Found& found, std::string note) {
+  Setting& setting = reading.setting_of(found);
+  setting.effect = Effect::none;
+  setting.note = std::move(note);
+}
+
+void set_outside(Reading& reading, const Found& found, std::string note) {
+  Setting& setting = reading.setting_of(found);
+  setting.effect = Effect::outside;
+  setting.note = std::move(note);
+  add_remark(reading.profile, Severity::error, "fastdds.outside", found.value.place,
+             fmt::format("{} = {}: {}; the model cannot describe this system", setting.path,
+                         quote(setting.value), setting.note));
+}
+
+void interpret_announcements(Reading& reading) {
+  interpret_startup(reading);
+  interpret_lease(reading);
+}
+
+void interpret_participant(Reading& reading) {
+  interpret_protocol(reading);
+  interpret_throughput(reading);
+  interpret_peers(reading);
+  interpret_properties(reading);
+}
+
+}  // namespace stormproof::model::config::vendor::fastdds

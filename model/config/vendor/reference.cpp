@@ -1,0 +1,45 @@
+// The ending ".xml" is what tells a vendor's file from a name: the last one that is followed by the
+// end, by '#' or by '@'. A '#' or '@' before it belongs to the file's name.
+#include "model/config/vendor/reference.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+namespace stormproof::model::config::vendor {
+namespace {
+
+constexpr std::string_view ending = ".xml";
+
+bool is_ending(std::string_view text) {
+  return std::ranges::equal(text, ending, [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == b;
+  });
+}
+
+/// Length of the file's name, or 0 if there is no XML file.
+std::size_t file_length(std::string_view reference) {
+  for (std::size_t end = reference.size(); end > ending.size(); --end) {
+    const bool ends = end == reference.size() || reference[end] == '#' || reference[end] == '@';
+    if (ends && is_ending(reference.substr(end - ending.size(), ending.size()))) return end;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::optional<FileReference> parse_reference(const std::string& reference) {
+  const std::size_t length = file_length(reference);
+  if (length == 0) return std::nullopt;
+  FileReference parts;
+  parts.file = reference.substr(0, length);
+  std::string rest = reference.substr(length);
+  if (const std::size_t at = rest.rfind('@'); at != std::string::npos) {
+    parts.selection.base = rest.substr(at + 1);
+    rest.erase(at);
+  }
+  if (rest.starts_with('#')) parts.selection.profile = rest.substr(1);
+  return parts;
+}
+
+}  // namespace stormproof::model::config::vendor

@@ -1,0 +1,294 @@
+// The way back: a profile as a file that its vendor's library reads. Only elements that change
+// something are written, each with a comment that says what it does to discovery; reading the file
+// on top of the same preset gives the profile back.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "model/config/effective.hpp"
+#include "model/config/tree.hpp"
+#include "model/config/value_types.hpp"
+#include "model/config/vendor/cyclonedds_values.hpp"
+#include "model/config/vendor/vendor_knobs.hpp"
+
+namespace stormproof::model::config::vendor {
+namespace {
+
+/// Every value of a profile by its dotted key, as JSON text.
+using Values = std::map<std::string, std::string, std::less<>>;
+
+void flatten(const Json& json, const std::string& prefix, Values& values) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object()) {
+      flatten(value, prefix + key + ".", values);
+    } else {
+      values[prefix + key] = value.dump();
+    }
+  }
+}
+
+/// Without the assumptions, which are no knobs.
+Values values_of(DdsProfile profile) {
+  profile.unmodelled.clear();
+  Values values;
+  flatten(effective_json(profile), "", values);
+  return values;
+}
+
+/// The number behind a knob that some vendor's user can change.
+std::int64_t number_of(const DdsProfile& profile, std::string_view key) {
+  const SpdpProfile& spdp = profile.spdp;
+  const SedpProfile& sedp = profile.sedp;
+  if (key == "spdp.period") return spdp.period.count();
+  if (key == "spdp.startup_announcements") return spdp.startup_announcements;
+  if (key == "spdp.startup_period") return spdp.startup_period.count();
+  if (key == "sedp.heartbeat_period") return sedp.heartbeat_period.count();
+  if (key == "sedp.nack_suppression_duration") return sedp.nack_suppression_duration.count();
+  if (key == "sedp.initial_acknack_delay") return sedp.initial_acknack_delay.count();
+  if (key == "sedp.grouping_limit_bytes") return sedp.grouping_limit_bytes.count();
+  return sedp.piggyback_threshold_bytes.count();
+}
+
+std::string shown(const Values& values, std::string_view key) {
+  const auto found = values.find(key);
+  return found == values.end() ? "nothing" : found->second;
+}
+
+/// The knobs to write, with their numbers; an error if one of them cannot be written.
+class Changes {
+ public:
+  Changes(Vendor vendor, std::string_view preset, const DdsProfile& base,
+          const DdsProfile& profile) {
+    if (base.unmodelled != profile.unmodelled) {
+      fail(preset, "unmodelled",
+           "differs from the preset's; expected the same: what the model has "
+           "not is not written");
+    }
+    const Values before = values_of(base), after = values_of(profile);
+    for (const VendorKnob& knob : vendor_knobs(vendor)) {
+      const std::string old_value = shown(before, knob.key), value = shown(after, knob.key);
+      if (old_value == value) continue;
+      if (knob.key == "spdp.startup_period" && profile.spdp.startup_announcements == 0) {
+        fail(preset, knob.key,
+             fmt::format("{}: does nothing without startup announcements; expected {}, as the "
+                         "preset has it",
+                         value, old_value));
+      }
+      add(vendor, preset, knob, number_of(profile, knob.key), value);
+    }
+  }
+
+  /// Null if it stays as it is.
+  [[nodiscard]] const std::int64_t* find(std::string_view key) const {
+    const auto found = numbers_.find(key);
+    return found == numbers_.end() ? nullptr : &found->second;
+  }
+  [[nodiscard]] bool has_any(std::string_view prefix) const {
+    return std::ranges::any_of(numbers_,
+                               [&](const auto& entry) { return entry.first.starts_with(prefix); });
+  }
+  [[nodiscard]] const std::optional<InputError>& error() const { return error_; }
+
+ private:
+  void fail(std::string_view preset, std::string_view key, std::string message) {
+    if (!error_) {
+      error_ = InputError{fmt::format("XML for {}", preset), fmt::format("{} {}", key, message)};
+    }
+  }
+
+  void add(Vendor vendor, std::string_view preset, const VendorKnob& knob, std::int64_t number,
+           const std::string& value) {
+    if (knob.setting.empty()) {
+      fail(preset, knob.key,
+           fmt::format("{}: no user of {} can set it ({})", value, name_of(vendor), knob.why));
+    } else if (number < knob.minimum || number > knob.maximum) {
+      fail(preset, knob.key,
+           fmt::format("{}: expected {} to {} (ns or B), which {} can set", value, knob.minimum,
+                       knob.maximum, knob.setting));
+    }
+    numbers_.emplace(knob.key, number);
+  }
+
+  std::map<std::string_view, std::int64_t> numbers_;
+  std::optional<InputError> error_;
+};
+
+/// Text with line breaks and indentation.
+class XmlWriter {
+ public:
+  explicit XmlWriter(const std::string& comment) {
+    text_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+    if (!comment.empty()) text_ += fmt::format("<!-- {} -->\n", in_comment(comment));
+  }
+
+  /// `tag` with its attributes.
+  void open(const std::string& tag) {
+    line("<" + tag + ">");
+    open_.push_back(tag.substr(0, tag.find(' ')));
+  }
+  void close() {
+    const std::string tag = open_.back();
+    open_.pop_back();
+    line("</" + tag + ">");
+  }
+  void comment(const std::string& words) { line("<!-- " + in_comment(words) + " -->"); }
+  void leaf(const std::string& tag, const std::string& value) {
+    line(fmt::format("<{0}>{1}</{0}>", tag, value));
+  }
+  [[nodiscard]] std::string text() {
+    while (!open_.empty()) close();
+    return text_;
+  }
+
+ private:
+  /// A comment must not hold "--" nor end in '-'; control characters are not XML.
+  static std::string in_comment(const std::string& words) {
+    std::string safe;
+    for (const char c : words) {
+      if (c == '-' && safe.ends_with('-')) safe += ' ';
+      safe += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
+    }
+    return safe;
+  }
+  void line(const std::string& words) {
+    text_ += fmt::format("{:{}}{}\n", "", 2 * open_.size(), words);
+  }
+
+  std::string text_;
+  std::vector<std::string> open_;
+};
+
+void write_duration(XmlWriter& xml, const std::string& tag, std::int64_t ns) {
+  xml.open(tag);
+  xml.leaf("sec", fmt::format("{}", ns / second_ns));
+  xml.leaf("nanosec", fmt::format("{}", ns % second_ns));
+  xml.close();
+}
+
+void write_fastdds_discovery(XmlWriter& xml, const Changes& changes) {
+  if (!changes.has_any("spdp.")) return;
+  xml.open("builtin");
+  xml.open("discovery_config");
+  const std::int64_t* count = changes.find("spdp.startup_announcements");
+  const std::int64_t* startup = changes.find("spdp.startup_period");
+  if (count != nullptr || startup != nullptr) {
+    xml.comment("announcements after the first one, and the time between them");
+    xml.open("initialAnnouncements");
+    if (count != nullptr) xml.leaf("count", fmt::format("{}", *count));
+    if (startup != nullptr) write_duration(xml, "period", *startup);
+    xml.close();
+  }
+  if (const std::int64_t* period = changes.find("spdp.period")) {
+    xml.comment("time between announcements from then on");
+    write_duration(xml, "leaseAnnouncement", *period);
+  }
+  xml.close();
+  xml.close();
+}
+
+std::string write_fastdds(const Changes& changes, const std::string& comment) {
+  XmlWriter xml{comment};
+  const std::int64_t* buffer = changes.find("sedp.piggyback_threshold_bytes");
+  const std::int64_t* message = changes.find("sedp.grouping_limit_bytes");
+  xml.open("profiles xmlns=\"http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles\"");
+  if (buffer != nullptr) {
+    xml.open("transport_descriptors");
+    xml.open("transport_descriptor");
+    xml.leaf("transport_id", "udp");
+    xml.leaf("type", "UDPv4");
+    xml.comment(
+        "a writer adds a HEARTBEAT to its DATA each time it has sent this much; Linux has "
+        "to allow it (net.core.wmem_max)");
+    xml.leaf("sendBufferSize", fmt::format("{}", *buffer));
+    xml.close();
+    xml.close();
+  }
+  xml.open("participant profile_name=\"stormproof\" is_default_profile=\"true\"");
+  xml.open("rtps");
+  write_fastdds_discovery(xml, changes);
+  if (message != nullptr) {
+    xml.open("propertiesPolicy");
+    xml.open("properties");
+    xml.comment("largest message with pulled and repair DATA");
+    xml.open("property");
+    xml.leaf("name", "fastdds.max_message_size");
+    xml.leaf("value", fmt::format("{}", *message));
+    xml.close();
+    xml.close();
+    xml.close();
+  }
+  if (buffer != nullptr) {
+    xml.comment(
+        "the buffer of a participant is ignored with user transports, and the segment of "
+        "shared memory would bound the threshold: this transport alone");
+    xml.open("userTransports");
+    xml.leaf("transport_id", "udp");
+    xml.close();
+    xml.leaf("useBuiltinTransports", "false");
+  }
+  return xml.text();
+}
+
+void write_cyclone_announcements(XmlWriter& xml, std::int64_t period) {
+  constexpr std::int64_t default_bound = 8 * second_ns;
+  xml.open("Discovery");
+  xml.comment("time between announcements");
+  xml.leaf("SPDPInterval", print_cyclone_duration(period));
+  if (period > default_bound) {
+    xml.comment("announcements go out 2 s before the lease ends, or earlier");
+    xml.leaf("LeaseDuration", print_cyclone_duration(period + 2 * second_ns));
+  }
+  xml.close();
+}
+
+std::string write_cyclonedds(const Changes& changes, const std::string& comment) {
+  XmlWriter xml{comment};
+  xml.open("CycloneDDS xmlns=\"https://cdds.io/config\"");
+  xml.open("Domain Id=\"any\"");
+  if (const std::int64_t* limit = changes.find("sedp.grouping_limit_bytes")) {
+    xml.open("General");
+    xml.comment("largest packet with repairs, and all initial DATA is pulled");
+    xml.leaf("MaxRexmitMessageSize", fmt::format("{} B", *limit));
+    xml.close();
+  }
+  if (const std::int64_t* period = changes.find("spdp.period")) {
+    write_cyclone_announcements(xml, *period);
+  }
+  struct Delay {
+    const char *key, *tag, *comment;
+  };
+  constexpr Delay delays[] = {
+      {"sedp.heartbeat_period", "HeartbeatInterval", "base of the HEARTBEAT period"},
+      {"sedp.nack_suppression_duration", "NackDelay",
+       "how long the same descriptors are not asked for again"},
+      {"sedp.initial_acknack_delay", "PreEmptiveAckDelay", "until the first pre-emptive ACKNACK"}};
+  if (changes.has_any("sedp.heartbeat") || changes.has_any("sedp.nack") ||
+      changes.has_any("sedp.initial")) {
+    xml.open("Internal");
+    for (const Delay& delay : delays) {
+      const std::int64_t* ns = changes.find(delay.key);
+      if (ns == nullptr) continue;
+      xml.comment(delay.comment);
+      xml.leaf(delay.tag, print_cyclone_duration(*ns));
+    }
+    xml.close();
+  }
+  return xml.text();
+}
+
+}  // namespace
+
+Result<std::string> write_vendor_xml(Vendor vendor, std::string_view preset, const DdsProfile& base,
+                                     const DdsProfile& profile, const std::string& comment) {
+  const std::optional<Vendor> owner = vendor_of_preset(preset);
+  if (owner != vendor) {
+    return InputError{fmt::format("XML for {}", preset),
+                      fmt::format("{} is no preset of {}", quote(preset), name_of(vendor))};
+  }
+  const Changes changes{vendor, preset, base, profile};
+  if (changes.error()) return *changes.error();
+  return vendor == Vendor::fastdds ? write_fastdds(changes, comment)
+                                   : write_cyclonedds(changes, comment);
+}
+
+}  // namespace stormproof::model::config::vendor

@@ -1,0 +1,64 @@
+// Fuzz target: captures (checker/capture/events.hpp). An input that starts as an RTPS message is
+// one, so that a fuzzer reaches the submessages without learning the layers below them.
+#include <limits>
+
+#include "checker/capture/counting.hpp"
+#include "checker/capture/message_events.hpp"
+#include "tests/fuzzing/checks.hpp"
+#include "tests/fuzzing/targets.hpp"
+
+namespace stormproof::fuzzing {
+
+namespace {
+
+using capture::Bytes;
+
+Outcome message(Bytes input) {
+  capture::Extraction extraction;
+  capture::Remarks remarks;
+  capture::Datagram datagram;
+  datagram.payload = input;
+  if (!extract(datagram, 0, "input", extraction, remarks)) return Outcome::refused;
+  std::size_t bytes = 0;
+  for (const capture::Event& event : extraction.events) bytes += event.bytes;
+  require(bytes <= input.size(), "submessages are no longer than their message");
+  return Outcome::accepted;
+}
+
+void check(const capture::Conversation& conversation) {
+  const capture::Counting counting = count(conversation, std::numeric_limits<std::int64_t>::max());
+  std::uint64_t submessages = 0;
+  for (const capture::TrafficFigures& one : counting.traffic) {
+    submessages += one.data + one.data_frag + one.heartbeat + one.acknack + one.gap;
+  }
+  require(submessages == conversation.events.size(), "every event is in the traffic");
+  require(counting.counts.total() + counting.same_host.total() <= submessages,
+          "no event counts twice");
+  require(counting.missing_count <= counting.required, "what is missing was required");
+  std::int64_t last = conversation.first_ns;
+  for (const capture::Event& event : conversation.events) {
+    require(event.datagram < conversation.datagrams.size(), "an event has a datagram");
+    require(event.time_ns >= last, "events are in time order");
+    last = event.time_ns;
+  }
+  require(last <= conversation.last_ns, "events lie within the capture");
+}
+
+}  // namespace
+
+Outcome capture(std::string_view input) {
+  constexpr std::size_t unpack_limit = 4U << 20U;
+  const Bytes bytes{reinterpret_cast<const std::uint8_t*>(input.data()), input.size()};
+  if (input.starts_with("RTPS")) return message(bytes);
+  const std::array captures{capture::MemoryCapture{"input", bytes, unpack_limit}};
+  const auto conversation = capture::read_conversation(captures);
+  if (!conversation) {
+    require(conversation.error().where == "input", "an error has a place");
+    require(!conversation.error().message.empty(), "an error says what is wrong");
+    return Outcome::refused;
+  }
+  check(*conversation);
+  return Outcome::accepted;
+}
+
+}  // namespace stormproof::fuzzing

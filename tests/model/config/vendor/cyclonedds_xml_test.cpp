@@ -1,0 +1,243 @@
+// Cyclone DDS's XML: what each setting does to the profile, and which domain counts.
+#include <fmt/ranges.h>
+
+#include "model/config/vendor/cyclonedds_options.hpp"
+#include "tests/model/config/vendor/cyclonedds_document.hpp"
+
+namespace stormproof::model::config::vendor::cyclonedds_test {
+namespace {
+
+TEST(CycloneXml, timers_and_sizes_become_knobs_at_their_places) {
+  const VendorProfile p = read(
+      domain("<Internal><HeartbeatInterval>250 ms</HeartbeatInterval><NackDelay>0.5s</NackDelay>\n"
+             "<PreEmptiveAckDelay>30ms</PreEmptiveAckDelay></Internal>\n"
+             "<General><MaxRexmitMessageSize>1 KiB</MaxRexmitMessageSize></General>"));
+  EXPECT_EQ(change(p, "sedp", "heartbeat_period"), "250ms@2:30");
+  EXPECT_EQ(change(p, "sedp", "nack_suppression_duration"), "500ms@2:67");
+  EXPECT_EQ(change(p, "sedp", "initial_acknack_delay"), "30ms@3:21");
+  EXPECT_EQ(change(p, "sedp", "grouping_limit_bytes"), "1024@4:32");
+  EXPECT_EQ(p.changes.find("base")->text, "cyclonedds-0.10");
+  EXPECT_EQ(setting(p, "Internal/NackDelay").effect, Effect::knob);
+  EXPECT_EQ(setting(p, "Internal/NackDelay").knob, "sedp.nack_suppression_duration");
+  EXPECT_EQ(setting(p, "Internal/NackDelay").value, "0.5s");
+  EXPECT_EQ(remarks(p), Remarks{});
+}
+
+TEST(CycloneXml, resolves_to_the_preset_with_the_changes) {
+  DdsProfile expected = preset();
+  EXPECT_EQ(resolved("<CycloneDDS/>"), expected);
+  expected.sedp.nack_suppression_duration = Nanoseconds{1'000'000'000};
+  EXPECT_EQ(resolved(internal("<NackDelay>1 s</NackDelay>")), expected);
+  EXPECT_NE(resolved(internal("<NackDelay>2 s</NackDelay>")), expected);
+}
+
+TEST(CycloneXml, every_unit_and_spelling_of_a_duration) {
+  for (const char* text : {"1 min", "60s", "60000 ms", "60000000us", "60000000000 ns", "1.0 min",
+                           "+60 s", "0.0166666666666666666 hr"}) {
+    const VendorProfile p = read(internal(fmt::format("<NackDelay>{}</NackDelay>", text)));
+    EXPECT_EQ(change(p, "sedp", "nack_suppression_duration"), "60s@2:22") << text;
+  }
+  EXPECT_EQ(change(read(internal("<NackDelay>0</NackDelay>")), "sedp", "nack_suppression_duration"),
+            "0s@2:22");
+}
+
+TEST(CycloneXml, announcement_period_is_the_lesser_of_interval_and_lease) {
+  const auto period = [](const std::string& settings) {
+    return change(read(discovery(settings)), "spdp", "period");
+  };
+  EXPECT_EQ(period("<SPDPInterval>5 s</SPDPInterval>"), "5s@2:26");
+  EXPECT_EQ(period("<SPDPInterval>1 min</SPDPInterval>"), "8s@2:26");
+  EXPECT_EQ(period("<LeaseDuration>20 s</LeaseDuration>"), "18s@2:27");
+  EXPECT_EQ(period("<LeaseDuration>5 s</LeaseDuration>"), "4s@2:27");
+  EXPECT_EQ(period("<LeaseDuration>9.9 s</LeaseDuration>"), "7.92s@2:27");
+  EXPECT_EQ(period("<LeaseDuration>10.5 s</LeaseDuration>"), "8.5s@2:27");
+  EXPECT_EQ(period("<LeaseDuration>1 hr</LeaseDuration>"), "30s@2:27");
+  EXPECT_EQ(period("<LeaseDuration>5 ms</LeaseDuration>"), "10ms@2:27");
+  EXPECT_EQ(period("<SPDPInterval>20 s</SPDPInterval><LeaseDuration>60 s</LeaseDuration>"),
+            "20s@2:26");
+  EXPECT_EQ(period("<SPDPInterval>20 s</SPDPInterval><LeaseDuration>12 s</LeaseDuration>"),
+            "10s@2:60");
+  EXPECT_EQ(error(discovery("<SPDPInterval>0</SPDPInterval>")),
+            "c.xml:2:26: Discovery/SPDPInterval: 0 s gives spdp.period 0 s; expected 1 ns to "
+            "1000000s, which is what the model takes");
+}
+
+TEST(CycloneXml, minsched_holds_the_heartbeat_interval) {
+  const VendorProfile held = read(internal("<HeartbeatInterval>10 ms</HeartbeatInterval>"));
+  EXPECT_EQ(change(held, "sedp", "heartbeat_period"), "20ms@2:30");
+  EXPECT_EQ(remarks(held), Remarks{"warning cyclonedds.heartbeat-interval 2"});
+
+  const VendorProfile free =
+      read(internal("<HeartbeatInterval minsched=\"5 ms\">10 ms</HeartbeatInterval>"));
+  EXPECT_EQ(change(free, "sedp", "heartbeat_period"), "10ms@2:46");
+  EXPECT_EQ(remarks(free), Remarks{});
+  const VendorProfile raised = read(internal("<HeartbeatInterval minsched=\"1 s\"/>"));
+  EXPECT_EQ(change(raised, "sedp", "heartbeat_period"), "1s@2:11");
+  EXPECT_EQ(error(internal("<HeartbeatInterval>inf</HeartbeatInterval>")),
+            "c.xml:2:30: Internal/HeartbeatInterval: inf gives sedp.heartbeat_period no end; "
+            "expected 1 ns to 1000000s, which is what the model takes");
+}
+
+TEST(CycloneXml, an_initial_acknack_at_once_is_not_disabled) {
+  const VendorProfile p = read(internal("<PreEmptiveAckDelay>0 s</PreEmptiveAckDelay>"));
+  EXPECT_EQ(change(p, "sedp", "initial_acknack_delay"), "1ns@2:31");
+}
+
+TEST(CycloneXml, what_the_model_has_not_replaces_the_presets_text) {
+  const VendorProfile p =
+      read(internal("<AckDelay>50 ms</AckDelay>"
+                    "<RetransmitMerging>Adaptive</RetransmitMerging>"));
+  EXPECT_EQ(change(p, "unmodelled", "Internal/AckDelay"),
+            "50 ms; a reader repeats the same ACK at most that often; the model answers every "
+            "HEARTBEAT@2:21");
+  EXPECT_TRUE(change(p, "unmodelled", "Internal/RetransmitMerging").starts_with("adaptive; "));
+
+  const DdsProfile before = preset();
+  const DdsProfile after = resolved(internal("<AckDelay>50 ms</AckDelay>"));
+  EXPECT_EQ(after.unmodelled.size(), before.unmodelled.size());
+  EXPECT_NE(after.unmodelled.at("Internal/AckDelay"), before.unmodelled.at("Internal/AckDelay"));
+}
+
+TEST(CycloneXml, defaults_written_out_are_the_preset) {
+  std::string general, internals;
+  for (const CycloneOption& option : cyclone_options()) {
+    if (!option.always || option.path.ends_with("]")) continue;
+    const std::size_t slash = option.path.find('/');
+    const auto leaf = fmt::format("<{0}>{1}</{0}>", option.path.substr(slash + 1), option.usual);
+    (option.path.starts_with("General") ? general : internals) += leaf;
+  }
+  internals += "<HeartbeatInterval max=\"8s\" minsched=\"20ms\">100ms</HeartbeatInterval>";
+  const std::string text = domain("<General>" + general + "</General><Internal>" + internals +
+                                  "</Internal><Discovery><LeaseDuration>10s</LeaseDuration>"
+                                  "</Discovery>");
+  EXPECT_EQ(resolved(text), preset()) << text;
+  EXPECT_EQ(resolved(domain("<General><DontRoute>true</DontRoute></General>")), preset());
+}
+
+TEST(CycloneXml, decimals_are_rounded_and_kB_is_1024) {
+  const VendorProfile p =
+      read(domain("<Internal><NackDelay>1.9999 us</NackDelay><AckDelay>10ms</AckDelay></Internal>\n"
+                  "<General><MaxRexmitMessageSize>2.0006 kB</MaxRexmitMessageSize></General>"));
+  EXPECT_EQ(change(p, "sedp", "nack_suppression_duration"), "2us@2:22");
+  EXPECT_EQ(change(p, "sedp", "grouping_limit_bytes"), "2049@3:32");
+  EXPECT_EQ(setting(p, "Internal/AckDelay").effect, Effect::unmodelled);
+  EXPECT_NE(change(p, "unmodelled", "Internal/AckDelay"), "-");
+}
+
+TEST(CycloneXml, multicast) {
+  const auto effect = [](const char* words, const char* more = "") {
+    const VendorProfile p = read(domain(fmt::format(
+        "<General><AllowMulticast>{}</AllowMulticast></General><Discovery>{}</Discovery>", words,
+        more)));
+    std::string result = name_of(setting(p, "General/AllowMulticast").effect);
+    for (const std::string& remark : remarks(p)) result += ", " + remark;
+    return result;
+  };
+  EXPECT_EQ(effect("spdp"), "none");
+  EXPECT_EQ(effect("default"), "unmodelled");
+  EXPECT_EQ(effect("TRUE"), "unmodelled");
+  EXPECT_EQ(effect("spdp,asm"), "unmodelled");
+  EXPECT_EQ(effect("false"), "outside, error cyclonedds.no-announcements 2");
+  EXPECT_EQ(effect("ssm"), "outside, error cyclonedds.no-announcements 2");
+  const char* peers = "<Peers><Peer Address=\"10.0.0.2\"/></Peers>";
+  EXPECT_EQ(effect("false", peers), "unmodelled, warning cyclonedds.participant-index 2");
+  EXPECT_EQ(effect("false",
+                   "<ParticipantIndex>auto</ParticipantIndex><Peers><Peer "
+                   "address=\"10.0.0.2\"/></Peers>"),
+            "unmodelled");
+}
+
+TEST(CycloneXml, peers_are_listed_together) {
+  const VendorProfile p =
+      read(discovery("<Peers><Peer Address=\"a\"/><Peer Address=\"b:7410\"/>"
+                     "</Peers>"));
+  EXPECT_EQ(change(p, "unmodelled", "Discovery/Peers/Peer[@Address]"),
+            "a, b:7410; announcements go there by unicast, too@2:19");
+  EXPECT_EQ(remarks(p), Remarks{});
+}
+
+TEST(CycloneXml, several_interfaces) {
+  const auto text = [](const char* interfaces) {
+    return domain(fmt::format("<General><Interfaces>{}</Interfaces></General>", interfaces));
+  };
+  const VendorProfile one = read(text("<NetworkInterface name=\"wlan0\" priority=\"default\"/>"));
+  EXPECT_EQ(one.changes.find("unmodelled"), nullptr);
+  const VendorProfile two =
+      read(text("<NetworkInterface name=\"wlan0\"/><NetworkInterface name=\"eth0\"/>"));
+  EXPECT_TRUE(change(two, "unmodelled", "General/Interfaces").starts_with("2 network interfaces"));
+  const VendorProfile silent = read(text("<NetworkInterface name=\"wlan0\" multicast=\"false\"/>"));
+  EXPECT_NE(change(silent, "unmodelled", "General/Interfaces/NetworkInterface[@multicast]"), "-");
+}
+
+TEST(CycloneXml, other_transports_are_outside) {
+  for (const char* text :
+       {"<General><Transport>tcp</Transport></General>", "<TCP><Enable>true</Enable></TCP>",
+        "<Security/>", "<General><Transport>raweth</Transport></General>"}) {
+    const VendorProfile p = read(domain(text));
+    EXPECT_EQ(p.settings.at(0).effect, Effect::outside) << text;
+    EXPECT_NE(fmt::format("{}", fmt::join(remarks(p), ", ")).find("error cyclonedds.outside 2"),
+              std::string::npos)
+        << text;
+  }
+  const VendorProfile p = read(domain("<General><Transport>udp6</Transport></General>"));
+  EXPECT_EQ(p.settings.at(0).effect, Effect::unmodelled);
+  const VendorProfile udp = read(domain("<General><Transport>udp</Transport></General>"));
+  EXPECT_EQ(udp.settings.at(0).effect, Effect::none);
+  EXPECT_EQ(udp.changes.find("unmodelled"), nullptr);
+}
+
+constexpr const char* two_domains =
+    "<CycloneDDS><Domain Id=\"any\"><Internal><NackDelay>1 s</NackDelay></Internal></Domain>\n"
+    "<Domain Id=\"0\"><Internal><AckDelay>1 s</AckDelay></Internal></Domain>\n"
+    "<Domain><Id>7</Id><Internal><NackDelay>2 s</NackDelay></Internal></Domain></CycloneDDS>";
+
+TEST(CycloneXml, a_domain_is_chosen_by_its_id) {
+  const auto nack = [](const char* id) {
+    return change(read(two_domains, id), "sedp", "nack_suppression_duration");
+  };
+  EXPECT_EQ(nack("0"), "1s@1:51");
+  EXPECT_EQ(nack("7"), "2s@3:40");
+  EXPECT_EQ(nack("42"), "1s@1:51");
+  EXPECT_EQ(nack("any"), "1s@1:51");
+  EXPECT_EQ(read(two_domains, "7").name, "7");
+  EXPECT_EQ(change(read(two_domains, "7"), "unmodelled", "Internal/AckDelay"), "-");
+  EXPECT_NE(change(read(two_domains, "0"), "unmodelled", "Internal/AckDelay"), "-");
+  EXPECT_EQ(remarks(read(two_domains, "7")),
+            (Remarks{"note cyclonedds.overridden 1", "note cyclonedds.other-domain 2"}));
+}
+
+TEST(CycloneXml, a_choice_that_is_not_there) {
+  EXPECT_EQ(error(two_domains),
+            "c.xml:1:1: settings for the domains 0, 7; expected one of them "
+            "after the file's name, as in FILE#0");
+  EXPECT_EQ(error(two_domains, "lidar"),
+            "c.xml:1:1: no settings for domain 'lidar'; expected one of any, 0, 7");
+  const std::string only = "<CycloneDDS><Domain Id=\"3\"/></CycloneDDS>";
+  EXPECT_EQ(read(only).name, "3");
+  const VendorProfile seven = read("<CycloneDDS><Domain/><Domain Id=\"7\"/></CycloneDDS>");
+  EXPECT_EQ(seven.name, "7");
+  EXPECT_EQ(remarks(seven), Remarks{"note cyclonedds.domain 1"});
+  EXPECT_EQ(error(only, "4"), "c.xml:1:1: no settings for domain '4'; expected one of 3");
+  EXPECT_EQ(error("<CycloneDDS><Domain Id=\"x\"/></CycloneDDS>"),
+            "c.xml:1:13: Domain Id 'x'; expected any, or an integer from 0 to 4294967294");
+}
+
+TEST(CycloneXml, the_shipped_examples) {
+  const std::string folder = std::string{STORMPROOF_SPECS_DIR} + "/vendor/cyclonedds/";
+  const auto example = [&](const std::string& name) {
+    const auto profile = read_dds_profile(folder + name, {}, source_specs());
+    EXPECT_TRUE(profile) << to_string(profile.error());
+    return profile ? *profile : DdsProfile{};
+  };
+  EXPECT_EQ(example("default.xml"), preset());
+  DdsProfile slow = example("slow-link.xml");
+  EXPECT_EQ(slow.spdp.period, Nanoseconds{20'000'000'000});
+  EXPECT_EQ(slow.sedp.nack_suppression_duration, Nanoseconds{1'000'000'000});
+  EXPECT_EQ(example("two-domains.xml#7").sedp.nack_suppression_duration,
+            Nanoseconds{1'000'000'000});
+  EXPECT_EQ(example("two-domains.xml#0").sedp.nack_suppression_duration, Nanoseconds{200'000'000});
+  EXPECT_EQ(example("wifi.xml").sedp, preset().sedp);
+}
+
+}  // namespace
+}  // namespace stormproof::model::config::vendor::cyclonedds_test

@@ -1,0 +1,116 @@
+// The tables of what a user can change hold every knob of the vendor's presets, once, and nothing
+// else; what they call settable has a range that holds the presets' own values.
+#include "model/config/vendor/vendor_knobs.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "model/config/effective.hpp"
+#include "model/config/numeric_knobs.hpp"
+#include "model/config/scenario_file.hpp"
+#include "model/scenario.hpp"
+#include "tests/model/config/test_files.hpp"
+
+namespace stormproof::model::config::vendor {
+namespace {
+
+DdsProfile preset(const std::string& name) {
+  const auto profile = read_dds_profile(name, {}, source_specs());
+  EXPECT_TRUE(profile) << to_string(profile.error());
+  return profile ? *profile : DdsProfile{};
+}
+
+std::vector<std::string> presets(Vendor vendor) {
+  std::vector<std::string> names = source_specs().names(SpecKind::dds);
+  std::erase_if(names, [&](const auto& name) { return vendor_of_preset(name) != vendor; });
+  return names;
+}
+
+using Json = nlohmann::ordered_json;
+
+void collect(const Json& json, const std::string& prefix, std::set<std::string>& keys) {
+  for (const auto& [key, value] : json.items()) {
+    if (prefix.empty() && key == "unmodelled") continue;
+    if (value.is_object()) {
+      collect(value, prefix + key + ".", keys);
+    } else {
+      keys.insert(prefix + key);
+    }
+  }
+}
+
+TEST(VendorKnobs, hold_every_key_of_the_presets_once) {
+  for (const Vendor vendor : {Vendor::fastdds, Vendor::cyclonedds}) {
+    std::set<std::string> expected;
+    for (const std::string& name : presets(vendor)) {
+      collect(effective_json(preset(name)), "", expected);
+    }
+    std::multiset<std::string> found;
+    for (const VendorKnob& knob : vendor_knobs(vendor)) found.emplace(knob.key);
+    EXPECT_EQ(found, (std::multiset<std::string>{expected.begin(), expected.end()}))
+        << name_of(vendor);
+  }
+}
+
+TEST(VendorKnobs, are_in_the_order_of_the_profile) {
+  const Json json = effective_json(preset("paper"));
+  std::vector<std::string> order;
+  const auto append = [&](const auto& self, const Json& part, const std::string& prefix) -> void {
+    for (const auto& [key, value] : part.items()) {
+      if (value.is_object()) {
+        self(self, value, prefix + key + ".");
+      } else {
+        order.push_back(prefix + key);
+      }
+    }
+  };
+  append(append, json, "");
+  for (const Vendor vendor : {Vendor::fastdds, Vendor::cyclonedds}) {
+    std::vector<std::string> found;
+    for (const VendorKnob& knob : vendor_knobs(vendor)) found.emplace_back(knob.key);
+    EXPECT_EQ(found, order);
+  }
+}
+
+TEST(VendorKnobs, say_why_or_where) {
+  for (const Vendor vendor : {Vendor::fastdds, Vendor::cyclonedds}) {
+    for (const VendorKnob& knob : vendor_knobs(vendor)) {
+      EXPECT_TRUE(!knob.setting.empty() || !knob.why.empty()) << knob.key;
+      EXPECT_EQ(knob.setting.empty(), knob.maximum == 0) << knob.key;
+      EXPECT_LE(knob.minimum, knob.maximum) << knob.key;
+    }
+  }
+}
+
+TEST(VendorKnobs, ranges_lie_within_those_of_the_model) {
+  for (const Vendor vendor : {Vendor::fastdds, Vendor::cyclonedds}) {
+    Scenario scenario;
+    scenario.dds = preset(std::string{default_base(vendor)});
+    const std::vector<NumericKnob> numbers = numeric_knobs(scenario);
+    for (const VendorKnob& knob : vendor_knobs(vendor)) {
+      if (knob.setting.empty()) continue;
+      const auto number =
+          std::ranges::find(numbers, "dds." + std::string{knob.key}, &NumericKnob::key);
+      ASSERT_NE(number, numbers.end()) << knob.key;
+      EXPECT_GE(knob.minimum, number->minimum) << knob.key;
+      EXPECT_LE(knob.maximum, number->maximum) << knob.key;
+      EXPECT_GE(number->value, knob.minimum) << knob.key;
+      EXPECT_LE(number->value, knob.maximum) << knob.key;
+    }
+  }
+}
+
+TEST(VendorKnobs, presets_by_name) {
+  EXPECT_EQ(vendor_of_preset("fastdds-2.14.5"), Vendor::fastdds);
+  EXPECT_EQ(vendor_of_preset("cyclonedds-0.10"), Vendor::cyclonedds);
+  EXPECT_EQ(vendor_of_preset("paper"), std::nullopt);
+  EXPECT_EQ(vendor_of_preset(""), std::nullopt);
+  EXPECT_GE(presets(Vendor::fastdds).size(), 3U);
+  EXPECT_EQ(presets(Vendor::cyclonedds).size(), 1U);
+}
+
+}  // namespace
+}  // namespace stormproof::model::config::vendor

@@ -1,0 +1,174 @@
+// The law of the XML writer: what it writes, read on top of the same preset, is the profile that it
+// was given, for all that a user can set; and nothing else can be written.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "model/config/numeric_knobs.hpp"
+#include "model/config/scenario_file.hpp"
+#include "model/config/vendor/vendor_knobs.hpp"
+#include "model/scenario.hpp"
+#include "tests/model/config/test_files.hpp"
+
+namespace stormproof::model::config::vendor {
+namespace {
+
+DdsProfile preset(const std::string& name) {
+  const auto profile = read_dds_profile(name, {}, source_specs());
+  EXPECT_TRUE(profile) << to_string(profile.error());
+  return profile ? *profile : DdsProfile{};
+}
+
+DdsProfile with(DdsProfile profile, std::string_view key, std::int64_t value) {
+  Scenario scenario;
+  scenario.dds = std::move(profile);
+  EXPECT_TRUE(set_numeric_knob(scenario, "dds." + std::string{key}, value)) << key;
+  return scenario.dds;
+}
+
+std::string write(const std::string& name, const DdsProfile& profile,
+                  const std::string& comment = "a test") {
+  const auto xml = write_vendor_xml(*vendor_of_preset(name), name, preset(name), profile, comment);
+  EXPECT_TRUE(xml) << to_string(xml.error());
+  return xml ? *xml : "";
+}
+
+std::string refusal(const std::string& name, const DdsProfile& profile) {
+  const auto xml = write_vendor_xml(*vendor_of_preset(name), name, preset(name), profile, "");
+  EXPECT_FALSE(xml);
+  return xml ? "" : to_string(xml.error());
+}
+
+/// What `xml` says on top of the preset.
+DdsProfile read_back(const std::string& name, const std::string& xml) {
+  const TestFiles files;
+  const std::string path = files.write("p.xml", xml);
+  const auto profile = read_dds_profile(path + "@" + name, {}, source_specs());
+  EXPECT_TRUE(profile) << to_string(profile.error()) << "\n" << xml;
+  return profile ? *profile : DdsProfile{};
+}
+
+const std::vector<std::string> names = {"fastdds-2.6.11", "fastdds-2.14.5", "fastdds-3.4",
+                                        "fastdds-2.6.11-sndbuf4M", "cyclonedds-0.10"};
+
+TEST(WriteXml, both_ends_of_every_range_come_back) {
+  for (const std::string& name : names) {
+    for (const VendorKnob& knob : vendor_knobs(*vendor_of_preset(name))) {
+      if (knob.setting.empty()) continue;
+      for (const std::int64_t value : {knob.minimum, knob.maximum}) {
+        const DdsProfile profile = with(preset(name), knob.key, value);
+        const std::string xml = write(name, profile);
+        EXPECT_EQ(read_back(name, xml), profile) << name << " " << knob.key << "\n" << xml;
+      }
+    }
+  }
+}
+
+/// Any settable knobs, with any values in their ranges.
+RC_GTEST_PROP(WriteXml, any_change_of_settable_knobs_comes_back, ()) {
+  const std::string name = *rc::gen::elementOf(names);
+  DdsProfile profile = preset(name);
+  for (const VendorKnob& knob : vendor_knobs(*vendor_of_preset(name))) {
+    if (knob.setting.empty() || !*rc::gen::arbitrary<bool>()) continue;
+    const auto value = *rc::gen::inRange(knob.minimum, knob.maximum + 1);
+    profile = with(profile, knob.key, value);
+  }
+  if (profile.spdp.startup_announcements == 0) {  // then it does nothing, and is not written
+    profile.spdp.startup_period = preset(name).spdp.startup_period;
+  }
+  const std::string xml = write(name, profile);
+  RC_LOG() << xml;
+  RC_ASSERT(read_back(name, xml) == profile);
+}
+
+TEST(WriteXml, no_change_is_an_empty_profile) {
+  for (const std::string& name : names) {
+    EXPECT_EQ(read_back(name, write(name, preset(name))), preset(name));
+  }
+}
+
+TEST(WriteXml, nobody_can_set_a_constant) {
+  DdsProfile fast = preset("fastdds-2.6.11");
+  fast.sedp.nack_suppression_duration = Nanoseconds{10'000'000};
+  EXPECT_EQ(refusal("fastdds-2.6.11", fast),
+            "XML for fastdds-2.6.11: sedp.nack_suppression_duration \"10ms\": no user of Fast DDS "
+            "can set it (constant in the library, EDPSimple.cpp:56)");
+  DdsProfile cyclone = preset("cyclonedds-0.10");
+  cyclone.sedp.heartbeat_policy = HeartbeatPolicy::adaptive;
+  EXPECT_EQ(refusal("cyclonedds-0.10", cyclone),
+            "XML for cyclonedds-0.10: sedp.heartbeat_policy \"adaptive\": no user of Cyclone DDS "
+            "can set it (the library doubles its period, which the model has not)");
+  cyclone = preset("cyclonedds-0.10");
+  cyclone.unmodelled.clear();
+  EXPECT_NE(refusal("cyclonedds-0.10", cyclone).find("unmodelled"), std::string::npos);
+}
+
+TEST(WriteXml, every_knob_that_is_not_settable_is_refused) {
+  for (const std::string& name : names) {
+    Scenario scenario;
+    scenario.dds = preset(name);
+    for (const NumericKnob& number : numeric_knobs(scenario)) {
+      if (!number.key.starts_with("dds.")) continue;
+      const auto knobs = vendor_knobs(*vendor_of_preset(name));
+      const auto knob = std::ranges::find_if(knobs, [&](const VendorKnob& one) {
+        return (number.key + ".").starts_with("dds." + std::string{one.key} + ".");
+      });
+      ASSERT_NE(knob, knobs.end()) << number.key;
+      if (!knob->setting.empty()) continue;
+      const DdsProfile changed = with(scenario.dds, number.key.substr(4), number.value + 1);
+      EXPECT_NE(refusal(name, changed).find(std::string{knob->key}), std::string::npos)
+          << number.key;
+    }
+  }
+}
+
+TEST(WriteXml, a_startup_period_without_announcements_is_refused) {
+  DdsProfile profile = preset("fastdds-2.6.11");
+  profile.spdp.startup_announcements = 0;
+  EXPECT_EQ(read_back("fastdds-2.6.11", write("fastdds-2.6.11", profile)), profile);
+  profile.spdp.startup_period = Nanoseconds{1'000'000};
+  EXPECT_EQ(refusal("fastdds-2.6.11", profile),
+            "XML for fastdds-2.6.11: spdp.startup_period \"1ms\": does nothing without startup "
+            "announcements; expected \"100ms\", as the preset has it");
+}
+
+TEST(WriteXml, values_out_of_range_are_refused) {
+  for (const std::string& name : names) {
+    for (const VendorKnob& knob : vendor_knobs(*vendor_of_preset(name))) {
+      if (knob.setting.empty()) continue;
+      const DdsProfile profile = with(preset(name), knob.key, knob.maximum + 1);
+      EXPECT_NE(refusal(name, profile).find("expected"), std::string::npos) << knob.key;
+    }
+  }
+}
+
+TEST(WriteXml, the_vendor_has_to_fit_the_preset) {
+  const DdsProfile paper;
+  EXPECT_FALSE(write_vendor_xml(Vendor::fastdds, "paper", paper, paper, ""));
+  EXPECT_FALSE(write_vendor_xml(Vendor::cyclonedds, "fastdds-2.6.11", paper, paper, ""));
+}
+
+TEST(WriteXml, a_send_buffer_brings_its_own_transport) {
+  const std::string xml =
+      write("fastdds-2.6.11",
+            with(preset("fastdds-2.6.11"), "sedp.piggyback_threshold_bytes", 4'000'000));
+  EXPECT_NE(xml.find("<sendBufferSize>4000000</sendBufferSize>"), std::string::npos);
+  EXPECT_NE(xml.find("<useBuiltinTransports>false</useBuiltinTransports>"), std::string::npos);
+  EXPECT_NE(xml.find("XMLSchemas/fastRTPS_Profiles"), std::string::npos);
+  const std::string other =
+      write("fastdds-2.6.11", with(preset("fastdds-2.6.11"), "spdp.period", 5'000'000'000));
+  EXPECT_EQ(other.find("useBuiltinTransports"), std::string::npos);
+}
+
+TEST(WriteXml, comments_cannot_break_the_document) {
+  for (const std::string& comment :
+       {std::string{"a -- b"}, std::string{"---"}, std::string{"-->"}, std::string{"x\x01y<&>"}}) {
+    EXPECT_EQ(
+        read_back("cyclonedds-0.10", write("cyclonedds-0.10", preset("cyclonedds-0.10"), comment)),
+        preset("cyclonedds-0.10"));
+  }
+}
+
+}  // namespace
+}  // namespace stormproof::model::config::vendor
