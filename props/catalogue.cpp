@@ -162,6 +162,13 @@ const char* name_of(Engine engine) {
 
 std::span<const Property> catalogue() { return entries; }
 
+std::string statement_of(const Property& property, model::ImplementationKind implementation) {
+  std::string text{property.statement};
+  const bool fastdds = implementation == model::ImplementationKind::fastdds;
+  if (fastdds && !property.fastdds.empty()) text.append(" ").append(property.fastdds);
+  return text;
+}
+
 const Property* find_property(std::string_view id) {
   for (const Property& property : catalogue()) {
     if (property.id == id) return &property;

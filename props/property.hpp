@@ -3,8 +3,11 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "model/dds_profile.hpp"
 
 namespace stormproof::props {
 
@@ -17,7 +20,7 @@ struct Property {
   std::string_view id;           ///< "safety.snapshot"
   std::string_view statement;    ///< one sentence
   std::string_view formal;       ///< the same in symbols; D(ata), X, C as in specs/model.md
-  std::string_view fastdds;      ///< the statement for `implementation: fastdds`; empty: the same
+  std::string_view fastdds;      ///< what to add to it for `implementation: fastdds`; may be empty
   std::string_view assumptions;  ///< what it is claimed under; empty: nothing
   std::vector<Engine> engines;   ///< which can decide it
   std::string_view source;       ///< rule or section
@@ -25,6 +28,10 @@ struct Property {
 
 /// All properties, in the order in which reports show them.
 [[nodiscard]] std::span<const Property> catalogue();
+
+/// What the property says about profiles of this implementation.
+[[nodiscard]] std::string statement_of(const Property& property,
+                                       model::ImplementationKind implementation);
 
 /// The property of the catalogue, or the limit (props/limits.hpp), with this id; or null.
 [[nodiscard]] const Property* find_property(std::string_view id);

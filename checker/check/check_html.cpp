@@ -86,7 +86,7 @@ std::string verdicts_html(const CheckReport& report, const CheckContext& context
       table.rows.push_back(
           {report::badge(report::tone_of(kind), report::signed_name(kind)),
            shown ? fmt::format("<a href=\"#{}\">{}</a>", html_text(id), name) : name,
-           html_text(statement_of(*result.property, context.scenario.dds)),
+           html_text(statement_of(*result.property, context.scenario.dds.implementation)),
            html_text(result.decisive().how) + findings_html(result)});
     }
   }
@@ -100,7 +100,8 @@ std::string violation_html(const PropertyResult& result, const CheckContext& con
   const props::Counterexample& found = *result.counterexample();
   std::string html = fmt::format("<section aria-labelledby=\"{0}\">\n<h3 id=\"{0}\">{1}</h3>\n",
                                  html_text(id), html_text("✗ " + id));
-  html += report::paragraph_html(statement_of(*result.property, context.scenario.dds));
+  html +=
+      report::paragraph_html(statement_of(*result.property, context.scenario.dds.implementation));
   html += report::banner(Tone::bad, found.reason);
   html += report::walk_html(found, counterexample::chart_of(found), fmt::format("chart-{}", number),
                             "How " + id + " breaks", drawings, machines);

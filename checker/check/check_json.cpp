@@ -28,7 +28,7 @@ Json result_json(const PropertyResult& result, const CheckContext& context) {
   const props::Finding& decisive = result.decisive();
   Json json;
   json["id"] = result.property->id;
-  json["statement"] = result.property->statement;
+  json["statement"] = statement_of(*result.property, context.scenario.dds.implementation);
   json["verdict"] = name_of(result.verdict);
   json["engine"] = decisive.engine;
   json["how"] = decisive.how;

@@ -95,7 +95,8 @@ nlohmann::ordered_json to_sarif(const CheckReport& report, const CheckContext& c
   for (const PropertyResult& result : report.results) {
     std::string more{result.property->assumptions};
     if (!more.empty()) more = " Claimed under: " + more + ".";
-    const std::string statement = statement_of(*result.property, context.scenario.dds);
+    const std::string statement =
+        statement_of(*result.property, context.scenario.dds.implementation);
     log.rules.push_back({std::string{result.property->id}, statement, statement + more});
     log.results.push_back(result_of(result, context));
   }

@@ -31,13 +31,17 @@ std::string method(const Finding& finding) {
   return finding.engine.empty() ? finding.how : finding.engine + ": " + finding.how;
 }
 
-std::string result_text(const PropertyResult& result, bool verbose) {
+std::string result_text(const PropertyResult& result, const CheckContext& context) {
+  const bool verbose = context.verbose;
   const Finding& decisive = result.decisive();
   const std::size_t margin = verdict_columns + id_columns;
   std::string text = paragraph(left(shown(result.verdict), verdict_columns) +
                                    left(std::string{result.property->id}, id_columns),
                                method(decisive));
-  if (verbose) text += paragraph(indent(margin), std::string{result.property->statement});
+  if (verbose) {
+    text += paragraph(indent(margin),
+                      statement_of(*result.property, context.scenario.dds.implementation));
+  }
   for (const std::string& assumption : decisive.assumptions) {
     text += paragraph(indent(margin, "assuming "), assumption);
   }
@@ -64,7 +68,9 @@ std::string violation_text(const PropertyResult& result, const CheckContext& con
   if (story != context.stories.end()) {
     text += story->second;
   } else {
-    text += paragraph("VIOLATED ", id + ": " + std::string{result.property->statement});
+    text +=
+        paragraph("VIOLATED ",
+                  id + ": " + statement_of(*result.property, context.scenario.dds.implementation));
     text += paragraph("  because ", result.decisive().how);
   }
   if (story == context.stories.end() || context.verbose) {
@@ -96,7 +102,7 @@ std::string to_text(const CheckReport& report, const CheckContext& context) {
       "{}: {} participants, {}\n\n", context.name, context.scenario.deployment.participants.size(),
       fastdds ? "Fast DDS's own rules" : "the rules of the closed-loop model");
   for (const PropertyResult& result : report.results) {
-    text += result_text(result, context.verbose);
+    text += result_text(result, context);
   }
   for (const PropertyResult& result : report.results) {
     if (result.verdict == VerdictKind::violated) text += violation_text(result, context);

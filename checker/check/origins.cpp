@@ -77,13 +77,6 @@ bool in_file(const Place& place) { return place.source != nullptr && place.line 
 
 }  // namespace
 
-std::string statement_of(const props::Property& property, const model::DdsProfile& profile) {
-  std::string text{property.statement};
-  const bool fastdds = profile.implementation == model::ImplementationKind::fastdds;
-  if (fastdds && !property.fastdds.empty()) text += " " + std::string{property.fastdds};
-  return text;
-}
-
 std::vector<std::string_view> knobs_of(std::string_view property) {
   const auto& table = property_knobs();
   const auto found = std::ranges::find(table, property, &PropertyKnobs::property);

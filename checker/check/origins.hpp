@@ -1,4 +1,4 @@
-// What reports about a check say of a property, and where they point: the line of the user's own
+// Where reports about a check point for a property: the line of the user's own
 // file that it is about.
 #pragma once
 
@@ -11,10 +11,6 @@
 #include "props/property.hpp"
 
 namespace stormproof::checker {
-
-/// What the property says about this implementation.
-[[nodiscard]] std::string statement_of(const props::Property& property,
-                                       const model::DdsProfile& profile);
 
 /// Keys of the scenario that decide whether the property holds, the one that usually does first.
 /// Empty if none does: the property is about the rules themselves.

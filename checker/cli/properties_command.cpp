@@ -39,7 +39,7 @@ nlohmann::ordered_json to_json(const props::Property& property) {
   json["id"] = property.id;
   json["statement"] = property.statement;
   json["formal"] = property.formal;
-  json["fastdds"] = property.fastdds.empty() ? property.statement : property.fastdds;
+  json["fastdds"] = statement_of(property, model::ImplementationKind::fastdds);
   json["assumptions"] = property.assumptions;
   json["engines"] = nlohmann::ordered_json::array();
   for (const props::Engine engine : property.engines) json["engines"].push_back(name_of(engine));

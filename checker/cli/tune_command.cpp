@@ -1,7 +1,6 @@
 // Reads the scenario, tunes it, writes the settings as the vendor's XML, prints the report.
 #include "checker/cli/tune_command.hpp"
 
-#include <filesystem>
 #include <memory>
 
 #include <fmt/core.h>
@@ -13,6 +12,7 @@
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
+#include "checker/cli/tune_files.hpp"
 #include "checker/report/plain_text.hpp"
 #include "checker/smt/claims.hpp"
 #include "checker/tune/deploy.hpp"
@@ -23,7 +23,6 @@ namespace stormproof::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
 using model::config::InputError;
 using model::config::SpecPath;
 
@@ -45,8 +44,6 @@ int complain(const std::string& message) {
   fmt::print(stderr, "stormproof: {}\n", message);
   return bad_input;
 }
-
-bool is_one_file(const std::string& output) { return output.ends_with(".xml"); }
 
 /// "2%", "0.02" or "1/50"; nothing if it is none of these, or more than 1.
 std::optional<double> parse_share(std::string text) {
@@ -118,67 +115,6 @@ std::string repeat_line(const TuneArguments& arguments, const tune::Subject& sub
          fmt::format(" --samples {} --seed {}", report.compared.count, report.compared.first);
 }
 
-/// What stands at the top of a written file.
-std::string comment_of(const TuneArguments& arguments, const tune::Subject& subject,
-                       const tune::Row& row, const std::vector<std::string>& prerequisites) {
-  std::string text = fmt::format("Settings for {}, chosen by stormproof tune on {} (seed {}).",
-                                 subject.preset, arguments.scenario, arguments.options.seed);
-  if (row.summary.completion_ns.median) {
-    text += fmt::format(" Predicted: completion {:.3f} s, {:.0f} messages (medians).",
-                        *row.summary.completion_ns.median / 1e9,
-                        row.summary.messages.median.value_or(0));
-  }
-  for (const std::string& what : prerequisites) text += " " + what;
-  return text;
-}
-
-struct Written {
-  std::map<std::string, std::string, std::less<>> files;  ///< by name of the row
-  std::optional<InputError> error;
-};
-
-/// "recommended.xml", "front-2.xml"; with one file, its name.
-std::string file_of(const std::string& output, const tune::Row& row, bool is_recommended) {
-  if (is_one_file(output)) return output;
-  std::string name = row.name;
-  if (const std::size_t space = name.find(' '); space != std::string::npos) name[space] = '-';
-  return (fs::path{output} / (is_recommended ? "recommended.xml" : name + ".xml")).string();
-}
-
-/// Makes every text before it writes any file.
-Written write_files(const TuneArguments& arguments, const tune::Subject& subject,
-                    const tune::Report& report) {
-  Written written;
-  const std::string& output = arguments.output;
-  const bool better = report.answer == tune::Answer::better;
-  if (output.empty() || report.answer == tune::Answer::interrupted) return written;
-  std::vector<std::pair<std::string, std::string>> texts;  // path, XML
-  for (std::size_t k = 0; k < report.rows.size(); ++k) {
-    const tune::Row& row = report.rows[k];
-    const bool is_recommended = better && report.recommended == k;
-    if (row.kind != tune::Row::Kind::front || (is_one_file(output) && !is_recommended)) continue;
-    const model::DdsProfile& profile = row.scenario.dds;
-    const auto needs = tune::prerequisites(subject, profile);
-    const auto xml = tune::deployable(subject, profile, comment_of(arguments, subject, row, needs),
-                                      SpecPath::standard());
-    if (!xml) return {{}, xml.error()};
-    const std::string path = file_of(output, row, is_recommended);
-    texts.emplace_back(path, *xml);
-    written.files[row.name] = path;
-  }
-  std::error_code failed;
-  if (!is_one_file(output) && !texts.empty()) fs::create_directories(output, failed);
-  if (failed) return {{}, InputError{output, failed.message()}};
-  for (const auto& [path, xml] : texts) {
-    OutputFile file{path};
-    auto error = file.open_error();
-    if (!error) file.stream() << xml;
-    if (!error) error = file.commit();
-    if (error) return {{}, InputError{"-o", *error}};
-  }
-  return written;
-}
-
 /// What the engines say about the recommended setting and not about the unchanged one; `broken` is
 /// set if something newly is violated.
 std::vector<std::string> check_lines(const tune::Report& report, bool& broken) {
@@ -232,12 +168,14 @@ int tune_scenario(TuneArguments& arguments) {
   if (!subject) return complain(to_string(subject.error()));
   if (const auto error = complete(arguments, subject->scenario)) return complain(*error);
   if (const auto error = refuse_unwritable(*subject)) return complain(to_string(*error));
+  if (const auto error = refuse_output(arguments.output)) return complain(*error);
   OutputFile svg{arguments.svg_file};
   if (const auto error = svg.open_error()) return complain(*error);
 
   const auto report = run_tune(arguments, *subject);
   if (!report) return complain(to_string(report.error()));
-  const Written written = write_files(arguments, *subject, *report);
+  const TuneFiles written = write_files(
+      {arguments.output, arguments.scenario, arguments.options.seed}, *subject, *report);
   if (written.error) return complain(to_string(*written.error));
 
   tune::Context context{arguments.scenario,

@@ -78,10 +78,7 @@ class Builder {
     chart_.deployment = deployment_text(counterexample_.scenario);
     chart_.timers = timers_text(counterexample_.scenario);
     if (const auto* property = props::find_property(counterexample_.property)) {
-      const bool fastdds =
-          counterexample_.scenario.dds.implementation == model::ImplementationKind::fastdds;
-      const bool own = fastdds && !property->fastdds.empty();
-      chart_.statement = own ? property->fastdds : property->statement;
+      chart_.statement = statement_of(*property, counterexample_.scenario.dds.implementation);
     }
   }
 

@@ -124,15 +124,13 @@ std::string story(const props::Counterexample& counterexample) {
   const History history = record(counterexample);
   const Relevance relevance = relevance_of(history);
   const props::Property* property = props::find_property(counterexample.property);
-  const bool fastdds =
-      counterexample.scenario.dds.implementation == model::ImplementationKind::fastdds;
 
   std::string text =
       fmt::format("{} is violated at event {}, {}\n", counterexample.property,
                   report::grouped(counterexample.event), props::time_text(counterexample.time));
   if (property != nullptr) {
-    const bool own = fastdds && !property->fastdds.empty();
-    text += report::paragraph("  statement  ", own ? property->fastdds : property->statement);
+    text += report::paragraph("  statement  ",
+                              statement_of(*property, counterexample.scenario.dds.implementation));
   }
   text += report::paragraph("  why        ", counterexample.reason);
   text += report::paragraph("  run        ", deployment_text(counterexample.scenario));

@@ -37,11 +37,10 @@ checker::CheckReport check_one(const VerdictRequest& request, const model::Scena
 }
 
 VerdictChange change_of(const checker::PropertyResult& before, const checker::PropertyResult& after,
-                        bool is_fastdds, const Policy& policy) {
+                        model::ImplementationKind implementation, const Policy& policy) {
   VerdictChange change;
   change.property = before.property->id;
-  const bool has_own = is_fastdds && !before.property->fastdds.empty();
-  change.statement = has_own ? before.property->fastdds : before.property->statement;
+  change.statement = statement_of(*before.property, implementation);
   change.before = before.verdict;
   change.after = after.verdict;
   const auto how = [](const checker::PropertyResult& result) {
@@ -92,11 +91,10 @@ VerdictAnswer compare_verdicts(const VerdictRequest& request, const Policy& poli
   answer.interrupted = stopped || reports[0].interrupted || reports[1].interrupted;
   if (answer.interrupted) return answer;
   answer.comparison.done = true;
-  const bool is_fastdds =
-      request.candidate.dds.implementation == model::ImplementationKind::fastdds;
+  const model::ImplementationKind implementation = request.candidate.dds.implementation;
   for (std::size_t k = 0; k < reports[0].results.size(); ++k) {
     answer.comparison.properties.push_back(
-        change_of(reports[0].results[k], reports[1].results[k], is_fastdds, policy));
+        change_of(reports[0].results[k], reports[1].results[k], implementation, policy));
   }
   return answer;
 }

@@ -8,7 +8,7 @@
 
 namespace stormproof::draw {
 
-/// `text` with &, <, > and " as XML entities, and without characters that XML forbids.
+/// `text` with &, <, >, " and ' as XML entities, and without characters that XML forbids.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
 /// An upper bound of the width of `text` in pixels at this font size; multi-byte characters count

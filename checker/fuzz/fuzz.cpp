@@ -64,9 +64,7 @@ class Fuzzer {
       Judgment judgment;
       judgment.id = id;
       if (const props::Property* property = props::find_property(id)) {
-        const bool fastdds = base_.dds.implementation == model::ImplementationKind::fastdds;
-        judgment.statement =
-            fastdds && !property->fastdds.empty() ? property->fastdds : property->statement;
+        judgment.statement = statement_of(*property, base_.dds.implementation);
       }
       report_.judgments.push_back(std::move(judgment));
     }

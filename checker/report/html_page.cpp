@@ -4,35 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "checker/draw/svg.hpp"
 #include "checker/report/plain_text.hpp"
 
 namespace stormproof::report {
 
-std::string html_text(std::string_view text) {
-  std::string result;
-  for (const char c : valid_text(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
+std::string html_text(std::string_view text) { return draw::xml_text(valid_text(text)); }
 
 std::string html_page(std::string_view title, std::string_view body, const Drawings& drawings) {
   return fmt::format(

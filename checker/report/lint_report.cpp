@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "checker/report/paragraph.hpp"
 #include "checker/report/source_line.hpp"
 
 namespace stormproof::report {
@@ -20,14 +21,25 @@ using vendor::Severity;
 
 namespace {
 
+constexpr const char* unmodelled_rule = "unmodelled";
+
 std::string source_of(const config::Place& place) { return place.source ? *place.source : ""; }
 
 auto order(const Remark& remark) {
   return std::tuple{source_of(remark.place), remark.place.line, remark.place.column};
 }
 
+/// Whether the vendor's file sets it to what the model does, in place of a base's other value.
+bool is_as_in_the_model(const config::TracedProfile& traced, const std::string& path) {
+  if (!traced.vendor) return false;
+  const auto& settings = traced.vendor->settings;
+  const auto of_path = [&](const vendor::Setting& one) { return one.path == path; };
+  const auto last = std::find_if(settings.rbegin(), settings.rend(), of_path);
+  return last != settings.rend() && last->effect == vendor::Effect::none;
+}
+
 /// A note for each setting of the linted file that the model has not got, unless there is a remark
-/// about it.
+/// at its place.
 void add_unmodelled(const config::TracedProfile& traced, const config::SpecPath& specs,
                     LintedFile& linted) {
   for (const auto& [setting, effect] : traced.profile.unmodelled) {
@@ -39,11 +51,13 @@ void add_unmodelled(const config::TracedProfile& traced, const config::SpecPath&
       ++linted.unmodelled_below;
       continue;
     }
+    if (is_as_in_the_model(traced, setting)) continue;
     const auto is_about = [&](const Remark& remark) {
-      return source_of(remark.place) == file && remark.place.line == place->second.line;
+      return source_of(remark.place) == file && remark.place.line == place->second.line &&
+             remark.place.column == place->second.column && remark.rule != unmodelled_rule;
     };
     if (std::ranges::any_of(linted.remarks, is_about)) continue;
-    linted.remarks.push_back({Severity::note, "unmodelled", place->second,
+    linted.remarks.push_back({Severity::note, unmodelled_rule, place->second,
                               fmt::format("{} is not in the model: {}", setting, effect), ""});
   }
 }
@@ -52,11 +66,37 @@ std::string plural(std::size_t count, const char* word) {
   return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
 }
 
-std::string remark_text(const Remark& remark) {
-  std::string text = fmt::format("{}: {}: {} [{}]\n", remark.place.to_string(),
-                                 vendor::name_of(remark.severity), remark.message, remark.rule);
-  text += source_line(remark.place);
-  if (!remark.hint.empty()) text += fmt::format("  hint: {}\n", remark.hint);
+/// `text` in lines of the report's width. The first is as a compiler's warning begins; the others
+/// are indented, so that a program that looks for places finds each remark once.
+std::string folded(std::string_view text) {
+  constexpr std::string_view indent = "    ";
+  std::string out;
+  std::size_t used = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const bool breaks = used > indent.size() && used + 1 + columns(word) > report_width;
+    if (breaks) {
+      out += '\n';
+      out += indent;
+      used = indent.size();
+    } else if (!out.empty()) {
+      out += ' ';
+      ++used;
+    }
+    out += word;
+    used += columns(word);
+  }
+  return out + "\n";
+}
+
+std::string remark_text(const Remark& remark, SourceLines& sources) {
+  std::string text =
+      folded(fmt::format("{}: {}: {} [{}]", remark.place.to_string(),
+                         vendor::name_of(remark.severity), remark.message, remark.rule));
+  text += sources.marked(remark.place);
+  if (!remark.hint.empty()) text += paragraph("  hint: ", remark.hint);
   return text;
 }
 
@@ -102,13 +142,16 @@ LintCounts count(const std::vector<LintedFile>& files) {
 
 std::string to_text(const std::vector<LintedFile>& files) {
   std::string text;
+  SourceLines sources;
   for (const LintedFile& file : files) {
-    if (file.error) text += fmt::format("{}: error: {}\n", file.error->where, file.error->message);
-    for (const Remark& remark : file.remarks) text += remark_text(remark);
+    if (file.error) {
+      text += folded(fmt::format("{}: error: {}", file.error->where, file.error->message));
+    }
+    for (const Remark& remark : file.remarks) text += remark_text(remark, sources);
     if (file.unmodelled_below == 0) continue;
-    text += fmt::format(
-        "{}: its base, {}, names {} that the model has not got; profile show lists them\n",
-        file.reference, file.preset, plural(file.unmodelled_below, "setting"));
+    text += folded(fmt::format(
+        "{}: its base, {}, names {} that the model has not got; profile show lists them",
+        file.reference, file.preset, plural(file.unmodelled_below, "setting")));
   }
   const LintCounts counts = count(files);
   text +=

@@ -71,6 +71,11 @@ std::vector<std::string> prerequisites(const Subject& subject, const DdsProfile&
                     "/etc/sysctl.d.",
                     default_wmem_max, buffer));
   }
+  if (subject.vendor == vendor::Vendor::fastdds && is_set) {
+    list.emplace_back(
+        "The buffer needs a UDP transport of its own and useBuiltinTransports false, so user data "
+        "between processes of one host no longer goes through shared memory.");
+  }
   const model::SpdpProfile& spdp = profile.spdp;
   const model::SpdpProfile& before = subject.base.spdp;
   if (spdp.period > before.period || spdp.startup_period > before.startup_period ||

@@ -20,16 +20,19 @@ double logarithm_of_ratio(double candidate, double reference) {
   return std::log(std::max(candidate, 1.0) / std::max(reference, 1.0));
 }
 
-/// How often a changed value may move half the way back.
-constexpr std::size_t most_halvings = 4;
+/// A changed value moves back by a half of the way, a quarter if that is too far, an eighth, and no
+/// further.
+constexpr std::size_t most_failures = 3;
+/// How often a value moves back at most.
+constexpr std::size_t most_moves = 4;
 
 /// A point on its way.
 struct Journey {
-  enum class Stage : std::uint8_t { setting_back, halving, arrived };
+  enum class Stage : std::uint8_t { setting_back, moving_back, arrived };
   Point original;
   Point now;
   Stage stage = Stage::setting_back;
-  std::vector<std::size_t> halvings;  ///< by dimension
+  std::vector<std::size_t> moves, failures;  ///< of moving back, by dimension
 };
 
 /// A step of a journey: one dimension gets another value.
@@ -38,7 +41,7 @@ struct Step {
   Point to;
 };
 
-/// With one change less, each of them; or with one value half the way back.
+/// With one change less, each of them; or with one value moved back.
 std::vector<Step> steps_of(const Space& space, const Journey& journey) {
   std::vector<Step> steps;
   for (const std::size_t d : space.changes(journey.now)) {
@@ -47,9 +50,11 @@ std::vector<Step> steps_of(const Space& space, const Journey& journey) {
     if (journey.stage == Journey::Stage::setting_back) {
       step.to[d] = dimension.unchanged;
     } else {
-      if (journey.halvings[d] == most_halvings) continue;
+      if (journey.failures[d] == most_failures || journey.moves[d] == most_moves) continue;
       const double from = dimension.position_of(journey.now[d]);
-      step.to[d] = dimension.value_at((from + dimension.position_of(dimension.unchanged)) / 2);
+      const double way = dimension.position_of(dimension.unchanged) - from;
+      const double share = std::pow(0.5, static_cast<double>(journey.failures[d] + 1));
+      step.to[d] = dimension.value_at(from + share * way);
       if (step.to[d] == journey.now[d] || step.to[d] == dimension.unchanged) continue;
     }
     steps.push_back(std::move(step));
@@ -65,8 +70,8 @@ class Reducer {
   std::optional<std::vector<Point>> run(const std::vector<Point>& points) {
     std::vector<Journey> journeys;
     for (const Point& point : points) {
-      journeys.push_back(
-          {point, point, Journey::Stage::setting_back, std::vector<std::size_t>(point.size(), 0)});
+      const std::vector<std::size_t> none(point.size(), 0);
+      journeys.push_back({point, point, Journey::Stage::setting_back, none, none});
     }
     if (!archive_.extend(points, seeds_)) return std::nullopt;
     const auto is_on_its_way = [](const Journey& journey) {
@@ -95,25 +100,31 @@ class Reducer {
     return !problem_.is_valid || problem_.is_valid(point);
   }
 
-  /// Takes the step that costs least, if one may be taken; otherwise the next stage begins.
+  /// Takes the step that costs least, if one may be taken. The next stage begins if none may, or
+  /// none is left.
   void go_on(Journey& journey) const {
+    const bool moves_back = journey.stage == Journey::Stage::moving_back;
     const Step* best = nullptr;
     double least_cost = 0;
     const std::vector<Step> steps = steps_of(problem_.space, journey);
     for (const Step& step : steps) {
-      if (!is_valid(step.to) || !is_as_good(step.to, journey.original)) continue;
+      if (!is_valid(step.to) || !is_as_good(step.to, journey.original)) {
+        if (moves_back) ++journey.failures[step.dimension];
+        continue;
+      }
       const double cost = archive_.cost(step.to, seeds_).completion;
       if (best != nullptr && cost >= least_cost) continue;
       best = &step;
       least_cost = cost;
     }
-    if (best == nullptr) {
-      journey.stage = journey.stage == Journey::Stage::setting_back ? Journey::Stage::halving
-                                                                    : Journey::Stage::arrived;
-      return;
+    if (best != nullptr) {
+      if (moves_back) ++journey.moves[best->dimension];
+      journey.now = best->to;
+    } else if (!moves_back) {
+      journey.stage = Journey::Stage::moving_back;
+    } else if (steps.empty()) {
+      journey.stage = Journey::Stage::arrived;
     }
-    if (journey.stage == Journey::Stage::halving) ++journey.halvings[best->dimension];
-    journey.now = best->to;
   }
 
   [[nodiscard]] bool is_as_good(const Point& candidate, const Point& original) const {

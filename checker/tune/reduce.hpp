@@ -1,7 +1,7 @@
 // What a search returns has changed every knob a little, most of them for nothing, and some further
 // than it helps. A user wants two lines of XML, not nine, and no send buffer of 60 MB where 10 MB
-// do: this sets knobs back one after the other, and then moves those that remain half the way back,
-// as long as the result is not clearly worse than what the search found.
+// do: this sets knobs back one after the other, and then moves those that remain part of the way
+// back, as long as the result is not clearly worse than what the search found.
 #pragma once
 
 #include "checker/tune/outcome.hpp"

@@ -85,8 +85,8 @@ class Examples : public testing::Test {
         "cd '" + (home_ / "repository").string() + "' && PATH='" + path_ +
         "'\"$PATH\" RUNNER_TEMP='" + (home_ / "temp").string() + "' GITHUB_PATH='" +
         (home_ / "path").string() + "' GITHUB_STEP_SUMMARY='" + (home_ / "summary").string() +
-        "' BASE=origin/main PROFILE=dds/robots.xml bash -e '" + (home_ / "script").string() +
-        "' > '" + (home_ / "output").string() + "' 2>&1 </dev/null";
+        "' BASE=origin/main PROFILE=dds/robots.xml FLEET=dds/fleet.yaml bash -e '" +
+        (home_ / "script").string() + "' > '" + (home_ / "output").string() + "' 2>&1 </dev/null";
     const int status = std::system(command.c_str());
     std::ifstream added{home_ / "path"};
     path_.clear();
@@ -139,14 +139,14 @@ TEST_F(Examples, TheWorkflowPassesAChangeThatDoesNotMatter) {
   for (const char* name : {"comparison.md", "comparison.html", "comparison.sarif"}) {
     EXPECT_GT(fs::file_size(file("discovery") / name), 0U) << name;
   }
-  EXPECT_NE(content(home_ / "summary").find("No regression"), std::string::npos)
+  EXPECT_NE(content(home_ / "summary").find("NO REGRESSION"), std::string::npos)
       << content(home_ / "summary");
 }
 
 TEST_F(Examples, TheWorkflowStopsARegressionAndStillShowsIt) {
   write(file("dds/robots.xml"), harmful);
   EXPECT_EQ(run_workflow(), (std::vector<int>{0, 0, 1, 0})) << output();
-  EXPECT_NE(content(home_ / "summary").find("Regression"), std::string::npos);
+  EXPECT_NE(content(home_ / "summary").find("REGRESSION"), std::string::npos);
   const std::string sarif = content(file("discovery/comparison.sarif"));
   EXPECT_NE(sarif.find("dds/robots.xml"), std::string::npos);
   EXPECT_NE(sarif.find("\"startLine\": 5"), std::string::npos);

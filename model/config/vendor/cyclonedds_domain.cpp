@@ -153,8 +153,11 @@ void CycloneDomainReader::refuse(const Place& place, const std::string& path,
     profile_.settings.push_back(std::move(setting));
     return;
   }
-  const std::vector<std::string> names = names_below(parent, is_attribute);
-  const std::string elsewhere = is_attribute ? "" : path_ending_in(name);
+  const bool has_hint = hints_left_ > 0;
+  if (has_hint) --hints_left_;
+  const std::vector<std::string> names =
+      has_hint ? names_below(parent, is_attribute) : std::vector<std::string>{};
+  const std::string elsewhere = is_attribute || !has_hint ? "" : path_ending_in(name);
   const std::string nearest = elsewhere.empty() ? suggestion(name, names) : "";
   setting.note = fmt::format("Cyclone DDS 0.10 has no such {} and refuses the file", kind);
   constexpr std::size_t few = 12;

@@ -45,6 +45,7 @@ class CycloneDomainReader {
   CycloneSettings& settings_;
   std::set<std::string_view> seen_;  ///< in this Domain
   std::optional<InputError> failure_;
+  std::size_t hints_left_ = 1000;  ///< a hint compares with every name there is
 };
 
 }  // namespace stormproof::model::config::vendor

@@ -22,6 +22,7 @@ class Network {
   void apply() {
     apply_multicast();
     apply_transport();
+    apply_loopback();
     apply_interfaces();
   }
 
@@ -118,6 +119,24 @@ class Network {
     } else {
       setting(*enabled).effect = Effect::none;
       setting(*enabled).note = "UDP, as in the model";
+    }
+  }
+
+  /// The loopback interface as the only one: nothing leaves the host.
+  void apply_loopback() {
+    for (const char* path :
+         {"General/Interfaces/NetworkInterface[@name]",
+          "General/Interfaces/NetworkInterface[@address]", "General/NetworkInterfaceAddress"}) {
+      const CycloneReading* reading = settings_.find(path);
+      if (reading == nullptr || settings_.interfaces.size() > 1) continue;
+      const std::string& word = reading->value.word;
+      if (word != "lo" && word != "::1" && !word.starts_with("127.")) continue;
+      setting(*reading).effect = Effect::outside;
+      setting(*reading).note = "packets do not leave the host";
+      remark(Severity::error, "outside", reading->place,
+             fmt::format("{} {}: packets do not leave the host; the model cannot describe this "
+                         "system",
+                         path, word));
     }
   }
 

@@ -3,6 +3,8 @@
 // old names for what has moved.
 #include <algorithm>
 #include <charconv>
+#include <set>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,6 +48,13 @@ Result<std::string> domain_id(const XmlElement& domain) {
   return fmt::format("{}", number);
 }
 
+/// The first ten, with commas.
+std::string list_of(const std::vector<std::string>& ids) {
+  constexpr std::size_t most = 10;
+  const std::span first{ids.data(), std::min(ids.size(), most)};
+  return fmt::format("{}{}", fmt::join(first, ", "), ids.size() > most ? ", …" : "");
+}
+
 /// The elements that count, and the name of the choice.
 class Choice {
  public:
@@ -70,19 +79,18 @@ class Choice {
   /// Sets `profile.name`.
   Failure choose(const XmlElement& root, const std::string& wanted, VendorProfile& profile) const {
     std::vector<std::string> ids;
+    std::set<std::string_view> known;
     bool has_any = sources_.empty();
     for (const Source& source : sources_) {
       has_any = has_any || source.id == any;
-      if (source.id != any && std::ranges::find(ids, source.id) == ids.end()) {
-        ids.push_back(source.id);
-      }
+      if (source.id != any && known.insert(source.id).second) ids.push_back(source.id);
     }
     if (wanted.empty()) {
       if (ids.size() > 1) {
         return error_at(root.place,
                         fmt::format("settings for the domains {}; expected one of them after the "
                                     "file's name, as in FILE#{}",
-                                    fmt::join(ids, ", "), ids.front()));
+                                    list_of(ids), ids.front()));
       }
       profile.name = ids.empty() ? std::string{any} : ids.front();
       if (!ids.empty() && has_any) {
@@ -101,7 +109,7 @@ class Choice {
     if (!is_there && !(has_any && (is_number || is_same_word(wanted, any)))) {
       if (has_any) ids.insert(ids.begin(), std::string{any});
       return error_at(root.place, fmt::format("no settings for domain {}; expected one of {}",
-                                              quote(wanted), fmt::join(ids, ", ")));
+                                              quote(wanted), list_of(ids)));
     }
     profile.name = is_number ? wanted : std::string{any};
     return std::nullopt;
@@ -170,6 +178,9 @@ Result<VendorProfile> read_cyclonedds_profile(const XmlElement& root, const Sele
   if (!failure) failure = apply_cyclone_settings(settings, profile);
   if (failure) return *std::move(failure);
 
+  for (Setting& setting : profile.settings) {
+    if (setting.effect != Effect::knob) setting.knob.clear();
+  }
   profile.changes.place = root.place;
   Node base;
   base.kind = Node::Kind::scalar;

@@ -211,12 +211,14 @@ void set_knob(Reading& reading, const Found& found, std::string_view section, st
 void set_inert(Reading& reading, const Found& found, std::string note) {
   Setting& setting = reading.setting_of(found);
   setting.effect = Effect::none;
+  setting.knob.clear();
   setting.note = std::move(note);
 }
 
 void set_outside(Reading& reading, const Found& found, std::string note) {
   Setting& setting = reading.setting_of(found);
   setting.effect = Effect::outside;
+  setting.knob.clear();
   setting.note = std::move(note);
   add_remark(reading.profile, Severity::error, "fastdds.outside", found.value.place,
              fmt::format("{} = {}: {}; the model cannot describe this system", setting.path,

@@ -36,6 +36,7 @@ struct Reading {
 
 /// The elements in which profiles stand: <profiles>, and <dds> itself.
 [[nodiscard]] std::vector<const XmlElement*> containers_of(const XmlElement& root);
+/// Those in the first <profiles>; the library keeps no others.
 [[nodiscard]] std::vector<const XmlElement*> participants_of(const XmlElement& root);
 /// Empty if it has none.
 [[nodiscard]] std::string name_of_profile(const XmlElement& participant);
@@ -44,6 +45,8 @@ struct Reading {
                                                    const std::string& wanted);
 /// Elements that may not stand in <dds> or <profiles>.
 void remark_containers(Reading& reading);
+/// What makes the library refuse the file because of participants that were not selected.
+void check_other_participants(Reading& reading, const SectionRules& rules);
 /// What is wrong with the choice between the participants.
 void remark_participants(Reading& reading);
 

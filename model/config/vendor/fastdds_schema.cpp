@@ -95,6 +95,9 @@ constexpr std::array participant_items{
     SchemaItem{"rtps/builtin/metatrafficMulticastLocatorList", locators, "", Effect::unmodelled,
                "announcements go to these groups; the model has the one group that all "
                "participants are in"},
+    SchemaItem{"rtps/builtin/metatraffic_external_unicast_locators", opaque, "", Effect::unmodelled,
+               "participants announce external addresses, too; those of the model have none", "",
+               210},
     SchemaItem{"rtps/builtin/readerHistoryMemoryPolicy", choice, "PREALLOCATED_WITH_REALLOC",
                Effect::none, memory_note, history_policies},
     SchemaItem{"rtps/builtin/writerHistoryMemoryPolicy", choice, "PREALLOCATED_WITH_REALLOC",

@@ -19,6 +19,9 @@ std::string as_hint(std::string_view suggested) {
   return std::string{suggested.substr(std::min<std::size_t>(2, suggested.size()))};
 }
 
+/// Since when an <interfaceWhiteList> may name interfaces.
+constexpr Version interface_names = 214;
+
 class SectionReader {
  public:
   SectionReader(const SectionRules& rules, VendorProfile& profile)
@@ -42,6 +45,7 @@ class SectionReader {
         read_properties(child, child_path);
       } else {
         add(child, child_path, *item, read_value(child, *item, profile_));
+        if (item->kind == ValueKind::addresses) check_addresses(child, child_path);
       }
     }
   }
@@ -69,6 +73,18 @@ class SectionReader {
     setting.note = is_default ? "the library's default" : std::string{item.note};
     section_.found.push_back({&item, &element, std::move(value), profile_.settings.size()});
     profile_.settings.push_back(std::move(setting));
+  }
+
+  /// Anything but an address makes the library refuse the file; names of interfaces came later.
+  void check_addresses(const XmlElement& list, const std::string& path) {
+    static const SchemaItem interface {
+      "interface", ValueKind::text, "", Effect::none, "", "", interface_names
+    };
+    for (const XmlElement& child : list.children) {
+      const bool is_interface = child.name == interface.path;
+      if (child.name == "address" || (is_interface && interface.since <= rules_.version)) continue;
+      unknown(child, list, path, is_interface ? &interface : nullptr);
+    }
   }
 
   void add_without_value(const XmlElement& element, const std::string& path, Effect effect,
@@ -154,11 +170,17 @@ class SectionReader {
 
   void read_properties(const XmlElement& policy, const std::string& path) {
     for (const XmlElement& list : policy.children) {
-      if (list.name == "binary_properties") continue;
-      if (list.name != "properties") {
+      const bool is_binary = list.name == "binary_properties";
+      if (!is_binary && list.name != "properties") {
         unknown(list, policy, path, nullptr);
         continue;
       }
+      if (list.find("property") == nullptr) {
+        refuse(list.place, fmt::format("no <property> in <{}>; expected one at least, or leave it "
+                                       "out",
+                                       list.name));
+      }
+      if (is_binary) continue;
       for (const XmlElement& property : list.children) {
         const XmlElement* name = property.find("name");
         if (property.name != "property" || name == nullptr || name->text.empty()) {
@@ -177,7 +199,10 @@ class SectionReader {
     const SchemaItem* known = find_item(property_schema(), name.text);
     const XmlElement* value = property.find("value");
     Value read{0, false, {}, name.place, {}};
-    if (value != nullptr && !value->text.empty()) {
+    if (value != nullptr) {
+      if (value->text.empty()) {
+        refuse(value->place, "nothing in <value>; expected text, or leave <value> out");
+      }
       read.shown = value->text;
       read.place = value->text_place;
     }

@@ -1,6 +1,7 @@
 // Which participant profile of a Fast DDS file is meant, and what the file says around it. The
-// library takes the profile that is named, or the one with is_default_profile="true"
-// (XMLProfileManager.cpp); ROS 2 asks for the default one only.
+// library takes the profile that is named, or the one with is_default_profile="true"; of a file it
+// keeps the profiles in the first <profiles> only, the first of each name (XMLProfileManager.cpp's
+// loadXMLFile and extractParticipantProfile). ROS 2 asks for the default one only.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -28,7 +29,6 @@ void check_names(const XmlElement& container, Reading& reading) {
   if (names.empty()) return;
   if (container.name == "profiles") {
     names.emplace_back("types");
-    names.emplace_back("log");
   }
   for (const XmlElement& child : container.children) {
     if (std::ranges::find(names, child.name) != names.end()) continue;
@@ -72,9 +72,12 @@ std::string list_of(const std::vector<const XmlElement*>& participants) {
 
 void remark_attributes(const XmlElement& participant, Reading& reading) {
   constexpr std::array<std::string_view, 2> known{"profile_name", "is_default_profile"};
-  if (participant.attribute("profile_name") == nullptr) {
+  if (const std::string* name = participant.attribute("profile_name");
+      name == nullptr || name->empty()) {
     add_remark(reading.profile, Severity::error, "fastdds.missing-profile-name", participant.place,
-               "<participant> has no attribute profile_name; the library refuses it");
+               fmt::format("<participant> {}; the library refuses it",
+                           name == nullptr ? "has no attribute profile_name"
+                                           : "has an empty profile_name"));
   }
   for (const XmlAttribute& attribute : participant.attributes) {
     if (std::ranges::find(known, attribute.name) == known.end()) {
@@ -92,6 +95,38 @@ void remark_attributes(const XmlElement& participant, Reading& reading) {
   }
 }
 
+/// The container whose profiles the library keeps; null if there is none.
+const XmlElement* kept_container(const XmlElement& root) {
+  return root.name == "dds" ? root.find("profiles") : &root;
+}
+
+/// Profiles that are read and then forgotten.
+void remark_forgotten(const XmlElement& container, Reading& reading) {
+  constexpr std::array<std::string_view, 8> kinds{"participant", "data_writer", "publisher",
+                                                  "data_reader", "subscriber",  "topic",
+                                                  "requester",   "replier"};
+  const bool is_root = container.name == "dds";
+  for (const XmlElement& child : container.children) {
+    if (std::ranges::find(kinds, child.name) == kinds.end()) continue;
+    add_remark(reading.profile, Severity::warning, "fastdds.forgotten-profile", child.place,
+               fmt::format("<{}> {} has no effect: the library reads it, but keeps only what is in "
+                           "the first <profiles>",
+                           child.name, is_root ? "directly in <dds>" : "in a second <profiles>"),
+               "put it into the first <profiles>");
+  }
+}
+
+/// Those of `all` that the library keeps: with a name, and the first of that name.
+std::vector<const XmlElement*> kept(const std::vector<const XmlElement*>& all) {
+  std::set<std::string> names;
+  std::vector<const XmlElement*> ones;
+  for (const XmlElement* one : all) {
+    const std::string name = name_of_profile(*one);
+    if (!name.empty() && names.insert(name).second) ones.push_back(one);
+  }
+  return ones;
+}
+
 }  // namespace
 
 std::vector<const XmlElement*> containers_of(const XmlElement& root) {
@@ -106,10 +141,10 @@ std::vector<const XmlElement*> containers_of(const XmlElement& root) {
 std::vector<const XmlElement*> participants_of(const XmlElement& root) {
   if (root.name == "participant") return {&root};
   std::vector<const XmlElement*> participants;
-  for (const XmlElement* container : containers_of(root)) {
-    for (const XmlElement& child : container->children) {
-      if (child.name == "participant") participants.push_back(&child);
-    }
+  const XmlElement* container = kept_container(root);
+  if (container == nullptr) return participants;
+  for (const XmlElement& child : container->children) {
+    if (child.name == "participant") participants.push_back(&child);
   }
   return participants;
 }
@@ -132,14 +167,16 @@ const XmlElement* select_participant(const XmlElement& root, const std::string& 
                                    all.empty() ? "a file that has one" : "one of " + list_of(all)));
   }
   if (all.empty()) return nullptr;
-  const auto last = std::ranges::find_if(all.rbegin(), all.rend(),
+  const std::vector<const XmlElement*> choice = kept(all);
+  if (choice.empty()) return all.front();  // a remark says what it lacks
+  const auto last = std::ranges::find_if(choice.rbegin(), choice.rend(),
                                          [](const XmlElement* one) { return is_default(*one); });
-  if (last != all.rend()) return *last;
-  if (all.size() == 1) return all.front();
-  refuse(all[1]->place,
+  if (last != choice.rend()) return *last;
+  if (choice.size() == 1) return choice.front();
+  refuse(choice[1]->place,
          fmt::format("several participant profiles and none with is_default_profile=\"true\"; "
                      "expected the name of one of {}",
-                     list_of(all)));
+                     list_of(choice)));
 }
 
 void remark_participants(Reading& reading) {
@@ -147,10 +184,11 @@ void remark_participants(Reading& reading) {
   const XmlElement* first_default = nullptr;
   for (const XmlElement* one : participants_of(*reading.root)) {
     remark_attributes(*one, reading);
-    if (!names.insert(name_of_profile(*one)).second) {
+    if (!name_of_profile(*one).empty() && !names.insert(name_of_profile(*one)).second) {
       add_remark(reading.profile, Severity::error, "fastdds.repeated-profile", one->place,
                  fmt::format("a second participant profile {}; the library refuses it",
                              quote(name_of_profile(*one))));
+      continue;
     }
     if (is_default(*one) && first_default != nullptr) {
       add_remark(reading.profile, Severity::warning, "fastdds.several-defaults", one->place,
@@ -176,6 +214,25 @@ void remark_participants(Reading& reading) {
 void remark_containers(Reading& reading) {
   for (const XmlElement* container : containers_of(*reading.root)) {
     check_names(*container, reading);
+    const XmlElement* keeps = kept_container(*reading.root);
+    if (container != keeps && container->name != "participant") {
+      remark_forgotten(*container, reading);
+    }
+  }
+}
+
+void check_other_participants(Reading& reading, const SectionRules& rules) {
+  for (const XmlElement* container : containers_of(*reading.root)) {
+    for (const XmlElement& child : container->children) {
+      if (child.name != "participant" || &child == reading.participant) continue;
+      VendorProfile other;
+      (void)read_section(child, rules, other);
+      for (Remark& remark : other.remarks) {
+        if (remark.severity == Severity::error) {
+          reading.profile.remarks.push_back(std::move(remark));
+        }
+      }
+    }
   }
 }
 

@@ -54,7 +54,15 @@ void check_transport_sizes(Reading& reading, const Transport& transport) {
   const std::string owner = fmt::format("transport {}", quote(transport.id));
   const Found* message = transport.section.find("maxMessageSize");
   const std::int64_t largest = message == nullptr ? largest_message : message->value.number;
-  if (largest > largest_message) {
+  const bool is_shm = transport.type == "SHM";
+  const Found* segment = transport.section.find("segment_size");
+  if (is_shm && (segment == nullptr || segment->value.number == 0) && largest > default_segment) {
+    add_remark(reading.profile, Severity::error, "fastdds.message-size", message->value.place,
+               fmt::format("<maxMessageSize> of {} is {} bytes; the library does not register a "
+                           "transport with more than its segment of {}",
+                           owner, largest, default_segment));
+  }
+  if (!is_shm && largest > largest_message) {
     add_remark(reading.profile, Severity::error, "fastdds.message-size", message->value.place,
                fmt::format("<maxMessageSize> of {} is {} bytes; the library does not register a "
                            "transport with more than {}",
@@ -108,6 +116,7 @@ void set_least(Reading& reading, const std::vector<Contribution>& all, std::stri
     } else {
       set_inert(reading, *one.source,
                 fmt::format("{} has {} bytes, and the least counts", least->owner, least->bytes));
+      if (one.source->item->name() == "segment_size") continue;  // it holds user data, too
       add_remark(reading.profile, Severity::warning, std::string{rule}, one.source->value.place,
                  fmt::format("{} bytes for {} change nothing: {} has {} bytes, and the least of "
                              "all transports in use counts",

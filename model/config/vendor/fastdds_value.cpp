@@ -36,6 +36,22 @@ std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
+/// Words that '|' or blanks separate; one empty word if there is none.
+std::vector<std::string> words_of(std::string_view text) {
+  constexpr std::string_view separators = "| \t\r\n";
+  std::vector<std::string> words;
+  while (true) {
+    const std::size_t first = std::min(text.find_first_not_of(separators), text.size());
+    text.remove_prefix(first);
+    if (text.empty()) break;
+    const std::size_t end = std::min(text.find_first_of(separators), text.size());
+    words.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  if (words.empty()) words.emplace_back();
+  return words;
+}
+
 std::int64_t read_number(const XmlElement& element, std::int64_t minimum, std::int64_t maximum,
                          VendorProfile& profile) {
   if (element.text.empty()) {
@@ -193,6 +209,17 @@ Value read_list(const XmlElement& element, std::string_view name, std::size_t mi
   return value;
 }
 
+/// Addresses and names of interfaces. Other elements are for the section's reader to refuse.
+Value read_addresses(const XmlElement& element) {
+  Value value{0, false, {}, element.place, {}};
+  for (const XmlElement& child : element.children) {
+    if (!child.text.empty()) value.items.push_back(child.text);
+  }
+  value.number = static_cast<std::int64_t>(value.items.size());
+  value.shown = fmt::format("{}", fmt::join(value.items, ", "));
+  return value;
+}
+
 }  // namespace
 
 std::optional<LeadingNumber> leading_number(std::string_view text) {
@@ -239,7 +266,7 @@ Value read_value(const XmlElement& element, const SchemaItem& item, VendorProfil
       value.shown = read_choice(element, element.text, item.choices);
       return value;
     case ValueKind::choices:
-      for (const std::string& part : split(element.text, '|')) {
+      for (const std::string& part : words_of(element.text)) {
         value.items.push_back(read_choice(element, part, item.choices));
       }
       value.shown = fmt::format("{}", fmt::join(value.items, " | "));
@@ -247,7 +274,7 @@ Value read_value(const XmlElement& element, const SchemaItem& item, VendorProfil
     case ValueKind::locators:
       return read_list(element, "locator", 1, profile);
     case ValueKind::addresses:
-      return read_list(element, "address", 0, profile);
+      return read_addresses(element);
     case ValueKind::transports:
       return read_list(element, "transport_id", 1, profile);
     case ValueKind::group:

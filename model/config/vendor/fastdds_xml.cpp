@@ -2,7 +2,6 @@
 // the participant, lets the parts be interpreted, and turns the result into a profile that changes
 // a preset.
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <set>
 
@@ -82,21 +81,24 @@ void read_transports(const XmlElement& root, Reading& reading) {
 void read_library_settings(const XmlElement& root, Reading& reading) {
   for (const XmlElement* container : containers_of(root)) {
     const XmlElement* settings = container->find("library_settings");
-    const XmlElement* delivery =
-        settings == nullptr ? nullptr : settings->find("intraprocess_delivery");
-    if (delivery == nullptr) continue;
-    std::string upper = delivery->text;
-    std::ranges::transform(upper, upper.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    if (upper != "OFF" && upper != "USER_DATA_ONLY" && upper != "FULL") {
+    if (settings == nullptr) continue;
+    const XmlElement* delivery = settings->find("intraprocess_delivery");
+    if (delivery == nullptr) {
+      add_remark(reading.profile, Severity::error, "fastdds.library-settings", settings->place,
+                 "<library_settings> without <intraprocess_delivery>; the library refuses the file",
+                 "leave <library_settings> out");
+      continue;
+    }
+    const std::string& word = delivery->text;
+    if (word != "OFF" && word != "USER_DATA_ONLY" && word != "FULL") {
       refuse(delivery->text_place,
              fmt::format("{} in <intraprocess_delivery>; expected OFF, USER_DATA_ONLY or FULL",
-                         quote(delivery->text)));
+                         quote(word)));
     }
     reading.profile.settings.push_back(
-        {"library_settings/intraprocess_delivery", upper, delivery->text_place, Effect::none, "",
-         upper == "FULL" ? "the library's default"
-                         : "acts between participants of one process only"});
+        {"library_settings/intraprocess_delivery", word, delivery->text_place, Effect::none, "",
+         word == "FULL" ? "the library's default"
+                        : "acts between participants of one process only"});
   }
 }
 
@@ -205,6 +207,7 @@ VendorProfile read(const XmlElement& root, const Selection& selection) {
     const SectionRules rules{
         .schema = participant_schema(), .version = reading.version, .refuses_repetition = true};
     reading.section = read_section(*reading.participant, rules, reading.profile);
+    check_other_participants(reading, rules);
     interpret_transports(reading);
     interpret_announcements(reading);
     interpret_participant(reading);

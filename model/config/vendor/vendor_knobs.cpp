@@ -16,7 +16,7 @@ constexpr std::string_view descriptor = "what a descriptor says: names, types an
 constexpr VendorKnob fastdds_knobs[] = {
     {"implementation", "", "the library's own writer"},
     {"spdp.period", "rtps/builtin/discovery_config/leaseAnnouncement",
-     "twice this has to fit into leaseDuration, 20 s", 100 * ms, 10 * second},
+     "has to be less than leaseDuration, 20 s", 100 * ms, 10 * second},
     {"spdp.startup_announcements", "rtps/builtin/discovery_config/initialAnnouncements/count",
      "after the first one", 0, 100},
     {"spdp.startup_period", "rtps/builtin/discovery_config/initialAnnouncements/period",

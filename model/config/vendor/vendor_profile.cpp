@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "model/config/vendor/cyclonedds_values.hpp"
+
 namespace stormproof::model::config::vendor {
 
 const char* name_of(Vendor vendor) {
@@ -29,7 +31,7 @@ std::string_view default_base(Vendor vendor) {
 std::optional<Vendor> vendor_of(const XmlElement& root) {
   constexpr std::array<std::string_view, 3> fastdds_roots{"dds", "profiles", "participant"};
   if (std::ranges::find(fastdds_roots, root.name) != fastdds_roots.end()) return Vendor::fastdds;
-  if (root.name == "CycloneDDS") return Vendor::cyclonedds;
+  if (is_same_word(root.name, "CycloneDDS")) return Vendor::cyclonedds;
   return std::nullopt;
 }
 

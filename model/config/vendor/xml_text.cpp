@@ -130,6 +130,14 @@ class XmlBuilder {
     if (++elements_ > max_xml_elements) {
       return refuse(element.place, fmt::format("more than {} elements", max_xml_elements));
     }
+    std::size_t longest = name.size();
+    for (const XML_Char** one = attributes; *one != nullptr; one += 2) {
+      longest = std::max(longest, std::string_view{*one}.size());
+    }
+    if (longest > max_xml_name_bytes) {
+      return refuse(element.place, fmt::format("a name of {} bytes; expected {} at most", longest,
+                                               max_xml_name_bytes));
+    }
     for (; *attributes != nullptr; attributes += 2) {
       if (!is_about_the_text(attributes[0])) {
         element.attributes.push_back({attributes[0], attributes[1]});

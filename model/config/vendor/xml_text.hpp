@@ -14,6 +14,7 @@ namespace stormproof::model::config::vendor {
 inline constexpr std::size_t max_xml_bytes = 4 * 1024 * 1024;
 inline constexpr std::size_t max_xml_depth = 64;
 inline constexpr std::size_t max_xml_elements = 100'000;
+inline constexpr std::size_t max_xml_name_bytes = 256;  ///< of an element or attribute
 
 struct XmlAttribute {
   std::string name;
@@ -36,7 +37,7 @@ struct XmlElement {
 
 /// The root element. `source` is the name in error messages. Errors, each with line and column: not
 /// well-formed, not UTF-8 (or another encoding that the declaration names and the parser knows), a
-/// document type declaration, a text, depth or number of elements over the limits.
+/// document type declaration, a text, name, depth or number of elements over the limits.
 [[nodiscard]] Result<XmlElement> parse_xml(std::string_view text, const std::string& source);
 
 /// Reads a file; in addition: not readable, a directory, longer than `max_xml_bytes`.

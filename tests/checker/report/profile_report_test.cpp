@@ -3,6 +3,9 @@
 #include "checker/report/profile_report.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <memory>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -170,8 +173,51 @@ TEST(SourceLine, a_long_line_is_cut_around_its_column) {
   const std::size_t caret = marked.rfind('^') - marked.rfind('\n', marked.rfind('^')) - 1;
   const std::string first = marked.substr(0, marked.find('\n'));
   EXPECT_EQ(first.find("<a>") - std::string{"…"}.size() + 1, caret);
-  EXPECT_TRUE(source_line({}).empty());
-  EXPECT_TRUE(source_line({std::make_shared<const std::string>("/no/such/file"), 1, 1}).empty());
+  EXPECT_TRUE(SourceLines{}.marked({}).empty());
+  const auto nowhere = std::make_shared<const std::string>("/no/such/file");
+  EXPECT_TRUE(SourceLines{}.marked({nowhere, 1, 1}).empty());
+}
+
+TEST(SourceLine, lines_end_as_xml_says) {
+  const std::string path = testing::TempDir() + "source_line.xml";
+  const auto marked = [&](const std::string& text, int line, int column) {
+    std::ofstream{path, std::ios::binary} << text;
+    return SourceLines{}.marked({std::make_shared<const std::string>(path), line, column});
+  };
+  const std::string second = "    2 | <b>\n      | ^\n";
+  EXPECT_EQ(marked("<a>\n<b>\n", 2, 1), second);
+  EXPECT_EQ(marked("<a>\r\n<b>\r\n", 2, 1), second);
+  EXPECT_EQ(marked("<a>\r<b>\r", 2, 1), second);
+  EXPECT_EQ(marked("\xEF\xBB\xBF<a>", 1, 1), "    1 | <a>\n      | ^\n");
+  EXPECT_EQ(marked("<a>\n", 3, 1), "");
+  EXPECT_EQ(marked(std::string{"<\0a\0>\0", 6}, 1, 1), "");
+  std::remove(path.c_str());
+}
+
+TEST(LintReport, settings_of_one_line_are_each_a_remark) {
+  const std::string path = testing::TempDir() + "one_line.xml";
+  std::ofstream{path} << "<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast>"
+                         "</General><Discovery><ParticipantIndex>auto</"
+                         "ParticipantIndex><Peers><Peer Address='10.0.0.1'/></Peers>"
+                         "</Discovery></Domain></CycloneDDS>";
+  const LintedFile linted = lint_profile(path, specs);
+  EXPECT_EQ(std::ranges::count(linted.remarks, "unmodelled", &config::vendor::Remark::rule), 2);
+  expect_narrow(to_text({linted}).substr(path.size()));
+  std::ofstream{path} << "<CycloneDDS><Domain><General><AllowMulticast>spdp</AllowMulticast>"
+                         "</General></Domain></CycloneDDS>";
+  EXPECT_TRUE(lint_profile(path, specs).remarks.empty());
+  std::remove(path.c_str());
+}
+
+TEST(LintReport, as_many_remarks_as_elements_are_no_trouble) {
+  const std::string path = testing::TempDir() + "many.xml";
+  std::string text = "<dds><profiles><participant profile_name='p'>";
+  for (int k = 0; k < 20'000; ++k) text += "<nothing/>\n";
+  std::ofstream{path} << text << "</participant></profiles></dds>";
+  const LintedFile linted = lint_profile(path, specs);
+  EXPECT_EQ(count({linted}).errors, 20'000U);
+  EXPECT_NE(to_text({linted}).find("19999 | <nothing/>"), std::string::npos);
+  std::remove(path.c_str());
 }
 
 TEST(Assumptions, are_named_in_every_form_or_not_at_all) {

@@ -92,7 +92,8 @@ TEST(SensitivityLevels, KeysOfTheOtherImplementationAreNotThere) {
     return std::ranges::find(keys, key, &Knob::key) != keys.end();
   };
   EXPECT_TRUE(has("deployment.loopback_delay"));
-  EXPECT_FALSE(has("dds.sedp.grouping_limit_bytes"));
+  EXPECT_TRUE(has("dds.sedp.grouping_limit_bytes"));
+  EXPECT_FALSE(has("dds.sedp.heartbeat_bytes"));
 }
 
 TEST(SensitivityLevels, MovedGoesOnTopOfOtherChanges) {

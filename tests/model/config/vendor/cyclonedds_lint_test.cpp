@@ -213,6 +213,44 @@ TEST(CycloneLint, the_table_reads_its_own_defaults) {
   }
 }
 
+TEST(CycloneLint, a_loopback_interface_alone_is_another_system) {
+  const auto interfaces = [](const std::string& inside) {
+    return remarks(read(domain("<General><Interfaces>" + inside + "</Interfaces></General>")));
+  };
+  const std::string loopback = "<NetworkInterface name='lo'/>";
+  const std::string wireless = "<NetworkInterface name='wlan0'/>";
+  EXPECT_EQ(interfaces(loopback), Remarks{"error cyclonedds.outside 2"});
+  EXPECT_EQ(interfaces("<NetworkInterface address='127.0.0.1'/>"),
+            Remarks{"error cyclonedds.outside 2"});
+  EXPECT_EQ(interfaces(wireless), Remarks{});
+  EXPECT_EQ(interfaces(wireless + loopback), Remarks{});
+  const std::string old = "<General><NetworkInterfaceAddress>127.0.0.1</NetworkInterfaceAddress>";
+  EXPECT_EQ(remarks(read(domain(old + "</General>"))).back(), "error cyclonedds.outside 2");
+}
+
+TEST(CycloneLint, a_root_is_found_in_any_case) {
+  const auto root = parse_xml("<cYCLONEdds/>", "c.xml");
+  ASSERT_TRUE(root);
+  EXPECT_EQ(vendor_of(*root), Vendor::cyclonedds);
+  EXPECT_TRUE(read_vendor_profile(*root, {}));
+}
+
+TEST(CycloneLint, a_long_list_of_domains_is_cut) {
+  std::string text;
+  for (int id = 0; id < 20'000; ++id) text += fmt::format("<Domain Id='{}'/>", id);
+  EXPECT_EQ(error("<CycloneDDS>" + text + "</CycloneDDS>"),
+            "c.xml:1:1: settings for the domains 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, …; expected one of "
+            "them after the file's name, as in FILE#0");
+}
+
+TEST(CycloneLint, a_setting_without_effect_has_no_knob) {
+  const VendorProfile profile =
+      read(discovery("<SPDPInterval>30 s</SPDPInterval><LeaseDuration>10 s</LeaseDuration>"));
+  EXPECT_EQ(setting(profile, "Discovery/LeaseDuration").knob, "spdp.period");
+  EXPECT_EQ(setting(profile, "Discovery/SPDPInterval").effect, Effect::none);
+  EXPECT_EQ(setting(profile, "Discovery/SPDPInterval").knob, "");
+}
+
 TEST(CycloneLint, the_shipped_examples_have_no_warnings) {
   for (const char* name : {"default.xml", "slow-link.xml", "two-domains.xml", "wifi.xml"}) {
     const auto root = load_xml(std::string{STORMPROOF_SPECS_DIR} + "/vendor/cyclonedds/" + name);

@@ -150,8 +150,11 @@ INSTANTIATE_TEST_SUITE_P(
         Linted{"two_defaults",
                "<profiles><participant profile_name='p' is_default_profile='true'/>\n"
                "<participant profile_name='p' is_default_profile='true'/></profiles>",
-               {"note fastdds.other-profile 1:11", "error fastdds.repeated-profile 2:1",
-                "warning fastdds.several-defaults 2:1"}}),
+               {"error fastdds.repeated-profile 2:1"}},
+        Linted{"two_defaults_of_two_names",
+               "<profiles><participant profile_name='p' is_default_profile='true'/>\n"
+               "<participant profile_name='q' is_default_profile='true'/></profiles>",
+               {"note fastdds.other-profile 1:11", "warning fastdds.several-defaults 2:1"}}),
     name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -162,7 +162,7 @@ TEST(FastddsXml, the_profile_is_chosen_by_name_default_or_number) {
   EXPECT_EQ(error_of("<profiles>\n" + participant("a", "") + participant("bb", "") + "</profiles>"),
             "f.xml:3:1: several participant profiles and none with is_default_profile=\"true\"; "
             "expected the name of one of 'a' (line 2), 'bb' (line 3)");
-  EXPECT_EQ(profile_of("<dds>" + participant("a", "") + "</dds>").name, "a");
+  EXPECT_EQ(profile_of("<dds><profiles>" + participant("a", "") + "</profiles></dds>").name, "a");
 }
 
 TEST(FastddsXml, other_roots_are_refused) {

@@ -184,6 +184,15 @@ RC_GTEST_PROP(XmlText, any_bytes_are_a_tree_or_an_error_with_a_place,
   }
 }
 
+TEST(XmlText, names_are_bounded) {
+  const std::string longest(max_xml_name_bytes, 'a');
+  EXPECT_EQ(error_of("<" + longest + " " + longest + "=''/>"), "accepted");
+  EXPECT_EQ(error_of("<" + longest + "a/>"),
+            "f.xml:1:1: a name of 257 bytes; expected 256 at most");
+  EXPECT_EQ(error_of("<r>\n<a " + longest + "a=''/></r>"),
+            "f.xml:2:1: a name of 257 bytes; expected 256 at most");
+}
+
 RC_GTEST_PROP(XmlText, a_cut_text_is_never_accepted, ()) {
   const std::string whole =
       "<?xml version='1.0'?><dds><a k='v'>text &amp; <!-- c --><b/></a></dds>";
