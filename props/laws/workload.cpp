@@ -107,8 +107,9 @@ std::int64_t stream_on_air(const Scenario& scenario, Stream stream, std::int64_t
     const std::int64_t added = fastdds ? 12 + model::fastdds::submessage_bytes(stream, d)
                                        : sizes.bytes(stream, d) - header;
     const bool full =
-        packets.empty() || (fastdds ? packets.back() + added > scenario.dds.sedp.grouping_limit_bytes.count()
-                                    : packet_is_full(scenario.dds.sedp, packets.back(), added));
+        packets.empty() ||
+        (fastdds ? packets.back() + added > scenario.dds.sedp.grouping_limit_bytes.count()
+                 : packet_is_full(scenario.dds.sedp, packets.back(), added));
     if (full) packets.push_back(header);
     packets.back() += added;
   }

@@ -32,8 +32,8 @@ struct VendorKnob {
 
 /// XML, ready to deploy, that makes the library of `preset` behave like `profile`: the elements of
 /// all knobs that differ between `base` (what the preset says) and `profile`, with a comment beside
-/// each. An error names the first knob that differs and that no user can change. Read back on top of
-/// the preset it gives `profile`.
+/// each. An error names the first knob that differs and that no user can change. Read back on top
+/// of the preset it gives `profile`.
 [[nodiscard]] Result<std::string> write_vendor_xml(Vendor vendor, std::string_view preset,
                                                    const DdsProfile& base,
                                                    const DdsProfile& profile,

@@ -125,15 +125,16 @@ TEST(TuneDeploy, ReadsBackWhatItWrites) {
   EXPECT_EQ(reference_to("x.xml", *subject), "x.xml@fastdds-2.14.5");
 }
 
-TEST(TuneDeploy, SaysWhatLinuxMustAllow) {
+TEST(TuneDeploy, SaysWhatLinuxMustAllowAndWhatTheTransportCosts) {
   const auto subject = subject_of({"dds=fastdds-2.6.11"});
   ASSERT_TRUE(subject);
   model::DdsProfile profile = subject->scenario.dds;
   EXPECT_TRUE(prerequisites(*subject, profile).empty());
   profile.sedp.piggyback_threshold_bytes = model::Bytes{4'000'000};
   const auto list = prerequisites(*subject, profile);
-  ASSERT_EQ(list.size(), 1U);
-  EXPECT_NE(list.front().find("net.core.wmem_max=4000000"), std::string::npos);
+  ASSERT_EQ(list.size(), 2U);
+  EXPECT_NE(list[0].find("net.core.wmem_max=4000000"), std::string::npos);
+  EXPECT_NE(list[1].find("shared memory"), std::string::npos);
 }
 
 }  // namespace

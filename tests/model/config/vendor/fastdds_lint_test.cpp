@@ -146,15 +146,7 @@ INSTANTIATE_TEST_SUITE_P(
         Linted{"foreign_attribute",
                "<profiles><participant profile_name='p' is_default_profile='true' domain='3'/>"
                "</profiles>",
-               {"warning fastdds.ignored-attribute 1:11"}},
-        Linted{"two_defaults",
-               "<profiles><participant profile_name='p' is_default_profile='true'/>\n"
-               "<participant profile_name='p' is_default_profile='true'/></profiles>",
-               {"error fastdds.repeated-profile 2:1"}},
-        Linted{"two_defaults_of_two_names",
-               "<profiles><participant profile_name='p' is_default_profile='true'/>\n"
-               "<participant profile_name='q' is_default_profile='true'/></profiles>",
-               {"note fastdds.other-profile 1:11", "warning fastdds.several-defaults 2:1"}}),
+               {"warning fastdds.ignored-attribute 1:11"}}),
     name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -48,6 +48,8 @@ TEST(FastddsParser, the_first_profile_of_a_name_is_kept_and_the_last_default) {
   EXPECT_EQ(period(both("a")), "5s");
   EXPECT_EQ(remarks_of(both("a")), Remarks{"error fastdds.repeated-profile 3:1"});
   EXPECT_EQ(period(both("b")), "7s");
+  EXPECT_EQ(remarks_of(both("b")),
+            (Remarks{"note fastdds.other-profile 2:1", "warning fastdds.several-defaults 3:1"}));
   EXPECT_EQ(period(both("")), "5s");
   EXPECT_EQ(remarks_of(both("")).front(), "error fastdds.missing-profile-name 3:1");
 }
