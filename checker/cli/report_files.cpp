@@ -26,17 +26,19 @@ constexpr std::array<std::pair<const char*, Format>, 6> formats{{{"text", Format
 Result<ReportFile> parse(const std::string& argument) {
   const std::size_t equals = argument.find('=');
   const std::string name = argument.substr(0, equals);
-  std::vector<std::string> known;
+  std::vector<std::string> others;
   for (const auto& [word, format] : formats) {
-    known.emplace_back(word);
-    if (name != word) continue;
-    if (equals == std::string::npos || equals + 1 == argument.size()) break;
-    return ReportFile{format, argument.substr(equals + 1)};
+    if (name != word) {
+      others.emplace_back(word);
+    } else if (equals < argument.size() - 1) {
+      return ReportFile{format, argument.substr(equals + 1)};
+    }
   }
+  const bool has_format = others.size() < formats.size();
   return model::config::InputError{
       "--report " + argument,
       fmt::format("expected FORMAT=FILE, FORMAT one of text, json, markdown, html, junit, sarif{}",
-                  model::config::suggestion(name, known))};
+                  has_format ? "" : model::config::suggestion(name, others))};
 }
 
 }  // namespace

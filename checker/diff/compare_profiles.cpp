@@ -75,6 +75,7 @@ bool is_unmodelled(const KnobChange& change) { return change.key.starts_with(unm
 void judge(KnobChange& change, const model::DdsProfile& base, const model::DdsProfile& candidate,
            bool same_runs) {
   if (is_unmodelled(change)) {
+    change.modelled = false;
     change.matters = false;
     change.why = "the model has no such setting: what it does to discovery is not known here";
     return;
@@ -130,7 +131,7 @@ Comparison compare_profiles(const model::config::TracedProfile& base,
   const bool base_is_fuller = one.implementation == model::ImplementationKind::paper;
   Comparison comparison;
   for (const std::string& key : base_is_fuller ? keys_of(before, after) : keys_of(after, before)) {
-    KnobChange change{key, value_in(before, key), value_in(after, key), {}, {}, true, {}};
+    KnobChange change{key, value_in(before, key), value_in(after, key), {}, {}, true, true, {}};
     if (change.before == change.after) continue;
     change.before_place = place_of(base, key);
     change.after_place = place_of(candidate, key);

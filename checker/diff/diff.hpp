@@ -28,8 +28,9 @@ struct KnobChange {
   std::string key;            ///< "sedp.heartbeat_period", or "unmodelled.SETTING"
   std::string before, after;  ///< as a file would say it; "–" where the profile has not got it
   model::config::Place before_place, after_place;
-  bool matters = true;  ///< false: no rule of these profiles reads it (`why`)
-  std::string why;      ///< empty, or why it makes no difference
+  bool modelled = true;  ///< false: a setting that the model has not; nobody knows if it matters
+  bool matters = true;   ///< false: no rule of these profiles reads it (`why`)
+  std::string why;       ///< empty, or why it makes no difference
 };
 
 /// What can be said about two profiles without running them.

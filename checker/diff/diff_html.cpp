@@ -63,7 +63,7 @@ std::string knobs_html(const DiffReport& report) {
     const std::string why = change.why.empty() ? "" : ": " + change.why;
     table.rows.push_back({code(change.key), value_cell(change.before, change.before_place),
                           value_cell(change.after, change.after_place),
-                          html_text((change.matters ? "yes" : "no") + why)});
+                          html_text(matters_text(change) + why)});
     table.marked.push_back(change.matters);
   }
   return html + to_html(table);

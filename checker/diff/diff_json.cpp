@@ -43,7 +43,7 @@ Json knobs_json(const Comparison& profiles) {
                        {"after", change.after},
                        {"before_place", place_json(change.before_place)},
                        {"after_place", place_json(change.after_place)},
-                       {"matters", change.matters},
+                       {"matters", change.modelled ? Json(change.matters) : Json(nullptr)},
                        {"why", change.why}});
   }
   return {{"relation", name_of(profiles.relation)},

@@ -62,7 +62,7 @@ std::string opening(const DiffReport& report) {
 std::string knobs(const DiffReport& report) {
   Rows rows;
   for (const KnobChange& change : report.profiles.changes) {
-    std::string matters = change.matters ? "yes" : "no";
+    std::string matters = matters_text(change);
     if (!change.why.empty()) matters += ": " + md_text(change.why);
     rows.push_back({md_code(change.key), md_code(change.before), md_code(change.after), matters});
   }

@@ -48,9 +48,11 @@ std::string knobs_text(const DiffReport& report) {
   std::string text = heading("knobs that differ");
   for (const KnobChange& change : report.profiles.changes) {
     constexpr std::size_t key_columns = 38;
+    const char* remark = change.matters    ? ""
+                         : change.modelled ? "  (makes no difference)"
+                                           : "  (not in the model)";
     text += paragraph("  " + left(change.key, key_columns) + " ",
-                      fmt::format("{} → {}{}", change.before, change.after,
-                                  change.matters ? "" : "  (makes no difference)"));
+                      fmt::format("{} → {}{}", change.before, change.after, remark));
     const std::string indent(key_columns + 3, ' ');
     if (const std::string place = place_text(change); !place.empty()) text += indent + place + "\n";
     if (!change.why.empty()) text += paragraph(indent, change.why);

@@ -86,6 +86,11 @@ std::string change_text(const MeasuredChange& change) {
                      signed_value(change.measure, shift.high));
 }
 
+const char* matters_text(const KnobChange& change) {
+  if (!change.modelled) return "not known";
+  return change.matters ? "yes" : "no";
+}
+
 std::string share_text(double share) { return fmt::format("{:.4g} %", 100 * share); }
 
 std::string plural(std::size_t count, const char* noun) {

@@ -23,6 +23,9 @@ namespace stormproof::diff {
 /// no shift.
 [[nodiscard]] std::string change_text(const MeasuredChange& change);
 
+/// Whether it matters: "yes", "no" or "not known".
+[[nodiscard]] const char* matters_text(const KnobChange& change);
+
 /// 0.05 → "5 %", 0.9973 → "99.73 %".
 [[nodiscard]] std::string share_text(double share);
 

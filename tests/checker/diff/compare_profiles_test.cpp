@@ -129,6 +129,7 @@ TEST(CompareProfiles, UnmodelledSettingsAreNeverCalledEqual) {
   EXPECT_EQ(gone->before, "unicast discovery");
   EXPECT_EQ(gone->after, "–");
   EXPECT_FALSE(gone->matters);
+  EXPECT_FALSE(gone->modelled);
   EXPECT_FALSE(gone->why.empty());
   EXPECT_EQ(change_of(comparison, "unmodelled.interface")->before, "–");
   // A difference in the model is one, whatever else differs.

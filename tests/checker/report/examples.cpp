@@ -105,10 +105,16 @@ diff::DiffReport regression() {
   report.candidate.profile.unmodelled.emplace("transport", "shared memory " + hostile);
   report.policy.name = "default";
   report.policy.tolerances = {{diff::Measure::completion, 0.25}};
-  report.profiles.changes = {
-      {"sedp.acknack_bytes", "64", "65", {}, place("new.xml", 3, 9), false, "nobody reads it"},
-      {"sedp.heartbeat_period", "1s", hostile, place("base.yaml", 5, 1), place("new.xml", 12, 34),
-       true, ""}};
+  report.profiles.changes = {{"sedp.acknack_bytes",
+                              "64",
+                              "65",
+                              {},
+                              place("new.xml", 3, 9),
+                              true,
+                              false,
+                              "nobody reads it"},
+                             {"sedp.heartbeat_period", "1s", hostile, place("base.yaml", 5, 1),
+                              place("new.xml", 12, 34), true, true, ""}};
   report.verdicts.done = true;
   report.verdicts.scenario = "smallest";
   report.verdicts.properties = {
