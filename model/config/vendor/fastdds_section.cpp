@@ -4,7 +4,6 @@
 #include "model/config/vendor/fastdds_section.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <set>
 
 #include <fmt/format.h>
@@ -53,10 +52,10 @@ class SectionReader {
   /// What was read; of an element that came twice, the last one has an effect.
   Section take() {
     std::set<std::string_view> later;
-    for (const Found& one : section_.found | std::views::reverse) {
-      if (one.item->path.empty() || later.insert(one.item->path).second) continue;
-      profile_.settings[one.setting].effect = Effect::none;
-      profile_.settings[one.setting].note = "the last one of this name counts";
+    for (auto one = section_.found.rbegin(); one != section_.found.rend(); ++one) {
+      if (one->item->path.empty() || later.insert(one->item->path).second) continue;
+      profile_.settings[one->setting].effect = Effect::none;
+      profile_.settings[one->setting].note = "the last one of this name counts";
     }
     return std::move(section_);
   }
