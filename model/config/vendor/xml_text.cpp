@@ -29,6 +29,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::string_view local_name(std::string_view name) {
+  if (name.ends_with(':')) return name;     // no prefix, though expat takes it for a name
   return name.substr(name.rfind(':') + 1);  // npos + 1 is 0
 }
 
