@@ -2,19 +2,18 @@
 // with its place, as a policy that is read wrongly would let a regression pass.
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "checker/diff/diff.hpp"
 #include "model/config/knob_reader.hpp"
+#include "model/config/named_file.hpp"
 #include "model/config/profile_files.hpp"
 #include "model/config/suggestion.hpp"
 #include "model/config/yaml_text.hpp"
 
 namespace stormproof::diff {
 
-namespace fs = std::filesystem;
 namespace config = model::config;
 using config::error_at;
 using config::InputError;
@@ -174,31 +173,10 @@ class PolicyReader {
   Failure failure_;
 };
 
-/// The file that `reference` means, a path or a name in specs/policies.
-Result<std::string> find_policy(const std::string& reference, const config::SpecPath& specs) {
-  const bool is_path = reference.find('/') != std::string::npos || reference.ends_with(".yaml") ||
-                       reference.ends_with(".yml");
-  if (is_path) return reference;
-  std::vector<std::string> known;
-  for (const std::string& directory : specs.directories) {
-    std::error_code failed;
-    const fs::path folder = fs::path{directory} / "policies";
-    const fs::path file = folder / (reference + ".yaml");
-    if (!reference.empty() && fs::exists(file, failed)) return file.string();
-    for (fs::directory_iterator files{folder, failed}; !failed && files != fs::directory_iterator{};
-         files.increment(failed)) {
-      if (files->path().extension() == ".yaml") known.push_back(files->path().stem().string());
-    }
-  }
-  return InputError{reference, fmt::format("no policy of this name{}; expected a file, or a name "
-                                           "in specs/policies",
-                                           config::suggestion(reference, known))};
-}
-
 }  // namespace
 
 Result<Policy> read_policy(const std::string& reference, const config::SpecPath& specs) {
-  const auto file = find_policy(reference, specs);
+  const auto file = config::find_named_file(reference, "policy", "policies", specs);
   if (!file) return file.error();
   const Result<Node> root = config::load_yaml(*file);
   if (!root) return root.error();

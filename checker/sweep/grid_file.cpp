@@ -5,8 +5,8 @@
 
 #include "checker/sweep/grid.hpp"
 #include "model/config/knob_reader.hpp"
+#include "model/config/named_file.hpp"
 #include "model/config/profile_files.hpp"
-#include "model/config/suggestion.hpp"
 #include "model/config/yaml_text.hpp"
 
 namespace stormproof::sweep {
@@ -197,27 +197,6 @@ class GridReader {
   std::optional<Node> base_;
 };
 
-/// The file that `reference` means, a path or a name in specs/grids.
-Result<std::string> find_grid(const std::string& reference, const SpecPath& specs) {
-  const bool is_path = reference.find('/') != std::string::npos || reference.ends_with(".yaml") ||
-                       reference.ends_with(".yml");
-  if (is_path) return reference;
-  std::vector<std::string> known;
-  for (const std::string& directory : specs.directories) {
-    std::error_code failed;
-    const fs::path folder = fs::path{directory} / "grids";
-    const fs::path file = folder / (reference + ".yaml");
-    if (!reference.empty() && fs::exists(file, failed)) return file.string();
-    for (fs::directory_iterator files{folder, failed}; !failed && files != fs::directory_iterator{};
-         files.increment(failed)) {
-      if (files->path().extension() == ".yaml") known.push_back(files->path().stem().string());
-    }
-  }
-  return InputError{reference, fmt::format("no grid of this name{}; expected a file, or a name in "
-                                           "specs/grids",
-                                           config::suggestion(reference, known))};
-}
-
 }  // namespace
 
 std::size_t Grid::combinations() const {
@@ -233,7 +212,7 @@ Result<Grid> parse_grid(std::string_view text, const std::string& source, const 
 }
 
 Result<Grid> read_grid(const std::string& reference, const SpecPath& specs) {
-  const auto file = find_grid(reference, specs);
+  const auto file = model::config::find_named_file(reference, "grid", "grids", specs);
   if (!file) return file.error();
   const Result<Node> root = config::load_yaml(*file);
   if (!root) return root.error();
