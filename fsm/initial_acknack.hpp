@@ -1,5 +1,6 @@
 // The timer of the initial ACKNACK of one relation: after τ_I without a HEARTBEAT the reader asks
-// by itself, and again after twice the delay, until the first HEARTBEAT has been seen.
+// by itself, and again after twice the delay (or the same one, as some versions of Fast DDS have
+// it), until the first HEARTBEAT has been seen.
 #pragma once
 
 #include "fsm/front_end.hpp"
@@ -13,6 +14,7 @@ struct InitialAckNackIo {
     typename D::Int first_delay{};  ///< τ_I in ns; 0 disables initial ACKNACKs
     typename D::Int last_delay{};   ///< the delay that has just passed, ns
     typename D::Bool heartbeat_seen{};
+    typename D::Bool constant{};  ///< the delay stays τ_I instead of doubling
   };
   template <class D>
   struct Output {
@@ -60,8 +62,8 @@ struct Retry : Action<Retry> {
                             InitialAckNackIo::Output<D>& out) {
     out.attempt = true;
     out.schedule = true;
-    out.next_delay = in.last_delay + in.last_delay;
-    out.next_at = in.now + in.last_delay + in.last_delay;
+    out.next_delay = D::select(in.constant, in.last_delay, in.last_delay + in.last_delay);
+    out.next_at = in.now + D::select(in.constant, in.last_delay, in.last_delay + in.last_delay);
   }
 };
 

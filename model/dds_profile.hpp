@@ -26,6 +26,8 @@ enum class InitialData : std::uint8_t { push, pull };
 enum class Unmatched : std::uint8_t { drop, accept };
 /// What a writer does with an initial ACKNACK.
 enum class InitialAckNackReply : std::uint8_t { bitmap, heartbeat, none };
+/// How the delay of an initial ACKNACK grows while no HEARTBEAT is seen.
+enum class InitialAckNackInterval : std::uint8_t { doubling, constant };
 /// What an ACKNACK confirms: all descriptors outside its bitmap, or only those below the first
 /// missing one.
 enum class Acknowledge : std::uint8_t { bitmap, prefix };
@@ -68,6 +70,7 @@ struct SedpProfile {
   Nanoseconds nack_response_delay{100'000};       ///< τ_N
   Nanoseconds nack_suppression_duration{10'000};  ///< τ_S
   Nanoseconds initial_acknack_delay{70'000'000};  ///< τ_I; 0 disables initial ACKNACKs
+  InitialAckNackInterval initial_acknack_interval = InitialAckNackInterval::doubling;
   RelationOpening relation_opening = RelationOpening::receiver;
   InitialData initial_data = InitialData::push;
   Unmatched unmatched = Unmatched::drop;

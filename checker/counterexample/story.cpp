@@ -113,6 +113,9 @@ std::string timers_text(const model::Scenario& scenario) {
       props::time_text(sedp.nack_suppression_duration),
       sedp.initial_acknack_delay.count() == 0 ? "off"
                                               : props::time_text(sedp.initial_acknack_delay));
+  if (sedp.initial_acknack_delay.count() > 0 &&
+      sedp.initial_acknack_interval == model::InitialAckNackInterval::constant)
+    text += " each time";
   if (sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive)
     text += "; adaptive HEARTBEATs";
   else if (sedp.heartbeat_timer == model::HeartbeatTimerKind::additive)

@@ -92,6 +92,8 @@ constexpr UnreadRule rules[] = {
     {"sedp.initial_acknack", is_fastdds, set_sedp<&Sedp::initial_acknack>, in_fastdds},
     {"sedp.initial_acknack", asks_never_first, set_sedp<&Sedp::initial_acknack>,
      "with initial_acknack_delay: 0 there are no initial ACKNACKs"},
+    {"sedp.initial_acknack_interval", asks_never_first, set_sedp<&Sedp::initial_acknack_interval>,
+     "with initial_acknack_delay: 0 there are no initial ACKNACKs"},
     {"sedp.acknowledge", is_fastdds, set_sedp<&Sedp::acknowledge>, in_fastdds},
     {"sedp.heartbeat_timer", is_fastdds, set_sedp<&Sedp::heartbeat_timer>, in_fastdds},
     {"sedp.heartbeat_timer", is_adaptive, set_sedp<&Sedp::heartbeat_timer>,

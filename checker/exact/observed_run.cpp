@@ -1,7 +1,8 @@
 // Runs with monitors. How long a run must go on for live.quiescence depends on the largest delay in
 // it, so the monitor is asked while it runs. Attempts of a reader that go on for ever come ever
 // more rarely, each after twice the time of the one before: the run has to last twice as long as
-// the bound to show one that comes too late.
+// the bound to show one that comes too late. If their distance is constant, one distance longer is
+// enough.
 #include "checker/exact/observed_run.hpp"
 
 #include <algorithm>
@@ -68,8 +69,10 @@ ObservedRun run_until_quiet(const RunPlan& plan) {
     stopped = plan.goes_on && !plan.goes_on();
     const auto silent = monitor->silent_from(progress.now);
     if (!silent) return !stopped && progress.now <= plan.scenario.time_limit;
-    const Nanoseconds attempt = plan.specification.dds.sedp.initial_acknack_delay;
-    return !stopped && progress.now <= (*silent + attempt) * 2;
+    const model::SedpProfile& sedp = plan.specification.dds.sedp;
+    const bool doubling = sedp.initial_acknack_interval == model::InitialAckNackInterval::doubling;
+    const Nanoseconds next = *silent + sedp.initial_acknack_delay;
+    return !stopped && progress.now <= next * (doubling ? 2 : 1);
   };
   run.result = model::simulate(run.scenario, options);
   run.known_until = run.result.end_time;

@@ -198,7 +198,9 @@ Finding Exploration::finding(Claim claim) const {
   if (running_.dds.implementation == model::ImplementationKind::fastdds) {
     finding.assumptions.emplace_back("No HEARTBEATs ride in DATA packets.");
   }
-  if (running_.dds.sedp.initial_acknack_delay.count() > 0) {
+  const model::SedpProfile& sedp = running_.dds.sedp;
+  if (sedp.initial_acknack_delay.count() > 0 &&
+      sedp.initial_acknack_interval == model::InitialAckNackInterval::doubling) {
     finding.assumptions.emplace_back("The delay between initial ACKNACKs doubles six times.");
   }
   finding.details = answer.complete;

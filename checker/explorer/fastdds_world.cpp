@@ -20,8 +20,8 @@ namespace {
 
 using Changes = fsm::Reflect<fsm::ChangeForReader>;
 
-/// From here on the delay of the initial ACKNACK stays as it is, so that the explored world is
-/// finite.
+/// From here on a delay of the initial ACKNACK that doubles stays as it is, so that the explored
+/// world is finite.
 constexpr std::uint8_t last_doubling = 6;
 
 constexpr std::uint16_t member(unsigned d) { return static_cast<std::uint16_t>(1U << d); }
@@ -172,13 +172,15 @@ void FastDdsWorld::open_reader(State& state, Frame& frame) {
 template <class Event>
 void FastDdsWorld::step_initial(State& state, Frame& frame) {
   const std::int64_t first = sedp_.initial_acknack_delay.count();
+  const bool constant = sedp_.initial_acknack_interval == model::InitialAckNackInterval::constant;
   const auto output =
       initial_.step<Event>(state.initial, {.now = 0,
                                            .first_delay = first,
                                            .last_delay = first << state.attempts,
-                                           .heartbeat_seen = state.has(State::heartbeat_seen)});
+                                           .heartbeat_seen = state.has(State::heartbeat_seen),
+                                           .constant = constant});
   if (output.attempt) {
-    if (state.attempts < last_doubling) ++state.attempts;
+    if (!constant && state.attempts < last_doubling) ++state.attempts;
     const auto asked =
         reader_.step<reader::InitialAckNackDue>(state.reader, reader_input(missing(state)));
     if (asked.send_initial) emit_acknack(state, frame, true);

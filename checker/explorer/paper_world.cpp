@@ -19,8 +19,8 @@ namespace {
 template <class Machine, class S>
 constexpr fsm::StateId id = fsm::Reflect<Machine>::template id<S>;
 
-/// From here on the delay of the initial ACKNACK stays as it is. It doubles without end; the
-/// explored world would never come back to a state.
+/// From here on a delay of the initial ACKNACK that doubles stays as it is. Doubling without end,
+/// the explored world would never come back to a state.
 constexpr std::uint8_t last_doubling = 6;
 
 constexpr std::uint16_t member(unsigned d) { return static_cast<std::uint16_t>(1U << d); }
@@ -148,13 +148,15 @@ void PaperWorld::open_reader(State& state, Frame& frame) {
 template <class Event>
 void PaperWorld::step_initial(State& state, Frame& frame) {
   const std::int64_t first = sedp_.initial_acknack_delay.count();
+  const bool constant = sedp_.initial_acknack_interval == model::InitialAckNackInterval::constant;
   const auto output =
       initial_.step<Event>(state.initial, {.now = 0,
                                            .first_delay = first,
                                            .last_delay = first << state.attempts,
-                                           .heartbeat_seen = state.has(State::heartbeat_seen)});
+                                           .heartbeat_seen = state.has(State::heartbeat_seen),
+                                           .constant = constant});
   if (output.attempt) {
-    if (state.attempts < last_doubling) ++state.attempts;
+    if (!constant && state.attempts < last_doubling) ++state.attempts;
     const auto asked =
         reader_.step<reader::InitialAckNackDue>(state.reader, reader_input(missing(state)));
     if (asked.send_initial) emit_acknack(state, frame, true);

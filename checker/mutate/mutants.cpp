@@ -84,6 +84,14 @@ void add_rules(std::vector<CatalogueEntry>& list) {
       [](model::Scenario& s) { s.dds.sedp.heartbeat_timer = model::HeartbeatTimerKind::additive; });
   knob("suppression-zero", "a suppression lasts no time", Concerns::both,
        [](model::Scenario& s) { s.dds.sedp.nack_suppression_duration = Nanoseconds{0}; });
+  knob("attempts-mistake-interval", "initial ACKNACKs double a constant interval, or keep another",
+       Concerns::both, [](model::Scenario& s) {
+         using enum model::InitialAckNackInterval;
+         model::InitialAckNackInterval& interval = s.dds.sedp.initial_acknack_interval;
+         interval = interval == doubling ? constant : doubling;
+       });
+  list.back().survives_because =
+      "no property depends on the time between initial ACKNACKs; law.initial-attempts does";
   knob("queue-twice-as-large", "the source queue admits twice its bytes", Concerns::both,
        [](model::Scenario& s) {
          model::Bytes& w = s.wireless.source_queue_bytes;

@@ -76,7 +76,8 @@ inline void fill(fsm::InitialAckNackIo::Input<Symbolic>& in, Unknowns& u) {
   in = {.now = u.number("now"),
         .first_delay = u.number("first_delay"),
         .last_delay = u.number("last_delay"),
-        .heartbeat_seen = u.truth("heartbeat_seen")};
+        .heartbeat_seen = u.truth("heartbeat_seen"),
+        .constant = u.truth("constant")};
 }
 inline void fill(fsm::AnnouncerIo::Input<Symbolic>& in, Unknowns& u) {
   in = {.now = u.number("now"),

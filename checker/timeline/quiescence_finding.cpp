@@ -21,6 +21,10 @@ bool asks_by_itself(const model::SedpProfile& sedp) {
          sedp.initial_acknack_delay > Nanoseconds{0};
 }
 
+bool is_doubling(const model::SedpProfile& sedp) {
+  return sedp.initial_acknack_interval == model::InitialAckNackInterval::doubling;
+}
+
 std::optional<props::Counterexample> endless_attempts(const model::Scenario& scenario) {
   Setting setting;
   setting.dds = scenario.dds;
@@ -29,9 +33,11 @@ std::optional<props::Counterexample> endless_attempts(const model::Scenario& sce
   const Nanoseconds attempt = scenario.dds.sedp.initial_acknack_delay;
   const Nanoseconds data =
       attempt < scenario.dds.sedp.heartbeat_period ? std::min(attempt, Nanoseconds{2}) : attempt;
-  // Attempts come at τ_I·(2ⁿ − 1): there is one between x and 2x + τ_I.
+  // Attempts come at τ_I·(2ⁿ − 1): there is one between x and 2x + τ_I. With a constant interval
+  // there is one between x and x + τ_I.
   const Nanoseconds quiet = data + props::quiescence_bound(scenario.dds, data);
-  setting.time_limit = quiet * 2 + attempt * 3;
+  setting.time_limit =
+      is_doubling(scenario.dds.sedp) ? quiet * 2 + attempt * 3 : quiet + attempt * 2;
   const auto run = direct(setting, all_heartbeats_lost(data));
   if (!run) return std::nullopt;
   return confirmed_counterexample("live.quiescence", run->scenario);
@@ -90,9 +96,10 @@ props::Finding quiescence_finding(const Question& question) {
       "comes "
       "after completion, and then attained");
   if (asks_by_itself(question.sedp())) {
-    finding.details.push_back(
+    finding.details.push_back(fmt::format(
         "Q is proved for relations whose reader has seen a HEARTBEAT; one that has not may go on "
-        "asking for ever, at doubling distances");
+        "asking for ever, at {} distances",
+        is_doubling(question.sedp()) ? "doubling" : "equal"));
     if (auto example = endless_attempts(question.request.scenario)) {
       finding.kind = props::VerdictKind::violated;
       finding.details.push_back(

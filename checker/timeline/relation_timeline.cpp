@@ -88,8 +88,7 @@ class Walk {
       case Kind::attempt:
         if (seen_) return;
         send_acknack(now, true);
-        at(now + 2 * what.factor * sedp_.initial_acknack_delay.count(), decision, Kind::attempt,
-           2 * what.factor);
+        attempt_again(now, what.factor);
         return;
       case Kind::heartbeat:
         seen_ = true;
@@ -101,6 +100,11 @@ class Walk {
       case Kind::arrival:
         arrive(now, what);
     }
+  }
+
+  void attempt_again(std::int64_t now, std::int64_t factor) {
+    if (sedp_.initial_acknack_interval == model::InitialAckNackInterval::doubling) factor *= 2;
+    at(now + factor * sedp_.initial_acknack_delay.count(), decision, Kind::attempt, factor);
   }
 
   void send_heartbeat(std::int64_t now) {

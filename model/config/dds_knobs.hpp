@@ -27,6 +27,9 @@ template <>
 inline constexpr std::array<std::string_view, 3> enum_names<InitialAckNackReply>{
     "bitmap", "heartbeat", "none"};
 template <>
+inline constexpr std::array<std::string_view, 2> enum_names<InitialAckNackInterval>{"doubling",
+                                                                                    "constant"};
+template <>
 inline constexpr std::array<std::string_view, 2> enum_names<Acknowledge>{"bitmap", "prefix"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<HeartbeatTimerKind>{"single",
@@ -86,7 +89,11 @@ void visit_sedp_timers(auto& visit, Is<SedpProfile> auto& sedp) {
   visit.knob("nack_suppression_duration", sedp.nack_suppression_duration, delay_range,
              "how long a repaired descriptor cannot be asked for again (tau_S)");
   visit.knob("initial_acknack_delay", sedp.initial_acknack_delay, delay_range,
-             "until the first initial ACKNACK, doubled each time (tau_I); 0 disables them");
+             "until the first initial ACKNACK (tau_I); 0 disables them");
+  visit.knob("initial_acknack_interval", sedp.initial_acknack_interval,
+             ChoiceType<InitialAckNackInterval>{},
+             "whether the delay between initial ACKNACKs doubles each time or stays",
+             Presence::defaulted);
 }
 
 /// How relations open, repair and acknowledge; the second part of `sedp`.

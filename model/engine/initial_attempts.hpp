@@ -12,7 +12,7 @@ namespace stormproof::model {
 /// The timer of one relation.
 struct InitialTimer {
   fsm::StateId state = fsm::Flyweight<fsm::InitialAckNack>::initial;
-  std::uint8_t attempts = 0;  ///< the current delay is τ_I · 2^attempts
+  std::uint8_t attempts = 0;  ///< the current delay is τ_I · 2^attempts; 0 if it is constant
 };
 
 class InitialAttempts {
@@ -26,7 +26,7 @@ class InitialAttempts {
     step<fsm::initial_acknack::ReaderOpened>(timer, false, relation, [] {});
   }
 
-  /// An attempt is due: calls `send` unless a HEARTBEAT has been seen, then waits twice as long.
+  /// An attempt is due: calls `send` unless a HEARTBEAT has been seen, then waits again.
   template <class Send>
   void attempt(InitialTimer& timer, bool heartbeat_seen, std::uint32_t relation, Send&& send) {
     step<fsm::initial_acknack::AttemptDue>(timer, heartbeat_seen, relation, send);
@@ -37,16 +37,19 @@ class InitialAttempts {
 
   template <class TimerEvent, class Send>
   void step(InitialTimer& timer, bool heartbeat_seen, std::uint32_t relation, Send&& send) {
-    const std::int64_t first = run_.scenario.dds.sedp.initial_acknack_delay.count();
+    const SedpProfile& sedp = run_.scenario.dds.sedp;
+    const std::int64_t first = sedp.initial_acknack_delay.count();
+    const bool constant = sedp.initial_acknack_interval == InitialAckNackInterval::constant;
     const auto output = driver_.template step<TimerEvent>(run_, timer.state,
                                                           {.now = run_.now.count(),
                                                            .first_delay = first,
                                                            .last_delay = first << timer.attempts,
-                                                           .heartbeat_seen = heartbeat_seen},
+                                                           .heartbeat_seen = heartbeat_seen,
+                                                           .constant = constant},
                                                           relation);
     if (output.attempt) {
       // Only events that are scheduled twice get near the end of the clock.
-      if (first << timer.attempts < longest_delay) ++timer.attempts;
+      if (!constant && first << timer.attempts < longest_delay) ++timer.attempts;
       send();
     }
     if (output.schedule) run_.schedule(Nanoseconds{output.next_at}, due_, relation);

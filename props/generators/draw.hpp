@@ -50,6 +50,9 @@ void draw_times(Dice& dice, const ScenarioSpace& space, const Clock& clock,
 /// All of the DDS profile but its durations.
 void draw_rules_and_sizes(Dice& dice, model::Scenario& scenario);
 void draw_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds);
+/// Whether the delay between initial ACKNACKs doubles. One that stays is a period: it does not get
+/// so short that its events alone fill the run.
+void draw_attempts(Dice& dice, const Clock& clock, model::SedpProfile& sedp);
 
 void draw_wireless(Dice& dice, const ScenarioSpace& space, model::WirelessProfile& wireless);
 /// Delays of single packets, which need a clock to meet other events.

@@ -119,4 +119,13 @@ void draw_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds) {
   adaptive.epsilon_denominator = denominator / common;
 }
 
+void draw_attempts(Dice& dice, const Clock& clock, model::SedpProfile& sedp) {
+  if (!dice.chance(30)) return;
+  sedp.initial_acknack_interval = model::InitialAckNackInterval::constant;
+  const bool enabled = sedp.initial_acknack_delay > Nanoseconds{0};
+  if (enabled && sedp.initial_acknack_delay.count() < clock.scale / 10) {
+    sedp.initial_acknack_delay = draw_period(dice, clock);
+  }
+}
+
 }  // namespace stormproof::props

@@ -17,6 +17,7 @@ model::Scenario draw_scenario(std::uint64_t seed, int size, const ScenarioSpace&
   draw_packet_delays(dice, clock, scenario.wireless);
   draw_timers(dice, clock, scenario.dds);
   draw_times(dice, space, clock, scenario);
+  draw_attempts(dice, clock, scenario.dds.sedp);
   return scenario;
 }
 

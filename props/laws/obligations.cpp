@@ -125,7 +125,11 @@ class AttemptWatch final : public ReaderWatch {
  public:
   explicit AttemptWatch(const Scenario& scenario)
       : ReaderWatch{"law.initial-attempts", scenario},
-        first_{scenario.dds.sedp.initial_acknack_delay} {}
+        first_{scenario.dds.sedp.initial_acknack_delay},
+        growth_{scenario.dds.sedp.initial_acknack_interval ==
+                        model::InitialAckNackInterval::constant
+                    ? 1
+                    : 2} {}
 
   void run_started(const model::Topology& topology) override {
     ReaderWatch::run_started(topology);
@@ -172,11 +176,12 @@ class AttemptWatch final : public ReaderWatch {
                              time_text(now()), relation_text(topology(), packet.relation())));
       return;
     }
-    reader.delay = reader.delay * 2;
+    reader.delay = reader.delay * growth_;
     reader.due = now() + reader.delay;
   }
 
   Nanoseconds first_;
+  std::int64_t growth_;          // of the delay, from one attempt to the next
   std::vector<Reader> readers_;  // by relation
 };
 
@@ -288,8 +293,8 @@ constexpr Law all[] = {
      "ACKNACK is sent (Fast DDS: one answer to all that came meanwhile).",
      always, observed<AnswerWatch>},
     {"law.initial-attempts",
-     "A reader asks by itself τ_I, 3·τ_I, 7·τ_I, … after it opened, until it has seen a "
-     "HEARTBEAT.",
+     "A reader asks by itself τ_I, 3·τ_I, 7·τ_I, … (with a constant interval τ_I, 2·τ_I, 3·τ_I, …) "
+     "after it opened, until it has seen a HEARTBEAT.",
      always, observed<AttemptWatch>},
     {"law.announcements", "Every participant announces itself at the times that the profile says.",
      always, observed<AnnouncementWatch>},

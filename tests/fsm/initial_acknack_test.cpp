@@ -1,5 +1,5 @@
-// The timer of the initial ACKNACK: every row once, the guards both ways, the doubling, and a delay
-// of 0.
+// The timer of the initial ACKNACK: every row once, the guards both ways, both kinds of intervals,
+// and a delay of 0.
 #include "fsm/initial_acknack.hpp"
 
 #include <gtest/gtest.h>
@@ -23,8 +23,10 @@ const std::vector<Input>& inputs() {
     for (const std::int64_t now : {0, 5}) {
       for (const std::int64_t first : {0, 1, 70}) {
         for (const bool seen : {false, true}) {
-          for (const std::int64_t factor : {1, 2, 4})
-            list.push_back({now, first, first * factor, seen});
+          for (const std::int64_t factor : {1, 2, 4}) {
+            for (const bool constant : {false, true})
+              list.push_back({now, first, first * factor, seen, constant});
+          }
         }
       }
     }
@@ -63,9 +65,30 @@ TEST(InitialAckNack, EachAttemptWaitsTwiceAsLongAsTheLastOne) {
       {.attempt = true, .schedule = true, .next_delay = 280, .next_at = 590});
 }
 
+TEST(InitialAckNack, EachAttemptWaitsAsLongAsTheLastOneIfTheIntervalIsConstant) {
+  expect_step<M, Waiting, AttemptDue, Waiting>(
+      {.now = 170, .first_delay = 70, .last_delay = 70, .constant = true},
+      {.attempt = true, .schedule = true, .next_delay = 70, .next_at = 240});
+  expect_step<M, Waiting, AttemptDue, Waiting>(
+      {.now = 240, .first_delay = 70, .last_delay = 70, .constant = true},
+      {.attempt = true, .schedule = true, .next_delay = 70, .next_at = 310});
+}
+
+TEST(InitialAckNack, TheFirstDelayIsTheSameWithEitherInterval) {
+  expect_step<M, Dormant, ReaderOpened, Waiting>(
+      {.now = 1'000, .first_delay = 70, .last_delay = 70, .constant = true},
+      {.schedule = true, .next_delay = 70, .next_at = 1'070});
+  expect_step<M, Dormant, ReaderOpened, Done>({.now = 1'000, .first_delay = 0, .constant = true});
+}
+
 TEST(InitialAckNack, AHeartbeatEndsIt) {
-  expect_step<M, Waiting, AttemptDue, Done>(
-      {.now = 170, .first_delay = 70, .last_delay = 70, .heartbeat_seen = true});
+  for (const bool constant : {false, true}) {
+    expect_step<M, Waiting, AttemptDue, Done>({.now = 170,
+                                               .first_delay = 70,
+                                               .last_delay = 70,
+                                               .heartbeat_seen = true,
+                                               .constant = constant});
+  }
 }
 
 TEST(InitialAckNack, NothingHappensBeforeItStartsOrAfterItsEnd) {

@@ -107,8 +107,9 @@ void control_initial(World& w, Id j, Id i, int topic, Time delay) {
   if (control(w, i, j, topic).heartbeat_seen) return;
   send(w, PacketKind::control_acknack, j, i, topic, true);
   Event again = control_event(EventKind::control_initial, j, i, topic);
-  again.number = 2 * delay;
-  schedule_after(w, model::Nanoseconds{2 * delay}, again);
+  const bool stays = w.sedp.initial_acknack_interval == model::InitialAckNackInterval::constant;
+  again.number = stays && !w.makes(Mistake::control_always_doubled) ? delay : 2 * delay;
+  schedule_after(w, model::Nanoseconds{again.number}, again);
 }
 
 }  // namespace stormproof::oracle::fastdds

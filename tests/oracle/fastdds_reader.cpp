@@ -99,8 +99,9 @@ void initial_acknack(World& w, Id j, Id i, int s, Time delay) {
   packet.initial = true;
   send_acknack(w, packet);
   Event again = make_event(EventKind::initial_acknack, j, i, s);
-  again.number = 2 * delay;
-  schedule_after(w, model::Nanoseconds{2 * delay}, again);
+  const bool stays = w.sedp.initial_acknack_interval == model::InitialAckNackInterval::constant;
+  again.number = stays && !w.makes(Mistake::initial_always_doubled) ? delay : 2 * delay;
+  schedule_after(w, model::Nanoseconds{again.number}, again);
 }
 
 }  // namespace stormproof::oracle::fastdds

@@ -32,11 +32,12 @@ enum class Mistake : std::uint8_t {
   copies_first,        ///< the copies of an announcement go before the multicast
   receives_unstarted,  ///< a participant processes what arrives before its start
   // The reader.
-  one_acknack_pending,  ///< a HEARTBEAT adds no ACKNACK to one that is pending
-  acknack_words_down,   ///< the bitmap takes floor(D/32) words
-  initial_not_doubled,  ///< initial ACKNACKs keep their distance
-  initial_never_ends,   ///< initial ACKNACKs go on after a HEARTBEAT
-  bitmap_not_snapshot,  ///< an ACKNACK lists what is missing at its reception
+  one_acknack_pending,     ///< a HEARTBEAT adds no ACKNACK to one that is pending
+  acknack_words_down,      ///< the bitmap takes floor(D/32) words
+  initial_not_doubled,     ///< initial ACKNACKs keep their distance
+  initial_always_doubled,  ///< initial ACKNACKs double a distance that is constant
+  initial_never_ends,      ///< initial ACKNACKs go on after a HEARTBEAT
+  bitmap_not_snapshot,     ///< an ACKNACK lists what is missing at its reception
   // The writer.
   opening_arms_first,        ///< the HEARTBEAT of an opening comes after its expiry is scheduled
   heartbeat_restarted,       ///< arming a pending timer moves it
@@ -89,6 +90,7 @@ enum class FastddsMistake : std::uint8_t {
   charge_per_packet,      ///< an async message counts once for each destination
   piggyback_rides_along,  ///< a piggyback goes to the message's own destinations only
   // The reader.
+  initial_always_doubled,  ///< initial ACKNACKs double a distance that is constant
   data_announces_nothing,  ///< DATA does not raise what the reader knows of
   announces_all,           ///< a HEARTBEAT announces endpoints that do not exist yet
   acknack_per_heartbeat,   ///< a HEARTBEAT adds an ACKNACK to one that is pending
@@ -96,6 +98,7 @@ enum class FastddsMistake : std::uint8_t {
   notified_late,            ///< an endpoint is known only when the next one has been received
   control_reply_doubled,    ///< every control HEARTBEAT is answered
   control_initial_ignored,  ///< a control writer does not answer initial ACKNACKs
+  control_always_doubled,   ///< its initial ACKNACKs double a distance that is constant
   response_with_old_base,   ///< a clean ACKNACK counts whatever its base
 };
 

@@ -108,7 +108,10 @@ void initial_acknack(World& w, Id j, Id i, int s, Time delay) {
   again.from = j;
   again.to = i;
   again.stream = s;
-  again.number = w.makes(Mistake::initial_not_doubled) ? delay : 2 * delay;
+  bool stays = w.sedp.initial_acknack_interval == model::InitialAckNackInterval::constant;
+  if (w.makes(Mistake::initial_not_doubled)) stays = true;
+  if (w.makes(Mistake::initial_always_doubled)) stays = false;
+  again.number = stays ? delay : 2 * delay;
   schedule(w, w.now + again.number, EventClass::protocol, again);
 }
 

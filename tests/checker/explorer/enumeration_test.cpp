@@ -170,6 +170,7 @@ struct Case {
   unsigned descriptors;
   model::Grouping grouping;
   std::uint64_t least_runs;  ///< so that the test is not about next to nothing
+  model::InitialAckNackInterval interval = model::InitialAckNackInterval::doubling;
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -180,6 +181,7 @@ TEST_P(AllRuns, OfTheSimulatorHaveTheOutcomesOfTheExplorer) {
   const Case& c = GetParam();
   model::Scenario scenario = tiny_scenario();
   scenario.dds.sedp.initial_acknack_delay = model::Nanoseconds{c.initial_acknack};
+  scenario.dds.sedp.initial_acknack_interval = c.interval;
   // With `bitmap` initial ACKNACKs may go on forever after a loss.
   scenario.dds.sedp.initial_acknack = model::InitialAckNackReply::heartbeat;
   scenario.dds.sedp.grouping = c.grouping;
@@ -194,6 +196,10 @@ TEST_P(AllRuns, OfTheSimulatorHaveTheOutcomesOfTheExplorer) {
   const Outcomes found = explored(scenario, scope);
   EXPECT_EQ(found.completions, enumeration.outcomes.completions);
   EXPECT_EQ(found.ends, enumeration.outcomes.ends);
+  if (c.interval == model::InitialAckNackInterval::doubling) return;
+  // The interval shows in the outcomes.
+  scenario.dds.sedp.initial_acknack_interval = model::InitialAckNackInterval::doubling;
+  EXPECT_NE(explored(scenario, scope).ends, enumeration.outcomes.ends);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -203,6 +209,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"one_loss", 2, 1, 0, 1, model::Grouping::message, 150},
                     Case{"one_loss_long_delay", 3, 1, 0, 1, model::Grouping::message, 2000},
                     Case{"one_loss_asks_early", 2, 1, 3, 1, model::Grouping::message, 200},
+                    Case{"one_loss_asks_again_and_again", 2, 1, 2, 1, model::Grouping::message, 200,
+                         model::InitialAckNackInterval::constant},
                     Case{"two_packets", 3, 0, 0, 2, model::Grouping::single, 100}),
     [](const auto& test) { return std::string{test.param.name}; });
 

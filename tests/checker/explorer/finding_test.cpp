@@ -1,5 +1,6 @@
 // What the explorer finds about correct rules: known breaches with their shortest paths, known
 // thresholds to the nanosecond, and verdicts that name their scope.
+#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -118,6 +119,16 @@ TEST(Explorer, InitialAckNacksCanGoOnForever) {
   const Finding finding = find(wired(100'000), "live.quiescence");
   ASSERT_EQ(finding.kind, VerdictKind::violated) << finding.how;
   EXPECT_EQ(finding.counterexample->scenario.wireless.lost_packets.size(), 1U);
+}
+
+TEST(Explorer, InitialAckNacksOfAConstantIntervalDoToo) {
+  model::Scenario scenario = wired(100'000);
+  const std::string doubles = "The delay between initial ACKNACKs doubles six times.";
+  EXPECT_TRUE(std::ranges::count(find(scenario, "live.quiescence").assumptions, doubles));
+  scenario.dds.sedp.initial_acknack_interval = model::InitialAckNackInterval::constant;
+  const Finding finding = find(scenario, "live.quiescence");
+  ASSERT_EQ(finding.kind, VerdictKind::violated) << finding.how;
+  EXPECT_FALSE(std::ranges::count(finding.assumptions, doubles));  // nothing is cut off
 }
 
 TEST(Explorer, CompletionBoundIsAttainedButNotExceeded) {

@@ -73,6 +73,7 @@ TEST(LawTrials, MistakesAreNoticedByTheRightLaw) {
       {"acknack-not-sent", "law.answers"},
       {"channel-idles", "law.work-conserving"},
       {"announcements-end", "law.announcements"},
+      {"attempts-mistake-interval", "law.initial-attempts"},
       {"base-ignored", "law.failure-free"},
       {"order-pairwise", ""},
       {"suppression-zero", ""}};

@@ -105,6 +105,22 @@ TEST(TimelineCheck, InitialAckNacksThatConfirmNeverEnd) {
   EXPECT_TRUE(mentions(quiet.details, "1 of 1 boundary runs"));
 }
 
+TEST(TimelineCheck, TheIntervalOfInitialAckNacksChangesNoVerdict) {
+  for (const auto reply :
+       {model::InitialAckNackReply::bitmap, model::InitialAckNackReply::heartbeat}) {
+    model::Scenario scenario = quiet_scenario();
+    scenario.dds.sedp.initial_acknack = reply;
+    model::Scenario constant = scenario;
+    constant.dds.sedp.initial_acknack_interval = model::InitialAckNackInterval::constant;
+    for (const char* property : {"live.completion", "live.quiescence", "storm.free-threshold"}) {
+      const props::Finding finding = finding_about(property, constant);
+      EXPECT_EQ(finding.kind, finding_about(property, scenario).kind) << property << finding.how;
+      if (finding.kind == VerdictKind::violated) expect_confirmed(finding);
+      EXPECT_FALSE(mentions(finding.details, "doubling")) << property;
+    }
+  }
+}
+
 TEST(TimelineCheck, AdaptivePeriodsHaveNoBoundHere) {
   model::Scenario scenario = quiet_scenario();
   scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;

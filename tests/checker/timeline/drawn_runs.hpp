@@ -25,6 +25,8 @@ inline model::SedpProfile drawn_timers() {
   sedp.nack_response_delay = drawn_time(0, 8);
   sedp.nack_suppression_duration = drawn_time(0, *rc::gen::element(8, 60));
   sedp.initial_acknack_delay = drawn_time(0, *rc::gen::element(0, 30));
+  sedp.initial_acknack_interval = *rc::gen::element(model::InitialAckNackInterval::doubling,
+                                                    model::InitialAckNackInterval::constant);
   sedp.initial_acknack =
       *rc::gen::element(model::InitialAckNackReply::bitmap, model::InitialAckNackReply::heartbeat,
                         model::InitialAckNackReply::none);

@@ -15,6 +15,8 @@ TEST(TimelineBridge, FastDdsIsNotLaterThanItsBound) {
     sedp.nack_response_delay = drawn_time(0, 8);
     sedp.nack_suppression_duration = drawn_time(0, *rc::gen::element(8, 60));
     sedp.initial_acknack_delay = drawn_time(0, *rc::gen::element(0, 30));
+    sedp.initial_acknack_interval = *rc::gen::element(model::InitialAckNackInterval::doubling,
+                                                      model::InitialAckNackInterval::constant);
     sedp.piggyback = *rc::gen::element(model::Piggyback::off, model::Piggyback::cumulative);
     sedp.piggyback_threshold_bytes = model::Bytes{*rc::gen::inRange(0, 3'000)};
     setting.descriptors = *rc::gen::inRange<std::uint32_t>(0, 3);

@@ -116,7 +116,7 @@ MachineSubject reader(const char* name, bool accepts) {
 }
 
 // ---- Initial ACKNACKs: the first after τ_I (never, if that is 0), each next one after twice the
-// delay, none once a HEARTBEAT has been seen.
+// delay or after τ_I again, none once a HEARTBEAT has been seen.
 
 enum InitialCall : std::size_t { reader_opened, attempt_due, heartbeat_seen };
 
@@ -127,6 +127,7 @@ std::string initial_words(bool waits, std::int64_t now, std::int64_t due, bool s
 
 class InitialRules final : public PlainModel<InitialRules> {
  public:
+  explicit InitialRules(int growth) : growth_{growth} {}
   [[nodiscard]] bool possible(const Call& call) const override {
     if (call.event == reader_opened) return !opened_;
     if (call.event == attempt_due) return delay_ > 0 && now_ < 1'000'000'000;
@@ -141,7 +142,7 @@ class InitialRules final : public PlainModel<InitialRules> {
     } else if (call.event == attempt_due) {
       now_ += delay_;
       sent = !seen_;
-      delay_ = seen_ ? 0 : 2 * delay_;
+      delay_ = seen_ ? 0 : growth_ * delay_;
     } else {
       seen_ = true;
     }
@@ -149,6 +150,7 @@ class InitialRules final : public PlainModel<InitialRules> {
   }
 
  private:
+  int growth_;  // of the delay, with each attempt
   std::int64_t now_ = 0;
   std::int64_t delay_ = 0;  // of the pending attempt; 0: none
   bool opened_ = false;
@@ -157,7 +159,7 @@ class InitialRules final : public PlainModel<InitialRules> {
 
 class InitialUnderTest final : public Reactor {
  public:
-  explicit InitialUnderTest(Mutations mutations) : machine_{mutations} {}
+  InitialUnderTest(Mutations mutations, bool constant) : machine_{mutations}, constant_{constant} {}
   std::string react(const Call& call) override {
     Output output{};
     if (call.event == reader_opened) {
@@ -182,12 +184,15 @@ class InitialUnderTest final : public Reactor {
   using Output = Stepper<InitialAckNack>::Output;
   template <class Event>
   Output step(std::int64_t first_delay) {
-    return machine_.step<Event>(
-        state_,
-        {.now = now_, .first_delay = first_delay, .last_delay = delay_, .heartbeat_seen = seen_});
+    return machine_.step<Event>(state_, {.now = now_,
+                                         .first_delay = first_delay,
+                                         .last_delay = delay_,
+                                         .heartbeat_seen = seen_,
+                                         .constant = constant_});
   }
 
   Stepper<InitialAckNack> machine_;
+  bool constant_;
   StateId state_ = Stepper<InitialAckNack>::initial;
   std::int64_t now_ = 0;
   std::int64_t delay_ = 0;
@@ -195,6 +200,13 @@ class InitialUnderTest final : public Reactor {
   bool waits_ = false;
   bool seen_ = false;
 };
+
+MachineSubject attempts(const char* name, bool constant) {
+  return machine_subject(
+      name, "InitialAckNack", {{"opening (time, delay)", {5, 3}}, {"attempt due"}, {"HEARTBEAT"}},
+      [constant] { return std::make_unique<InitialRules>(constant ? 1 : 2); },
+      [constant](Mutations m) { return std::make_unique<InitialUnderTest>(m, constant); });
+}
 
 // ---- Announcements: number 0 at the start, some more at the startup period, then one every τ_P.
 
@@ -251,13 +263,9 @@ MachineSubject announcements(const char* name, std::int64_t startup) {
 }  // namespace
 
 std::vector<MachineSubject> reader_subjects() {
-  return {reader("DiscoveryReader", false), reader("DiscoveryReaderThatAccepts", true),
-          machine_subject(
-              "InitialAckNack", "InitialAckNack",
-              {{"opening (time, delay)", {5, 3}}, {"attempt due"}, {"HEARTBEAT"}},
-              [] { return std::make_unique<InitialRules>(); },
-              [](Mutations m) { return std::make_unique<InitialUnderTest>(m); }),
-          announcements("Announcer", 5), announcements("AnnouncerWithoutStartup", 0)};
+  return {reader("DiscoveryReader", false),  reader("DiscoveryReaderThatAccepts", true),
+          attempts("InitialAckNack", false), attempts("InitialAckNackOfConstantInterval", true),
+          announcements("Announcer", 5),     announcements("AnnouncerWithoutStartup", 0)};
 }
 
 }  // namespace stormproof::fsm::stateful

@@ -265,22 +265,22 @@ const char* const of_paper =
 
 INSTANTIATE_TEST_SUITE_P(
     InFastDds, BadInputs,
-    testing::Values(BadInput{"spdp_size", fastdds("payload_bytes: 252", "", ""), 4, 1, of_paper},
-                    BadInput{"relation_rule", fastdds("", "acknowledge: prefix", ""), 5, 1,
-                             "dds.sedp.acknowledge: only implementation: paper has this key"},
-                    BadInput{"grouping", fastdds("", "grouping: message", ""), 5, 1, of_paper},
-                    BadInput{"size", fastdds("", "heartbeat_bytes: 68", ""), 5, 1, of_paper},
-                    BadInput{"descriptors", fastdds("", "", "descriptors: {}"), 6, 1, of_paper},
-                    BadInput{
-                        "unknown_key", fastdds("", "acknowledged: prefix", ""), 5, 1,
-                        "unknown key 'acknowledged' in dds.sedp; expected one of heartbeat_period, "
-                        "heartbeat_response_delay, nack_response_delay, nack_suppression_duration, "
-                        "initial_acknack_delay, heartbeat_policy, adaptive, "
-                        "grouping_limit_bytes, piggyback, piggyback_threshold_bytes"},
-                    BadInput{"missing",
-                             "{deployment: {hosts: 2, participants_per_host: 1, "
-                             "endpoints_per_participant: 2},\n dds: {implementation: fastdds}}",
-                             2, 7, "missing key 'spdp' in dds; expected a map"}),
+    testing::Values(
+        BadInput{"spdp_size", fastdds("payload_bytes: 252", "", ""), 4, 1, of_paper},
+        BadInput{"relation_rule", fastdds("", "acknowledge: prefix", ""), 5, 1,
+                 "dds.sedp.acknowledge: only implementation: paper has this key"},
+        BadInput{"grouping", fastdds("", "grouping: message", ""), 5, 1, of_paper},
+        BadInput{"size", fastdds("", "heartbeat_bytes: 68", ""), 5, 1, of_paper},
+        BadInput{"descriptors", fastdds("", "", "descriptors: {}"), 6, 1, of_paper},
+        BadInput{"unknown_key", fastdds("", "acknowledged: prefix", ""), 5, 1,
+                 "unknown key 'acknowledged' in dds.sedp; expected one of heartbeat_period, "
+                 "heartbeat_response_delay, nack_response_delay, nack_suppression_duration, "
+                 "initial_acknack_delay, initial_acknack_interval, heartbeat_policy, adaptive, "
+                 "grouping_limit_bytes, piggyback, piggyback_threshold_bytes"},
+        BadInput{"missing",
+                 "{deployment: {hosts: 2, participants_per_host: 1, "
+                 "endpoints_per_participant: 2},\n dds: {implementation: fastdds}}",
+                 2, 7, "missing key 'spdp' in dds; expected a map"}),
     name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -145,10 +145,11 @@ TEST(Effective, fast_dds_has_only_its_keys) {
   EXPECT_EQ(keys(json["spdp"]), (std::vector<std::string>{"period", "startup_announcements",
                                                           "startup_period", "resend"}));
   EXPECT_EQ(keys(json["sedp"]),
-            (std::vector<std::string>{
-                "heartbeat_period", "heartbeat_response_delay", "nack_response_delay",
-                "nack_suppression_duration", "initial_acknack_delay", "heartbeat_policy",
-                "adaptive", "grouping_limit_bytes", "piggyback", "piggyback_threshold_bytes"}));
+            (std::vector<std::string>{"heartbeat_period", "heartbeat_response_delay",
+                                      "nack_response_delay", "nack_suppression_duration",
+                                      "initial_acknack_delay", "initial_acknack_interval",
+                                      "heartbeat_policy", "adaptive", "grouping_limit_bytes",
+                                      "piggyback", "piggyback_threshold_bytes"}));
 }
 
 TEST(Effective, a_schedule_stands_beside_the_times_drawn_from_it) {

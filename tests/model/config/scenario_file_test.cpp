@@ -147,6 +147,22 @@ TEST(ScenarioFile, fast_dds_has_fewer_keys) {
   EXPECT_EQ(read.dds, expected);
 }
 
+TEST(ScenarioFile, the_interval_of_initial_acknacks_doubles_unless_a_file_says_otherwise) {
+  using enum InitialAckNackInterval;
+  EXPECT_EQ(scenario(plain, {}).dds.sedp.initial_acknack_interval, doubling);
+  for (const char* profile : {"dds=paper", "dds=fastdds-2.6.11"}) {
+    const auto interval = [&](const std::string& value) {
+      return scenario(plain, {profile, "dds.sedp.initial_acknack_interval=" + value})
+          .dds.sedp.initial_acknack_interval;
+    };
+    EXPECT_EQ(interval("constant"), constant);
+    EXPECT_EQ(interval("doubling"), doubling);
+  }
+  EXPECT_EQ(refusal({"dds.sedp.initial_acknack_interval=halving"}),
+            "--set dds.sedp.initial_acknack_interval=halving: dds.sedp.initial_acknack_interval: "
+            "'halving' is not known; expected one of doubling, constant");
+}
+
 TEST(ScenarioFile, a_profile_keeps_the_implementation_of_its_base) {
   const Scenario read = scenario(
       plain, {"dds={base: fastdds-2.6.11, implementation: fastdds, sedp: {piggyback: off}}"});

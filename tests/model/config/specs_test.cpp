@@ -80,6 +80,13 @@ TEST(Specs, fast_dds_has_the_timers_of_the_paper_until_they_are_corrected) {
   large_buffer.sedp.piggyback_threshold_bytes = Bytes{4'000'000};
   EXPECT_EQ(dds("fastdds-2.6.11-sndbuf4M"), large_buffer);
 
+  DdsProfile constant = expected;
+  constant.sedp.initial_acknack_interval = InitialAckNackInterval::constant;
+  DdsProfile debian = dds("fastdds-2.9.1");
+  EXPECT_TRUE(debian.unmodelled.contains("FASTDDS_STATISTICS"));
+  debian.unmodelled.clear();
+  EXPECT_EQ(debian, constant);
+
   expected.spdp.resend = SpdpResend::new_only;
   expected.sedp.heartbeat_response_delay = Nanoseconds{10'000'000};
   expected.sedp.nack_response_delay = Nanoseconds{100'000'000};

@@ -118,6 +118,15 @@ TEST(FastddsControl, InitialAckNacksDoubleTheirDelay) {
   EXPECT_TRUE(opened(log, "ControlWriter", liveliness).empty());
 }
 
+TEST(FastddsControl, InitialAckNacksKeepAConstantInterval) {
+  Scenario scenario = two_and_a_late_one();
+  scenario.dds.sedp.initial_acknack_interval = InitialAckNackInterval::constant;
+  scenario.time_limit = Nanoseconds{300 * ms};
+  lose(scenario, 1, all_others);  // 1 recognises 0, and nothing else ever arrives
+  EXPECT_EQ(times_of(run(scenario), Kind::user_acknack, liveliness),
+            (Times{71 * ms, 141 * ms, 211 * ms, 281 * ms}));
+}
+
 TEST(FastddsControl, AClosedWriterSideIgnoresAnInitialAckNackAndAnOpenOneAnswersIt) {
   Scenario scenario = two_and_a_late_one();
   lose(scenario, 1, 2);  // 0 recognises 1 at 101 ms only

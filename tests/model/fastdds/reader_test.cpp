@@ -62,6 +62,33 @@ TEST(FastddsReader, AnInitialAckNackClaimsNothing) {
   }
 }
 
+TEST(FastddsReader, InitialAckNacksKeepAConstantInterval) {
+  Scenario scenario = one_writer(0);
+  scenario.dds.sedp.initial_acknack_interval = InitialAckNackInterval::constant;
+  scenario.time_limit = Nanoseconds{400 * ms};
+  lose(scenario, 2, all_others);  // after both announcements nothing arrives
+  const FastddsLog log = run(scenario);
+  EXPECT_EQ(log.times_of(Kind::acknack, 1, 0),
+            (Times{71 * ms, 141 * ms, 211 * ms, 281 * ms, 351 * ms}));
+  for (const Emission& acknack : log.of(Kind::acknack, 1, 0)) EXPECT_TRUE(acknack.initial);
+}
+
+TEST(FastddsReader, AHeartbeatEndsInitialAckNacksOfAConstantInterval) {
+  Scenario scenario = one_writer(0);
+  scenario.dds.sedp.initial_acknack_interval = InitialAckNackInterval::constant;
+  scenario.time_limit = Nanoseconds{1'500 * ms};
+  lose(scenario, 2, 30);  // what is sent later arrives
+  Times initial;
+  for (const Emission& acknack : run(scenario).of(Kind::acknack, 1, 0)) {
+    if (acknack.initial) initial.push_back(acknack.time_ns);
+  }
+  ASSERT_GE(initial.size(), 2U);
+  for (std::size_t k = 0; k < initial.size(); ++k) {
+    EXPECT_EQ(initial[k], ms + 70 * ms * static_cast<std::int64_t>(k + 1));
+  }
+  EXPECT_LT(initial.back(), 1'000 * ms);
+}
+
 TEST(FastddsReader, AHeartbeatEndsTheInitialAckNacks) {
   Scenario scenario = one_writer(sec);
   scenario.time_limit = Nanoseconds{500 * ms};

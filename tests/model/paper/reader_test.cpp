@@ -36,6 +36,19 @@ TEST(Reader, InitialAckNacksDoubleTheirDelay) {
   }
 }
 
+TEST(Reader, InitialAckNacksKeepAConstantInterval) {
+  Scenario scenario = only_one_announcement();
+  scenario.dds.sedp.initial_acknack_interval = InitialAckNackInterval::constant;
+  scenario.time_limit = Nanoseconds{420 * ms};
+  const RunLog log = run_and_log(scenario);
+  const std::vector<std::int64_t> expected{71 * ms, 141 * ms, 211 * ms, 281 * ms, 351 * ms};
+  EXPECT_EQ(log.times_of(PacketKind::acknack, 1, 0, Stream::pub), expected);
+  EXPECT_EQ(log.times_of(PacketKind::acknack, 1, 0, Stream::sub), expected);
+  for (const Sent& acknack : log.of(PacketKind::acknack, 1, 0)) {
+    EXPECT_TRUE(acknack.initial_acknack);
+  }
+}
+
 TEST(Reader, ADelayOfZeroDisablesInitialAckNacks) {
   Scenario scenario = only_one_announcement();
   scenario.dds.sedp.initial_acknack_delay = Nanoseconds{0};

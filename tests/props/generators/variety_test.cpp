@@ -194,6 +194,11 @@ const std::vector<Share>& shares() {
                 std::ranges::any_of(s.deployment.participants,
                                     [](const auto& p) { return p.endpoints_done > p.start; });
        }},
+      {"constant interval of initial ACKNACKs", 100,
+       [](const Scenario& s) {
+         return s.dds.sedp.initial_acknack_delay > Nanoseconds{0} &&
+                s.dds.sedp.initial_acknack_interval == model::InitialAckNackInterval::constant;
+       }},
       {"events at the same time", 250,
        [](const Scenario& s) {
          TieCounter counter;

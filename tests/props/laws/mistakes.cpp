@@ -167,6 +167,12 @@ void add_obligations(std::vector<Mistake>& list) {
                   of_rules(of_event(EventKind::acknack_generation, Change::shift, ns))});
   list.push_back({"law.initial-attempts", "initial ACKNACKs are forgotten",
                   of_rules(of_event(EventKind::initial_acknack_due, Change::forget))});
+  list.push_back({"law.initial-attempts", "the interval of initial ACKNACKs is mistaken",
+                  of_other([](Scenario& s) {
+                    using enum model::InitialAckNackInterval;
+                    auto& interval = s.dds.sedp.initial_acknack_interval;
+                    interval = interval == doubling ? constant : doubling;
+                  })});
   list.push_back({"law.announcements", "announcements are 1 ns late", of_other([](Scenario& s) {
                     s.dds.spdp.startup_period += ns;
                     s.dds.spdp.period += ns;

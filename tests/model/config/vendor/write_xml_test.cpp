@@ -49,8 +49,9 @@ DdsProfile read_back(const std::string& name, const std::string& xml) {
   return profile ? *profile : DdsProfile{};
 }
 
-const std::vector<std::string> names = {"fastdds-2.6.11", "fastdds-2.14.5", "fastdds-3.4",
-                                        "fastdds-2.6.11-sndbuf4M", "cyclonedds-0.10"};
+const std::vector<std::string> names = {"fastdds-2.6.11", "fastdds-2.14.5",
+                                        "fastdds-3.4",    "fastdds-2.6.11-sndbuf4M",
+                                        "fastdds-2.9.1",  "cyclonedds-0.10"};
 
 TEST(WriteXml, both_ends_of_every_range_come_back) {
   for (const std::string& name : names) {
