@@ -1,0 +1,413 @@
+// Finds the request of every transmission of a relation, and replays requests and transmissions
+// through the machines of the descriptors.
+#include "checker/conform/writer_side.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "checker/conform/requests_exact.hpp"
+#include "checker/conform/words.hpp"
+
+namespace stormproof::conform {
+
+namespace {
+
+namespace change = fsm::change_for_reader;
+namespace shot = fsm::single_shot;
+
+std::vector<Transmission> transmissions_of(const Relation& relation, std::uint32_t existing) {
+  std::vector<Transmission> all;
+  std::vector<bool> seen;
+  for (const Submessage& one : relation.sent) {
+    if (!one.descriptor) continue;
+    const std::uint32_t d = *one.descriptor;
+    if (d >= seen.size()) seen.resize(d + 1);
+    const bool is_first = !seen[d];
+    all.push_back({d, one.time_ns, one.event, is_first, is_first && d >= existing});
+    seen[d] = true;
+  }
+  return all;
+}
+
+/// A successful search: for each transmission the ACKNACK that asks for it, unless it is pushed.
+struct Plan {
+  std::vector<Arrival> arrivals{};
+  std::vector<std::optional<std::size_t>> request{};
+};
+
+/// How long the solver may think about one relation.
+constexpr std::chrono::milliseconds solver_limit{10'000};
+
+class WriterSide {
+ public:
+  WriterSide(const WriterContext& context, const Relation& relation,
+             Tally<fsm::ChangeForReader>& changes, Tally<fsm::SingleShot>& timers, Ledger& ledger)
+      : context_{context},
+        relation_{relation},
+        changes_{changes},
+        timers_{timers},
+        ledger_{ledger} {}
+
+  std::optional<Unexplained> explain() {
+    if (relation_.sent.empty()) return std::nullopt;
+    const Submessage& opening = relation_.sent.front();
+    if (auto fault = not_announced(opening)) return fault;
+    const bool is_alone =
+        relation_.sent.size() == 1 || relation_.sent[1].datagram != opening.datagram;
+    if (!opening.heartbeat || !opening.heartbeat->is_directed || !is_alone) {
+      return not_opened(opening);
+    }
+    opened_ns_ = opening.time_ns;
+    existing_ = opening.heartbeat->announced;
+    transmissions_ = transmissions_of(relation_, existing_);
+    if (auto fault = pushed_late()) return fault;
+    std::optional<Demand> failure;
+    for (const std::int64_t lag : lags()) {
+      Plan plan;
+      failure = search(lag, plan);
+      if (failure) continue;
+      ledger_.used_lag(lag);
+      return replay(plan, lag);
+    }
+    return decide_exactly(*failure);
+  }
+
+ private:
+  /// Send lags to try, the least first: what it takes is reported.
+  [[nodiscard]] std::vector<std::int64_t> lags() const {
+    std::vector<std::int64_t> all{0};
+    for (std::int64_t lag = 10'000; lag < context_.bounds.most_send_lag_ns; lag *= 10) {
+      all.push_back(lag);
+    }
+    if (context_.bounds.most_send_lag_ns > 0) all.push_back(context_.bounds.most_send_lag_ns);
+    return all;
+  }
+
+  /// From the arrival of a request to the transmission.
+  [[nodiscard]] std::int64_t response_ns() const {
+    return context_.is_only_reader ? context_.sedp.nack_response_delay.count() : 0;
+  }
+
+  /// What each transmission that is not pushed needs. `exact`: as the rules have it if everything
+  /// was serialized `lag` before its capture; otherwise no later than they can have it at all.
+  [[nodiscard]] std::vector<Demand> demands(std::int64_t lag, bool exact) const {
+    std::vector<Demand> all;
+    std::vector<std::int64_t> unacknowledged;  // since when, by descriptor
+    const std::int64_t suppression = context_.sedp.nack_suppression_duration.count();
+    std::int64_t suppressed_until = INT64_MIN;
+    for (std::size_t k = 0; k < transmissions_.size(); ++k) {
+      const Transmission& one = transmissions_[k];
+      const std::int64_t serialized = one.time_ns - lag;
+      if (one.descriptor >= unacknowledged.size()) {
+        unacknowledged.resize(one.descriptor + 1, opened_ns_ - lag);
+      }
+      if (!one.is_pushed) {
+        all.push_back({k, one.descriptor, unacknowledged[one.descriptor],
+                       one.time_ns - response_ns() + capture_resolution_ns});
+      }
+      // A suppression that is pending already ends for this descriptor, too.
+      const bool may_be_pending =
+          !exact && k > 0 && transmissions_[k - 1].time_ns + suppression >= serialized - lag;
+      if (serialized >= suppressed_until) suppressed_until = serialized + suppression;
+      unacknowledged[one.descriptor] = may_be_pending ? serialized + 1 : suppressed_until;
+    }
+    return all;
+  }
+
+  /// The greedy schedule; what it cannot serve, if anything.
+  std::optional<Demand> search(std::int64_t lag, Plan& plan) const {
+    Requests requests{relation_, transmissions_, context_.bounds, lag};
+    plan.request.resize(transmissions_.size());
+    for (const Demand& demand : demands(lag, true)) {
+      plan.request[demand.transmission] = requests.serve(demand);
+      if (!plan.request[demand.transmission]) return demand;
+    }
+    plan.arrivals = requests.arrivals();
+    return std::nullopt;
+  }
+
+  /// The greedy schedule fails at `failure`, but others may not: a solver decides, and finds the
+  /// first transmission that none explains.
+  std::optional<Unexplained> decide_exactly(const Demand& failure) {
+    const std::int64_t lag = context_.bounds.most_send_lag_ns;
+    const Requests requests{relation_, transmissions_, context_.bounds, lag};
+    const std::vector<Demand> all = demands(lag, false);
+    std::size_t count = 0;
+    while (count < all.size() && all[count].transmission <= failure.transmission) ++count;
+    for (; count <= all.size(); ++count) {
+      const std::vector<Demand> first{all.begin(),
+                                      all.begin() + static_cast<std::ptrdiff_t>(count)};
+      const ExactAnswer answer = decide(relation_, requests, first, solver_limit);
+      if (answer.kind == ExactAnswer::Kind::impossible) return unexplained(first.back());
+      if (answer.kind == ExactAnswer::Kind::unknown) break;
+      if (count < all.size()) continue;
+      Plan plan{answer.arrivals, {}};
+      plan.request.resize(transmissions_.size());
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        plan.request[all[k].transmission] = answer.request[k];
+      }
+      ledger_.used_lag(lag);
+      return replay(plan, lag);
+    }
+    ledger_.undecided();
+    return std::nullopt;
+  }
+
+  // Replay.
+
+  struct Step {
+    std::int64_t time_ns = 0;
+    bool is_transmission = false;
+    std::size_t index = 0;
+  };
+
+  std::optional<Unexplained> replay(const Plan& plan, std::int64_t lag) {
+    std::vector<Step> steps;
+    std::int64_t in_order = INT64_MIN;
+    for (std::size_t k = 0; k < plan.arrivals.size(); ++k) {
+      in_order = std::max(in_order, plan.arrivals[k].from_ns);
+      steps.push_back({in_order, false, k});
+    }
+    for (std::size_t k = 0; k < transmissions_.size(); ++k) {
+      std::int64_t serialized = transmissions_[k].time_ns - lag;
+      if (const auto request = plan.request[k]) {
+        serialized = std::max(serialized, steps[*request].time_ns + response_ns());
+      }
+      steps.push_back({serialized, true, k});
+    }
+    std::stable_sort(steps.begin(), steps.end(),
+                     [](const Step& a, const Step& b) { return a.time_ns < b.time_ns; });
+
+    open();
+    for (const Step& step : steps) {
+      end_suppression(step.time_ns);
+      if (step.is_transmission) {
+        transmit(step);
+      } else if (auto fault = arrive(step, plan.arrivals[step.index])) {
+        return fault;
+      }
+    }
+    return std::nullopt;
+  }
+
+  void open() {
+    states_.assign(std::max<std::size_t>(known(), existing_),
+                   Tally<fsm::ChangeForReader>::Fly::initial);
+    for (std::uint32_t d = 0; d < existing_; ++d) {
+      changes_.step<change::ReaderMatched>(states_[d], {});
+    }
+  }
+
+  [[nodiscard]] std::size_t known() const {
+    return context_.dialogue
+        .descriptors[2 * relation_.place.source + stream_index(relation_.place.writer)];
+  }
+
+  std::optional<Unexplained> arrive(const Step& step, const Arrival& arrival) {
+    const Answer& answer = relation_.answers[step.index];
+    if (!arrival.is_used && is_unanswered(answer, step.time_ns)) {
+      const std::int64_t served = arrival.to_ns + context_.sedp.nack_response_delay.count() +
+                                  context_.bounds.most_lateness_ns +
+                                  context_.bounds.most_send_lag_ns;
+      const bool still_under_way = served >= context_.dialogue.end_ns;
+      if (!still_under_way && !context_.bounds.may_lose) return unanswered(answer);
+      ledger_.hidden(still_under_way ? Hidden::Kind::still_under_way : Hidden::Kind::lost,
+                     answer.time_ns, answer.event);
+      return std::nullopt;
+    }
+    ledger_.hidden(Hidden::Kind::received, step.time_ns, answer.event);
+    if (answer.is_initial) {
+      for (fsm::StateId& state : states_) {
+        changes_.step<change::InitialAckNackReceived>(state, {});
+      }
+      return std::nullopt;
+    }
+    bool requested = false;
+    for (std::uint32_t d = 0; d < states_.size(); ++d) {
+      const bool listed = answer.asks_for(d);
+      if (!listed && d >= answer.base) continue;
+      requested |= changes_
+                       .step<change::AckNackReceived>(
+                           states_[d], {.listed = listed, .below_base = d < answer.base})
+                       .requested;
+    }
+    if (requested) {
+      timers_.step<shot::Requested>(
+          response_, {.now = step.time_ns, .delay = context_.sedp.nack_response_delay.count()});
+    }
+    return std::nullopt;
+  }
+
+  /// Whether it asks for something unacknowledged that is never sent again.
+  [[nodiscard]] bool is_unanswered(const Answer& answer, std::int64_t now) const {
+    constexpr fsm::StateId u = fsm::Reflect<fsm::ChangeForReader>::id<change::U>;
+    return std::any_of(answer.missing.begin(), answer.missing.end(), [&](std::uint32_t d) {
+      if (d >= states_.size() || states_[d] != u) return false;
+      return std::none_of(
+          transmissions_.begin(), transmissions_.end(),
+          [&](const Transmission& one) { return one.descriptor == d && one.time_ns >= now; });
+    });
+  }
+
+  void transmit(const Step& step) {
+    const Transmission& one = transmissions_[step.index];
+    fsm::StateId& state = states_[one.descriptor];
+    if (one.is_pushed) changes_.step<change::Created>(state, {});
+    if (timers_.step<shot::Due>(response_, {.now = step.time_ns}).fire) {
+      for (fsm::StateId& other : states_) changes_.step<change::NackResponseDue>(other, {});
+    }
+    constexpr fsm::StateId s = fsm::Reflect<fsm::ChangeForReader>::id<change::S>;
+    changes_.step<change::Serialized>(state, {});
+    if (state != s) {
+      ledger_.not_replayed();
+    } else {
+      ledger_.explained(one.is_pushed  ? Rule::data_push
+                        : one.is_first ? Rule::data_pull
+                                       : Rule::data_repair);
+    }
+    const auto timer = timers_.step<shot::Requested>(
+        suppression_,
+        {.now = step.time_ns, .delay = context_.sedp.nack_suppression_duration.count()});
+    if (timer.schedule) suppressed_until_ns_ = timer.next_at;
+  }
+
+  void end_suppression(std::int64_t now) {
+    if (now < suppressed_until_ns_) return;
+    if (!timers_.step<shot::Due>(suppression_, {.now = now}).fire) return;
+    for (fsm::StateId& state : states_) changes_.step<change::SuppressionEnded>(state, {});
+  }
+
+  // Findings.
+
+  std::optional<Unexplained> not_announced(const Submessage& opening) {
+    const auto announced =
+        context_.dialogue.first_announced(*relation_.place.destination, relation_.place.source);
+    if (announced && opening.time_ns + context_.bounds.clock_error_ns + capture_resolution_ns >=
+                         *announced + context_.bounds.least_delay_ns) {
+      return std::nullopt;
+    }
+    std::vector<Need> needs;
+    if (announced) {
+      needs.push_back({"clock error", *announced + context_.bounds.least_delay_ns - opening.time_ns,
+                       context_.bounds.clock_error_ns});
+    }
+    return fault(opening.event, Fault::not_announced,
+                 "the writer sends to a participant that it cannot know yet",
+                 announced ? "the first announcement of the reader's participant comes later"
+                           : "no announcement of the reader's participant is in the capture",
+                 std::move(needs));
+  }
+
+  Unexplained not_opened(const Submessage& opening) {
+    return fault(opening.event, Fault::not_opened,
+                 "the first message to this reader is not the HEARTBEAT that opens the relation",
+                 "the writer opens with a HEARTBEAT to this reader alone, before anything else",
+                 {{"a HEARTBEAT with INFO_DST before it", {}, {}}});
+  }
+
+  /// A descriptor that is created after the opening is pushed at once, so no HEARTBEAT announces it
+  /// before.
+  std::optional<Unexplained> pushed_late() {
+    for (const Transmission& one : transmissions_) {
+      if (!one.is_pushed) continue;
+      const auto announced = context_.announced.lower_bound(one.descriptor + 1);
+      if (announced == context_.announced.end()) continue;
+      const std::int64_t late = one.time_ns - announced->second;
+      if (late <= context_.bounds.most_send_lag_ns) {
+        ledger_.used_lag(late);
+        continue;
+      }
+      return fault(
+          one.event, Fault::data_cause,
+          fmt::format("first transmission of descriptor {}, {} after a HEARTBEAT announced it",
+                      one.descriptor, duration(late)),
+          "the descriptor was created after the relation opened, so it is pushed at its creation, "
+          "and no HEARTBEAT comes before",
+          {{"send lag", late, context_.bounds.most_send_lag_ns}});
+    }
+    return std::nullopt;
+  }
+
+  Unexplained unanswered(const Answer& answer) {
+    return fault(
+        answer.event, Fault::unanswered,
+        fmt::format("ACKNACK of {}: not everything that it asks for is sent again", words(answer)),
+        "what an ACKNACK asks for while it is unacknowledged is sent, and nothing is lost",
+        {{"a loss, or a longer delay", {}, {}}});
+  }
+
+  Unexplained unexplained(const Demand& failure) {
+    const Transmission& one = transmissions_[failure.transmission];
+    const std::string what = fmt::format("{} transmission of descriptor {}",
+                                         one.is_first ? "first" : "repeated", one.descriptor);
+    const Answer* latest = nullptr;  // the last ACKNACK before it that asks for it
+    for (const Answer& answer : relation_.answers) {
+      if (answer.time_ns > one.time_ns + context_.bounds.clock_error_ns) break;
+      if (answer.asks_for(one.descriptor)) latest = &answer;
+    }
+    if (latest == nullptr) {
+      return fault(one.event, Fault::data_cause, what + ", and no ACKNACK asks for it before",
+                   one.is_first
+                       ? "the descriptor existed when the relation opened, so it waits for "
+                         "an ACKNACK that asks for it"
+                       : "a descriptor is sent again only when an ACKNACK asks for it",
+                   {{"an ACKNACK of this reader before it that asks for the descriptor", {}, {}}});
+    }
+    const std::int64_t earliest = latest->time_ns + context_.bounds.least_delay_ns;
+    if (earliest > failure.to_ns) {
+      const std::int64_t by = earliest - failure.to_ns;
+      return fault(
+          one.event, Fault::data_early,
+          fmt::format("{}, {} after the ACKNACK that asks for it", what,
+                      duration(one.time_ns - latest->time_ns)),
+          fmt::format("the writer waits {} after a request: it is sent at the earliest {} "
+                      "later",
+                      duration(context_.sedp.nack_response_delay.count()), duration(by)),
+          {{"clock error", context_.bounds.clock_error_ns + by, context_.bounds.clock_error_ns},
+           {"a nack response delay of at most", one.time_ns - latest->time_ns,
+            context_.sedp.nack_response_delay.count()}},
+          latest->event);
+    }
+    return fault(
+        one.event, Fault::data_early,
+        what + ", and every ACKNACK that asks for it is used up by an earlier transmission",
+        fmt::format("one that asks for it arrives between {} and {} before",
+                    duration(one.time_ns - failure.to_ns), duration(one.time_ns - failure.from_ns)),
+        {{"one more ACKNACK of this reader that asks for it and arrives then", {}, {}}},
+        latest->event);
+  }
+
+  Unexplained fault(std::size_t event, Fault kind, std::string what, std::string nearest,
+                    std::vector<Need> needs, std::optional<std::size_t> cause = {}) {
+    Unexplained one{
+        event, kind, relation_.place, std::move(what), std::move(nearest), std::move(needs), {}};
+    one.context = context_of(relation_, event, cause);
+    return one;
+  }
+
+  const WriterContext& context_;
+  const Relation& relation_;
+  Tally<fsm::ChangeForReader>& changes_;
+  Tally<fsm::SingleShot>& timers_;
+  Ledger& ledger_;
+
+  std::int64_t opened_ns_ = 0;
+  std::uint32_t existing_ = 0;  ///< descriptors when the relation opened
+  std::vector<Transmission> transmissions_;
+  std::vector<fsm::StateId> states_;
+  fsm::StateId response_ = Tally<fsm::SingleShot>::Fly::initial;
+  fsm::StateId suppression_ = Tally<fsm::SingleShot>::Fly::initial;
+  std::int64_t suppressed_until_ns_ = INT64_MAX;
+};
+
+}  // namespace
+
+std::optional<Unexplained> explain_data(const WriterContext& context, const Relation& relation,
+                                        Tally<fsm::ChangeForReader>& changes,
+                                        Tally<fsm::SingleShot>& timers, Ledger& ledger) {
+  return WriterSide{context, relation, changes, timers, ledger}.explain();
+}
+
+}  // namespace stormproof::conform
