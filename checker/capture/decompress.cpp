@@ -19,7 +19,7 @@ constexpr std::array<std::uint8_t, 2> gzip_magic{0x1f, 0x8b};
 /// For the dictionary of an xz stream; the largest preset needs 65 MiB.
 constexpr std::uint64_t xz_memory_limit = 256ULL << 20U;
 
-enum class Step : std::uint8_t { more, end, cut_off, corrupt };
+enum class Step : std::uint8_t { more, end, cut_off, corrupt, too_large };
 
 /// liblzma; concatenated streams are its own business.
 class XzDecoder {
@@ -42,6 +42,7 @@ class XzDecoder {
     written = room.size() - stream_.avail_out;
     if (result == LZMA_OK) return Step::more;
     if (result == LZMA_STREAM_END) return Step::end;
+    if (result == LZMA_MEMLIMIT_ERROR) return Step::too_large;
     return result == LZMA_BUF_ERROR ? Step::cut_off : Step::corrupt;
   }
 
@@ -102,6 +103,10 @@ model::config::Result<Unpacked, std::string> run(Decoder& decoder, std::string_v
                           room.begin() + static_cast<std::ptrdiff_t>(written));
     if (step == Step::cut_off) unpacked.damage = fmt::format("the {} data is cut off", suffix);
     if (step == Step::corrupt) unpacked.damage = fmt::format("the {} data is corrupt", suffix);
+    if (step == Step::too_large) {
+      unpacked.damage = fmt::format("the {} data needs more than {} MiB of memory to unpack",
+                                    suffix, xz_memory_limit >> 20U);
+    }
   }
   if (unpacked.bytes.empty()) {
     return unpacked.damage.empty() ? "unpacks to nothing" : unpacked.damage;

@@ -25,9 +25,14 @@ std::size_t IpReassembly::cost(const Unfinished& datagram) {
 
 std::optional<Datagram> IpReassembly::add(const Packet& packet, Bytes bytes) {
   const auto ip = parse_ip(bytes);
+  const bool is_cut_by_capture = packet.bytes.size() < packet.original_length;
+  if (is_cut_by_capture && (!ip || ip->is_cut)) {
+    remark("IP packets cut short by the capture (its snap length)", packet.number);
+    return std::nullopt;
+  }
   if (!ip || (ip->protocol != udp_protocol && !ip->is_cut)) return std::nullopt;
   if (ip->is_cut) {
-    remark("IP packets cut short by the capture (its snap length)", packet.number);
+    remark("IP packets that are longer than their frames", packet.number);
     return std::nullopt;
   }
   if (ip->is_fragment()) return add_fragment(packet, *ip);

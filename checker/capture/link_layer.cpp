@@ -14,19 +14,23 @@ bool is_vlan_tag(std::uint16_t ethertype) {
   return ethertype == 0x8100 || ethertype == 0x88a8 || ethertype == 0x9100;
 }
 
-/// What follows an EtherType at `offset`, after up to two VLAN tags.
-std::optional<Bytes> after_ethertype(Bytes frame, std::size_t offset) {
-  constexpr int most_tags = 2;
-  Cursor cursor{part(frame, offset)};
-  std::uint16_t ethertype = cursor.u16();
-  for (int tags = 0; tags < most_tags && is_vlan_tag(ethertype); ++tags) {
+/// What follows the VLAN tags, any number of them, if it is an IP packet. `ethertype` is that of
+/// the frame, and `rest` what follows it.
+std::optional<Bytes> after_tags(std::uint16_t ethertype, Bytes rest) {
+  Cursor cursor{rest};
+  while (is_vlan_tag(ethertype)) {
     cursor.skip(2);
-    ethertype = cursor.u16();
+    ethertype = cursor.u16();  // 0 at the end of the frame
   }
-  if (cursor.failed() || (ethertype != ethertype_v4 && ethertype != ethertype_v6)) {
-    return std::nullopt;
-  }
+  if (cursor.failed()) return Bytes{};
+  if (ethertype != ethertype_v4 && ethertype != ethertype_v6) return std::nullopt;
   return cursor.rest();
+}
+
+/// The same of a frame that has its EtherType at `offset`, and a payload from `payload` on.
+std::optional<Bytes> after_ethertype(Bytes frame, std::size_t offset, std::size_t payload) {
+  if (frame.size() < payload) return Bytes{};
+  return after_tags(Cursor{part(frame, offset)}.u16(), part(frame, payload));
 }
 
 }  // namespace
@@ -54,14 +58,11 @@ std::optional<Bytes> ip_packet(Bytes frame, int link_type) {
   constexpr std::size_t address_family = 4;
   switch (link_type) {
     case DLT_EN10MB:
-      return after_ethertype(frame, mac_addresses);
+      return after_ethertype(frame, mac_addresses, mac_addresses + 2);
     case DLT_LINUX_SLL:
-      return after_ethertype(frame, sll_protocol);
-    case DLT_LINUX_SLL2: {
-      const std::uint16_t protocol = Cursor{frame}.u16();
-      if (protocol != ethertype_v4 && protocol != ethertype_v6) return std::nullopt;
-      return part(frame, sll2_header);
-    }
+      return after_ethertype(frame, sll_protocol, sll_protocol + 2);
+    case DLT_LINUX_SLL2:
+      return after_ethertype(frame, 0, sll2_header);
     case DLT_NULL:
     case DLT_LOOP:
       // The family's number depends on the system that captured; the IP header has its version.

@@ -15,7 +15,8 @@ inline constexpr const char* supported_links =
 /// `link_type` is a DLT_… number of libpcap.
 [[nodiscard]] bool is_supported_link(int link_type);
 
-/// The bytes from the IP header on; nothing if the frame holds another protocol or is too short.
+/// The bytes from the IP header on; nothing if the frame holds another protocol. Empty if the frame
+/// ends before that can be told.
 [[nodiscard]] std::optional<Bytes> ip_packet(Bytes frame, int link_type);
 
 }  // namespace stormproof::capture

@@ -17,6 +17,7 @@ class Receiver {
   }
 
   void receive(const Submessage& submessage) {
+    if (has_writer(submessage.id) && !has_room()) return;
     switch (submessage.id) {
       case SubmessageId::info_dst:
       case SubmessageId::info_src:
@@ -36,6 +37,26 @@ class Receiver {
   }
 
  private:
+  static bool has_writer(SubmessageId id) {
+    return id == SubmessageId::data || id == SubmessageId::data_frag ||
+           id == SubmessageId::heartbeat || id == SubmessageId::acknack || id == SubmessageId::gap;
+  }
+
+  /// Whether one more event of the present source is within the limits.
+  bool has_room() {
+    if (extraction_.events.size() >= extraction_.limits.events) {
+      remarks_.add("submessages beyond the most that are looked at", place_);
+      return false;
+    }
+    if (extraction_.sources.contains(event_.source)) return true;
+    if (extraction_.sources.size() >= extraction_.limits.participants) {
+      remarks_.add("submessages of participants beyond the most that are looked at", place_);
+      return false;
+    }
+    extraction_.sources.insert(event_.source);
+    return true;
+  }
+
   void redirect(const Submessage& submessage) {
     const auto prefix = decode_prefix(submessage);
     if (!prefix) return malformed();

@@ -2,6 +2,7 @@
 // 8.3.4), decodes what counts, and skips what does not, such as submessages of vendors.
 #pragma once
 
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,8 +22,18 @@ struct Description {
   std::variant<ParticipantData, EndpointData> content{};
 };
 
+/// More than real captures have, so that hostile ones take bounded memory and time: submessages of
+/// all captures together (each takes less than 1 KB until everything is counted), and participants
+/// that they come from. What is beyond is left out with a remark.
+struct ExtractionLimits {
+  std::size_t events = 1U << 23U;
+  std::size_t participants = 4096;
+};
+
 /// What was found in datagrams so far. Destinations are only those of INFO_DST.
 struct Extraction {
+  ExtractionLimits limits{};
+  std::set<GuidPrefix> sources{};
   std::vector<Event> events{};
   std::vector<Description> descriptions{};
 };

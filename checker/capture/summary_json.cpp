@@ -10,7 +10,7 @@ namespace stormproof::capture {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 Json counts_json(const model::Counts& counts) {
   Json json;

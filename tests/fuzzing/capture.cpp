@@ -25,8 +25,10 @@ Outcome message(Bytes input) {
   return Outcome::accepted;
 }
 
+constexpr std::int64_t always = std::numeric_limits<std::int64_t>::max();
+
 void check(const capture::Conversation& conversation) {
-  const capture::Counting counting = count(conversation, std::numeric_limits<std::int64_t>::max());
+  const capture::Counting counting = count(conversation, always);
   std::uint64_t submessages = 0;
   for (const capture::TrafficFigures& one : counting.traffic) {
     submessages += one.data + one.data_frag + one.heartbeat + one.acknack + one.gap;
@@ -42,6 +44,29 @@ void check(const capture::Conversation& conversation) {
     last = event.time_ns;
   }
   require(last <= conversation.last_ns, "events lie within the capture");
+  if (conversation.events.empty()) return;
+  const std::int64_t half_ns = conversation.events[conversation.events.size() / 2].time_ns;
+  const capture::Counting half = count(conversation, half_ns);
+  require(half.counts.total() <= counting.counts.total(), "no event counts only before a cut");
+  require(half.datagrams + half.after_cut == counting.datagrams, "a cut leaves no datagram out");
+  require(counting.missing.size() <= counting.missing_count,
+          "what is listed as missing is missing");
+  require(
+      counting.last_initial_ns.has_value() || counting.missing_count > 0 || counting.required == 0,
+      "what is not missing was sent at some time");
+}
+
+/// A capture read again, and together with itself.
+void check_again(const capture::Conversation& once, const capture::MemoryCapture& file) {
+  const auto again = capture::read_conversation(std::array{file});
+  require(again && again->events.size() == once.events.size() && again->remarks == once.remarks,
+          "the same bytes give the same conversation");
+  const auto both = capture::read_conversation(std::array{file, file});
+  require(static_cast<bool>(both), "a capture can be merged with itself");
+  require(both->captures[1].merged + both->captures[0].merged == once.datagrams.size(),
+          "every datagram is merged with itself");
+  require(count(*both, always).counts == count(once, always).counts,
+          "a capture together with itself counts once");
 }
 
 }  // namespace
@@ -58,6 +83,9 @@ Outcome capture(std::string_view input) {
     return Outcome::refused;
   }
   check(*conversation);
+  // Reads it three times more: not worth the time of a fuzzer for a large input.
+  constexpr std::size_t small = 4096;
+  if (bytes.size() <= small) check_again(*conversation, captures[0]);
   return Outcome::accepted;
 }
 

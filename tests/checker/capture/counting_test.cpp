@@ -213,7 +213,7 @@ TEST(RequiredKeys, AHostileRangeIsCountedWithoutBeingListed) {
   PcapFile file = three_participants();
   file.message(3, to_2, Message{prefix(1)}.to(prefix(2)).heartbeat(pub, 1, INT64_MAX, 1));
   const Counting counting = count_of(file);
-  EXPECT_EQ(counting.missing_count, 2U * 65'537U);
+  EXPECT_EQ(counting.missing_count, 2U * 65'536U);
   EXPECT_EQ(counting.missing.size(), most_missing_listed);
   file.message(4, to_2, Message{prefix(1)}.to(prefix(2)).heartbeat(pub, INT64_MIN, INT64_MAX, 2));
   file.message(5, to_2, Message{prefix(1)}.to(prefix(2)).gap(pub, INT64_MIN, INT64_MAX));

@@ -2,6 +2,7 @@
 // and what is refused.
 #include <gtest/gtest.h>
 
+#include "checker/capture/message_events.hpp"
 #include "checker/capture/rtps_message.hpp"
 #include "tests/checker/capture/packets.hpp"
 
@@ -144,6 +145,74 @@ TEST(Message, HostileLengthsAreRefused) {
   EXPECT_EQ(conversation.events.size(), 1U);
   ASSERT_EQ(conversation.remarks.size(), 1U);
   EXPECT_EQ(conversation.remarks[0].count, 6U);
+}
+
+TEST(Message, HostileSetsAndFragmentNumbers) {
+  const auto body = [] { return Writer{ByteOrder::little}; };
+  const auto set = [&body](std::uint32_t num_bits, std::size_t bytes) {
+    Writer out = body().entity(pub + 5).entity(pub).sequence_number(INT64_MAX).u32(num_bits);
+    return out.bytes(Buffer(bytes, 255)).buffer();
+  };
+  const auto fragment = [&body](std::uint32_t number) {
+    Writer out = body().u16(0).u16(28).entity(0).entity(pub).sequence_number(1).u32(number);
+    return out.u16(65535).u16(65535).u32(0xffffffff).buffer();
+  };
+  Message message{prefix(1)};
+  for (const std::uint32_t num_bits : {257U, 0x7fffffffU, 0x80000000U, 0xffffffffU}) {
+    message.submessage(0x06, 0, set(num_bits, 400)).submessage(0x08, 0, set(num_bits, 400));
+  }
+  message.submessage(0x16, 0, fragment(0));
+  Conversation conversation = conversation_with(message);
+  EXPECT_TRUE(conversation.events.empty());
+  ASSERT_EQ(conversation.remarks.size(), 1U);
+  EXPECT_EQ(conversation.remarks[0].count, 9U);
+  conversation = conversation_with(Message{prefix(1)}
+                                       .submessage(0x06, 0, set(256, 36))
+                                       .submessage(0x16, 0, fragment(0xffffffff)));
+  ASSERT_EQ(conversation.events.size(), 2U);
+  EXPECT_EQ(conversation.events[0].acknack()->missing.size(), 256U);
+  EXPECT_EQ(conversation.events[1].data()->fragment, 0xffffffffU);
+}
+
+TEST(Message, HostileStringsAreNoNames) {
+  for (const std::uint32_t length : {5U, 0x7fffffffU, 0xffffffffU}) {
+    Writer body{ByteOrder::little};
+    body.u16(0).u16(16).entity(pub + 5).entity(pub).sequence_number(1).u8(0).u8(3).u16(0);
+    body.u16(0x5a).u16(16).bytes(prefix(1).bytes).entity(0x103);
+    body.u16(5).u16(8).u32(length).text("abcd").u16(1).u16(0);
+    const Conversation conversation =
+        conversation_with(Message{prefix(1)}.submessage(0x15, 4, body.buffer()));
+    ASSERT_EQ(conversation.topology.participants.size(), 1U);
+    ASSERT_EQ(conversation.topology.participants[0].endpoints.size(), 1U);
+    EXPECT_EQ(conversation.topology.participants[0].endpoints.begin()->second.topic, "");
+  }
+}
+
+TEST(Message, WhatIsBeyondTheLimitsIsLeftOutWithARemark) {
+  const auto extracted = [](const Message& message, ExtractionLimits limits, Remarks& remarks) {
+    Extraction extraction;
+    extraction.limits = limits;
+    Datagram datagram;
+    datagram.payload = message.buffer();
+    EXPECT_TRUE(extract(datagram, 0, "a, packet 1", extraction, remarks));
+    return extraction.events.size();
+  };
+  Message message{prefix(1)};
+  for (std::uint8_t source = 1; source <= 5; ++source) {
+    message.from(prefix(source)).heartbeat(pub, 1, 1, source).descriptor(pub, 1);
+  }
+  Remarks none;
+  EXPECT_EQ(extracted(message, {.events = 10, .participants = 5}, none), 10U);
+  EXPECT_TRUE(none.list().empty());
+  Remarks few_events;
+  EXPECT_EQ(extracted(message, {.events = 3, .participants = 5}, few_events), 3U);
+  ASSERT_EQ(few_events.list().size(), 1U);
+  EXPECT_EQ(few_events.list()[0],
+            (Remark{"submessages beyond the most that are looked at", "a, packet 1", 7}));
+  Remarks few_participants;
+  EXPECT_EQ(extracted(message, {.events = 10, .participants = 2}, few_participants), 4U);
+  ASSERT_EQ(few_participants.list().size(), 1U);
+  EXPECT_EQ(few_participants.list()[0].count, 6U);
 }
 
 TEST(Message, APayloadThatBreaksOffIsReportedButItsDataCounts) {

@@ -174,19 +174,50 @@ Buffer ethernet(Bytes ip, std::uint16_t type) {
   return out.bytes(ip).buffer();
 }
 
-PcapFile::PcapFile(std::uint32_t link_type, ByteOrder order) : file_{order} {
-  file_.u32(0xa1b2c3d4).u16(2).u16(4).u32(0).u32(0).u32(65535).u32(link_type);
+PcapFile::PcapFile(std::uint32_t link_type, ByteOrder order, bool in_nanoseconds)
+    : file_{order}, in_nanoseconds_{in_nanoseconds} {
+  file_.u32(in_nanoseconds ? 0xa1b23c4d : 0xa1b2c3d4).u16(2).u16(4);
+  file_.u32(0).u32(0).u32(65535).u32(link_type);
 }
 
 PcapFile& PcapFile::frame(std::int64_t microseconds, Bytes frame) {
+  return cut_frame(microseconds, frame, frame.size());
+}
+
+PcapFile& PcapFile::cut_frame(std::int64_t microseconds, Bytes frame, std::size_t captured) {
   const auto time = static_cast<std::uint64_t>(microseconds);
-  file_.u32(1'000'000'000 + time / 1'000'000).u32(time % 1'000'000);
-  file_.u32(frame.size()).u32(frame.size()).bytes(frame);
+  const std::uint64_t unit = in_nanoseconds_ ? 1000 : 1;
+  file_.u32(1'000'000'000 + time / 1'000'000).u32(time % 1'000'000 * unit);
+  file_.u32(captured).u32(frame.size()).bytes(part(frame, 0, captured));
   return *this;
 }
 
 PcapFile& PcapFile::message(std::int64_t microseconds, const Route& route, const Message& message) {
   return frame(microseconds, ethernet(ipv4(route, message.buffer())));
+}
+
+PcapngFile::PcapngFile(ByteOrder order) : file_{order} {
+  block(0x0a0d0d0a, Writer{order}.u32(0x1a2b3c4d).u16(1).u16(0).u32(~0U).u32(~0U).buffer());
+}
+
+PcapngFile& PcapngFile::interface(std::uint16_t link_type, std::uint8_t resolution) {
+  Writer body{file_.order()};
+  body.u16(link_type).u16(0).u32(0).u16(9).u16(1).u8(resolution).u8(0).u16(0).u32(0);
+  return block(1, body.buffer());
+}
+
+PcapngFile& PcapngFile::packet(std::uint32_t interface, std::uint64_t time, Bytes frame) {
+  Writer body{file_.order()};
+  body.u32(interface).u32(time >> 32U).u32(time & 0xffffffffU);
+  body.u32(frame.size()).u32(frame.size()).bytes(frame);
+  return block(6, body.buffer());
+}
+
+PcapngFile& PcapngFile::block(std::uint32_t type, Bytes body, std::optional<std::uint32_t> length) {
+  const std::size_t padding = (4 - body.size() % 4) % 4;
+  const std::uint64_t size = length ? *length : 12 + body.size() + padding;
+  file_.u32(type).u32(size).bytes(body).bytes(Buffer(padding, 0)).u32(size);
+  return *this;
 }
 
 std::int64_t time_of(std::int64_t microseconds) {

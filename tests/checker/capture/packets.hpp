@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -93,11 +94,31 @@ struct Route {
 /// A pcap file under construction.
 class PcapFile {
  public:
-  explicit PcapFile(std::uint32_t link_type = 1, ByteOrder order = ByteOrder::little);
+  explicit PcapFile(std::uint32_t link_type = 1, ByteOrder order = ByteOrder::little,
+                    bool in_nanoseconds = false);
   /// Adds a frame `microseconds` after 1,000,000,000 s.
   PcapFile& frame(std::int64_t microseconds, Bytes frame);
   /// Adds a message in one Ethernet frame.
   PcapFile& message(std::int64_t microseconds, const Route& route, const Message& message);
+  /// Adds what the snap length left of a frame: its first `captured` bytes.
+  PcapFile& cut_frame(std::int64_t microseconds, Bytes frame, std::size_t captured);
+  [[nodiscard]] const Buffer& buffer() const { return file_.buffer(); }
+
+ private:
+  Writer file_;
+  bool in_nanoseconds_;
+};
+
+/// A pcapng file under construction.
+class PcapngFile {
+ public:
+  explicit PcapngFile(ByteOrder order = ByteOrder::little);
+  /// Adds an interface. `resolution`: times count 10^-n s, or with the highest bit 2^-n s.
+  PcapngFile& interface(std::uint16_t link_type, std::uint8_t resolution = 6);
+  /// Adds a packet at `time` in the units of its interface.
+  PcapngFile& packet(std::uint32_t interface, std::uint64_t time, Bytes frame);
+  /// Adds any block; its length is that of the body, unless given.
+  PcapngFile& block(std::uint32_t type, Bytes body, std::optional<std::uint32_t> length = {});
   [[nodiscard]] const Buffer& buffer() const { return file_.buffer(); }
 
  private:

@@ -167,12 +167,50 @@ TEST(Reassembly, UdpLengthsAreChecked) {
   EXPECT_EQ(parts.payloads[0].size(), 10U);
 }
 
-TEST(Reassembly, PacketsCutByTheSnapLengthAreReported) {
+TEST(Reassembly, PacketsCutByTheSnapLengthAreReportedWhereverTheyAreCut) {
+  const Buffer frame = ethernet(ipv4(route, Message{prefix(1)}.announcement({}).buffer()));
+  for (std::size_t captured = 0; captured < frame.size(); ++captured) {
+    PcapFile file;
+    file.frame(0, frame).cut_frame(1, frame, captured);
+    const Conversation conversation = conversation_of({file.buffer()});
+    EXPECT_EQ(conversation.datagrams.size(), 1U);
+    ASSERT_EQ(conversation.remarks.size(), 1U) << captured;
+    EXPECT_EQ(
+        conversation.remarks[0],
+        (Remark{"IP packets cut short by the capture (its snap length)", "0.pcap, packet 2", 1}));
+  }
+}
+
+TEST(Reassembly, OtherPacketsAreNoneOfItsBusiness) {
+  const Buffer frame = ethernet(Buffer(46, 0), 0x0806);
+  PcapFile file;
+  file.message(0, route, Message{prefix(1)}.announcement({}));
+  file.frame(1, frame).cut_frame(2, frame, 30);
+  EXPECT_TRUE(conversation_of({file.buffer()}).remarks.empty());
+}
+
+TEST(Reassembly, APacketThatIsLongerThanItsFrame) {
   Buffer ip = ipv4(route, numbered(20));
   ip.pop_back();
   Reassembler parts;
   parts.add(ip);
-  EXPECT_EQ(parts.remark(), "IP packets cut short by the capture (its snap length)");
+  EXPECT_EQ(parts.remark(), "IP packets that are longer than their frames");
+}
+
+TEST(Reassembly, HostileHeadersOfIpv6End) {
+  const auto packet = [](std::uint8_t next, const Buffer& payload) {
+    Writer out;
+    out.u32(0x60000000).u16(payload.size()).u8(next).u8(64).bytes(Buffer(32, 1));
+    return out.bytes(payload).buffer();
+  };
+  Writer chain;
+  for (int k = 0; k < 100; ++k) chain.u8(k % 2 == 0 ? 60 : 0).u8(0).u16(0).u32(0);
+  Reassembler parts;
+  parts.add(packet(0, chain.buffer()));
+  parts.add(packet(0, Writer{}.u8(17).u8(255).u16(0).u32(0).buffer()));
+  parts.add(packet(44, Writer{}.u8(44).u8(0).u16(0xfff8 | 1U).u32(1).bytes(Buffer(8)).buffer()));
+  parts.reassembly.finish();
+  EXPECT_TRUE(parts.payloads.empty());
 }
 
 TEST(Reassembly, Ipv6WholeAndInFragments) {

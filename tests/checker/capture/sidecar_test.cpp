@@ -2,6 +2,7 @@
 // else counted; and a capture that lacks something does not.
 #include "tests/checker/capture/sidecar.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -18,7 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 using testing::Buffer;
 
-const fs::path folder = STORMPROOF_CAPTURES_DIR;
+/// The shipped captures, or others with their sidecars.
+fs::path captures_folder() {
+  const char* other = std::getenv("STORMPROOF_CAPTURES");
+  return other == nullptr ? STORMPROOF_CAPTURES_DIR : other;
+}
+
+const fs::path folder = captures_folder();
 
 std::vector<std::string> names() {
   std::vector<std::string> found;
