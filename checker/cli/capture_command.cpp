@@ -1,7 +1,6 @@
 // Reads the captures, counts until the given instant, prints the summary and writes the plot.
 #include "checker/cli/capture_command.hpp"
 
-#include <limits>
 #include <memory>
 
 #include <fmt/core.h>
@@ -15,8 +14,8 @@
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
+#include "checker/cli/until_instant.hpp"
 #include "checker/report/numbers.hpp"
-#include "model/config/quantities.hpp"
 
 namespace stormproof::cli {
 
@@ -33,24 +32,6 @@ struct CaptureArguments {
 int complain(const std::string& message) {
   fmt::print(stderr, "stormproof: {}\n", message);
   return bad_input;
-}
-
-/// The instant that --until names, in ns since 1970; an error message if it is none.
-model::config::Result<std::int64_t, std::string> parse_until(const std::string& text,
-                                                             std::int64_t first_ns) {
-  constexpr auto always = std::numeric_limits<std::int64_t>::max();
-  if (text.empty()) return always;
-  constexpr const char* expected =
-      "expected nanoseconds since 1970, or a duration after the first packet such as 3s";
-  if (const auto absolute = model::config::parse_count(text)) {
-    if (*absolute >= first_ns) return *absolute;
-    return fmt::format("--until {}: before the first packet ({}); {}", text, first_ns, expected);
-  }
-  const auto duration = model::config::parse_duration(text);
-  if (!duration || duration->count() < 0) {
-    return fmt::format("--until '{}': {}", text, expected);
-  }
-  return duration->count() > always - first_ns ? always : first_ns + duration->count();
 }
 
 int summarize(const CaptureArguments& arguments) {

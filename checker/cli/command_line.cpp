@@ -5,6 +5,7 @@
 
 #include "checker/cli/capture_command.hpp"
 #include "checker/cli/check_command.hpp"
+#include "checker/cli/conform_command.hpp"
 #include "checker/cli/coverage_command.hpp"
 #include "checker/cli/diff_command.hpp"
 #include "checker/cli/draw_command.hpp"
@@ -20,6 +21,7 @@
 #include "checker/cli/simulate_command.hpp"
 #include "checker/cli/sweep_command.hpp"
 #include "checker/cli/tune_command.hpp"
+#include "checker/cli/validate_command.hpp"
 
 namespace stormproof::cli {
 
@@ -37,6 +39,10 @@ void declare_simulate(CLI::App& app, Command& chosen) {
       ->add_option("--perfetto", arguments->perfetto_file,
                    "Write a trace that ui.perfetto.dev opens")
       ->type_name("FILE");
+  command
+      ->add_option("--pcap", arguments->pcap_file,
+                   "Write the packets as a capture, for Wireshark and stormproof capture")
+      ->type_name("FILE");
   add_progress(*command, arguments->progress);
   CLI::Option* samples =
       command
@@ -51,7 +57,7 @@ void declare_simulate(CLI::App& app, Command& chosen) {
       add_repeatable(*command, "--compare", arguments->compare,
                      "Run another DDS profile on the same schedules, side by side (repeatable)")
           ->type_name("PROFILE");
-  for (const char* recording : {"--trace", "--perfetto"}) {
+  for (const char* recording : {"--trace", "--perfetto", "--pcap"}) {
     command->get_option(recording)->excludes(samples)->excludes(compare);
   }
   command->footer(
@@ -180,6 +186,8 @@ void declare_commands(CLI::App& app, Command& chosen) {
   declare_reproduce(app, chosen);
   declare_coverage(app, chosen);
   declare_capture(app, chosen);
+  declare_conform(app, chosen);
+  declare_validate(app, chosen);
   declare_properties(app, chosen);
   declare_profile(app, chosen);
   declare_replay(app, chosen);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "checker/capture/write/capture_probe.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
@@ -36,6 +37,7 @@ class Recorders {
   Recorders(const SimulateArguments& arguments, const model::Scenario& scenario)
       : trace_file_{arguments.trace_file},
         perfetto_file_{arguments.perfetto_file},
+        pcap_file_{arguments.pcap_file},
         limits_{scenario} {
     for (model::Probe* probe : limits_.probes()) probes_.add(*probe);
     if (trace_file_.wanted()) {
@@ -46,6 +48,15 @@ class Recorders {
       perfetto_.emplace(perfetto_file_.stream(), scenario);
       probes_.add(*perfetto_);
     }
+    if (pcap_file_.wanted()) {
+      pcap_.emplace(
+          [this](capture::Bytes bytes) {
+            pcap_file_.stream().write(reinterpret_cast<const char*>(bytes.data()),
+                                      static_cast<std::streamsize>(bytes.size()));
+          },
+          scenario);
+      probes_.add(*pcap_);
+    }
   }
 
   [[nodiscard]] model::Probe* probe() { return probes_.empty() ? nullptr : &probes_; }
@@ -54,8 +65,10 @@ class Recorders {
   [[nodiscard]] std::optional<std::string> finish(const model::RunResult& result) {
     if (trace_) trace_->finish(result);
     if (perfetto_) perfetto_->finish();
-    if (auto error = trace_file_.commit()) return error;
-    return perfetto_file_.commit();
+    for (OutputFile* file : {&trace_file_, &perfetto_file_, &pcap_file_}) {
+      if (auto error = file->commit()) return error;
+    }
+    return std::nullopt;
   }
 
   /// How far the run went with respect to the limits of the scenario.
@@ -65,16 +78,20 @@ class Recorders {
   }
 
   [[nodiscard]] std::optional<std::string> open_error() const {
-    if (auto error = trace_file_.open_error()) return error;
-    return perfetto_file_.open_error();
+    for (const OutputFile* file : {&trace_file_, &perfetto_file_, &pcap_file_}) {
+      if (auto error = file->open_error()) return error;
+    }
+    return std::nullopt;
   }
 
  private:
   OutputFile trace_file_;
   OutputFile perfetto_file_;
+  OutputFile pcap_file_;
   props::LimitWatch limits_;
   std::optional<model::trace::TraceWriter> trace_;
   std::optional<model::trace::PerfettoWriter> perfetto_;
+  std::optional<capture::CaptureProbe> pcap_;
   model::trace::ProbeList probes_;
 };
 

@@ -17,6 +17,7 @@ struct SimulateArguments {
   std::vector<std::string> compare;    ///< DDS profiles to run on the same schedules
   std::string trace_file;              ///< empty: none
   std::string perfetto_file;           ///< empty: none
+  std::string pcap_file;               ///< empty: none
   std::optional<bool> progress;        ///< not given: when stderr is a terminal
 };
 
