@@ -17,9 +17,12 @@ constexpr std::uint32_t bitmap_limit = 256;
 void take_all(Arrivals& arrivals, const Knowledge& before, std::span<const Submessage> sent) {
   arrivals.after = before;
   arrivals.heartbeat.reset();
+  arrivals.heartbeats = 0;
   for (std::size_t k = 0; k < sent.size(); ++k) {
     if (!arrivals.arrived[k]) continue;
-    if (arrivals.after.take(sent[k]) && !arrivals.heartbeat) arrivals.heartbeat = k;
+    if (!arrivals.after.take(sent[k])) continue;
+    if (!arrivals.heartbeat) arrivals.heartbeat = k;
+    ++arrivals.heartbeats;
   }
 }
 
@@ -32,11 +35,13 @@ std::optional<std::uint32_t> unlisted(const Answer& answer, const Knowledge& kno
   return std::nullopt;
 }
 
-/// Drops what would tell the reader that `limit` exists.
-bool drop_beyond(Arrivals& arrivals, std::span<const Submessage> sent, std::uint32_t limit) {
+/// Drops what would tell the reader that `limit` exists; not what is left of a datagram of which
+/// something has arrived.
+bool drop_beyond(Arrivals& arrivals, const Knowledge& before, std::span<const Submessage> sent,
+                 std::uint32_t limit) {
   bool any = false;
   for (std::size_t k = 0; k < sent.size(); ++k) {
-    if (!arrivals.arrived[k]) continue;
+    if (!arrivals.arrived[k] || before.datagram == sent[k].datagram) continue;
     const bool announces = sent[k].heartbeat && sent[k].heartbeat->announced > limit;
     const bool brings = sent[k].descriptor && *sent[k].descriptor >= limit;
     if (!announces && !brings) continue;
@@ -61,7 +66,6 @@ void lose_datagrams(Arrivals& arrivals, const Knowledge& before, std::span<const
 
 void judge(Arrivals& arrivals, const Answer& answer) {
   const Knowledge& now = arrivals.after;
-  arrivals.is_content = true;
   for (std::uint32_t d = 0; d < answer.base; ++d) {
     if (!now.knows(d)) {
       arrivals.mismatch = fmt::format(
@@ -93,8 +97,6 @@ void judge(Arrivals& arrivals, const Answer& answer) {
         *d);
     return;
   }
-  arrivals.is_content = false;
-  if (!arrivals.heartbeat) arrivals.mismatch = "no HEARTBEAT can have arrived that it answers";
 }
 
 }  // namespace
@@ -121,17 +123,18 @@ std::uint32_t Knowledge::base() const {
 }
 
 Arrivals arrivals_for(const Answer& answer, const Knowledge& before,
-                      std::span<const Submessage> sent) {
+                      std::span<const Submessage> sent, const std::vector<bool>& lost) {
   Arrivals arrivals;
   arrivals.arrived.assign(sent.size(), true);
   for (std::size_t k = 0; k < sent.size(); ++k) {
+    if (!lost.empty() && lost[k]) arrivals.arrived[k] = false;
     const auto d = sent[k].descriptor;
     if (d && (*d == answer.base || answer.asks_for(*d))) arrivals.arrived[k] = false;
   }
   lose_datagrams(arrivals, before, sent);
   take_all(arrivals, before, sent);
   while (const auto d = unlisted(answer, arrivals.after)) {
-    if (!drop_beyond(arrivals, sent, *d)) break;
+    if (!drop_beyond(arrivals, before, sent, *d)) break;
     lose_datagrams(arrivals, before, sent);
     take_all(arrivals, before, sent);
   }

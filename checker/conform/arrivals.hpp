@@ -33,15 +33,17 @@ struct Knowledge {
 struct Arrivals {
   std::vector<bool> arrived{};             ///< by submessage; false: lost
   std::optional<std::size_t> heartbeat{};  ///< the first HEARTBEAT that arrived and was accepted
+  std::size_t heartbeats = 0;              ///< how many did
   Knowledge after{};
   std::size_t lost = 0;
-  /// Why these messages do not explain the ACKNACK; empty: they do.
+  /// Why base or bitmap would be different; empty: the reader would send just this.
   std::string mismatch{};
-  bool is_content = false;  ///< the mismatch is about base or bitmap
 };
 
 /// The most that can have arrived of `sent` if the reader that knew `before` then sends `answer`.
+/// What is marked in `lost` has not; it may be empty.
 [[nodiscard]] Arrivals arrivals_for(const Answer& answer, const Knowledge& before,
-                                    std::span<const Submessage> sent);
+                                    std::span<const Submessage> sent,
+                                    const std::vector<bool>& lost = {});
 
 }  // namespace stormproof::conform

@@ -199,7 +199,7 @@ model::config::Result<Conformance> conform(const Request& request) {
     return InputError{"--dds",
                       "a capture can be held against a profile with `implementation: "
                       "fastdds`; this one describes the paper's writer, which no "
-                      "program sends like"};
+                      "program sends that way"};
   }
   return Check{request}.run();
 }

@@ -61,6 +61,12 @@ class Sorter {
 
   void finish() {
     for (auto& [place, relation] : relations_) dialogue_.relations.push_back(std::move(relation));
+    // All relations of a writer in a row.
+    std::stable_sort(dialogue_.relations.begin(), dialogue_.relations.end(),
+                     [](const Relation& a, const Relation& b) {
+                       return std::pair{a.place.source, a.place.writer} <
+                              std::pair{b.place.source, b.place.writer};
+                     });
   }
 
  private:

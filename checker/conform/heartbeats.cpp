@@ -18,6 +18,17 @@ namespace timer = fsm::heartbeat_timer;
 /// readers on its own host, whose DATA would explain it, too.
 constexpr std::int64_t directly_after_ns = 1'000'000;
 
+/// A submessage of one of the participant's SEDP writers.
+struct Charge {
+  std::size_t event = 0;
+  std::int64_t time_ns = 0;
+  std::uint32_t datagram = 0;
+  std::int64_t bytes = 0;    ///< UDP payload, if it is the first of its datagram
+  bool is_own_data = false;  ///< DATA of this writer
+
+  auto operator<=>(const Charge&) const = default;
+};
+
 /// One HEARTBEAT of the writer: its copies share a count.
 struct Sent {
   std::int64_t time_ns = 0;  ///< of the first copy
@@ -48,7 +59,7 @@ class Heartbeats {
 
   std::optional<Unexplained> explain() {
     for (const Sent& one : sent_) {
-      charge_until(one.time_ns);
+      charge_until(one.event);
       auto fault = check_count(one);
       if (!fault) fault = check_range(one);
       if (!fault) fault = one.is_directed ? explain_directed(one) : explain_fan_out(one);
@@ -63,24 +74,37 @@ class Heartbeats {
  private:
   void collect() {
     std::map<std::uint32_t, Sent> by_count;
+    for (const Relation& relation : dialogue_.relations) {
+      if (relation.place.source == source_) collect_charges(relation);
+    }
+    std::sort(charges_.begin(), charges_.end());
     for (std::size_t r = 0; r < writer_.relations.size(); ++r) {
       std::set<std::uint32_t> with_data;  // datagrams
       for (const Submessage& one : writer_.relations[r]->sent) {
-        if (!one.descriptor || !with_data.insert(one.datagram).second) continue;
-        data_.push_back(one.time_ns);
-        const auto& record = dialogue_.conversation.datagrams[one.datagram];
-        charges_.push_back({one.time_ns, record.payload_bytes});
+        if (one.descriptor) with_data.insert(one.datagram);
       }
       for (const Submessage& one : writer_.relations[r]->sent) {
         if (one.heartbeat) add(by_count, r, one, with_data.count(one.datagram) > 0);
       }
     }
-    std::sort(data_.begin(), data_.end());
-    std::sort(charges_.begin(), charges_.end());
     for (auto& [count, one] : by_count) sent_.push_back(one);
     std::stable_sort(sent_.begin(), sent_.end(), [](const Sent& a, const Sent& b) {
       return std::pair{a.time_ns, a.event} < std::pair{b.time_ns, b.event};
     });
+  }
+
+  /// What the participant sends in both streams: the bytes are counted for all of its writers.
+  void collect_charges(const Relation& relation) {
+    const bool is_own = relation.place.writer == writer_.relations.front()->place.writer;
+    std::optional<std::uint32_t> datagram;
+    for (const Submessage& one : relation.sent) {
+      Charge charge{one.event, one.time_ns, one.datagram, 0, is_own && one.descriptor};
+      if (datagram != one.datagram) {
+        charge.bytes = dialogue_.conversation.datagrams[one.datagram].payload_bytes;
+      }
+      datagram = one.datagram;
+      charges_.push_back(charge);
+    }
   }
 
   static void add(std::map<std::uint32_t, Sent>& by_count, std::size_t relation,
@@ -96,14 +120,24 @@ class Heartbeats {
     one.is_directed = copy.heartbeat->is_directed && !one.is_behind_data && one.copies == 1;
   }
 
-  /// Takes the DATA sent until then into account for the piggyback budget.
-  void charge_until(std::int64_t time_ns) {
-    while (charged_ < charges_.size() &&
-           charges_[charged_].first <= time_ns + capture_resolution_ns) {
-      const std::int64_t bytes = charges_[charged_++].second;
-      sent_bytes_ += bytes;
-      // Never less than the writer charges: the cumulative rule charges all bytes ever sent.
-      spent_ += sedp_.piggyback == model::Piggyback::cumulative ? sent_bytes_ : bytes;
+  /// Takes what was sent before `event` into account: for the piggyback budget, and DATA arms the
+  /// timer.
+  void charge_until(std::size_t event) {
+    for (; charged_ < charges_.size() && charges_[charged_].event < event; ++charged_) {
+      const Charge& charge = charges_[charged_];
+      sent_bytes_ += charge.bytes;
+      if (charge.datagram != datagram_) datagram_spent_ = 0;
+      datagram_ = charge.datagram;
+      if (charge.bytes > 0) datagram_bytes_ = charge.bytes;
+      if (!charge.is_own_data) continue;
+      // Never less than the writer charges: the cumulative rule charges each DATA with all bytes
+      // that the participant has ever sent.
+      const bool is_cumulative = sedp_.piggyback == model::Piggyback::cumulative;
+      const std::int64_t bytes = is_cumulative ? sent_bytes_ : datagram_bytes_;
+      spent_ += bytes;
+      datagram_spent_ += bytes;
+      last_data_ns_ = charge.time_ns;
+      arm(charge.time_ns);
     }
   }
 
@@ -209,7 +243,7 @@ class Heartbeats {
   std::optional<Unexplained> explain_fan_out(const Sent& one) {
     if (auto fault = check_copies(one)) return fault;
     const auto after = after_data(one);
-    if (after && may_piggyback()) {
+    if (after && may_piggyback(one)) {
       ledger_.used_lag(*after);
       settle(one, Rule::heartbeat_piggyback);
       return std::nullopt;
@@ -247,7 +281,8 @@ class Heartbeats {
       const auto& sent = relation->sent;
       if (!sent.empty() && sent.front().time_ns < one.time_ns - bounds_.most_send_lag_ns) ++open;
     }
-    if (one.copies >= open) return std::nullopt;
+    const bool may_be_cut = one.time_ns + bounds_.most_send_lag_ns >= dialogue_.end_ns;
+    if (one.copies >= open || may_be_cut) return std::nullopt;
     return fault(one, Fault::heartbeat_copies,
                  fmt::format("HEARTBEAT {} goes to {} of the {} readers whose relations are open",
                              one.heartbeat.count, one.copies, open),
@@ -258,10 +293,8 @@ class Heartbeats {
   /// How long before `one` the writer sent DATA; nothing if that was too long ago.
   [[nodiscard]] std::optional<std::int64_t> after_data(const Sent& one) const {
     if (one.is_behind_data) return 0;
-    const auto next =
-        std::upper_bound(data_.begin(), data_.end(), one.time_ns + capture_resolution_ns);
-    if (next == data_.begin()) return std::nullopt;
-    const std::int64_t after = one.time_ns - *std::prev(next);
+    if (!last_data_ns_) return std::nullopt;
+    const std::int64_t after = std::max<std::int64_t>(one.time_ns - *last_data_ns_, 0);
     const std::int64_t longest = dialogue_.has_neighbour[source_]
                                      ? std::min(directly_after_ns, bounds_.most_send_lag_ns)
                                      : bounds_.most_send_lag_ns;
@@ -271,9 +304,12 @@ class Heartbeats {
 
   /// What is sent to readers on the same host is charged, too; without such readers the captured
   /// DATA must have used up the budget.
-  [[nodiscard]] bool may_piggyback() const {
+  [[nodiscard]] bool may_piggyback(const Sent& one) const {
     if (sedp_.piggyback == model::Piggyback::off) return false;
-    return dialogue_.has_neighbour[source_] || spent_ > sedp_.piggyback_threshold_bytes.count();
+    const std::int64_t threshold = sedp_.piggyback_threshold_bytes.count();
+    // A datagram may hold several, between or behind its DATA.
+    const bool in_datagram = one.is_behind_data && datagram_spent_ > threshold;
+    return dialogue_.has_neighbour[source_] || in_datagram || spent_ > threshold;
   }
 
   /// The timer: armed by the opening, by answers, and by itself. Where readers on the same host can
@@ -311,8 +347,10 @@ class Heartbeats {
     spent_ = 0;
   }
 
+  /// Whether the writer has no other reader yet.
   [[nodiscard]] bool is_only_reader() const {
-    return !dialogue_.has_neighbour[source_] && writer_.relations.size() == 1;
+    return !dialogue_.has_neighbour[source_] &&
+           std::count(is_opened_.begin(), is_opened_.end(), true) == 1;
   }
 
   Unexplained fault(const Sent& one, Fault kind, std::string what, std::string nearest,
@@ -333,11 +371,14 @@ class Heartbeats {
   std::size_t source_;
 
   std::vector<Sent> sent_;
-  std::vector<std::int64_t> data_;                              ///< when DATA was sent
-  std::vector<std::pair<std::int64_t, std::int64_t>> charges_;  ///< time and bytes
+  std::vector<Charge> charges_;  ///< in order
   std::size_t charged_ = 0;
+  std::optional<std::int64_t> last_data_ns_;  ///< when this writer last sent DATA
   std::int64_t sent_bytes_ = 0;
-  std::int64_t spent_ = 0;  ///< of the piggyback budget, at most
+  std::optional<std::uint32_t> datagram_;  ///< that was sent last
+  std::int64_t datagram_bytes_ = 0;        ///< its payload
+  std::int64_t datagram_spent_ = 0;        ///< what its DATA is charged, at most
+  std::int64_t spent_ = 0;                 ///< of the piggyback budget, at most
   std::optional<Sent> highest_;
   std::vector<std::size_t> next_initial_;
   std::vector<bool> is_opened_;

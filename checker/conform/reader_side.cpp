@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "checker/conform/arrivals.hpp"
+#include "checker/conform/reply_search.hpp"
 #include "checker/conform/words.hpp"
 
 namespace stormproof::conform {
@@ -18,13 +18,6 @@ namespace shot = fsm::single_shot;
 struct Window {
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
-};
-
-/// How submessages explain one ACKNACK: those before `end` have arrived or are lost.
-struct Choice {
-  std::size_t end = 0;
-  Arrivals arrivals{};
-  std::int64_t heartbeat_ns = 0;  ///< the reception that schedules the ACKNACK
 };
 
 class ReaderSide {
@@ -46,22 +39,31 @@ class ReaderSide {
         dialogue_.first_announced(relation_.place.source, *relation_.place.destination);
     opens_from_ns_ = announced.value_or(INT64_MAX - bounds_.least_delay_ns) +
                      bounds_.least_delay_ns - bounds_.clock_error_ns;
-    for (const Answer& answer : relation_.answers) {
-      if (!announced || answer.time_ns < opens_from_ns_ - capture_resolution_ns) {
-        return not_announced(answer, announced);
-      }
-      const auto fault = answer.is_initial ? explain_initial(answer) : explain_reply(answer);
-      if (fault) return fault;
-    }
+    auto fault = explain_in_time(announced);
+    if (auto reply_fault = explain_replies()) return reply_fault;  // it comes earlier
+    if (fault) return fault;
     finish();
     return announced && !bounds_.may_lose ? unanswered(*announced) : std::nullopt;
   }
 
  private:
+  /// What can be said of the answers by their times alone: initial ACKNACKs, and the distance of
+  /// replies. The replies until the first fault are collected.
+  std::optional<Unexplained> explain_in_time(std::optional<std::int64_t> announced) {
+    for (const Answer& answer : relation_.answers) {
+      if (!announced || answer.time_ns < opens_from_ns_ - capture_resolution_ns) {
+        return not_announced(answer, announced);
+      }
+      const auto fault = answer.is_initial ? explain_initial(answer) : follow(answer);
+      if (fault) return fault;
+    }
+    return std::nullopt;
+  }
+
   // The initial ACKNACK.
 
   std::optional<Unexplained> explain_initial(const Answer& answer) {
-    if (has_replied_) {
+    if (!replies_.empty()) {
       return fault(answer, Fault::initial_after_heartbeat,
                    "initial ACKNACK, although this reader has answered a HEARTBEAT before",
                    "once a HEARTBEAT has arrived, no initial ACKNACK is sent any more", {});
@@ -100,6 +102,7 @@ class ReaderSide {
 
   void send_initial(const Answer& answer) {
     ++attempts_;
+    at_least_ns_ += next_delay_ns_;
     last_answer_ns_ = answer.time_ns;
     const auto attempt = machines_.initial.step<initial::AttemptDue>(
         initial_state_, {.now = answer.time_ns,
@@ -119,12 +122,22 @@ class ReaderSide {
     const std::string since = attempts_ == 0
                                   ? "the first announcement that the reader can have received"
                                   : "the previous initial ACKNACK";
+    std::vector<Need> needs;
+    // The earlier attempts may have waited longer for their capture, but the first one comes τ_I
+    // after the announcement.
+    const std::int64_t from_opening = at_least_ns_ + next_delay_ns_ - answer.time_ns;
+    if (from_opening <= 0) {
+      needs.push_back({"send lag", bounds_.most_send_lag_ns + by_ns, bounds_.most_send_lag_ns});
+    } else {
+      needs.push_back(
+          {"clock error", bounds_.clock_error_ns + from_opening, bounds_.clock_error_ns});
+    }
+    needs.push_back({"a delay before this attempt of at most", after, next_delay_ns_});
     return fault(answer, Fault::initial_early,
                  fmt::format("initial ACKNACK {} after {}", duration(after), since),
                  fmt::format("the profile waits {}: it is sent at the earliest {} later",
                              duration(next_delay_ns_), duration(by_ns)),
-                 {{"send lag", bounds_.most_send_lag_ns + by_ns, bounds_.most_send_lag_ns},
-                  {"a delay before this attempt of at most", after, next_delay_ns_}});
+                 std::move(needs));
   }
 
   Unexplained initial_late(const Answer& answer, std::int64_t by_ns) {
@@ -141,7 +154,7 @@ class ReaderSide {
 
   /// A HEARTBEAT that arrives at an open reader before `answer` whatever its delay is.
   [[nodiscard]] const Submessage* arrived_heartbeat(const Answer& answer) const {
-    const std::size_t arrived = expired(answer);
+    const std::size_t arrived = expired(relation_, answer, bounds_);
     for (std::size_t k = 0; is_open_ && k < arrived; ++k) {
       if (sent_[k].heartbeat && sent_[k].time_ns + bounds_.least_delay_ns > opened_ns_) {
         return &sent_[k];
@@ -152,70 +165,68 @@ class ReaderSide {
 
   // ACKNACKs that answer HEARTBEATs.
 
-  std::optional<Unexplained> explain_reply(const Answer& answer) {
-    const std::int64_t reply_delay = sedp_.heartbeat_response_delay.count();
-    const std::int64_t latest = answer.time_ns - reply_delay + capture_resolution_ns;
-    if (has_replied_ && latest < replied_from_ns_) {
+  /// A reply is generated τ_A after a HEARTBEAT arrived, which is after the reply before it.
+  std::optional<Unexplained> follow(const Answer& answer) {
+    const std::int64_t delay = sedp_.heartbeat_response_delay.count();
+    const std::int64_t latest = answer.time_ns - delay + capture_resolution_ns;
+    if (!replies_.empty() && latest < replied_from_ns_) {
       return too_soon(answer, replied_from_ns_ - latest);
     }
-    const std::size_t sent = sent_until(answer.time_ns);
-    Choice choice;
-    std::optional<Unexplained> nearest;
-    for (std::size_t end = std::max(consumed_ + 1, expired(answer)); end <= sent; ++end) {
-      choice.end = end;
-      choice.arrivals = arrivals_for(answer, knowledge_, window(end));
-      if (!choice.arrivals.mismatch.empty()) continue;
-      if (!bounds_.may_lose && choice.arrivals.lost > 0) continue;
-      nearest = place_heartbeat(answer, choice, latest);
-      if (!nearest) {
-        replay(answer, choice);
-        return std::nullopt;
-      }
-    }
-    return nearest ? nearest : unexplained_reply(answer, sent);
+    replied_from_ns_ = replies_.empty() ? answer.time_ns - bounds_.most_send_lag_ns
+                                        : std::max(answer.time_ns - bounds_.most_send_lag_ns,
+                                                   replied_from_ns_ + delay);
+    replies_.push_back(&answer);
+    return std::nullopt;
   }
 
-  /// When the HEARTBEAT that the ACKNACK answers arrived: as late as possible.
-  std::optional<Unexplained> place_heartbeat(const Answer& answer, Choice& choice,
-                                             std::int64_t latest) {
-    const Submessage& message = sent_[consumed_ + *choice.arrivals.heartbeat];
-    const std::int64_t earliest = message.time_ns + bounds_.least_delay_ns - bounds_.clock_error_ns;
-    const std::int64_t last = message.time_ns + bounds_.most_delay_ns + bounds_.clock_error_ns;
-    if (earliest > latest) {
-      return fault(
-          answer, Fault::acknack_early,
-          fmt::format("ACKNACK {} after the only HEARTBEAT that it can answer",
-                      duration(answer.time_ns - message.time_ns)),
-          fmt::format("the reader waits {} after the arrival of a HEARTBEAT: it answers at "
-                      "the earliest {} later",
-                      duration(sedp_.heartbeat_response_delay.count()),
-                      duration(earliest - latest)),
-          {{"clock error", bounds_.clock_error_ns + earliest - latest, bounds_.clock_error_ns},
-           {"a heartbeat response delay of at most", answer.time_ns - message.time_ns,
-            sedp_.heartbeat_response_delay.count()}},
-          message.event);
+  std::optional<Unexplained> explain_replies() {
+    const ReplySearch search = search_replies(relation_, replies_, sedp_, bounds_);
+    for (std::size_t k = 0; k < search.choices.size(); ++k) replay(*replies_[k], search.choices[k]);
+    if (search.kind == ReplySearch::Kind::explained) return std::nullopt;
+    if (search.kind == ReplySearch::Kind::given_up) {
+      ledger_.undecided();
+      return std::nullopt;
     }
-    choice.heartbeat_ns = std::min(latest, last);
-    const std::int64_t late = latest - choice.heartbeat_ns - bounds_.most_send_lag_ns;
-    if (late > bounds_.most_lateness_ns) {
+    const Answer& answer = *replies_[search.failed];
+    return search.misplaced ? misplaced(answer, *search.misplaced) : unexplained_reply(answer);
+  }
+
+  Unexplained misplaced(const Answer& answer, const Misplaced& where) {
+    const Submessage& message = sent_[where.heartbeat];
+    const std::int64_t after = answer.time_ns - message.time_ns;
+    if (where.late_ns > 0) {
       return fault(answer, Fault::acknack_cause,
                    "ACKNACK, and the HEARTBEAT that it can answer was sent too long ago",
-                   fmt::format("it answers the HEARTBEAT of {} before",
-                               duration(answer.time_ns - message.time_ns)),
-                   {{"delay", bounds_.most_delay_ns + late - bounds_.most_lateness_ns,
-                     bounds_.most_delay_ns}},
+                   fmt::format("it answers the HEARTBEAT of {} before", duration(after)),
+                   {{"delay", bounds_.most_delay_ns + where.late_ns, bounds_.most_delay_ns}},
                    message.event);
     }
-    if (late > 0) ledger_.used_lateness(late);
-    return std::nullopt;
+    return fault(
+        answer, Fault::acknack_early,
+        fmt::format("ACKNACK {} after the only HEARTBEAT that it can answer", duration(after)),
+        fmt::format("the reader waits {} after the arrival of a HEARTBEAT: it answers at "
+                    "the earliest {} later",
+                    duration(sedp_.heartbeat_response_delay.count()), duration(where.early_ns)),
+        {{"clock error", bounds_.clock_error_ns + where.early_ns, bounds_.clock_error_ns},
+         {"a heartbeat response delay of at most", after, sedp_.heartbeat_response_delay.count()}},
+        message.event);
   }
 
   /// Lets the chosen messages arrive, in order, and the reply be generated.
   void replay(const Answer& answer, const Choice& choice) {
-    if (!is_open_) open(std::min(opens_from_ns_, choice.heartbeat_ns));
+    if (!is_open_) open(std::min(opens_from_ns_, choice.heartbeat_ns.value_or(answer.time_ns)));
     fsm::StateId reply = Tally<fsm::SingleShot>::Fly::initial;
     std::int64_t due = answer.time_ns;
     std::int64_t now = last_reception_ns_;
+    const auto arm = [&] {
+      const auto timer = timers_.step<shot::Requested>(
+          reply, {.now = now, .delay = sedp_.heartbeat_response_delay.count()});
+      if (timer.schedule) due = timer.next_at;
+    };
+    if (!choice.heartbeat_ns) {
+      now = std::max(now, last_answer_ns_);
+      arm();
+    }
     for (std::size_t k = 0; k < choice.arrivals.arrived.size(); ++k) {
       const Submessage& message = sent_[consumed_ + k];
       now = std::max(now, message.time_ns + bounds_.least_delay_ns);
@@ -223,13 +234,11 @@ class ReaderSide {
         miss(message);
         continue;
       }
-      if (choice.arrivals.heartbeat == k) now = std::max(now, choice.heartbeat_ns);
-      ledger_.hidden(Hidden::Kind::received, now, message.event);
-      if (receive(message)) {
-        const auto timer = timers_.step<shot::Requested>(
-            reply, {.now = now, .delay = sedp_.heartbeat_response_delay.count()});
-        if (timer.schedule) due = timer.next_at;
+      if (choice.heartbeat_ns && choice.arrivals.heartbeat == k) {
+        now = std::max(now, *choice.heartbeat_ns);
       }
+      ledger_.hidden(Hidden::Kind::received, now, message.event);
+      if (receive(message)) arm();
     }
     last_reception_ns_ = std::min(now, answer.time_ns);
     consumed_ = choice.end;
@@ -237,9 +246,7 @@ class ReaderSide {
     const auto output = machines_.reader.step<reader::AckNackDue>(
         state_, {.accepts_unmatched = false, .missing_after = missing()});
     confirm(fired.fire && output.send_acknack && says(answer), Rule::acknack_reply);
-    replied_from_ns_ = std::max(
-        answer.time_ns - bounds_.most_send_lag_ns,
-        has_replied_ ? replied_from_ns_ + sedp_.heartbeat_response_delay.count() : INT64_MIN);
+    ledger_.used_lateness(answer.time_ns - due - bounds_.most_send_lag_ns);
     has_replied_ = true;
     last_answer_ns_ = answer.time_ns;
   }
@@ -312,6 +319,7 @@ class ReaderSide {
   void open(std::int64_t now) {
     is_open_ = true;
     opened_ns_ = now;
+    at_least_ns_ = opens_from_ns_;
     machines_.reader.step<reader::AnnouncementReceived>(state_, {.missing_after = missing()});
     const auto output = machines_.initial.step<initial::ReaderOpened>(
         initial_state_, {.now = now,
@@ -335,21 +343,6 @@ class ReaderSide {
     const std::size_t index = 2 * relation_.place.source + stream_index(relation_.place.writer);
     const auto known = std::count(knowledge_.has.begin(), knowledge_.has.end(), true);
     return static_cast<std::int64_t>(dialogue_.descriptors[index]) - known;
-  }
-  /// How many messages had been sent when something happened at `time_ns` at the reader.
-  [[nodiscard]] std::size_t sent_until(std::int64_t time_ns) const {
-    const std::int64_t latest = time_ns - bounds_.least_delay_ns + bounds_.clock_error_ns;
-    std::size_t sent = consumed_;
-    while (sent < sent_.size() && sent_[sent].time_ns <= latest) ++sent;
-    return sent;
-  }
-  /// How many submessages are no longer under way when `answer` is generated.
-  [[nodiscard]] std::size_t expired(const Answer& answer) const {
-    const std::int64_t sent_before =
-        answer.time_ns - bounds_.most_send_lag_ns - bounds_.most_delay_ns - bounds_.clock_error_ns;
-    std::size_t count = consumed_;
-    while (count < sent_.size() && sent_[count].time_ns < sent_before) ++count;
-    return count;
   }
   [[nodiscard]] std::span<const Submessage> window(std::size_t end) const {
     return std::span{sent_}.subspan(consumed_, end - consumed_);
@@ -381,16 +374,21 @@ class ReaderSide {
          {"a heartbeat response delay of at most", after, sedp_.heartbeat_response_delay.count()}});
   }
 
-  Unexplained unexplained_reply(const Answer& answer, std::size_t sent) {
+  Unexplained unexplained_reply(const Answer& answer) {
+    const std::size_t sent = std::max(consumed_, sent_until(relation_, answer.time_ns, bounds_));
     const Arrivals all = arrivals_for(answer, knowledge_, window(sent));
-    std::string why = all.mismatch;
-    if (why.empty()) why = "it can be explained only by losing datagrams, which is not admitted";
+    const bool is_content = !all.mismatch.empty();
+    const std::string why = is_content ? all.mismatch
+                            : all.heartbeats == 0
+                                ? "no HEARTBEAT can have arrived that it answers"
+                                : "it can be explained only by losing datagrams, which is not "
+                                  "admitted";
     std::vector<Need> needs;
     std::string nearest = "nothing that the writer sends later would explain it either";
     // What else would have to be under way already.
     for (std::size_t end = sent + 1; end <= sent_.size(); ++end) {
       const Arrivals later = arrivals_for(answer, knowledge_, window(end));
-      if (!later.mismatch.empty()) continue;
+      if (!later.mismatch.empty() || later.heartbeats == 0) continue;
       const Submessage& message = sent_[end - 1];
       const std::int64_t by = message.time_ns + bounds_.least_delay_ns - answer.time_ns;
       nearest = fmt::format("a message that the writer sends {} later would explain it",
@@ -398,11 +396,11 @@ class ReaderSide {
       needs.push_back({"clock error", by, bounds_.clock_error_ns});
       break;
     }
-    if (needs.empty() && !all.is_content) {
+    if (needs.empty() && !is_content) {
       nearest = "every HEARTBEAT until then is answered by an earlier ACKNACK, or is lost";
       needs.push_back({"one more HEARTBEAT to this reader before it", {}, {}});
     }
-    return fault(answer, all.is_content ? Fault::acknack_content : Fault::acknack_cause,
+    return fault(answer, is_content ? Fault::acknack_content : Fault::acknack_cause,
                  fmt::format("ACKNACK of {}: {}", words(answer), why), nearest, std::move(needs));
   }
 
@@ -431,10 +429,12 @@ class ReaderSide {
   fsm::StateId initial_state_ = Tally<fsm::InitialAckNack>::Fly::initial;
   Window attempt_{};  ///< of the last initial ACKNACK, or of the opening
   std::int64_t next_delay_ns_ = 0;
+  std::int64_t at_least_ns_ = 0;  ///< the earliest instant of `attempt_`, whatever the send lag
   std::uint32_t attempts_ = 0;
   std::size_t consumed_ = 0;  ///< of `sent_`: have arrived or are lost
   Knowledge knowledge_{};
   std::int64_t last_reception_ns_ = INT64_MIN / 2;
+  std::vector<const Answer*> replies_;  ///< ACKNACKs that answer HEARTBEATs
   bool has_replied_ = false;
   std::int64_t replied_from_ns_ = 0;  ///< the earliest instant of the last reply
   std::int64_t last_answer_ns_ = 0;

@@ -63,6 +63,7 @@ class WriterSide {
     existing_ = opening.heartbeat->announced;
     transmissions_ = transmissions_of(relation_, existing_);
     if (auto fault = pushed_late()) return fault;
+    if (auto fault = sent_after_acknowledgment()) return fault;
     std::optional<Demand> failure;
     for (const std::int64_t lag : lags()) {
       Plan plan;
@@ -104,14 +105,16 @@ class WriterSide {
         unacknowledged.resize(one.descriptor + 1, opened_ns_ - lag);
       }
       if (!one.is_pushed) {
-        all.push_back({k, one.descriptor, unacknowledged[one.descriptor],
-                       one.time_ns - response_ns() + capture_resolution_ns});
+        all.push_back(
+            {k, one.descriptor, unacknowledged[one.descriptor],
+             one.time_ns - response_ns() + (response_ns() > 0 ? capture_resolution_ns : 0)});
       }
       // A suppression that is pending already ends for this descriptor, too.
       const bool may_be_pending =
           !exact && k > 0 && transmissions_[k - 1].time_ns + suppression >= serialized - lag;
       if (serialized >= suppressed_until) suppressed_until = serialized + suppression;
-      unacknowledged[one.descriptor] = may_be_pending ? serialized + 1 : suppressed_until;
+      unacknowledged[one.descriptor] =
+          may_be_pending ? serialized + 1 : std::max(suppressed_until, serialized + 1);
     }
     return all;
   }
@@ -326,6 +329,26 @@ class WriterSide {
           "the descriptor was created after the relation opened, so it is pushed at its creation, "
           "and no HEARTBEAT comes before",
           {{"send lag", late, context_.bounds.most_send_lag_ns}});
+    }
+    return std::nullopt;
+  }
+
+  /// If nothing is lost, an ACKNACK arrives at the latest after the longest delay.
+  std::optional<Unexplained> sent_after_acknowledgment() {
+    if (context_.bounds.may_lose) return std::nullopt;
+    const std::int64_t slack = context_.bounds.most_delay_ns + context_.bounds.clock_error_ns +
+                               context_.bounds.most_send_lag_ns + capture_resolution_ns;
+    for (const Transmission& one : transmissions_) {
+      for (const Answer& answer : relation_.answers) {
+        if (answer.time_ns + slack >= one.time_ns) break;
+        if (answer.is_initial || answer.base <= one.descriptor) continue;
+        return fault(one.event, Fault::data_acknowledged,
+                     fmt::format("descriptor {} is sent {} after the reader acknowledged it",
+                                 one.descriptor, duration(one.time_ns - answer.time_ns)),
+                     "what is acknowledged is not sent any more, and nothing is lost",
+                     {{"delay", one.time_ns - answer.time_ns, context_.bounds.most_delay_ns}},
+                     answer.event);
+      }
     }
     return std::nullopt;
   }

@@ -1,0 +1,153 @@
+// The events of the channel in the simulator's order: at one instant the end of a service comes
+// first, then requests, then the choice of the next frame.
+#include "tests/live/access_point/half_duplex_channel.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace stormproof::live {
+
+namespace {
+
+std::size_t index_of(Direction direction) { return static_cast<std::size_t>(direction); }
+std::size_t index_of(Cast cast) { return static_cast<std::size_t>(cast); }
+
+/// Who goes first among frames that wait since the same instant; the least rank does.
+int rank_of(model::ServiceOrder order, Direction direction) {
+  if (order == model::ServiceOrder::fifo) return 0;
+  const int number = static_cast<int>(direction);
+  return order == model::ServiceOrder::fifo_downlink ? -number : number;
+}
+
+}  // namespace
+
+HalfDuplexChannel::HalfDuplexChannel(const model::WirelessProfile& wireless,
+                                     const QueueLimits& limits, const Losses& losses)
+    : link_overhead_bytes_{wireless.link_overhead_bytes.count()},
+      limits_{limits},
+      losses_{losses},
+      random_{losses.seed} {
+  for (const Direction direction : {Direction::uplink, Direction::downlink}) {
+    const model::Stage& stage = wireless.stages[index_of(direction)];
+    waiting_.add_stage(rank_of(wireless.order, direction));
+    for (const Cast cast : {Cast::unicast, Cast::multicast}) {
+      rate_[index_of(direction)][index_of(cast)] =
+          model::MemoizedRate{model::service_rate(wireless, stage, cast == Cast::multicast)};
+    }
+  }
+}
+
+std::optional<std::uint32_t> HalfDuplexChannel::request(Nanoseconds now, const Frame& frame) {
+  run_until(now, false);
+  now_ = now;
+  ChannelStatistics::Station& station = statistics_.stations[frame.station];
+  ++station.frames;
+  station.bytes += frame.bytes;
+  std::uint64_t& queued = station_queue_[frame.station];
+  if (limits_.station && queued >= *limits_.station) {
+    ++station.dropped;
+    return std::nullopt;
+  }
+  station.deepest_queue = std::max(station.deepest_queue, ++queued);
+  const std::uint32_t name = frames_.take();
+  frames_[name] = frame;
+  wait_for(Direction::uplink, name);
+  return name;
+}
+
+void HalfDuplexChannel::advance(Nanoseconds now) {
+  run_until(now, true);
+  now_ = std::max(now_, now);
+}
+
+std::optional<Nanoseconds> HalfDuplexChannel::next_event() const {
+  if (serving_) return serving_->end;
+  return dispatch_;
+}
+
+std::vector<Service> HalfDuplexChannel::take_services() {
+  for (const Service& service : ended_) {
+    if (service.outcome != Outcome::forwarded) frames_.give_back(service.frame);
+  }
+  return std::exchange(ended_, {});
+}
+
+/// A dispatch at `now` itself is left for later unless `dispatch_now`: others may still request.
+void HalfDuplexChannel::run_until(Nanoseconds now, bool dispatch_now) {
+  while (true) {
+    if (serving_ && serving_->end <= now) {
+      finish();
+    } else if (dispatch_ && (*dispatch_ < now || (dispatch_now && *dispatch_ == now))) {
+      now_ = *dispatch_;
+      dispatch_.reset();
+      step<fsm::channel::DispatchDue>();
+    } else {
+      return;
+    }
+  }
+}
+
+template <class Event>
+void HalfDuplexChannel::step() {
+  fsm::Flyweight<fsm::Channel>::Output output{};
+  state_ = machine_.step<Event>(
+      state_, {.waiting = !waiting_.empty(), .dispatch_pending = dispatch_.has_value()}, output);
+  if (output.schedule_dispatch) dispatch_ = now_;
+  if (output.serve) serve();
+}
+
+void HalfDuplexChannel::wait_for(Direction direction, std::uint32_t frame) {
+  waiting_.push(static_cast<std::uint32_t>(direction), {now_, next_request_++, frame, 0});
+  statistics_.deepest_queue = std::max<std::uint64_t>(statistics_.deepest_queue, waiting_.size());
+  step<fsm::channel::ServiceRequested>();
+}
+
+void HalfDuplexChannel::serve() {
+  const model::WaitingFragments::Choice choice = waiting_.pop();
+  const auto direction = static_cast<Direction>(choice.position);
+  const Frame& frame = frames_[choice.request.slot];
+  --(direction == Direction::uplink ? station_queue_[frame.station] : downlink_queue_);
+  const std::int64_t bytes = frame.bytes - ethernet_header_bytes + link_overhead_bytes_;
+  const std::int64_t airtime_ns =
+      rate_[index_of(direction)][index_of(frame.cast)].airtime_ns(bytes);
+  serving_ = InService{choice.request, direction, now_, now_ + Nanoseconds{airtime_ns}};
+}
+
+void HalfDuplexChannel::finish() {
+  const InService served = *serving_;
+  serving_.reset();
+  now_ = served.end;
+  step<fsm::channel::ServiceFinished>();
+
+  const std::uint32_t name = served.request.slot;
+  const Frame frame = frames_[name];
+  auto& sum = statistics_.served[index_of(served.direction)][index_of(frame.cast)];
+  ++sum.frames;
+  sum.bytes += frame.bytes;
+  sum.busy += served.end - served.start;
+  const Outcome outcome =
+      served.direction == Direction::uplink ? after_uplink(name) : after_downlink();
+  ended_.push_back({name, frame.station, served.direction, served.start, served.end, outcome});
+  step<fsm::channel::EffectsDone>();
+}
+
+Outcome HalfDuplexChannel::after_uplink(std::uint32_t frame) {
+  if (limits_.downlink && downlink_queue_ >= *limits_.downlink) {
+    ++statistics_.dropped_downlink;
+    return Outcome::dropped;
+  }
+  statistics_.deepest_downlink_queue =
+      std::max(statistics_.deepest_downlink_queue, ++downlink_queue_);
+  wait_for(Direction::downlink, frame);
+  return Outcome::forwarded;
+}
+
+Outcome HalfDuplexChannel::after_downlink() {
+  // 53 random bits make a number from [0, 1) that is the same with every standard library.
+  const bool lost = losses_.probability > 0 &&
+                    static_cast<double>(random_() >> 11U) * 0x1p-53 < losses_.probability;
+  ++(lost ? statistics_.lost : statistics_.delivered);
+  return lost ? Outcome::lost : Outcome::delivered;
+}
+
+}  // namespace stormproof::live

@@ -1,0 +1,160 @@
+# One discovery: starts captures and participants, waits until everybody knows everybody, stops, and
+# has the captures summarised, compared with the model and judged. Sourced by tests/live/run.
+#
+# shellcheck shell=bash disable=SC2154
+
+# wait_for <what> <seconds> <command>... : until the command succeeds
+wait_for() {
+  local what=$1 polls=$(($2 * 20))
+  while ! "${@:3}"; do
+    ((polls-- > 0)) || fail "$what did not happen within $2 s"
+    sleep 0.05 || true
+  done
+}
+
+start_capture() { # <host> <folder> : what the host sends, whole packets
+  # Not through a function: the process of a function is a shell, which would get the signals.
+  ip netns exec "$(namespace "$1")" dumpcap -q -P -s 0 -B 128 -i "$interface" \
+    -f "src host ${addresses[$1]}" -w "$2/host-$1.pcap" \
+    >/dev/null 2>"$2/capture-$1.log" </dev/null &
+  capture_pids[$1]=$!
+  wait_for "the capture on host $1" 20 grep -qs '^File: ' "$2/capture-$1.log"
+}
+
+start_participants() { # <folder>
+  local host index log=$1/participants.log
+  # No profiles but the bed's: neither of the environment nor of the folder it is started in.
+  mkdir "$1/participants"
+  participant_pids=()
+  for host in 0 1; do
+    for ((index = 0; index < np; ++index)); do
+      ip netns exec "$(namespace "$host")" env -u FASTRTPS_DEFAULT_PROFILES_FILE \
+        -C "$1/participants" "$participant" --host "$host" --index "$index" --np "$np" \
+        --ne "$ne" --address "${addresses[host]}" --peer "${addresses[1 - host]}" \
+        --send-buffer "$send_buffer" --create-over-us $((create_over_ns / 1000)) \
+        --simultaneous "$simultaneous" --start "$1/start" \
+        --report "$1/participants/$host-$index.json" >>"$log" 2>&1 </dev/null &
+      participant_pids+=("$!")
+    done
+  done
+  wait_for "the start of $((2 * np)) participants" 60 \
+    count_is $((2 * np)) "$1/participants" '*.ready'
+  rm "$1/participants/"*.ready
+}
+
+count_is() { # <number> <folder> <pattern>
+  [[ $(find "$2" -name "$3" | wc -l) -eq $1 ]]
+}
+
+now_ns() { date +%s%N; }
+
+# release <folder> : all participants start at the instant start_ns
+release() {
+  start_ns=$(($(now_ns) + 300000000))
+  echo "$start_ns" >"$1/start.part"
+  mv "$1/start.part" "$1/start"
+}
+
+# wait_for_completion <folder> : or for the limit, or an interrupt
+wait_for_completion() {
+  local deadline=$((start_ns + limit_ns))
+  until count_is $((2 * np)) "$1/participants" '*.json'; do
+    [[ -z $interrupted && $(now_ns) -lt $deadline ]] || break
+    sleep 0.05 || true
+  done
+  waited_ns=$(($(now_ns) - start_ns))
+}
+
+# end <pid>... : asks, waits two seconds, insists
+end() {
+  local pid polls=40
+  kill -TERM "$@" 2>/dev/null || true
+  for pid in "$@"; do
+    while kill -0 "$pid" 2>/dev/null && ((polls-- > 0)); do sleep 0.05 || true; done
+    kill -KILL "$pid" 2>/dev/null || true
+    wait "$pid" 2>/dev/null || true
+  done
+}
+
+stop_all() { # <folder>
+  # What is still in the buffer of the captures reaches them within a quarter of a second.
+  sleep 0.5 || true
+  end "${capture_pids[@]}"
+  end "${participant_pids[@]}"
+  tx_dropped=("$(transmit_drops 0)" "$(transmit_drops 1)")
+  rx_dropped=("$(socket_drops 0)" "$(socket_drops 1)")
+  rm -f "$1/start"
+}
+
+# completion_of <folder> : the instant at which the last participant knew everything; the end of
+# the wait if one did not, or too late
+completion_of() {
+  local instants
+  instants=$(sed -n 's/.*"\(app\|strict\)_ns": \([0-9]*\).*/\2/p' "$1/participants/"*.json |
+    sort -n)
+  if [[ $(wc -l <<<"$instants") -eq $((4 * np)) && $(head -n 1 <<<"$instants") != 0 &&
+    $(tail -n 1 <<<"$instants") -le $((start_ns + limit_ns)) ]]; then
+    tail -n 1 <<<"$instants"
+  else
+    echo $((start_ns + waited_ns))
+  fi
+}
+
+# capture_line <host> <folder> : packets, and those that the capture lost, as JSON
+capture_line() {
+  local numbers
+  numbers=$(sed -n "s|.*received/dropped on interface.*: \([0-9]*\)/\([0-9]*\) .*|\1 \2|p" \
+    "$2/capture-$1.log")
+  # Without this line nothing is known: as bad as lost packets.
+  printf '{"packets": %s, "dropped": %s, "interface_dropped": %s, "socket_dropped": %s}' \
+    "${numbers%% *}" "${numbers##* }" "${tx_dropped[$1]}" "${rx_dropped[$1]}"
+}
+
+write_record() { # <folder> <completion>
+  cat >"$1/run.json" <<END
+{
+  "link": "$link",
+  "participants_per_host": $np,
+  "endpoints_per_participant": $ne,
+  "simultaneous": $([[ $simultaneous == 1 ]] && echo true || echo false),
+  "create_over_ns": $create_over_ns,
+  "send_buffer_bytes": $send_buffer,
+  "access_point_options": "${access_point_options[*]}",
+  "start_ns": $start_ns,
+  "limit_ns": $limit_ns,
+  "waited_ns": $waited_ns,
+  "until_ns": $2,
+  "captures": [
+    $(capture_line 0 "$1"),
+    $(capture_line 1 "$1")
+  ]
+}
+END
+}
+
+summarise() { # <folder> <instant>
+  local captures=("$1/host-0.pcap" "$1/host-1.pcap") status=0
+  "$program" capture summarize "${captures[@]}" --until "$2" >"$1/summary.txt" || status=$?
+  "$program" capture summarize "${captures[@]}" --until "$2" --format json >"$1/summary.json" ||
+    status=$?
+  # 3: required keys are missing. The judgement says so.
+  [[ $status -eq 0 || $status -eq 3 ]] || fail "the captures cannot be summarised"
+}
+
+# run_once <folder> : leaves there all that stormproof_live_report reads
+run_once() {
+  local folder=$1 completion
+  add_network "$folder"
+  start_capture 0 "$folder"
+  start_capture 1 "$folder"
+  start_participants "$folder"
+  release "$folder"
+  wait_for_completion "$folder"
+  stop_all "$folder"
+  remove_network
+  completion=$(completion_of "$folder")
+  write_record "$folder" "$completion"
+  summarise "$folder" "$completion"
+  explain "$folder" "$completion"
+  compare "$folder" "$completion"
+}

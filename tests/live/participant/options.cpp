@@ -1,0 +1,82 @@
+// Reads `--name value` pairs: the standard library is enough for a program that a script starts.
+#include "options.hpp"
+
+#include <charconv>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+namespace stormproof::live {
+
+namespace {
+
+using Values = std::map<std::string, std::string, std::less<>>;
+
+std::uint32_t number(const std::string& name, const std::string& text) {
+  std::uint32_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end) {
+    throw std::invalid_argument(name + " '" + text + "': expected a whole number");
+  }
+  return value;
+}
+
+Values values_of(int argc, const char* const* argv) {
+  static const std::set<std::string_view> known = {
+      "--host",  "--index",       "--np",           "--ne",     "--address",       "--peer",
+      "--start", "--send-buffer", "--simultaneous", "--report", "--create-over-us"};
+  Values values;
+  for (int at = 1; at < argc; at += 2) {
+    const std::string name = argv[at];
+    if (!known.contains(name)) {
+      throw std::invalid_argument("unknown option '" + name + "'");
+    }
+    if (at + 1 == argc) {
+      throw std::invalid_argument(name + ": expected a value behind it");
+    }
+    values[name] = argv[at + 1];
+  }
+  return values;
+}
+
+const std::string& required(const Values& values, const std::string& name) {
+  const auto found = values.find(name);
+  if (found == values.end()) {
+    throw std::invalid_argument(name + " is missing");
+  }
+  return found->second;
+}
+
+std::uint32_t optional_number(const Values& values, const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? 0 : number(name, found->second);
+}
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+  const Values values = values_of(argc, argv);
+  const auto required_number = [&values](const std::string& name) {
+    return number(name, required(values, name));
+  };
+  Options options;
+  options.host = required_number("--host");
+  options.index = required_number("--index");
+  options.participants_per_host = required_number("--np");
+  options.user_endpoints = required_number("--ne");
+  options.address = required(values, "--address");
+  options.peer = required(values, "--peer");
+  options.send_buffer = optional_number(values, "--send-buffer");
+  options.simultaneous = optional_number(values, "--simultaneous") != 0;
+  options.create_over_ns = std::int64_t{1000} * optional_number(values, "--create-over-us");
+  options.start_file = required(values, "--start");
+  options.report = required(values, "--report");
+  if (options.participants_per_host == 0) {
+    throw std::invalid_argument("--np 0: expected at least 1");
+  }
+  return options;
+}
+
+}  // namespace stormproof::live
