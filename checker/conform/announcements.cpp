@@ -17,6 +17,8 @@ struct Way {
   std::vector<bool> is_scheduled{};
   std::int64_t due_from_ns = 0;  ///< of the next scheduled one, earliest
   std::int64_t due_to_ns = 0;    ///< latest, if the timer is not late
+  std::int64_t nominal_ns = 0;   ///< of the next one, if nothing is ever late
+  std::int64_t worst_ns = 0;     ///< how far one was from its nominal time, at most
   std::size_t resends = 0;
 
   [[nodiscard]] std::size_t scheduled() const { return is_scheduled.size() - resends; }
@@ -88,7 +90,8 @@ class Announcements {
     }
     if (multicasts_.empty()) return std::nullopt;
     if (auto fault = silent(ways)) return fault;
-    replay(ways.front());
+    replay(*std::min_element(ways.begin(), ways.end(),
+                             [](const Way& a, const Way& b) { return a.worst_ns < b.worst_ns; }));
     return std::nullopt;
   }
 
@@ -125,6 +128,10 @@ class Announcements {
       if (from > to) return std::nullopt;
     }
     const std::int64_t period = period_after(way.scheduled());
+    if (!way.is_scheduled.empty()) {
+      way.worst_ns = std::max(way.worst_ns, std::abs(time_ns - way.nominal_ns));
+    }
+    way.nominal_ns = time_ns + period;
     way.due_from_ns = from + period;
     way.due_to_ns = to + period;
     way.is_scheduled.push_back(true);
@@ -152,7 +159,7 @@ class Announcements {
     for (Way& way : ways) {
       const bool known = std::any_of(different.begin(), different.end(), [&](const Way& other) {
         return other.resends == way.resends && other.due_from_ns <= way.due_from_ns &&
-               other.due_to_ns >= way.due_to_ns;
+               other.due_to_ns >= way.due_to_ns && other.worst_ns <= way.worst_ns;
       });
       if (!known) different.push_back(std::move(way));
     }
