@@ -127,7 +127,9 @@ Arrivals arrivals_for(const Answer& answer, const Knowledge& before,
   Arrivals arrivals;
   arrivals.arrived.assign(sent.size(), true);
   for (std::size_t k = 0; k < sent.size(); ++k) {
-    if (!lost.empty() && lost[k]) arrivals.arrived[k] = false;
+    if (before.missed == sent[k].datagram || (!lost.empty() && lost[k])) {
+      arrivals.arrived[k] = false;
+    }
     const auto d = sent[k].descriptor;
     if (d && (*d == answer.base || answer.asks_for(*d))) arrivals.arrived[k] = false;
   }
@@ -137,6 +139,10 @@ Arrivals arrivals_for(const Answer& answer, const Knowledge& before,
     if (!drop_beyond(arrivals, before, sent, *d)) break;
     lose_datagrams(arrivals, before, sent);
     take_all(arrivals, before, sent);
+  }
+  if (!sent.empty()) {
+    arrivals.after.missed.reset();
+    if (!arrivals.arrived.back()) arrivals.after.missed = sent.back().datagram;
   }
   judge(arrivals, answer);
   arrivals.lost =

@@ -21,6 +21,9 @@ struct Knowledge {
   std::uint32_t count = 0;      ///< of the latest HEARTBEAT; an older one is not accepted
   bool has_heartbeat = false;
   std::optional<std::uint32_t> datagram{};  ///< that the last submessage came in
+  /// Datagram of the last submessage that was sent to the reader, if it did not arrive: what is
+  /// left of it does not, either.
+  std::optional<std::uint32_t> missed{};
 
   [[nodiscard]] bool knows(std::uint32_t d) const { return d < has.size() && has[d]; }
   /// Takes a submessage in; returns whether it was a HEARTBEAT and accepted.

@@ -201,6 +201,11 @@ model::config::Result<Conformance> conform(const Request& request) {
                       "fastdds`; this one describes the paper's writer, which no "
                       "program sends that way"};
   }
+  if (request.dds.sedp.heartbeat_policy != model::HeartbeatPolicy::periodic) {
+    return InputError{"--dds",
+                      "a capture can be held against a profile with `heartbeat_policy: periodic`; "
+                      "no program sends by the adaptive one"};
+  }
   return Check{request}.run();
 }
 

@@ -4,9 +4,10 @@
 // replayed through the Boost.MSM machines of fsm/, makes them send exactly this at this time.
 //
 // What is checked: every captured SPDP and SEDP submessage between hosts needs a cause (safety),
-// and what timers owe must come (the next initial ACKNACK, the next announcement). What is not:
-// that a received message was answered, if losses are allowed; causes on the sender's own host,
-// which a capture between hosts does not show, are assumed where they suffice, and counted apart.
+// and what timers owe must come (the next announcement, a HEARTBEAT to a reader that has
+// acknowledged nothing; initial ACKNACKs that go on come in time). What is not: that a received
+// message was answered, if losses are allowed; causes on the sender's own host, which a capture
+// between hosts does not show, are assumed where they suffice, and counted apart.
 #pragma once
 
 #include <array>

@@ -55,7 +55,8 @@ struct Announcement {
 
 struct Dialogue {
   const capture::Conversation& conversation;
-  std::vector<Relation> relations{};  ///< those in which something was sent, by place
+  std::vector<Relation>
+      relations{};  ///< those in which something was sent; those of one writer in a row
   std::vector<std::vector<Announcement>> announcements{};  ///< by participant, in time order
   std::vector<bool> has_neighbour{};                       ///< another participant on the same host
   std::vector<std::size_t> strange{};        ///< events that no rule can send, by time

@@ -59,11 +59,18 @@ class Heartbeats {
 
   std::optional<Unexplained> explain() {
     for (const Sent& one : sent_) {
+      if (repeated_ && repeated_->event < one.event) break;
       charge_until(one.event);
       auto fault = check_count(one);
       if (!fault) fault = check_range(one);
       if (!fault) fault = one.is_directed ? explain_directed(one) : explain_fan_out(one);
       if (fault) return fault;
+    }
+    if (repeated_) {
+      return fault(
+          *repeated_, Fault::heartbeat_count,
+          fmt::format("HEARTBEAT {} again, to the same reader", repeated_->heartbeat.count),
+          "a writer counts its HEARTBEATs up, whomever they are for", {{"another count", {}, {}}});
     }
     for (std::size_t r = 0; r < writer_.relations.size(); ++r) {
       if (auto fault = check_due(*writer_.relations[r])) return fault;
@@ -107,9 +114,12 @@ class Heartbeats {
     }
   }
 
-  static void add(std::map<std::uint32_t, Sent>& by_count, std::size_t relation,
-                  const Submessage& copy, bool is_behind_data) {
+  void add(std::map<std::uint32_t, Sent>& by_count, std::size_t relation, const Submessage& copy,
+           bool is_behind_data) {
     Sent& one = by_count[copy.heartbeat->count];
+    if (!copied_.insert({copy.heartbeat->count, relation}).second && !repeated_) {
+      repeated_ = Sent{copy.time_ns, copy.event, *copy.heartbeat, relation, 1, false, false};
+    }
     if (one.copies++ == 0 || copy.time_ns < one.time_ns) {
       one.time_ns = copy.time_ns;
       one.event = copy.event;
@@ -214,11 +224,18 @@ class Heartbeats {
     }
     if (const auto asked = initial_acknack_for(one)) {
       ledger_.hidden(Hidden::Kind::received, std::max(asked->time_ns, one.time_ns), asked->event);
+      if (is_only_reader() && may_fan_out(one)) ++exchangeable_;
       settle(one, Rule::heartbeat_reply);
       arm(one.time_ns);
       return std::nullopt;
     }
-    if (is_only_reader()) return explain_fan_out(one);
+    if (is_only_reader() && (may_fan_out(one) || exchangeable_ == 0)) return explain_fan_out(one);
+    if (is_only_reader()) {
+      // An earlier one was to all readers; its initial ACKNACK is left for this one.
+      --exchangeable_;
+      settle(one, Rule::heartbeat_reply);
+      return std::nullopt;
+    }
     return fault(one, Fault::heartbeat_cause,
                  fmt::format("HEARTBEAT {} to one reader, whose relation is open already",
                              one.heartbeat.count),
@@ -319,6 +336,10 @@ class Heartbeats {
         state_, {.now = now, .heartbeat_period = sedp_.heartbeat_period.count()});
     if (output.schedule_expiry) due_ns_ = output.next_at;
   }
+  /// Whether `one`, to the only reader, can be one to all readers.
+  [[nodiscard]] bool may_fan_out(const Sent& one) const {
+    return (after_data(one) && may_piggyback(one)) || is_due(one);
+  }
   [[nodiscard]] bool is_due(const Sent& one) const {
     if (sedp_.heartbeat_policy != model::HeartbeatPolicy::periodic) return due_ns_.has_value();
     std::int64_t due = due_ns_.value_or(INT64_MAX);
@@ -344,7 +365,8 @@ class Heartbeats {
 
   void settle(const Sent& one, Rule rule) {
     ledger_.explained(rule, one.copies);
-    spent_ = 0;
+    // DATA behind it in its message is charged anew.
+    spent_ = one.is_behind_data ? datagram_spent_ : 0;
   }
 
   /// Whether the writer has no other reader yet.
@@ -380,6 +402,9 @@ class Heartbeats {
   std::int64_t datagram_spent_ = 0;        ///< what its DATA is charged, at most
   std::int64_t spent_ = 0;                 ///< of the piggyback budget, at most
   std::optional<Sent> highest_;
+  std::set<std::pair<std::uint32_t, std::size_t>> copied_;  ///< count and relation
+  std::optional<Sent> repeated_;  ///< the first copy that went to a reader a second time
+  std::size_t exchangeable_ = 0;  ///< replies that can have been something else
   std::vector<std::size_t> next_initial_;
   std::vector<bool> is_opened_;
   fsm::StateId state_ = Tally<fsm::HeartbeatTimer>::Fly::initial;

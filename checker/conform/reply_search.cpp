@@ -21,6 +21,7 @@ struct Level {
   Knowledge knowledge{};
   bool has_spare = false;  ///< a HEARTBEAT arrived while the last reply was being generated
   std::size_t next_end = 0;
+  std::size_t next_variant = 0;  ///< of `next_end`
 };
 
 class Search {
@@ -51,17 +52,19 @@ class Search {
   }
 
  private:
-  using Key = std::tuple<std::size_t, std::size_t, std::uint32_t, std::uint32_t, bool>;
+  using Key = std::tuple<std::size_t, std::size_t, std::uint32_t, std::uint32_t, bool,
+                         std::optional<std::uint32_t>>;
   static Key key(std::size_t reply, const Level& level) {
-    return {reply, level.consumed, level.knowledge.announced, level.knowledge.count,
-            level.has_spare};
+    return {
+        reply,           level.consumed,        level.knowledge.announced, level.knowledge.count,
+        level.has_spare, level.knowledge.missed};
   }
 
   /// The state after a reply. Generating it takes time, if threads are ever delayed at all.
   [[nodiscard]] Level after(const Choice& choice) const {
     const std::size_t used = choice.heartbeat_ns ? 1 : 0;
     return {choice.end, choice.arrivals.after,
-            bounds_.most_send_lag_ns > 0 && choice.arrivals.heartbeats > used, 0};
+            bounds_.most_send_lag_ns > 0 && choice.arrivals.heartbeats > used, 0, 0};
   }
 
   void remember(std::size_t reply) {
@@ -75,27 +78,68 @@ class Search {
     const Answer& answer = *replies_[reply];
     const std::size_t sent =
         std::max(sent_until(relation_, answer.time_ns, bounds_), level.consumed);
-    std::size_t end = std::max({level.next_end, level.consumed + (level.has_spare ? 0 : 1),
-                                expired(relation_, answer, bounds_)});
     if (level.next_end == 0) tried_misplaced_.reset();
-    for (; end <= sent && effort_ <= effort_limit; ++end) {
+    level.next_end = std::max({level.next_end, level.consumed + (level.has_spare ? 0 : 1),
+                               expired(relation_, answer, bounds_)});
+    while (level.next_end <= sent && effort_ <= effort_limit) {
       Choice choice;
-      choice.end = end;
-      const auto window = std::span{relation_.sent}.subspan(level.consumed, end - level.consumed);
-      if (!explain(level, reply, window, choice)) continue;
-      if (dead_.count(key(reply + 1, after(choice))) > 0) continue;
-      level.next_end = end + 1;
+      choice.end = level.next_end;
+      const std::size_t variant = level.next_variant++;
+      const auto lost = lost_in_variant(level, answer, choice.end, variant);
+      const bool explains = lost && explain(level, reply, *lost, choice);
+      // What cannot be explained with as much as possible cannot with less.
+      if (!lost || (variant == 0 && !explains)) {
+        ++level.next_end;
+        level.next_variant = 0;
+      }
+      if (!explains || dead_.count(key(reply + 1, after(choice))) > 0) continue;
       return choice;
     }
     return std::nullopt;
   }
 
-  /// Which of `window` arrived, and when the HEARTBEAT did that `reply` answers. One that is too
+  /// What is lost for sure in a variant of the window until `end`; nothing: there is no such
+  /// variant. 0: as little as the ACKNACK admits. Otherwise more, in two ways that matter later:
+  /// the datagram that `end` cuts, of which nothing else has come, and descriptors that the ACKNACK
+  /// need not mention, because nothing has announced them.
+  [[nodiscard]] std::optional<std::vector<bool>> lost_in_variant(const Level& level,
+                                                                 const Answer& answer,
+                                                                 std::size_t end,
+                                                                 std::size_t variant) const {
+    std::vector<bool> lost(end - level.consumed);
+    if (variant == 0) return lost;
+    if (!bounds_.may_lose || lost.empty()) return std::nullopt;
+    const auto& sent = relation_.sent;
+    const bool cuts = end < sent.size() && sent[end].datagram == sent[end - 1].datagram;
+    std::set<std::uint32_t> unmentioned;
+    for (std::size_t k = level.consumed; k < end; ++k) {
+      const auto d = sent[k].descriptor;
+      if (d && *d >= answer.base && !answer.asks_for(*d) && !level.knowledge.knows(*d)) {
+        unmentioned.insert(*d);
+      }
+    }
+    const std::size_t ways = cuts ? 2 : 1;
+    if (variant >= ways * (unmentioned.size() + 1)) return std::nullopt;
+    if (cuts && variant % 2 == 1) lost.back() = true;
+    if (variant / ways == 0) return lost;
+    const std::uint32_t limit =
+        *std::prev(unmentioned.end(), static_cast<std::ptrdiff_t>(variant / ways));
+    for (std::size_t k = 0; k < lost.size(); ++k) {
+      const Submessage& one = sent[level.consumed + k];
+      if ((one.descriptor && *one.descriptor >= limit) ||
+          (one.heartbeat && one.heartbeat->announced > limit)) {
+        lost[k] = true;
+      }
+    }
+    return lost;
+  }
+
+  /// Which submessages arrived, and when the HEARTBEAT did that `reply` answers. One that is too
   /// old to be answered now was lost, if anything may be.
-  bool explain(const Level& level, std::size_t reply, std::span<const Submessage> window,
-               Choice& choice) {
+  bool explain(const Level& level, std::size_t reply, std::vector<bool> lost, Choice& choice) {
+    const auto window =
+        std::span{relation_.sent}.subspan(level.consumed, choice.end - level.consumed);
     const Answer& answer = *replies_[reply];
-    std::vector<bool> lost;
     for (;;) {
       effort_ += window.size();
       choice.arrivals = arrivals_for(answer, level.knowledge, window, lost);
@@ -106,7 +150,6 @@ class Search {
       const std::size_t heartbeat = *choice.arrivals.heartbeat;
       if (place(answer, level.consumed + heartbeat, choice)) return true;
       if (!tried_misplaced_ || tried_misplaced_->late_ns == 0 || !bounds_.may_lose) return false;
-      lost.resize(window.size());
       if (lost[heartbeat]) return false;  // a part of its datagram has arrived
       lost[heartbeat] = true;
     }
@@ -132,7 +175,7 @@ class Search {
     choice.heartbeat_ns =
         std::min(latest, cause.time_ns + bounds_.most_delay_ns + bounds_.clock_error_ns);
     const std::int64_t late =
-        latest - capture_resolution_ns - *choice.heartbeat_ns - bounds_.most_send_lag_ns;
+        latest - 2 * capture_resolution_ns - *choice.heartbeat_ns - bounds_.most_send_lag_ns;
     if (late <= bounds_.most_lateness_ns) return true;
     tried_misplaced_ = Misplaced{heartbeat, 0, late - bounds_.most_lateness_ns};
     return false;
