@@ -30,7 +30,7 @@ struct DataEvent {
   std::int64_t sequence_number = 0;
   std::uint32_t fragment = 0;      ///< 0: DATA; otherwise the number of DATA_FRAG's first fragment
   std::optional<Guid> endpoint{};  ///< SEDP: whom it describes
-  bool is_gone = false;            ///< SEDP: the endpoint is disposed of
+  bool is_gone = false;            ///< the endpoint is disposed of; SPDP: the participant leaves
 };
 struct HeartbeatEvent {
   std::int64_t first = 0;

@@ -81,7 +81,8 @@ class Receiver {
         remarks_.add("SEDP samples in fragments (DATA_FRAG), counted apart from DATA", place_);
       }
     } else if (traffic == Traffic::spdp) {
-      describe_participant(*data);
+      content.is_gone = data->payload.empty() || data->has_key_only;
+      if (!content.is_gone) describe_participant(*data);
     } else if (traffic == Traffic::sedp) {
       describe_endpoint(*data, submessage.order(), content);
     }
@@ -89,7 +90,6 @@ class Receiver {
   }
 
   void describe_participant(const DataSubmessage& data) {
-    if (data.payload.empty() || data.has_key_only) return;  // the participant says goodbye
     auto participant = participant_data(data);
     if (!participant || !data.inline_qos_is_valid) return unreadable();
     describe(data, std::move(*participant));

@@ -141,8 +141,15 @@ Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns) {
   Dialogue dialogue{conversation};
   Sorter sorter{dialogue};
   for (std::size_t k = 0; k < conversation.events.size(); ++k) {
-    if (conversation.events[k].time_ns > until_ns) break;
-    dialogue.end_ns = conversation.events[k].time_ns;
+    const Event& event = conversation.events[k];
+    if (event.time_ns > until_ns) break;
+    const Traffic traffic = event.traffic();
+    if ((traffic == Traffic::spdp || traffic == Traffic::sedp) && event.data() != nullptr &&
+        event.data()->is_gone) {
+      dialogue.ends_early = true;
+      break;
+    }
+    dialogue.end_ns = event.time_ns;
     sorter.add(k);
   }
   sorter.finish();

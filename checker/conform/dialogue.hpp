@@ -64,6 +64,7 @@ struct Dialogue {
   std::uint64_t checked = 0;
   std::uint64_t not_checked = 0;
   std::int64_t end_ns = 0;  ///< of what is looked at
+  bool ends_early = false;  ///< a participant or an endpoint leaves, of which there is no rule
 
   /// When `from` can have been announced to `to` first: the time of that announcement's capture.
   [[nodiscard]] std::optional<std::int64_t> first_announced(std::size_t from, std::size_t to) const;

@@ -124,6 +124,23 @@ TEST(Message, ASubmessageThatReachesBeyondTheEndIsReportedAndThoseBeforeItCount)
             (Remark{"RTPS messages that end inside a submessage", "0.pcap, packet 1", 1}));
 }
 
+TEST(Message, AParticipantWithoutAPayloadLeaves) {
+  const auto data = [](std::uint8_t flags) {
+    Writer body{ByteOrder::little};
+    body.u16(0).u16(16).entity(entity::spdp_reader).entity(entity::spdp_writer).sequence_number(1);
+    if (flags != 0) body.u8(0).u8(3).u16(0).u16(0x50).u16(16).bytes(prefix(1).bytes).entity(0x1c1);
+    if (flags != 0) body.u16(1).u16(0);
+    return body.buffer();
+  };
+  constexpr std::uint8_t key_only = 0x08;
+  const Conversation conversation = conversation_with(
+      Message{prefix(1)}.submessage(0x15, 0, data(0)).submessage(0x15, key_only, data(key_only)));
+  ASSERT_EQ(conversation.events.size(), 2U);
+  EXPECT_TRUE(conversation.events[0].data()->is_gone);
+  EXPECT_TRUE(conversation.events[1].data()->is_gone);
+  EXPECT_TRUE(conversation.remarks.empty());
+}
+
 TEST(Message, HostileLengthsAreRefused) {
   Writer too_many{ByteOrder::little};
   too_many.entity(pub + 5).entity(pub).sequence_number(1).u32(257).bytes(Buffer(64, 255));

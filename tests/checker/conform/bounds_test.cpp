@@ -139,6 +139,26 @@ TEST_F(BoundsEffect, EventsAfterTheEndAreNotLookedAt) {
   EXPECT_TRUE(is_explained(*cut)) << description(*cut);
 }
 
+TEST_F(BoundsEffect, WhatFollowsTheFirstThatLeavesIsNotLookedAt) {
+  Simulated one = run();
+  Conversation& c = one.conversation;
+  const Event last = c.events.back();
+  Event goodbye = c.events.front();
+  ASSERT_NE(goodbye.data(), nullptr);
+  capture::DataEvent content = *goodbye.data();
+  content.is_gone = true;
+  goodbye.content = content;
+  add(c, goodbye, last.time_ns + ms);
+  add(c, last, last.time_ns + 2 * ms);
+  const Conformance result = conformance(c, scenario_.dds, exact_bounds(scenario_, one));
+  EXPECT_TRUE(is_explained(result)) << description(result);
+  bool is_said = false;
+  for (const std::string& text : result.assumptions) {
+    is_said = is_said || text.find("leaves") != std::string::npos;
+  }
+  EXPECT_TRUE(is_said);
+}
+
 TEST_F(BoundsEffect, AnInterruptedCheckIsInconclusive) {
   const Simulated one = run();
   Request request{.conversation = one.conversation,
