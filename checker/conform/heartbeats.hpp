@@ -5,16 +5,12 @@
 #pragma once
 
 #include "checker/conform/ledger.hpp"
+#include "checker/conform/sent_heartbeats.hpp"
 #include "checker/conform/writer_side.hpp"
 #include "fsm/heartbeat_timer.hpp"
 #include "model/dds_profile.hpp"
 
 namespace stormproof::conform {
-
-/// The relations of one writer.
-struct WriterRelations {
-  std::vector<const Relation*> relations{};
-};
 
 /// When HEARTBEATs of a writer first announced that many descriptors, or more.
 [[nodiscard]] AnnouncedSince announced_since(const WriterRelations& writer);
