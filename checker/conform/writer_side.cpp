@@ -1,5 +1,4 @@
-// Finds the request of every transmission of a relation, and replays requests and transmissions
-// through the machines of the descriptors.
+// Finds the request of every transmission of a relation.
 #include "checker/conform/writer_side.hpp"
 
 #include <algorithm>
@@ -7,15 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "checker/conform/data_replay.hpp"
 #include "checker/conform/requests_exact.hpp"
 #include "checker/conform/words.hpp"
 
 namespace stormproof::conform {
 
 namespace {
-
-namespace change = fsm::change_for_reader;
-namespace shot = fsm::single_shot;
 
 std::vector<Transmission> transmissions_of(const Relation& relation, std::uint32_t existing) {
   std::vector<Transmission> all;
@@ -30,12 +27,6 @@ std::vector<Transmission> transmissions_of(const Relation& relation, std::uint32
   }
   return all;
 }
-
-/// A successful search: for each transmission the ACKNACK that asks for it, unless it is pushed.
-struct Plan {
-  std::vector<Arrival> arrivals{};
-  std::vector<std::optional<std::size_t>> request{};
-};
 
 /// How long the solver may think about one relation.
 constexpr std::chrono::milliseconds solver_limit{10'000};
@@ -86,11 +77,6 @@ class WriterSide {
     return all;
   }
 
-  /// From the arrival of a request to the transmission.
-  [[nodiscard]] std::int64_t response_ns() const {
-    return context_.is_only_reader ? context_.sedp.nack_response_delay.count() : 0;
-  }
-
   /// What each transmission that is not pushed needs. `exact`: as the rules have it if everything
   /// was serialized `lag` before its capture; otherwise no later than they can have it at all.
   [[nodiscard]] std::vector<Demand> demands(std::int64_t lag, bool exact) const {
@@ -105,9 +91,9 @@ class WriterSide {
         unacknowledged.resize(one.descriptor + 1, opened_ns_ - lag);
       }
       if (!one.is_pushed) {
-        all.push_back(
-            {k, one.descriptor, unacknowledged[one.descriptor],
-             one.time_ns - response_ns() + (response_ns() > 0 ? capture_resolution_ns : 0)});
+        all.push_back({k, one.descriptor, unacknowledged[one.descriptor],
+                       one.time_ns - context_.response_ns() +
+                           (context_.response_ns() > 0 ? capture_resolution_ns : 0)});
       }
       // A suppression that is pending already ends for this descriptor, too.
       const bool may_be_pending =
@@ -158,128 +144,11 @@ class WriterSide {
     return std::nullopt;
   }
 
-  // Replay.
-
-  struct Step {
-    std::int64_t time_ns = 0;
-    bool is_transmission = false;
-    std::size_t index = 0;
-  };
-
   std::optional<Unexplained> replay(const Plan& plan, std::int64_t lag) {
-    std::vector<Step> steps;
-    std::int64_t in_order = INT64_MIN;
-    for (std::size_t k = 0; k < plan.arrivals.size(); ++k) {
-      in_order = std::max(in_order, plan.arrivals[k].from_ns);
-      steps.push_back({in_order, false, k});
-    }
-    for (std::size_t k = 0; k < transmissions_.size(); ++k) {
-      std::int64_t serialized = transmissions_[k].time_ns - lag;
-      if (const auto request = plan.request[k]) {
-        serialized = std::max(serialized, steps[*request].time_ns + response_ns());
-      }
-      steps.push_back({serialized, true, k});
-    }
-    std::stable_sort(steps.begin(), steps.end(),
-                     [](const Step& a, const Step& b) { return a.time_ns < b.time_ns; });
-
-    open();
-    for (const Step& step : steps) {
-      end_suppression(step.time_ns);
-      if (step.is_transmission) {
-        transmit(step);
-      } else if (auto fault = arrive(step, plan.arrivals[step.index])) {
-        return fault;
-      }
-    }
-    return std::nullopt;
-  }
-
-  void open() {
-    states_.assign(std::max<std::size_t>(known(), existing_),
-                   Tally<fsm::ChangeForReader>::Fly::initial);
-    for (std::uint32_t d = 0; d < existing_; ++d) {
-      changes_.step<change::ReaderMatched>(states_[d], {});
-    }
-  }
-
-  [[nodiscard]] std::size_t known() const {
-    return context_.dialogue
-        .descriptors[2 * relation_.place.source + stream_index(relation_.place.writer)];
-  }
-
-  std::optional<Unexplained> arrive(const Step& step, const Arrival& arrival) {
-    const Answer& answer = relation_.answers[step.index];
-    if (!arrival.is_used && is_unanswered(answer, step.time_ns)) {
-      const std::int64_t served = arrival.to_ns + context_.sedp.nack_response_delay.count() +
-                                  context_.bounds.most_lateness_ns +
-                                  context_.bounds.most_send_lag_ns;
-      const bool still_under_way = served >= context_.dialogue.end_ns;
-      if (!still_under_way && !context_.bounds.may_lose) return unanswered(answer);
-      ledger_.hidden(still_under_way ? Hidden::Kind::still_under_way : Hidden::Kind::lost,
-                     answer.time_ns, answer.event);
-      return std::nullopt;
-    }
-    ledger_.hidden(Hidden::Kind::received, step.time_ns, answer.event);
-    if (answer.is_initial) {
-      for (fsm::StateId& state : states_) {
-        changes_.step<change::InitialAckNackReceived>(state, {});
-      }
-      return std::nullopt;
-    }
-    bool requested = false;
-    for (std::uint32_t d = 0; d < states_.size(); ++d) {
-      const bool listed = answer.asks_for(d);
-      if (!listed && d >= answer.base) continue;
-      requested |= changes_
-                       .step<change::AckNackReceived>(
-                           states_[d], {.listed = listed, .below_base = d < answer.base})
-                       .requested;
-    }
-    if (requested) {
-      timers_.step<shot::Requested>(
-          response_, {.now = step.time_ns, .delay = context_.sedp.nack_response_delay.count()});
-    }
-    return std::nullopt;
-  }
-
-  /// Whether it asks for something unacknowledged that is never sent again.
-  [[nodiscard]] bool is_unanswered(const Answer& answer, std::int64_t now) const {
-    constexpr fsm::StateId u = fsm::Reflect<fsm::ChangeForReader>::id<change::U>;
-    return std::any_of(answer.missing.begin(), answer.missing.end(), [&](std::uint32_t d) {
-      if (d >= states_.size() || states_[d] != u) return false;
-      return std::none_of(
-          transmissions_.begin(), transmissions_.end(),
-          [&](const Transmission& one) { return one.descriptor == d && one.time_ns >= now; });
-    });
-  }
-
-  void transmit(const Step& step) {
-    const Transmission& one = transmissions_[step.index];
-    fsm::StateId& state = states_[one.descriptor];
-    if (one.is_pushed) changes_.step<change::Created>(state, {});
-    if (timers_.step<shot::Due>(response_, {.now = step.time_ns}).fire) {
-      for (fsm::StateId& other : states_) changes_.step<change::NackResponseDue>(other, {});
-    }
-    constexpr fsm::StateId s = fsm::Reflect<fsm::ChangeForReader>::id<change::S>;
-    changes_.step<change::Serialized>(state, {});
-    if (state != s) {
-      ledger_.not_replayed();
-    } else {
-      ledger_.explained(one.is_pushed  ? Rule::data_push
-                        : one.is_first ? Rule::data_pull
-                                       : Rule::data_repair);
-    }
-    const auto timer = timers_.step<shot::Requested>(
-        suppression_,
-        {.now = step.time_ns, .delay = context_.sedp.nack_suppression_duration.count()});
-    if (timer.schedule) suppressed_until_ns_ = timer.next_at;
-  }
-
-  void end_suppression(std::int64_t now) {
-    if (now < suppressed_until_ns_) return;
-    if (!timers_.step<shot::Due>(suppression_, {.now = now}).fire) return;
-    for (fsm::StateId& state : states_) changes_.step<change::SuppressionEnded>(state, {});
+    DataReplay replay{context_, relation_, transmissions_, existing_, changes_, timers_, ledger_};
+    const Answer* unanswered_one = replay.run(plan, lag);
+    if (unanswered_one == nullptr) return std::nullopt;
+    return unanswered(*unanswered_one);
   }
 
   // Findings.
@@ -419,10 +288,6 @@ class WriterSide {
   std::int64_t opened_ns_ = 0;
   std::uint32_t existing_ = 0;  ///< descriptors when the relation opened
   std::vector<Transmission> transmissions_;
-  std::vector<fsm::StateId> states_;
-  fsm::StateId response_ = Tally<fsm::SingleShot>::Fly::initial;
-  fsm::StateId suppression_ = Tally<fsm::SingleShot>::Fly::initial;
-  std::int64_t suppressed_until_ns_ = INT64_MAX;
 };
 
 }  // namespace

@@ -25,6 +25,11 @@ struct WriterContext {
   /// The writer has no reader but this one, not even on its own host, so that no other request can
   /// have armed its nack response before.
   bool is_only_reader = false;
+
+  /// From the arrival of a request to the transmission, at least, ns.
+  [[nodiscard]] std::int64_t response_ns() const {
+    return is_only_reader ? sedp.nack_response_delay.count() : 0;
+  }
 };
 
 /// Explains all DATA of `relation`, or returns the first that it cannot.
