@@ -10,9 +10,6 @@ namespace stormproof::conform {
 
 namespace {
 
-/// A bitmap has at most 256 bits.
-constexpr std::uint32_t bitmap_limit = 256;
-
 /// Takes all submessages that are marked as arrived.
 void take_all(Arrivals& arrivals, const Knowledge& before, std::span<const Submessage> sent) {
   arrivals.after = before;

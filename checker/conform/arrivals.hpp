@@ -14,6 +14,9 @@
 
 namespace stormproof::conform {
 
+/// An ACKNACK lists at most so many descriptors from its base on.
+inline constexpr std::uint32_t bitmap_limit = 256;
+
 /// What the reader knows: X, and what was announced to it.
 struct Knowledge {
   std::vector<bool> has{};      ///< X, by descriptor

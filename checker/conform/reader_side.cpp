@@ -1,18 +1,15 @@
-// Chooses receptions for each ACKNACK of a relation and replays them through the reader's machines.
+// Finds out when the ACKNACKs of a relation can have been sent, and says what is wrong with those
+// that cannot.
 #include "checker/conform/reader_side.hpp"
 
 #include <fmt/format.h>
 
-#include "checker/conform/reply_search.hpp"
+#include "checker/conform/reader_replay.hpp"
 #include "checker/conform/words.hpp"
 
 namespace stormproof::conform {
 
 namespace {
-
-namespace reader = fsm::discovery_reader;
-namespace initial = fsm::initial_acknack;
-namespace shot = fsm::single_shot;
 
 /// The instants between which something happened.
 struct Window {
@@ -29,10 +26,9 @@ class ReaderSide {
         relation_{relation},
         sedp_{sedp},
         bounds_{bounds},
-        machines_{machines},
-        timers_{timers},
         ledger_{ledger},
-        sent_{relation.sent} {}
+        sent_{relation.sent},
+        replay_{dialogue, relation, sedp, bounds, machines, timers, ledger} {}
 
   std::optional<Unexplained> explain() {
     const auto announced =
@@ -42,7 +38,7 @@ class ReaderSide {
     auto fault = explain_in_time(announced);
     if (auto reply_fault = explain_replies()) return reply_fault;  // it comes earlier
     if (fault) return fault;
-    finish();
+    if (!replies_.empty() && next_delay_ns_ > 0) replay_.finish();
     return announced && !bounds_.may_lose ? unanswered(*announced) : std::nullopt;
   }
 
@@ -76,7 +72,7 @@ class ReaderSide {
                    heartbeat->event);
     }
     Window sent{answer.time_ns - bounds_.most_send_lag_ns, answer.time_ns + capture_resolution_ns};
-    if (!is_open_) {
+    if (!replay_.is_open()) {
       open(answer.time_ns - sedp_.initial_acknack_delay.count());
       if (next_delay_ns_ == 0) {
         return fault(answer, Fault::no_such_rule, "initial ACKNACK",
@@ -89,36 +85,23 @@ class ReaderSide {
     const std::int64_t overdue = sent.from_ns - due.to_ns - bounds_.most_lateness_ns;
     if (attempts_ > 0 && overdue > 0) return initial_late(answer, overdue);
     if (attempts_ > 0) {
-      const std::int64_t waited = answer.time_ns - last_answer_ns_;
+      const std::int64_t waited = answer.time_ns - last_initial_ns_;
       ledger_.used_lateness(answer.time_ns - due.to_ns);
       ledger_.used_lag(next_delay_ns_ - waited - capture_resolution_ns);
     }
     attempt_ = {
         std::max(sent.from_ns, due.from_ns),
         std::min(sent.to_ns, attempts_ == 0 ? sent.to_ns : due.to_ns + bounds_.most_lateness_ns)};
-    send_initial(answer);
-    return std::nullopt;
-  }
-
-  void send_initial(const Answer& answer) {
     ++attempts_;
     at_least_ns_ += next_delay_ns_;
-    last_answer_ns_ = answer.time_ns;
-    const auto attempt = machines_.initial.step<initial::AttemptDue>(
-        initial_state_, {.now = answer.time_ns,
-                         .first_delay = sedp_.initial_acknack_delay.count(),
-                         .last_delay = next_delay_ns_,
-                         .heartbeat_seen = false,
-                         .constant = is_constant()});
-    next_delay_ns_ = attempt.next_delay;
-    const auto output = machines_.reader.step<reader::InitialAckNackDue>(state_, {});
-    confirm(attempt.attempt && output.send_initial, Rule::acknack_initial);
-    ledger_.hidden(Hidden::Kind::timer, answer.time_ns, answer.event, "InitialAckNack");
+    last_initial_ns_ = answer.time_ns;
+    next_delay_ns_ = replay_.attempt(answer, next_delay_ns_);
+    return std::nullopt;
   }
 
   Unexplained initial_early(const Answer& answer, std::int64_t by_ns) {
     const std::int64_t after =
-        attempts_ == 0 ? answer.time_ns - opens_from_ns_ : answer.time_ns - last_answer_ns_;
+        attempts_ == 0 ? answer.time_ns - opens_from_ns_ : answer.time_ns - last_initial_ns_;
     const std::string since = attempts_ == 0
                                   ? "the first announcement that the reader can have received"
                                   : "the previous initial ACKNACK";
@@ -141,7 +124,7 @@ class ReaderSide {
   }
 
   Unexplained initial_late(const Answer& answer, std::int64_t by_ns) {
-    const std::int64_t after = answer.time_ns - last_answer_ns_;
+    const std::int64_t after = answer.time_ns - last_initial_ns_;
     return fault(answer, Fault::initial_late,
                  fmt::format("initial ACKNACK {} after the previous one", duration(after)),
                  fmt::format("the profile waits {}: without a HEARTBEAT it is sent at the latest "
@@ -155,8 +138,8 @@ class ReaderSide {
   /// A HEARTBEAT that arrives at an open reader before `answer` whatever its delay is.
   [[nodiscard]] const Submessage* arrived_heartbeat(const Answer& answer) const {
     const std::size_t arrived = expired(relation_, answer, bounds_);
-    for (std::size_t k = 0; is_open_ && k < arrived; ++k) {
-      if (sent_[k].heartbeat && sent_[k].time_ns + bounds_.least_delay_ns > opened_ns_) {
+    for (std::size_t k = 0; replay_.is_open() && k < arrived; ++k) {
+      if (sent_[k].heartbeat && sent_[k].time_ns + bounds_.least_delay_ns > replay_.opened_ns()) {
         return &sent_[k];
       }
     }
@@ -181,7 +164,13 @@ class ReaderSide {
 
   std::optional<Unexplained> explain_replies() {
     const ReplySearch search = search_replies(relation_, replies_, sedp_, bounds_);
-    for (std::size_t k = 0; k < search.choices.size(); ++k) replay(*replies_[k], search.choices[k]);
+    for (std::size_t k = 0; k < search.choices.size(); ++k) {
+      const Choice& choice = search.choices[k];
+      if (!replay_.is_open()) {
+        open(std::min(opens_from_ns_, choice.heartbeat_ns.value_or(replies_[k]->time_ns)));
+      }
+      replay_.reply(*replies_[k], choice);
+    }
     if (search.kind == ReplySearch::Kind::explained) return std::nullopt;
     if (search.kind == ReplySearch::Kind::given_up) {
       ledger_.undecided();
@@ -212,90 +201,20 @@ class ReaderSide {
         message.event);
   }
 
-  /// Lets the chosen messages arrive, in order, and the reply be generated.
-  void replay(const Answer& answer, const Choice& choice) {
-    if (!is_open_) open(std::min(opens_from_ns_, choice.heartbeat_ns.value_or(answer.time_ns)));
-    fsm::StateId reply = Tally<fsm::SingleShot>::Fly::initial;
-    std::int64_t due = answer.time_ns;
-    std::int64_t now = last_reception_ns_;
-    const auto arm = [&] {
-      const auto timer = timers_.step<shot::Requested>(
-          reply, {.now = now, .delay = sedp_.heartbeat_response_delay.count()});
-      if (timer.schedule) due = timer.next_at;
-    };
-    if (!choice.heartbeat_ns) {
-      now = std::max(now, last_answer_ns_);
-      arm();
-    }
-    for (std::size_t k = 0; k < choice.arrivals.arrived.size(); ++k) {
-      const Submessage& message = sent_[consumed_ + k];
-      now = std::max(now, message.time_ns + bounds_.least_delay_ns);
-      if (!choice.arrivals.arrived[k]) {
-        miss(message);
-        continue;
-      }
-      if (choice.heartbeat_ns && choice.arrivals.heartbeat == k) {
-        now = std::max(now, *choice.heartbeat_ns);
-      }
-      ledger_.hidden(Hidden::Kind::received, now, message.event);
-      if (receive(message)) arm();
-    }
-    last_reception_ns_ = std::min(now, answer.time_ns);
-    consumed_ = choice.end;
-    const auto fired = timers_.step<shot::Due>(reply, {.now = due});
-    const auto output = machines_.reader.step<reader::AckNackDue>(
-        state_, {.accepts_unmatched = false, .missing_after = missing()});
-    confirm(fired.fire && output.send_acknack && says(answer), Rule::acknack_reply);
-    ledger_.used_lateness(answer.time_ns - due - bounds_.most_send_lag_ns);
-    has_replied_ = true;
-    last_answer_ns_ = answer.time_ns;
-  }
-
-  void confirm(bool replayed, Rule rule) {
-    replayed ? ledger_.explained(rule) : ledger_.not_replayed();
-  }
-
-  /// A datagram is lost, or was there before the reader side opened.
-  void miss(const Submessage& message) {
-    if (missed_ == message.datagram) return;
-    missed_ = message.datagram;
-    const bool before = message.time_ns + bounds_.least_delay_ns <= opened_ns_;
-    ledger_.hidden(before ? Hidden::Kind::dropped : Hidden::Kind::lost, message.time_ns,
-                   message.event);
-  }
-
-  /// A submessage arrives at the reader's machine; whether it schedules an ACKNACK.
-  bool receive(const Submessage& message) {
-    const bool accepted = knowledge_.take(message);
-    const fsm::DiscoveryReaderIo::Input<fsm::Plain> input{.accepts_unmatched = false,
-                                                          .missing_after = missing()};
-    if (message.descriptor) machines_.reader.step<reader::DataReceived>(state_, input);
-    if (!message.heartbeat || !accepted) return false;
-    return machines_.reader.step<reader::HeartbeatReceived>(state_, input).schedule_acknack;
-  }
-
-  /// Whether the ACKNACK that the machines send now is the captured one.
-  [[nodiscard]] bool says(const Answer& answer) const {
-    if (knowledge_.base() != answer.base) return false;
-    const std::uint32_t end = std::min(knowledge_.announced, answer.base + 256);
-    for (std::uint32_t d = answer.base; d < end; ++d) {
-      if (knowledge_.knows(d) == answer.asks_for(d)) return false;
-    }
-    return true;
-  }
-
   /// The first HEARTBEAT that must have arrived at an open reader side and is not answered at the
   /// end, if nothing is lost.
   std::optional<Unexplained> unanswered(std::int64_t announced) {
-    const std::int64_t open =
-        is_open_ ? opened_ns_ : announced + bounds_.most_delay_ns + bounds_.clock_error_ns;
+    const std::int64_t open = replay_.is_open()
+                                  ? replay_.opened_ns()
+                                  : announced + bounds_.most_delay_ns + bounds_.clock_error_ns;
     const std::int64_t answered_within = bounds_.most_delay_ns + bounds_.clock_error_ns +
                                          sedp_.heartbeat_response_delay.count() +
                                          bounds_.most_lateness_ns + bounds_.most_send_lag_ns;
-    for (std::size_t k = consumed_; k < sent_.size(); ++k) {
+    const Knowledge& known = replay_.knowledge();
+    for (std::size_t k = replay_.consumed(); k < sent_.size(); ++k) {
       const Submessage& one = sent_[k];
       if (!one.heartbeat || one.time_ns + bounds_.least_delay_ns <= open ||
-          (knowledge_.has_heartbeat && one.heartbeat->count <= knowledge_.count)) {
+          (known.has_heartbeat && one.heartbeat->count <= known.count)) {
         continue;
       }
       if (one.time_ns + answered_within >= dialogue_.end_ns) break;
@@ -317,35 +236,11 @@ class ReaderSide {
   // Shared.
 
   void open(std::int64_t now) {
-    is_open_ = true;
-    opened_ns_ = now;
     at_least_ns_ = opens_from_ns_;
-    machines_.reader.step<reader::AnnouncementReceived>(state_, {.missing_after = missing()});
-    const auto output = machines_.initial.step<initial::ReaderOpened>(
-        initial_state_, {.now = now,
-                         .first_delay = sedp_.initial_acknack_delay.count(),
-                         .constant = is_constant()});
-    next_delay_ns_ = output.next_delay;
-    ledger_.hidden(Hidden::Kind::recognised, now, std::nullopt);
-  }
-
-  /// What of the rest has arrived does not matter; an attempt finds that a HEARTBEAT was seen.
-  void finish() {
-    if (has_replied_ && next_delay_ns_ > 0) {
-      machines_.initial.step<initial::AttemptDue>(initial_state_, {.heartbeat_seen = true});
-    }
-  }
-
-  [[nodiscard]] bool is_constant() const {
-    return sedp_.initial_acknack_interval == model::InitialAckNackInterval::constant;
-  }
-  [[nodiscard]] std::int64_t missing() const {
-    const std::size_t index = 2 * relation_.place.source + stream_index(relation_.place.writer);
-    const auto known = std::count(knowledge_.has.begin(), knowledge_.has.end(), true);
-    return static_cast<std::int64_t>(dialogue_.descriptors[index]) - known;
+    next_delay_ns_ = replay_.open(now);
   }
   [[nodiscard]] std::span<const Submessage> window(std::size_t end) const {
-    return std::span{sent_}.subspan(consumed_, end - consumed_);
+    return std::span{sent_}.subspan(replay_.consumed(), end - replay_.consumed());
   }
 
   // Findings.
@@ -364,7 +259,7 @@ class ReaderSide {
   }
 
   Unexplained too_soon(const Answer& answer, std::int64_t by_ns) {
-    const std::int64_t after = answer.time_ns - last_answer_ns_;
+    const std::int64_t after = answer.time_ns - replies_.back()->time_ns;
     return fault(
         answer, Fault::acknack_early,
         fmt::format("ACKNACK {} after the previous one", duration(after)),
@@ -375,8 +270,9 @@ class ReaderSide {
   }
 
   Unexplained unexplained_reply(const Answer& answer) {
-    const std::size_t sent = std::max(consumed_, sent_until(relation_, answer.time_ns, bounds_));
-    const Arrivals all = arrivals_for(answer, knowledge_, window(sent));
+    const std::size_t sent =
+        std::max(replay_.consumed(), sent_until(relation_, answer.time_ns, bounds_));
+    const Arrivals all = arrivals_for(answer, replay_.knowledge(), window(sent));
     const bool is_content = !all.mismatch.empty();
     const std::string why = is_content ? all.mismatch
                             : all.heartbeats == 0
@@ -387,7 +283,7 @@ class ReaderSide {
     std::string nearest = "nothing that the writer sends later would explain it either";
     // What else would have to be under way already.
     for (std::size_t end = sent + 1; end <= sent_.size(); ++end) {
-      const Arrivals later = arrivals_for(answer, knowledge_, window(end));
+      const Arrivals later = arrivals_for(answer, replay_.knowledge(), window(end));
       if (!later.mismatch.empty() || later.heartbeats == 0) continue;
       const Submessage& message = sent_[end - 1];
       const std::int64_t by = message.time_ns + bounds_.least_delay_ns - answer.time_ns;
@@ -416,28 +312,18 @@ class ReaderSide {
   const Relation& relation_;
   const model::SedpProfile& sedp_;
   const Bounds& bounds_;
-  ReaderMachines& machines_;
-  Tally<fsm::SingleShot>& timers_;
   Ledger& ledger_;
   const std::vector<Submessage>& sent_;  ///< by the writer
+  ReaderReplay replay_;
 
   std::int64_t opens_from_ns_ = 0;  ///< the earliest instant at which the reader side can open
-  bool is_open_ = false;
-  std::int64_t opened_ns_ = 0;
-  std::optional<std::uint32_t> missed_;  ///< the last datagram that did not arrive
-  fsm::StateId state_ = Tally<fsm::DiscoveryReader>::Fly::initial;
-  fsm::StateId initial_state_ = Tally<fsm::InitialAckNack>::Fly::initial;
-  Window attempt_{};  ///< of the last initial ACKNACK, or of the opening
+  Window attempt_{};                ///< of the last initial ACKNACK, or of the opening
   std::int64_t next_delay_ns_ = 0;
   std::int64_t at_least_ns_ = 0;  ///< the earliest instant of `attempt_`, whatever the send lag
   std::uint32_t attempts_ = 0;
-  std::size_t consumed_ = 0;  ///< of `sent_`: have arrived or are lost
-  Knowledge knowledge_{};
-  std::int64_t last_reception_ns_ = INT64_MIN / 2;
+  std::int64_t last_initial_ns_ = 0;
   std::vector<const Answer*> replies_;  ///< ACKNACKs that answer HEARTBEATs
-  bool has_replied_ = false;
-  std::int64_t replied_from_ns_ = 0;  ///< the earliest instant of the last reply
-  std::int64_t last_answer_ns_ = 0;
+  std::int64_t replied_from_ns_ = 0;    ///< the earliest instant of the last reply
 };
 
 }  // namespace
