@@ -2,6 +2,7 @@
 // makes one thing wrong. And the files of a run are read as they are written.
 #include "tests/live/report/judgement.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -155,16 +156,22 @@ class Folder : public ::testing::Test {
       "endpoints_done_ns": 12, "app_ns": 30, "matches": 12, "matches_expected": 12,
       "strict_ns": 29, "discovered": 19, "discovered_expected": 19})");
   }
-  void TearDown() override { fs::remove_all(path_); }
+  void TearDown() override { fs::remove_all(path_.parent_path()); }
   void write(const std::string& name, const std::string& text) {
     std::ofstream(path_ / name) << text;
   }
-  fs::path path_ = fs::path(::testing::TempDir()) / "stormproof_live_run";
+  /// Tests run side by side: each has a folder of its own.
+  static fs::path own_folder() {
+    std::string pattern = ::testing::TempDir() + "stormproof-live-XXXXXX";
+    EXPECT_NE(mkdtemp(pattern.data()), nullptr);
+    return pattern;
+  }
+  fs::path path_ = own_folder() / "run-1";
 };
 
 TEST_F(Folder, IsRead) {
   const RunRecord run = read_run(path_);
-  EXPECT_EQ(run.name, "stormproof_live_run");
+  EXPECT_EQ(run.name, "run-1");
   EXPECT_EQ(run.captures[0].dropped, 1);
   EXPECT_EQ(run.captures[0].interface_dropped, 2);
   EXPECT_EQ(run.captures[0].socket_dropped, 3);
