@@ -264,7 +264,7 @@ class Announcements {
     constexpr std::size_t before = 8;
     constexpr std::size_t after = 4;
     Unexplained result{
-        one.event,        kind, ledger_.place->place, std::move(what), std::move(nearest),
+        one.event,        kind, ledger_.place.place, std::move(what), std::move(nearest),
         std::move(needs), {}};
     const auto& all = dialogue_.announcements[participant_];
     std::size_t at = 0;

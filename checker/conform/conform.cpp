@@ -3,6 +3,7 @@
 #include "checker/conform/conform.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -60,20 +61,12 @@ class Check {
 
   /// Runs `explain` for one place and files what it finds.
   void at(const Place& place, const auto& explain) {
-    auto known = std::find_if(result_.places.begin(), result_.places.end(),
-                              [&](const PlaceResult& one) { return one.place == place; });
-    if (known == result_.places.end()) {
-      result_.places.push_back({place});
-      known = std::prev(result_.places.end());
-    }
-    PlaceResult one = *known;
-    Ledger ledger{result_, &one};
+    PlaceResult& one = places_.try_emplace(place, PlaceResult{place}).first->second;
+    Ledger ledger{result_, one};
     if (auto fault = explain(ledger)) {
       ++one.unexplained;
       result_.unexplained.push_back(std::move(*fault));
     }
-    *std::find_if(result_.places.begin(), result_.places.end(),
-                  [&](const PlaceResult& other) { return other.place == place; }) = one;
   }
 
   void announcements(std::size_t i) {
@@ -130,8 +123,7 @@ class Check {
   void conclude(bool is_complete) {
     std::stable_sort(result_.unexplained.begin(), result_.unexplained.end(),
                      [](const Unexplained& a, const Unexplained& b) { return a.event < b.event; });
-    std::sort(result_.places.begin(), result_.places.end(),
-              [](const PlaceResult& a, const PlaceResult& b) { return a.place < b.place; });
+    for (const auto& [place, one] : places_) result_.places.push_back(one);
     std::stable_sort(result_.hidden.begin(), result_.hidden.end(),
                      [](const Hidden& a, const Hidden& b) { return a.time_ns < b.time_ns; });
     announcer_.report(result_.rows);
@@ -181,6 +173,7 @@ class Check {
   const Request& request_;
   Dialogue dialogue_;
   Conformance result_;
+  std::map<Place, PlaceResult> places_;
   Tally<fsm::Announcer> announcer_;
   Tally<fsm::HeartbeatTimer> heartbeat_timer_;
   Tally<fsm::ChangeForReader> changes_;

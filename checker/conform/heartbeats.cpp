@@ -105,18 +105,14 @@ class Heartbeats {
       if (after == 0 && one.time_ns > due) after = one.event;
     }
     const std::size_t event = after != 0 ? after : relation.sent.back().event;
-    Unexplained result{event,
-                       Fault::heartbeat_due,
-                       relation.place,
-                       fmt::format("no HEARTBEAT within {} after the relation opened, though its "
-                                   "reader has acknowledged nothing",
-                                   duration(due - relation.sent.front().time_ns)),
-                       fmt::format("the writer's timer expires every {}",
-                                   duration(sedp_.heartbeat_period.count())),
-                       {{"a HEARTBEAT to this reader in time", {}, {}}},
-                       {}};
-    result.context = context_of(relation, event);
-    return result;
+    return unexplained_in(
+        relation, event, Fault::heartbeat_due,
+        fmt::format("no HEARTBEAT within {} after the relation opened, though its reader has "
+                    "acknowledged nothing",
+                    duration(due - relation.sent.front().time_ns)),
+        fmt::format("the writer's timer expires every {}",
+                    duration(sedp_.heartbeat_period.count())),
+        {{"a HEARTBEAT to this reader in time", {}, {}}});
   }
 
   std::optional<Unexplained> explain_directed(const SentHeartbeat& one) {
@@ -277,11 +273,8 @@ class Heartbeats {
 
   Unexplained fault(const SentHeartbeat& one, Fault kind, std::string what, std::string nearest,
                     std::vector<Need> needs) {
-    const Relation& relation = *writer_.relations[one.relation];
-    Unexplained result{one.event,        kind, relation.place, std::move(what), std::move(nearest),
-                       std::move(needs), {}};
-    result.context = context_of(relation, one.event);
-    return result;
+    return unexplained_in(*writer_.relations[one.relation], one.event, kind, std::move(what),
+                          std::move(nearest), std::move(needs));
   }
 
   const Dialogue& dialogue_;

@@ -58,21 +58,21 @@ class Tally {
 /// Written by one place after the other.
 struct Ledger {
   Conformance& result;
-  PlaceResult* place = nullptr;
+  PlaceResult& place;
 
   void explained(Rule rule, std::uint64_t times = 1) {
     result.by_rule[static_cast<std::size_t>(rule)] += times;
     result.explained += times;
-    if (place != nullptr) place->explained += times;
+    place.explained += times;
   }
   void not_replayed() { ++result.not_replayed; }
   void undecided() { ++result.undecided; }
   void hidden(Hidden::Kind kind, std::int64_t time_ns, std::optional<std::size_t> event,
               std::string_view machine = {}) {
-    result.hidden.push_back({kind, time_ns, event, place->place, machine});
+    result.hidden.push_back({kind, time_ns, event, place.place, machine});
     if (kind == Hidden::Kind::lost) {
       ++result.lost;
-      ++place->lost;
+      ++place.lost;
     }
   }
   void used_lag(std::int64_t ns) {

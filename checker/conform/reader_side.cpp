@@ -218,17 +218,11 @@ class ReaderSide {
         continue;
       }
       if (one.time_ns + answered_within >= dialogue_.end_ns) break;
-      Unexplained result{
-          one.event,
-          Fault::unanswered,
-          relation_.place,
+      return unexplained_in(
+          relation_, one.event, Fault::unanswered,
           fmt::format("no ACKNACK answers this HEARTBEAT within {}", duration(answered_within)),
-          "every HEARTBEAT that arrives at an open reader is answered, and nothing "
-          "is lost",
-          {{"a loss, or a longer delay", {}, {}}},
-          {}};
-      result.context = context_of(relation_, one.event);
-      return result;
+          "every HEARTBEAT that arrives at an open reader is answered, and nothing is lost",
+          {{"a loss, or a longer delay", {}, {}}});
     }
     return std::nullopt;
   }
@@ -302,10 +296,8 @@ class ReaderSide {
 
   Unexplained fault(const Answer& answer, Fault kind, std::string what, std::string nearest,
                     std::vector<Need> needs, std::optional<std::size_t> cause = {}) {
-    Unexplained one{answer.event,     kind, relation_.place, std::move(what), std::move(nearest),
-                    std::move(needs), {}};
-    one.context = context_of(relation_, answer.event, cause);
-    return one;
+    return unexplained_in(relation_, answer.event, kind, std::move(what), std::move(nearest),
+                          std::move(needs), cause);
   }
 
   const Dialogue& dialogue_;

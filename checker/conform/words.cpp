@@ -52,4 +52,16 @@ std::vector<std::size_t> context_of(const Relation& relation, std::size_t event,
   return context;
 }
 
+Unexplained unexplained_in(const Relation& relation, std::size_t event, Fault fault,
+                           std::string what, std::string nearest, std::vector<Need> needs,
+                           std::optional<std::size_t> cause) {
+  return {event,
+          fault,
+          relation.place,
+          std::move(what),
+          std::move(nearest),
+          std::move(needs),
+          context_of(relation, event, cause)};
+}
+
 }  // namespace stormproof::conform

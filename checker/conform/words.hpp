@@ -23,4 +23,10 @@ inline constexpr std::int64_t capture_resolution_ns = 1'000;
 [[nodiscard]] std::vector<std::size_t> context_of(const Relation& relation, std::size_t event,
                                                   std::optional<std::size_t> cause = {});
 
+/// What is wrong with `event`, with the events around it and `cause`.
+[[nodiscard]] Unexplained unexplained_in(const Relation& relation, std::size_t event, Fault fault,
+                                         std::string what, std::string nearest,
+                                         std::vector<Need> needs,
+                                         std::optional<std::size_t> cause = {});
+
 }  // namespace stormproof::conform

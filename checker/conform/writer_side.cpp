@@ -273,10 +273,8 @@ class WriterSide {
 
   Unexplained fault(std::size_t event, Fault kind, std::string what, std::string nearest,
                     std::vector<Need> needs, std::optional<std::size_t> cause = {}) {
-    Unexplained one{
-        event, kind, relation_.place, std::move(what), std::move(nearest), std::move(needs), {}};
-    one.context = context_of(relation_, event, cause);
-    return one;
+    return unexplained_in(relation_, event, kind, std::move(what), std::move(nearest),
+                          std::move(needs), cause);
   }
 
   const WriterContext& context_;

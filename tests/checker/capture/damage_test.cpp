@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 #include <lzma.h>
-#include <zlib.h>
 
 #include "checker/capture/counting.hpp"
 #include "checker/capture/decompress.hpp"
+#include "tests/checker/capture/gzip.hpp"
 #include "tests/checker/capture/packets.hpp"
 
 namespace stormproof::capture {
@@ -19,6 +19,7 @@ namespace stormproof::capture {
 namespace {
 
 using testing::Buffer;
+using testing::gzip;
 
 constexpr std::int64_t always = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t limit = 1U << 20U;
@@ -96,20 +97,6 @@ Buffer xz(const Buffer& plain) {
                                     packed.data(), &length, packed.size()),
             LZMA_OK);
   packed.resize(length);
-  return packed;
-}
-
-Buffer gzip(const Buffer& plain) {
-  Buffer packed(plain.size() + 1024);
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-  stream.next_in = const_cast<Bytef*>(plain.data());
-  stream.avail_in = static_cast<uInt>(plain.size());
-  stream.next_out = packed.data();
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
   return packed;
 }
 

@@ -7,11 +7,11 @@
 #include <lzma.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include "checker/capture/capture_file.hpp"
 #include "checker/capture/counting.hpp"
 #include "checker/capture/decompress.hpp"
+#include "tests/checker/capture/gzip.hpp"
 #include "tests/checker/capture/packets.hpp"
 
 namespace stormproof::capture {
@@ -117,24 +117,8 @@ TEST(Pcap, HostilePacketLengthsEndTheReading) {
   }
 }
 
-/// `size` zero bytes as .gz.
-Buffer gzip_bomb(std::size_t size) {
-  Buffer packed(size / 500 + 4096);
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-  Buffer zeros(size, 0);
-  stream.next_in = zeros.data();
-  stream.avail_in = static_cast<uInt>(size);
-  stream.next_out = packed.data();
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
-
 TEST(Bombs, StopAtTheLimit) {
-  const Buffer bomb = gzip_bomb(8U << 20U);
+  const Buffer bomb = gzip(Buffer(8U << 20U, 0));
   EXPECT_LT(bomb.size(), 20'000U);
   EXPECT_EQ(read(bomb).damage, "a: unpacks to more than 1 MiB; unpack and split it first");
 }

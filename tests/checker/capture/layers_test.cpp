@@ -2,11 +2,11 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include "checker/capture/capture_file.hpp"
 #include "checker/capture/decompress.hpp"
 #include "checker/capture/link_layer.hpp"
+#include "tests/checker/capture/gzip.hpp"
 #include "tests/checker/capture/packets.hpp"
 
 namespace stormproof::capture {
@@ -112,20 +112,6 @@ TEST(CaptureFile, WhatIsNoCaptureIsRefusedWithItsName) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(to_string(missing.error()), "/no/such/file.pcap: No such file or directory");
   EXPECT_FALSE(CaptureFile::open("/dev/zero"));
-}
-
-Buffer gzip(const Buffer& plain) {
-  Buffer packed(plain.size() + 200);
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-  stream.next_in = const_cast<Bytef*>(plain.data());
-  stream.avail_in = static_cast<uInt>(plain.size());
-  stream.next_out = packed.data();
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
 }
 
 TEST(Decompress, GzipWithSeveralMembersUpToTheLimit) {
