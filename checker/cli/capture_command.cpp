@@ -10,6 +10,7 @@
 #include "checker/capture/counting.hpp"
 #include "checker/capture/events.hpp"
 #include "checker/capture/summary.hpp"
+#include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
@@ -28,11 +29,6 @@ struct CaptureArguments {
   bool json = false;
   std::optional<bool> progress;
 };
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 int summarize(const CaptureArguments& arguments) {
   OutputFile svg{arguments.svg_file};

@@ -10,6 +10,7 @@
 
 #include "checker/check/check.hpp"
 #include "checker/check/check_report.hpp"
+#include "checker/cli/complain.hpp"
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/report_files.hpp"
@@ -24,11 +25,6 @@ namespace stormproof::cli {
 namespace {
 
 using props::VerdictKind;
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 /// What is wrong with the ids on the command line, or nothing.
 std::optional<std::string> unknown_property(const std::vector<std::string>& ids) {

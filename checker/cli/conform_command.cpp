@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
@@ -42,11 +43,6 @@ struct ConformArguments {
   std::string assignment_file;
   std::optional<bool> progress;
 };
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 /// A bound in ns; the error names the option.
 Result<std::int64_t, std::string> parse_bound(const char* option, const std::string& text) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "checker/cli/complain.hpp"
 #include "checker/cli/diff_files.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
@@ -41,11 +42,6 @@ struct DiffArguments {
   bool verbose = false;
   std::optional<bool> progress;
 };
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 /// The report files of the command line; an error also if one of them could not be written in the
 /// end, as the work before it takes a while.

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/output_file.hpp"
 #include "fsm/machines.hpp"
@@ -17,11 +18,6 @@ namespace stormproof::cli {
 namespace {
 
 using fsm::MachineInfo;
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 std::string unknown_machine(const std::string& name, const std::vector<MachineInfo>& machines) {
   std::vector<std::string> names;

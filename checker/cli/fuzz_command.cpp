@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "checker/cli/complain.hpp"
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/fuzz_input.hpp"
@@ -26,11 +27,6 @@ namespace {
 
 constexpr std::size_t usual_runs = 200;
 constexpr std::size_t most_runs = 1'000'000;
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 /// Writes STEM.yaml, .jsonl, .svg, .mmd and .txt of every shrunk counterexample.
 std::optional<std::string> write_files(const FuzzArguments& arguments,

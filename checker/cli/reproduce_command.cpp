@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
@@ -29,11 +30,6 @@ struct ReproduceArguments {
   std::size_t threads = 0;  ///< 0: one for each core
   std::optional<bool> progress;
 };
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 std::string command_line(const ReproduceArguments& arguments) {
   std::string command = "stormproof reproduce paper";

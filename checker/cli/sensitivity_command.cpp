@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
@@ -41,11 +42,6 @@ struct SensitivityArguments {
   bool json = false;
   std::optional<bool> progress;
 };
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 /// "20%", "0.2" or "1/5"; nothing if it is none of these, or not between 0 and 1.
 std::optional<double> parse_range(std::string text) {

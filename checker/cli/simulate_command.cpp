@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "checker/capture/write/capture_probe.hpp"
+#include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
@@ -25,11 +26,6 @@
 namespace stormproof::cli {
 
 namespace {
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 /// The files that were asked for, as observers of the run.
 class Recorders {

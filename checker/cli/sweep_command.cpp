@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
@@ -36,11 +37,6 @@ struct SweepArguments {
   std::size_t threads = 0;       ///< 0: one for each core
   std::optional<bool> progress;  ///< not given: when stderr is a terminal
 };
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 /// Bar, rate and remaining time of a sweep.
 class SweepProgressLine {

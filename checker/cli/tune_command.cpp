@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "checker/check/check.hpp"
+#include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
@@ -39,11 +40,6 @@ struct TuneArguments {
   bool json = false;
   std::optional<bool> progress;
 };
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 /// "2%", "0.02" or "1/50"; nothing if it is none of these, or more than 1.
 std::optional<double> parse_share(std::string text) {

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "checker/capture/events.hpp"
+#include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
@@ -40,11 +41,6 @@ struct ValidateArguments {
 
 template <class T>
 using Parsed = model::config::Result<T, std::string>;
-
-int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
-  return bad_input;
-}
 
 Parsed<std::optional<TimeRange>> parse_range(const std::string& text) {
   if (text.empty()) return std::optional<TimeRange>{};
