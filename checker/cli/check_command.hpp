@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "checker/report/format.hpp"
+#include "checker/presentation/document/format.hpp"
 
 namespace stormproof::cli {
 

@@ -14,9 +14,9 @@
 #include "checker/cli/report_files.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/cli/until_instant.hpp"
-#include "checker/conform/report/report.hpp"
-#include "checker/report/numbers.hpp"
-#include "checker/report/plain_text.hpp"
+#include "checker/evidence/conform/report/report.hpp"
+#include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/plain_text.hpp"
 #include "model/config/quantities.hpp"
 #include "model/config/scenario_file.hpp"
 

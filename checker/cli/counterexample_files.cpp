@@ -6,10 +6,10 @@
 #include <fmt/core.h>
 
 #include "checker/cli/output_file.hpp"
-#include "checker/counterexample/chart.hpp"
-#include "checker/counterexample/gtest_case.hpp"
-#include "checker/counterexample/story.hpp"
-#include "checker/counterexample/write.hpp"
+#include "checker/verification/counterexample/chart.hpp"
+#include "checker/verification/counterexample/gtest_case.hpp"
+#include "checker/verification/counterexample/story.hpp"
+#include "checker/verification/counterexample/write.hpp"
 
 namespace stormproof::cli {
 

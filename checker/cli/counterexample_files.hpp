@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "checker/check/check.hpp"
-#include "checker/check/check_report.hpp"
+#include "checker/verification/check/check.hpp"
+#include "checker/verification/check/check_report.hpp"
 #include "checker/cli/check_command.hpp"
 
 namespace stormproof::cli {

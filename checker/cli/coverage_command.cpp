@@ -14,7 +14,7 @@
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/prediction/report.hpp"
+#include "checker/evidence/coverage/report.hpp"
 
 namespace stormproof::cli {
 

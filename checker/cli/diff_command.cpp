@@ -14,8 +14,8 @@
 #include "checker/cli/options.hpp"
 #include "checker/cli/report_files.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/diff/diff_report.hpp"
-#include "checker/report/plain_text.hpp"
+#include "checker/experiments/diff/diff_report.hpp"
+#include "checker/presentation/text/plain_text.hpp"
 
 namespace stormproof::cli {
 

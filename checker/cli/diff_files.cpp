@@ -7,7 +7,7 @@
 
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/diff/paired_charts.hpp"
+#include "checker/experiments/diff/paired_charts.hpp"
 #include "model/config/effective.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/trace_writer.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "checker/diff/diff_report.hpp"
+#include "checker/experiments/diff/diff_report.hpp"
 
 namespace stormproof::cli {
 

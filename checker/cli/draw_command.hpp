@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "checker/draw/draw_machine.hpp"
+#include "checker/presentation/diagrams/draw_machine.hpp"
 
 namespace stormproof::cli {
 

@@ -9,8 +9,8 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/mutate/mutate.hpp"
-#include "checker/mutate/mutate_report.hpp"
+#include "checker/verification/mutate/mutate.hpp"
+#include "checker/verification/mutate/mutate_report.hpp"
 #include "model/config/suggestion.hpp"
 
 namespace stormproof::cli {

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "checker/report/format.hpp"
+#include "checker/presentation/document/format.hpp"
 
 namespace stormproof::cli {
 

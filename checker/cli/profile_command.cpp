@@ -8,8 +8,8 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
-#include "checker/report/lint_report.hpp"
-#include "checker/report/profile_report.hpp"
+#include "checker/verification/profile/lint_report.hpp"
+#include "checker/verification/profile/profile_report.hpp"
 
 namespace stormproof::cli {
 

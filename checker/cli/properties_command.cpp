@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/cli/exit_code.hpp"
-#include "checker/report/paragraph.hpp"
+#include "checker/presentation/text/paragraph.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::cli {

@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "checker/report/format.hpp"
+#include "checker/presentation/document/format.hpp"
 #include "model/config/result.hpp"
 
 namespace stormproof::cli {

@@ -14,7 +14,7 @@
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/reproduce/report.hpp"
+#include "checker/experiments/reproduce/report.hpp"
 
 namespace stormproof::cli {
 

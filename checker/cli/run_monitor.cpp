@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "checker/report/numbers.hpp"
+#include "checker/presentation/text/numbers.hpp"
 
 namespace stormproof::cli {
 

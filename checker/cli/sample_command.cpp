@@ -8,7 +8,7 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/report/sampling_report.hpp"
+#include "checker/experiments/simulate/sampling_report.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::cli {

@@ -12,7 +12,7 @@
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/sensitivity/report.hpp"
+#include "checker/experiments/sensitivity/report.hpp"
 #include "model/config/quantities.hpp"
 #include "model/config/scenario_file.hpp"
 

@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "checker/capture/write/capture_probe.hpp"
+#include "checker/evidence/capture/write/capture_probe.hpp"
 #include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/cli/sample_command.hpp"
-#include "checker/report/simulation_report.hpp"
+#include "checker/experiments/simulate/simulation_report.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/perfetto.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "checker/cli/output_file.hpp"
-#include "checker/tune/deploy.hpp"
+#include "checker/experiments/tune/deploy.hpp"
 
 namespace stormproof::cli {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "checker/tune/tune.hpp"
+#include "checker/experiments/tune/tune.hpp"
 
 namespace stormproof::cli {
 

@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "checker/explorer/fastdds_world.hpp"
-#include "checker/explorer/paper_world.hpp"
-#include "checker/explorer/plan.hpp"
-#include "checker/explorer/search.hpp"
-#include "checker/promela/promela.hpp"
-#include "checker/promela/run_spin.hpp"
+#include "checker/engines/explorer/fastdds_world.hpp"
+#include "checker/engines/explorer/paper_world.hpp"
+#include "checker/engines/explorer/plan.hpp"
+#include "checker/engines/explorer/search.hpp"
+#include "checker/engines/promela/promela.hpp"
+#include "checker/engines/promela/run_spin.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include "checker/sampling/sample_runs.hpp"
+#include "checker/experiments/trials/sample_runs.hpp"
 #include "model/simulator.hpp"
 
 namespace {

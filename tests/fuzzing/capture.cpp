@@ -1,9 +1,9 @@
-// Fuzz target: captures (checker/capture/events.hpp). An input that starts as an RTPS message is
+// Fuzz target: captures (checker/evidence/capture/events.hpp). An input that starts as an RTPS message is
 // one, so that a fuzzer reaches the submessages without learning the layers below them.
 #include <limits>
 
-#include "checker/capture/counting.hpp"
-#include "checker/capture/message_events.hpp"
+#include "checker/evidence/capture/counting.hpp"
+#include "checker/evidence/capture/message_events.hpp"
 #include "tests/fuzzing/checks.hpp"
 #include "tests/fuzzing/targets.hpp"
 

@@ -2,7 +2,7 @@
 // the header, so inputs whose scenario is not small are left to the scenario target.
 #include <nlohmann/json.hpp>
 
-#include "checker/counterexample/observe.hpp"
+#include "checker/verification/counterexample/observe.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/trace/replay.hpp"
 #include "model/trace/trace_json.hpp"

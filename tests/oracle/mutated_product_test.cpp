@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/mutate/mutants.hpp"
+#include "checker/verification/mutate/mutants.hpp"
 #include "tests/oracle/judged_runs.hpp"
 #include "tests/oracle/sharp_scenario.hpp"
 

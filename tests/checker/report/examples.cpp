@@ -1,7 +1,7 @@
 // The runs are real counterexamples, so that there is something to draw.
 #include "tests/checker/report/examples.hpp"
 
-#include "tests/checker/counterexample/examples.hpp"
+#include "tests/checker/verification/counterexample/examples.hpp"
 
 namespace stormproof::report {
 

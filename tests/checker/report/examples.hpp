@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "checker/check/check_report.hpp"
-#include "checker/diff/diff_report.hpp"
+#include "checker/verification/check/check_report.hpp"
+#include "checker/experiments/diff/diff_report.hpp"
 
 namespace stormproof::report {
 

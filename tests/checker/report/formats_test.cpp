@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <tinyxml2.h>
 
-#include "checker/report/junit.hpp"
-#include "checker/report/markdown.hpp"
-#include "checker/report/plain_text.hpp"
-#include "checker/report/sarif.hpp"
+#include "checker/presentation/document/junit.hpp"
+#include "checker/presentation/document/markdown.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+#include "checker/presentation/document/sarif.hpp"
 #include "tests/checker/report/examples.hpp"
 
 namespace stormproof::report {

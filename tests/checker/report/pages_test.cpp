@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/report/drawings.hpp"
-#include "checker/report/html_page.hpp"
-#include "checker/report/machine_states.hpp"
-#include "tests/checker/counterexample/examples.hpp"
+#include "checker/presentation/document/drawings.hpp"
+#include "checker/presentation/document/html_page.hpp"
+#include "checker/verification/counterexample/machine_states.hpp"
+#include "tests/checker/verification/counterexample/examples.hpp"
 #include "tests/checker/report/examples.hpp"
 #include "tests/checker/report/html_checks.hpp"
 

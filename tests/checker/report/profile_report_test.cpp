@@ -1,6 +1,6 @@
 // What `profile show` and `profile lint` say about a profile, and the words for what the model has
 // not got.
-#include "checker/report/profile_report.hpp"
+#include "checker/verification/profile/profile_report.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "checker/report/assumptions.hpp"
-#include "checker/report/lint_report.hpp"
-#include "checker/report/paragraph.hpp"
-#include "checker/report/source_line.hpp"
+#include "checker/presentation/text/assumptions.hpp"
+#include "checker/verification/profile/lint_report.hpp"
+#include "checker/presentation/text/paragraph.hpp"
+#include "checker/presentation/text/source_line.hpp"
 
 namespace stormproof::report {
 namespace {

@@ -1,0 +1,28 @@
+// The engine "explorer": runs the concrete machines of one relation along every interleaving of a
+// small scope, with event times as difference constraints, and reports what breaks first. Its
+// counterexamples have the fewest possible events; each has been replayed by the simulator before
+// it is reported. What it does not find is bounded by the scope, which the finding states.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "checker/engines/check_request.hpp"
+
+namespace stormproof::explorer {
+
+/// Answers about those of `properties` that are about one relation. Takes at most about 10 s; an
+/// interrupted or unfinished search says how far it came.
+[[nodiscard]] checker::Findings check(std::span<const std::string_view> properties,
+                                      const checker::CheckRequest& request);
+
+/// What the explorer needs of a request; the solvers are none of its business.
+struct Request {
+  const model::Scenario& scenario;  ///< the specification
+  const checker::Mutant* mutant = nullptr;
+  std::function<bool(std::string_view)> on_progress;  ///< false interrupts
+};
+[[nodiscard]] checker::Findings explore(std::span<const std::string_view> properties,
+                                        const Request& request);
+
+}  // namespace stormproof::explorer

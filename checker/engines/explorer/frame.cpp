@@ -1,0 +1,196 @@
+// Scheduling, emission and the order of events in a frame.
+#include "checker/engines/explorer/frame.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace stormproof::explorer {
+
+EventRules::EventRules(std::span<const model::EventMutation> mutations, bool receives_separately) {
+  for (std::size_t k = 0; k < rules.size(); ++k) {
+    const auto what = static_cast<What>(k);
+    if (is_mark(what)) continue;
+    const model::EventKind kind = kind_of(what, receives_separately);
+    rules[k].event_class = model::class_of(kind);
+    for (const model::EventMutation& mutation : mutations) {
+      if (mutation.kind != kind) continue;
+      switch (mutation.change) {
+        case model::EventMutation::Change::forget:
+          rules[k].copies = 0;
+          break;
+        case model::EventMutation::Change::shift:
+          rules[k].shift += mutation.by.count();
+          break;
+        case model::EventMutation::Change::duplicate:
+          if (rules[k].copies > 0) ++rules[k].copies;
+          break;
+        case model::EventMutation::Change::reclass:
+          rules[k].event_class = mutation.event_class;
+          break;
+      }
+    }
+  }
+}
+
+void Frame::restore(const Slot* slots, unsigned count, const std::int64_t* bounds,
+                    unsigned losses_left) {
+  zone_.assign(count + 1, bounds);
+  std::copy(slots, slots + count, slots_.begin());
+  losses_left_ = losses_left;
+}
+
+/// Of two events at the same time the one of lower rank comes first: class, then insertion.
+std::uint64_t Frame::rank(unsigned k) const {
+  return static_cast<std::uint64_t>(rules_->of(slots_[k].what).event_class) << 32 | k;
+}
+
+Zone::Limits Frame::limits(unsigned k) const {
+  Zone::Limits limits;
+  limits.fill(Zone::free);
+  const std::uint64_t own = rank(k);
+  for (unsigned f = 0; f < count(); ++f) {
+    if (!is_mark(slots_[f].what)) limits[f + 1] = own < rank(f) ? 0 : -1;
+  }
+  return limits;
+}
+
+bool Frame::can_be_next(unsigned k) const { return zone_.can_be_next(k + 1, limits(k)); }
+
+Slot Frame::advance(unsigned k, unsigned loss_mask) {
+  const Slot slot = slots_[k];
+  const Zone::Limits order = limits(k);
+  if (log_ != nullptr) {
+    for (unsigned f = 0; f < count(); ++f) {
+      if (f != k && order[f + 1] != Zone::free) {
+        log_->constraints.push_back({ids_[k], ids_[f], order[f + 1]});
+      }
+    }
+    log_->fired.push_back({slot, ids_[k]});
+  }
+  now_id_ = ids_[k];
+  zone_.advance(k + 1, order);
+  const unsigned left = count();
+  for (unsigned f = k; f < left; ++f) {
+    slots_[f] = slots_[f + 1];
+    ids_[f] = ids_[f + 1];
+  }
+  loss_mask_ = loss_mask;
+  emitted_ = 0;
+  objections_ = 0;
+  losses_left_ -= static_cast<unsigned>(std::popcount(loss_mask));
+  return slot;
+}
+
+unsigned Frame::append(Slot slot, std::int64_t low, std::int64_t high) {
+  const unsigned k = count();
+  zone_.add(low, high);
+  slots_[k] = slot;
+  if (log_ != nullptr) {
+    ids_[k] = log_->variables++;
+    log_->scheduled.push_back({slot, ids_[k]});
+    log_->constraints.push_back({ids_[k], now_id_, high});
+    log_->constraints.push_back({now_id_, ids_[k], -low});
+  }
+  return k;
+}
+
+void Frame::relate(unsigned a, unsigned b, std::int64_t c) {
+  zone_.constrain(a + 1, b + 1, c);
+  if (log_ != nullptr) log_->constraints.push_back({ids_[a], ids_[b], c});
+}
+
+void Frame::schedule_between(Slot slot, std::int64_t low, std::int64_t high) {
+  const EventRules::Rule& rule = rules_->of(slot.what);
+  for (unsigned copy = 0; copy < rule.copies; ++copy) {
+    if (count() == capacity) {
+      overflowed_ = true;
+      return;
+    }
+    // Whatever the mistake, the clock does not run backwards.
+    append(slot, std::max<std::int64_t>(0, low + rule.shift),
+           std::max<std::int64_t>(0, high + rule.shift));
+  }
+}
+
+void Frame::emit(Slot packet) {
+  const bool lost = (loss_mask_ >> emitted_++ & 1) != 0;
+  const unsigned before = count();
+  const bool leaves_later = packet.has(Slot::from_repair);
+  if (leaves_later) {
+    Slot completion = packet;
+    completion.what = What::source_completion;
+    schedule_between(completion, 0, scope_->leaves_within.count());
+    for (unsigned k = 0; k < before && count() > before; ++k) {
+      if (slots_[k].what == What::source_completion) relate(k, before, 0);
+    }
+  }
+  const unsigned arrival = count();
+  if (!lost) {
+    schedule_between(packet, scope_->least_delay.count(), scope_->largest_delay.count());
+    if (arrival > before && count() > arrival) relate(before, arrival, 0);
+    for (unsigned k = 0; scope_->fifo && count() > arrival && k < before; ++k) {
+      if (!is_packet(slots_[k].what)) continue;
+      if (from_writer(slots_[k].what) == from_writer(packet.what)) relate(k, arrival, 0);
+    }
+  }
+  if (log_ == nullptr) return;
+  PathLog::Emission emission{packet, now_id_, PathLog::none, PathLog::none};
+  if (arrival > before) emission.left_source = ids_[before];
+  if (count() > arrival) emission.received = ids_[arrival];
+  log_->emissions.push_back(emission);
+}
+
+void Frame::mark(Slot slot) {
+  if (count() == capacity) {
+    overflowed_ = true;
+    return;
+  }
+  const unsigned k = count();
+  zone_.add(0, 0);
+  slots_[k] = slot;
+  ids_[k] = now_id_;
+}
+
+void Frame::erase(unsigned k) {
+  zone_.remove(k + 1);
+  for (unsigned f = k; f < count(); ++f) {
+    slots_[f] = slots_[f + 1];
+    ids_[f] = ids_[f + 1];
+  }
+}
+
+void Frame::erase_marks(What what, std::uint16_t set) {
+  for (unsigned k = count(); k-- > 0;) {
+    if (slots_[k].what == what && (slots_[k].set & ~set) == 0) erase(k);
+  }
+}
+
+unsigned Frame::find_mark(What what, std::uint16_t set) const {
+  unsigned k = 0;
+  while (k < count() && !(slots_[k].what == what && slots_[k].set == set)) ++k;
+  return k;
+}
+
+unsigned Frame::pending(What what) const {
+  unsigned found = 0;
+  for (unsigned k = 0; k < count(); ++k) found += slots_[k].what == what ? 1U : 0U;
+  return found;
+}
+
+bool Frame::any_pending() const {
+  for (unsigned k = 0; k < count(); ++k) {
+    if (!is_mark(slots_[k].what)) return true;
+  }
+  return false;
+}
+
+void Frame::object_if(Claim claim, unsigned a, unsigned b, std::int64_t c) {
+  if (!zone_.admits(a, b, c)) return;
+  if (log_ != nullptr && (kept_ & bit(claim)) != 0 && (objections_ & bit(claim)) == 0) {
+    log_->constraints.push_back({id_of(a), id_of(b), c});
+    zone_.constrain(a, b, c);
+  }
+  objections_ = static_cast<Claims>(objections_ | bit(claim));
+}
+
+}  // namespace stormproof::explorer

@@ -1,0 +1,40 @@
+// What the explorer looks at for a scenario: which delay bound, which small scopes, and the bounds
+// on times that the claims about completion and quiescence refer to.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checker/engines/explorer/scope.hpp"
+#include "checker/engines/explorer/search.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::explorer {
+
+/// The largest per-packet delay to explore.
+struct DelayBound {
+  model::Nanoseconds delay;
+  std::string origin;  ///< one sentence: measured, or why not
+};
+
+/// The delay of `kind: constant_delay`; otherwise the largest delay from generation to reception
+/// that a discovery packet has in the scenario's run, or τ_H/4 if that is less. `go_on` interrupts
+/// the run.
+[[nodiscard]] DelayBound delay_bound(const model::Scenario& scenario,
+                                     const std::function<bool()>& go_on);
+
+/// The scopes to explore, cheap ones first.
+[[nodiscard]] std::vector<Scope> scopes(const model::Scenario& scenario, model::Nanoseconds delay);
+
+/// Whether the first two user descriptors travel in different packets.
+[[nodiscard]] bool splits_packets(const model::Scenario& scenario);
+
+/// B(k) for the scope (checker/engines/timeline/completion_bound.hpp): no later than this after the start
+/// of the world everything is received. Absent where that bound counts from something else: if the
+/// two sides open apart, if descriptors are created later, and for the adaptive policy.
+[[nodiscard]] std::optional<model::Nanoseconds> completion_bound(const model::DdsProfile& dds,
+                                                                 const Scope& scope);
+
+}  // namespace stormproof::explorer

@@ -1,0 +1,225 @@
+// Building the scenario of a path and asking the monitor.
+#include "checker/engines/explorer/replay.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "checker/engines/explorer/fastdds_world.hpp"
+#include "model/simulator.hpp"
+#include "model/trace/replay.hpp"
+#include "props/monitors/monitors.hpp"
+
+namespace stormproof::explorer {
+
+namespace {
+
+using model::Nanoseconds;
+using model::PacketKind;
+
+/// Notes the packets of the relation from participant 0 to participant 1, and the announcements.
+class PacketList final : public model::Probe {
+ public:
+  struct Entry {
+    std::uint64_t number = 0;
+    Nanoseconds emitted;
+    PacketKind kind{};
+    std::uint16_t set = 0;
+    std::uint32_t source = 0;
+  };
+  std::vector<Entry> of_relation;
+  std::vector<Entry> announcements;
+
+  void emitted(const model::Packet& packet, std::uint32_t source,
+               std::span<const std::uint32_t>) override {
+    const Entry entry{packet.number, packet.emitted, packet.kind,
+                      static_cast<std::uint16_t>(packet.descriptors.word(0)), source};
+    switch (packet.kind) {
+      case PacketKind::spdp_multicast:
+      case PacketKind::spdp_unicast:
+        announcements.push_back(entry);
+        break;
+      case PacketKind::data:
+      case PacketKind::heartbeat:
+      case PacketKind::acknack:
+        // Pair 0 goes from participant 0 to participant 1.
+        if (packet.pair == 0 && packet.stream == model::Stream::pub) of_relation.push_back(entry);
+        break;
+      default:
+        break;
+    }
+  }
+};
+
+bool is_fastdds(const ReplayRequest& request) {
+  return request.running.dds.implementation == model::ImplementationKind::fastdds;
+}
+
+/// When the world starts, in the time of the run.
+Nanoseconds start_of_world(const ReplayRequest& request, const ConcretePath& path) {
+  if (!is_fastdds(request)) return Nanoseconds{0};
+  const std::int64_t margin = 1'000;  // what exists at the match has been created before
+  const std::int64_t creation = path.time_of(What::creation).value_or(Nanoseconds{0}).count();
+  if (request.scope.pushed == 0) return Nanoseconds{margin};
+  // The last publication is the 16th of 17 endpoints that are created at equal distances, the last
+  // but one is the 15th. Both must be the only ones after the start of the world.
+  if (request.scope.pushed == 1) return Nanoseconds{16 * creation + margin};
+  return Nanoseconds{15 * FastDdsWorld::creation_distance(request.running).count() - creation};
+}
+
+/// When participant 0 has created its last endpoint.
+Nanoseconds endpoints_done(const ReplayRequest& request, const ConcretePath& path,
+                           Nanoseconds start) {
+  if (!is_fastdds(request) || request.scope.pushed == 0) return Nanoseconds{0};
+  if (request.scope.pushed == 1) {
+    const std::int64_t creation = (start + *path.time_of(What::creation)).count();
+    return Nanoseconds{(17 * creation + 15) / 16};
+  }
+  return FastDdsWorld::creation_distance(request.running) * 17;
+}
+
+model::Scenario bare_scenario(const ReplayRequest& request, const ConcretePath& path) {
+  const Nanoseconds start = start_of_world(request, path);
+  model::Scenario scenario;
+  scenario.dds = request.running.dds;
+  model::Participant writer{model::HostId{0}, request.scope.descriptors, 0, {}, {}};
+  if (is_fastdds(request)) {
+    writer.publications = 0;
+    writer.endpoints_done = endpoints_done(request, path, start);
+    scenario.dds.sedp.piggyback = model::Piggyback::off;
+  } else {
+    scenario.dds.descriptors.default_publications = 0;
+    scenario.dds.descriptors.default_subscriptions = 0;
+  }
+  scenario.deployment.participants = {writer, {model::HostId{1}, 0, 0, {}, {}}};
+  scenario.wireless.kind = model::ServiceKind::constant_delay;
+  scenario.wireless.one_way = Nanoseconds{0};
+  scenario.run_until = model::RunUntil::time_limit;
+  // Long enough for a monitor to see that nothing follows.
+  const Nanoseconds end = path.steps.empty() ? start : start + path.steps.back().time;
+  scenario.time_limit = end + request.running.dds.sedp.heartbeat_period * 3;
+  return scenario;
+}
+
+PacketKind kind_of(What what) {
+  if (what == What::data) return PacketKind::data;
+  return what == What::heartbeat ? PacketKind::heartbeat : PacketKind::acknack;
+}
+
+/// Delays and losses for the packets that a run has emitted so far.
+void assign(const ReplayRequest& request, const ConcretePath& path, const PacketList& list,
+            model::Scenario& scenario) {
+  const Nanoseconds start = start_of_world(request, path);
+  auto& delays = scenario.wireless.packet_delays;
+  auto& lost = scenario.wireless.lost_packets;
+  delays.clear();
+  lost.clear();
+  const Nanoseconds reader = path.time_of(What::reader_opens).value_or(Nanoseconds{0});
+  const Nanoseconds writer = path.time_of(What::writer_opens).value_or(reader);
+  for (const PacketList::Entry& packet : list.announcements) {
+    const Nanoseconds arrival =
+        std::max(packet.emitted, start + (packet.source == 0 ? reader : writer));
+    delays.push_back({packet.number, Nanoseconds{0}, arrival - packet.emitted});
+  }
+  const std::size_t known = std::min(path.packets.size(), list.of_relation.size());
+  for (std::size_t k = 0; k < known; ++k) {
+    const ConcretePath::Packet& packet = path.packets[k];
+    const std::uint64_t number = list.of_relation[k].number;
+    if (!packet.one_way) lost.push_back(number);
+    const Nanoseconds one_way = packet.one_way.value_or(packet.leaves_after);
+    delays.push_back({number, std::min(packet.leaves_after, one_way), one_way});
+  }
+  std::ranges::sort(delays, {}, &model::PacketDelay::packet);
+  std::ranges::sort(lost);
+}
+
+/// Whether the run emitted what the path says.
+std::string difference(const ConcretePath& path, const PacketList& list, Nanoseconds start) {
+  for (std::size_t k = 0; k < path.packets.size(); ++k) {
+    const ConcretePath::Packet& expected = path.packets[k];
+    const Nanoseconds time = start + expected.emitted;
+    if (k == list.of_relation.size()) {
+      return fmt::format("The simulator emits only {} of the path's {} packets.", k,
+                         path.packets.size());
+    }
+    const PacketList::Entry& entry = list.of_relation[k];
+    if (entry.kind == kind_of(expected.slot.what) && entry.emitted == time &&
+        entry.set == expected.slot.set) {
+      continue;
+    }
+    return fmt::format(
+        "Packet {} of the relation is a {} at {} ns in the path and a {} at {} ns "
+        "in the simulator.",
+        k, name_of(kind_of(expected.slot.what)), time.count(), name_of(entry.kind),
+        entry.emitted.count());
+  }
+  return {};
+}
+
+constexpr std::uint64_t most_events = 200'000;  // of a run; a replay needs a few hundred
+
+}  // namespace
+
+std::optional<model::Scenario> scenario_of(const ReplayRequest& request, const ConcretePath& path,
+                                           std::string& why_not) {
+  model::Scenario scenario = bare_scenario(request, path);
+  const Nanoseconds start = start_of_world(request, path);
+  // Each round settles at least one more packet, and announcements settle with them.
+  for (std::size_t round = 0; round < path.packets.size() + 20; ++round) {
+    PacketList list;
+    model::RunOptions options;
+    options.probe = &list;
+    options.mutation = request.mutation;
+    options.max_events = most_events;
+    static_cast<void>(model::simulate(scenario, options));
+    const model::Scenario before = scenario;
+    assign(request, path, list, scenario);
+    if (scenario == before) {
+      why_not = difference(path, list, start);
+      if (!why_not.empty()) return std::nullopt;
+      return scenario;
+    }
+  }
+  why_not = "The packet numbers of the path's packets do not settle.";
+  return std::nullopt;
+}
+
+ReplayOutcome replay(const ReplayRequest& request, const ConcretePath& path,
+                     std::string_view property) {
+  ReplayOutcome outcome;
+  const auto scenario = scenario_of(request, path, outcome.why_not);
+  if (!scenario) return outcome;
+  // The same world, held against the specification.
+  model::Scenario specification = *scenario;
+  specification.dds = request.specification.dds;
+  specification.dds.descriptors = scenario->dds.descriptors;
+  auto monitor = request.bounds.completion
+                     ? props::watch_completion(specification, request.bounds.completion)
+                     : props::make_monitor(property, specification);
+  if (!monitor) {
+    outcome.why_not = "There is no monitor that could confirm the violation.";
+    return outcome;
+  }
+  model::RunOptions options;
+  options.probe = monitor.get();
+  options.mutation = request.mutation;
+  options.max_events = most_events;
+  const model::RunResult result = model::simulate(*scenario, options);
+  monitor->finish(model::trace::known_until(result, *scenario));
+  if (!monitor->violation()) {
+    outcome.why_not = "The monitor does not object to the simulator's run of the path.";
+    return outcome;
+  }
+  const props::Violation& violation = *monitor->violation();
+  props::Counterexample example{std::string{property}, *scenario,        violation.event,
+                                violation.time,        violation.reason, {}};
+  const Nanoseconds start = start_of_world(request, path);
+  for (const ConcretePath::Step& step : path.steps) {
+    if (start + step.time <= violation.time) example.steps.push_back(step_text(step));
+  }
+  outcome.counterexample = std::move(example);
+  return outcome;
+}
+
+}  // namespace stormproof::explorer

@@ -1,0 +1,38 @@
+// A path of the explorer becomes a scenario, and the simulator decides: a counterexample counts
+// only if the property's monitor objects in a run of the simulator. The scenario has two hosts with
+// one participant each, constant delay, and the path's delay or loss for each packet of the
+// relation. A packet's number is known only once everything before it has been emitted, so the
+// simulator runs again and again until each packet of the path has its delay.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "checker/engines/explorer/path.hpp"
+#include "props/verdict.hpp"
+
+namespace stormproof::explorer {
+
+struct ReplayRequest {
+  const model::Scenario& running;        ///< whose profile runs
+  const model::Scenario& specification;  ///< what the monitor holds the run against
+  const model::Mutation* mutation = nullptr;
+  const Scope& scope;
+  Bounds bounds;
+};
+
+struct ReplayOutcome {
+  std::optional<props::Counterexample> counterexample;
+  std::string why_not;  ///< one sentence; empty if there is a counterexample
+};
+
+[[nodiscard]] ReplayOutcome replay(const ReplayRequest& request, const ConcretePath& path,
+                                   std::string_view property);
+
+/// The scenario of the path, with the delay of every packet of the path; or why there is none.
+[[nodiscard]] std::optional<model::Scenario> scenario_of(const ReplayRequest& request,
+                                                         const ConcretePath& path,
+                                                         std::string& why_not);
+
+}  // namespace stormproof::explorer

@@ -1,0 +1,36 @@
+// Scopes in words.
+#include "checker/engines/explorer/scope.hpp"
+
+#include <fmt/format.h>
+
+#include "props/monitors/describe.hpp"
+
+namespace stormproof::explorer {
+
+using props::time_text;
+
+std::string to_text(const Scope& scope) {
+  const std::string delays = scope.least_delay == scope.largest_delay
+                                 ? "of " + time_text(scope.largest_delay)
+                                 : fmt::format("in [{}, {}]", time_text(scope.least_delay),
+                                               time_text(scope.largest_delay));
+  std::string text = fmt::format(
+      "D = {}, packet delays {}, {} loss{}, {}", scope.descriptors, delays,
+      scope.losses == 0 ? "no" : fmt::format("at most {}", scope.losses),
+      scope.losses > 1 ? "es" : "", scope.fifo ? "FIFO per source" : "any interleaving");
+  if (scope.pushed > 0) text += fmt::format(", {} created after the match", scope.pushed);
+  if (scope.leaves_within.count() > 0) {
+    text += fmt::format(", repairs leave within {}", time_text(scope.leaves_within));
+  }
+  if (scope.side_by_side) text += ", the two sides open apart";
+  return text;
+}
+
+std::string short_text(const Scope& scope) {
+  std::string text = fmt::format("D = {}, k = {}", scope.descriptors, scope.losses);
+  if (scope.pushed > 0) text += fmt::format(", {} created later", scope.pushed);
+  if (scope.side_by_side) text += ", opening apart";
+  return text;
+}
+
+}  // namespace stormproof::explorer

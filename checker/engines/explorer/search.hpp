@@ -1,0 +1,211 @@
+// Breadth-first search over the zone states of a world: the first objection that it meets needs the
+// fewest events. A world is a class with
+//   State start(Frame&), fire(State&, Frame&, const Slot&), complete(State), received(State),
+//   descriptors(), scope(), rules(),
+// and knows nothing of searching; the search knows nothing of the protocol.
+//
+// Three claims are the search's own, because they are not about one state of the protocol:
+//   no stall: from every state some path without further loss leads to X_d = 1. Decided backwards
+//     over the explored graph, which must be exhausted for that; a state that is stuck (nothing
+//     pending, something missing) is reported at once;
+//   completion: nothing is missing any more at time B;
+//   quiescence: nothing is emitted later than Q after nothing is missing, if nothing is lost then.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <functional>
+#include <optional>
+
+#include "checker/engines/explorer/node_store.hpp"
+#include "checker/engines/explorer/state_graph.hpp"
+
+namespace stormproof::explorer {
+
+struct Bounds {
+  std::optional<model::Nanoseconds> completion;  ///< B, from the opening; absent: not looked for
+  std::optional<model::Nanoseconds> quiescence;  ///< Q, from completion; absent: not looked for
+};
+
+struct SearchOptions {
+  bool mark_opening = false;  ///< keeps the mark `opened` even if no bound refers to it
+  Claims claims = 0;          ///< what is looked for; the search ends when all of it is found
+  std::uint64_t max_states = 1'000'000;
+  std::size_t max_bytes = std::size_t{512} << 20;
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  Bounds bounds;
+  bool stop_when_complete = false;  ///< states in which nothing is missing are not expanded
+  std::function<bool()> go_on;      ///< called now and then; false ends the search
+};
+
+struct SearchResult {
+  /// By claim: the path to the first objection.
+  std::array<std::optional<std::vector<Label>>, claim_count> objections;
+  std::uint64_t states = 0;
+  std::uint64_t steps = 0;  ///< fired events
+  std::uint32_t depth = 0;  ///< all paths up to this many events have been tried
+  bool exhausted = false;   ///< all paths have been tried
+  bool overflowed = false;  ///< some state had more pending events than fit; not expanded
+  model::Nanoseconds latest_completion;  ///< with a bound: the latest time found
+};
+
+template <class World>
+class Search {
+ public:
+  using State = typename World::State;
+
+  Search(World& world, const SearchOptions& options) : world_{world}, options_{options} {}
+
+  SearchResult run() {
+    start();
+    std::uint32_t next = 0;
+    while (next < store_.size() && !finished() && !interrupted(next)) expand(next++);
+    result_.states = store_.size();
+    result_.exhausted = next == store_.size() && !result_.overflowed;
+    result_.depth = store_.depth(std::min(next, store_.size() - 1));
+    if (result_.exhausted) decide_on_graph();
+    return result_;
+  }
+
+ private:
+  static constexpr std::uint64_t check_interval = 1U << 10U;
+
+  [[nodiscard]] bool wants(Claim claim) const { return (wanted_ & bit(claim)) != 0; }
+
+  /// Everything that was asked for has been objected to.
+  [[nodiscard]] bool finished() const { return options_.claims != 0 && wanted_ == 0; }
+
+  bool interrupted(std::uint32_t next) {
+    if (store_.size() > options_.max_states || store_.bytes() > options_.max_bytes) return true;
+    if (next % check_interval != check_interval - 1) return false;
+    if (std::chrono::steady_clock::now() > options_.deadline) return true;
+    return options_.go_on && !options_.go_on();
+  }
+
+  void start() {
+    wanted_ = options_.claims;
+    Frame frame{world_.scope(), world_.rules()};
+    frame.set_losses(world_.scope().losses);
+    const State state = world_.start(frame);
+    if (options_.bounds.completion || options_.mark_opening) frame.mark({What::opened});
+    store_.add(state, frame, store_.none, {});
+  }
+
+  void expand(std::uint32_t node) {
+    if (options_.stop_when_complete && world_.complete(store_.state(node))) return;
+    Frame frame{world_.scope(), world_.rules()};
+    store_.load(node, frame);
+    for (unsigned k = 0; k < frame.count(); ++k) {
+      if (is_mark(frame.slot(k).what) || !frame.can_be_next(k)) continue;
+      const unsigned packets = follow(node, frame, {static_cast<std::uint8_t>(k), 0});
+      const unsigned variants = frame.losses_left() > 0 ? 1U << packets : 1U;
+      for (unsigned mask = 1; mask < variants; ++mask) {
+        if (static_cast<unsigned>(std::popcount(mask)) > frame.losses_left()) continue;
+        follow(node, frame, {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(mask)});
+      }
+    }
+  }
+
+  /// Takes one step from `node`; returns how many packets it emitted.
+  unsigned follow(std::uint32_t node, const Frame& before, Label label) {
+    ++result_.steps;
+    Frame frame = before;
+    State state = store_.state(node);
+    step(world_, state, frame, label, options_.bounds);
+    const Claims fresh = frame.objections() & wanted_;
+    if (fresh != 0) note(fresh, node, label);
+    if (frame.overflowed()) {
+      result_.overflowed = true;
+      return frame.emitted();
+    }
+    if (options_.bounds.completion && world_.complete(state) &&
+        !world_.complete(store_.state(node))) {
+      const unsigned mark = frame.find_mark(What::opened, 0);
+      result_.latest_completion =
+          std::max(result_.latest_completion, model::Nanoseconds{frame.zone().bound(0, mark + 1)});
+    }
+    const auto [target, added] = store_.add(state, frame, node, label);
+    if (wants(Claim::no_stall) && label.loss_mask == 0) graph_.add_edge(node, target);
+    return frame.emitted();
+  }
+
+ public:
+  /// One event of the world, and what the search itself has to say about it. Also used to follow a
+  /// path again.
+  static void step(World& world, State& state, Frame& frame, Label label, const Bounds& bounds) {
+    const bool missing = !world.complete(state);
+    const Slot slot = frame.advance(label.slot, label.loss_mask);
+    if (bounds.completion && missing) {
+      const unsigned mark = frame.find_mark(What::opened, 0);
+      frame.object_if(Claim::completion, mark + 1, 0, -(bounds.completion->count() + 1));
+    }
+    world.fire(state, frame, slot);
+    if (!frame.any_pending() && !world.complete(state)) frame.object(Claim::no_stall);
+    if (!bounds.quiescence || !world.complete(state)) return;
+    if (missing) {
+      frame.mark({What::completed});
+    } else {
+      watch_quiet(frame, *bounds.quiescence);
+    }
+  }
+
+ private:
+  /// After completion: traffic that comes too late. A loss ends the claim, and so does an
+  /// objection; there must be no mark left that makes each state differ from all others.
+  static void watch_quiet(Frame& frame, model::Nanoseconds bound) {
+    const unsigned mark = frame.find_mark(What::completed, 0);
+    if (mark == frame.count()) return;
+    const Claims before = frame.objections();
+    if (frame.emitted() > 0 && !frame.lost_something()) {
+      frame.object_if(Claim::quiescence, mark + 1, 0, -(bound.count() + 1));
+    }
+    if (frame.lost_something() || frame.objections() != before) {
+      frame.erase_marks(What::completed, 0);
+    }
+  }
+
+  void note(Claims claims, std::uint32_t node, Label label) {
+    for (std::size_t c = 0; c < claim_count; ++c) {
+      if ((claims >> c & 1) == 0) continue;
+      std::vector<Label> path = path_to(node);
+      path.push_back(label);
+      result_.objections[c] = std::move(path);
+    }
+    wanted_ = static_cast<Claims>(wanted_ & ~claims);
+  }
+
+  [[nodiscard]] std::vector<Label> path_to(std::uint32_t node) const {
+    std::vector<Label> path;
+    for (; store_.parent(node) != store_.none; node = store_.parent(node)) {
+      path.insert(path.begin(), store_.label(node));
+    }
+    return path;
+  }
+
+  void decide_on_graph() {
+    graph_.finish(store_.size());
+    for (unsigned d = 0; d < world_.descriptors() && wants(Claim::no_stall); ++d) {
+      const auto received = [&](std::uint32_t node) {
+        return (world_.received(store_.state(node)) >> d & 1) != 0;
+      };
+      if (const auto stuck = graph_.first_that_cannot_reach(received))
+        note_node(Claim::no_stall, *stuck);
+    }
+  }
+
+  void note_node(Claim claim, std::uint32_t node) {
+    result_.objections[static_cast<std::size_t>(claim)] = path_to(node);
+    wanted_ = static_cast<Claims>(wanted_ & ~bit(claim));
+  }
+
+  World& world_;
+  const SearchOptions& options_;
+  NodeStore<State> store_;
+  StateGraph graph_;
+  SearchResult result_;
+  Claims wanted_ = 0;
+};
+
+}  // namespace stormproof::explorer

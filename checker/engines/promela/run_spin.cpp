@@ -1,0 +1,151 @@
+// Starts the programs and reads what the verifier prints.
+#include "checker/engines/promela/run_spin.hpp"
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <regex>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace stormproof::promela {
+namespace {
+
+template <class T>
+using Outcome = model::config::Result<T, std::string>;
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in{file};
+  return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+/// Runs a program in `folder` with its output in the file `log` there. Returns its exit status.
+Outcome<int> run(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                 const std::string& log) {
+  std::vector<char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  const std::string out = (folder / log).string();
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  pid_t child = -1;
+  const int error = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0)
+    return fmt::format("{} cannot be started: {}", arguments[0], std::strerror(error));
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFSIGNALED(status)) {
+    return fmt::format("{} ended by signal {}", arguments[0], WTERMSIG(status));
+  }
+  return WEXITSTATUS(status);
+}
+
+/// The same for a program that has to succeed.
+std::optional<std::string> run_tool(const std::vector<std::string>& arguments,
+                                    const std::filesystem::path& folder, const std::string& log) {
+  const Outcome<int> status = run(arguments, folder, log);
+  if (!status) return status.error();
+  if (*status == 0) return std::nullopt;
+  return fmt::format("{} failed with status {}: {}", arguments[0], *status,
+                     read_text(folder / log).substr(0, 500));
+}
+
+/// The names of the claims, in the order of the model.
+std::vector<std::string> claims_in(const std::string& promela) {
+  static const std::regex claim{R"(\bltl\s+(\w+)\s*\{)"};
+  std::vector<std::string> names;
+  for (std::sregex_iterator it{promela.begin(), promela.end(), claim}, end; it != end; ++it) {
+    names.push_back((*it)[1]);
+  }
+  return names;
+}
+
+/// Adds what one run of the verifier printed.
+std::optional<std::string> add_run(const std::string& name, const std::string& output,
+                                   SpinRun& total) {
+  static const std::regex states{R"(([0-9]+) states, stored)"};
+  static const std::regex errors{R"(errors: ([0-9]+))"};
+  static const std::regex complaint{R"(pan: ?[0-9]+: [^\n]*|pan: error: [^\n]*)"};
+  static const std::regex unfinished{
+      R"(max search depth too small|reached -DMEMLIM bound|Search not completed|exceeded)"};
+  std::smatch found;
+  if (!std::regex_search(output, found, states)) {
+    return fmt::format("the verifier counted no states: {}", output.substr(0, 500));
+  }
+  total.states += std::stoull(found[1]);
+  if (!std::regex_search(output, found, errors)) return "the verifier counted no errors";
+  const bool clean = found[1] == "0";
+  std::smatch message;
+  if (!clean && total.error.empty()) {
+    const bool explained = std::regex_search(output, message, complaint);
+    total.error = name + ": " + (explained ? message[0].str() : "error");
+  } else if (clean && std::regex_search(output, message, unfinished) && total.error.empty()) {
+    total.error = name + ": not exhaustive: " + message[0].str();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool spin_is_available() {
+  const std::filesystem::path nowhere = std::filesystem::temp_directory_path();
+  return !run_tool({"spin", "-V"}, nowhere, "/dev/null") &&
+         !run_tool({"gcc", "--version"}, nowhere, "/dev/null");
+}
+
+Outcome<SpinRun> run_spin(const std::string& promela, const std::string& folder_name) {
+  std::error_code failure;
+  const std::filesystem::path folder = std::filesystem::absolute(folder_name, failure);
+  std::ofstream model{folder / "model.pml"};
+  model << promela;
+  model.close();
+  if (failure || !model) return fmt::format("{}: no model can be written there", folder_name);
+  if (auto error = run_tool({"spin", "-a", "model.pml"}, folder, "spin.log")) return *error;
+  // Weak fairness needs a counter for every few processes; at most 18 of them here.
+  if (auto error =
+          run_tool({"gcc", "-O1", "-w", "-DNFAIR=5", "-DMEMLIM=4096", "-o", "pan", "pan.c"}, folder,
+                   "gcc.log")) {
+    return *error;
+  }
+  const std::string program = (folder / "pan").string();
+  const std::vector<std::string> common{program, "-m1000000", "-Q10"};
+  SpinRun total;
+  std::vector<std::string> names = claims_in(promela);
+  names.emplace_back("no deadlock");
+  for (std::size_t k = 0; k < names.size() && total.error.empty(); ++k) {
+    std::vector<std::string> arguments = common;
+    const bool last = k + 1 == names.size();
+    for (const char* option : {"-a", "-N"}) {
+      if (!last) arguments.emplace_back(option);
+    }
+    arguments.push_back(last ? "-noclaim" : names[k]);
+    if (names[k] == "progress") arguments.emplace_back("-f");
+    const std::string log = fmt::format("pan.{}.log", k);
+    const auto started = std::chrono::steady_clock::now();
+    const Outcome<int> status = run(arguments, folder, log);
+    total.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    if (!status) return status.error();
+    if (auto error = add_run(names[k], read_text(folder / log), total)) return *error;
+  }
+  total.ok = total.error.empty();
+  return total;
+}
+
+}  // namespace stormproof::promela

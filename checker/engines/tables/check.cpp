@@ -1,0 +1,70 @@
+// Which property is decided by which function, and the border that no exception crosses.
+#include <array>
+#include <exception>
+
+#include <z3++.h>
+
+#include "checker/engines/tables/properties.hpp"
+#include "checker/engines/tables/tables.hpp"
+
+namespace stormproof::tables {
+namespace {
+
+using Decide = Finding (*)(const CheckRequest&);
+
+constexpr std::array<std::string_view, 10> ids{"fsm.determinism",
+                                               "fsm.totality",
+                                               "fsm.reachability",
+                                               "order.total",
+                                               "order.reception-first",
+                                               "order.commutation",
+                                               "safety.ack-implies-received",
+                                               "safety.repair-only-if-asked",
+                                               "safety.snapshot",
+                                               "timer.single-heartbeat"};
+constexpr std::array<Decide, 10> functions{fsm_determinism,
+                                           fsm_totality,
+                                           fsm_reachability,
+                                           order_total,
+                                           order_reception_first,
+                                           order_commutation,
+                                           safety_ack_implies_received,
+                                           safety_repair_only_if_asked,
+                                           safety_snapshot,
+                                           timer_single_heartbeat};
+
+Finding failed(const std::string& why) {
+  Finding finding;
+  finding.engine = "tables";
+  finding.how = "inconclusive: " + why;
+  finding.details.push_back("inconclusive: " + why);
+  return finding;
+}
+
+Finding decide(Decide function, const CheckRequest& request) {
+  try {
+    return function(request);
+  } catch (const z3::exception& error) {
+    return failed(std::string{"z3: "} + error.msg());
+  } catch (const std::exception& error) {
+    return failed(error.what());
+  }
+}
+
+}  // namespace
+
+std::span<const std::string_view> decidable() { return ids; }
+
+checker::Findings check(std::span<const std::string_view> properties, const CheckRequest& request) {
+  checker::Findings findings;
+  for (const std::string_view property : properties) {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      if (ids[k] != property) continue;
+      if (request.on_progress && !request.on_progress(property)) return findings;
+      findings.emplace_back(ids[k], decide(functions[k], request));
+    }
+  }
+  return findings;
+}
+
+}  // namespace stormproof::tables

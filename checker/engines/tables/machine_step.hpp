@@ -1,0 +1,108 @@
+// One step of a machine over solver expressions: from which state, on which input, to which states
+// and with which outputs. A state is a list of truth values, one per state of the machine, exactly
+// one of which holds; that keeps invariants readable. Of two enabled rows the later one wins, as in
+// Boost.MSM, so that mutated tables mean what they mean in a run.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "checker/engines/tables/proof.hpp"
+#include "fsm/row_table.hpp"
+
+namespace stormproof::tables {
+
+/// One truth value per state number.
+using OneHot = Exprs;
+
+/// Exactly one of the values holds.
+[[nodiscard]] Expr exactly_one(const OneHot& state);
+/// The state that a model has.
+[[nodiscard]] std::size_t state_in(const z3::model& model, const OneHot& state);
+
+template <class Machine>
+class MachineStep {
+ public:
+  using Table = fsm::RowTable<Machine, smt::Symbolic>;
+  using Input = typename Table::Input;
+  using Output = typename Table::Output;
+
+  /// What one event does.
+  struct Effect {
+    OneHot next;
+    std::vector<std::pair<Expr, Output>> fired;  ///< when each row fires, and what it then asks for
+
+    /// A truth value of the outbox; false if no row fires.
+    [[nodiscard]] Expr asks(smt::SymbolicBool Output::*field) const {
+      Exprs cases;
+      for (const auto& [fires, output] : fired) cases.push_back(fires && (output.*field).expr());
+      return any_of(cases).simplify();
+    }
+    /// Some row fires.
+    [[nodiscard]] Expr fires() const {
+      Exprs cases;
+      for (const auto& row : fired) cases.push_back(row.first);
+      return any_of(cases);
+    }
+  };
+
+  explicit MachineStep(const std::vector<fsm::TableMutation>& mutations) : table_{mutations} {}
+
+  static constexpr std::size_t states = fsm::Reflect<Machine>::state_count;
+
+  /// Unknown truth values named "<prefix><state>".
+  [[nodiscard]] static OneHot unknown_state(const std::string& prefix) {
+    OneHot state;
+    for (const std::string_view name : fsm::Reflect<Machine>::state_names) {
+      state.push_back(smt::SymbolicBool::named(prefix + std::string{name}).expr());
+    }
+    return state;
+  }
+
+  /// The state is `S`.
+  template <class S>
+  [[nodiscard]] static const Expr& is(const OneHot& state) {
+    return state[fsm::Reflect<Machine>::template id<S>];
+  }
+  /// Each value says whether the state is the initial one.
+  [[nodiscard]] static Expr is_initial(const OneHot& state) {
+    const auto initial = fsm::Reflect<Machine>::template id<typename Machine::initial_state>;
+    Exprs parts;
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      parts.push_back(k == initial ? state[k] : !state[k]);
+    }
+    return all_of(parts);
+  }
+
+  /// `Event` in `state`, provided that `when` holds.
+  template <class Event>
+  [[nodiscard]] Effect step(const OneHot& state, const Input& input, const Expr& when) const {
+    const auto event = fsm::Reflect<Machine>::template event_id<Event>;
+    const auto& rows = table_.rows();
+    Effect effect;
+    std::vector<Exprs> entered(state.size());
+    std::vector<Exprs> left(state.size());
+    std::vector<Exprs> later(state.size());  // rows that come later in the table and so win
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+      if (row->event != event) continue;
+      const Expr enabled = when && state[row->source] && row->enabled(input).expr();
+      const Expr fires = (enabled && !any_of(later[row->source])).simplify();
+      later[row->source].push_back(enabled);
+      left[row->source].push_back(fires);
+      entered[row->target].push_back(fires);
+      Output output;
+      if (row->action != nullptr) row->action(input, output);
+      effect.fired.emplace_back(fires, output);
+    }
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      effect.next.push_back((any_of(entered[k]) || (state[k] && !any_of(left[k]))).simplify());
+    }
+    return effect;
+  }
+
+ private:
+  Table table_;
+};
+
+}  // namespace stormproof::tables

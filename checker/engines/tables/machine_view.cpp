@@ -1,0 +1,34 @@
+// Evaluates the guards of every row of every table once, over free inputs.
+#include "checker/engines/tables/machine_view.hpp"
+
+#include "checker/engines/tables/free_input.hpp"
+#include "fsm/row_table.hpp"
+
+namespace stormproof::tables {
+namespace {
+
+template <class Machine>
+MachineView view(const std::vector<fsm::TableMutation>& mutations) {
+  MachineView machine{fsm::Reflect<Machine>::info(), {}, {}};
+  Unknowns unknowns;
+  const auto input = free_input<Machine>(unknowns);
+  const fsm::RowTable<Machine, smt::Symbolic> table{mutations};
+  for (const auto& row : table.rows()) {
+    machine.rows.push_back(
+        {row.source, row.event, row.target, row.enabled(input).expr().simplify()});
+  }
+  machine.inputs = unknowns.list();
+  return machine;
+}
+
+}  // namespace
+
+std::vector<MachineView> machine_views(const std::vector<fsm::TableMutation>& mutations) {
+  return {view<fsm::DescriptorRepair>(mutations), view<fsm::DiscoveryReader>(mutations),
+          view<fsm::HeartbeatTimer>(mutations),   view<fsm::InitialAckNack>(mutations),
+          view<fsm::Announcer>(mutations),        view<fsm::Channel>(mutations),
+          view<fsm::ChangeForReader>(mutations),  view<fsm::SingleShot>(mutations),
+          view<fsm::ControlWriter>(mutations),    view<fsm::ControlReader>(mutations)};
+}
+
+}  // namespace stormproof::tables

@@ -1,0 +1,107 @@
+// order.commutation: for each pair of same-time event kinds on one relation, whether their order
+// matters, compared with the matrix that specs/expected/commutation.yaml keeps. So the list of
+// pairs that the tie rule must decide can neither grow nor shrink unnoticed.
+#include <map>
+#include <set>
+
+#include <yaml-cpp/yaml.h>
+
+#include "checker/engines/tables/commutation_matrix.hpp"
+#include "checker/engines/tables/ignored_pairs.hpp"
+#include "checker/engines/tables/properties.hpp"
+
+namespace stormproof::tables {
+namespace {
+
+using Pair = std::pair<std::string, std::string>;
+
+struct Expected {
+  Verdict verdict = Verdict::commutes;
+  std::string why;
+};
+
+Pair ordered(std::string a, std::string b) {
+  return a < b ? Pair{std::move(a), std::move(b)} : Pair{std::move(b), std::move(a)};
+}
+
+void read(const YAML::Node& entries, Verdict verdict, std::map<Pair, Expected>& expected) {
+  for (const YAML::Node& entry : entries) {
+    const Pair pair =
+        ordered(entry["pair"][0].as<std::string>(), entry["pair"][1].as<std::string>());
+    std::string why = entry["why"].as<std::string>();
+    if (entry["decided"]) why += " Tie rule: " + entry["decided"].as<std::string>();
+    expected[pair] = {verdict, std::move(why)};
+  }
+}
+
+std::map<Pair, Expected> expected_matrix(const std::string& implementation) {
+  const YAML::Node file = YAML::Load(expected_commutation_text);
+  const YAML::Node section = file["implementations"][implementation];
+  std::map<Pair, Expected> expected;
+  read(section["matters"], Verdict::matters, expected);
+  read(section["only_unreachable"], Verdict::unreachable, expected);
+  return expected;
+}
+
+std::string in_words(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::matters:
+      return "the order matters";
+    case Verdict::unreachable:
+      return "the order matters only in states that no run reaches";
+    case Verdict::excluded:
+      return "never two at once";
+    default:
+      return "the order does not matter";
+  }
+}
+
+void compare(Proof& proof, const RelationModel& relation, const std::vector<PairResult>& results,
+             std::map<Pair, Expected> expected) {
+  for (const PairResult& result : results) {
+    const Pair pair =
+        ordered(relation.kinds[result.first].name, relation.kinds[result.second].name);
+    const std::string text = pair.first + ", " + pair.second + ": ";
+    const auto found = expected.find(pair);
+    const bool listed = found != expected.end();
+    const Expected entry = listed ? found->second : Expected{};
+    if (listed) expected.erase(found);
+    if (result.verdict == Verdict::unknown) continue;
+    const bool plain = result.verdict == Verdict::commutes || result.verdict == Verdict::excluded;
+    const bool same = listed ? result.verdict == entry.verdict : plain;
+    if (!same) {
+      proof.violate(text + in_words(result.verdict) +
+                    ", but expected is: " + in_words(entry.verdict) +
+                    (result.witness.empty() ? "" : "; " + result.witness));
+    } else if (listed) {
+      proof.detail(text + in_words(result.verdict) + ". " + entry.why);
+      proof.detail("  witness: " + result.witness);
+    }
+  }
+  for (const auto& [pair, entry] : expected) {
+    proof.violate("expected, but no such pair: " + pair.first + ", " + pair.second);
+  }
+}
+
+}  // namespace
+
+Finding order_commutation(const CheckRequest& request) {
+  Proof proof{"order.commutation", request};
+  const bool fastdds = proof.scenario().dds.implementation == model::ImplementationKind::fastdds;
+  const RelationModel relation = fastdds ? fastdds_relation(proof) : paper_relation(proof);
+  proof.assume("Any number of descriptors: one is looked at, the others enter by free inputs.");
+  proof.assume(
+      "The knobs of the profile are free, except that the HEARTBEAT policy is the periodic one: "
+      "the cycle events of the adaptive policy are not among the kinds.");
+  proof.assume(
+      "Equal are two orders that lead to the same state and emit and schedule the same "
+      "things; the piggyback budget and the order of emission are left out.");
+  const std::vector<PairResult> results = commutation_matrix(proof, relation);
+  for (std::string& line : matrix_lines(relation, results)) proof.detail(std::move(line));
+  compare(proof, relation, results, expected_matrix(fastdds ? "fastdds" : "paper"));
+  return proof.finish(
+      "both orders of each pair of event kinds, from every state and input, "
+      "compared with the expected matrix");
+}
+
+}  // namespace stormproof::tables

@@ -1,0 +1,37 @@
+// Unbounded safety: a transition system whose steps come from the tables, and the question whether
+// a bad state can be reached in any number of steps. Spacer (Z3's fixed-point engine) looks for an
+// invariant; what it finds is not believed but checked again with three kinds of plain conditions,
+// by both solvers: it holds initially, every step keeps it, and it excludes the bad states. If
+// there is no invariant, the shortest sequence of steps is found by unrolling.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "checker/engines/tables/proof.hpp"
+
+namespace stormproof::tables {
+
+struct SystemStep {
+  std::string name;
+  Exprs inputs;  ///< unknowns that are drawn anew at each step
+  Expr guard;    ///< over variables and inputs: the step is possible
+  Exprs next;    ///< the new value of each variable, in their order
+};
+
+struct TransitionSystem {
+  Exprs variables;  ///< their names are what invariants and traces show
+  Expr initial;
+  std::vector<SystemStep> steps;
+  Expr bad;
+};
+
+/// Decides whether `bad` can be reached. Proved: the invariant goes into the details. Violated: the
+/// shortest sequence of steps does, headed by `breaks`. Returns the method, for `Proof::finish`.
+std::string prove_unreachable(Proof& proof, const TransitionSystem& system,
+                              const std::string& breaks);
+
+/// An invariant as lines of text: one clause each, in the form "a and b imply c or d".
+[[nodiscard]] std::vector<std::string> invariant_lines(const Expr& invariant);
+
+}  // namespace stormproof::tables

@@ -1,0 +1,40 @@
+// The verdicts of this engine: each theorem, applied to a scenario.
+#pragma once
+
+#include "checker/engines/check_request.hpp"
+#include "checker/engines/exact/measure.hpp"
+
+namespace stormproof::timeline {
+
+/// The question and what the scenario's own run measures.
+struct Question {
+  const checker::CheckRequest& request;
+  const exact::Measured& measured;
+
+  [[nodiscard]] const model::DdsProfile& dds() const { return request.scenario.dds; }
+  [[nodiscard]] const model::SedpProfile& sedp() const { return request.scenario.dds.sedp; }
+  [[nodiscard]] bool is_fastdds() const {
+    return dds().implementation == model::ImplementationKind::fastdds;
+  }
+  [[nodiscard]] bool is_adaptive() const {
+    return sedp().heartbeat_policy == model::HeartbeatPolicy::adaptive;
+  }
+  /// Every packet takes the same time.
+  [[nodiscard]] bool has_constant_delay() const {
+    const model::WirelessProfile& wireless = request.scenario.wireless;
+    return wireless.kind == model::ServiceKind::constant_delay && wireless.packet_delays.empty();
+  }
+};
+
+[[nodiscard]] props::Finding completion_finding(const Question& question);
+[[nodiscard]] props::Finding quiescence_finding(const Question& question);
+[[nodiscard]] props::Finding single_copy_finding(const Question& question);
+[[nodiscard]] props::Finding free_threshold_finding(const Question& question);
+
+/// Turns a finding into one without an answer.
+void leave_open(props::Finding& finding, const std::string& why);
+
+/// What the run of the scenario says about "no packet takes longer than Δ" and "nothing is lost".
+[[nodiscard]] std::string measured_text(const exact::Measured& measured);
+
+}  // namespace stormproof::timeline

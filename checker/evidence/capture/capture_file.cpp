@@ -1,0 +1,123 @@
+// libpcap on a file or on memory.
+#include "checker/evidence/capture/capture_file.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/core.h>
+#include <pcap.h>
+
+#include "checker/evidence/capture/decompress.hpp"
+#include "checker/evidence/capture/link_layer.hpp"
+
+namespace stormproof::capture {
+
+namespace {
+
+using model::config::InputError;
+using model::config::Result;
+
+struct FileCloser {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, FileCloser>;
+
+/// The rest of a file, which has to fit below the limit.
+Result<std::vector<std::uint8_t>, std::string> read_all(std::FILE* file, std::size_t limit) {
+  std::vector<std::uint8_t> content;
+  std::array<std::uint8_t, 1U << 16U> room{};
+  while (const std::size_t read = std::fread(room.data(), 1, room.size(), file)) {
+    if (content.size() + read > limit) {
+      return fmt::format("has more than {} MiB of compressed data", limit >> 20U);
+    }
+    content.insert(content.end(), room.begin(), room.begin() + static_cast<std::ptrdiff_t>(read));
+  }
+  if (std::ferror(file) != 0) return std::string{std::strerror(errno)};
+  return content;
+}
+
+}  // namespace
+
+void CaptureFile::Closer::operator()(pcap* handle) const { pcap_close(handle); }
+
+Result<CaptureFile> CaptureFile::over(CaptureFile file, std::FILE* stream) {
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  file.handle_.reset(
+      pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, error.data()));
+  if (!file.handle_) {
+    std::fclose(stream);
+    return InputError{file.name_, fmt::format("not a capture: {}; expected pcap or pcapng, plain "
+                                              "or compressed as .xz or .gz",
+                                              error.data())};
+  }
+  file.link_type_ = pcap_datalink(file.handle_.get());
+  if (!is_supported_link(file.link_type_)) {
+    const char* name = pcap_datalink_val_to_name(file.link_type_);
+    return InputError{file.name_, fmt::format("link type {} ({}); expected {}", file.link_type_,
+                                              name == nullptr ? "unknown" : name, supported_links)};
+  }
+  return file;
+}
+
+Result<CaptureFile> CaptureFile::from_memory(std::string name, Bytes content, std::size_t limit) {
+  CaptureFile file;
+  file.name_ = std::move(name);
+  auto unpacked = unpack(content, compression_of(content), limit);
+  if (!unpacked) return InputError{file.name_, unpacked.error()};
+  file.content_ = std::move(unpacked->bytes);
+  file.unpack_damage_ = std::move(unpacked->damage);
+  if (file.content_.empty()) return InputError{file.name_, "the file is empty"};
+  std::FILE* stream = fmemopen(file.content_.data(), file.content_.size(), "rb");
+  if (stream == nullptr) return InputError{file.name_, std::strerror(errno)};
+  return over(std::move(file), stream);
+}
+
+Result<CaptureFile> CaptureFile::open(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    return InputError{path, "not a regular file; expected a capture (pcap or pcapng)"};
+  }
+  File file{std::fopen(path.c_str(), "rb")};
+  if (!file) return InputError{path, std::strerror(errno)};
+  std::array<std::uint8_t, 6> start{};
+  const std::size_t length = std::fread(start.data(), 1, start.size(), file.get());
+  std::rewind(file.get());
+  if (compression_of({start.data(), length}) == Compression::none) {
+    CaptureFile plain;
+    plain.name_ = path;
+    return over(std::move(plain), file.release());
+  }
+  const auto content = read_all(file.get(), unpack_limit);
+  if (!content) return InputError{path, content.error()};
+  return from_memory(path, *content, unpack_limit);
+}
+
+std::optional<Packet> CaptureFile::next() {
+  constexpr std::int64_t last_second = 9'000'000'000;  // the year 2255; below 2^63 ns
+  pcap_pkthdr* header = nullptr;
+  const u_char* bytes = nullptr;
+  if (!damage_.empty()) return std::nullopt;
+  const int status = pcap_next_ex(handle_.get(), &header, &bytes);
+  if (status != 1) {
+    damage_ = status == PCAP_ERROR_BREAK ? "" : pcap_geterr(handle_.get());
+    if (!unpack_damage_.empty()) damage_ = unpack_damage_;
+    return std::nullopt;
+  }
+  ++packets_;
+  if (header->ts.tv_sec < 0 || header->ts.tv_sec > last_second) {
+    damage_ = fmt::format("packet {} has an impossible time", packets_);
+    return std::nullopt;
+  }
+  Packet packet;
+  packet.number = packets_;
+  packet.time_ns = header->ts.tv_sec * 1'000'000'000 + header->ts.tv_usec;  // here nanoseconds
+  packet.original_length = header->len;
+  packet.bytes = {bytes, header->caplen};
+  return packet;
+}
+
+}  // namespace stormproof::capture

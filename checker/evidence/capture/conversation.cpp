@@ -1,0 +1,194 @@
+// From capture files to the list of events: reads, merges, orders by time, and finds out for whom
+// each datagram was.
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/core.h>
+
+#include "checker/evidence/capture/capture_file.hpp"
+#include "checker/evidence/capture/events.hpp"
+#include "checker/evidence/capture/ip_reassembly.hpp"
+#include "checker/evidence/capture/link_layer.hpp"
+#include "checker/evidence/capture/merge.hpp"
+#include "checker/evidence/capture/message_events.hpp"
+
+namespace stormproof::capture {
+
+namespace {
+
+using model::config::InputError;
+using model::config::Result;
+
+/// Everything that was read, before captures are merged.
+struct Reading {
+  std::vector<CaptureInfo> captures{};
+  std::vector<DatagramRecord> datagrams{};
+  std::vector<Sighting> sightings{};  ///< one for each datagram
+  Extraction extraction{};
+  Remarks remarks{};
+  std::uint64_t packets = 0;
+  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
+  std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
+};
+
+void add_datagram(const Datagram& datagram, Reading& reading) {
+  CaptureInfo& info = reading.captures.back();
+  const auto capture = static_cast<std::uint32_t>(reading.captures.size() - 1);
+  const auto index = static_cast<std::uint32_t>(reading.datagrams.size());
+  const std::string place = fmt::format("{}, packet {}", info.name, datagram.packet);
+  if (!extract(datagram, index, place, reading.extraction, reading.remarks)) return;
+  ++info.datagrams;
+  reading.datagrams.push_back({.time_ns = datagram.time_ns,
+                               .capture = capture,
+                               .packet = datagram.packet,
+                               .frames = datagram.frames,
+                               .wire_bytes = datagram.wire_bytes,
+                               .payload_bytes = static_cast<std::uint32_t>(datagram.payload.size()),
+                               .vendor = message_header(datagram.payload)->vendor,
+                               .source = datagram.source,
+                               .destination = datagram.destination});
+  reading.sightings.push_back({datagram.time_ns, capture, datagram.source, datagram.destination,
+                               datagram.ip_id, datagram.payload.size(),
+                               digest_of(datagram.payload)});
+}
+
+/// False if the reading was interrupted.
+bool read_packets(CaptureFile& file, Reading& reading, const Progress& progress) {
+  constexpr std::uint64_t packets_between_reports = 4096;
+  reading.captures.push_back({.name = file.name()});
+  IpReassembly reassembly{file.name(), reading.remarks};
+  bool goes_on = true;
+  while (goes_on) {
+    const auto packet = file.next();
+    if (!packet) break;
+    ++reading.captures.back().packets;
+    reading.first_ns = std::min(reading.first_ns, packet->time_ns);
+    reading.last_ns = std::max(reading.last_ns, packet->time_ns);
+    const auto ip = ip_packet(packet->bytes, file.link_type());
+    const auto datagram = ip ? reassembly.add(*packet, *ip) : std::nullopt;
+    if (datagram) add_datagram(*datagram, reading);
+    if (++reading.packets % packets_between_reports == 0 && progress) {
+      goes_on = progress(reading.packets);
+    }
+  }
+  reassembly.finish();
+  if (!file.damage().empty()) {
+    reading.remarks.add("damaged captures, used up to the damage",
+                        fmt::format("{}, after packet {}: {}", file.name(),
+                                    reading.captures.back().packets, file.damage()));
+  }
+  return goes_on;
+}
+
+/// Datagrams that count, in time order.
+std::vector<std::size_t> ordered(Reading& reading) {
+  std::vector<bool> counts(reading.datagrams.size(), true);
+  if (reading.captures.size() > 1) counts = merge(reading.sightings);
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    if (counts[k]) {
+      order.push_back(k);
+    } else {
+      ++reading.captures[reading.datagrams[k].capture].merged;
+    }
+  }
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return reading.datagrams[k].time_ns; });
+  return order;
+}
+
+TopologyBuilder describe(const Reading& reading, const std::vector<std::size_t>& order) {
+  TopologyBuilder builder;
+  std::vector<bool> counts(reading.datagrams.size(), false);
+  for (const std::size_t k : order) counts[k] = true;
+  for (const Event& event : reading.extraction.events) {
+    if (!counts[event.datagram]) continue;
+    const DatagramRecord& datagram = reading.datagrams[event.datagram];
+    builder.saw_message(event.source, datagram.vendor, datagram.source.address, event.time_ns);
+  }
+  for (const Description& one : reading.extraction.descriptions) {
+    if (!counts[one.datagram]) continue;
+    const std::int64_t time_ns = reading.datagrams[one.datagram].time_ns;
+    if (const auto* participant = std::get_if<ParticipantData>(&one.content)) {
+      builder.saw_participant(one.source, *participant, time_ns);
+    } else {
+      builder.saw_endpoint(one.source, one.writer, one.sequence_number,
+                           std::get<EndpointData>(one.content), time_ns);
+    }
+  }
+  return builder;
+}
+
+/// Copies the events of the datagrams that count, with their destinations.
+void fill(Conversation& conversation, Reading& reading, const std::vector<std::size_t>& order,
+          const TopologyBuilder& builder) {
+  const auto& events = reading.extraction.events;
+  std::vector<std::size_t> first_event(reading.datagrams.size() + 1, 0);
+  for (const Event& event : events) ++first_event[event.datagram + 1];
+  std::partial_sum(first_event.begin(), first_event.end(), first_event.begin());
+  std::map<GuidPrefix, std::size_t> host;
+  for (const Participant& one : conversation.topology.participants) host[one.prefix] = one.host;
+  for (const std::size_t k : order) {
+    const auto number = static_cast<std::uint32_t>(conversation.datagrams.size());
+    const DatagramRecord& datagram = reading.datagrams[k];
+    conversation.datagrams.push_back(datagram);
+    for (std::size_t e = first_event[k]; e < first_event[k + 1]; ++e) {
+      Event event = events[e];
+      event.datagram = number;
+      if (!event.destination && !event.is_multicast) {
+        event.destination = builder.receiver(datagram.destination, datagram.time_ns);
+      }
+      if (event.destination && conversation.topology.hosts > 1) {
+        const auto from = host.find(event.source);
+        const auto to = host.find(*event.destination);
+        event.is_same_host = from != host.end() && to != host.end() && from->second == to->second;
+      }
+      conversation.events.push_back(std::move(event));
+    }
+  }
+}
+
+Result<Conversation> converse(Reading reading) {
+  if (reading.datagrams.empty()) {
+    std::string message = "no RTPS message in it";
+    for (const Remark& remark : reading.remarks.list()) {
+      message += fmt::format("; {} × {} ({})", remark.count, remark.what, remark.first);
+    }
+    return InputError{reading.captures.empty() ? "captures" : reading.captures.front().name,
+                      message};
+  }
+  Conversation conversation;
+  const std::vector<std::size_t> order = ordered(reading);
+  const TopologyBuilder builder = describe(reading, order);
+  conversation.topology = builder.build();
+  fill(conversation, reading, order, builder);
+  conversation.captures = std::move(reading.captures);
+  conversation.remarks = reading.remarks.list();
+  conversation.first_ns = reading.first_ns;
+  conversation.last_ns = reading.last_ns;
+  return conversation;
+}
+
+}  // namespace
+
+Result<Conversation> read_conversation(std::span<const std::string> files,
+                                       const Progress& progress) {
+  Reading reading;
+  for (const std::string& path : files) {
+    auto file = CaptureFile::open(path);
+    if (!file) return file.error();
+    if (!read_packets(*file, reading, progress)) break;
+  }
+  return converse(std::move(reading));
+}
+
+Result<Conversation> read_conversation(std::span<const MemoryCapture> captures) {
+  Reading reading;
+  for (const MemoryCapture& capture : captures) {
+    auto file = CaptureFile::from_memory(capture.name, capture.content, capture.unpack_limit);
+    if (!file) return file.error();
+    read_packets(*file, reading, {});
+  }
+  return converse(std::move(reading));
+}
+
+}  // namespace stormproof::capture

@@ -1,0 +1,187 @@
+// One pass over the events, and the check of the keys.
+#include "checker/evidence/capture/counting.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "checker/evidence/capture/heartbeat_kinds.hpp"
+#include "checker/evidence/capture/required_keys.hpp"
+
+namespace stormproof::capture {
+
+namespace {
+
+std::uint64_t& of(model::Counts& counts, Class one) {
+  switch (one) {
+    case Class::repair_data:
+      return counts.repair_data;
+    case Class::heartbeat:
+      return counts.heartbeat;
+    case Class::acknack:
+      return counts.acknack;
+    case Class::spdp_multicast:
+      return counts.spdp_multicast;
+    case Class::spdp_unicast:
+      return counts.spdp_unicast;
+    default:
+      return counts.initial_data;
+  }
+}
+
+class Counter {
+ public:
+  explicit Counter(const Conversation& conversation, Counting& counting)
+      : conversation_{conversation}, counting_{counting} {}
+
+  /// The events first … last − 1 are those of one datagram.
+  void add(const DatagramRecord& datagram, std::size_t first, std::size_t last) {
+    std::array<std::uint32_t, class_count> in_datagram{};
+    std::uint32_t data = 0;
+    for (std::size_t k = first; k < last; ++k) {
+      const Event& event = conversation_.events[k];
+      add_traffic(event);
+      const Class one = classify(event);
+      counting_.classes.push_back(event.is_same_host ? Class::none : one);
+      if (one == Class::none) continue;
+      ++of(event.is_same_host ? counting_.same_host : counting_.counts, one);
+      if (event.is_same_host) continue;
+      const auto index = static_cast<std::size_t>(one);
+      ++in_datagram[index];
+      counting_.sizes[index].submessage_bytes += event.bytes;
+      if (one == Class::initial_data || one == Class::repair_data) ++data;
+      if (one == Class::heartbeat) add_heartbeat(k, datagram.vendor, data > 0);
+      if (one == Class::acknack) add_acknack(event);
+      if (!event.destination && !event.is_multicast) ++counting_.unknown_destination;
+    }
+    for (std::size_t k = 0; k < class_count; ++k) {
+      if (in_datagram[k] == 1) ++counting_.sizes[k].single[datagram.payload_bytes];
+    }
+    if (data > 0) ++counting_.data_per_datagram[data];
+    ++counting_.datagrams;
+    counting_.frames += datagram.frames;
+    counting_.wire_bytes += datagram.wire_bytes;
+  }
+
+ private:
+  void add_traffic(const Event& event) {
+    TrafficFigures& figures = counting_.traffic[static_cast<std::size_t>(event.traffic())];
+    figures.bytes += event.bytes;
+    if (const DataEvent* data = event.data()) {
+      ++(data->fragment == 0 ? figures.data : figures.data_frag);
+    } else if (event.heartbeat() != nullptr) {
+      ++figures.heartbeat;
+    } else if (event.acknack() != nullptr) {
+      ++figures.acknack;
+    } else {
+      ++figures.gap;
+    }
+  }
+
+  [[nodiscard]] Class classify(const Event& event) {
+    const Traffic traffic = event.traffic();
+    if (const DataEvent* data = event.data()) {
+      if (data->fragment != 0) return Class::none;
+      if (traffic == Traffic::spdp) {
+        return event.is_multicast ? Class::spdp_multicast : Class::spdp_unicast;
+      }
+      return traffic == Traffic::sedp ? classify_data(event, *data) : Class::none;
+    }
+    if (traffic != Traffic::sedp) return Class::none;
+    if (event.heartbeat() != nullptr) return Class::heartbeat;
+    return event.acknack() != nullptr ? Class::acknack : Class::none;
+  }
+
+  [[nodiscard]] Class classify_data(const Event& event, const DataEvent& data) {
+    if (!event.destination && event.is_multicast) ++counting_.multicast_data;
+    const bool is_first =
+        keys_.insert({event.source, event.destination, event.writer, data.sequence_number}).second;
+    return is_first ? Class::initial_data : Class::repair_data;
+  }
+
+  void add_heartbeat(std::size_t index, VendorId vendor, bool is_behind_data) {
+    const Event& event = conversation_.events[index];
+    const HeartbeatEvent& heartbeat = *event.heartbeat();
+    HeartbeatFigures& figures = counting_.heartbeats;
+    const HeartbeatKind kind = classifier_.classify(event, vendor, is_behind_data);
+    counting_.kinds.emplace_hint(counting_.kinds.end(), index, kind);
+    ++figures.by_kind[static_cast<std::size_t>(kind)];
+    if (is_behind_data) ++figures.behind_data;
+    if (!event.has_info_dst) ++figures.no_info_dst;
+    if (heartbeat.is_empty()) ++figures.empty;
+    if (heartbeat.is_final) ++figures.final_flag;
+  }
+
+  void add_acknack(const Event& event) {
+    const AcknackEvent& acknack = *event.acknack();
+    AcknackFigures& figures = counting_.acknacks;
+    const std::uint32_t requested = acknack.missing.size();
+    if (requested > 0) {
+      ++figures.negative;
+    } else {
+      ++(acknack.is_initial() ? figures.initial : figures.positive);
+    }
+    if (acknack.is_initial() && !acknack.is_final) ++figures.preemptive;
+    if (acknack.is_final) ++figures.final_flag;
+    figures.requested += requested;
+    classifier_.saw_acknack(event);
+  }
+
+  using Key = std::tuple<GuidPrefix, std::optional<GuidPrefix>, EntityId, std::int64_t>;
+
+  const Conversation& conversation_;
+  Counting& counting_;
+  HeartbeatClassifier classifier_;
+  std::set<Key> keys_;
+};
+
+}  // namespace
+
+const char* class_label(Class one) {
+  constexpr std::array labels{"initial DATA", "repair DATA",    "HEARTBEAT",
+                              "ACKNACK",      "SPDP multicast", "SPDP unicast"};
+  const auto index = static_cast<std::size_t>(one);
+  return index < labels.size() ? labels[index] : "";
+}
+
+const char* name_of(HeartbeatKind kind) {
+  switch (kind) {
+    case HeartbeatKind::relation_open:
+      return "relation_open";
+    case HeartbeatKind::reply:
+      return "reply";
+    case HeartbeatKind::directed_piggyback:
+      return "directed_piggyback";
+    case HeartbeatKind::directed:
+      return "directed";
+    case HeartbeatKind::fan_out_piggyback:
+      return "fan_out_piggyback";
+    case HeartbeatKind::fan_out_periodic:
+      return "fan_out_periodic";
+    case HeartbeatKind::fan_out:
+      return "fan_out";
+  }
+  return "";
+}
+
+Counting count(const Conversation& conversation, std::int64_t until_ns) {
+  Counting counting;
+  counting.until_ns = until_ns;
+  Counter counter{conversation, counting};
+  const auto& events = conversation.events;
+  std::size_t event = 0;
+  for (std::size_t d = 0; d < conversation.datagrams.size(); ++d) {
+    const DatagramRecord& datagram = conversation.datagrams[d];
+    if (datagram.time_ns > until_ns) {
+      counting.after_cut = conversation.datagrams.size() - d;
+      break;
+    }
+    const std::size_t first = event;
+    while (event < events.size() && events[event].datagram == d) ++event;
+    counter.add(datagram, first, event);
+  }
+  check_keys(conversation, counting);
+  return counting;
+}
+
+}  // namespace stormproof::capture

@@ -1,0 +1,131 @@
+// The paper's trace processing on a conversation: message counts by class, initial and repair DATA
+// by their keys, kinds of HEARTBEATs and ACKNACKs, and the check that every required descriptor key
+// is there.
+//
+// * SEDP DATA has the key (source GUID prefix, destination GUID prefix, writer entity, sequence
+//   number); its first occurrence is initial DATA, the others are repairs. Multicast DATA without
+//   INFO_DST has no destination, which is a value of its own.
+// * HEARTBEAT and ACKNACK are those of the reliable SEDP endpoints.
+// * What goes to a participant on the sender's own host is left out, and told apart, unless all
+//   participants are on one host.
+// * Everything later than the completion instant is left out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "checker/evidence/capture/events.hpp"
+#include "model/counts.hpp"
+
+namespace stormproof::capture {
+
+/// The heartbeat period of Fast DDS's SEDP writers, a constant of its source code.
+inline constexpr std::int64_t fastdds_heartbeat_period_ns = 1'000'000'000;
+
+/// The class of an event, in the order of model::Counts; `none` is in no count.
+enum class Class : std::uint8_t {
+  initial_data,
+  repair_data,
+  heartbeat,
+  acknack,
+  spdp_multicast,
+  spdp_unicast,
+  none
+};
+inline constexpr std::size_t class_count = 6;
+/// "initial DATA", as reports write it.
+[[nodiscard]] const char* class_label(Class one);
+
+enum class HeartbeatKind : std::uint8_t {
+  relation_open,       ///< the first to this reader alone
+  reply,               ///< to this reader alone, after its initial ACKNACK that asks for one
+  directed_piggyback,  ///< to one reader, in a datagram behind DATA
+  directed,            ///< to one reader, for another reason
+  fan_out_piggyback,   ///< to all readers, because of DATA that was sent (not periodic)
+  fan_out_periodic,    ///< to all readers, by the timer of the writer
+  fan_out              ///< to all readers, of a vendor whose timer is not known
+};
+inline constexpr std::size_t heartbeat_kinds = 7;
+[[nodiscard]] const char* name_of(HeartbeatKind kind);
+
+struct HeartbeatFigures {
+  std::array<std::uint64_t, heartbeat_kinds> by_kind{};
+  std::uint64_t behind_data = 0;  ///< in a datagram behind SEDP DATA
+  std::uint64_t no_info_dst = 0;
+  std::uint64_t empty = 0;  ///< the writer has nothing
+  std::uint64_t final_flag = 0;
+
+  [[nodiscard]] std::uint64_t of(HeartbeatKind kind) const {
+    return by_kind[static_cast<std::size_t>(kind)];
+  }
+};
+
+struct AcknackFigures {
+  std::uint64_t initial = 0;     ///< asks for nothing, acknowledges nothing
+  std::uint64_t negative = 0;    ///< asks for something
+  std::uint64_t positive = 0;    ///< only acknowledges
+  std::uint64_t preemptive = 0;  ///< initial, and not final: asks for a HEARTBEAT
+  std::uint64_t final_flag = 0;
+  std::uint64_t requested = 0;  ///< sequence numbers asked for
+};
+
+/// Submessages of one kind of traffic, whatever class they are in.
+struct TrafficFigures {
+  std::uint64_t data = 0;
+  std::uint64_t data_frag = 0;
+  std::uint64_t heartbeat = 0;
+  std::uint64_t acknack = 0;
+  std::uint64_t gap = 0;
+  std::uint64_t bytes = 0;  ///< of the submessages
+};
+
+/// Sizes of one class.
+struct SizeFigures {
+  std::uint64_t submessage_bytes = 0;
+  /// UDP payloads of the datagrams in which the class has exactly one submessage, by size.
+  std::map<std::uint32_t, std::uint64_t> single{};
+};
+
+/// A descriptor key that was not seen: this DATA never went from source to destination.
+struct MissingKey {
+  GuidPrefix source{};
+  GuidPrefix destination{};
+  EntityId writer = 0;
+  std::int64_t sequence_number = 0;
+
+  auto operator<=>(const MissingKey&) const = default;
+};
+
+inline constexpr std::size_t most_missing_listed = 10'000;
+
+struct Counting {
+  std::int64_t until_ns = 0;  ///< inclusive
+  model::Counts counts{};
+  model::Counts same_host{};  ///< what was left out because it stays on one host
+  HeartbeatFigures heartbeats{};
+  AcknackFigures acknacks{};
+  std::array<TrafficFigures, all_traffic.size()> traffic{};  ///< in the order of `all_traffic`
+  std::array<SizeFigures, class_count> sizes{};
+  std::map<std::uint32_t, std::uint64_t> data_per_datagram{};  ///< datagrams by their SEDP DATA
+  std::uint64_t datagrams = 0;
+  std::uint64_t frames = 0;
+  std::uint64_t wire_bytes = 0;
+  std::uint64_t multicast_data = 0;       ///< SEDP DATA without a destination, by multicast
+  std::uint64_t unknown_destination = 0;  ///< unicast to an address that nobody announced
+  std::uint64_t after_cut = 0;            ///< datagrams later than `until_ns`
+  std::uint64_t required = 0;             ///< descriptor keys
+  std::uint64_t missing_count = 0;        ///< of these, those that were not seen
+  std::vector<MissingKey> missing{};      ///< the first of them, at most `most_missing_listed`
+  /// When the last required key was sent for the first time; nothing while keys are missing.
+  std::optional<std::int64_t> last_initial_ns{};
+  std::vector<Class> classes{};  ///< of each event before the cut
+  /// Kind of each SEDP HEARTBEAT, by event index.
+  std::map<std::size_t, HeartbeatKind> kinds{};
+};
+
+[[nodiscard]] Counting count(const Conversation& conversation, std::int64_t until_ns);
+
+}  // namespace stormproof::capture

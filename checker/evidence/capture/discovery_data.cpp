@@ -1,0 +1,120 @@
+// The parameters of SPDP and SEDP that matter here.
+#include "checker/evidence/capture/discovery_data.hpp"
+
+#include <algorithm>
+
+#include "checker/evidence/capture/parameter_list.hpp"
+
+namespace stormproof::capture {
+
+namespace {
+
+std::optional<Guid> guid(Bytes value) {
+  Cursor cursor{value};
+  Guid result;
+  const Bytes prefix = cursor.take(result.prefix.bytes.size());
+  result.entity = cursor.u32();
+  if (cursor.failed()) return std::nullopt;
+  std::ranges::copy(prefix, result.prefix.bytes.begin());
+  return result;
+}
+
+/// A CDR string, without its terminator; empty if its length is wrong.
+std::string text(Bytes value, ByteOrder order) {
+  Cursor cursor{value, order};
+  const Bytes characters = cursor.take(cursor.u32());
+  std::string result{characters.begin(), characters.end()};
+  if (!result.empty() && result.back() == '\0') result.pop_back();
+  return result;
+}
+
+std::optional<UdpEnd> udp_locator(Bytes value, ByteOrder order) {
+  constexpr std::uint32_t udp_v4 = 1;
+  constexpr std::uint32_t udp_v6 = 2;
+  constexpr std::size_t before_v4 = 12;
+  Cursor cursor{value, order};
+  const std::uint32_t kind = cursor.u32();
+  const std::uint32_t port = cursor.u32();
+  const Bytes address = cursor.take(16);
+  if (cursor.failed() || port == 0 || port > 65535 || (kind != udp_v4 && kind != udp_v6)) {
+    return std::nullopt;
+  }
+  return UdpEnd{Address::from(kind == udp_v4 ? address.subspan(before_v4) : address),
+                static_cast<std::uint16_t>(port)};
+}
+
+/// The inline QoS of a DATA: which endpoint, and whether it is gone.
+void read_inline_qos(const DataSubmessage& data, ByteOrder order, EndpointData& endpoint) {
+  constexpr std::uint32_t disposed_or_unregistered = 0x3;
+  ParameterReader parameters{data.inline_qos, order};
+  while (const auto parameter = parameters.next()) {
+    if (parameter->id == ParameterId::key_hash) endpoint.endpoint = guid(parameter->value);
+    if (parameter->id == ParameterId::status_info) {
+      endpoint.is_gone = (Cursor{parameter->value}.u32() & disposed_or_unregistered) != 0;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<ParticipantData> participant_data(const DataSubmessage& data) {
+  auto parameters = parameters_of_payload(data.payload);
+  if (!parameters) return std::nullopt;
+  ParticipantData participant;
+  while (const auto parameter = parameters->next()) {
+    switch (parameter->id) {
+      case ParameterId::participant_guid:
+        if (const auto found = guid(parameter->value)) participant.prefix = found->prefix;
+        break;
+      case ParameterId::vendor:
+        participant.vendor = Cursor{parameter->value}.u16();
+        break;
+      case ParameterId::entity_name:
+        participant.name = text(parameter->value, parameters->order());
+        break;
+      case ParameterId::metatraffic_unicast_locator:
+        if (const auto locator = udp_locator(parameter->value, parameters->order())) {
+          participant.metatraffic_unicast.push_back(*locator);
+        }
+        break;
+      default:
+        break;
+    }
+  }
+  if (!parameters->ended()) return std::nullopt;
+  return participant;
+}
+
+std::optional<EndpointData> endpoint_data(const DataSubmessage& data, ByteOrder order) {
+  constexpr std::uint32_t reliable = 2;
+  EndpointData endpoint;
+  read_inline_qos(data, order, endpoint);
+  if (data.payload.empty()) return endpoint;
+  auto parameters = parameters_of_payload(data.payload);
+  if (!parameters) return std::nullopt;
+  while (const auto parameter = parameters->next()) {
+    switch (parameter->id) {
+      case ParameterId::endpoint_guid:
+        if (const auto found = guid(parameter->value)) endpoint.endpoint = found;
+        break;
+      case ParameterId::key_hash:
+        if (!endpoint.endpoint) endpoint.endpoint = guid(parameter->value);
+        break;
+      case ParameterId::topic_name:
+        endpoint.topic = text(parameter->value, parameters->order());
+        break;
+      case ParameterId::type_name:
+        endpoint.type = text(parameter->value, parameters->order());
+        break;
+      case ParameterId::reliability:
+        endpoint.is_reliable = Cursor{parameter->value, parameters->order()}.u32() == reliable;
+        break;
+      default:
+        break;
+    }
+  }
+  if (!parameters->ended()) return std::nullopt;
+  return endpoint;
+}
+
+}  // namespace stormproof::capture

@@ -1,0 +1,40 @@
+// What SPDP and SEDP DATA say: the participant or endpoint that a payload announces. Unknown
+// parameters are skipped, as RTPS demands.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checker/evidence/capture/address.hpp"
+#include "checker/evidence/capture/identifiers.hpp"
+#include "checker/evidence/capture/rtps_message.hpp"
+
+namespace stormproof::capture {
+
+/// DATA(p).
+struct ParticipantData {
+  std::optional<GuidPrefix> prefix{};
+  std::optional<VendorId> vendor{};
+  std::string name{};
+  std::vector<UdpEnd> metatraffic_unicast{};  ///< UDP locators only
+};
+
+/// DATA(w) or DATA(r).
+struct EndpointData {
+  std::optional<Guid> endpoint{};
+  std::string topic{};
+  std::string type{};
+  std::optional<bool> is_reliable{};
+  bool is_gone = false;  ///< disposed or unregistered
+};
+
+/// Nothing if the payload is no parameter list, or breaks off.
+[[nodiscard]] std::optional<ParticipantData> participant_data(const DataSubmessage& data);
+/// `order` is that of the submessage, which its inline QoS have, too. A key without a sample gives
+/// the endpoint alone.
+[[nodiscard]] std::optional<EndpointData> endpoint_data(const DataSubmessage& data,
+                                                        ByteOrder order);
+
+}  // namespace stormproof::capture

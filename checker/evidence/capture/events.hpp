@@ -1,0 +1,130 @@
+// A capture as the protocol sees it: the discovery submessages in the order in which they were
+// sent, each with its source, its destination, and what it says. This is what counting, conformance
+// and comparison with a prediction start from; addresses, fragments and byte orders are gone.
+//
+// The paper's trace processing: source-side captures are merged without counting a datagram twice;
+// each contained submessage is an event of its own; a datagram that goes to several participants
+// has one event for each unicast copy, because each copy is a datagram in the capture.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "checker/evidence/capture/address.hpp"
+#include "checker/evidence/capture/discovery_data.hpp"
+#include "checker/evidence/capture/identifiers.hpp"
+#include "checker/evidence/capture/remarks.hpp"
+#include "checker/evidence/capture/rtps_message.hpp"
+#include "checker/evidence/capture/topology.hpp"
+#include "model/config/result.hpp"
+
+namespace stormproof::capture {
+
+/// DATA, or the first fragment of one (DATA_FRAG).
+struct DataEvent {
+  std::int64_t sequence_number = 0;
+  std::uint32_t fragment = 0;      ///< 0: DATA; otherwise the number of DATA_FRAG's first fragment
+  std::optional<Guid> endpoint{};  ///< SEDP: whom it describes
+  bool is_gone = false;            ///< the endpoint is disposed of; SPDP: the participant leaves
+};
+struct HeartbeatEvent {
+  std::int64_t first = 0;
+  std::int64_t last = 0;  ///< first − 1: the writer has nothing
+  std::uint32_t count = 0;
+  bool is_final = false;
+  bool is_liveliness = false;
+
+  [[nodiscard]] bool is_empty() const { return last < first; }
+};
+struct AcknackEvent {
+  SequenceNumberSet missing{};  ///< everything below `missing.base` is acknowledged
+  std::uint32_t count = 0;
+  bool is_final = false;
+
+  /// Asks for nothing and acknowledges nothing: what a reader sends that knows of no sample yet.
+  [[nodiscard]] bool is_initial() const { return missing.base <= 1 && missing.size() == 0; }
+};
+struct GapEvent {
+  std::int64_t start = 0;
+  SequenceNumberSet list{};
+};
+
+/// One submessage of one datagram.
+struct Event {
+  std::int64_t time_ns = 0;    ///< since 1970, of the capture
+  std::uint32_t datagram = 0;  ///< index in Conversation::datagrams
+  std::uint32_t bytes = 0;     ///< of the submessage, with its header
+  GuidPrefix source{};
+  /// From INFO_DST, or from the address and port that a participant announced. Nothing: multicast
+  /// without INFO_DST, or an address that no participant announced.
+  std::optional<GuidPrefix> destination{};
+  bool has_info_dst = false;
+  bool is_multicast = false;
+  /// Source and destination are on one host, though others exist: not discovery across hosts.
+  bool is_same_host = false;
+  EntityId reader = 0;
+  EntityId writer = 0;  ///< of the relation; an ACKNACK goes *to* it
+  std::variant<DataEvent, HeartbeatEvent, AcknackEvent, GapEvent> content{};
+
+  [[nodiscard]] Traffic traffic() const { return traffic_of(writer); }
+  [[nodiscard]] const DataEvent* data() const { return std::get_if<DataEvent>(&content); }
+  [[nodiscard]] const HeartbeatEvent* heartbeat() const {
+    return std::get_if<HeartbeatEvent>(&content);
+  }
+  [[nodiscard]] const AcknackEvent* acknack() const { return std::get_if<AcknackEvent>(&content); }
+  [[nodiscard]] const GapEvent* gap() const { return std::get_if<GapEvent>(&content); }
+};
+
+/// A datagram with an RTPS message.
+struct DatagramRecord {
+  std::int64_t time_ns = 0;
+  std::uint32_t capture = 0;  ///< index in Conversation::captures
+  std::uint64_t packet = 0;   ///< the packet that completed it, from 1 on
+  std::uint32_t frames = 0;
+  std::uint64_t wire_bytes = 0;     ///< of all its frames, with link headers
+  std::uint32_t payload_bytes = 0;  ///< of UDP
+  VendorId vendor = 0;              ///< of the message's header
+  UdpEnd source{};
+  UdpEnd destination{};
+};
+
+struct CaptureInfo {
+  std::string name{};
+  std::uint64_t packets = 0;
+  std::uint64_t datagrams = 0;  ///< with an RTPS message
+  std::uint64_t merged = 0;     ///< of these, known from another capture and left out
+};
+
+struct Conversation {
+  std::vector<CaptureInfo> captures{};
+  std::vector<DatagramRecord> datagrams{};  ///< in time order
+  std::vector<Event> events{};              ///< in time order, then as in the datagram
+  Topology topology{};
+  std::vector<Remark> remarks{};
+  std::int64_t first_ns = 0;  ///< time of the first packet of all captures
+  std::int64_t last_ns = 0;   ///< of the last one
+};
+
+/// A capture that is not a file (for tests).
+struct MemoryCapture {
+  std::string name{};
+  Bytes content{};
+  std::size_t unpack_limit = 0;  ///< bytes
+};
+
+/// Called now and then with the number of packets read; false stops reading, and what was read
+/// until then is the conversation.
+using Progress = std::function<bool(std::uint64_t packets)>;
+
+/// An error if a file cannot be read, or holds no RTPS message at all.
+[[nodiscard]] model::config::Result<Conversation> read_conversation(
+    std::span<const std::string> files, const Progress& progress = {});
+[[nodiscard]] model::config::Result<Conversation> read_conversation(
+    std::span<const MemoryCapture> captures);
+
+}  // namespace stormproof::capture

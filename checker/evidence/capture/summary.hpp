@@ -1,0 +1,30 @@
+// What `capture summarize` says about a conversation: text for people, JSON for scripts (with the
+// names of `simulate --format json`), and a plot of the counts over time.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/evidence/capture/counting.hpp"
+#include "checker/evidence/capture/events.hpp"
+
+namespace stormproof::capture {
+
+/// A conversation and what was counted in it.
+struct Summary {
+  const Conversation& conversation;
+  const Counting& counting;
+
+  /// The instant that counting ends at: the cut, or the last packet if it is earlier.
+  [[nodiscard]] std::int64_t end_ns() const {
+    return counting.until_ns < conversation.last_ns ? counting.until_ns : conversation.last_ns;
+  }
+};
+
+[[nodiscard]] std::string to_text(const Summary& summary);
+[[nodiscard]] nlohmann::json to_json(const Summary& summary);
+/// Cumulative counts by class over the time since the first packet.
+[[nodiscard]] std::string to_svg(const Summary& summary);
+
+}  // namespace stormproof::capture

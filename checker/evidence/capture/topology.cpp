@@ -1,0 +1,123 @@
+// Participants, endpoints, hosts.
+#include "checker/evidence/capture/topology.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+namespace stormproof::capture {
+
+namespace {
+
+/// Participants that sent from a common address are on one host; so are those that share an
+/// address with one of these, and so on. Returns a representative for each participant.
+std::vector<std::size_t> connect(const std::vector<Participant>& participants) {
+  std::vector<std::size_t> parent(participants.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&parent](std::size_t k) {
+    while (parent[k] != k) k = parent[k] = parent[parent[k]];
+    return k;
+  };
+  std::map<Address, std::size_t> owner;
+  for (std::size_t k = 0; k < participants.size(); ++k) {
+    for (const Address& address : participants[k].addresses) {
+      const auto [found, is_new] = owner.emplace(address, k);
+      if (!is_new) parent[root(k)] = root(found->second);
+    }
+  }
+  for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = root(k);
+  return parent;
+}
+
+}  // namespace
+
+std::size_t Participant::announced(EntityId sedp_writer) const {
+  return static_cast<std::size_t>(std::ranges::count_if(endpoints, [&](const auto& entry) {
+    return entry.second.announced_by == sedp_writer && !entry.second.is_gone;
+  }));
+}
+
+const Participant* Topology::find(const GuidPrefix& prefix) const {
+  const auto found = std::ranges::find(participants, prefix, &Participant::prefix);
+  return found == participants.end() ? nullptr : &*found;
+}
+
+void TopologyBuilder::saw_message(const GuidPrefix& source, VendorId vendor, const Address& from,
+                                  std::int64_t time_ns) {
+  const auto [found, is_new] = participants_.try_emplace(source);
+  Participant& participant = found->second;
+  if (is_new) {
+    participant.prefix = source;
+    participant.first_ns = time_ns;
+    participant.vendor = vendor;
+  }
+  participant.first_ns = std::min(participant.first_ns, time_ns);
+  participant.addresses.insert(from);
+}
+
+void TopologyBuilder::saw_participant(const GuidPrefix& source, const ParticipantData& data,
+                                      std::int64_t time_ns) {
+  const auto found = participants_.find(source);
+  if (found == participants_.end()) return;
+  Participant& participant = found->second;
+  if (data.vendor) participant.vendor = *data.vendor;
+  if (!data.name.empty()) participant.name = data.name;
+  for (const UdpEnd& locator : data.metatraffic_unicast) {
+    participant.locators.insert(locator);
+    auto& since = announcements_[locator];
+    // Repeated announcements tell nothing new.
+    auto later = since.upper_bound(time_ns);
+    if (later != since.begin() && std::prev(later)->second == source) continue;
+    since[time_ns] = source;
+  }
+}
+
+void TopologyBuilder::saw_endpoint(const GuidPrefix& source, EntityId sedp_writer,
+                                   std::int64_t sequence_number, const EndpointData& data,
+                                   std::int64_t time_ns) {
+  const auto found = participants_.find(source);
+  if (found == participants_.end() || !data.endpoint) return;
+  const auto [entry, is_new] = found->second.endpoints.try_emplace(*data.endpoint);
+  Endpoint& endpoint = entry->second;
+  endpoint.first_ns = is_new ? time_ns : std::min(endpoint.first_ns, time_ns);
+  if (!is_new && sequence_number <= endpoint.sequence_number) return;
+  endpoint.entity = data.endpoint->entity;
+  endpoint.announced_by = sedp_writer;
+  endpoint.sequence_number = sequence_number;
+  endpoint.is_gone = data.is_gone;
+  if (!data.topic.empty()) endpoint.topic = data.topic;
+  if (!data.type.empty()) endpoint.type = data.type;
+  if (data.is_reliable) endpoint.is_reliable = data.is_reliable;
+}
+
+std::optional<GuidPrefix> TopologyBuilder::receiver(const UdpEnd& locator,
+                                                    std::int64_t time_ns) const {
+  const auto found = announcements_.find(locator);
+  if (found == announcements_.end()) return std::nullopt;
+  const auto& since = found->second;
+  const auto later = since.upper_bound(time_ns);
+  return later == since.begin() ? later->second : std::prev(later)->second;
+}
+
+Topology TopologyBuilder::build() const {
+  Topology topology;
+  for (const auto& [prefix, participant] : participants_) {
+    topology.participants.push_back(participant);
+  }
+  auto& list = topology.participants;
+  std::ranges::stable_sort(list, {}, &Participant::first_ns);
+  const std::vector<std::size_t> representative = connect(list);
+  std::map<std::size_t, std::size_t> numbers;
+  // Hosts are numbered by address, so that they do not depend on who starts first.
+  std::map<Address, std::size_t> by_address;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    for (const Address& address : list[k].addresses) by_address.emplace(address, representative[k]);
+  }
+  for (const auto& [address, host] : by_address) numbers.emplace(host, numbers.size());
+  for (std::size_t k = 0; k < list.size(); ++k) list[k].host = numbers[representative[k]];
+  topology.hosts = numbers.size();
+  std::ranges::stable_sort(list, {}, &Participant::host);
+  return topology;
+}
+
+}  // namespace stormproof::capture

@@ -1,0 +1,237 @@
+// From packets of the model to RTPS messages.
+#include "checker/evidence/capture/write/capture_probe.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "checker/evidence/capture/write/control_topics.hpp"
+#include "checker/evidence/capture/write/descriptions.hpp"
+#include "checker/evidence/capture/write/fan_out.hpp"
+#include "checker/evidence/capture/write/packet_layout.hpp"
+#include "checker/evidence/capture/write/pcap_writer.hpp"
+
+namespace stormproof::capture {
+
+namespace {
+
+using model::ImplementationKind;
+using model::PacketKind;
+using model::Stream;
+
+VendorId vendor_of(const model::Scenario& scenario) {
+  return scenario.dds.implementation == ImplementationKind::fastdds ? fastdds_vendor
+                                                                    : simulated_vendor;
+}
+
+}  // namespace
+
+class CaptureProbe::Implementation {
+ public:
+  Implementation(Sink sink, const model::Scenario& scenario)
+      : scenario_{scenario},
+        vendor_{vendor_of(scenario)},
+        layout_{scenario.dds},
+        identities_{write::identities(scenario.deployment, vendor_)},
+        pcap_{std::move(sink)} {}
+
+  void start(const model::Topology& topology) {
+    topology_ = &topology;
+    if (scenario_.dds.implementation == ImplementationKind::fastdds) control_.emplace(topology);
+  }
+
+  void announce(const model::Packet& packet, std::uint32_t source) {
+    announce(packet, source, write::discovery_group());
+  }
+
+  void send(const model::Packet& packet, std::uint32_t source, std::uint32_t destination) {
+    switch (packet.kind) {
+      case PacketKind::spdp_multicast:
+      case PacketKind::spdp_unicast:
+        return announce(packet, source, identities_[destination].metatraffic);
+      case PacketKind::data:
+      case PacketKind::heartbeat:
+        return describe(packet, source, destination);
+      case PacketKind::acknack:
+        return acknowledge(packet, source, destination);
+      case PacketKind::user_heartbeat:
+      case PacketKind::user_acknack:
+        return control(packet, source, destination);
+    }
+  }
+
+ private:
+  [[nodiscard]] write::MessageWriter message(std::uint32_t source) const {
+    return write::MessageWriter{vendor_, identities_[source].prefix};
+  }
+
+  void finish(write::MessageWriter& out, const model::Packet& packet, std::uint32_t source,
+              const UdpEnd& to) {
+    out.fill(std::min<std::size_t>(packet.payload_bytes, write::largest_payload));
+    emit(out, packet, source, to);
+  }
+
+  void emit(const write::MessageWriter& out, const model::Packet& packet, std::uint32_t source,
+            const UdpEnd& to) {
+    pcap_.datagram(time_of(packet), identities_[source].metatraffic, to, out.buffer());
+  }
+
+  [[nodiscard]] static std::int64_t time_of(const model::Packet& packet) {
+    return simulated_epoch_ns + packet.emitted.count();
+  }
+
+  /// SPDP. An announcement goes to the group and to everybody known, so it names no destination;
+  /// all are one sample.
+  void announce(const model::Packet& packet, std::uint32_t source, const UdpEnd& to) {
+    write::MessageWriter out = message(source);
+    out.info_ts(time_of(packet));
+    const std::size_t room = std::min<std::size_t>(packet.payload_bytes, write::largest_payload);
+    const write::ParameterWriter parameters =
+        write::participant_parameters(identities_[source], vendor_);
+    out.data(entity::spdp_reader, entity::spdp_writer, 1, parameters,
+             room > out.size() ? room - out.size() : 0);
+    finish(out, packet, source, to);
+  }
+
+  /// SEDP DATA and HEARTBEATs. What does not fit in one datagram goes on in another.
+  void describe(const model::Packet& packet, std::uint32_t source, std::uint32_t destination) {
+    const bool is_directed = layout_.names_destination(packet);
+    const EntityId reader = is_directed ? write::sedp_reader(packet.stream) : 0;
+    const EntityId writer = write::sedp_writer(packet.stream);
+    const UdpEnd& to = identities_[destination].metatraffic;
+    const auto begin = [&] {
+      write::MessageWriter out = message(source);
+      if (is_directed) out.info_dst(identities_[destination].prefix);
+      return out;
+    };
+    write::MessageWriter out = begin();
+    const std::size_t header = out.size();
+    std::size_t sent = 0;  // in datagrams before this one
+    const auto make_room = [&](std::size_t bytes) {
+      if (out.size() + bytes <= write::largest_payload) return;
+      sent += out.size();
+      emit(out, packet, source, to);
+      out = begin();
+    };
+    const std::uint32_t heartbeats = write::PacketLayout::heartbeats_in(packet);
+    const std::size_t tail = heartbeats * write::MessageWriter::heartbeat_size;
+    layout_.for_each_data(packet, header, tail, [&](std::uint32_t d, std::size_t end) {
+      const write::ParameterWriter parameters = write::endpoint_parameters(
+          identities_[source], vendor_, packet.stream, d, name_of(packet.stream, d, source));
+      make_room(write::MessageWriter::info_ts_size + write::smallest_data(parameters));
+      out.info_ts(time_of(packet));
+      const std::size_t at = sent + out.size();
+      std::size_t room = write::largest_payload - out.size();
+      if (room > tail) room -= tail;
+      out.data(reader, writer, d + std::uint64_t{1}, parameters,
+               std::min(end > at ? end - at : 0, room));
+    });
+    std::uint32_t count = first_count(packet, source, destination, is_directed, heartbeats);
+    for (std::uint32_t k = 0; k < heartbeats; ++k) {
+      make_room(write::MessageWriter::heartbeat_size);
+      out.heartbeat(reader, writer, announced(packet), count++);
+    }
+    if (sent == 0) return finish(out, packet, source, to);
+    emit(out, packet, source, to);
+  }
+
+  [[nodiscard]] write::TopicName name_of(Stream stream, std::uint32_t d,
+                                         std::uint32_t source) const {
+    const model::DescriptorProfile& descriptors = scenario_.dds.descriptors;
+    const std::uint32_t defaults = stream == Stream::pub ? descriptors.default_publications
+                                                         : descriptors.default_subscriptions;
+    return write::topic_name(stream, d, defaults, identities_[source].name);
+  }
+
+  /// In the paper's model all descriptors exist from the start.
+  [[nodiscard]] std::uint64_t announced(const model::Packet& packet) const {
+    return scenario_.dds.implementation == ImplementationKind::fastdds
+               ? packet.detail
+               : topology_->descriptor_count(packet.relation());
+  }
+
+  /// Of the HEARTBEATs in a packet; the copies of one message have the same.
+  std::uint32_t first_count(const model::Packet& packet, std::uint32_t source,
+                            std::uint32_t destination, bool is_directed, std::uint32_t heartbeats) {
+    std::uint32_t& last = counts_[{source, write::sedp_writer(packet.stream)}];
+    const bool is_copy = !is_directed && fan_out_.is_copy(packet, source, destination);
+    if (!is_copy) last += heartbeats;
+    return last - heartbeats + 1;
+  }
+
+  void acknowledge(const model::Packet& packet, std::uint32_t source, std::uint32_t destination) {
+    const std::uint32_t all = topology_->descriptor_count(packet.relation());
+    SequenceNumberSet missing;
+    if (!packet.initial_acknack) {
+      const bool is_fastdds = scenario_.dds.implementation == ImplementationKind::fastdds;
+      missing.base =
+          1 + std::int64_t{is_fastdds ? packet.detail : std::min(packet.descriptors.lowest(), all)};
+      packet.descriptors.for_each([&](std::uint32_t d) { ask(missing, d); });
+    }
+    const EntityId reader = write::sedp_reader(packet.stream);
+    write::MessageWriter out = message(source);
+    out.info_dst(identities_[destination].prefix);
+    out.acknack(reader, write::sedp_writer(packet.stream), missing, ++counts_[{source, reader}],
+                missing.num_bits == 0 && !packet.initial_acknack);
+    finish(out, packet, source, identities_[destination].metatraffic);
+  }
+
+  /// A bitmap reaches 256 numbers far; what is missing beyond is not in it.
+  static void ask(SequenceNumberSet& missing, std::uint32_t d) {
+    const std::int64_t index = std::int64_t{d} + 1 - missing.base;
+    if (index < 0 || index >= SequenceNumberSet::most_bits) return;
+    const auto bit = static_cast<std::uint32_t>(index);
+    missing.num_bits = bit + 1;
+    missing.bits[bit / 32] |= 1U << (31 - bit % 32);
+  }
+
+  /// Liveliness and user endpoints. No sample is modelled there, so nothing has been written and
+  /// there is nothing to ask for.
+  void control(const model::Packet& packet, std::uint32_t source, std::uint32_t destination) {
+    const write::ControlTopics::Ends ends = control_->ends(packet);
+    const write::Identity& to = identities_[destination];
+    write::MessageWriter out = message(source);
+    out.info_dst(to.prefix);
+    if (packet.kind == PacketKind::user_heartbeat) {
+      out.heartbeat(ends.reader, ends.writer, 0, ++counts_[{source, ends.writer}]);
+    } else {
+      SequenceNumberSet missing;
+      missing.base = packet.initial_acknack ? 0 : 1;
+      out.acknack(ends.reader, ends.writer, missing, ++counts_[{source, ends.reader}],
+                  !packet.initial_acknack);
+    }
+    finish(out, packet, source, ends.is_builtin ? to.metatraffic : to.user);
+  }
+
+  const model::Scenario& scenario_;
+  const VendorId vendor_;
+  const write::PacketLayout layout_;
+  const std::vector<write::Identity> identities_;
+  write::PcapWriter pcap_;
+  const model::Topology* topology_ = nullptr;
+  std::optional<write::ControlTopics> control_;
+  write::FanOut fan_out_;
+  /// Of HEARTBEATs by writer, of ACKNACKs by reader: the last one sent.
+  std::map<std::pair<std::uint32_t, EntityId>, std::uint32_t> counts_;
+};
+
+CaptureProbe::CaptureProbe(Sink sink, const model::Scenario& scenario)
+    : implementation_{std::make_unique<Implementation>(std::move(sink), scenario)} {}
+
+CaptureProbe::~CaptureProbe() = default;
+
+void CaptureProbe::run_started(const model::Topology& topology) {
+  implementation_->start(topology);
+}
+
+void CaptureProbe::emitted(const model::Packet& packet, std::uint32_t source,
+                           std::span<const std::uint32_t> destinations) {
+  if (packet.multicast()) implementation_->announce(packet, source);
+  for (const std::uint32_t destination : destinations) {
+    implementation_->send(packet, source, destination);
+  }
+}
+
+}  // namespace stormproof::capture

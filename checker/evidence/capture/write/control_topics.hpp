@@ -1,0 +1,57 @@
+// Between which entities the packets of control-only relations go: the model numbers these
+// relations densely, pair by pair (model/fastdds/control.cpp); a capture has entity ids.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "checker/evidence/capture/write/identities.hpp"
+#include "model/engine/packet.hpp"
+#include "model/engine/topology.hpp"
+#include "model/fastdds/endpoints.hpp"
+
+namespace stormproof::capture::write {
+
+class ControlTopics {
+ public:
+  struct Ends {
+    EntityId writer = 0;
+    EntityId reader = 0;
+    bool is_builtin = false;  ///< liveliness; otherwise user endpoints, with ports of their own
+  };
+
+  /// Each cross-host pair has liveliness, the two topics of every node, and the user topics that
+  /// its source publishes and its destination subscribes to.
+  explicit ControlTopics(const model::Topology& topology) {
+    std::uint32_t relations = 0;
+    for (std::uint32_t number = 0; number < topology.pair_count(); ++number) {
+      first_relation_.push_back(relations);
+      const model::Pair& pair = topology.pair(number);
+      if (!pair.cross_host) continue;
+      const std::uint32_t publications =
+          topology.descriptor_count(pair.source, model::Stream::pub) -
+          model::fastdds::default_publications;
+      const std::uint32_t subscriptions =
+          topology.descriptor_count(pair.destination, model::Stream::sub) -
+          model::fastdds::default_subscriptions;
+      relations += model::fastdds::topic::first_user + std::min(publications, subscriptions);
+    }
+  }
+
+  [[nodiscard]] Ends ends(const model::Packet& packet) const {
+    const std::uint32_t topic = packet.detail - first_relation_[packet.pair];
+    if (topic == model::fastdds::topic::liveliness) {
+      return {capture::entity::liveliness_writer, entity::liveliness_reader, true};
+    }
+    const auto endpoint = [topic](model::Stream stream) {
+      return endpoint_entity(stream, model::fastdds::descriptor_on(topic, stream));
+    };
+    return {endpoint(model::Stream::pub), endpoint(model::Stream::sub), false};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_relation_;  ///< by pair
+};
+
+}  // namespace stormproof::capture::write

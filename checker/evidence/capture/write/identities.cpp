@@ -1,0 +1,85 @@
+// Numbers to names.
+#include "checker/evidence/capture/write/identities.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include <fmt/core.h>
+
+#include "checker/evidence/capture/write/byte_writer.hpp"
+
+namespace stormproof::capture::write {
+
+namespace {
+
+/// The services of every node: name and type.
+constexpr std::array<std::array<const char*, 2>, 6> parameter_services{
+    {{"get_parameters", "GetParameters"},
+     {"get_parameter_types", "GetParameterTypes"},
+     {"set_parameters", "SetParameters"},
+     {"set_parameters_atomically", "SetParametersAtomically"},
+     {"describe_parameters", "DescribeParameters"},
+     {"list_parameters", "ListParameters"}}};
+
+TopicName service(std::uint32_t k, bool is_reply, const std::string& node) {
+  const auto& [name, type] = parameter_services[k];
+  return {
+      fmt::format("{}/{}/{}{}", is_reply ? "rr" : "rq", node, name, is_reply ? "Reply" : "Request"),
+      fmt::format("rcl_interfaces::srv::dds_::{}_{}_", type, is_reply ? "Response" : "Request")};
+}
+
+UdpEnd at(std::size_t host, std::size_t port) {
+  const std::array<std::uint8_t, 4> address{10, static_cast<std::uint8_t>(host / 256),
+                                            static_cast<std::uint8_t>(host % 256), 1};
+  return {Address::from(address), static_cast<std::uint16_t>(port)};
+}
+
+}  // namespace
+
+std::vector<Identity> identities(const model::Deployment& deployment, VendorId vendor) {
+  constexpr std::size_t first_port = 7410;
+  std::map<model::HostId, std::size_t> on_host;  // participants so far
+  for (const model::Participant& participant : deployment.participants) {
+    on_host[participant.host] = 0;
+  }
+  std::vector<Identity> result;
+  for (const model::Participant& participant : deployment.participants) {
+    const auto entry = on_host.find(participant.host);
+    const auto host = static_cast<std::size_t>(std::distance(on_host.begin(), entry));
+    const std::size_t p = entry->second++;
+    Identity one;
+    ByteWriter prefix{ByteOrder::big};
+    prefix.u16(vendor).u16(host).u32(result.size() + 1).u32(0);
+    std::ranges::copy(prefix.buffer(), one.prefix.bytes.begin());
+    one.metatraffic = at(host, first_port + 2 * p);
+    one.user = at(host, first_port + 2 * p + 1);
+    one.name = fmt::format("simulated_h{}_p{}", participant.host.value, p);
+    result.push_back(std::move(one));
+  }
+  return result;
+}
+
+UdpEnd discovery_group() {
+  constexpr std::array<std::uint8_t, 4> address{239, 255, 0, 1};
+  return {Address::from(address), 7400};
+}
+
+TopicName topic_name(model::Stream stream, std::uint32_t d, std::uint32_t defaults,
+                     const std::string& node) {
+  constexpr auto services = static_cast<std::uint32_t>(parameter_services.size());
+  const bool is_publication = stream == model::Stream::pub;
+  if (d >= defaults) {
+    return {fmt::format("rt/bench/topic_{:02}", d - defaults), "std_msgs::msg::dds_::String_"};
+  }
+  if (d == 0) return {"ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"};
+  if (is_publication && d == 1) return {"rt/rosout", "rcl_interfaces::msg::dds_::Log_"};
+  const std::uint32_t first_service = is_publication ? 2 : 1;
+  if (d < first_service + services) return service(d - first_service, is_publication, node);
+  if (d == first_service + services) {
+    return {"rt/parameter_events", "rcl_interfaces::msg::dds_::ParameterEvent_"};
+  }
+  return {fmt::format("rt/default/topic_{:02}", d), "std_msgs::msg::dds_::String_"};
+}
+
+}  // namespace stormproof::capture::write

@@ -1,0 +1,66 @@
+// What a packet of the model holds, byte for byte: the model keeps only the sum (specs/model.md and
+// specs/fastdds.md, sizes). From it follow whether there is an INFO_DST, and where each DATA ends.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "checker/evidence/capture/write/message_writer.hpp"
+#include "model/dds_profile.hpp"
+#include "model/descriptor_sizes.hpp"
+#include "model/engine/packet.hpp"
+#include "model/fastdds/endpoints.hpp"
+
+namespace stormproof::capture::write {
+
+class PacketLayout {
+ public:
+  explicit PacketLayout(const model::DdsProfile& dds)
+      : is_fastdds_{dds.implementation == model::ImplementationKind::fastdds},
+        paper_{dds.descriptors},
+        shared_bytes_{dds.sedp.shared_header_bytes.count()} {}
+
+  /// How many HEARTBEATs a DATA or HEARTBEAT packet holds.
+  [[nodiscard]] static std::uint32_t heartbeats_in(const model::Packet& packet) {
+    const bool is_alone = packet.kind == model::PacketKind::heartbeat;
+    return std::max<std::uint32_t>(packet.heartbeats, is_alone ? 1 : 0);
+  }
+
+  /// Whether there is an INFO_DST: in the paper's model every packet has one destination; Fast DDS
+  /// leaves it out, and the packet is smaller, when a message goes to several.
+  [[nodiscard]] bool names_destination(const model::Packet& packet) const {
+    if (!is_fastdds_) return true;
+    std::int64_t without = model::fastdds::message_header_bytes +
+                           heartbeats_in(packet) * model::fastdds::heartbeat_submessage_bytes;
+    packet.descriptors.for_each([&](std::uint32_t d) { without += data_bytes(packet.stream, d); });
+    return packet.payload_bytes > without;
+  }
+
+  /// Calls `visit(d, end)` for each descriptor of the packet, ascending: its INFO_TS and DATA are
+  /// to end `end` bytes after the start of the payload. The first starts after `header` bytes; the
+  /// last ends `tail` bytes before the end.
+  template <class Visit>
+  void for_each_data(const model::Packet& packet, std::size_t header, std::size_t tail,
+                     Visit&& visit) const {
+    std::uint32_t left = packet.descriptors.count();
+    auto end = static_cast<std::int64_t>(header);
+    packet.descriptors.for_each([&](std::uint32_t d) {
+      end += data_bytes(packet.stream, d);
+      if (--left == 0) end = std::int64_t{packet.payload_bytes} - static_cast<std::int64_t>(tail);
+      visit(d, static_cast<std::size_t>(std::max<std::int64_t>(end, 0)));
+    });
+  }
+
+ private:
+  /// What a descriptor adds to a packet: INFO_TS and DATA.
+  [[nodiscard]] std::int64_t data_bytes(model::Stream stream, std::uint32_t d) const {
+    if (!is_fastdds_) return paper_.bytes(stream, d) - shared_bytes_;
+    return model::fastdds::timestamp_bytes + model::fastdds::submessage_bytes(stream, d);
+  }
+
+  bool is_fastdds_;
+  model::DescriptorSizes paper_;
+  std::int64_t shared_bytes_;
+};
+
+}  // namespace stormproof::capture::write

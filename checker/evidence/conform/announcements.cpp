@@ -1,0 +1,299 @@
+// All ways to tell scheduled multicasts from resends are followed at once; those whose timer would
+// be early or overdue are given up.
+#include "checker/evidence/conform/announcements.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "checker/evidence/conform/words.hpp"
+
+namespace stormproof::conform {
+
+namespace {
+
+/// One way to explain the multicasts so far.
+struct Way {
+  std::vector<bool> is_scheduled{};
+  std::int64_t due_from_ns = 0;  ///< of the next scheduled one, earliest
+  std::int64_t due_to_ns = 0;    ///< latest, if the timer is not late
+  std::int64_t nominal_ns = 0;   ///< of the next one, if nothing is ever late
+  std::int64_t worst_ns = 0;     ///< how far one was from its nominal time, at most
+  std::size_t resends = 0;
+
+  [[nodiscard]] std::size_t scheduled() const { return is_scheduled.size() - resends; }
+};
+
+class Announcements {
+ public:
+  Announcements(const Dialogue& dialogue, std::size_t participant, const model::SpdpProfile& spdp,
+                const Bounds& bounds, Tally<fsm::Announcer>& announcer, Ledger& ledger)
+      : dialogue_{dialogue},
+        participant_{participant},
+        spdp_{spdp},
+        bounds_{bounds},
+        announcer_{announcer},
+        ledger_{ledger} {
+    for (const Announcement& one : dialogue.announcements[participant]) {
+      if (!one.destination) multicasts_.push_back(one);
+    }
+    for (std::size_t j = 0; j < dialogue.participants(); ++j) {
+      if (j == participant) continue;
+      if (const auto known = known_since(j)) recognitions_.push_back(*known);
+    }
+    std::sort(recognitions_.begin(), recognitions_.end());
+  }
+
+  std::optional<Unexplained> explain() {
+    auto fault = explain_multicasts();
+    for (const Announcement& one : dialogue_.announcements[participant_]) {
+      if (fault && one.event >= fault->event) break;
+      if (!one.destination) continue;
+      if (auto copy_fault = explain_copy(one)) return copy_fault;
+      ledger_.explained(Rule::announcement_copy);
+    }
+    return fault;
+  }
+
+ private:
+  /// When this participant can know participant `j`: the capture of j's first announcement to it. A
+  /// multicast reaches participants on the same host, too.
+  [[nodiscard]] std::optional<std::int64_t> known_since(std::size_t j) const {
+    const auto announced = dialogue_.first_announced(j, participant_);
+    if (!announced) return std::nullopt;
+    const auto& participants = dialogue_.conversation.topology.participants;
+    const bool same_host = participants[j].host == participants[participant_].host;
+    // The copy on the own host may be there before the one on the network is captured.
+    return same_host ? *announced - bounds_.most_send_lag_ns
+                     : *announced + bounds_.least_delay_ns - bounds_.clock_error_ns;
+  }
+
+  [[nodiscard]] std::int64_t period_after(std::size_t number) const {
+    return number < spdp_.startup_announcements ? spdp_.startup_period.count()
+                                                : spdp_.period.count();
+  }
+  [[nodiscard]] bool resends_multicast() const {
+    return spdp_.resend == model::SpdpResend::all_known ||
+           spdp_.resend == model::SpdpResend::new_and_multicast;
+  }
+
+  std::optional<Unexplained> explain_multicasts() {
+    std::vector<Way> ways(1);
+    for (std::size_t k = 0; k < multicasts_.size(); ++k) {
+      std::vector<Way> next;
+      for (const Way& way : ways) {
+        if (const auto on = on_schedule(way, multicasts_[k].time_ns)) next.push_back(*on);
+        if (const auto resent = as_resend(way, multicasts_[k].time_ns)) next.push_back(*resent);
+      }
+      if (next.empty()) return unexplained(ways, multicasts_[k]);
+      ways = without_twins(std::move(next));
+    }
+    if (multicasts_.empty()) return std::nullopt;
+    if (auto fault = silent(ways)) return fault;
+    replay(*std::min_element(ways.begin(), ways.end(),
+                             [](const Way& a, const Way& b) { return a.worst_ns < b.worst_ns; }));
+    return std::nullopt;
+  }
+
+  /// While the participant sends anything, its announcement timer goes on.
+  std::optional<Unexplained> silent(const std::vector<Way>& ways) {
+    const auto& events = dialogue_.conversation.events;
+    const capture::GuidPrefix& prefix =
+        dialogue_.conversation.topology.participants[participant_].prefix;
+    std::size_t last = events.size();
+    while (last-- > 0 &&
+           (events[last].source != prefix || events[last].time_ns > dialogue_.end_ns)) {
+    }
+    const Announcement latest{events[last].time_ns, last, {}};
+    const bool overdue = std::all_of(
+        ways.begin(), ways.end(), [&](const Way& way) { return is_overdue(way, latest.time_ns); });
+    if (!overdue) return std::nullopt;
+    std::int64_t due = INT64_MIN;
+    for (const Way& way : ways) due = std::max(due, way.due_to_ns);
+    return fault(
+        latest, Fault::announcement_due,
+        fmt::format("the participant still sends, {} after an announcement was due",
+                    duration(latest.time_ns - due)),
+        "the announcement timer goes on as long as the participant lives",
+        {{"lateness", latest.time_ns - due - bounds_.most_send_lag_ns, bounds_.most_lateness_ns}});
+  }
+
+  [[nodiscard]] std::optional<Way> on_schedule(Way way, std::int64_t time_ns) const {
+    const std::int64_t sent_from = time_ns - bounds_.most_send_lag_ns;
+    std::int64_t from = sent_from;
+    std::int64_t to = time_ns + capture_resolution_ns;
+    if (!way.is_scheduled.empty()) {
+      from = std::max(from, way.due_from_ns);
+      to = std::min(to, way.due_to_ns + bounds_.most_lateness_ns);
+      if (from > to) return std::nullopt;
+    }
+    const std::int64_t period = period_after(way.scheduled());
+    if (!way.is_scheduled.empty()) {
+      way.worst_ns = std::max(way.worst_ns, std::abs(time_ns - way.nominal_ns));
+    }
+    way.nominal_ns = time_ns + period;
+    way.due_from_ns = from + period;
+    way.due_to_ns = to + period;
+    way.is_scheduled.push_back(true);
+    return way;
+  }
+
+  [[nodiscard]] std::optional<Way> as_resend(Way way, std::int64_t time_ns) const {
+    if (way.is_scheduled.empty() || !resends_multicast()) return std::nullopt;
+    if (is_overdue(way, time_ns) || way.resends >= recognitions_.size() ||
+        recognitions_[way.resends] > time_ns + capture_resolution_ns) {
+      return std::nullopt;
+    }
+    ++way.resends;
+    way.is_scheduled.push_back(false);
+    return way;
+  }
+
+  [[nodiscard]] bool is_overdue(const Way& way, std::int64_t time_ns) const {
+    return way.due_to_ns + bounds_.most_lateness_ns < time_ns - bounds_.most_send_lag_ns;
+  }
+
+  /// Of ways with equally many resends and the same window one is enough.
+  static std::vector<Way> without_twins(std::vector<Way> ways) {
+    std::vector<Way> different;
+    for (Way& way : ways) {
+      const bool known = std::any_of(different.begin(), different.end(), [&](const Way& other) {
+        return other.resends == way.resends && other.due_from_ns <= way.due_from_ns &&
+               other.due_to_ns >= way.due_to_ns && other.worst_ns <= way.worst_ns;
+      });
+      if (!known) different.push_back(std::move(way));
+    }
+    return different;
+  }
+
+  void replay(const Way& way) {
+    fsm::StateId state = Tally<fsm::Announcer>::Fly::initial;
+    std::int64_t number = 0;
+    std::int64_t due = multicasts_.front().time_ns;
+    for (std::size_t k = 0; k < multicasts_.size(); ++k) {
+      const std::int64_t now = multicasts_[k].time_ns;
+      if (!way.is_scheduled[k]) {
+        ledger_.explained(Rule::announcement_resent);
+        continue;
+      }
+      ledger_.used_lateness(now - due);
+      ledger_.used_lag(due - now - capture_resolution_ns);
+      const auto output = announcer_.step<fsm::announcer::AnnouncementDue>(
+          state, {.now = now,
+                  .number = number++,
+                  .startup = spdp_.startup_announcements,
+                  .startup_period = spdp_.startup_period.count(),
+                  .period = spdp_.period.count()});
+      if (output.announce) ledger_.explained(Rule::announcement_scheduled);
+      due = output.next_at;
+      ledger_.hidden(Hidden::Kind::timer, now, multicasts_[k].event, "Announcer");
+    }
+  }
+
+  std::optional<Unexplained> explain_copy(const Announcement& one) {
+    const auto known = known_since(*one.destination);
+    if (!known || one.time_ns + capture_resolution_ns < *known) {
+      std::vector<Need> needs;
+      if (known) {
+        needs.push_back(
+            {"clock error", bounds_.clock_error_ns + *known - one.time_ns, bounds_.clock_error_ns});
+      }
+      return fault(one, Fault::not_announced,
+                   "announcement to a participant that the sender cannot know yet",
+                   known ? "the other's first announcement comes later"
+                         : "no announcement of the other participant is in the capture",
+                   std::move(needs));
+    }
+    const auto distance = nearest_multicast(one);
+    if (distance && *distance <= bounds_.most_send_lag_ns + capture_resolution_ns) {
+      ledger_.used_lag(*distance - capture_resolution_ns);
+      return std::nullopt;
+    }
+    if (spdp_.resend == model::SpdpResend::new_only && is_first_copy(one)) return std::nullopt;
+    return fault(one, Fault::announcement_extra,
+                 "announcement to one participant, without a multicast near it",
+                 "copies accompany a multicast; a participant that is recognised gets one of its "
+                 "own only with resend: new_only",
+                 {{"send lag, so that a multicast is near", distance, bounds_.most_send_lag_ns}});
+  }
+
+  [[nodiscard]] bool is_first_copy(const Announcement& one) const {
+    const auto& all = dialogue_.announcements[participant_];
+    return std::none_of(all.begin(), all.end(), [&](const Announcement& other) {
+      return other.event < one.event && other.destination == one.destination;
+    });
+  }
+
+  [[nodiscard]] std::optional<std::int64_t> nearest_multicast(const Announcement& one) const {
+    std::optional<std::int64_t> nearest;
+    for (const Announcement& multicast : multicasts_) {
+      const std::int64_t distance = std::abs(multicast.time_ns - one.time_ns);
+      if (!nearest || distance < *nearest) nearest = distance;
+    }
+    return nearest;
+  }
+
+  Unexplained unexplained(const std::vector<Way>& ways, const Announcement& one) {
+    const bool overdue = std::all_of(ways.begin(), ways.end(),
+                                     [&](const Way& way) { return is_overdue(way, one.time_ns); });
+    std::int64_t due = INT64_MAX;  // of the nearest way
+    for (const Way& way : ways) {
+      const std::int64_t distance =
+          overdue ? one.time_ns - way.due_to_ns : way.due_from_ns - one.time_ns;
+      due = std::min(due, distance);
+    }
+    if (overdue) {
+      return fault(one, Fault::announcement_due,
+                   fmt::format("this announcement comes {} after it was due", duration(due)),
+                   "without a resend the timer announces again after its period",
+                   {{"lateness", due - bounds_.most_send_lag_ns, bounds_.most_lateness_ns}});
+    }
+    return fault(
+        one, Fault::announcement_extra,
+        fmt::format("multicast {} before the announcement timer is due", duration(due)),
+        resends_multicast()
+            ? fmt::format("{} recognitions can have caused a resend until then, all used up",
+                          std::count_if(recognitions_.begin(), recognitions_.end(),
+                                        [&](std::int64_t t) { return t <= one.time_ns; }))
+            : "the profile sends no multicast when it recognises a participant",
+        {{"send lag", bounds_.most_send_lag_ns + due, bounds_.most_send_lag_ns}});
+  }
+
+  Unexplained fault(const Announcement& one, Fault kind, std::string what, std::string nearest,
+                    std::vector<Need> needs) {
+    constexpr std::size_t before = 8;
+    constexpr std::size_t after = 4;
+    Unexplained result{
+        one.event,        kind, ledger_.place.place, std::move(what), std::move(nearest),
+        std::move(needs), {}};
+    const auto& all = dialogue_.announcements[participant_];
+    std::size_t at = 0;
+    while (at < all.size() && all[at].event < one.event) ++at;
+    if (at == all.size() || all[at].event != one.event) result.context.push_back(one.event);
+    for (std::size_t k = at - std::min(at, before); k < std::min(at + after + 1, all.size()); ++k) {
+      result.context.push_back(all[k].event);
+    }
+    std::sort(result.context.begin(), result.context.end());
+    return result;
+  }
+
+  const Dialogue& dialogue_;
+  std::size_t participant_;
+  const model::SpdpProfile& spdp_;
+  const Bounds& bounds_;
+  Tally<fsm::Announcer>& announcer_;
+  Ledger& ledger_;
+  std::vector<Announcement> multicasts_;
+  std::vector<std::int64_t> recognitions_;  ///< when each other participant can be known
+};
+
+}  // namespace
+
+std::optional<Unexplained> explain_announcements(const Dialogue& dialogue, std::size_t participant,
+                                                 const model::SpdpProfile& spdp,
+                                                 const Bounds& bounds,
+                                                 Tally<fsm::Announcer>& announcer, Ledger& ledger) {
+  return Announcements{dialogue, participant, spdp, bounds, announcer, ledger}.explain();
+}
+
+}  // namespace stormproof::conform

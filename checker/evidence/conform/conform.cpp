@@ -1,0 +1,210 @@
+// Holds a capture against a profile: announcements by participant, HEARTBEATs by writer, DATA and
+// ACKNACKs by relation.
+#include "checker/evidence/conform/conform.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "checker/evidence/conform/announcements.hpp"
+#include "checker/evidence/conform/dialogue.hpp"
+#include "checker/evidence/conform/heartbeats.hpp"
+#include "checker/evidence/conform/ledger.hpp"
+#include "checker/evidence/conform/reader_side.hpp"
+#include "checker/evidence/conform/words.hpp"
+#include "checker/evidence/conform/writer_side.hpp"
+
+namespace stormproof::conform {
+
+namespace {
+
+using model::config::InputError;
+
+class Check {
+ public:
+  explicit Check(const Request& request)
+      : request_{request}, dialogue_{sort_out(request.conversation, request.until_ns)} {
+    result_.bounds = request.bounds;
+    result_.checked = dialogue_.checked;
+    result_.not_checked = dialogue_.not_checked;
+  }
+
+  Conformance run() {
+    for (const std::size_t k : dialogue_.strange) strange(k);
+    const std::size_t all = dialogue_.participants() + dialogue_.relations.size();
+    std::size_t done = 0;
+    bool goes_on = true;
+    for (std::size_t i = 0; goes_on && i < dialogue_.participants(); ++i) {
+      goes_on = report(done++, all);
+      if (goes_on) announcements(i);
+    }
+    for (std::size_t first = 0; goes_on && first < dialogue_.relations.size();) {
+      std::size_t last = first;
+      while (last < dialogue_.relations.size() && same_writer(first, last)) ++last;
+      writer(first, last);
+      for (; goes_on && first < last; ++first) goes_on = report(done++, all);
+    }
+    conclude(goes_on);
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] bool report(std::size_t done, std::size_t all) const {
+    return !request_.progress || request_.progress(done, all);
+  }
+  [[nodiscard]] bool same_writer(std::size_t a, std::size_t b) const {
+    const Place& one = dialogue_.relations[a].place;
+    const Place& other = dialogue_.relations[b].place;
+    return one.source == other.source && one.writer == other.writer;
+  }
+
+  /// Runs `explain` for one place and files what it finds.
+  void at(const Place& place, const auto& explain) {
+    PlaceResult& one = places_.try_emplace(place, PlaceResult{place}).first->second;
+    Ledger ledger{result_, one};
+    if (auto fault = explain(ledger)) {
+      ++one.unexplained;
+      result_.unexplained.push_back(std::move(*fault));
+    }
+  }
+
+  void announcements(std::size_t i) {
+    at({i, {}, capture::entity::spdp_writer}, [&](Ledger& ledger) {
+      return explain_announcements(dialogue_, i, request_.dds.spdp, request_.bounds, announcer_,
+                                   ledger);
+    });
+  }
+
+  void writer(std::size_t first, std::size_t last) {
+    WriterRelations writer;
+    for (std::size_t r = first; r < last; ++r) writer.relations.push_back(&dialogue_.relations[r]);
+    const AnnouncedSince announced = announced_since(writer);
+    const Place& place = dialogue_.relations[first].place;
+    const model::SedpProfile& sedp = request_.dds.sedp;
+    at({place.source, {}, place.writer}, [&](Ledger& ledger) {
+      return explain_heartbeats(dialogue_, writer, sedp, request_.bounds, heartbeat_timer_, ledger);
+    });
+    const WriterContext context{dialogue_, sedp, request_.bounds, announced,
+                                last - first == 1 && !dialogue_.has_neighbour[place.source]};
+    for (std::size_t r = first; r < last; ++r) {
+      const Relation& relation = dialogue_.relations[r];
+      at(relation.place, [&](Ledger& ledger) {
+        return explain_data(context, relation, changes_, timers_, ledger);
+      });
+      at(relation.place, [&](Ledger& ledger) {
+        return explain_reader(dialogue_, relation, sedp, request_.bounds, readers_, timers_,
+                              ledger);
+      });
+    }
+  }
+
+  /// An event that nothing in the profile sends.
+  void strange(std::size_t k) {
+    const capture::Event& event = request_.conversation.events[k];
+    const auto& topology = request_.conversation.topology;
+    Place place{topology.index_of(*topology.find(event.source)), {}, event.writer};
+    const char* what = event.is_multicast && event.data() != nullptr ? "SEDP DATA by multicast"
+                       : event.is_multicast                          ? "SEDP by multicast"
+                       : event.gap() != nullptr                      ? "GAP"
+                       : event.data() != nullptr                     ? "DATA_FRAG"
+                                                                     : "SPDP that is not DATA";
+    const bool known = std::any_of(result_.unexplained.begin(), result_.unexplained.end(),
+                                   [&](const Unexplained& one) {
+                                     return one.place == place && one.fault == Fault::no_such_rule;
+                                   });
+    if (known) return;
+    at(place, [&](Ledger&) -> std::optional<Unexplained> {
+      return Unexplained{
+          k, Fault::no_such_rule, place, what, "no rule of the profile sends it", {}, {k}};
+    });
+  }
+
+  void conclude(bool is_complete) {
+    std::stable_sort(result_.unexplained.begin(), result_.unexplained.end(),
+                     [](const Unexplained& a, const Unexplained& b) { return a.event < b.event; });
+    for (const auto& [place, one] : places_) result_.places.push_back(one);
+    std::stable_sort(result_.hidden.begin(), result_.hidden.end(),
+                     [](const Hidden& a, const Hidden& b) { return a.time_ns < b.time_ns; });
+    announcer_.report(result_.rows);
+    heartbeat_timer_.report(result_.rows);
+    changes_.report(result_.rows);
+    timers_.report(result_.rows);
+    readers_.reader.report(result_.rows);
+    readers_.initial.report(result_.rows);
+    result_.verdict = Verdict::conforms;
+    if (result_.not_replayed > 0) {
+      result_.verdict = Verdict::inconclusive;
+      result_.why_inconclusive = "the machines did not confirm every explanation";
+    }
+    if (result_.undecided > 0) {
+      result_.verdict = Verdict::inconclusive;
+      result_.why_inconclusive = "the search for an assignment was given up after its time limit";
+    }
+    if (!is_complete) {
+      result_.verdict = Verdict::inconclusive;
+      result_.why_inconclusive = "interrupted";
+    }
+    if (!result_.unexplained.empty()) result_.verdict = Verdict::does_not_conform;
+    assume();
+  }
+
+  void assume() {
+    auto& all = result_.assumptions;
+    all.emplace_back(
+        "the capture holds everything that left the hosts since before the first announcement");
+    all.emplace_back("between two participants datagrams arrive in order, or are lost");
+    if (dialogue_.ends_early) {
+      all.emplace_back(
+          "what follows the first participant or endpoint that leaves is not looked at: discovery "
+          "has no rule for leaving");
+    }
+    if (std::find(dialogue_.has_neighbour.begin(), dialogue_.has_neighbour.end(), true) !=
+        dialogue_.has_neighbour.end()) {
+      all.emplace_back(
+          "participants on one host exchange what no capture between hosts shows: where such "
+          "traffic can arm a timer or use up the piggyback budget, it is assumed to");
+    }
+    for (const auto& [setting, effect] : request_.dds.unmodelled) {
+      all.push_back(fmt::format("{} is not modelled: {}", setting, effect));
+    }
+  }
+
+  const Request& request_;
+  Dialogue dialogue_;
+  Conformance result_;
+  std::map<Place, PlaceResult> places_;
+  Tally<fsm::Announcer> announcer_;
+  Tally<fsm::HeartbeatTimer> heartbeat_timer_;
+  Tally<fsm::ChangeForReader> changes_;
+  Tally<fsm::SingleShot> timers_;
+  ReaderMachines readers_;
+};
+
+}  // namespace
+
+model::config::Result<Conformance> conform(const Request& request) {
+  const auto& topology = request.conversation.topology;
+  const std::string where = request.conversation.captures.empty()
+                                ? "capture"
+                                : request.conversation.captures.front().name;
+  if (topology.hosts < 2) {
+    return InputError{where,
+                      "discovery between hosts was expected, but all participants are on "
+                      "one host"};
+  }
+  if (request.dds.implementation != model::ImplementationKind::fastdds) {
+    return InputError{"--dds",
+                      "a capture can be held against a profile with `implementation: "
+                      "fastdds`; this one describes the paper's writer, which no "
+                      "program sends that way"};
+  }
+  if (request.dds.sedp.heartbeat_policy != model::HeartbeatPolicy::periodic) {
+    return InputError{"--dds",
+                      "a capture can be held against a profile with `heartbeat_policy: periodic`; "
+                      "no program sends by the adaptive one"};
+  }
+  return Check{request}.run();
+}
+
+}  // namespace stormproof::conform

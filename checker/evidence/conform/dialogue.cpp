@@ -1,0 +1,159 @@
+// Sorts the events of a conversation into relations and announcements.
+#include "checker/evidence/conform/dialogue.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace stormproof::conform {
+
+namespace {
+
+using capture::Conversation;
+using capture::Event;
+using capture::Traffic;
+
+std::uint32_t descriptor_of(std::int64_t sequence_number) {
+  return static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(sequence_number - 1, 0, std::int64_t{UINT32_MAX} - 1));
+}
+
+class Sorter {
+ public:
+  explicit Sorter(Dialogue& dialogue) : dialogue_{dialogue}, conversation_{dialogue.conversation} {
+    const auto& participants = conversation_.topology.participants;
+    for (std::size_t i = 0; i < participants.size(); ++i) index_[participants[i].prefix] = i;
+    dialogue.announcements.resize(participants.size());
+    dialogue.descriptors.resize(2 * participants.size());
+    dialogue.has_neighbour.resize(participants.size());
+    for (std::size_t i = 0; i < participants.size(); ++i) {
+      for (std::size_t k = 0; k < participants.size(); ++k) {
+        if (i != k && participants[i].host == participants[k].host) {
+          dialogue.has_neighbour[i] = true;
+        }
+      }
+    }
+  }
+
+  void add(std::size_t k) {
+    const Event& event = conversation_.events[k];
+    const auto source = index_.find(event.source);
+    const Traffic traffic = event.traffic();
+    if (event.is_same_host || source == index_.end() ||
+        (traffic != Traffic::spdp && traffic != Traffic::sedp)) {
+      ++dialogue_.not_checked;
+      return;
+    }
+    const std::optional<std::size_t> destination = destination_of(event);
+    if (!event.is_multicast && !destination) {
+      ++dialogue_.not_checked;  // to an address that nobody announced
+      return;
+    }
+    ++dialogue_.checked;
+    if (traffic == Traffic::spdp && event.data() != nullptr) {
+      dialogue_.announcements[source->second].push_back({event.time_ns, k, destination});
+    } else if (traffic != Traffic::sedp || !destination || event.gap() != nullptr ||
+               (event.data() != nullptr && event.data()->fragment != 0)) {
+      dialogue_.strange.push_back(k);
+    } else {
+      add_sedp(k, source->second, *destination);
+    }
+  }
+
+  void finish() {
+    for (auto& [place, relation] : relations_) dialogue_.relations.push_back(std::move(relation));
+    // All relations of a writer in a row.
+    std::stable_sort(dialogue_.relations.begin(), dialogue_.relations.end(),
+                     [](const Relation& a, const Relation& b) {
+                       return std::pair{a.place.source, a.place.writer} <
+                              std::pair{b.place.source, b.place.writer};
+                     });
+  }
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> destination_of(const Event& event) const {
+    if (!event.destination) return std::nullopt;
+    const auto found = index_.find(*event.destination);
+    if (found == index_.end()) return std::nullopt;
+    return found->second;
+  }
+
+  Relation& relation(std::size_t writer, std::size_t reader, capture::EntityId entity) {
+    const Place place{writer, reader, entity};
+    Relation& found = relations_[place];
+    found.place = place;
+    return found;
+  }
+
+  void add_sedp(std::size_t k, std::size_t source, std::size_t destination) {
+    const Event& event = conversation_.events[k];
+    if (event.acknack() != nullptr) {
+      add_answer(k, relation(destination, source, event.writer));
+      return;
+    }
+    std::uint32_t& known = dialogue_.descriptors[2 * source + stream_index(event.writer)];
+    Submessage submessage{event.time_ns, k, event.datagram, {}, {}};
+    if (const auto* data = event.data()) {
+      submessage.descriptor = descriptor_of(data->sequence_number);
+      known = std::max(known, *submessage.descriptor + 1);
+    } else {
+      const auto* heartbeat = event.heartbeat();
+      submessage.heartbeat = {heartbeat->first, descriptor_of(heartbeat->last + 1),
+                              heartbeat->count, event.has_info_dst, heartbeat->is_final};
+      known = std::max(known, submessage.heartbeat->announced);
+    }
+    relation(source, destination, event.writer).sent.push_back(submessage);
+  }
+
+  void add_answer(std::size_t k, Relation& relation) {
+    const Event& event = conversation_.events[k];
+    const auto& acknack = *event.acknack();
+    Answer answer;
+    answer.time_ns = event.time_ns;
+    answer.event = k;
+    answer.base = descriptor_of(acknack.missing.base);
+    answer.is_initial = acknack.is_initial() && !acknack.is_final;
+    for (std::uint32_t bit = 0; bit < acknack.missing.num_bits; ++bit) {
+      if (acknack.missing.has(bit)) answer.missing.push_back(answer.base + bit);
+    }
+    relation.answers.push_back(std::move(answer));
+  }
+
+  Dialogue& dialogue_;
+  const Conversation& conversation_;
+  std::map<capture::GuidPrefix, std::size_t> index_;
+  std::map<Place, Relation> relations_;
+};
+
+}  // namespace
+
+bool Answer::asks_for(std::uint32_t descriptor) const {
+  return std::binary_search(missing.begin(), missing.end(), descriptor);
+}
+
+std::optional<std::int64_t> Dialogue::first_announced(std::size_t from, std::size_t to) const {
+  for (const Announcement& one : announcements[from]) {
+    if (!one.destination || *one.destination == to) return one.time_ns;
+  }
+  return std::nullopt;
+}
+
+Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns) {
+  Dialogue dialogue{conversation};
+  Sorter sorter{dialogue};
+  for (std::size_t k = 0; k < conversation.events.size(); ++k) {
+    const Event& event = conversation.events[k];
+    if (event.time_ns > until_ns) break;
+    const Traffic traffic = event.traffic();
+    if ((traffic == Traffic::spdp || traffic == Traffic::sedp) && event.data() != nullptr &&
+        event.data()->is_gone) {
+      dialogue.ends_early = true;
+      break;
+    }
+    dialogue.end_ns = event.time_ns;
+    sorter.add(k);
+  }
+  sorter.finish();
+  return dialogue;
+}
+
+}  // namespace stormproof::conform

@@ -1,0 +1,81 @@
+// A conversation sorted by who talks to whom: what each writer sent to each reader, what the reader
+// answered, and what each participant announced. Descriptors are numbered from 0 on: sequence
+// number 1 is descriptor 0. Only what goes from host to host is here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "checker/evidence/capture/events.hpp"
+#include "checker/evidence/conform/conform.hpp"
+
+namespace stormproof::conform {
+
+struct Heartbeat {
+  std::int64_t first = 0;       ///< sequence number
+  std::uint32_t announced = 0;  ///< descriptors that the writer has
+  std::uint32_t count = 0;
+  bool is_directed = false;  ///< names its reader (INFO_DST)
+  bool is_final = false;
+};
+
+/// One DATA or HEARTBEAT from the writer of a relation to its reader.
+struct Submessage {
+  std::int64_t time_ns = 0;
+  std::size_t event = 0;
+  std::uint32_t datagram = 0;
+  std::optional<std::uint32_t> descriptor{};  ///< DATA
+  std::optional<Heartbeat> heartbeat{};
+};
+
+/// An ACKNACK from the reader of a relation to its writer.
+struct Answer {
+  std::int64_t time_ns = 0;
+  std::size_t event = 0;
+  std::uint32_t base = 0;                ///< every descriptor below it has arrived
+  std::vector<std::uint32_t> missing{};  ///< ascending
+  bool is_initial = false;
+
+  [[nodiscard]] bool asks_for(std::uint32_t descriptor) const;
+};
+
+/// One writer's side and one reader's side.
+struct Relation {
+  Place place{};
+  std::vector<Submessage> sent{};  ///< by the writer, in order
+  std::vector<Answer> answers{};
+};
+
+struct Announcement {
+  std::int64_t time_ns = 0;
+  std::size_t event = 0;
+  std::optional<std::size_t> destination{};  ///< nothing: multicast
+};
+
+struct Dialogue {
+  const capture::Conversation& conversation;
+  std::vector<Relation>
+      relations{};  ///< those in which something was sent; those of one writer in a row
+  std::vector<std::vector<Announcement>> announcements{};  ///< by participant, in time order
+  std::vector<bool> has_neighbour{};                       ///< another participant on the same host
+  std::vector<std::size_t> strange{};        ///< events that no rule can send, by time
+  std::vector<std::uint32_t> descriptors{};  ///< 2·participant + stream: most that was announced
+  std::uint64_t checked = 0;
+  std::uint64_t not_checked = 0;
+  std::int64_t end_ns = 0;  ///< of what is looked at
+  bool ends_early = false;  ///< a participant or an endpoint leaves, of which there is no rule
+
+  /// When `from` can have been announced to `to` first: the time of that announcement's capture.
+  [[nodiscard]] std::optional<std::int64_t> first_announced(std::size_t from, std::size_t to) const;
+  [[nodiscard]] std::size_t participants() const { return announcements.size(); }
+};
+
+/// 0: publications, 1: subscriptions.
+[[nodiscard]] inline std::size_t stream_index(capture::EntityId writer) {
+  return writer == capture::entity::publications_writer ? 0 : 1;
+}
+
+[[nodiscard]] Dialogue sort_out(const capture::Conversation& conversation, std::int64_t until_ns);
+
+}  // namespace stormproof::conform

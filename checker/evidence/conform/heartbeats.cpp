@@ -1,0 +1,324 @@
+// Finds a cause for each HEARTBEAT, in order of time.
+#include "checker/evidence/conform/heartbeats.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "checker/evidence/conform/piggyback_budget.hpp"
+#include "checker/evidence/conform/words.hpp"
+
+namespace stormproof::conform {
+
+namespace {
+
+namespace timer = fsm::heartbeat_timer;
+
+/// A HEARTBEAT that follows captured DATA this closely is put down to it, even if the writer has
+/// readers on its own host, whose DATA would explain it, too.
+constexpr std::int64_t directly_after_ns = 1'000'000;
+
+class Heartbeats {
+ public:
+  Heartbeats(const Dialogue& dialogue, const WriterRelations& writer,
+             const model::SedpProfile& sedp, const Bounds& bounds,
+             Tally<fsm::HeartbeatTimer>& machine, Ledger& ledger)
+      : dialogue_{dialogue},
+        writer_{writer},
+        sedp_{sedp},
+        bounds_{bounds},
+        machine_{machine},
+        ledger_{ledger},
+        source_{writer.place().source},
+        sent_{sent_heartbeats(writer)},
+        budget_{dialogue, writer, sedp},
+        next_initial_(writer.relations.size()),
+        is_opened_(writer.relations.size()) {}
+
+  std::optional<Unexplained> explain() {
+    for (const SentHeartbeat& one : sent_.all) {
+      if (sent_.repeated && sent_.repeated->event < one.event) break;
+      budget_.charge_until(one.event, [this](std::int64_t time_ns) { arm(time_ns); });
+      auto fault = check_count(one);
+      if (!fault) fault = check_range(one);
+      if (!fault) fault = one.is_directed ? explain_directed(one) : explain_fan_out(one);
+      if (fault) return fault;
+    }
+    if (sent_.repeated) {
+      return fault(
+          *sent_.repeated, Fault::heartbeat_count,
+          fmt::format("HEARTBEAT {} again, to the same reader", sent_.repeated->heartbeat.count),
+          "a writer counts its HEARTBEATs up, whomever they are for", {{"another count", {}, {}}});
+    }
+    for (std::size_t r = 0; r < writer_.relations.size(); ++r) {
+      if (auto fault = check_due(*writer_.relations[r])) return fault;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<Unexplained> check_count(const SentHeartbeat& one) {
+    if (highest_ && one.heartbeat.count < highest_->heartbeat.count &&
+        one.time_ns > highest_->time_ns + bounds_.most_send_lag_ns) {
+      return fault(
+          one, Fault::heartbeat_count,
+          fmt::format("HEARTBEAT {}, {} after HEARTBEAT {} of the same writer", one.heartbeat.count,
+                      duration(one.time_ns - highest_->time_ns), highest_->heartbeat.count),
+          "a writer counts its HEARTBEATs up, whomever they are for",
+          {{"send lag", one.time_ns - highest_->time_ns, bounds_.most_send_lag_ns}});
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Unexplained> check_range(const SentHeartbeat& one) {
+    const bool shrinks = highest_ && one.heartbeat.count > highest_->heartbeat.count &&
+                         one.heartbeat.announced < highest_->heartbeat.announced;
+    if (!highest_ || one.heartbeat.count > highest_->heartbeat.count) highest_ = one;
+    if (one.heartbeat.first == 1 && !shrinks) return std::nullopt;
+    return fault(one, Fault::heartbeat_range,
+                 fmt::format("HEARTBEAT {} announces samples {} to {}", one.heartbeat.count,
+                             one.heartbeat.first, one.heartbeat.announced),
+                 shrinks ? "the one before announced more, and endpoints are only created"
+                         : "descriptors are numbered from 1 on, and none goes",
+                 {{"a writer whose endpoints are only created", {}, {}}});
+  }
+
+  /// A relation that opens with descriptors arms the timer; while its reader has acknowledged
+  /// nothing, the expiry sends to all readers, this one too.
+  std::optional<Unexplained> check_due(const Relation& relation) {
+    if (relation.sent.empty() || !relation.sent.front().heartbeat ||
+        relation.sent.front().heartbeat->announced == 0) {
+      return std::nullopt;
+    }
+    const std::int64_t due = relation.sent.front().time_ns + sedp_.heartbeat_period.count() +
+                             bounds_.most_lateness_ns + bounds_.most_send_lag_ns;
+    for (const Answer& answer : relation.answers) {
+      // From here on the reader may have acknowledged something.
+      if (answer.base > 0 && answer.time_ns < due + bounds_.clock_error_ns) return std::nullopt;
+    }
+    if (due >= dialogue_.end_ns) return std::nullopt;
+    std::size_t after = 0;  // the first event at which it is overdue
+    for (const Submessage& one : relation.sent) {
+      if (one.heartbeat && one.event != relation.sent.front().event && one.time_ns <= due) {
+        return std::nullopt;
+      }
+      if (after == 0 && one.time_ns > due) after = one.event;
+    }
+    const std::size_t event = after != 0 ? after : relation.sent.back().event;
+    return unexplained_in(
+        relation, event, Fault::heartbeat_due,
+        fmt::format("no HEARTBEAT within {} after the relation opened, though its reader has "
+                    "acknowledged nothing",
+                    duration(due - relation.sent.front().time_ns)),
+        fmt::format("the writer's timer expires every {}",
+                    duration(sedp_.heartbeat_period.count())),
+        {{"a HEARTBEAT to this reader in time", {}, {}}});
+  }
+
+  std::optional<Unexplained> explain_directed(const SentHeartbeat& one) {
+    if (!is_opened_[one.relation]) {
+      is_opened_[one.relation] = true;
+      settle(one, Rule::heartbeat_open);
+      if (one.heartbeat.announced > 0) arm(one.time_ns);
+      return std::nullopt;
+    }
+    if (const auto asked = initial_acknack_for(one)) {
+      ledger_.hidden(Hidden::Kind::received, std::max(asked->time_ns, one.time_ns), asked->event);
+      if (is_only_reader() && may_fan_out(one)) ++exchangeable_;
+      settle(one, Rule::heartbeat_reply);
+      arm(one.time_ns);
+      return std::nullopt;
+    }
+    if (is_only_reader() && (may_fan_out(one) || exchangeable_ == 0)) return explain_fan_out(one);
+    if (is_only_reader()) {
+      // An earlier one was to all readers; its initial ACKNACK is left for this one.
+      --exchangeable_;
+      settle(one, Rule::heartbeat_reply);
+      return std::nullopt;
+    }
+    return fault(one, Fault::heartbeat_cause,
+                 fmt::format("HEARTBEAT {} to one reader, whose relation is open already",
+                             one.heartbeat.count),
+                 "a HEARTBEAT to one of several readers answers an initial ACKNACK, and every one "
+                 "that can have arrived is answered already",
+                 {{"one more initial ACKNACK of this reader before it", {}, {}}});
+  }
+
+  /// The first initial ACKNACK of the reader that can have arrived and is not answered yet.
+  const Answer* initial_acknack_for(const SentHeartbeat& one) {
+    const auto& answers = writer_.relations[one.relation]->answers;
+    std::size_t& next = next_initial_[one.relation];
+    while (next < answers.size() && !answers[next].is_initial) ++next;
+    if (next == answers.size() ||
+        answers[next].time_ns + bounds_.least_delay_ns >
+            one.time_ns + bounds_.clock_error_ns + capture_resolution_ns) {
+      return nullptr;
+    }
+    return &answers[next++];
+  }
+
+  std::optional<Unexplained> explain_fan_out(const SentHeartbeat& one) {
+    if (auto fault = check_copies(one)) return fault;
+    const auto after = after_data(one);
+    if (after && may_piggyback(one)) {
+      ledger_.used_lag(*after);
+      settle(one, Rule::heartbeat_piggyback);
+      return std::nullopt;
+    }
+    if (is_due(one)) {
+      expire(one);
+      settle(one, Rule::heartbeat_periodic);
+      return std::nullopt;
+    }
+    if (dialogue_.has_neighbour[source_] && sedp_.piggyback != model::Piggyback::off) {
+      settle(one, Rule::heartbeat_same_host);
+      return std::nullopt;
+    }
+    std::vector<Need> needs;
+    std::string nearest = "the writer's timer is not armed";
+    if (due_ns_) {
+      nearest =
+          fmt::format("the writer's timer expires {} later", duration(*due_ns_ - one.time_ns));
+      needs.push_back({"send lag", *due_ns_ - one.time_ns + bounds_.most_send_lag_ns,
+                       bounds_.most_send_lag_ns});
+    }
+    if (after) {
+      nearest += fmt::format(", and DATA has used at most {} of {} bytes of the piggyback budget",
+                             budget_.spent(), sedp_.piggyback_threshold_bytes.count());
+    }
+    return fault(one, Fault::heartbeat_cause,
+                 fmt::format("HEARTBEAT {} to all readers", one.heartbeat.count), nearest,
+                 std::move(needs));
+  }
+
+  /// A HEARTBEAT to all readers has a copy for each relation that is open.
+  std::optional<Unexplained> check_copies(const SentHeartbeat& one) {
+    std::size_t open = 0;
+    for (const Relation* relation : writer_.relations) {
+      const auto& sent = relation->sent;
+      if (!sent.empty() && sent.front().time_ns < one.time_ns - bounds_.most_send_lag_ns) ++open;
+    }
+    const bool may_be_cut = one.time_ns + bounds_.most_send_lag_ns >= dialogue_.end_ns;
+    if (one.copies >= open || may_be_cut) return std::nullopt;
+    return fault(one, Fault::heartbeat_copies,
+                 fmt::format("HEARTBEAT {} goes to {} of the {} readers whose relations are open",
+                             one.heartbeat.count, one.copies, open),
+                 "a HEARTBEAT that is not for one reader goes to all of them",
+                 {{"a copy to each of the other readers", {}, {}}});
+  }
+
+  /// How long before `one` the writer sent DATA; nothing if that was too long ago.
+  [[nodiscard]] std::optional<std::int64_t> after_data(const SentHeartbeat& one) const {
+    if (one.is_behind_data) return 0;
+    const auto data = budget_.last_data_ns();
+    if (!data) return std::nullopt;
+    const std::int64_t after = std::max<std::int64_t>(one.time_ns - *data, 0);
+    const std::int64_t longest = dialogue_.has_neighbour[source_]
+                                     ? std::min(directly_after_ns, bounds_.most_send_lag_ns)
+                                     : bounds_.most_send_lag_ns;
+    if (after > longest) return std::nullopt;
+    return after;
+  }
+
+  /// What is sent to readers on the same host is charged, too; without such readers the captured
+  /// DATA must have used up the budget.
+  [[nodiscard]] bool may_piggyback(const SentHeartbeat& one) const {
+    if (sedp_.piggyback == model::Piggyback::off) return false;
+    return dialogue_.has_neighbour[source_] || budget_.can_be_used_up(one);
+  }
+
+  /// The timer: armed by the opening, by answers, and by itself. Where readers on the same host can
+  /// have armed it, only its period is known.
+  void arm(std::int64_t now) {
+    const auto output = machine_.step<timer::ArmRequested>(
+        state_, {.now = now, .heartbeat_period = sedp_.heartbeat_period.count()});
+    if (output.schedule_expiry) due_ns_ = output.next_at;
+  }
+  /// Whether `one`, to the only reader, can be one to all readers.
+  [[nodiscard]] bool may_fan_out(const SentHeartbeat& one) const {
+    return (after_data(one) && may_piggyback(one)) || is_due(one);
+  }
+  [[nodiscard]] bool is_due(const SentHeartbeat& one) const {
+    std::int64_t due = due_ns_.value_or(INT64_MAX);
+    if (dialogue_.has_neighbour[source_] && !has_expired_) {
+      due = dialogue_.announcements[source_].empty()
+                ? INT64_MIN
+                : dialogue_.announcements[source_].front().time_ns +
+                      sedp_.heartbeat_period.count() - bounds_.most_send_lag_ns;
+    }
+    return due <= one.time_ns + bounds_.most_send_lag_ns + capture_resolution_ns;
+  }
+  void expire(const SentHeartbeat& one) {
+    has_expired_ = true;
+    if (!due_ns_) arm(one.time_ns - sedp_.heartbeat_period.count());
+    const auto output =
+        machine_.step<timer::Expired>(state_, {.now = one.time_ns,
+                                               .heartbeat_period = sedp_.heartbeat_period.count(),
+                                               .unacknowledged = true});
+    // It may have been sent that much before its capture.
+    if (output.schedule_expiry) due_ns_ = output.next_at - bounds_.most_send_lag_ns;
+    ledger_.hidden(Hidden::Kind::timer, one.time_ns, one.event, "HeartbeatTimer");
+  }
+
+  void settle(const SentHeartbeat& one, Rule rule) {
+    ledger_.explained(rule, one.copies);
+    budget_.refill(one);
+  }
+
+  /// Whether the writer has no other reader yet.
+  [[nodiscard]] bool is_only_reader() const {
+    return !dialogue_.has_neighbour[source_] &&
+           std::count(is_opened_.begin(), is_opened_.end(), true) == 1;
+  }
+
+  Unexplained fault(const SentHeartbeat& one, Fault kind, std::string what, std::string nearest,
+                    std::vector<Need> needs) {
+    return unexplained_in(*writer_.relations[one.relation], one.event, kind, std::move(what),
+                          std::move(nearest), std::move(needs));
+  }
+
+  const Dialogue& dialogue_;
+  const WriterRelations& writer_;
+  const model::SedpProfile& sedp_;
+  const Bounds& bounds_;
+  Tally<fsm::HeartbeatTimer>& machine_;
+  Ledger& ledger_;
+  std::size_t source_;
+
+  SentHeartbeats sent_;
+  PiggybackBudget budget_;
+  std::optional<SentHeartbeat> highest_;  ///< by its count
+  std::size_t exchangeable_ = 0;          ///< replies that can have been something else
+  std::vector<std::size_t> next_initial_;
+  std::vector<bool> is_opened_;
+  fsm::StateId state_ = Tally<fsm::HeartbeatTimer>::Fly::initial;
+  std::optional<std::int64_t> due_ns_;  ///< when the timer expires, earliest
+  bool has_expired_ = false;
+};
+
+}  // namespace
+
+AnnouncedSince announced_since(const WriterRelations& writer) {
+  AnnouncedSince since;
+  for (const Relation* relation : writer.relations) {
+    for (const Submessage& one : relation->sent) {
+      if (!one.heartbeat) continue;
+      const auto [at, is_new] = since.emplace(one.heartbeat->announced, one.time_ns);
+      at->second = std::min(at->second, one.time_ns);
+    }
+  }
+  std::int64_t earliest = INT64_MAX;
+  for (auto at = since.rbegin(); at != since.rend(); ++at) {
+    earliest = at->second = std::min(at->second, earliest);
+  }
+  return since;
+}
+
+std::optional<Unexplained> explain_heartbeats(const Dialogue& dialogue,
+                                              const WriterRelations& writer,
+                                              const model::SedpProfile& sedp, const Bounds& bounds,
+                                              Tally<fsm::HeartbeatTimer>& timer, Ledger& ledger) {
+  return Heartbeats{dialogue, writer, sedp, bounds, timer, ledger}.explain();
+}
+
+}  // namespace stormproof::conform

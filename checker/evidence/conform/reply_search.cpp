@@ -1,0 +1,221 @@
+// Depth first, the least end first. What a reader knows after a reply is given by the reply, by how
+// far it has got, and by what was announced; a combination that led nowhere is not tried again.
+#include "checker/evidence/conform/reply_search.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "checker/evidence/conform/words.hpp"
+
+namespace stormproof::conform {
+
+namespace {
+
+/// Submessages that may be looked at before the search is given up.
+constexpr std::size_t effort_limit = 200'000'000;
+
+/// The state before one reply, and the choice for it that is being tried.
+struct Level {
+  std::size_t consumed = 0;
+  Knowledge knowledge{};
+  bool has_spare = false;  ///< a HEARTBEAT arrived while the last reply was being generated
+  std::size_t next_end = 0;
+  std::size_t next_variant = 0;  ///< of `next_end`
+};
+
+class Search {
+ public:
+  Search(const Relation& relation, std::span<const Answer* const> replies,
+         const model::SedpProfile& sedp, const Bounds& bounds)
+      : relation_{relation}, replies_{replies}, sedp_{sedp}, bounds_{bounds} {}
+
+  ReplySearch run() {
+    std::vector<Level> levels(1);
+    while (levels.size() <= replies_.size()) {
+      const std::size_t reply = levels.size() - 1;
+      if (auto choice = next(levels.back(), reply)) {
+        levels.push_back(after(*choice));
+        choices_.push_back(std::move(*choice));
+        continue;
+      }
+      if (effort_ > effort_limit) return {ReplySearch::Kind::given_up, {}, farthest_, {}};
+      if (reply >= farthest_) remember(reply);
+      dead_.insert(key(reply, levels.back()));
+      levels.pop_back();
+      if (levels.empty()) {
+        return {ReplySearch::Kind::not_explained, std::move(best_), farthest_, misplaced_};
+      }
+      choices_.pop_back();
+    }
+    return {ReplySearch::Kind::explained, std::move(choices_), 0, {}};
+  }
+
+ private:
+  using Key = std::tuple<std::size_t, std::size_t, std::uint32_t, std::uint32_t, bool,
+                         std::optional<std::uint32_t>>;
+  static Key key(std::size_t reply, const Level& level) {
+    return {
+        reply,           level.consumed,        level.knowledge.announced, level.knowledge.count,
+        level.has_spare, level.knowledge.missed};
+  }
+
+  /// The state after a reply. Generating it takes time, if threads are ever delayed at all.
+  [[nodiscard]] Level after(const Choice& choice) const {
+    const std::size_t used = choice.heartbeat_ns ? 1 : 0;
+    return {choice.end, choice.arrivals.after,
+            bounds_.most_send_lag_ns > 0 && choice.arrivals.heartbeats > used, 0, 0};
+  }
+
+  void remember(std::size_t reply) {
+    farthest_ = reply;
+    best_ = choices_;
+    misplaced_ = tried_misplaced_;
+  }
+
+  /// The next way to explain `reply` from here.
+  std::optional<Choice> next(Level& level, std::size_t reply) {
+    const Answer& answer = *replies_[reply];
+    const std::size_t sent =
+        std::max(sent_until(relation_, answer.time_ns, bounds_), level.consumed);
+    if (level.next_end == 0) tried_misplaced_.reset();
+    level.next_end = std::max({level.next_end, level.consumed + (level.has_spare ? 0 : 1),
+                               expired(relation_, answer, bounds_)});
+    while (level.next_end <= sent && effort_ <= effort_limit) {
+      Choice choice;
+      choice.end = level.next_end;
+      const std::size_t variant = level.next_variant++;
+      const auto lost = lost_in_variant(level, answer, choice.end, variant);
+      const bool explains = lost && explain(level, reply, *lost, choice);
+      // What cannot be explained with as much as possible cannot with less.
+      if (!lost || (variant == 0 && !explains)) {
+        ++level.next_end;
+        level.next_variant = 0;
+      }
+      if (!explains || dead_.count(key(reply + 1, after(choice))) > 0) continue;
+      return choice;
+    }
+    return std::nullopt;
+  }
+
+  /// What is lost for sure in a variant of the window until `end`; nothing: there is no such
+  /// variant. 0: as little as the ACKNACK admits. Otherwise more, in two ways that matter later:
+  /// the datagram that `end` cuts, of which nothing else has come, and descriptors that the ACKNACK
+  /// need not mention, because nothing has announced them.
+  [[nodiscard]] std::optional<std::vector<bool>> lost_in_variant(const Level& level,
+                                                                 const Answer& answer,
+                                                                 std::size_t end,
+                                                                 std::size_t variant) const {
+    std::vector<bool> lost(end - level.consumed);
+    if (variant == 0) return lost;
+    if (!bounds_.may_lose || lost.empty()) return std::nullopt;
+    const auto& sent = relation_.sent;
+    const bool cuts = end < sent.size() && sent[end].datagram == sent[end - 1].datagram;
+    std::set<std::uint32_t> unmentioned;
+    for (std::size_t k = level.consumed; k < end; ++k) {
+      const auto d = sent[k].descriptor;
+      if (d && *d >= answer.base && !answer.asks_for(*d) && !level.knowledge.knows(*d)) {
+        unmentioned.insert(*d);
+      }
+    }
+    const std::size_t ways = cuts ? 2 : 1;
+    if (variant >= ways * (unmentioned.size() + 1)) return std::nullopt;
+    if (cuts && variant % 2 == 1) lost.back() = true;
+    if (variant / ways == 0) return lost;
+    const std::uint32_t limit =
+        *std::prev(unmentioned.end(), static_cast<std::ptrdiff_t>(variant / ways));
+    for (std::size_t k = 0; k < lost.size(); ++k) {
+      const Submessage& one = sent[level.consumed + k];
+      if ((one.descriptor && *one.descriptor >= limit) ||
+          (one.heartbeat && one.heartbeat->announced > limit)) {
+        lost[k] = true;
+      }
+    }
+    return lost;
+  }
+
+  /// Which submessages arrived, and when the HEARTBEAT did that `reply` answers. One that is too
+  /// old to be answered now was lost, if anything may be.
+  bool explain(const Level& level, std::size_t reply, std::vector<bool> lost, Choice& choice) {
+    const auto window =
+        std::span{relation_.sent}.subspan(level.consumed, choice.end - level.consumed);
+    const Answer& answer = *replies_[reply];
+    for (;;) {
+      effort_ += window.size();
+      choice.arrivals = arrivals_for(answer, level.knowledge, window, lost);
+      if (!choice.arrivals.mismatch.empty()) return false;
+      if (!bounds_.may_lose && choice.arrivals.lost > 0) return false;
+      if (level.has_spare && follows_closely(reply)) return true;
+      if (!choice.arrivals.heartbeat) return false;
+      const std::size_t heartbeat = *choice.arrivals.heartbeat;
+      if (place(answer, level.consumed + heartbeat, choice)) return true;
+      if (!tried_misplaced_ || tried_misplaced_->late_ns == 0 || !bounds_.may_lose) return false;
+      if (lost[heartbeat]) return false;  // a part of its datagram has arrived
+      lost[heartbeat] = true;
+    }
+  }
+
+  /// Whether a HEARTBEAT that arrived during the reply before can be what this one answers.
+  [[nodiscard]] bool follows_closely(std::size_t reply) const {
+    const std::int64_t after = replies_[reply]->time_ns - replies_[reply - 1]->time_ns;
+    return after <= sedp_.heartbeat_response_delay.count() + bounds_.most_lateness_ns +
+                        bounds_.most_send_lag_ns;
+  }
+
+  /// When the HEARTBEAT that the ACKNACK answers arrived: as late as possible.
+  bool place(const Answer& answer, std::size_t heartbeat, Choice& choice) {
+    const Submessage& cause = relation_.sent[heartbeat];
+    const std::int64_t latest =
+        answer.time_ns - sedp_.heartbeat_response_delay.count() + capture_resolution_ns;
+    const std::int64_t earliest = cause.time_ns + bounds_.least_delay_ns - bounds_.clock_error_ns;
+    if (earliest > latest) {
+      tried_misplaced_ = Misplaced{heartbeat, earliest - latest, 0};
+      return false;
+    }
+    choice.heartbeat_ns =
+        std::min(latest, cause.time_ns + bounds_.most_delay_ns + bounds_.clock_error_ns);
+    const std::int64_t late =
+        latest - 2 * capture_resolution_ns - *choice.heartbeat_ns - bounds_.most_send_lag_ns;
+    if (late <= bounds_.most_lateness_ns) return true;
+    tried_misplaced_ = Misplaced{heartbeat, 0, late - bounds_.most_lateness_ns};
+    return false;
+  }
+
+  const Relation& relation_;
+  std::span<const Answer* const> replies_;
+  const model::SedpProfile& sedp_;
+  const Bounds& bounds_;
+  std::vector<Choice> choices_;
+  std::set<Key> dead_;
+  std::size_t farthest_ = 0;
+  std::vector<Choice> best_;
+  std::optional<Misplaced> misplaced_;
+  std::optional<Misplaced> tried_misplaced_;
+  std::size_t effort_ = 0;
+};
+
+}  // namespace
+
+std::size_t sent_until(const Relation& relation, std::int64_t time_ns, const Bounds& bounds) {
+  const std::int64_t latest = time_ns - bounds.least_delay_ns + bounds.clock_error_ns;
+  const auto later =
+      std::partition_point(relation.sent.begin(), relation.sent.end(),
+                           [latest](const Submessage& one) { return one.time_ns <= latest; });
+  return static_cast<std::size_t>(later - relation.sent.begin());
+}
+
+std::size_t expired(const Relation& relation, const Answer& answer, const Bounds& bounds) {
+  const std::int64_t before =
+      answer.time_ns - bounds.most_send_lag_ns - bounds.most_delay_ns - bounds.clock_error_ns;
+  const auto later =
+      std::partition_point(relation.sent.begin(), relation.sent.end(),
+                           [before](const Submessage& one) { return one.time_ns < before; });
+  return static_cast<std::size_t>(later - relation.sent.begin());
+}
+
+ReplySearch search_replies(const Relation& relation, std::span<const Answer* const> replies,
+                           const model::SedpProfile& sedp, const Bounds& bounds) {
+  return Search{relation, replies, sedp, bounds}.run();
+}
+
+}  // namespace stormproof::conform

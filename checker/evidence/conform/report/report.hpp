@@ -1,0 +1,44 @@
+// What `conform` says about a capture: text for people, JSON for scripts, forms for CI systems and
+// reviews, the chart of the first event that nothing explains, and the assignment of hidden events.
+//
+// Every form says the same: the verdict with the bounds that it is relative to, what is not
+// explained and what the nearest assignment would need, what was checked and what was not, and how
+// much of the tables and rules the capture exercised.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/evidence/capture/events.hpp"
+#include "checker/evidence/conform/conform.hpp"
+#include "model/dds_profile.hpp"
+
+namespace stormproof::conform {
+
+/// A result with everything that reports name.
+struct Report {
+  const capture::Conversation& conversation;
+  const Conformance& result;
+  const model::DdsProfile& dds;
+  std::string profile{};              ///< as the user named it
+  std::int64_t until_ns = INT64_MAX;  ///< as in the request
+  std::string command{};              ///< command line that gives this report; may be empty
+  int exit_code = 0;
+};
+
+[[nodiscard]] std::string to_text(const Report& report);
+[[nodiscard]] nlohmann::ordered_json to_json(const Report& report);
+[[nodiscard]] std::string to_markdown(const Report& report);
+[[nodiscard]] std::string to_html(const Report& report);
+[[nodiscard]] std::string to_junit(const Report& report);
+[[nodiscard]] nlohmann::ordered_json to_sarif(const Report& report);
+
+/// The context of the first unexplained event as a message sequence chart; empty if there is none.
+[[nodiscard]] std::string to_svg(const Report& report);
+
+/// The hidden events as JSON Lines: a line about the run, then one line for each event.
+[[nodiscard]] std::string assignment_lines(const Report& report);
+
+}  // namespace stormproof::conform

@@ -1,0 +1,79 @@
+// Each demand takes the latest ACKNACK that is used already and fits, otherwise the earliest unused
+// one that fits. Windows only shrink; used ACKNACKs arrive in the order in which they were sent.
+#include "checker/evidence/conform/requests.hpp"
+
+#include <algorithm>
+
+namespace stormproof::conform {
+
+Requests::Requests(const Relation& relation, const std::vector<Transmission>& transmissions,
+                   const Bounds& bounds, std::int64_t send_lag_ns)
+    : relation_{relation} {
+  // What has been acknowledged is not sent any more: no ACKNACK arrives before the last
+  // transmission of what it acknowledges.
+  std::vector<std::int64_t> last;
+  for (const Transmission& one : transmissions) {
+    if (one.descriptor >= last.size()) last.resize(one.descriptor + 1, INT64_MIN);
+    last[one.descriptor] = std::max(last[one.descriptor], one.time_ns - send_lag_ns);
+  }
+  std::vector<std::int64_t> prefix = last;
+  for (std::size_t d = 1; d < prefix.size(); ++d) prefix[d] = std::max(prefix[d], prefix[d - 1]);
+  asking_.resize(last.size());
+  for (std::size_t k = 0; k < relation.answers.size(); ++k) {
+    const Answer& answer = relation.answers[k];
+    Arrival arrival{answer.time_ns + bounds.least_delay_ns - bounds.clock_error_ns,
+                    answer.time_ns + bounds.most_delay_ns + bounds.clock_error_ns, false};
+    if (answer.base > 0 && !prefix.empty()) {
+      const std::size_t below = std::min<std::size_t>(answer.base, prefix.size()) - 1;
+      if (prefix[below] > INT64_MIN) arrival.from_ns = std::max(arrival.from_ns, prefix[below] + 1);
+    }
+    arrivals_.push_back(arrival);
+    for (const std::uint32_t d : answer.missing) {
+      if (d < asking_.size()) asking_[d].push_back(k);
+    }
+  }
+}
+
+/// The window of answer `k` if it also serves `demand`, between its used neighbours.
+Arrival Requests::fitted(std::size_t k, const Demand& demand) const {
+  Arrival window = arrivals_[k];
+  window.from_ns = std::max(window.from_ns, demand.from_ns);
+  window.to_ns = std::min(window.to_ns, demand.to_ns);
+  for (std::size_t before = k; before-- > 0;) {
+    if (!arrivals_[before].is_used) continue;
+    window.from_ns = std::max(window.from_ns, arrivals_[before].from_ns);
+    break;
+  }
+  for (std::size_t after = k + 1; after < arrivals_.size(); ++after) {
+    if (!arrivals_[after].is_used) continue;
+    window.to_ns = std::min(window.to_ns, arrivals_[after].to_ns);
+    break;
+  }
+  return window;
+}
+
+std::optional<std::size_t> Requests::serve(const Demand& demand) {
+  std::optional<std::size_t> chosen;  // the latest used one that fits, or the first unused one
+  for (const std::size_t k : asking_[demand.descriptor]) {
+    if (chosen && !arrivals_[k].is_used) continue;
+    const Arrival window = fitted(k, demand);
+    if (window.from_ns <= window.to_ns) chosen = k;
+  }
+  if (!chosen) return chosen;
+  arrivals_[*chosen] = fitted(*chosen, demand);
+  arrivals_[*chosen].is_used = true;
+  // Used ones keep their order: windows shrink on both sides.
+  for (std::size_t k = *chosen + 1; k < arrivals_.size(); ++k) {
+    if (arrivals_[k].is_used) {
+      arrivals_[k].from_ns = std::max(arrivals_[k].from_ns, arrivals_[*chosen].from_ns);
+    }
+  }
+  for (std::size_t k = *chosen; k-- > 0;) {
+    if (arrivals_[k].is_used) {
+      arrivals_[k].to_ns = std::min(arrivals_[k].to_ns, arrivals_[*chosen].to_ns);
+    }
+  }
+  return chosen;
+}
+
+}  // namespace stormproof::conform

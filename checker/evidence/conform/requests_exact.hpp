@@ -1,0 +1,28 @@
+// The same question as requests.hpp, decided by a solver: whether ACKNACKs can have arrived so that
+// every transmission that needs a request has one. The greedy schedule is asked first, because it
+// is fast and nearly always finds one; before a capture is said not to conform, this decides.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "checker/evidence/conform/requests.hpp"
+
+namespace stormproof::conform {
+
+struct ExactAnswer {
+  enum class Kind : std::uint8_t { possible, impossible, unknown };
+  Kind kind = Kind::unknown;
+  std::vector<Arrival> arrivals{};  ///< `possible`: by answer; from and to are the same instant
+  /// `possible`: for each demand the answer that serves it.
+  std::vector<std::size_t> request{};
+};
+
+/// Whether all `demands` can be served. Each ACKNACK is lost or arrives in its window of `requests`
+/// (which nobody has asked yet), in the order in which they were sent.
+[[nodiscard]] ExactAnswer decide(const Relation& relation, const Requests& requests,
+                                 const std::vector<Demand>& demands,
+                                 std::chrono::milliseconds limit);
+
+}  // namespace stormproof::conform

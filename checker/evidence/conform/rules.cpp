@@ -1,0 +1,53 @@
+// The names and sentences of the rules and faults.
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "checker/evidence/conform/conform.hpp"
+
+namespace stormproof::conform {
+
+namespace {
+
+struct Text {
+  std::string_view name;
+  std::string_view statement;
+};
+
+constexpr std::array<Text, rule_count> rules{{
+    {"announcement.scheduled", "SPDP by multicast when the announcement timer expires"},
+    {"announcement.resent", "SPDP by multicast because a participant was recognised"},
+    {"announcement.copy", "SPDP by unicast to a participant that is known"},
+    {"heartbeat.open", "to one reader, when the writer side of the relation opens"},
+    {"heartbeat.reply", "to one reader, in answer to its initial ACKNACK"},
+    {"heartbeat.periodic",
+     "to all readers, when the writer's timer expires and something is not acknowledged"},
+    {"heartbeat.piggyback", "to all readers, when DATA has used up the piggyback budget"},
+    {"heartbeat.same_host",
+     "to all readers, because of DATA to the writer's own host, which the capture does not show"},
+    {"data.push", "to all readers, when the endpoint is created after the relation opened"},
+    {"data.pull", "the first transmission of an older descriptor, after an ACKNACK asked for it"},
+    {"data.repair", "again, after an ACKNACK asked for it while it was unacknowledged"},
+    {"acknack.reply", "the heartbeat response delay after a HEARTBEAT arrived"},
+    {"acknack.initial", "the initial ACKNACK delay after the relation opened without a HEARTBEAT"},
+}};
+
+constexpr std::array<std::string_view, fault_count> faults{
+    "not_announced",    "not_opened",      "announcement_extra",
+    "announcement_due", "heartbeat_cause", "heartbeat_range",
+    "heartbeat_copies", "heartbeat_due",   "heartbeat_count",
+    "data_cause",       "data_early",      "data_acknowledged",
+    "acknack_cause",    "acknack_early",   "acknack_content",
+    "initial_early",    "initial_late",    "initial_after_heartbeat",
+    "unanswered",       "no_such_rule"};
+
+constexpr std::array<std::string_view, 3> verdicts{"conforms", "does not conform", "inconclusive"};
+
+}  // namespace
+
+std::string_view name_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].name; }
+std::string_view statement_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].statement; }
+std::string_view name_of(Fault fault) { return faults[static_cast<std::size_t>(fault)]; }
+std::string_view name_of(Verdict verdict) { return verdicts[static_cast<std::size_t>(verdict)]; }
+
+}  // namespace stormproof::conform

@@ -1,0 +1,299 @@
+// Finds the request of every transmission of a relation.
+#include "checker/evidence/conform/writer_side.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "checker/evidence/conform/data_replay.hpp"
+#include "checker/evidence/conform/requests_exact.hpp"
+#include "checker/evidence/conform/words.hpp"
+
+namespace stormproof::conform {
+
+namespace {
+
+std::vector<Transmission> transmissions_of(const Relation& relation, std::uint32_t existing) {
+  std::vector<Transmission> all;
+  std::vector<bool> seen;
+  for (const Submessage& one : relation.sent) {
+    if (!one.descriptor) continue;
+    const std::uint32_t d = *one.descriptor;
+    if (d >= seen.size()) seen.resize(d + 1);
+    const bool is_first = !seen[d];
+    all.push_back({d, one.time_ns, one.event, is_first, is_first && d >= existing});
+    seen[d] = true;
+  }
+  return all;
+}
+
+/// How long the solver may think about one relation.
+constexpr std::chrono::milliseconds solver_limit{10'000};
+
+class WriterSide {
+ public:
+  WriterSide(const WriterContext& context, const Relation& relation,
+             Tally<fsm::ChangeForReader>& changes, Tally<fsm::SingleShot>& timers, Ledger& ledger)
+      : context_{context},
+        relation_{relation},
+        changes_{changes},
+        timers_{timers},
+        ledger_{ledger} {}
+
+  std::optional<Unexplained> explain() {
+    if (relation_.sent.empty()) return std::nullopt;
+    const Submessage& opening = relation_.sent.front();
+    if (auto fault = not_announced(opening)) return fault;
+    const bool is_alone =
+        relation_.sent.size() == 1 || relation_.sent[1].datagram != opening.datagram;
+    if (!opening.heartbeat || !opening.heartbeat->is_directed || !is_alone) {
+      return not_opened(opening);
+    }
+    opened_ns_ = opening.time_ns;
+    existing_ = opening.heartbeat->announced;
+    transmissions_ = transmissions_of(relation_, existing_);
+    if (auto fault = pushed_late()) return fault;
+    if (auto fault = sent_after_acknowledgment()) return fault;
+    std::optional<Demand> failure;
+    for (const std::int64_t lag : lags()) {
+      Plan plan;
+      failure = search(lag, plan);
+      if (failure) continue;
+      ledger_.used_lag(lag);
+      return replay(plan, lag);
+    }
+    return decide_exactly(*failure);
+  }
+
+ private:
+  /// Send lags to try, the least first: what it takes is reported.
+  [[nodiscard]] std::vector<std::int64_t> lags() const {
+    std::vector<std::int64_t> all{0};
+    for (std::int64_t lag = 10'000; lag < context_.bounds.most_send_lag_ns; lag *= 10) {
+      all.push_back(lag);
+    }
+    if (context_.bounds.most_send_lag_ns > 0) all.push_back(context_.bounds.most_send_lag_ns);
+    return all;
+  }
+
+  /// What each transmission that is not pushed needs. `exact`: as the rules have it if everything
+  /// was serialized `lag` before its capture; otherwise no later than they can have it at all.
+  [[nodiscard]] std::vector<Demand> demands(std::int64_t lag, bool exact) const {
+    std::vector<Demand> all;
+    std::vector<std::int64_t> unacknowledged;  // since when, by descriptor
+    const std::int64_t suppression = context_.sedp.nack_suppression_duration.count();
+    std::int64_t suppressed_until = INT64_MIN;
+    for (std::size_t k = 0; k < transmissions_.size(); ++k) {
+      const Transmission& one = transmissions_[k];
+      const std::int64_t serialized = one.time_ns - lag;
+      if (one.descriptor >= unacknowledged.size()) {
+        unacknowledged.resize(one.descriptor + 1, opened_ns_ - lag);
+      }
+      if (!one.is_pushed) {
+        all.push_back({k, one.descriptor, unacknowledged[one.descriptor],
+                       one.time_ns - context_.response_ns() +
+                           (context_.response_ns() > 0 ? capture_resolution_ns : 0)});
+      }
+      // A suppression that is pending already ends for this descriptor, too.
+      const bool may_be_pending =
+          !exact && k > 0 && transmissions_[k - 1].time_ns + suppression >= serialized - lag;
+      if (serialized >= suppressed_until) suppressed_until = serialized + suppression;
+      unacknowledged[one.descriptor] =
+          may_be_pending ? serialized + 1 : std::max(suppressed_until, serialized + 1);
+    }
+    return all;
+  }
+
+  /// The greedy schedule; what it cannot serve, if anything.
+  std::optional<Demand> search(std::int64_t lag, Plan& plan) const {
+    Requests requests{relation_, transmissions_, context_.bounds, lag};
+    plan.request.resize(transmissions_.size());
+    for (const Demand& demand : demands(lag, true)) {
+      plan.request[demand.transmission] = requests.serve(demand);
+      if (!plan.request[demand.transmission]) return demand;
+    }
+    plan.arrivals = requests.arrivals();
+    return std::nullopt;
+  }
+
+  /// The greedy schedule fails at `failure`, but others may not: a solver decides, and finds the
+  /// first transmission that none explains.
+  std::optional<Unexplained> decide_exactly(const Demand& failure) {
+    const std::int64_t lag = context_.bounds.most_send_lag_ns;
+    const Requests requests{relation_, transmissions_, context_.bounds, lag};
+    const std::vector<Demand> all = demands(lag, false);
+    std::size_t count = 0;
+    while (count < all.size() && all[count].transmission <= failure.transmission) ++count;
+    for (; count <= all.size(); ++count) {
+      const std::vector<Demand> first{all.begin(),
+                                      all.begin() + static_cast<std::ptrdiff_t>(count)};
+      const ExactAnswer answer = decide(relation_, requests, first, solver_limit);
+      if (answer.kind == ExactAnswer::Kind::impossible) return unexplained(first.back());
+      if (answer.kind == ExactAnswer::Kind::unknown) break;
+      if (count < all.size()) continue;
+      Plan plan{answer.arrivals, {}};
+      plan.request.resize(transmissions_.size());
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        plan.request[all[k].transmission] = answer.request[k];
+      }
+      ledger_.used_lag(lag);
+      return replay(plan, lag);
+    }
+    ledger_.undecided();
+    return std::nullopt;
+  }
+
+  std::optional<Unexplained> replay(const Plan& plan, std::int64_t lag) {
+    DataReplay replay{context_, relation_, transmissions_, existing_, changes_, timers_, ledger_};
+    const Answer* unanswered_one = replay.run(plan, lag);
+    if (unanswered_one == nullptr) return std::nullopt;
+    return unanswered(*unanswered_one);
+  }
+
+  // Findings.
+
+  std::optional<Unexplained> not_announced(const Submessage& opening) {
+    const auto announced =
+        context_.dialogue.first_announced(*relation_.place.destination, relation_.place.source);
+    if (announced && opening.time_ns + context_.bounds.clock_error_ns + capture_resolution_ns >=
+                         *announced + context_.bounds.least_delay_ns) {
+      return std::nullopt;
+    }
+    std::vector<Need> needs;
+    if (announced) {
+      needs.push_back({"clock error", *announced + context_.bounds.least_delay_ns - opening.time_ns,
+                       context_.bounds.clock_error_ns});
+    }
+    return fault(opening.event, Fault::not_announced,
+                 "the writer sends to a participant that it cannot know yet",
+                 announced ? "the first announcement of the reader's participant comes later"
+                           : "no announcement of the reader's participant is in the capture",
+                 std::move(needs));
+  }
+
+  Unexplained not_opened(const Submessage& opening) {
+    return fault(opening.event, Fault::not_opened,
+                 "the first message to this reader is not the HEARTBEAT that opens the relation",
+                 "the writer opens with a HEARTBEAT to this reader alone, before anything else",
+                 {{"a HEARTBEAT with INFO_DST before it", {}, {}}});
+  }
+
+  /// A descriptor that is created after the opening is pushed at once, so no HEARTBEAT announces it
+  /// before.
+  std::optional<Unexplained> pushed_late() {
+    for (const Transmission& one : transmissions_) {
+      if (!one.is_pushed) continue;
+      const auto announced = context_.announced.lower_bound(one.descriptor + 1);
+      if (announced == context_.announced.end()) continue;
+      const std::int64_t late = one.time_ns - announced->second;
+      if (late <= context_.bounds.most_send_lag_ns) {
+        ledger_.used_lag(late);
+        continue;
+      }
+      return fault(
+          one.event, Fault::data_cause,
+          fmt::format("first transmission of descriptor {}, {} after a HEARTBEAT announced it",
+                      one.descriptor, duration(late)),
+          "the descriptor was created after the relation opened, so it is pushed at its creation, "
+          "and no HEARTBEAT comes before",
+          {{"send lag", late, context_.bounds.most_send_lag_ns}});
+    }
+    return std::nullopt;
+  }
+
+  /// If nothing is lost, an ACKNACK arrives at the latest after the longest delay.
+  std::optional<Unexplained> sent_after_acknowledgment() {
+    if (context_.bounds.may_lose) return std::nullopt;
+    const std::int64_t slack = context_.bounds.most_delay_ns + context_.bounds.clock_error_ns +
+                               context_.bounds.most_send_lag_ns + capture_resolution_ns;
+    for (const Transmission& one : transmissions_) {
+      for (const Answer& answer : relation_.answers) {
+        if (answer.time_ns + slack >= one.time_ns) break;
+        if (answer.is_initial || answer.base <= one.descriptor) continue;
+        return fault(one.event, Fault::data_acknowledged,
+                     fmt::format("descriptor {} is sent {} after the reader acknowledged it",
+                                 one.descriptor, duration(one.time_ns - answer.time_ns)),
+                     "what is acknowledged is not sent any more, and nothing is lost",
+                     {{"delay", one.time_ns - answer.time_ns, context_.bounds.most_delay_ns}},
+                     answer.event);
+      }
+    }
+    return std::nullopt;
+  }
+
+  Unexplained unanswered(const Answer& answer) {
+    return fault(
+        answer.event, Fault::unanswered,
+        fmt::format("ACKNACK of {}: not everything that it asks for is sent again", words(answer)),
+        "what an ACKNACK asks for while it is unacknowledged is sent, and nothing is lost",
+        {{"a loss, or a longer delay", {}, {}}});
+  }
+
+  Unexplained unexplained(const Demand& failure) {
+    const Transmission& one = transmissions_[failure.transmission];
+    const std::string what = fmt::format("{} transmission of descriptor {}",
+                                         one.is_first ? "first" : "repeated", one.descriptor);
+    const Answer* latest = nullptr;  // the last ACKNACK before it that asks for it
+    for (const Answer& answer : relation_.answers) {
+      if (answer.time_ns > one.time_ns + context_.bounds.clock_error_ns) break;
+      if (answer.asks_for(one.descriptor)) latest = &answer;
+    }
+    if (latest == nullptr) {
+      return fault(one.event, Fault::data_cause, what + ", and no ACKNACK asks for it before",
+                   one.is_first
+                       ? "the descriptor existed when the relation opened, so it waits for "
+                         "an ACKNACK that asks for it"
+                       : "a descriptor is sent again only when an ACKNACK asks for it",
+                   {{"an ACKNACK of this reader before it that asks for the descriptor", {}, {}}});
+    }
+    const std::int64_t earliest = latest->time_ns + context_.bounds.least_delay_ns;
+    if (earliest > failure.to_ns) {
+      const std::int64_t by = earliest - failure.to_ns;
+      return fault(
+          one.event, Fault::data_early,
+          fmt::format("{}, {} after the ACKNACK that asks for it", what,
+                      duration(one.time_ns - latest->time_ns)),
+          fmt::format("the writer waits {} after a request: it is sent at the earliest {} "
+                      "later",
+                      duration(context_.sedp.nack_response_delay.count()), duration(by)),
+          {{"clock error", context_.bounds.clock_error_ns + by, context_.bounds.clock_error_ns},
+           {"a nack response delay of at most", one.time_ns - latest->time_ns,
+            context_.sedp.nack_response_delay.count()}},
+          latest->event);
+    }
+    return fault(
+        one.event, Fault::data_early,
+        what + ", and every ACKNACK that asks for it is used up by an earlier transmission",
+        fmt::format("one that asks for it arrives between {} and {} before",
+                    duration(one.time_ns - failure.to_ns), duration(one.time_ns - failure.from_ns)),
+        {{"one more ACKNACK of this reader that asks for it and arrives then", {}, {}}},
+        latest->event);
+  }
+
+  Unexplained fault(std::size_t event, Fault kind, std::string what, std::string nearest,
+                    std::vector<Need> needs, std::optional<std::size_t> cause = {}) {
+    return unexplained_in(relation_, event, kind, std::move(what), std::move(nearest),
+                          std::move(needs), cause);
+  }
+
+  const WriterContext& context_;
+  const Relation& relation_;
+  Tally<fsm::ChangeForReader>& changes_;
+  Tally<fsm::SingleShot>& timers_;
+  Ledger& ledger_;
+
+  std::int64_t opened_ns_ = 0;
+  std::uint32_t existing_ = 0;  ///< descriptors when the relation opened
+  std::vector<Transmission> transmissions_;
+};
+
+}  // namespace
+
+std::optional<Unexplained> explain_data(const WriterContext& context, const Relation& relation,
+                                        Tally<fsm::ChangeForReader>& changes,
+                                        Tally<fsm::SingleShot>& timers, Ledger& ledger) {
+  return WriterSide{context, relation, changes, timers, ledger}.explain();
+}
+
+}  // namespace stormproof::conform

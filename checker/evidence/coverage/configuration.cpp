@@ -1,0 +1,184 @@
+// Groups runs, derives their schedules and builds their scenarios.
+#include "checker/evidence/coverage/configuration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "checker/experiments/statistics/quantiles.hpp"
+#include "model/config/scenario_file.hpp"
+
+namespace stormproof::prediction {
+
+namespace {
+
+/// From the beginning of its creation, a participant needs at least this long to announce itself:
+/// seen on the live machine when nothing else runs.
+constexpr double least_announcement_ms = 3;
+/// Creating a participant takes as long as creating so many endpoints: the quotient of the two
+/// slopes of ep_done's upper end over N_P and N_P (17 + N_E), 15.4 ms and 0.455 ms, on the live
+/// machine.
+constexpr double participant_in_endpoints = 34;
+/// Endpoints of a ROS 2 node beside the user's.
+constexpr double default_endpoints = 17;
+
+std::optional<Range> median_range(const std::vector<Observation>& runs,
+                                  std::optional<Range> Observation::*field) {
+  std::vector<double> low;
+  std::vector<double> high;
+  for (const Observation& run : runs) {
+    if (!(run.*field)) continue;
+    low.push_back((run.*field)->low);
+    high.push_back((run.*field)->high);
+  }
+  const auto least = sampling::quantiles(low).median;
+  const auto greatest = sampling::quantiles(high).median;
+  if (!least || !greatest) return std::nullopt;
+  return Range{*least, *greatest};
+}
+
+/// For runs without ep_done_ms: the fit to the live machine.
+Range usual_endpoints_done(double participants, double endpoints) {
+  const double low = -0.7 + 2.9 * participants + 0.2 * participants * endpoints;
+  const double high = -27 + 15.4 * participants + 0.455 * participants * endpoints;
+  return {low, std::max(low, high)};
+}
+
+std::string scenario_text(const Configuration& c, const ScenarioOptions& options, bool sampled) {
+  std::string schedule;
+  if (sampled) {
+    const ScheduleRanges ranges = schedule_ranges(c);
+    schedule = fmt::format(
+        ", schedule: {{start: [{:.6f}ms, {:.6f}ms], endpoints_done: [{:.6f}ms, {:.6f}ms]}}",
+        ranges.start.low, ranges.start.high, ranges.endpoints_done.low, ranges.endpoints_done.high);
+  }
+  const auto quoted = [](std::string text) {
+    for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
+      text.insert(k, 1, '\'');
+    }
+    return "'" + text + "'";
+  };
+  return fmt::format(
+      "{{deployment: {{hosts: {}, participants_per_host: {}, endpoints_per_participant: {}, "
+      "loopback_delay: 2ms{}}}, dds: {}, wireless: {}, time_limit: 200s}}",
+      c.hosts, c.participants_per_host, c.endpoints, schedule, quoted(options.dds),
+      quoted(options.wireless));
+}
+
+template <class Value>
+void replace(Value& value, const std::optional<double>& row, double scale) {
+  if (row) value = Value{static_cast<std::int64_t>(std::llround(*row * scale))};
+}
+
+/// Puts the channel of the row in the place of the profile's.
+model::config::Result<model::Scenario> with_channel(model::Scenario scenario,
+                                                    const Channel& channel) {
+  if (channel.wired()) {
+    const auto wired =
+        model::config::read_wireless_profile("wired", {}, model::config::SpecPath::standard());
+    if (!wired) return wired.error();
+    scenario.wireless = *wired;
+  } else {
+    replace(scenario.wireless.overhead_unicast, channel.overhead_unicast_us, 1e3);
+    replace(scenario.wireless.overhead_multicast, channel.overhead_multicast_us, 1e3);
+    replace(scenario.wireless.rate_unicast, channel.rate_unicast_mbps, 1e6);
+    replace(scenario.wireless.rate_multicast, channel.rate_multicast_mbps, 1e6);
+  }
+  if (channel.send_buffer_bytes.value_or(0) > 0) {
+    replace(scenario.dds.sedp.piggyback_threshold_bytes, channel.send_buffer_bytes, 1);
+  }
+  return scenario;
+}
+
+}  // namespace
+
+std::vector<Configuration> configurations(const std::vector<Observation>& rows) {
+  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::string, Channel>;
+  std::map<Key, Configuration> found;
+  for (const Observation& run : rows) {
+    Configuration& c =
+        found[Key{run.participants_per_host, run.endpoints, run.hosts, run.set, run.channel}];
+    c.set = run.set;
+    c.hosts = run.hosts;
+    c.participants_per_host = run.participants_per_host;
+    c.endpoints = run.endpoints;
+    c.channel = run.channel;
+    c.runs.push_back(run);
+  }
+  std::vector<Configuration> result;
+  for (auto& [key, configuration] : found) result.push_back(std::move(configuration));
+  return result;
+}
+
+ScheduleRanges schedule_ranges(const Configuration& c) {
+  const double endpoints = default_endpoints + c.endpoints;
+  ScheduleRanges ranges;
+  ranges.endpoints_done = median_range(c.runs, &Observation::endpoints_done)
+                              .value_or(usual_endpoints_done(c.participants_per_host, endpoints));
+  if (const auto measured = median_range(c.runs, &Observation::start)) {
+    ranges.start = *measured;
+    return ranges;
+  }
+  const Range create = median_range(c.runs, &Observation::create).value_or(Range{});
+  const double creation_share = participant_in_endpoints / (participant_in_endpoints + endpoints);
+  ranges.start.low = create.low + least_announcement_ms;
+  ranges.start.high = std::max(ranges.start.low, ranges.endpoints_done.high * creation_share);
+  return ranges;
+}
+
+model::config::Result<model::Scenario> scenario_of(const Configuration& configuration,
+                                                   const ScenarioOptions& options) {
+  const auto specs = model::config::SpecPath::standard();
+  const auto read = [&](bool sampled) {
+    return model::config::parse_scenario(scenario_text(configuration, options, sampled), "coverage",
+                                         options.overrides, specs);
+  };
+  auto scenario = read(true);
+  if (!scenario) return scenario.error();
+  const bool schedule_wanted = std::ranges::any_of(options.overrides, [](const std::string& set) {
+    return set.starts_with("deployment.schedule");
+  });
+  if (scenario->dds.implementation == model::ImplementationKind::paper && !schedule_wanted) {
+    scenario = read(false);
+    if (!scenario) return scenario.error();
+  }
+  if (options.channel == ChannelSource::profile) return scenario;
+  return with_channel(std::move(*scenario), configuration.channel);
+}
+
+std::string mismatch(const Configuration& configuration, const model::Scenario& scenario) {
+  const Channel& row = configuration.channel;
+  const model::WirelessProfile& profile = scenario.wireless;
+  if (row.medium && row.wired() != (profile.kind == model::ServiceKind::constant_delay)) {
+    return "medium " + *row.medium;
+  }
+  const auto differs = [](const std::optional<double>& value, double scale, std::int64_t wanted) {
+    return value && std::llround(*value * scale) != wanted;
+  };
+  if (differs(row.overhead_unicast_us, 1e3, profile.overhead_unicast.count())) {
+    return fmt::format("O_u_us {}", *row.overhead_unicast_us);
+  }
+  if (differs(row.overhead_multicast_us, 1e3, profile.overhead_multicast.count())) {
+    return fmt::format("O_m_us {}", *row.overhead_multicast_us);
+  }
+  if (differs(row.rate_unicast_mbps, 1e6, profile.rate_unicast.count())) {
+    return fmt::format("R_u_Mbps {}", *row.rate_unicast_mbps);
+  }
+  if (differs(row.rate_multicast_mbps, 1e6, profile.rate_multicast.count())) {
+    return fmt::format("R_m_Mbps {}", *row.rate_multicast_mbps);
+  }
+  if (row.loss.value_or(0) > 0) return fmt::format("loss {}", *row.loss);
+  // The default send buffer of Linux is 212,992 B, of which the writer takes half.
+  const double buffer = row.send_buffer_bytes.value_or(0);
+  const double threshold = buffer > 0 ? buffer : 106'496;
+  if (differs(row.send_buffer_bytes ? std::optional{threshold} : std::nullopt, 1,
+              scenario.dds.sedp.piggyback_threshold_bytes.count())) {
+    return buffer > 0 ? fmt::format("sndbuf_B {:.0f}", buffer) : "sndbuf_B 0 (the default)";
+  }
+  return "";
+}
+
+}  // namespace stormproof::prediction

@@ -1,0 +1,59 @@
+// The configurations that were measured, and the scenario that predicts each of them: who takes
+// part, when participants start, and over which channel.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "checker/evidence/coverage/observation.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::prediction {
+
+/// All runs of one set with the same numbers and the same channel.
+struct Configuration {
+  std::string set;
+  std::uint32_t hosts = 0;
+  std::uint32_t participants_per_host = 0;  ///< N_P
+  std::uint32_t endpoints = 0;              ///< N_E
+  Channel channel;
+  std::vector<Observation> runs;
+
+  [[nodiscard]] bool same_deployment(const Configuration& other) const {
+    return hosts == other.hosts && participants_per_host == other.participants_per_host &&
+           endpoints == other.endpoints;
+  }
+};
+
+/// In ascending order of N_P, N_E, hosts, set and channel; runs in the order of the file.
+[[nodiscard]] std::vector<Configuration> configurations(const std::vector<Observation>& rows);
+
+/// Where the schedules of a configuration are drawn from, in ms. The rule, in specs/coverage.md,
+/// is the same for every configuration and every machine.
+struct ScheduleRanges {
+  Range start;
+  Range endpoints_done;
+};
+[[nodiscard]] ScheduleRanges schedule_ranges(const Configuration& configuration);
+
+/// Whose channel a prediction uses: the wireless profile's, or that of the row.
+enum class ChannelSource : std::uint8_t { profile, row };
+
+struct ScenarioOptions {
+  std::string dds;                     ///< name or path of a profile
+  std::string wireless;                ///< name or path of a profile
+  std::vector<std::string> overrides;  ///< key.path=value
+  ChannelSource channel = ChannelSource::profile;
+};
+
+/// The scenario of a configuration. With `implementation: fastdds` it has a schedule to sample; the
+/// paper's participants all start at 0, unless an override gives them a schedule.
+[[nodiscard]] model::config::Result<model::Scenario> scenario_of(const Configuration& configuration,
+                                                                 const ScenarioOptions& options);
+
+/// In what the configuration differs from the scenario that should predict it ("loss 0.05", say);
+/// empty if in nothing.
+[[nodiscard]] std::string mismatch(const Configuration& configuration,
+                                   const model::Scenario& scenario);
+
+}  // namespace stormproof::prediction

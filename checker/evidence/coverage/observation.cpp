@@ -1,0 +1,224 @@
+// Reads JSON Lines and refuses, with line and field, whatever is not a measured run.
+#include "checker/evidence/coverage/observation.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "model/deployment.hpp"
+
+namespace stormproof::prediction {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Every class has its short name of the measurements and its name in the reports of this program.
+struct ClassName {
+  Measure measure;
+  const char* short_name;
+};
+constexpr ClassName class_names[] = {{Measure::spdp_multicast, "spdp_m"},
+                                     {Measure::spdp_unicast, "spdp_u"},
+                                     {Measure::initial_data, "init"},
+                                     {Measure::repair_data, "repair"},
+                                     {Measure::heartbeat, "hb"},
+                                     {Measure::acknack, "ack"},
+                                     {Measure::total, "total"}};
+
+/// Reads the fields of one row and remembers the first mistake.
+class Row {
+ public:
+  explicit Row(const Json& json) : json_{json} {}
+
+  [[nodiscard]] const std::string& error() const { return error_; }
+
+  void fail(const std::string& field, const std::string& expected) {
+    if (!error_.empty()) return;
+    const auto found = json_.find(field);
+    const std::string value = found == json_.end() ? "is missing" : "is " + found->dump();
+    error_ = fmt::format("{} {}; expected {}", field, value, expected);
+  }
+
+  [[nodiscard]] bool has(const char* field) const {
+    const auto found = json_.find(field);
+    return found != json_.end() && !found->is_null();
+  }
+
+  [[nodiscard]] std::optional<double> number(const char* field, double least, double greatest,
+                                             const char* expected) {
+    if (!has(field)) return std::nullopt;
+    const Json& value = json_[field];
+    if (!value.is_number() || value.get<double>() < least || value.get<double>() > greatest) {
+      fail(field, expected);
+      return std::nullopt;
+    }
+    return value.get<double>();
+  }
+
+  [[nodiscard]] std::uint32_t count(const char* field, std::uint32_t least,
+                                    std::uint32_t greatest) {
+    const Json* value = has(field) ? &json_[field] : nullptr;
+    if (value == nullptr || !value->is_number_integer() || value->get<double>() < least ||
+        value->get<double>() > greatest) {
+      fail(field, fmt::format("an integer from {} to {}", least, greatest));
+      return least;
+    }
+    return value->get<std::uint32_t>();
+  }
+
+  [[nodiscard]] std::optional<std::string> text(const char* field) {
+    if (!has(field)) return std::nullopt;
+    if (json_[field].is_string()) return json_[field].get<std::string>();
+    fail(field, "a string");
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<Range> range(const char* field) {
+    if (!has(field)) return std::nullopt;
+    const Json& value = json_[field];
+    const auto valid = [](const Json& end) {
+      return end.is_number() && end.get<double>() >= 0 && end.get<double>() <= max_ms;
+    };
+    if (!value.is_array() || value.size() != 2 || !valid(value[0]) || !valid(value[1]) ||
+        value[0].get<double>() > value[1].get<double>()) {
+      fail(field, "[earliest, latest], two ascending times in ms from 0 to 3600000");
+      return std::nullopt;
+    }
+    return Range{value[0].get<double>(), value[1].get<double>()};
+  }
+
+  static constexpr double max_ms = 3'600'000;
+  static constexpr double max_messages = 1e12;
+
+ private:
+  const Json& json_;
+  std::string error_;
+};
+
+void read_counts(const Json& json, Row& row, Observation& run) {
+  const auto counts = json.find("counts");
+  if (counts == json.end() || counts->is_null()) return;
+  if (!counts->is_object()) return row.fail("counts", "an object of message counts");
+  Row fields{*counts};
+  constexpr const char* expected = "a number of messages, at least 0";
+  for (const auto& [measure, short_name] : class_names) {
+    auto& value = run.values[static_cast<std::size_t>(measure)];
+    value = fields.number(short_name, 0, Row::max_messages, expected);
+    if (!value) value = fields.number(name_of(measure), 0, Row::max_messages, expected);
+  }
+  if (!fields.error().empty()) return row.fail("counts", "in it: " + fields.error());
+  auto& total = run.values[static_cast<std::size_t>(Measure::total)];
+  if (total) return;
+  double sum = 0;
+  for (const auto& [measure, short_name] : class_names) {
+    if (measure == Measure::total) continue;
+    const auto& value = run.values[static_cast<std::size_t>(measure)];
+    if (!value) return;
+    sum += *value;
+  }
+  total = sum;
+}
+
+/// The completion time of a run that completed, the time limit of one that did not.
+void read_completion(const Json& json, Row& row, const ReadOptions& options, Observation& run) {
+  const char* field = options.completion == CompletionTime::strict ? "T_strict_ms"
+                      : row.has("completion_ms")                   ? "completion_ms"
+                                                                   : "T_app_ms";
+  const auto time = row.number(field, 0, Row::max_ms, "a time in ms from 0 to 3600000");
+  run.completed = time.has_value();
+  if (row.has("completed")) {
+    if (!json["completed"].is_boolean()) return row.fail("completed", "true or false");
+    run.completed = json["completed"].get<bool>();
+    if (run.completed && !time) row.fail(field, "the completion time in ms, as completed is true");
+  } else if (!time) {
+    row.fail(field, "the completion time in ms, or completed: false beside it");
+  }
+  const auto limit = row.number("limit_s", 0, Row::max_ms / 1000, "a time in s from 0 to 3600");
+  run.values[static_cast<std::size_t>(Measure::completion)] =
+      run.completed ? time : limit.value_or(0) * 1000;
+}
+
+void read_channel(Row& row, Channel& channel) {
+  constexpr const char* overhead = "a time in us from 0 to 1000000";
+  constexpr const char* rate = "a rate in Mbit/s from 0.001 to 1000000";
+  channel.medium = row.text("medium");
+  channel.overhead_unicast_us = row.number("O_u_us", 0, 1e6, overhead);
+  channel.overhead_multicast_us = row.number("O_m_us", 0, 1e6, overhead);
+  channel.rate_unicast_mbps = row.number("R_u_Mbps", 1e-3, 1e6, rate);
+  channel.rate_multicast_mbps = row.number("R_m_Mbps", 1e-3, 1e6, rate);
+  channel.loss = row.number("loss", 0, 1, "a probability from 0 to 1");
+  channel.send_buffer_bytes = row.number("sndbuf_B", 0, 1e12, "a size in bytes, 0 for the default");
+}
+
+bool selected(const Json& json, const std::vector<std::string>& select) {
+  for (const std::string& wanted : select) {
+    const std::size_t equals = wanted.find('=');
+    const auto found = json.find(wanted.substr(0, equals));
+    if (found == json.end()) return false;
+    const std::string value = found->is_string() ? found->get<std::string>() : found->dump();
+    if (value != wanted.substr(equals + 1)) return false;
+  }
+  return true;
+}
+
+Observation read_row(const Json& json, Row& row, const ReadOptions& options) {
+  Observation run;
+  run.set = row.text("set").value_or("");
+  run.hosts = row.count("N_H", 2, model::Deployment::max_participants);
+  run.participants_per_host = row.count("N_P", 1, model::Deployment::max_participants);
+  run.endpoints = row.count("N_E", 0, model::Deployment::max_endpoints);
+  read_channel(row, run.channel);
+  read_counts(json, row, run);
+  read_completion(json, row, options, run);
+  run.start = row.range("start_ms");
+  run.create = row.range("create_ms");
+  run.endpoints_done = row.range("ep_done_ms");
+  return run;
+}
+
+}  // namespace
+
+const char* name_of(Measure measure) {
+  constexpr const char* names[] = {"completion",   "total",       "spdp_multicast", "spdp_unicast",
+                                   "initial_data", "repair_data", "heartbeat",      "acknack"};
+  return names[static_cast<std::size_t>(measure)];
+}
+
+model::config::Result<Observations> read_observations(std::istream& input, const std::string& name,
+                                                      const ReadOptions& options) {
+  using model::config::InputError;
+  for (const std::string& wanted : options.select) {
+    if (wanted.find('=') == std::string::npos || wanted.front() == '=') {
+      return InputError{"--select " + wanted, "expected KEY=VALUE, a field of the rows"};
+    }
+  }
+  Observations result;
+  std::string line;
+  for (std::size_t number = 1; std::getline(input, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const std::string where = fmt::format("{}:{}", name, number);
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object()) {
+      return InputError{where, "not a JSON object; expected one measured run per line"};
+    }
+    if (!selected(json, options.select)) {
+      ++result.not_selected;
+      continue;
+    }
+    Row row{json};
+    result.rows.push_back(read_row(json, row, options));
+    if (!row.error().empty()) return InputError{where, row.error()};
+  }
+  if (input.bad()) return InputError{name, "cannot be read"};
+  if (result.rows.empty()) {
+    return InputError{name, result.not_selected == 0
+                                ? "has no rows; expected one measured run per line"
+                                : fmt::format("none of its {} rows is selected by --select",
+                                              result.not_selected)};
+  }
+  return result;
+}
+
+}  // namespace stormproof::prediction

@@ -1,0 +1,40 @@
+// The answer of `stormproof coverage`: text, JSON, and charts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/evidence/coverage/study.hpp"
+
+namespace stormproof::prediction {
+
+/// What was asked, for the head of a report.
+struct Heading {
+  std::string observations;  ///< file
+  std::string command;       ///< reproduces the report
+  std::size_t rows = 0;
+  std::size_t not_selected = 0;
+  std::string wireless;
+  std::size_t samples = 0;
+  std::uint64_t first_seed = 0;
+};
+
+[[nodiscard]] std::string to_text(const Heading& heading, const Study& study);
+
+/// Keys: observations, command, samples, seed, profiles (name, skipped runs, configurations with
+/// their measured and predicted medians), rows, effects. specs/coverage.md describes them.
+[[nodiscard]] nlohmann::ordered_json to_json(const Heading& heading, const Study& study);
+
+struct ChartFile {
+  std::string name;  ///< of the file, without folder
+  std::string svg;
+};
+/// For each profile: model against measurement for completion and all messages, and calibration.
+[[nodiscard]] std::vector<ChartFile> charts(const Study& study);
+
+/// One self-contained page: the text report and all charts.
+[[nodiscard]] std::string to_html(const Heading& heading, const Study& study);
+
+}  // namespace stormproof::prediction

@@ -1,0 +1,174 @@
+// The statistics, on Eigen's arrays. Infinity stands for a run that did not complete: it is above
+// every limit, so order statistics stay exact, and no run is dropped.
+#include "checker/evidence/coverage/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+namespace stormproof::prediction {
+
+namespace {
+
+using Array = Eigen::ArrayXd;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Array sorted_array(const std::vector<double>& values) {
+  Array array = Eigen::Map<const Array>(values.data(), static_cast<Eigen::Index>(values.size()));
+  std::sort(array.begin(), array.end());
+  return array;
+}
+
+double quantile_of_sorted(const Array& sorted, double q) {
+  const double position = q * static_cast<double>(sorted.size() - 1);
+  const auto low = static_cast<Eigen::Index>(position);
+  const double weight = position - static_cast<double>(low);
+  if (weight == 0) return sorted[low];
+  if (std::isinf(sorted[low + 1])) return infinity;
+  return sorted[low] + weight * (sorted[low + 1] - sorted[low]);
+}
+
+std::optional<double> if_finite(double value) {
+  return std::isfinite(value) ? std::optional{value} : std::nullopt;
+}
+
+std::optional<double> finite_quantile(const std::vector<double>& values, double q) {
+  return values.empty() ? std::nullopt : if_finite(quantile(values, q));
+}
+
+/// M/O: 1 if both are 0, infinite if only O is.
+double ratio_of(double model, double observed) {
+  if (model == observed) return 1;
+  return observed == 0 ? infinity : model / observed;
+}
+
+double share(double part, std::size_t whole) { return part / static_cast<double>(whole); }
+
+/// Collects the runs and configurations of one scope.
+class Collection {
+ public:
+  explicit Collection(Measure measure) : measure_{static_cast<std::size_t>(measure)} {}
+
+  void add(const Pairing& pairing) {
+    const std::vector<double> observed =
+        observed_values(*pairing.observed, static_cast<Measure>(measure_));
+    if (observed.empty()) return;
+    const Array model = sorted_array(pairing.predicted->values[measure_]);
+    const double prediction = quantile_of_sorted(model, 0.5);
+    ++fit_.configurations;
+    fit_.model_runs += static_cast<std::size_t>(model.size());
+    fit_.incomplete_model_runs += pairing.predicted->incomplete;
+    add_configuration(prediction, quantile(observed, 0.5));
+    add_runs(observed, model, prediction);
+    for (const Observation& run : pairing.observed->runs) {
+      if (run.completed || !run.values[measure_]) continue;
+      ++fit_.incomplete_runs;
+      if (*run.values[measure_] <= prediction) ++fit_.undecided_runs;
+    }
+  }
+
+  [[nodiscard]] std::optional<Fit> finish() {
+    if (fit_.runs == 0) return std::nullopt;
+    fit_.coverage = share(fit_.coverage, fit_.runs);
+    fit_.in_range = share(fit_.in_range, fit_.runs);
+    for (double& below : fit_.calibration) below = share(below, fit_.runs);
+    fit_.covered_q1 = finite_quantile(covered_, 0.25);
+    fit_.covered_median = finite_quantile(covered_, 0.5);
+    fit_.covered_q3 = finite_quantile(covered_, 0.75);
+    fit_.median_ratio = finite_quantile(ratios_, 0.5);
+    std::vector<double> distances;
+    for (const double ratio : ratios_) distances.push_back(std::abs(std::log(ratio)));
+    fit_.median_abs_ln_ratio = finite_quantile(distances, 0.5);
+    fit_.percent_configurations = percents_.size();
+    if (!percents_.empty()) {
+      fit_.mean_absolute_percent = sorted_array(percents_).mean();
+    }
+    return fit_;
+  }
+
+ private:
+  void add_configuration(double model, double observed) {
+    if (std::isinf(model) && std::isinf(observed)) {
+      ++fit_.undecided_configurations;
+      return;
+    }
+    const double ratio = std::isinf(observed) ? 0 : ratio_of(model, observed);
+    ratios_.push_back(ratio);
+    const double percent = 100 * std::abs(ratio - 1);
+    if (std::isfinite(percent) && std::isfinite(observed)) percents_.push_back(percent);
+  }
+
+  void add_runs(const std::vector<double>& observed, const Array& model, double prediction) {
+    const Array runs = sorted_array(observed);
+    fit_.runs += observed.size();
+    const auto covered = runs <= prediction && runs < infinity;
+    fit_.coverage += static_cast<double>(covered.count());
+    for (Eigen::Index k = 0; k < covered.count(); ++k) {
+      covered_.push_back(ratio_of(prediction, runs[k]));
+    }
+    const auto within = runs >= model[0] && runs <= model[model.size() - 1];
+    fit_.in_range += static_cast<double>(within.count());
+    for (std::size_t k = 0; k < calibration_points; ++k) {
+      const double limit = quantile_of_sorted(model, static_cast<double>(k + 1) / 10);
+      fit_.calibration[k] += static_cast<double>((runs <= limit).count());
+    }
+  }
+
+  std::size_t measure_;
+  Fit fit_;  ///< until `finish`, shares are sums
+  std::vector<double> covered_;
+  std::vector<double> ratios_;
+  std::vector<double> percents_;
+};
+
+}  // namespace
+
+std::vector<std::string> scopes(const std::vector<Pairing>& pairings) {
+  std::set<std::uint32_t> participants;
+  bool high_load = false;
+  for (const Pairing& pairing : pairings) {
+    participants.insert(pairing.observed->participants_per_host);
+    high_load = high_load || in_scope(*pairing.observed, "high_load");
+  }
+  std::vector<std::string> names;
+  for (const std::uint32_t n : participants) names.push_back(fmt::format("np{}", n));
+  names.emplace_back("all");
+  if (high_load) names.emplace_back("high_load");
+  return names;
+}
+
+bool in_scope(const Configuration& configuration, const std::string& scope) {
+  if (scope == "all") return true;
+  if (scope == "high_load") {
+    return configuration.participants_per_host >= 4 && configuration.endpoints >= 20;
+  }
+  return scope == fmt::format("np{}", configuration.participants_per_host);
+}
+
+std::optional<Fit> fit(const std::vector<Pairing>& pairings, const std::string& scope,
+                       Measure measure) {
+  Collection collection{measure};
+  for (const Pairing& pairing : pairings) {
+    if (in_scope(*pairing.observed, scope)) collection.add(pairing);
+  }
+  return collection.finish();
+}
+
+double quantile(std::vector<double> values, double q) {
+  return quantile_of_sorted(sorted_array(values), q);
+}
+
+std::vector<double> observed_values(const Configuration& configuration, Measure measure) {
+  std::vector<double> values;
+  for (const Observation& run : configuration.runs) {
+    const auto& value = run.values[static_cast<std::size_t>(measure)];
+    if (value) values.push_back(run.completed ? *value : infinity);
+  }
+  return values;
+}
+
+}  // namespace stormproof::prediction

@@ -1,0 +1,61 @@
+// One comparison of measurements with predictions, from the rows of a file to all statistics: what
+// `stormproof coverage` does.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checker/evidence/coverage/effect.hpp"
+#include "checker/evidence/coverage/statistics.hpp"
+
+namespace stormproof::prediction {
+
+struct StudyRequest {
+  std::vector<std::string> dds;  ///< profiles, at least one
+  std::string wireless;
+  std::vector<std::string> overrides;  ///< of all scenarios
+  std::vector<std::string> change;     ///< of all but the baseline's
+  std::string baseline;                ///< profile; empty: none
+  ChannelSource channel = ChannelSource::profile;
+  std::vector<std::string> scopes;  ///< empty: all that occur
+  PredictOptions predict;
+};
+
+/// Statistics of one profile in one scope for one measure.
+struct FitRow {
+  std::string scope;
+  Measure measure{};
+  Fit fit;
+};
+
+/// One profile on all configurations that it can predict.
+struct ProfileStudy {
+  std::string name;
+  bool is_baseline = false;
+  bool sampled = false;                        ///< whether schedules or losses were drawn
+  model::DdsProfile dds;                       ///< of its scenarios
+  std::map<std::string, std::size_t> skipped;  ///< measured runs of other channels, by difference
+  std::vector<Configuration> configurations;
+  std::vector<Prediction> predictions;  ///< one for each configuration
+  std::vector<FitRow> rows;
+  std::vector<Effect> effects;  ///< relative to the baseline, if there is one
+
+  [[nodiscard]] std::vector<Pairing> pairings() const;
+};
+
+struct Study {
+  std::vector<ProfileStudy> profiles;  ///< the baseline, if there is one, last
+  bool interrupted = false;            ///< then only the runs that finished are evaluated
+};
+
+/// `rows` are the measurements; `baseline_rows` those of the baseline, if it was measured apart.
+/// Without them, the changed system is predicted for the deployments of `rows`, which are taken to
+/// be the baseline's.
+[[nodiscard]] model::config::Result<Study> study(const std::vector<Observation>& rows,
+                                                 const std::vector<Observation>& baseline_rows,
+                                                 const StudyRequest& request);
+
+}  // namespace stormproof::prediction

@@ -1,0 +1,43 @@
+// Names and sums.
+#include "checker/evidence/validate/figures.hpp"
+
+namespace stormproof::validate {
+
+namespace {
+
+struct Words {
+  const char* name;
+  const char* label;
+};
+constexpr std::array<Words, figure_count> words{
+    {{"completion_ns", "completion"},      {"total", "messages"},
+     {"initial_data", "initial DATA"},     {"repair_data", "repair DATA"},
+     {"heartbeat", "HEARTBEAT"},           {"acknack", "ACKNACK"},
+     {"spdp_multicast", "SPDP multicast"}, {"spdp_unicast", "SPDP unicast"},
+     {"initial_pulled", "pulled"},         {"heartbeat_open", "relation opens"},
+     {"heartbeat_reply", "reply"},         {"heartbeat_piggyback", "piggyback"},
+     {"heartbeat_periodic", "periodic"},   {"acknack_initial", "initial"},
+     {"acknack_negative", "negative"},     {"acknack_positive", "positive"},
+     {"datagrams", "datagrams"},           {"payload_bytes", "UDP payload bytes"},
+     {"last_open_ns", "last relation"},    {"last_initial_ns", "last initial DATA"},
+     {"user_control", "user control"}}};
+
+}  // namespace
+
+const char* name_of(Figure figure) { return words[index_of(figure)].name; }
+const char* label_of(Figure figure) { return words[index_of(figure)].label; }
+
+void add(Tally& tally, capture::Class one, std::uint64_t messages) {
+  tally[index_of(figure_of(one))] += messages;
+  tally[index_of(Figure::total)] += messages;
+}
+
+GrowthPoint growth_point(const Tally& tally) {
+  GrowthPoint point{};
+  for (std::size_t curve = 0; curve < growth_curves; ++curve) {
+    point[curve] = tally[index_of(figure_of_curve(curve))];
+  }
+  return point;
+}
+
+}  // namespace stormproof::validate

@@ -1,0 +1,57 @@
+// Counts a run of the model by the rules of a capture: each message at its emission, DATA by its
+// key, HEARTBEATs and ACKNACKs by their reason, and all of it over time. A probe, because a run
+// itself only keeps its totals at the end.
+#pragma once
+
+#include <optional>
+
+#include "checker/evidence/validate/figures.hpp"
+#include "model/dds_profile.hpp"
+#include "model/probe.hpp"
+#include "props/monitors/relation_words.hpp"
+
+namespace stormproof::validate {
+
+class MessageTally final : public model::Probe {
+ public:
+  /// Growth is kept for `steps` steps of `step_ns`.
+  MessageTally(model::ImplementationKind implementation, std::int64_t step_ns, std::size_t steps)
+      : acknacks_have_bases_{implementation == model::ImplementationKind::fastdds}, steps_{steps} {
+    growth_.step_ns = step_ns;
+  }
+
+  void run_started(const model::Topology& topology) override { generated_.reset(topology); }
+  void event_started(const model::Event& event) override;
+  void event_finished(const model::Depths& depths) override;
+  void received(const model::Packet& packet, std::uint32_t receiver) override;
+  void emitted(const model::Packet& packet, std::uint32_t source,
+               std::span<const std::uint32_t> destinations) override;
+
+  /// Everything that was emitted.
+  [[nodiscard]] const Tally& tally() const { return tally_; }
+  /// Until the event that emitted the last initial DATA, inclusive; its completion is that time.
+  [[nodiscard]] const Tally& at_last_initial() const { return at_last_initial_; }
+  /// Fills the steps up to now and all later ones with what was sent; then the growth.
+  [[nodiscard]] Growth finish() &&;
+  [[nodiscard]] const Sizes& sizes() const { return sizes_; }
+
+ private:
+  void add_data(const model::Packet& packet);
+  void add_heartbeats(const model::Packet& packet, std::uint64_t copies);
+  void add_acknack(const model::Packet& packet);
+  void fill_growth(std::int64_t until_ns);
+
+  bool acknacks_have_bases_;
+  std::size_t steps_;
+  Tally tally_{};
+  Tally at_last_initial_{};
+  bool emitted_initial_ = false;  ///< in this event
+  std::int64_t now_ns_ = 0;
+  model::EventKind event_{};
+  std::optional<model::PacketKind> incoming_;  ///< what this event receives
+  props::RelationWords generated_;
+  Growth growth_;
+  Sizes sizes_;
+};
+
+}  // namespace stormproof::validate

@@ -1,0 +1,205 @@
+// Observation, scenario, runs, rows.
+#include "checker/evidence/validate/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "checker/evidence/coverage/statistics.hpp"
+#include "model/config/numeric_knobs.hpp"
+#include "model/config/scenario_file.hpp"
+
+namespace stormproof::validate {
+
+namespace {
+
+using model::config::InputError;
+using model::config::Result;
+
+constexpr double low_quantile = 0.05;
+constexpr double high_quantile = 0.95;
+
+std::string quoted(std::string text) {
+  for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
+    text.insert(k, 1, '\'');
+  }
+  return "'" + text + "'";
+}
+
+/// A collapse would have the model run for hours. A run that takes this many times as long as what
+/// was observed is off by more than any comparison needs; it counts as incomplete.
+constexpr std::int64_t longest_run_factor = 5;
+constexpr std::int64_t longest_run_least_s = 5;
+
+std::int64_t longest_run_s(const capture::Conversation& conversation, const Request& request) {
+  constexpr std::int64_t ns_per_s = 1'000'000'000;
+  const std::int64_t end =
+      std::min(request.until_ns.value_or(conversation.last_ns), conversation.last_ns);
+  const std::int64_t observed_s = (end - conversation.first_ns) / ns_per_s + 1;
+  return std::max(longest_run_least_s, longest_run_factor * observed_s);
+}
+
+/// The profiles and overrides, around the captured participants.
+Result<model::Scenario> scenario_of(const Request& request, const CapturedDeployment& deployment,
+                                    std::int64_t time_limit_s) {
+  for (const std::string& set : request.overrides) {
+    const bool is_captured =
+        (set.starts_with("deployment") && !set.starts_with("deployment.loopback_delay=")) ||
+        set.starts_with("run_until");
+    if (is_captured) {
+      return InputError{"--set " + set,
+                        "the capture gives the deployment; expected a key of dds or wireless, "
+                        "deployment.loopback_delay or time_limit"};
+    }
+  }
+  // Apart, so that an error names the profile.
+  const auto specs = model::config::SpecPath::standard();
+  const auto dds = model::config::read_dds_profile(request.dds, {}, specs);
+  if (!dds) return dds.error();
+  const auto wireless = model::config::read_wireless_profile(request.wireless, {}, specs);
+  if (!wireless) return wireless.error();
+  const std::string text = fmt::format(
+      "{{deployment: {{hosts: 2, participants_per_host: 1, endpoints_per_participant: 0}}, "
+      "dds: {}, wireless: {}, time_limit: {}s}}",
+      quoted(request.dds), quoted(request.wireless), time_limit_s);
+  auto scenario = model::config::parse_scenario(text, "validate", request.overrides, specs);
+  if (!scenario) return scenario.error();
+  scenario->deployment.participants = model_participants(deployment, scenario->dds.descriptors);
+  if (!model::config::is_valid(*scenario)) {
+    return InputError{
+        "capture",
+        fmt::format("its {} participants, their endpoints or their times are beyond what the model "
+                    "takes (at most {} participants)",
+                    deployment.participants.size(), model::Deployment::max_participants)};
+  }
+  return scenario;
+}
+
+void use_range(CapturedDeployment& deployment,
+               const std::pair<model::Nanoseconds, model::Nanoseconds>& range) {
+  for (CapturedParticipant& one : deployment.participants) {
+    one.created_earliest = std::max(range.first, one.start);
+    one.created_latest = std::max(range.second, one.start);
+    one.unevenness = model::Nanoseconds{0};
+  }
+}
+
+std::optional<double> finite(double value) {
+  if (!std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::vector<Row> rows_of(const Observation& observation, const Predicted& predicted,
+                         bool has_control, bool is_drawn) {
+  std::vector<Row> rows;
+  for (std::size_t k = 0; k < figure_count; ++k) {
+    const auto figure = static_cast<Figure>(k);
+    std::vector<double> values;
+    std::size_t incomplete = 0;
+    for (const PredictedRun& run : predicted.runs) {
+      if (figure == Figure::user_control && !has_control) continue;
+      if (run.complete) values.push_back(static_cast<double>(run.tally[k]));
+      if (!run.complete) ++incomplete;
+    }
+    rows.push_back(row(figure, observation.values[k], std::move(values), incomplete,
+                       is_drawn && predicted.runs.size() > 1));  // one value is no range
+  }
+  return rows;
+}
+
+std::vector<std::array<Band, growth_curves>> bands_of(const std::vector<PredictedRun>& runs) {
+  std::vector<std::array<Band, growth_curves>> bands;
+  if (runs.empty()) return bands;
+  bands.resize(runs.front().growth.points.size());
+  for (std::size_t step = 0; step < bands.size(); ++step) {
+    for (std::size_t curve = 0; curve < growth_curves; ++curve) {
+      std::vector<double> values;
+      for (const PredictedRun& run : runs) {
+        values.push_back(static_cast<double>(run.growth.points[step][curve]));
+      }
+      bands[step][curve] = {prediction::quantile(values, 0.5),
+                            prediction::quantile(values, low_quantile),
+                            prediction::quantile(values, high_quantile)};
+    }
+  }
+  return bands;
+}
+
+}  // namespace
+
+const char* name_of(Position position) {
+  constexpr std::array names{"unknown", "below", "inside", "above"};
+  return names[static_cast<std::size_t>(position)];
+}
+
+const char* name_of(Agreement agreement) {
+  constexpr std::array names{"not_asked", "within", "beyond", "undecided"};
+  return names[static_cast<std::size_t>(agreement)];
+}
+
+Row row(Figure figure, std::optional<double> observed, std::vector<double> values,
+        std::size_t incomplete, bool is_drawn) {
+  Row result;
+  result.figure = figure;
+  result.observed = observed;
+  values.insert(values.end(), incomplete, std::numeric_limits<double>::infinity());
+  if (values.empty()) return result;
+  const double low = prediction::quantile(values, low_quantile);
+  const double high = prediction::quantile(values, high_quantile);
+  result.median = finite(prediction::quantile(values, 0.5));
+  result.low = finite(low);
+  result.high = finite(high);
+  if (!observed) return result;
+  if (result.median && *observed > 0) result.ratio = *result.median / *observed;
+  if (!is_drawn || !result.low) return result;
+  result.position = *observed < low    ? Position::below
+                    : *observed > high ? Position::above
+                                       : Position::inside;
+  return result;
+}
+
+Agreement agreement(const std::vector<Row>& rows, bool observation_is_complete,
+                    std::optional<double> within) {
+  if (!within) return Agreement::not_asked;
+  if (!observation_is_complete) return Agreement::undecided;
+  for (const Figure figure : {Figure::completion, Figure::total}) {
+    const std::optional<double> ratio = rows[index_of(figure)].ratio;
+    if (!ratio) return Agreement::undecided;
+  }
+  for (const Figure figure : {Figure::completion, Figure::total}) {
+    const double ratio = *rows[index_of(figure)].ratio;
+    if (ratio > *within || ratio * *within < 1) return Agreement::beyond;
+  }
+  return Agreement::within;
+}
+
+Result<Report> validate(const capture::Conversation& conversation, const Request& request) {
+  auto observation = observe(conversation, request.until_ns);
+  if (!observation) return observation.error();
+  if (request.endpoints_done) use_range(observation->deployment, *request.endpoints_done);
+  auto scenario =
+      scenario_of(request, observation->deployment, longest_run_s(conversation, request));
+  if (!scenario) return scenario.error();
+  Report report;
+  report.request = request;
+  report.request.sampling.on_progress = {};
+  report.is_drawn = is_drawn(*scenario, observation->deployment, request.sampling.loss);
+  const Predicted predicted = predict(*scenario, *observation, request.sampling);
+  report.wanted = predicted.wanted;
+  report.runs = predicted.runs.size();
+  report.complete =
+      static_cast<std::size_t>(std::ranges::count_if(predicted.runs, &PredictedRun::complete));
+  const bool has_control = scenario->dds.implementation == model::ImplementationKind::fastdds;
+  report.rows = rows_of(*observation, predicted, has_control, report.is_drawn);
+  report.bands = bands_of(predicted.runs);
+  report.differences = differences(conversation, *observation, *scenario, predicted.sizes);
+  report.agreement = agreement(report.rows, observation->complete, request.within);
+  report.scenario =
+      draw(*scenario, observation->deployment, request.sampling.loss, request.sampling.first_seed);
+  report.observation = std::move(*observation);
+  return report;
+}
+
+}  // namespace stormproof::validate

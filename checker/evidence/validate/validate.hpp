@@ -1,0 +1,109 @@
+// `stormproof validate`: predicts the discovery that a capture shows, and puts the model beside the
+// observation, figure by figure and over time (specs/validating.md).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/evidence/capture/events.hpp"
+#include "checker/evidence/validate/differences.hpp"
+#include "checker/evidence/validate/observation.hpp"
+#include "checker/evidence/validate/predicted_runs.hpp"
+#include "model/config/result.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::validate {
+
+struct Request {
+  std::string dds;                         ///< name or path of a profile
+  std::string wireless;                    ///< name or path of a profile
+  std::vector<std::string> overrides;      ///< key.path=value of the scenario
+  std::optional<std::int64_t> until_ns{};  ///< ns since 1970; see Cut
+  /// Instead of what the capture proves: range of the last creation of each participant, since the
+  /// first announcement of all.
+  std::optional<std::pair<model::Nanoseconds, model::Nanoseconds>> endpoints_done{};
+  std::optional<double> within{};  ///< a factor > 1
+  Sampling sampling{};
+};
+
+/// Where an observation lies.
+enum class Position : std::uint8_t {
+  unknown,  ///< no range: one side has no figure, nothing is drawn, or too few runs completed
+  below,
+  inside,
+  above
+};
+[[nodiscard]] const char* name_of(Position position);
+
+/// One figure on both sides. Runs that did not complete lie above all others; what falls among them
+/// is absent.
+struct Row {
+  Figure figure{};
+  std::optional<double> observed{};
+  std::optional<double> median{};
+  std::optional<double> low{};   ///< 5 % quantile
+  std::optional<double> high{};  ///< 95 % quantile
+  std::optional<double>
+      ratio{};  ///< median / observed; absent if either is, or nothing is observed
+  Position position = Position::unknown;
+};
+
+/// `values` are those of the complete runs; `incomplete` is how many others there are.
+[[nodiscard]] Row row(Figure figure, std::optional<double> observed, std::vector<double> values,
+                      std::size_t incomplete, bool is_drawn);
+
+/// Median and 5–95 % range of the model's counts at one instant.
+struct Band {
+  double median = 0;
+  double low = 0;
+  double high = 0;
+};
+
+enum class Agreement : std::uint8_t {
+  not_asked,
+  within,  ///< completion and messages are off by at most the factor
+  beyond,
+  undecided  ///< the observation is incomplete, or the model has no median
+};
+[[nodiscard]] const char* name_of(Agreement agreement);
+
+/// What `--within` asks of completion and messages, given their rows.
+[[nodiscard]] Agreement agreement(const std::vector<Row>& rows, bool observation_is_complete,
+                                  std::optional<double> within);
+
+struct Report {
+  Request request{};  ///< without its callback
+  Observation observation{};
+  model::Scenario scenario{};  ///< of the first run
+  std::size_t wanted = 0;      ///< runs
+  std::size_t runs = 0;        ///< that finished
+  std::size_t complete = 0;    ///< of these
+  bool is_drawn = false;
+  std::vector<Row> rows{};                               ///< in the order of Figure
+  std::vector<std::array<Band, growth_curves>> bands{};  ///< by step; empty without a run
+  std::vector<Difference> differences{};
+  Agreement agreement = Agreement::not_asked;
+
+  [[nodiscard]] bool interrupted() const { return runs < wanted; }
+  [[nodiscard]] const Row& of(Figure figure) const { return rows[index_of(figure)]; }
+};
+
+[[nodiscard]] model::config::Result<Report> validate(const capture::Conversation& conversation,
+                                                     const Request& request);
+
+/// What the caller knows beside the report.
+struct Heading {
+  std::vector<std::string> captures{};
+  std::string command{};  ///< reproduces the report
+};
+[[nodiscard]] std::string to_text(const Report& report, const Heading& heading);
+[[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Heading& heading);
+/// Cumulative messages over time, a panel for each class.
+[[nodiscard]] std::string to_svg(const Report& report);
+
+}  // namespace stormproof::validate

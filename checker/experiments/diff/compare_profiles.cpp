@@ -1,0 +1,146 @@
+// The knobs in which two profiles differ, by the tables of the profile reader, and what can be said
+// about the two without running anything. The argument behind `equivalent`: a run is a function of
+// the scenario, and the rules of the model read the DDS profile only through knobs that the normal
+// form keeps, so equal normal forms are equal inputs of every rule.
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "checker/experiments/diff/diff.hpp"
+#include "checker/experiments/diff/normal_form.hpp"
+#include "model/config/effective.hpp"
+
+namespace stormproof::diff {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Values = std::vector<std::pair<std::string, std::string>>;  // key → as a file would say it
+
+constexpr std::string_view absent = "–";
+constexpr std::string_view unmodelled_prefix = "unmodelled.";
+
+void flatten(const Json& json, const std::string& prefix, Values& values) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object())
+      flatten(value, prefix + key + ".", values);
+    else
+      values.emplace_back(prefix + key,
+                          value.is_string() ? value.get<std::string>() : value.dump());
+  }
+}
+
+Values values_of(const model::DdsProfile& profile) {
+  Values values;
+  flatten(model::config::effective_json(profile), {}, values);
+  return values;
+}
+
+std::string value_in(const Values& values, const std::string& key) {
+  for (const auto& [name, value] : values) {
+    if (name == key) return value;
+  }
+  return std::string{absent};
+}
+
+/// All keys of both, in the order of the table: `fuller` has all keys of the other, but for
+/// settings that the model has not.
+std::vector<std::string> keys_of(const Values& fuller, const Values& other) {
+  std::vector<std::string> keys;
+  std::set<std::string> known;
+  const auto add = [&](const Values& values, bool unmodelled) {
+    for (const auto& [key, value] : values) {
+      if (key.starts_with(unmodelled_prefix) == unmodelled && known.insert(key).second) {
+        keys.push_back(key);
+      }
+    }
+  };
+  for (const bool unmodelled : {false, true}) {
+    add(fuller, unmodelled);
+    add(other, unmodelled);
+  }
+  return keys;
+}
+
+model::config::Place place_of(const model::config::TracedProfile& traced, const std::string& key) {
+  const auto found = traced.places.find(key);
+  return found == traced.places.end() ? model::config::Place{} : found->second;
+}
+
+bool is_unmodelled(const KnobChange& change) { return change.key.starts_with(unmodelled_prefix); }
+
+/// Whether the change can make a difference, and why not.
+void judge(KnobChange& change, const model::DdsProfile& base, const model::DdsProfile& candidate,
+           bool same_runs) {
+  if (is_unmodelled(change)) {
+    change.modelled = false;
+    change.matters = false;
+    change.why = "the model has no such setting: what it does to discovery is not known here";
+    return;
+  }
+  const UnreadRule* const before = unread_rule(base, change.key);
+  const UnreadRule* const after = unread_rule(candidate, change.key);
+  // In profiles that differ elsewhere a knob is idle only if neither of them reads it.
+  change.matters = !same_runs && !(before != nullptr && after != nullptr);
+  if (change.matters) return;
+  change.why = before != nullptr ? before->why : after != nullptr ? after->why : "";
+}
+
+Relation relation_of(const std::vector<KnobChange>& changes, bool same_runs) {
+  if (!same_runs) return Relation::different;
+  if (changes.empty()) return Relation::identical;
+  for (const KnobChange& change : changes) {
+    if (is_unmodelled(change)) return Relation::unmodelled;
+  }
+  return Relation::equivalent;
+}
+
+std::string proof_of(Relation relation) {
+  switch (relation) {
+    case Relation::identical:
+      return "Every knob has the same value in both profiles. A run is a function of the scenario "
+             "alone, so in every deployment and on every channel both have the same run, event by "
+             "event.";
+    case Relation::equivalent:
+      return "No rule reads the knobs that differ, given the choices that the profiles make "
+             "otherwise: their normal forms are equal. A run is a function of what its rules read, "
+             "so in every deployment and on every channel both have the same run, event by event.";
+    case Relation::unmodelled:
+      return "In the model both profiles have the same run in every deployment and on every "
+             "channel: what differs is read by no rule. The real systems may differ, because the "
+             "model has not got some of these settings.";
+    case Relation::different:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+Comparison compare_profiles(const model::config::TracedProfile& base,
+                            const model::config::TracedProfile& candidate) {
+  const model::DdsProfile one = with_reduced_fractions(base.profile);
+  const model::DdsProfile other = with_reduced_fractions(candidate.profile);
+  const bool same_runs = normal_form(one) == normal_form(other);
+  const Values before = values_of(one);
+  const Values after = values_of(other);
+
+  // Only the paper's writer has every knob.
+  const bool base_is_fuller = one.implementation == model::ImplementationKind::paper;
+  Comparison comparison;
+  for (const std::string& key : base_is_fuller ? keys_of(before, after) : keys_of(after, before)) {
+    KnobChange change{key, value_in(before, key), value_in(after, key), {}, {}, true, true, {}};
+    if (change.before == change.after) continue;
+    change.before_place = place_of(base, key);
+    change.after_place = place_of(candidate, key);
+    judge(change, one, other, same_runs);
+    comparison.changes.push_back(std::move(change));
+  }
+  comparison.relation = relation_of(comparison.changes, same_runs);
+  comparison.proof = proof_of(comparison.relation);
+  return comparison;
+}
+
+}  // namespace stormproof::diff

@@ -1,0 +1,41 @@
+// The costs of discovery with both profiles over a grid: runs as many schedules as the answer
+// needs, judges them, and finds the storm-free margin.
+#pragma once
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "checker/experiments/diff/judging.hpp"
+#include "checker/experiments/diff/measured_runs.hpp"
+
+namespace stormproof::diff {
+
+struct CostRequest {
+  const ReviewedGrid& grid;
+  const Policy& policy;
+  std::size_t samples = 1;       ///< schedules of each deployment at first
+  std::size_t most_samples = 1;  ///< of a deployment that fewer leave unclear
+  std::uint64_t first_seed = 0;
+  std::size_t threads = 0;
+  std::function<bool(std::string_view what)> on_progress;  ///< false interrupts
+};
+
+struct CostAnswer {
+  CostComparison comparison;
+  std::vector<PairedRuns> runs;  ///< of each deployment of the grid; none if it was interrupted
+  bool interrupted = false;
+};
+
+/// Deployments without drawn start times run once: their runs are facts. The others start with
+/// `samples` schedules; those that stay unclear get twice as many, up to `most_samples`.
+[[nodiscard]] CostAnswer compare_costs(const CostRequest& request);
+
+/// The storm-free margin of both profiles. `wireless_is_constant`: every packet of the grid takes
+/// the same time.
+[[nodiscard]] MarginComparison compare_margins(const model::DdsProfile& base,
+                                               const model::DdsProfile& candidate,
+                                               bool wireless_is_constant,
+                                               const CostComparison& costs, const Policy& policy);
+
+}  // namespace stormproof::diff

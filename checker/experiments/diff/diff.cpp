@@ -1,0 +1,143 @@
+// Asks the five parts one after the other and judges them together. What Ctrl-C leaves out is left
+// out of the report, and the judgment says so.
+#include "checker/experiments/diff/diff.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "checker/experiments/diff/blame.hpp"
+#include "checker/experiments/diff/costs.hpp"
+#include "checker/experiments/diff/summary.hpp"
+#include "checker/experiments/diff/telling_apart.hpp"
+#include "checker/experiments/diff/verdicts.hpp"
+
+namespace stormproof::diff {
+
+namespace config = model::config;
+
+namespace {
+
+class DiffStudy {
+ public:
+  DiffStudy(const DiffRequest& request, const ReviewedGrid& grid, const ReviewedPoint& checked)
+      : request_{request}, grid_{grid}, checked_{checked} {
+    report_.base = request.base;
+    report_.candidate = request.candidate;
+    report_.policy = request.policy;
+    report_.command = request.command;
+    if (request.samples) report_.policy.samples = *request.samples;
+  }
+
+  DiffReport run() {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point started = Clock::now();
+    report_.profiles = compare_profiles(request_.base, request_.candidate);
+    if (report_.profiles.relation == Relation::different) {
+      if (goes_on()) compare_runs();
+      if (goes_on() && request_.check_verdicts) check();
+      if (goes_on() && request_.tell_apart) find_least_scenario();
+    }
+    summarize(report_);
+    report_.seconds = std::chrono::duration<double>(Clock::now() - started).count();
+    return std::move(report_);
+  }
+
+ private:
+  bool goes_on() const { return !report_.interrupted; }
+
+  bool progress(std::string_view what) {
+    return !request_.on_progress || request_.on_progress(what);
+  }
+
+  void compare_runs() {
+    const std::size_t samples =
+        request_.samples.value_or(grid_.samples.value_or(request_.policy.samples));
+    const bool may_grow = !request_.samples && !grid_.samples;
+    const CostRequest request{grid_,
+                              request_.policy,
+                              samples,
+                              may_grow ? request_.policy.most_samples : samples,
+                              request_.seed.value_or(grid_.first_seed),
+                              request_.threads,
+                              [this](std::string_view what) { return progress(what); }};
+    const CostAnswer answer = compare_costs(request);
+    report_.costs = answer.comparison;
+    report_.interrupted = answer.interrupted;
+    if (!goes_on()) return;
+    const bool constant_delay = std::ranges::all_of(grid_.points, [](const ReviewedPoint& point) {
+      return point.base.wireless.kind == model::ServiceKind::constant_delay;
+    });
+    report_.margin = compare_margins(request_.base.profile, request_.candidate.profile,
+                                     constant_delay, report_.costs, request_.policy);
+    report_.blame = blame(report_.profiles.changes, request, answer);
+    report_.interrupted = !progress("costs");
+  }
+
+  void check() {
+    const VerdictRequest request{checked_.name,
+                                 checked_.base,
+                                 checked_.candidate,
+                                 request_.seed.value_or(grid_.first_seed),
+                                 static_cast<std::uint32_t>(std::min<std::size_t>(
+                                     request_.samples.value_or(request_.policy.samples), 100)),
+                                 request_.threads,
+                                 [this](std::string_view what) { return progress(what); }};
+    VerdictAnswer answer = compare_verdicts(request, request_.policy);
+    report_.verdicts = std::move(answer.comparison);
+    report_.interrupted = answer.interrupted;
+  }
+
+  /// From the least deployment of the grid whose runs differ.
+  void find_least_scenario() {
+    const ReviewedPoint* start = &checked_;
+    const Configuration* least = nullptr;
+    for (const Configuration& configuration : report_.costs.configurations) {
+      if (configuration.identical_runs) continue;
+      if (least == nullptr || configuration.descriptors < least->descriptors) {
+        least = &configuration;
+      }
+    }
+    if (least != nullptr) {
+      start = &*std::ranges::find(grid_.points, least->name, &ReviewedPoint::name);
+    }
+    report_.telling_apart =
+        tell_apart(start->base, request_.base.profile, request_.candidate.profile, [this] {
+          report_.interrupted = !progress("least scenario that tells them apart");
+          return goes_on();
+        });
+  }
+
+  const DiffRequest& request_;
+  const ReviewedGrid& grid_;
+  const ReviewedPoint& checked_;
+  DiffReport report_;
+};
+
+}  // namespace
+
+config::Result<DiffReport> diff(const DiffRequest& request, const config::SpecPath& specs) {
+  const model::DdsProfile& base = request.base.profile;
+  const model::DdsProfile& candidate = request.candidate.profile;
+  const auto grid =
+      read_reviewed_grid(request.grid.empty() ? "review" : request.grid, base, candidate, specs);
+  if (!grid) return grid.error();
+  if (request.scenario.empty()) {
+    const auto least = std::ranges::min_element(
+        grid->points, {}, [](const ReviewedPoint& point) { return load_of(point); });
+    ReviewedPoint checked = *least;
+    if (grid->points.size() > 1) checked.name = fmt::format("{}, {}", grid->name, least->name);
+    return DiffStudy{request, *grid, checked}.run();
+  }
+  const auto scenario = read_reviewed_grid(request.scenario, base, candidate, specs);
+  if (!scenario) return scenario.error();
+  if (scenario->points.size() != 1) {
+    return config::InputError{
+        request.scenario,
+        fmt::format("a grid of {} scenarios; expected a single scenario", scenario->points.size())};
+  }
+  return DiffStudy{request, *grid, scenario->points.front()}.run();
+}
+
+}  // namespace stormproof::diff

@@ -1,0 +1,210 @@
+// Single configurations: intervals against tolerances, limits, and whether they storm.
+#include "checker/experiments/diff/judging.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "checker/experiments/diff/words.hpp"
+
+namespace stormproof::diff {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const Policy::Tolerance* tolerance_of(const Policy& policy, Measure measure) {
+  const auto at = std::ranges::find(policy.tolerances, measure, &Policy::Tolerance::measure);
+  return at == policy.tolerances.end() ? nullptr : &*at;
+}
+
+sampling::Quantiles quantiles_of(const std::vector<double>& values) {
+  std::vector<double> reached;
+  std::ranges::copy_if(values, std::back_inserter(reached),
+                       [](double value) { return std::isfinite(value); });
+  const std::size_t unreached = values.size() - reached.size();
+  return sampling::quantiles(std::move(reached), unreached);
+}
+
+std::string median_text(Measure measure, const std::optional<double>& median) {
+  return median ? value_text(measure, *median) : "never";
+}
+
+bool none_finite(const std::vector<double>& values) {
+  return std::ranges::none_of(values, [](double value) { return std::isfinite(value); });
+}
+
+/// By the policy's definition.
+bool storms(const Policy& policy, const Configuration& configuration, bool after) {
+  const auto median = [&](Measure measure) {
+    const MeasuredChange& change = configuration[measure];
+    return after ? change.after.median : change.before.median;
+  };
+  if (!median(Measure::completion)) return true;
+  return *median(Measure::repair_data) > policy.storm_repairs * *median(Measure::initial_data);
+}
+
+std::size_t limits_of(const Policy& policy, const ReviewedPoint& point) {
+  const std::optional<model::Limits>& limits = policy.limits ? policy.limits : point.limits;
+  if (!limits) return 0;
+  return std::size_t{limits->completion.has_value()} + limits->messages.has_value() +
+         limits->amplification.has_value() + limits->backlog.has_value();
+}
+
+}  // namespace
+
+CostJudge::CostJudge(const Policy& policy, const std::vector<ReviewedPoint>& points,
+                     std::size_t looks)
+    : policy_{policy} {
+  // Every judged measure, every limit, and whether it storms.
+  std::size_t singles = 0;
+  for (const ReviewedPoint& point : points) {
+    singles += policy.tolerances.size() + limits_of(policy, point) + 1;
+  }
+  const double half = (1 - policy.confidence) / 2;
+  const auto share = [&](std::size_t parts) {
+    return half / static_cast<double>(std::max<std::size_t>(parts, 1) * looks);
+  };
+  single_confidence_ = 1 - share(singles);
+  pooled_confidence_ = 1 - share(policy.tolerances.size());
+}
+
+MeasuredChange CostJudge::change(Measure measure, const PairedRuns& runs, bool exact) {
+  MeasuredChange change;
+  change.measure = measure;
+  const std::vector<double> before = PairedRuns::column(runs.before, measure);
+  const std::vector<double> after = PairedRuns::column(runs.after, measure);
+  change.before = quantiles_of(before);
+  change.after = quantiles_of(after);
+  Shift relative;
+  if (exact) {
+    PairwiseChanges one;
+    one.add(before.front(), after.front(), true);
+    relative = one.shift({1, 1});
+  } else {
+    relative = *estimator_.ratio(before, after, single_confidence_);
+  }
+  if (!none_finite(before) && !none_finite(after)) {
+    change.shift = exact ? Shift{after.front() - before.front(), after.front() - before.front(),
+                                 after.front() - before.front(), 1, true}
+                         : estimator_.between(before, after, single_confidence_);
+    if (change.before.median.value_or(0) > 0) {
+      change.relative = relative.estimate;
+      change.relative_low = relative.low;
+      change.relative_high = relative.high;
+    }
+  }
+  if (!runs.identical) judge_change(change, relative, runs.size());
+  return change;
+}
+
+void CostJudge::judge_change(MeasuredChange& change, const Shift& relative,
+                             std::size_t runs) const {
+  if (!change.before.min && !change.after.min) {  // only the completion can have no value
+    change.reason = "discovery completes in no run of either profile";
+    return;
+  }
+  const Policy::Tolerance* tolerance = tolerance_of(policy_, change.measure);
+  const double allowed = tolerance == nullptr ? infinity : tolerance->increase;
+  const std::string medians =
+      fmt::format("median {} → {}", median_text(change.measure, change.before.median),
+                  median_text(change.measure, change.after.median));
+  if (relative.confidence < single_confidence_) {
+    if (tolerance == nullptr) return;
+    change.judgment = Judgment::unclear;
+    change.reason = fmt::format("{}: {} are too few for a confidence of {}", medians,
+                                plural(runs, "run"), share_text(single_confidence_));
+  } else if (relative.low > allowed) {
+    change.judgment = Judgment::regression;
+    change.reason = fmt::format("{}, {}; at most {} is allowed", medians, change_text(change),
+                                change_text(allowed));
+  } else if (relative.high > allowed) {
+    change.judgment = Judgment::unclear;
+    change.reason =
+        fmt::format("{}, {}; {} do not settle whether that is above the allowed {}", medians,
+                    change_text(change), plural(runs, "run"), change_text(allowed));
+  } else if (relative.high < 0) {
+    change.judgment = Judgment::better;
+  } else if (relative.low > 0) {
+    change.judgment = Judgment::worse;
+  }
+}
+
+Configuration CostJudge::judge(const ReviewedPoint& point, const PairedRuns& runs) {
+  const bool exact = !point.is_drawn();
+  Configuration configuration;
+  configuration.name = point.name;
+  configuration.values = point.values;
+  configuration.hosts = point.base.deployment.host_count();
+  configuration.participants = point.base.deployment.size();
+  configuration.descriptors = load_of(point);
+  configuration.samples = runs.size();
+  configuration.identical_runs = runs.identical;
+  for (std::size_t k = 0; k < measure_count; ++k) {
+    configuration.measures[k] = change(static_cast<Measure>(k), runs, exact);
+  }
+  configuration.crossings = crossings(point, runs, exact);
+  configuration.storm_before = storms(policy_, configuration, false);
+  configuration.storm_after = storms(policy_, configuration, true);
+  return configuration;
+}
+
+bool is_unclear(const Configuration& configuration) {
+  return std::ranges::any_of(
+             configuration.measures,
+             [](const MeasuredChange& change) { return change.judgment == Judgment::unclear; }) ||
+         std::ranges::any_of(configuration.crossings, [](const LimitCrossing& crossing) {
+           return crossing.judgment == Judgment::unclear;
+         });
+}
+
+Judgment worst(const Configuration& configuration) {
+  std::vector<Judgment> all;
+  for (const MeasuredChange& change : configuration.measures) all.push_back(change.judgment);
+  for (const LimitCrossing& crossing : configuration.crossings) all.push_back(crossing.judgment);
+  return together(all);
+}
+
+bool is_judged(const Policy& policy, Measure measure) {
+  return tolerance_of(policy, measure) != nullptr;
+}
+
+Judgment judgment_of(const Configuration& configuration, const Policy& policy) {
+  std::vector<Judgment> all;
+  for (const MeasuredChange& change : configuration.measures) {
+    if (is_judged(policy, change.measure)) all.push_back(change.judgment);
+  }
+  for (const LimitCrossing& crossing : configuration.crossings) all.push_back(crossing.judgment);
+  return together(all);
+}
+
+Judgment together(const std::vector<Judgment>& all) {
+  // Better in one place and worse in none is better; better beside worse is not.
+  Judgment found = Judgment::same;
+  bool any_better = false;
+  for (const Judgment judgment : all) {
+    any_better = any_better || judgment == Judgment::better;
+    if (badness(judgment) > badness(found)) found = judgment;
+  }
+  return any_better && found == Judgment::same ? Judgment::better : found;
+}
+
+int badness(Judgment judgment) {
+  switch (judgment) {
+    case Judgment::better:
+      return 0;
+    case Judgment::same:
+      return 1;
+    case Judgment::worse:
+      return 2;
+    case Judgment::unclear:
+      return 3;
+    case Judgment::regression:
+      return 4;
+  }
+  return 4;
+}
+
+}  // namespace stormproof::diff

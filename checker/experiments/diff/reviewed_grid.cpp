@@ -1,0 +1,194 @@
+// Puts each profile into the place of the grid's own and lets `sweep` plan the jobs, so that a grid
+// means the same here as there.
+#include "checker/experiments/diff/reviewed_grid.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "checker/experiments/sweep/plan.hpp"
+#include "model/config/effective.hpp"
+#include "model/config/knob_reader.hpp"
+#include "model/config/suggestion.hpp"
+#include "model/config/yaml_text.hpp"
+#include "model/reference.hpp"
+
+namespace stormproof::diff {
+
+namespace fs = std::filesystem;
+namespace config = model::config;
+using config::error_at;
+using config::InputError;
+using config::Node;
+using config::Result;
+using config::SpecPath;
+
+namespace {
+
+using Failure = std::optional<InputError>;
+
+bool is_path(const std::string& reference) {
+  return reference.find('/') != std::string::npos || reference.ends_with(".yaml") ||
+         reference.ends_with(".yml");
+}
+
+bool is_grid_name(const std::string& name, const SpecPath& specs) {
+  for (const std::string& directory : specs.directories) {
+    std::error_code failed;
+    if (fs::exists(fs::path{directory} / "grids" / (name + ".yaml"), failed)) return true;
+  }
+  return false;
+}
+
+std::vector<std::string> names_in(const SpecPath& specs, const std::string& folder) {
+  std::vector<std::string> names;
+  for (const std::string& directory : specs.directories) {
+    std::error_code failed;
+    for (fs::directory_iterator files{fs::path{directory} / folder, failed};
+         !failed && files != fs::directory_iterator{}; files.increment(failed)) {
+      if (files->path().extension() == ".yaml") names.push_back(files->path().stem().string());
+    }
+  }
+  return names;
+}
+
+/// One scenario as a grid.
+Result<sweep::Grid> read_scenario_grid(const std::string& reference, const SpecPath& specs) {
+  const auto file = specs.find(config::SpecKind::scenarios, reference, "", reference);
+  if (!file) return file.error();
+  Result<Node> root = config::load_yaml(*file);
+  if (!root) return root.error();
+  sweep::Grid grid;
+  grid.source = *file;
+  grid.variants.push_back({"", *std::move(root), {}});
+  return grid;
+}
+
+Result<sweep::Grid> read_any_grid(const std::string& reference, const SpecPath& specs) {
+  if (is_path(reference)) {
+    const Result<Node> root = config::load_yaml(reference);
+    if (!root) return root.error();
+    const bool is_scenario = root->is_map() && root->find("deployment") != nullptr;
+    return is_scenario ? read_scenario_grid(reference, specs) : sweep::read_grid(reference, specs);
+  }
+  if (is_grid_name(reference, specs)) return sweep::read_grid(reference, specs);
+  for (const std::string& name : specs.names(config::SpecKind::scenarios)) {
+    if (name == reference) return read_scenario_grid(reference, specs);
+  }
+  std::vector<std::string> known = names_in(specs, "grids");
+  for (std::string& name : specs.names(config::SpecKind::scenarios)) known.push_back(name);
+  return InputError{reference, fmt::format("no grid or scenario of this name{}; expected a file, "
+                                           "or a name in specs/grids or specs/scenarios",
+                                           config::suggestion(reference, known))};
+}
+
+bool is_dds_key(std::string_view key) {
+  return key == config::dds_key || key.starts_with(std::string{config::dds_key} + ".");
+}
+
+/// The two profiles take the place of `dds`, so a grid that varies it cannot be meant.
+Failure varied_profile(const sweep::Grid& grid) {
+  constexpr const char* expected =
+      "expected a grid that leaves the DDS profile alone, because the "
+      "two profiles take its place";
+  for (const sweep::Axis& axis : grid.axes) {
+    if (!is_dds_key(axis.key)) continue;
+    return error_at(axis.values.front().node.place,
+                    fmt::format("{}: the grid sweeps the DDS profile; {}", axis.key, expected));
+  }
+  for (const sweep::Variant& variant : grid.variants) {
+    for (const config::Override& change : variant.overrides) {
+      if (!is_dds_key(change.path)) continue;
+      return error_at(change.value.place,
+                      fmt::format("{}: one of the scenarios changes the DDS profile; {}",
+                                  change.path, expected));
+    }
+  }
+  return std::nullopt;
+}
+
+/// The grid's plan with `profile` as the DDS profile of all scenarios.
+Result<sweep::Plan> plan_with(sweep::Grid grid, const model::DdsProfile& profile,
+                              const SpecPath& specs) {
+  const std::string text = config::effective_json(profile).dump();
+  for (sweep::Variant& variant : grid.variants) {
+    Result<Node> dds = config::parse_yaml(text, grid.source);
+    if (!dds) return dds.error();
+    Node* present = variant.root.find(config::dds_key);
+    if (present != nullptr) {
+      *present = *std::move(dds);
+    } else {
+      variant.root.members.push_back(
+          {std::string{config::dds_key}, variant.root.place, *std::move(dds)});
+    }
+  }
+  Result<sweep::Plan> plan = sweep::make_plan(std::move(grid), specs);
+  if (!plan) return plan;
+  for (std::size_t job = 0; job < plan->size(); ++job) {
+    if (const auto& error = plan->error(job)) return *error;
+  }
+  return plan;
+}
+
+Result<std::vector<std::optional<model::Limits>>> limits_of(const sweep::Grid& grid) {
+  std::vector<std::optional<model::Limits>> all;
+  for (const sweep::Variant& variant : grid.variants) {
+    const Node* node = variant.root.find("limits");
+    all.emplace_back();
+    if (node == nullptr) continue;
+    Failure failure;
+    config::read_knobs(*node, "limits", all.back().emplace(), failure);
+    if (failure) return *std::move(failure);
+  }
+  return all;
+}
+
+/// "participants_per_host 5, endpoints_per_participant 20": the last word of a key says enough
+/// unless two keys end alike.
+std::string short_key(const std::string& key, const std::vector<std::string>& keys) {
+  const std::string last = key.substr(key.rfind('.') + 1);
+  int alike = 0;
+  for (const std::string& other : keys) alike += other.substr(other.rfind('.') + 1) == last ? 1 : 0;
+  return alike > 1 ? key : last;
+}
+
+}  // namespace
+
+std::uint64_t load_of(const ReviewedPoint& point) {
+  return model::failure_free_reference(point.base).initial_data;
+}
+
+Result<ReviewedGrid> read_reviewed_grid(const std::string& reference, const model::DdsProfile& base,
+                                        const model::DdsProfile& candidate, const SpecPath& specs) {
+  Result<sweep::Grid> grid = read_any_grid(reference, specs);
+  if (!grid) return grid.error();
+  if (auto failure = varied_profile(*grid)) return *std::move(failure);
+  const auto limits = limits_of(*grid);
+  if (!limits) return limits.error();
+  ReviewedGrid reviewed{reference, {}, grid->samples, grid->first_seed};
+  grid->samples.reset();  // schedules are drawn here, because they may have to be more
+  const auto before = plan_with(*grid, base, specs);
+  if (!before) return before.error();
+  const auto after = plan_with(*grid, candidate, specs);
+  if (!after) return after.error();
+
+  const std::vector<std::string> keys = before->keys();
+  const std::size_t jobs_of_variant = before->size() / grid->variants.size();
+  for (std::size_t job = 0; job < before->size(); ++job) {
+    ReviewedPoint point;
+    const std::vector<std::string> values = before->values(job);
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      point.values.emplace_back(keys[k], values[k]);
+      point.name += fmt::format("{}{} {}", k == 0 ? "" : ", ", short_key(keys[k], keys), values[k]);
+    }
+    if (point.name.empty()) point.name = reference;
+    point.base = before->scenario(job);
+    point.candidate = after->scenario(job);
+    point.limits = (*limits)[job / jobs_of_variant];
+    reviewed.points.push_back(std::move(point));
+  }
+  return reviewed;
+}
+
+}  // namespace stormproof::diff

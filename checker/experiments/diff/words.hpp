@@ -1,0 +1,35 @@
+// How reports of a comparison write values, changes and shares: the same words everywhere.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "checker/experiments/diff/diff.hpp"
+
+namespace stormproof::diff {
+
+/// "6.263 s", "32,364", "14.3×"; "never" if infinite (a run that does not complete).
+[[nodiscard]] std::string value_text(Measure measure, double value);
+/// The same; "–" if there is none.
+[[nodiscard]] std::string value_text(Measure measure, const std::optional<double>& value);
+
+/// "completion", "repair DATA", "highest backlog".
+[[nodiscard]] const char* words_of(Measure measure);
+
+/// +0.254 → "+25 %", −0.5 → "−50 %"; from 10-fold on "×12"; "+∞" and "−∞" as such.
+[[nodiscard]] std::string change_text(double relative);
+
+/// "+104 % (+60 … +160 %)", "+9 packets (+3 … +12)" where the median before is 0; "–" if there is
+/// no shift.
+[[nodiscard]] std::string change_text(const MeasuredChange& change);
+
+/// Whether it matters: "yes", "no" or "not known".
+[[nodiscard]] const char* matters_text(const KnobChange& change);
+
+/// 0.05 → "5 %", 0.9973 → "99.73 %".
+[[nodiscard]] std::string share_text(double share);
+
+/// "1 run", "1,200 runs".
+[[nodiscard]] std::string plural(std::size_t count, const char* noun);
+
+}  // namespace stormproof::diff

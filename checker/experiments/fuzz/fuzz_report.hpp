@@ -1,0 +1,31 @@
+// What `stormproof fuzz` prints.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/experiments/fuzz/fuzz.hpp"
+
+namespace stormproof::fuzz {
+
+/// Around the report: names, commands and files.
+struct FuzzContext {
+  std::string name;  ///< what the user called the scenario
+  const model::Scenario& scenario;
+  std::string command;  ///< `stormproof fuzz …` with everything but --runs, --seed and --first
+  std::map<std::string_view, std::string> stems;  ///< by id: files STEM.jsonl, STEM.yaml, …
+
+  /// The command that repeats the whole report, or one run of it.
+  [[nodiscard]] std::string whole(const FuzzReport& report) const;
+  [[nodiscard]] std::string single(const FuzzReport& report, std::uint64_t number) const;
+};
+
+/// At most 100 columns wide, but for commands.
+[[nodiscard]] std::string to_text(const FuzzReport& report, const FuzzContext& context);
+
+/// specs/output.md describes the keys.
+[[nodiscard]] nlohmann::ordered_json to_json(const FuzzReport& report, const FuzzContext& context);
+
+}  // namespace stormproof::fuzz

@@ -1,0 +1,99 @@
+// Draws with one generator for the values of a variant and another for its losses, so that the
+// number of packets looked at changes nothing else. All draws are of integers: the sequence of
+// mt19937_64 is fixed by the standard, distributions and floating point are not.
+#include "checker/experiments/fuzz/variant.hpp"
+
+#include <algorithm>
+#include <random>
+
+namespace stormproof::fuzz {
+
+namespace {
+
+using Random = std::mt19937_64;
+
+/// The finalizer of SplitMix64: neighbouring numbers become unrelated ones.
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31U);
+}
+
+enum class Purpose : std::uint8_t { values, losses };
+
+Random generator(std::uint64_t seed, std::uint64_t number, Purpose purpose) {
+  return Random{mixed(mixed(seed) + 2 * number + static_cast<std::uint64_t>(purpose))};
+}
+
+/// From low to high, both included. The bias of the remainder is below 10^-3 for every range here.
+std::int64_t between(Random& random, std::int64_t low, std::int64_t high) {
+  const auto values = static_cast<std::uint64_t>(high - low) + 1;
+  return low + static_cast<std::int64_t>(random() % values);
+}
+
+/// value · ratio for ratio ≤ 1, rounded down; the products stay within 64 bits.
+std::int64_t part_of(std::int64_t value, const model::Ratio& ratio) {
+  return value / ratio.denominator * ratio.numerator +
+         value % ratio.denominator * ratio.numerator / ratio.denominator;
+}
+
+void add_relative(std::vector<KnobRange>& ranges,
+                  const std::vector<model::config::NumericKnob>& knobs,
+                  const std::optional<model::Ratio>& ratio) {
+  if (!ratio) return;
+  for (const model::config::NumericKnob& knob : knobs) {
+    const std::int64_t half = part_of(knob.value, *ratio);
+    ranges.push_back({knob.key, knob.unit, std::max(knob.minimum, knob.value - half),
+                      std::min(knob.maximum, knob.value + half)});
+  }
+}
+
+}  // namespace
+
+VariantSource::VariantSource(const model::Scenario& base, const Ranges& ranges)
+    : base_{base}, ranges_{ranges} {
+  add_relative(knobs_, size_knobs(base), ranges.vary.sizes);
+  add_relative(knobs_, delay_knobs(base), ranges.vary.delays);
+  add_relative(knobs_, timer_knobs(base), ranges.vary.timers);
+  knobs_.insert(knobs_.end(), ranges.knobs.begin(), ranges.knobs.end());
+}
+
+std::optional<Variant> VariantSource::draw(std::uint64_t seed, std::uint64_t number) const {
+  Random random = generator(seed, number, Purpose::values);
+  for (std::uint32_t rejected = 0; rejected < most_draws; ++rejected) {
+    Variant variant{base_, rejected};
+    model::Scenario& scenario = variant.scenario;
+    scenario.vary.reset();
+    if (ranges_.schedule) scenario.deployment.draw_schedule(random());
+    scenario.deployment.schedule.reset();
+    for (model::Participant& participant : scenario.deployment.participants) {
+      if (!ranges_.vary.start_jitter) break;
+      const model::Nanoseconds later{between(random, 0, ranges_.vary.start_jitter->count())};
+      participant.start += later;
+      participant.endpoints_done += later;
+    }
+    bool in_range = true;
+    for (const KnobRange& knob : knobs_) {
+      const std::int64_t value = between(random, knob.low, knob.high);
+      in_range = model::config::set_numeric_knob(scenario, knob.key, value) && in_range;
+    }
+    if (in_range && model::config::is_valid(scenario)) return variant;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::uint64_t> VariantSource::losses(std::uint64_t seed, std::uint64_t number,
+                                                 std::uint64_t packets) const {
+  std::vector<std::uint64_t> lost;
+  if (!ranges_.vary.loss) return lost;
+  const auto numerator = static_cast<std::uint64_t>(ranges_.vary.loss->numerator);
+  const auto denominator = static_cast<std::uint64_t>(ranges_.vary.loss->denominator);
+  Random random = generator(seed, number, Purpose::losses);
+  for (std::uint64_t packet = 0; packet < packets; ++packet) {
+    if (random() % denominator < numerator) lost.push_back(packet);
+  }
+  return lost;
+}
+
+}  // namespace stormproof::fuzz

@@ -1,0 +1,44 @@
+// The report of a reproduction, as text, JSON, CSV and one HTML page.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/experiments/reproduce/figures.hpp"
+
+namespace stormproof::reproduce {
+
+struct Report {
+  std::string command;  ///< the command line that makes it again
+  std::string version;  ///< of this program
+  Published published;
+  Results results;
+  std::vector<Figure> figures;
+};
+
+/// Tables for people, at most 140 columns wide.
+[[nodiscard]] std::string to_text(const Report& report);
+
+/// Everything, exact times in nanoseconds included. A value that does not exist is null.
+[[nodiscard]] nlohmann::ordered_json to_json(const Report& report);
+
+/// One line for each published figure and variant.
+[[nodiscard]] std::string figures_csv(const Report& report);
+/// One line for each configuration, variant, network, HEARTBEAT policy and order of service.
+[[nodiscard]] std::string configurations_csv(const Report& report);
+
+/// A page that needs nothing but itself: tables, and plots in the shape of the paper's figures.
+[[nodiscard]] std::string to_html(const Report& report);
+
+/// "120", "1,850", "0.07", "3.13": four significant digits, all digits of numbers below 100,000
+/// that are whole; "–" without a value.
+[[nodiscard]] std::string number_text(std::optional<double> value);
+/// Numbers that belong together: "15.7 … 18.4"; of long lists the ends.
+[[nodiscard]] std::string numbers_text(const std::vector<double>& values);
+/// The same with all digits that are published.
+[[nodiscard]] std::string published_text(const std::vector<double>& values);
+/// "0.97 ×".
+[[nodiscard]] std::string ratio_text(std::optional<double> ratio);
+
+}  // namespace stormproof::reproduce

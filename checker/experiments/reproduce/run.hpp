@@ -1,0 +1,76 @@
+// Runs the plan on all cores and keeps what the report needs of each run.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "checker/experiments/reproduce/plan.hpp"
+#include "model/counts.hpp"
+#include "model/run_result.hpp"
+
+namespace stormproof::reproduce {
+
+/// What is kept of one simulator run.
+struct Run {
+  model::RunEnd end{};
+  std::optional<model::Nanoseconds> completion;
+  model::Counts counts;
+};
+
+/// The message classes of the report: the paper's, with both kinds of SPDP in one as in its tables.
+enum class Class : std::uint8_t {
+  spdp,
+  initial_data,
+  repair_data,
+  heartbeat,
+  acknack,
+  total,
+  spdp_multicast,
+  spdp_unicast
+};
+inline constexpr std::array<Class, 6> table_classes{Class::spdp,        Class::initial_data,
+                                                    Class::repair_data, Class::heartbeat,
+                                                    Class::acknack,     Class::total};
+[[nodiscard]] const char* name_of(Class one);
+[[nodiscard]] std::uint64_t count_of(const model::Counts& counts, Class one);
+
+/// All runs of one case. Means are over the runs that complete discovery; without any, they do not
+/// exist.
+struct Outcome {
+  std::vector<Run> runs;
+
+  [[nodiscard]] std::size_t completed() const;
+  [[nodiscard]] std::optional<double> completion_s() const;
+  [[nodiscard]] std::optional<double> fastest_s() const;
+  [[nodiscard]] std::optional<double> slowest_s() const;
+  [[nodiscard]] std::optional<double> messages(Class one) const;
+};
+
+struct Results {
+  Plan plan;
+  std::map<Case, Outcome> outcomes;  ///< a case whose runs were interrupted is not in it
+  bool complete = false;             ///< whether every case is there
+  /// Processor time of the paper's own evaluation: its profile on Wi-Fi, periodic HEARTBEATs.
+  double evaluation_cpu_s = 0;
+  double total_cpu_s = 0;
+
+  /// Nothing if the plan has no such case, or it was interrupted.
+  [[nodiscard]] const Outcome* find(const Case& one) const;
+  /// The case that most of the report is about: periodic, first order of service.
+  [[nodiscard]] const Outcome* find(std::size_t variant, Network network,
+                                    const Configuration& configuration) const;
+};
+
+struct RunLimits {
+  std::size_t threads = 0;  ///< 0: one for each core
+  /// Called from one thread at a time with the number of finished runs; false stops all.
+  std::function<bool(std::size_t finished)> on_progress{};
+};
+
+[[nodiscard]] Results run(const Plan& plan, const RunLimits& limits = {});
+
+}  // namespace stormproof::reproduce

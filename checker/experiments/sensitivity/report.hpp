@@ -1,0 +1,30 @@
+// The sensitivity report as text with a tornado of bars, as JSON, and as an SVG tornado plot.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/experiments/sensitivity/sensitivity.hpp"
+
+namespace stormproof::sensitivity {
+
+/// What the output says about how the report came about.
+struct Description {
+  std::string scenario;  ///< as it was named
+  std::string command;   ///< that gives the same output
+  Options options;
+  model::DdsProfile dds;  ///< of the scenario
+  bool has_schedule = false;
+  std::size_t shown = 15;  ///< knobs in text and plot; the others are in the JSON
+
+  /// Whether the runs of one scenario differ in their start times.
+  [[nodiscard]] bool is_sampled() const { return has_schedule || options.start_jitter.count() > 0; }
+};
+
+[[nodiscard]] std::string to_text(const Report& report, const Description& description);
+[[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Description& description);
+/// A bar for each of the first knobs that have an effect on `description.options.by`.
+[[nodiscard]] std::string to_svg(const Report& report, const Description& description);
+
+}  // namespace stormproof::sensitivity

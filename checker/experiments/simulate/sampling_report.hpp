@@ -1,0 +1,49 @@
+// The answer of `stormproof simulate --samples N` and `--compare`: distributions over sampled
+// schedules, one profile or several side by side on the same schedules.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/experiments/statistics/quantiles.hpp"
+#include "checker/experiments/trials/sample_runs.hpp"
+
+namespace stormproof::report {
+
+/// All runs of one DDS profile.
+struct SampledProfile {
+  std::string name;
+  model::Scenario scenario;
+  std::vector<sampling::Sample> samples;
+};
+
+struct Sampling {
+  std::string name;        ///< what the user called the scenario
+  std::size_t wanted = 0;  ///< samples asked for; fewer exist if the runs were interrupted
+  std::uint64_t first_seed = 0;
+  std::string command;                   ///< reproduces this output
+  std::vector<SampledProfile> profiles;  ///< the scenario's own first, then those to compare with
+};
+
+/// Statistics of one profile.
+struct SampleSummary {
+  std::size_t runs = 0;
+  std::size_t completed = 0;
+  sampling::Quantiles discovery_time_ns;
+  std::array<sampling::Quantiles, 6> counts;  ///< in the order of Counts::entries
+  sampling::Quantiles total;
+  sampling::Quantiles user_control;
+};
+[[nodiscard]] SampleSummary summarize(const std::vector<sampling::Sample>& samples);
+
+[[nodiscard]] std::string to_text(const Sampling& sampling);
+
+/// Keys: scenario, seed, wanted, command, samples (array of runs), summary, profile; with several
+/// profiles also compare, an array of {profile_name, samples, summary, profile}. specs/output.md
+/// describes them.
+[[nodiscard]] nlohmann::ordered_json to_json(const Sampling& sampling);
+
+}  // namespace stormproof::report

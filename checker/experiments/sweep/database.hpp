@@ -1,0 +1,66 @@
+// The results of sweeps in SQLite: one row for each job that is done. It exists so that a sweep can
+// be killed at any moment and go on later, and so that results of many grids can be asked questions
+// in SQL. specs/sweeping.md describes the columns.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "checker/experiments/sweep/digest.hpp"
+#include "checker/experiments/sweep/outcome.hpp"
+#include "model/config/result.hpp"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace stormproof::sweep {
+
+/// `PRAGMA application_id` and `user_version` of the files.
+inline constexpr int application_id = 0x53544d50;
+inline constexpr int schema_version = 1;
+
+class Database {
+ public:
+  /// Opens the file, which is made if it does not exist or is empty. Errors: it cannot be opened,
+  /// it is not a database of sweeps, it has a newer schema.
+  [[nodiscard]] static model::config::Result<Database> open(const std::string& path,
+                                                            std::string program_version);
+
+  /// The outcome that this version of the program has had with these inputs.
+  [[nodiscard]] std::optional<Outcome> find(const Digest& digest);
+
+  /// Adds a row, or replaces that of the same inputs and version. It is in the file for good with
+  /// the next `commit`. `keys` are the swept keys and the job's values of them, as a JSON object.
+  [[nodiscard]] bool add(const Digest& digest, const std::string& keys, const Outcome& outcome);
+  [[nodiscard]] bool commit();
+  /// Commits, and merges what SQLite keeps beside the file into it.
+  [[nodiscard]] bool finish();
+
+  /// What went wrong with the last operation that returned false.
+  [[nodiscard]] std::string error() const;
+
+ private:
+  struct Closer {
+    void operator()(sqlite3* connection) const;
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
+
+  Database() = default;
+  [[nodiscard]] bool execute(const std::string& sql);
+  [[nodiscard]] std::optional<std::int64_t> integer(const std::string& sql);
+  [[nodiscard]] bool prepare(const std::string& sql, Statement& statement);
+  /// What is wrong with the file, or nothing.
+  [[nodiscard]] std::optional<std::string> accept();
+  [[nodiscard]] bool make_schema();
+
+  std::string path_;
+  std::string version_;
+  std::unique_ptr<sqlite3, Closer> connection_;
+  Statement find_;
+  Statement add_;
+  bool in_transaction_ = false;
+};
+
+}  // namespace stormproof::sweep

@@ -1,0 +1,106 @@
+// Reads the scenarios of a grid part by part. Thousands of jobs share a few deployments and
+// profiles, and reading a profile takes as long as simulating a small system, so each different
+// part is read, checked and digested once.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checker/experiments/sweep/digest.hpp"
+#include "checker/experiments/sweep/grid.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::sweep {
+
+/// One part of a scenario, or what is wrong with it.
+template <class T>
+struct Part {
+  T value{};
+  Digest digest{};
+  std::optional<model::config::InputError> error;
+};
+
+/// What a scenario has beside deployment and profiles. Limits and ranges change no run, so they are
+/// checked and dropped.
+struct Rest {
+  model::Nanoseconds time_limit;
+  model::RunUntil run_until{};
+};
+
+/// Where the parts of one combination stand in `PartReader`.
+struct PartNumbers {
+  std::uint32_t deployment = 0;
+  std::uint32_t dds = 0;
+  std::uint32_t wireless = 0;
+  std::uint32_t rest = 0;
+};
+
+/// A variant and a value of each axis, by their numbers.
+struct Choice {
+  std::size_t variant = 0;
+  std::vector<std::size_t> values;  ///< by axis
+};
+
+class PartReader {
+ public:
+  /// Both must live as long as the reader.
+  PartReader(const Grid& grid, const model::config::SpecPath& specs);
+
+  /// Reads what is not yet read.
+  [[nodiscard]] PartNumbers read(const Choice& choice);
+
+  /// The first error in the parts of a combination, by their order in a scenario; or, if each part
+  /// is right by itself, in how they go together.
+  [[nodiscard]] std::optional<model::config::InputError> error(const Choice& choice,
+                                                               const PartNumbers& numbers);
+  /// Whether each part is right by itself.
+  [[nodiscard]] bool parts_are_right(const PartNumbers& numbers) const;
+
+  std::vector<Part<model::Deployment>> deployments;
+  std::vector<Part<model::DdsProfile>> dds;
+  std::vector<Part<model::WirelessProfile>> wireless;
+  std::vector<Part<Rest>> rests;
+
+ private:
+  enum class Kind { deployment, dds, wireless, rest };
+  using Key = std::vector<std::size_t>;
+  using Failure = std::optional<model::config::InputError>;
+  /// An override that concerns the part.
+  struct Change {
+    const std::string* path;
+    const model::config::Node* value;
+  };
+  /// A profile as it is before overrides of single keys.
+  struct ResolvedProfile {
+    model::config::Node root;  ///< a map with the profile as its only member
+    Failure failure;
+  };
+  /// What is remembered of one kind of part.
+  struct Memory {
+    std::vector<std::size_t> axes;      ///< that concern it
+    std::vector<std::size_t> choosing;  ///< those of them that choose a profile
+    std::map<Key, std::uint32_t> numbers;
+    std::map<Key, ResolvedProfile> profiles;
+  };
+
+  [[nodiscard]] static Kind kind_of(std::string_view path);
+  [[nodiscard]] static bool chooses(std::string_view path, Kind kind);
+  [[nodiscard]] static Key key_of(const Choice& choice, const std::vector<std::size_t>& axes);
+  [[nodiscard]] std::vector<Change> changes(const Choice& choice, Kind kind) const;
+  [[nodiscard]] model::config::Node part_root(std::size_t variant, Kind kind) const;
+  /// The tree of a part with all its overrides.
+  [[nodiscard]] model::config::Node tree(const Choice& choice, Kind kind, Failure& failure);
+  [[nodiscard]] const ResolvedProfile& profile(const Choice& choice, Kind kind);
+
+  template <class T, class Read>
+  std::uint32_t part_number(const Choice& choice, Kind kind, std::vector<Part<T>>& parts,
+                            const Read& read);
+
+  const Grid& grid_;
+  const model::config::SpecPath& specs_;
+  std::map<Kind, Memory> memory_;
+};
+
+}  // namespace stormproof::sweep

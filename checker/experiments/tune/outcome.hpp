@@ -1,0 +1,87 @@
+// What the search knows of a setting: the outcomes of its runs. The search never sees the model;
+// it asks a function for the outcome of a setting under a seed, so that it can be tested on costs
+// whose optimum is known.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "checker/experiments/tune/pareto.hpp"
+#include "checker/experiments/tune/space.hpp"
+#include "model/counts.hpp"
+#include "model/units.hpp"
+
+namespace stormproof::tune {
+
+/// Of one run.
+struct Outcome {
+  std::optional<model::Nanoseconds> completion;  ///< absent: not complete within the limit
+  double missing = 0;  ///< share of the descriptors that had not arrived then
+  model::Counts counts;
+  std::vector<std::string_view> broken;  ///< ids of the properties and limits that must hold and
+                                         ///< do not, ascending
+};
+
+/// What is searched: settings, whether one is a scenario at all, and the outcome of one under a
+/// seed if a run may take `limit` of simulated time; nothing if it was interrupted. Called from
+/// several threads. The same seed stands for the same circumstances whatever the setting is.
+struct Problem {
+  Space space;
+  std::function<bool(const Point&)> is_valid;
+  std::function<std::optional<Outcome>(const Point&, std::uint64_t seed, model::Nanoseconds limit)>
+      run;
+};
+
+/// Seeds first, first + 1, …
+struct Seeds {
+  std::uint64_t first = 0;
+  std::size_t count = 1;
+};
+
+/// Medians over the runs. A run that is not complete at `limit` counts as longer than it, the more
+/// so the more is missing: so the search can tell bad from worse.
+[[nodiscard]] Cost cost_of(std::span<const Outcome> outcomes, model::Nanoseconds limit);
+
+/// Ids that break in any of the runs, ascending.
+[[nodiscard]] std::vector<std::string_view> broken_in(std::span<const Outcome> outcomes);
+
+/// Every run that was made, so that none is made twice. All runs have the same limit.
+class Archive {
+ public:
+  /// Told the number of finished runs, by one thread at a time; false interrupts.
+  using Progress = std::function<bool(std::size_t runs)>;
+
+  /// `problem` must outlive this. `threads` 0: one for each core.
+  Archive(const Problem& problem, model::Nanoseconds limit, std::size_t threads, Progress progress);
+
+  /// Makes the runs that `points` lack under `seeds`; false if they were interrupted.
+  bool extend(const std::vector<Point>& points, Seeds seeds);
+
+  /// The outcomes of a point under those of `seeds` that were run, by seed.
+  [[nodiscard]] std::vector<Outcome> outcomes(const Point& point, Seeds seeds) const;
+  [[nodiscard]] Cost cost(const Point& point, Seeds seeds) const;
+  /// Whether nothing breaks under `seeds`.
+  [[nodiscard]] bool keeps(const Point& point, Seeds seeds) const;
+
+  [[nodiscard]] std::size_t runs() const { return finished_; }
+  /// Settings of which at least one run is known.
+  [[nodiscard]] std::size_t settings() const;
+  [[nodiscard]] model::Nanoseconds limit() const { return limit_; }
+
+ private:
+  const Problem& problem_;
+  model::Nanoseconds limit_;
+  std::size_t threads_;
+  Progress progress_;
+  std::size_t finished_ = 0;
+  std::map<Point, std::map<std::uint64_t, Outcome>> outcomes_;
+};
+
+}  // namespace stormproof::tune

@@ -1,0 +1,172 @@
+// All points go one step at a time, so that the runs of a step fill all cores. Every comparison is
+// with the point as it came, not with the step before: many small losses would add up.
+#include "checker/experiments/tune/reduce.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stormproof::tune {
+
+namespace {
+
+double completion_of(const Outcome& outcome, model::Nanoseconds limit) {
+  return static_cast<double>(outcome.completion.value_or(limit).count());
+}
+
+double messages_of(const Outcome& outcome) { return static_cast<double>(outcome.counts.total()); }
+
+/// Nothing takes less than 1 ns, or one message.
+double logarithm_of_ratio(double candidate, double reference) {
+  return std::log(std::max(candidate, 1.0) / std::max(reference, 1.0));
+}
+
+/// A changed value moves back by a half of the way, a quarter if that is too far, an eighth, and no
+/// further.
+constexpr std::size_t most_failures = 3;
+/// How often a value moves back at most.
+constexpr std::size_t most_moves = 4;
+
+/// A point on its way.
+struct Journey {
+  enum class Stage : std::uint8_t { setting_back, moving_back, arrived };
+  Point original;
+  Point now;
+  Stage stage = Stage::setting_back;
+  std::vector<std::size_t> moves, failures;  ///< of moving back, by dimension
+};
+
+/// A step of a journey: one dimension gets another value.
+struct Step {
+  std::size_t dimension = 0;
+  Point to;
+};
+
+/// With one change less, each of them; or with one value moved back.
+std::vector<Step> steps_of(const Space& space, const Journey& journey) {
+  std::vector<Step> steps;
+  for (const std::size_t d : space.changes(journey.now)) {
+    const Dimension& dimension = space.dimensions[d];
+    Step step{d, journey.now};
+    if (journey.stage == Journey::Stage::setting_back) {
+      step.to[d] = dimension.unchanged;
+    } else {
+      if (journey.failures[d] == most_failures || journey.moves[d] == most_moves) continue;
+      const double from = dimension.position_of(journey.now[d]);
+      const double way = dimension.position_of(dimension.unchanged) - from;
+      const double share = std::pow(0.5, static_cast<double>(journey.failures[d] + 1));
+      step.to[d] = dimension.value_at(from + share * way);
+      if (step.to[d] == journey.now[d] || step.to[d] == dimension.unchanged) continue;
+    }
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+class Reducer {
+ public:
+  Reducer(const Problem& problem, Archive& archive, Seeds seeds, double least)
+      : problem_{problem}, archive_{archive}, seeds_{seeds}, least_{least} {}
+
+  std::optional<std::vector<Point>> run(const std::vector<Point>& points) {
+    std::vector<Journey> journeys;
+    for (const Point& point : points) {
+      const std::vector<std::size_t> none(point.size(), 0);
+      journeys.push_back({point, point, Journey::Stage::setting_back, none, none});
+    }
+    if (!archive_.extend(points, seeds_)) return std::nullopt;
+    const auto is_on_its_way = [](const Journey& journey) {
+      return journey.stage != Journey::Stage::arrived;
+    };
+    while (std::ranges::any_of(journeys, is_on_its_way)) {
+      std::vector<Point> candidates;
+      for (const Journey& journey : journeys) {
+        if (!is_on_its_way(journey)) continue;
+        for (Step& step : steps_of(problem_.space, journey)) {
+          if (is_valid(step.to)) candidates.push_back(std::move(step.to));
+        }
+      }
+      if (!archive_.extend(candidates, seeds_)) return std::nullopt;
+      for (Journey& journey : journeys) {
+        if (is_on_its_way(journey)) go_on(journey);
+      }
+    }
+    std::vector<Point> reduced;
+    for (const Journey& journey : journeys) reduced.push_back(journey.now);
+    return reduced;
+  }
+
+ private:
+  [[nodiscard]] bool is_valid(const Point& point) const {
+    return !problem_.is_valid || problem_.is_valid(point);
+  }
+
+  /// Takes the step that costs least, if one may be taken. The next stage begins if none may, or
+  /// none is left.
+  void go_on(Journey& journey) const {
+    const bool moves_back = journey.stage == Journey::Stage::moving_back;
+    const Step* best = nullptr;
+    double least_cost = 0;
+    const std::vector<Step> steps = steps_of(problem_.space, journey);
+    for (const Step& step : steps) {
+      if (!is_valid(step.to) || !is_as_good(step.to, journey.original)) {
+        if (moves_back) ++journey.failures[step.dimension];
+        continue;
+      }
+      const double cost = archive_.cost(step.to, seeds_).completion;
+      if (best != nullptr && cost >= least_cost) continue;
+      best = &step;
+      least_cost = cost;
+    }
+    if (best != nullptr) {
+      if (moves_back) ++journey.moves[best->dimension];
+      journey.now = best->to;
+    } else if (!moves_back) {
+      journey.stage = Journey::Stage::moving_back;
+    } else if (steps.empty()) {
+      journey.stage = Journey::Stage::arrived;
+    }
+  }
+
+  [[nodiscard]] bool is_as_good(const Point& candidate, const Point& original) const {
+    if (!archive_.keeps(candidate, seeds_) && archive_.keeps(original, seeds_)) return false;
+    const Difference change = difference(archive_.outcomes(candidate, seeds_),
+                                         archive_.outcomes(original, seeds_), archive_.limit());
+    return !is_clearly_more(change.completion, least_) && !is_clearly_more(change.messages, least_);
+  }
+
+  const Problem& problem_;
+  Archive& archive_;
+  Seeds seeds_;
+  double least_;
+};
+
+}  // namespace
+
+Difference difference(const std::vector<Outcome>& candidate, const std::vector<Outcome>& reference,
+                      model::Nanoseconds limit) {
+  std::vector<double> completion;
+  std::vector<double> messages;
+  for (std::size_t k = 0; k < std::min(candidate.size(), reference.size()); ++k) {
+    completion.push_back(
+        logarithm_of_ratio(completion_of(candidate[k], limit), completion_of(reference[k], limit)));
+    messages.push_back(logarithm_of_ratio(messages_of(candidate[k]), messages_of(reference[k])));
+  }
+  Difference found{shift_of(std::move(completion)), shift_of(std::move(messages))};
+  found.completion.exact = found.messages.exact = candidate.size() == 1;
+  return found;
+}
+
+bool is_clearly_more(const Shift& shift, double least) {
+  return shift.is_more() && shift.estimate > std::log1p(least);
+}
+
+bool is_clearly_less(const Shift& shift, double least) {
+  return shift.is_less() && shift.estimate < -std::log1p(least);
+}
+
+std::optional<std::vector<Point>> reduced(std::vector<Point> points, const Problem& problem,
+                                          Archive& archive, Seeds seeds, double least) {
+  return Reducer{problem, archive, seeds, least}.run(points);
+}
+
+}  // namespace stormproof::tune

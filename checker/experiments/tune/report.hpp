@@ -1,0 +1,34 @@
+// The report of a tuning as text, as JSON, and as a plot of completion against messages.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/experiments/tune/tune.hpp"
+
+namespace stormproof::tune {
+
+/// What surrounds a report.
+struct Context {
+  std::string scenario;  ///< as it was named
+  std::string command;   ///< that gives the same output
+  const Subject& subject;
+  const Options& options;
+  std::map<std::string, std::string, std::less<>> files;  ///< name of a row → its written XML
+  std::vector<std::string> prerequisites;                 ///< of the recommended setting
+  std::string repeat;  ///< command that measures the recommended file again; empty: none
+  std::vector<std::string> check;  ///< lines of the check of the recommended setting; may be empty
+  bool files_wanted = false;       ///< if there are none, the report says so
+};
+
+[[nodiscard]] std::string to_text(const Report& report, const Context& context);
+/// specs/output.md describes the keys.
+[[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Context& context);
+[[nodiscard]] std::string to_svg(const Report& report, const Context& context);
+
+/// The setting in one line: "sendBufferSize 4000000, maxMessageSize 1400".
+[[nodiscard]] std::string settings_text(const Row& row);
+
+}  // namespace stormproof::tune

@@ -1,0 +1,282 @@
+// The stages one after the other: what holds unchanged, search, reduction and choice, comparison.
+#include "checker/experiments/tune/tune.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "checker/experiments/trials/parallel.hpp"
+#include "checker/experiments/tune/comparison.hpp"
+#include "checker/experiments/tune/model_runs.hpp"
+#include "model/config/suggestion.hpp"
+#include "model/config/vendor/vendor_knobs.hpp"
+#include "props/limits.hpp"
+#include "props/monitor.hpp"
+
+namespace stormproof::tune {
+
+using model::Nanoseconds;
+using model::Scenario;
+using model::config::InputError;
+using model::config::Result;
+
+namespace {
+
+/// Runs of a setting in the search.
+constexpr std::size_t search_samples = 12;
+/// Settings of the front that are looked at closely.
+constexpr std::size_t most_shown = 8;
+/// Distance between the sets of seeds.
+constexpr std::uint64_t next_seeds = 1'000'000;
+/// A run of the search may take so many times as long as an unchanged one (median). A setting whose
+/// median is beyond that is not wanted, and storms are what takes long to run.
+constexpr double patience = 2;
+
+std::vector<std::string_view> known_ids(const Scenario& scenario) {
+  std::vector<std::string_view> ids = props::monitored_properties();
+  for (const std::string_view id : props::set_limits(scenario.limits)) ids.push_back(id);
+  return ids;
+}
+
+class Study {
+ public:
+  Study(const Subject& subject, const Options& options) : subject_{subject}, options_{options} {
+    const bool sampled = scenario().deployment.schedule || options.start_jitter.count() > 0;
+    const std::size_t samples = sampled ? options.samples : 1;
+    report_.is_sampled = sampled;
+    report_.searched = {options.seed, sampled ? std::min(search_samples, samples) : 1};
+    report_.chosen = {options.seed + (sampled ? next_seeds : 0), samples};
+    report_.compared = {options.seed + (sampled ? 2 * next_seeds : 0), samples};
+    report_.basis = report_.searched;
+    report_.space = space_of(scenario(), model::config::vendor::vendor_knobs(subject.vendor));
+  }
+
+  Result<Report> run() {
+    if (auto error = refuse()) return *std::move(error);
+    problem_.space = report_.space;
+    choice_ = report_.space.unchanged();
+    problem_.is_valid = [this](const Point& point) {
+      return model::config::is_valid(report_.space.apply(scenario(), point));
+    };
+    problem_.run = [this](const Point& point, std::uint64_t seed, Nanoseconds limit) {
+      return run_under(report_.space.apply(scenario(), point), seed, limit);
+    };
+    if (look_at_unchanged() && search_and_choose()) compare();
+    conclude();
+    return std::move(report_);
+  }
+
+ private:
+  [[nodiscard]] const Scenario& scenario() const { return subject_.scenario; }
+
+  std::optional<InputError> refuse() {
+    if (report_.space.dimensions.empty()) {
+      return InputError{subject_.preset, "no number of this profile can be set by a user"};
+    }
+    const std::vector<std::string_view> known = known_ids(scenario());
+    for (const std::string& id : options_.keep) {
+      if (std::ranges::find(known, id) != known.end()) continue;
+      const std::vector<std::string> names{known.begin(), known.end()};
+      return InputError{"--keep " + id,
+                        fmt::format("no property that a run shows, and no limit of the scenario{}; "
+                                    "'stormproof properties' lists the properties",
+                                    model::config::suggestion(id, names))};
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Outcome> run_under(const Scenario& changed, std::uint64_t seed, Nanoseconds limit) {
+    const Scenario drawn = scenario_under(changed, seed, {options_.start_jitter});
+    return run_once(drawn, watched_, limit, [this] { return !stopped_; });
+  }
+
+  /// Counts finished runs of all stages.
+  bool goes_on(const char* doing, std::size_t runs) {
+    const bool wanted =
+        !options_.on_progress || options_.on_progress(doing, runs, std::max(runs, about_));
+    if (!wanted) stopped_ = true;
+    return wanted;
+  }
+
+  /// What holds without a change, and how long it takes.
+  bool look_at_unchanged() {
+    if (options_.keep.empty()) {
+      watched_ = watchable(scenario());
+    } else {
+      for (const std::string_view id : known_ids(scenario())) {
+        if (std::ranges::find(options_.keep, id) != options_.keep.end()) watched_.push_back(id);
+      }
+    }
+    about_ = options_.budget + 20 * most_shown * report_.chosen.count / 2;
+    Archive archive{problem_, scenario().time_limit, options_.threads,
+                    [this](std::size_t runs) { return goes_on("unchanged", runs); }};
+    if (!archive.extend({report_.space.unchanged()}, report_.searched)) return false;
+    report_.runs = archive.runs();
+    const auto outcomes = archive.outcomes(report_.space.unchanged(), report_.searched);
+    if (options_.keep.empty()) {
+      for (const std::string_view id : broken_in(outcomes)) {
+        report_.not_required.emplace_back(id);
+        std::erase(watched_, id);
+      }
+    }
+    for (const std::string_view id : watched_) report_.kept.emplace_back(id);
+    const double median = cost_of(outcomes, scenario().time_limit).completion;
+    const double limit = static_cast<double>(scenario().time_limit.count());
+    report_.search_limit = Nanoseconds{std::llround(std::clamp(patience * median, 1.0, limit))};
+    return true;
+  }
+
+  bool search_and_choose() {
+    const std::size_t before = report_.runs;
+    const char* doing = "search";
+    Archive archive{problem_, report_.search_limit, options_.threads,
+                    [&](std::size_t runs) { return goes_on(doing, before + runs); }};
+    report_.found = search(problem_, archive, {options_.budget, report_.searched, options_.seed});
+    const auto keep_what_is_known = [&](const std::vector<Point>& front, Seeds basis) {
+      report_.settings = archive.settings();
+      report_.runs = before + archive.runs();
+      report_.basis = basis;
+      front_ = front;
+      for (const Point& point : with_unchanged(front)) {
+        known_[point] = archive.outcomes(point, basis);
+      }
+    };
+    report_.tried = report_.found.finalists;
+    keep_what_is_known(report_.found.front, report_.found.basis);
+    choice_ = front_.empty() ? problem_.space.unchanged() : front_.front();
+    if (!report_.found.finished) return false;
+
+    doing = "reduction";
+    const std::vector<Point> spread = spread_front(archive, report_.found.front, report_.searched);
+    const auto reduced =
+        tune::reduced(with_unchanged(spread), problem_, archive, report_.chosen, options_.least);
+    if (!reduced) {
+      report_.runs = before + archive.runs();
+      return false;
+    }
+    count_undone(spread, *reduced);
+    const std::vector<Point> front = kept_front(archive, *reduced, report_.chosen);
+    keep_what_is_known(front, report_.chosen);
+    choice_ = chosen_of(archive, front);
+    return true;
+  }
+
+  [[nodiscard]] std::vector<Point> with_unchanged(std::vector<Point> points) const {
+    const Point unchanged = problem_.space.unchanged();
+    if (std::ranges::find(points, unchanged) == points.end()) points.push_back(unchanged);
+    return points;
+  }
+
+  [[nodiscard]] std::vector<Cost> costs_of(const Archive& archive, const std::vector<Point>& points,
+                                           Seeds seeds) const {
+    std::vector<Cost> costs;
+    for (const Point& point : points) costs.push_back(archive.cost(point, seeds));
+    return costs;
+  }
+
+  [[nodiscard]] std::vector<Point> spread_front(const Archive& archive,
+                                                const std::vector<Point>& front,
+                                                Seeds seeds) const {
+    const std::vector<Cost> costs = costs_of(archive, front, seeds);
+    std::vector<Point> spread;
+    for (const std::size_t k : spread_out(costs, pareto_front(costs), most_shown)) {
+      spread.push_back(front[k]);
+    }
+    return spread;
+  }
+
+  void count_undone(const std::vector<Point>& before, const std::vector<Point>& after) {
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      report_.undone +=
+          problem_.space.changes(before[k]).size() - problem_.space.changes(after[k]).size();
+    }
+  }
+
+  /// The front of those that keep everything under `seeds`.
+  [[nodiscard]] std::vector<Point> kept_front(const Archive& archive,
+                                              const std::vector<Point>& points, Seeds seeds) const {
+    const std::set<Point> distinct{points.begin(), points.end()};
+    std::vector<Point> kept;
+    for (const Point& point : distinct) {
+      if (archive.keeps(point, seeds)) kept.push_back(point);
+    }
+    std::vector<Point> front;
+    for (const std::size_t k : pareto_front(costs_of(archive, kept, seeds))) {
+      front.push_back(kept[k]);
+    }
+    return front;
+  }
+
+  /// Of the settings that are not clearly longer than the shortest one that with the fewest
+  /// changes; of these the shortest.
+  [[nodiscard]] Point chosen_of(const Archive& archive, const std::vector<Point>& front) const {
+    if (front.empty()) return problem_.space.unchanged();
+    const auto shortest = archive.outcomes(front.front(), report_.chosen);
+    Point best = front.front();
+    for (const Point& point : with_unchanged(front)) {
+      if (!archive.keeps(point, report_.chosen)) continue;
+      const Difference longer =
+          difference(archive.outcomes(point, report_.chosen), shortest, archive.limit());
+      if (is_clearly_more(longer.completion, options_.least)) continue;
+      if (problem_.space.changes(point).size() < problem_.space.changes(best).size()) best = point;
+    }
+    return best;
+  }
+
+  /// All rows under seeds that nothing was chosen by.
+  void compare() {
+    const std::size_t before = report_.runs;
+    std::vector<Row> rows = rows_of(subject_, report_.space, front_, choice_);
+    about_ = before + rows.size() * report_.compared.count;
+    const std::size_t samples = report_.compared.count;
+    std::vector<std::optional<Outcome>> outcomes(rows.size() * samples);
+    std::mutex mutex;
+    std::size_t runs = before;
+    const bool complete = checker::parallel_for(outcomes.size(), options_.threads, [&](auto k) {
+      outcomes[k] = run_under(rows[k / samples].scenario, report_.compared.first + k % samples,
+                              scenario().time_limit);
+      const std::lock_guard lock{mutex};
+      return outcomes[k] && goes_on("comparison", ++runs);
+    });
+    report_.runs = runs;
+    if (!complete) return;
+    std::vector<std::vector<Outcome>> by_row(rows.size());
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      by_row[k / samples].push_back(*std::move(outcomes[k]));
+    }
+    report_.basis = report_.compared;
+    judge_rows(std::move(rows), by_row, options_, report_);
+    finished_ = true;
+  }
+
+  void conclude() {
+    if (!finished_) {
+      report_.answer = Answer::interrupted;
+      describe_interrupted(rows_of(subject_, report_.space, front_, choice_), known_, report_);
+    }
+  }
+
+  const Subject& subject_;
+  const Options& options_;
+  Problem problem_;
+  std::vector<std::string_view> watched_;
+  std::vector<Point> front_;
+  Point choice_;
+  std::map<Point, std::vector<Outcome>> known_;
+  std::atomic<bool> stopped_ = false;
+  std::size_t about_ = 0;
+  bool finished_ = false;
+  Report report_;
+};
+
+}  // namespace
+
+Result<Report> tune(const Subject& subject, const Options& options) {
+  return Study{subject, options}.run();
+}
+
+}  // namespace stormproof::tune

@@ -1,0 +1,43 @@
+// `stormproof check` without its command line: asks every engine that can decide a property, and
+// combines their findings into one verdict for each property of the catalogue.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "checker/engines/check_request.hpp"
+#include "props/property.hpp"
+
+namespace stormproof::checker {
+
+/// One property with everything that the engines found about it.
+struct PropertyResult {
+  const props::Property* property = nullptr;
+  props::VerdictKind verdict = props::VerdictKind::inconclusive;
+  /// Position in `findings` of the one that decides; the verdict is its kind.
+  std::size_t deciding = 0;
+  std::vector<props::Finding> findings;  ///< in the order of `Property::engines`; never empty
+
+  [[nodiscard]] const props::Finding& decisive() const { return findings[deciding]; }
+  /// The counterexample with the fewest events, or null.
+  [[nodiscard]] const props::Counterexample* counterexample() const;
+};
+
+struct CheckReport {
+  std::vector<PropertyResult> results;  ///< in the order of the catalogue
+  double seconds = 0;
+  bool interrupted = false;  ///< the rest is inconclusive
+
+  [[nodiscard]] std::size_t count(props::VerdictKind kind) const;
+};
+
+/// Checks the properties with these ids (all of the catalogue if empty); unknown ids are ignored.
+[[nodiscard]] CheckReport check(std::vector<std::string_view> properties,
+                                const CheckRequest& request);
+
+/// The verdict of several findings about one property, and which of them decides: a violation
+/// before all, then a dispute between solvers, then the strongest that holds.
+[[nodiscard]] std::size_t deciding_finding(const std::vector<props::Finding>& findings);
+
+}  // namespace stormproof::checker

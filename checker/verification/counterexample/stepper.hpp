@@ -1,0 +1,27 @@
+// A counterexample that a reader walks through: its sequence chart, and under it the events one by
+// one with what they change and the states after them. Buttons, a slider and keys move; the row of
+// the chart is marked. Without JavaScript it is a list.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "checker/verification/counterexample/chart.hpp"
+#include "checker/presentation/document/drawings.hpp"
+#include "props/verdict.hpp"
+
+namespace stormproof::report {
+
+/// HTML of chart and stepper. `chart` is that of `counterexample`; `id` is unique in the page;
+/// `caption` (plain) says what is shown. Names of machines whose states it shows are added to
+/// `machines`.
+[[nodiscard]] std::string walk_html(const props::Counterexample& counterexample,
+                                    const counterexample::Chart& chart, std::string_view id,
+                                    std::string_view caption, Drawings& drawings,
+                                    std::set<std::string>& machines);
+
+/// Diagrams of these machines, in which the states of the current step are marked; folded.
+[[nodiscard]] std::string machines_html(const std::set<std::string>& machines, Drawings& drawings);
+
+}  // namespace stormproof::report

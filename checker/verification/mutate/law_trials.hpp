@@ -1,0 +1,36 @@
+// Which laws (props/laws) notice a mutant: the share of the mutants that property tests find
+// without knowing any property of the catalogue.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "checker/verification/mutate/mutants.hpp"
+#include "checker/verification/mutate/trial_scenarios.hpp"
+#include "props/laws/law.hpp"
+
+namespace stormproof::mutate {
+
+/// Whether a run can show the mutant at all. One in the order of events cannot: it is about the
+/// comparison of events that the checker proves something about, not about the simulator's.
+[[nodiscard]] bool shows_in_runs(const checker::Mutant& mutant);
+
+class LawTrials {
+ public:
+  /// Ids of the laws that are broken with the mutant on one of the trial scenarios, and hold there
+  /// without it; in the order of `props::laws()`.
+  [[nodiscard]] std::vector<std::string> killers(const CatalogueEntry& entry);
+
+ private:
+  /// A scenario, and for each law whether it applies and holds there without a mutant.
+  struct Ground {
+    Trial trial;
+    std::vector<bool> holds;
+  };
+  std::vector<Ground>& grounds(model::ImplementationKind implementation);
+
+  std::array<std::vector<Ground>, 2> grounds_;
+};
+
+}  // namespace stormproof::mutate

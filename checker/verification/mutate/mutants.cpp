@@ -1,0 +1,123 @@
+// Mistakes in the rules around the tables: events, snapshots, knobs, and the order of events.
+#include "checker/verification/mutate/mutants.hpp"
+
+#include "checker/verification/mutate/table_mutants.hpp"
+
+namespace stormproof::mutate {
+
+namespace {
+
+using Change = model::EventMutation::Change;
+using model::EventClass;
+using model::EventKind;
+using model::Nanoseconds;
+
+CatalogueEntry named(std::string id, std::string description, Concerns concerns) {
+  CatalogueEntry entry;
+  entry.mutant.id = std::move(id);
+  entry.mutant.description = std::move(description);
+  entry.concerns = concerns;
+  return entry;
+}
+
+CatalogueEntry event(std::string id, std::string description, EventKind kind, Change change,
+                     Concerns concerns, Nanoseconds by = {}, EventClass event_class = {}) {
+  CatalogueEntry entry = named(std::move(id), std::move(description), concerns);
+  model::EventMutation mutation;
+  mutation.kind = kind;
+  mutation.change = change;
+  mutation.by = by;
+  mutation.event_class = event_class;
+  entry.mutant.rules.events.push_back(mutation);
+  return entry;
+}
+
+void add_events(std::vector<CatalogueEntry>& list) {
+  constexpr auto both = Concerns::both;
+  constexpr auto paper = Concerns::paper;
+  list.insert(
+      list.end(),
+      {event("heartbeat-not-rescheduled", "the next HEARTBEAT expiry is forgotten",
+             EventKind::heartbeat_expiry, Change::forget, both),
+       event("acknack-forgotten", "the answer to a HEARTBEAT is forgotten",
+             EventKind::acknack_generation, Change::forget, both),
+       event("repair-forgotten", "the repair generation is forgotten", EventKind::repair_generation,
+             Change::forget, paper),
+       event("response-forgotten", "the nack response is forgotten", EventKind::nack_response,
+             Change::forget, Concerns::fastdds),
+       event("suppression-end-forgotten", "the end of a suppression is forgotten",
+             EventKind::suppression_end, Change::forget, both),
+       event("expiry-doubled", "every HEARTBEAT expiry is scheduled twice",
+             EventKind::heartbeat_expiry, Change::duplicate, both),
+       event("repair-doubled", "the repair generation is scheduled twice",
+             EventKind::repair_generation, Change::duplicate, paper),
+       event("acknack-a-nanosecond-early", "an ACKNACK is generated 1 ns before it is due",
+             EventKind::acknack_generation, Change::shift, both, Nanoseconds{-1}),
+       event("suppression-a-nanosecond-short", "a suppression ends 1 ns too early",
+             EventKind::suppression_end, Change::shift, both, Nanoseconds{-1}),
+       event("repair-a-nanosecond-late", "a repair is generated 1 ns too late",
+             EventKind::repair_generation, Change::shift, paper, Nanoseconds{1}),
+       event("reception-after-decision", "a reception comes after the decisions of its instant",
+             EventKind::delayed_reception, Change::reclass, paper, {}, EventClass::dispatch),
+       event("service-after-decision", "the end of a service comes after decisions",
+             EventKind::service_finished, Change::reclass, both, {}, EventClass::protocol),
+       event("dispatch-first", "the channel picks before the decisions of the instant",
+             EventKind::dispatch, Change::reclass, both, {}, EventClass::service),
+       event("acknack-before-reception", "an ACKNACK is generated before receptions of its instant",
+             EventKind::acknack_generation, Change::reclass, both, {}, EventClass::service)});
+}
+
+void add_rules(std::vector<CatalogueEntry>& list) {
+  CatalogueEntry live =
+      named("live-bitmap", "an ACKNACK asks for what is missing when it arrives", Concerns::both);
+  live.mutant.rules.live_bitmaps = true;
+  list.push_back(std::move(live));
+
+  const auto knob = [&](std::string id, std::string description, Concerns concerns,
+                        std::function<void(model::Scenario&)> change) {
+    CatalogueEntry entry = named(std::move(id), std::move(description), concerns);
+    entry.mutant.knobs = std::move(change);
+    list.push_back(std::move(entry));
+  };
+  knob(
+      "additive-timers", "every suppression end adds an expiry", Concerns::paper,
+      [](model::Scenario& s) { s.dds.sedp.heartbeat_timer = model::HeartbeatTimerKind::additive; });
+  knob("suppression-zero", "a suppression lasts no time", Concerns::both,
+       [](model::Scenario& s) { s.dds.sedp.nack_suppression_duration = Nanoseconds{0}; });
+  knob("attempts-mistake-interval", "initial ACKNACKs double a constant interval, or keep another",
+       Concerns::both, [](model::Scenario& s) {
+         using enum model::InitialAckNackInterval;
+         model::InitialAckNackInterval& interval = s.dds.sedp.initial_acknack_interval;
+         interval = interval == doubling ? constant : doubling;
+       });
+  list.back().survives_because =
+      "no property depends on the time between initial ACKNACKs; law.initial-attempts does";
+  knob("queue-twice-as-large", "the source queue admits twice its bytes", Concerns::both,
+       [](model::Scenario& s) {
+         model::Bytes& w = s.wireless.source_queue_bytes;
+         if (w != model::WirelessProfile::unlimited) w = w * 2;
+       });
+
+  const auto order = [&](std::string id, std::string description, checker::OrderRule rule) {
+    CatalogueEntry entry = named(std::move(id), std::move(description), Concerns::both);
+    entry.mutant.order = rule;
+    list.push_back(std::move(entry));
+  };
+  order("order-pairwise", "the order of events is the paper's sentence, read pair by pair",
+        checker::OrderRule::pairwise_prose);
+  order("order-without-insertion", "events of one time and class have no order",
+        checker::OrderRule::without_insertion);
+  order("order-without-class", "events of one time come in the order of insertion",
+        checker::OrderRule::without_class);
+}
+
+}  // namespace
+
+std::vector<CatalogueEntry> mutants() {
+  std::vector<CatalogueEntry> list = table_mutants();
+  add_events(list);
+  add_rules(list);
+  return list;
+}
+
+}  // namespace stormproof::mutate

@@ -1,0 +1,196 @@
+// Tries every mutant on the trial scenarios. Cheap engines go first; the explorer and the timelines
+// are asked only about properties that have not noticed the mutant yet.
+#include "checker/verification/mutate/mutate.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "checker/engines/exact/exact.hpp"
+#include "checker/engines/explorer/explorer.hpp"
+#include "checker/verification/mutate/law_trials.hpp"
+#include "checker/verification/mutate/trial_scenarios.hpp"
+#include "checker/engines/tables/tables.hpp"
+#include "checker/engines/timeline/timeline.hpp"
+#include "props/property.hpp"
+
+namespace stormproof::mutate {
+
+namespace {
+
+using checker::CheckRequest;
+using checker::Findings;
+using props::VerdictKind;
+
+using EngineFunction = Findings (*)(std::span<const std::string_view>, const CheckRequest&);
+using Ids = std::set<std::string_view>;
+
+/// The properties that are violated on one scenario.
+Ids violated(EngineFunction engine, const Ids& properties, const CheckRequest& request) {
+  const std::vector<std::string_view> list{properties.begin(), properties.end()};
+  Ids found;
+  if (list.empty()) return found;
+  for (const auto& [id, finding] : engine(list, request)) {
+    if (finding.kind == VerdictKind::violated) found.insert(id);
+  }
+  return found;
+}
+
+Ids without(Ids ids, const Ids& removed) {
+  for (const std::string_view id : removed) ids.erase(id);
+  return ids;
+}
+
+Ids whole_catalogue() {
+  Ids ids;
+  for (const props::Property& property : props::catalogue()) ids.insert(property.id);
+  return ids;
+}
+
+/// A scenario with one engine, and the properties that hold there without a mutant.
+struct Ground {
+  Trial trial;
+  EngineFunction engine;
+  Ids hold;
+};
+
+class Mutator {
+ public:
+  explicit Mutator(const MutateOptions& options) : options_{options}, claims_{quick(options)} {}
+
+  MutationReport run() {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point started = Clock::now();
+    const std::vector<CatalogueEntry> entries = wanted();
+    MutationReport report;
+    for (const CatalogueEntry& entry : entries) {
+      if (!progress(entry.mutant.id)) {
+        report.interrupted = true;
+        break;
+      }
+      report.mutants.push_back(try_out(entry));
+    }
+    report.seconds = std::chrono::duration<double>(Clock::now() - started).count();
+    return report;
+  }
+
+ private:
+  static smt::Options quick(const MutateOptions& options) {
+    smt::Options solver = options.solver;
+    solver.second_solver = false;
+    solver.export_dir.clear();
+    return solver;
+  }
+
+  [[nodiscard]] bool progress(std::string_view what) const {
+    return !options_.on_progress || options_.on_progress(what);
+  }
+
+  [[nodiscard]] std::vector<CatalogueEntry> wanted() const {
+    std::vector<CatalogueEntry> list = mutants();
+    if (options_.only.empty()) return list;
+    std::erase_if(list, [&](const CatalogueEntry& entry) {
+      return std::find(options_.only.begin(), options_.only.end(), entry.mutant.id) ==
+             options_.only.end();
+    });
+    return list;
+  }
+
+  CheckRequest request(const Trial& trial, const checker::Mutant* mutant) {
+    return {trial.scenario, claims_, mutant, 0, 1, {}};
+  }
+
+  /// The grounds of an implementation; what holds there is found out once.
+  std::vector<Ground>& grounds(model::ImplementationKind implementation) {
+    std::vector<Ground>& list = grounds_[static_cast<std::size_t>(implementation)];
+    if (!list.empty()) return list;
+    const std::vector<Trial> all = trials(implementation);
+    const auto add = [&](const Trial& trial, EngineFunction engine) {
+      const Ids broken = violated(engine, whole_catalogue(), request(trial, nullptr));
+      list.push_back({trial, engine, without(whole_catalogue(), broken)});
+    };
+    for (const Trial& trial : all) {
+      if (trial.all_engines) add(trial, tables::check);
+    }
+    for (const Trial& trial : all) add(trial, exact::check);
+    for (const Trial& trial : all) {
+      if (trial.all_engines) add(trial, timeline::check);
+    }
+    for (const Trial& trial : all) {
+      if (trial.all_engines) add(trial, explorer::check);
+    }
+    return list;
+  }
+
+  MutantResult try_out(const CatalogueEntry& entry) {
+    using model::ImplementationKind;
+    Ids killers;
+    for (const auto implementation : {ImplementationKind::paper, ImplementationKind::fastdds}) {
+      const bool left_out =
+          entry.concerns ==
+          (implementation == ImplementationKind::paper ? Concerns::fastdds : Concerns::paper);
+      if (left_out) continue;
+      for (const Ground& ground : grounds(implementation)) {
+        killers.merge(violated(ground.engine, without(ground.hold, killers),
+                               request(ground.trial, &entry.mutant)));
+      }
+    }
+    MutantResult result{entry.mutant.id, entry.mutant.description, {}, {}, {}};
+    if (shows_in_runs(entry.mutant)) result.killed_by_laws = laws_.killers(entry);
+    for (const props::Property& property : props::catalogue()) {
+      if (killers.contains(property.id)) result.killed_by.emplace_back(property.id);
+    }
+    if (result.killed_by.empty()) {
+      result.reason = entry.survives_because.empty()
+                          ? "no property notices it on the trial scenarios"
+                          : entry.survives_because;
+    }
+    return result;
+  }
+
+  const MutateOptions& options_;
+  smt::Claims claims_;
+  std::array<std::vector<Ground>, 2> grounds_;
+  LawTrials laws_;
+};
+
+}  // namespace
+
+std::size_t MutationReport::killed() const {
+  return static_cast<std::size_t>(
+      std::count_if(mutants.begin(), mutants.end(),
+                    [](const MutantResult& mutant) { return !mutant.killed_by.empty(); }));
+}
+
+std::size_t MutationReport::killed_by(std::string_view property) const {
+  return static_cast<std::size_t>(
+      std::count_if(mutants.begin(), mutants.end(), [&](const MutantResult& mutant) {
+        const auto& list = mutant.killed_by;
+        return std::find(list.begin(), list.end(), property) != list.end();
+      }));
+}
+
+std::size_t MutationReport::killed_by_laws() const {
+  return static_cast<std::size_t>(
+      std::count_if(mutants.begin(), mutants.end(), [](const MutantResult& mutant) {
+        return mutant.killed_by_laws && !mutant.killed_by_laws->empty();
+      }));
+}
+
+std::size_t MutationReport::tried_on_laws() const {
+  return static_cast<std::size_t>(
+      std::count_if(mutants.begin(), mutants.end(),
+                    [](const MutantResult& mutant) { return mutant.killed_by_laws.has_value(); }));
+}
+
+std::size_t MutationReport::killed_by_law(std::string_view law) const {
+  return static_cast<std::size_t>(
+      std::count_if(mutants.begin(), mutants.end(), [&](const MutantResult& mutant) {
+        const auto& list = mutant.killed_by_laws;
+        return list && std::find(list->begin(), list->end(), law) != list->end();
+      }));
+}
+
+MutationReport mutate(const MutateOptions& options) { return Mutator{options}.run(); }
+
+}  // namespace stormproof::mutate

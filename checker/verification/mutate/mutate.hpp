@@ -1,0 +1,51 @@
+// `stormproof mutate` without its command line: runs the checks against every mutant and says which
+// property and which law notices which.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "checker/verification/mutate/mutants.hpp"
+#include "checker/engines/smt/claims.hpp"
+
+namespace stormproof::mutate {
+
+struct MutantResult {
+  std::string id;
+  std::string description;
+  std::vector<std::string> killed_by;  ///< property ids, in the order of the catalogue
+  std::string reason;                  ///< of a survivor: why no property noticed it
+  /// Laws that the mutant breaks; absent if no run can show it.
+  std::optional<std::vector<std::string>> killed_by_laws;
+};
+
+struct MutationReport {
+  std::vector<MutantResult> mutants;
+  double seconds = 0;
+  bool interrupted = false;
+
+  [[nodiscard]] std::size_t killed() const;
+  /// How many mutants the property notices.
+  [[nodiscard]] std::size_t killed_by(std::string_view property) const;
+  /// How many mutants at least one law notices, and on how many the laws were tried.
+  [[nodiscard]] std::size_t killed_by_laws() const;
+  [[nodiscard]] std::size_t tried_on_laws() const;
+  /// How many mutants the law notices.
+  [[nodiscard]] std::size_t killed_by_law(std::string_view law) const;
+};
+
+struct MutateOptions {
+  std::vector<std::string> only;  ///< ids of mutants; empty: all
+  smt::Options solver;            ///< the second solver is not asked
+  std::function<bool(std::string_view)> on_progress;
+};
+
+/// A property kills a mutant if it is violated with the mutant and not without, on one of a few
+/// small scenarios of each implementation. A law does if it is broken with the mutant and not
+/// without.
+[[nodiscard]] MutationReport mutate(const MutateOptions& options);
+
+}  // namespace stormproof::mutate

@@ -1,0 +1,168 @@
+// The unbounded safety properties and the timer: proved with an invariant that both solvers check,
+// and violated with the shortest steps when a rule is wrong.
+#include <filesystem>
+
+#include <unistd.h>
+
+#include "checker/engines/smt/second_solver.hpp"
+#include "tests/checker/engines/smt/solver_on_path.hpp"
+#include "tests/checker/engines/tables/table_check.hpp"
+
+namespace stormproof::tables {
+namespace {
+
+using Kind = fsm::TableMutation::Kind;
+using model::EventKind;
+using model::EventMutation;
+
+model::Scenario prefix() {
+  model::Scenario scenario;
+  scenario.dds.sedp.acknowledge = model::Acknowledge::prefix;
+  return scenario;
+}
+model::Scenario adaptive() {
+  model::Scenario scenario;
+  scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
+  return scenario;
+}
+
+TEST(Safety, IsProvedWithAnInvariant) {
+  for (const char* const property : {"safety.ack-implies-received", "safety.repair-only-if-asked",
+                                     "safety.snapshot", "timer.single-heartbeat"}) {
+    for (const model::Scenario& scenario : {paper(), fastdds(), prefix(), adaptive()}) {
+      expect_proved(property, scenario);
+    }
+    EXPECT_TRUE(mentions(decide(property, paper()), "invariant:")) << property;
+    EXPECT_FALSE(decide(property, paper()).assumptions.empty()) << property;
+  }
+}
+
+TEST(AckImpliesReceived, TheInvariantIsTheOneThatOneExpects) {
+  EXPECT_TRUE(mentions(decide("safety.ack-implies-received", paper()), "C=A implies received"));
+}
+
+TEST(AckImpliesReceived, AcknowledgingWhatIsListedIsFound) {
+  const std::size_t row = row_of("DescriptorRepair", "U", "AckNackReceived", "A");
+  const auto mutant = with_row("DescriptorRepair", row, Kind::ignore_guard);
+  const Finding finding = decide("safety.ack-implies-received", paper(), &mutant);
+  EXPECT_EQ(finding.kind, VerdictKind::violated);
+  EXPECT_TRUE(mentions(finding, "after 2 steps"));
+  EXPECT_TRUE(mentions(finding, "1. ACKNACK generated"));
+  EXPECT_TRUE(mentions(finding, "2. ACKNACK received (listed): C=A"));
+  EXPECT_FALSE(finding.counterexample);
+}
+
+TEST(AckImpliesReceived, ARequestThatAcknowledgesIsFound) {
+  const std::size_t row = row_of("DescriptorRepair", "U", "AckNackReceived", "R");
+  expect_violated(
+      "safety.ack-implies-received", prefix(),
+      with_row("DescriptorRepair", row, Kind::retarget, 0, state_of("DescriptorRepair", "A")),
+      "C=A");
+  const std::size_t real = row_of("ChangeForReader", "Q", "AckNackReceived", "A");
+  expect_violated("safety.ack-implies-received", fastdds(),
+                  with_row("ChangeForReader", real, Kind::negate_guard), "C=A");
+}
+
+TEST(RepairOnlyIfAsked, ARequestForWhatIsNotListedIsFound) {
+  // With bitmaps a negated guard changes nothing here: what is not listed is confirmed first.
+  const std::size_t row = row_of("DescriptorRepair", "U", "AckNackReceived", "R");
+  expect_violated("safety.repair-only-if-asked", prefix(),
+                  with_row("DescriptorRepair", row, Kind::negate_guard), "nobody asked for");
+  const std::size_t confirmed = row_of("DescriptorRepair", "U", "AckNackReceived", "A");
+  expect_violated(
+      "safety.repair-only-if-asked", paper(),
+      with_row("DescriptorRepair", confirmed, Kind::retarget, 0, state_of("DescriptorRepair", "R")),
+      "nobody asked for");
+  const std::size_t real = row_of("ChangeForReader", "Absent", "ReaderMatched", "U");
+  expect_violated(
+      "safety.repair-only-if-asked", fastdds(),
+      with_row("ChangeForReader", real, Kind::retarget, 0, state_of("ChangeForReader", "R")),
+      "nack response");
+}
+
+TEST(Snapshot, ALiveBitmapIsFound) {
+  checker::Mutant mutant;
+  mutant.rules.live_bitmaps = true;
+  for (const model::Scenario& scenario : {paper(), fastdds()}) {
+    expect_violated("safety.snapshot", scenario, mutant, "has changed on its way");
+  }
+}
+
+TEST(SingleHeartbeat, TheAdditiveTimerIsFound) {
+  model::Scenario scenario;
+  scenario.dds.sedp.heartbeat_timer = model::HeartbeatTimerKind::additive;
+  const Finding finding = decide("timer.single-heartbeat", scenario);
+  EXPECT_EQ(finding.kind, VerdictKind::violated);
+  EXPECT_TRUE(mentions(finding, "after 2 steps"));
+  EXPECT_TRUE(mentions(finding, "2. a suppression ends"));
+}
+
+TEST(SingleHeartbeat, AKnobOfTheMutantCounts) {
+  checker::Mutant mutant;
+  mutant.knobs = [](model::Scenario& scenario) {
+    scenario.dds.sedp.heartbeat_timer = model::HeartbeatTimerKind::additive;
+  };
+  expect_violated("timer.single-heartbeat", paper(), mutant, "two HEARTBEAT expiries");
+}
+
+TEST(SingleHeartbeat, AnEventThatIsScheduledTwiceIsFound) {
+  checker::Mutant mutant;
+  mutant.rules.events.push_back(
+      {EventKind::heartbeat_expiry, EventMutation::Change::duplicate, {}, {}});
+  expect_violated("timer.single-heartbeat", paper(), mutant, "two HEARTBEAT expiries");
+  mutant.rules.events.front().kind = EventKind::cycle_start;
+  expect_violated("timer.single-heartbeat", adaptive(), mutant, "two cycle events");
+}
+
+TEST(SingleHeartbeat, AnArmingInTheWrongStateIsFound) {
+  const char* const machine = "HeartbeatTimer";
+  const std::size_t row = row_of(machine, "Idle", "ArmRequested", "Armed");
+  expect_violated("timer.single-heartbeat", paper(),
+                  with_row(machine, row, Kind::copy_row, state_of(machine, "Armed"),
+                           state_of(machine, "Armed")),
+                  "a relation opens");
+}
+
+TEST(SecondOpinion, BothSolversSeeEveryPropertyAndItsExport) {
+  if (smt::second_solver_name().empty()) GTEST_SKIP() << "cvc5 is not installed";
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("stormproof-tables-" + std::to_string(getpid()));
+  for (const std::string_view property : decidable()) {
+    const Finding finding = decide(property, paper(), nullptr, {.export_dir = folder.string()});
+    EXPECT_EQ(finding.kind, VerdictKind::proved) << property << ": " << finding.how;
+    EXPECT_NE(finding.solver.find(" + cvc5 "), std::string::npos);
+    EXPECT_NE(finding.how.find("decided by z3 and cvc5"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string{property} + ".smt2")));
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(SecondOpinion, ASolverThatDisagreesMakesItInconclusive) {
+  const smt::FakeSolver fake{"while true; do echo sat; done | head -8"};
+  const Finding finding = decide("safety.ack-implies-received", paper(), nullptr, {});
+  EXPECT_EQ(finding.kind, VerdictKind::inconclusive);
+  EXPECT_TRUE(mentions(finding, "the solvers do not agree"));
+}
+
+TEST(TimeOut, IsNeverAVerdictAboutTheProperty) {
+  const smt::Options at_once{.timeout = std::chrono::milliseconds{1}, .second_solver = false};
+  for (const std::string_view property : decidable()) {
+    const Finding finding = decide(property, fastdds(), nullptr, at_once);
+    EXPECT_NE(finding.kind, VerdictKind::violated) << property << ": " << finding.how;
+  }
+}
+
+TEST(Check, IsSilentAboutWhatItCannotDecideAndStopsWhenAsked) {
+  const model::Scenario scenario;
+  smt::Claims claims{{.second_solver = false}};
+  const std::string_view properties[] = {"live.completion", "order.total", "order.total"};
+  const checker::CheckRequest request{.scenario = scenario, .claims = claims, .on_progress = {}};
+  EXPECT_EQ(check(properties, request).size(), 2U);
+  const checker::CheckRequest stopped{.scenario = scenario,
+                                      .claims = claims,
+                                      .on_progress = [](std::string_view) { return false; }};
+  EXPECT_TRUE(check(properties, stopped).empty());
+}
+
+}  // namespace
+}  // namespace stormproof::tables

@@ -1,0 +1,93 @@
+// Every simulated run conforms to its own profile, with exact bounds: nothing is late, and each
+// delay is at most the run's length. And without admitting losses where the run has none.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "props/generators/scenarios.hpp"
+#include "tests/checker/evidence/conform/captures.hpp"
+#include "tests/vectors/fastdds_vectors.hpp"
+
+namespace stormproof::conform::testing {
+namespace {
+
+void expect_conforming(const model::Scenario& scenario) {
+  const Simulated run = simulated(scenario);
+  const Conformance result =
+      conformance(run.conversation, scenario.dds, exact_bounds(scenario, run));
+  EXPECT_TRUE(is_explained(result)) << description(result);
+  EXPECT_EQ(result.used_lateness_ns, 0);
+  EXPECT_EQ(result.used_send_lag_ns, 0);
+}
+
+std::vector<vectors::FastddsVector> short_vectors() {
+  std::vector<vectors::FastddsVector> list = vectors::fastdds_vectors();
+  std::erase_if(list, [](const auto& one) { return one.expected.heartbeat > 3'000; });
+  return list;
+}
+
+class SimulatedVector : public ::testing::TestWithParam<vectors::FastddsVector> {};
+TEST_P(SimulatedVector, ConformsExactly) { expect_conforming(GetParam().scenario); }
+INSTANTIATE_TEST_SUITE_P(Vector, SimulatedVector, ::testing::ValuesIn(short_vectors()),
+                         [](const auto& one) { return one.param.name; });
+
+/// Deployments, starts, losses and channels of any kind, with the timers of a version. Datagrams of
+/// a participant do not overtake each other, which conformance assumes: every datagram is one
+/// fragment, and the stages serve in order.
+model::Scenario in_order(model::Scenario scenario, const std::string& version) {
+  scenario.dds = profile(version);
+  model::WirelessProfile& wireless = scenario.wireless;
+  wireless.packet_delays.clear();
+  wireless.fragment_request = model::FragmentRequest::at_admission;
+  wireless.order = model::ServiceOrder::fifo;
+  wireless.mtu_payload_bytes = model::Bytes{65'535};
+  return scenario;
+}
+
+TEST(SimulatedScenario, ShippedOnesConform) {
+  expect_conforming(in_order(scenario("live-5x20"), "fastdds-2.6.11"));
+  expect_conforming(in_order(scenario("three-hosts"), "fastdds-2.9.1"));
+}
+
+/// A HEARTBEAT to all readers names its reader while there is only one, though others come later.
+TEST(SimulatedScenario, ALateReaderDoesNotDisturb) {
+  model::Scenario late;
+  late.deployment = model::Deployment::homogeneous(3, 1, 2);
+  late.dds = profile("fastdds-2.6.11");
+  late.wireless.kind = model::ServiceKind::constant_delay;
+  late.wireless.one_way = model::Nanoseconds{1'000'000};
+  late.deployment.participants.back().start = model::Nanoseconds{2'500'000'000};
+  late.deployment.participants.back().endpoints_done = model::Nanoseconds{2'500'000'000};
+  late.deployment.participants.front().endpoints_done = model::Nanoseconds{20'000'000};
+  for (std::uint64_t k = 4; k < 60; k += 3) late.wireless.lost_packets.push_back(k);
+  expect_conforming(late);
+}
+
+props::ScenarioSpace space(bool losses) {
+  props::ScenarioSpace space;
+  space.implementation = model::ImplementationKind::fastdds;
+  space.max_time_limit = model::Nanoseconds{2'000'000'000};
+  space.losses = losses;
+  return space;
+}
+
+constexpr const char* versions[] = {"fastdds-2.6.11", "fastdds-2.9.1", "fastdds-2.14.5",
+                                    "fastdds-3.4"};
+
+void check_random(bool losses) {
+  const model::Scenario drawn = *props::scenarios(space(losses));
+  const model::Scenario scenario =
+      in_order(drawn, versions[*rc::gen::inRange<std::size_t>(0, std::size(versions))]);
+  model::RunOptions options;
+  options.max_events = 20'000;
+  const Simulated run = simulated(scenario, options);
+  if (run.is_empty || run.conversation.topology.hosts < 2) return;
+  const Conformance result =
+      conformance(run.conversation, scenario.dds, exact_bounds(scenario, run));
+  if (!is_explained(result)) RC_FAIL(description(result));
+}
+
+RC_GTEST_PROP(SimulatedRandom, ConformsExactly, ()) { check_random(true); }
+RC_GTEST_PROP(SimulatedRandom, ConformsWithoutAdmittingLosses, ()) { check_random(false); }
+
+}  // namespace
+}  // namespace stormproof::conform::testing

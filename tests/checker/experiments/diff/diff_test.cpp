@@ -1,0 +1,241 @@
+// The whole comparison on small grids: what regresses is found, what does not is let through, and
+// the grid is held to what two profiles can be compared over.
+#include "checker/experiments/diff/diff.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "checker/experiments/diff/blame.hpp"
+#include "checker/experiments/diff/diff_report.hpp"
+#include "checker/experiments/diff/reviewed_grid.hpp"
+#include "checker/presentation/text/paragraph.hpp"
+
+namespace stormproof::diff {
+namespace {
+
+namespace config = model::config;
+const config::SpecPath specs{{STORMPROOF_SPECS_DIR}};
+
+std::string written(const std::string& name, const std::string& text) {
+  const auto file = std::filesystem::path{testing::TempDir()} / name;
+  std::ofstream{file} << text;
+  return file.string();
+}
+
+config::TracedProfile profile(const std::string& reference,
+                              const std::vector<std::string>& changes = {}) {
+  auto traced = config::trace_dds_profile(reference, changes, specs);
+  EXPECT_TRUE(traced) << to_string(traced.error());
+  return *traced;
+}
+
+constexpr const char* small_grid = R"(
+base: wifi-5x20-fastdds
+grid:
+  deployment.participants_per_host: [2, 3]
+  deployment.endpoints_per_participant: [4]
+)";
+
+DiffRequest request(config::TracedProfile base, config::TracedProfile candidate) {
+  DiffRequest request;
+  request.base = std::move(base);
+  request.candidate = std::move(candidate);
+  request.policy = *read_policy("default", specs);
+  request.grid = written("diff-small.yaml", small_grid);
+  request.check_verdicts = false;
+  request.tell_apart = false;
+  return request;
+}
+
+DiffReport compared(const DiffRequest& request) {
+  auto report = diff(request, specs);
+  EXPECT_TRUE(report) << to_string(report.error());
+  return *report;
+}
+
+TEST(Diff, AProfileWithItselfNeedsNoRun) {
+  const DiffReport report = compared(request(profile("paper"), profile("paper")));
+  EXPECT_EQ(report.judgment, Judgment::same);
+  EXPECT_EQ(report.profiles.relation, Relation::identical);
+  EXPECT_EQ(report.costs.wanted, 0U);
+  EXPECT_EQ(to_text(report, {}).substr(0, 14), "NO REGRESSION:");
+}
+
+TEST(Diff, OnlyUnmodelledSettingsAreInconclusive) {
+  const DiffReport report = compared(
+      request(profile("fastdds-2.6.11"), profile("fastdds-2.6.11", {"unmodelled={x: does y}"})));
+  EXPECT_EQ(report.judgment, Judgment::unclear);
+  ASSERT_EQ(report.reasons.size(), 1U);
+  EXPECT_NE(report.reasons[0].find("settings that the model has not: x"), std::string::npos);
+}
+
+TEST(Diff, SlowerRepliesRegress) {
+  // Endpoints are asked for a second later: completion has to take that second.
+  const DiffReport worse = compared(
+      request(profile("fastdds-2.14.5"),
+              profile("fastdds-2.14.5", {"sedp.nack_response_delay=1500ms", "spdp.period=2s"})));
+  EXPECT_EQ(worse.judgment, Judgment::regression);
+  ASSERT_EQ(worse.costs.configurations.size(), 2U);
+  EXPECT_EQ(worse.costs.configurations[0][Measure::completion].judgment, Judgment::regression);
+  EXPECT_GT(worse.costs.configurations[0][Measure::completion].shift->low, 0);
+  EXPECT_FALSE(worse.reasons.empty());
+  ASSERT_TRUE(worse.blame);
+  ASSERT_EQ(worse.blame->entries.size(), 2U);
+  for (const Blame::Entry& entry : worse.blame->entries) {
+    EXPECT_EQ(entry.cures, entry.reverted.front() == "sedp.nack_response_delay");
+  }
+  const DiffReport reverse = compared(request(
+      profile("fastdds-2.14.5", {"sedp.nack_response_delay=1500ms"}), profile("fastdds-2.14.5")));
+  EXPECT_EQ(reverse.judgment, Judgment::better);
+}
+
+TEST(Diff, TheAnswerDoesNotDependOnThreads) {
+  DiffRequest asked = request(profile("fastdds-2.6.11"), profile("fastdds-2.14.5"));
+  asked.samples = 3;
+  asked.threads = 1;
+  auto one = to_json(compared(asked), {});
+  asked.threads = 3;
+  auto three = to_json(compared(asked), {});
+  one.erase("seconds");
+  three.erase("seconds");
+  EXPECT_EQ(one.dump(), three.dump());
+}
+
+TEST(Diff, RunsThatAreTheSameAreSaidToBe) {
+  // The periodic HEARTBEAT of ten seconds more never fires before discovery is complete.
+  const DiffReport report = compared(request(profile("fastdds-2.14.5", {"spdp.period=100s"}),
+                                             profile("fastdds-2.14.5", {"spdp.period=101s"})));
+  for (const Configuration& each : report.costs.configurations) {
+    EXPECT_TRUE(each.identical_runs) << each.name;
+    EXPECT_EQ(each[Measure::completion].shift->estimate, 0);
+  }
+  EXPECT_EQ(report.judgment, Judgment::same);
+}
+
+TEST(Diff, InterruptedIsInconclusive) {
+  DiffRequest asked = request(profile("fastdds-2.6.11"), profile("fastdds-2.14.5"));
+  asked.on_progress = [](std::string_view) { return false; };
+  const DiffReport report = compared(asked);
+  EXPECT_TRUE(report.interrupted);
+  EXPECT_EQ(report.judgment, Judgment::unclear);
+  EXPECT_EQ(to_text(report, {}).substr(0, 13), "INCONCLUSIVE:");
+}
+
+TEST(Diff, TheLeastScenario) {
+  DiffRequest asked = request(profile("fastdds-2.6.11"), profile("fastdds-2.14.5"));
+  asked.samples = 2;
+  asked.tell_apart = true;
+  const TellingApart apart = compared(asked).telling_apart;
+  ASSERT_TRUE(apart.found);
+  EXPECT_EQ(apart.scenario.deployment.size(), 2U);
+  EXPECT_EQ(apart.scenario.dds, asked.base.profile);
+  EXPECT_EQ(apart.candidate, asked.candidate.profile);
+}
+
+TEST(Diff, Verdicts) {
+  DiffRequest asked =
+      request(profile("paper"), profile("paper", {"sedp.heartbeat_timer=additive"}));
+  asked.grid = "smallest";
+  asked.check_verdicts = true;
+  const DiffReport report = compared(asked);
+  ASSERT_TRUE(report.verdicts.done);
+  EXPECT_EQ(report.verdicts.scenario, "smallest");
+  const auto changed = std::ranges::find(report.verdicts.properties, "timer.single-heartbeat",
+                                         &VerdictChange::property);
+  ASSERT_NE(changed, report.verdicts.properties.end());
+  EXPECT_EQ(changed->before, props::VerdictKind::proved);
+  EXPECT_EQ(changed->after, props::VerdictKind::violated);
+  EXPECT_TRUE(changed->counterexample);
+  EXPECT_EQ(report.judgment, Judgment::regression);
+  const auto json = to_json(report, {{"timer.single-heartbeat", "d/timer.jsonl"}});
+  EXPECT_EQ(json["judgment"], "regression");
+  EXPECT_EQ(json["verdicts"]["properties"].size(), report.verdicts.properties.size());
+  EXPECT_NE(json.dump().find("d/timer.jsonl"), std::string::npos);
+}
+
+TEST(DiffText, FitsInAHundredColumns) {
+  DiffRequest asked = request(profile("fastdds-2.6.11"), profile("fastdds-2.14.5"));
+  asked.samples = 4;
+  const DiffReport report = compared(asked);
+  for (const bool verbose : {false, true}) {
+    std::istringstream lines{to_text(report, {}, verbose)};
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find('/') != std::string::npos) continue;  // a path may be longer
+      EXPECT_LE(report::columns(line), report::report_width) << line;
+    }
+  }
+}
+
+TEST(Blame, SetsSingleKnobsBack) {
+  const model::DdsProfile base = profile("fastdds-2.6.11").profile;
+  const model::DdsProfile candidate = profile("fastdds-2.14.5").profile;
+  const auto one = with_reverted(candidate, base, {"spdp.resend"});
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->spdp.resend, base.spdp.resend);
+  EXPECT_EQ(one->sedp, candidate.sedp);
+  const auto all = with_reverted(candidate, base,
+                                 {"spdp.resend", "sedp.heartbeat_response_delay",
+                                  "sedp.nack_response_delay", "sedp.nack_suppression_duration"});
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->sedp, base.sedp);
+  EXPECT_FALSE(with_reverted(candidate, profile("paper").profile, {"spdp.resend"}));
+  EXPECT_FALSE(with_reverted(candidate, base, {"sedp.no_such_key"}));
+}
+
+/// The error of a grid; "accepted" if there is none.
+std::string grid_error(const std::string& text) {
+  const model::DdsProfile dds = profile("fastdds-2.6.11").profile;
+  const std::string file = written("diff-grid.yaml", text);
+  const auto grid = read_reviewed_grid(file, dds, dds, specs);
+  if (grid) return "accepted";
+  const std::string whole = to_string(grid.error());
+  const auto at = whole.find("diff-grid.yaml");
+  return at == std::string::npos ? whole : whole.substr(at);
+}
+
+TEST(ReviewedGrid, MayNotSweepTheProfile) {
+  EXPECT_EQ(grid_error(small_grid), "accepted");
+  const std::string whole = grid_error("base: smallest\ngrid:\n  dds: [paper]\n");
+  EXPECT_EQ(whole.substr(0, 52), "diff-grid.yaml:3:9: dds: the grid sweeps the DDS pro");
+  EXPECT_NE(grid_error("base: smallest\ngrid:\n  dds.sedp.grouping: [mtu]\n")
+                .find("dds.sedp.grouping: the grid sweeps"),
+            std::string::npos);
+  EXPECT_NE(
+      grid_error("base: smallest\nscenarios:\n  - {dds: paper}\n").find("diff-grid.yaml:3:11"),
+      std::string::npos);
+  EXPECT_NE(grid_error("base: smallest\ngrid:\n  deployment.hosts: [1]\n").find("two hosts"),
+            std::string::npos);
+}
+
+TEST(ReviewedGrid, OneScenarioIsAGrid) {
+  const model::DdsProfile base = profile("paper").profile;
+  const model::DdsProfile candidate = profile("fastdds-2.6.11").profile;
+  const auto grid = read_reviewed_grid("three-hosts", base, candidate, specs);
+  ASSERT_TRUE(grid) << to_string(grid.error());
+  ASSERT_EQ(grid->points.size(), 1U);
+  EXPECT_EQ(grid->points[0].name, "three-hosts");
+  EXPECT_EQ(grid->points[0].base.dds, base);
+  EXPECT_EQ(grid->points[0].candidate.dds, candidate);
+  EXPECT_FALSE(grid->points[0].is_drawn());
+  const auto wrong = read_reviewed_grid("three-host", base, candidate, specs);
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(to_string(wrong.error()).find("did you mean 'three-hosts'"), std::string::npos);
+}
+
+TEST(ReviewedGrid, TheShippedOneFitsEveryPreset) {
+  for (const std::string& name : specs.names(config::SpecKind::dds)) {
+    const model::DdsProfile dds = profile(name).profile;
+    const auto grid = read_reviewed_grid("review", dds, dds, specs);
+    ASSERT_TRUE(grid) << name << ": " << to_string(grid.error());
+    EXPECT_EQ(grid->points.size(), 9U);
+    EXPECT_EQ(grid->points[4].name, "participants_per_host 4, endpoints_per_participant 20");
+    EXPECT_TRUE(grid->points[4].is_drawn());
+  }
+}
+
+}  // namespace
+}  // namespace stormproof::diff

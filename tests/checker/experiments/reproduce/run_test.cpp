@@ -1,0 +1,108 @@
+// The runs of the plan are those of the scenarios that anyone can simulate alone.
+#include "checker/experiments/reproduce/run.hpp"
+
+#include <gtest/gtest.h>
+
+#include "model/config/scenario_file.hpp"
+#include "model/simulator.hpp"
+#include "tests/checker/experiments/reproduce/examples.hpp"
+
+namespace stormproof::reproduce {
+namespace {
+
+using model::HeartbeatPolicy;
+using model::config::read_scenario;
+using model::config::SpecPath;
+
+/// The shipped scenario with these changes, simulated on its own.
+model::RunResult direct(const std::string& name, const std::vector<std::string>& changes) {
+  const auto scenario = read_scenario(name, changes, SpecPath::standard());
+  EXPECT_TRUE(scenario) << (scenario ? "" : to_string(scenario.error()));
+  return scenario ? simulate(*scenario) : model::RunResult{};
+}
+
+class RunTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const Published published = figures_with_grid("[5]", "[20]");
+    results_ = new Results{run(plan_of(published, {{}, 2}))};
+  }
+  static void TearDownTestSuite() { delete results_; }
+
+  static void expect_same(std::size_t variant, Network network, HeartbeatPolicy policy,
+                          model::ServiceOrder order, std::size_t k,
+                          const model::RunResult& expected) {
+    const Outcome* outcome = results_->find({variant, network, policy, order, {5, 20}});
+    ASSERT_NE(outcome, nullptr);
+    ASSERT_GT(outcome->runs.size(), k);
+    EXPECT_EQ(outcome->runs[k].completion, expected.discovery_time);
+    EXPECT_EQ(outcome->runs[k].counts, expected.counts);
+  }
+
+  static Results* results_;
+};
+Results* RunTest::results_ = nullptr;
+
+TEST_F(RunTest, RunsEveryCase) {
+  EXPECT_TRUE(results_->complete);
+  EXPECT_EQ(results_->outcomes.size(), results_->plan.cases.size());
+  EXPECT_EQ(results_->plan.cases.size(), 3U * 6 + 4);
+  EXPECT_EQ(results_->plan.run_count(), 3U * 6 + 4 * 2);
+  EXPECT_GT(results_->evaluation_cpu_s, 0);
+  EXPECT_GT(results_->total_cpu_s, results_->evaluation_cpu_s);
+}
+
+TEST_F(RunTest, ThePaperOnWifiIsTheShippedScenario) {
+  expect_same(0, Network::wireless, HeartbeatPolicy::periodic, orders[0], 0,
+              direct("wifi-5x20", {}));
+  expect_same(0, Network::wired, HeartbeatPolicy::periodic, orders[0], 0, direct("wired-5x20", {}));
+}
+
+TEST_F(RunTest, PoliciesAndOrdersAreThoseOfTheProfiles) {
+  expect_same(0, Network::wireless, HeartbeatPolicy::adaptive, orders[0], 0,
+              direct("wifi-5x20", {"dds.sedp.heartbeat_policy=adaptive"}));
+  expect_same(0, Network::wireless, HeartbeatPolicy::periodic, orders[1], 0,
+              direct("wifi-5x20", {"wireless.order=fifo_downlink"}));
+  expect_same(0, Network::wireless, HeartbeatPolicy::periodic, orders[2], 0,
+              direct("wifi-5x20", {"wireless.order=datagram_uplink"}));
+}
+
+TEST_F(RunTest, VariantsAreTheProfilesOfTheirNames) {
+  expect_same(1, Network::wireless, HeartbeatPolicy::periodic, orders[0], 0,
+              direct("wifi-5x20", {"dds=fastdds-2.6.11-relations"}));
+  expect_same(2, Network::wired, HeartbeatPolicy::periodic, orders[0], 0,
+              direct("wired-5x20", {"dds=fastdds-2.6.11"}));
+}
+
+TEST_F(RunTest, DrawnStartTimesAreThoseOfTheLiveScenario) {
+  expect_same(3, Network::wired, HeartbeatPolicy::periodic, orders[0], 1,
+              direct("live-5x20", {"wireless=wired", "deployment.schedule.seed=1"}));
+}
+
+TEST_F(RunTest, ALoopbackRunHasAsManyPeers) {
+  expect_same(0, Network::loopback, HeartbeatPolicy::periodic, orders[0], 0,
+              direct("wired-5x20", {"deployment.hosts=6", "deployment.participants_per_host=1"}));
+}
+
+TEST(Plan, HasTheNinetyConfigurations) {
+  const Plan plan = plan_of(shipped_figures());
+  EXPECT_EQ(plan.configurations.size(), 90U);
+  EXPECT_EQ(std::count_if(plan.configurations.begin(), plan.configurations.end(),
+                          [&](const Configuration& one) { return plan.high_load(one); }),
+            18);
+  EXPECT_EQ(plan.variants.size(), variant_ids().size());
+}
+
+TEST(Interruption, KeepsWhatIsFinished) {
+  const Plan plan = plan_of(figures_with_grid("[1]", "[2, 4]"), {{"paper"}, 1});
+  RunLimits limits;
+  limits.threads = 1;
+  limits.on_progress = [](std::size_t finished) { return finished < 3; };
+  const Results results = run(plan, limits);
+  EXPECT_FALSE(results.complete);
+  EXPECT_EQ(results.outcomes.size(), 3U);
+  EXPECT_LT(results.outcomes.size(), plan.cases.size());
+}
+
+}  // namespace
+}  // namespace stormproof::reproduce

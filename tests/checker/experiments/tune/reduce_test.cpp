@@ -1,0 +1,117 @@
+// Changes that do not matter are set back, those that do are kept.
+#include "checker/experiments/tune/reduce.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/checker/experiments/tune/stand_in.hpp"
+
+namespace stormproof::tune {
+namespace {
+
+/// The first knob halves completion, the second saves a fifth of the messages, the third a
+/// thousandth of completion; the others nothing.
+Cost few_matter(const Point& point) {
+  const bool first = point[0] > 0;
+  const bool second = point[1] > 0;
+  const bool third = point[2] > 0;
+  return {1e8 * (first ? 0.5 : 1) * (third ? 0.999 : 1), 1'000 * (second ? 0.8 : 1)};
+}
+
+constexpr Seeds seeds{100, 40};
+
+/// Which knobs a point has changed from 0.
+std::vector<std::size_t> changed(const Point& point) {
+  return space_of_knobs(point.size(), 0).changes(point);
+}
+using Changed = std::vector<std::size_t>;
+
+std::vector<Point> reduce_with(const Problem& problem, std::vector<Point> points,
+                               double least = 0.02, Seeds under = seeds) {
+  Archive archive{problem, stand_in_limit, 1, {}};
+  auto result = reduced(std::move(points), problem, archive, under, least);
+  EXPECT_TRUE(result);
+  return result.value_or(std::vector<Point>{});
+}
+
+TEST(TuneReduce, KeepsWhatMatters) {
+  const Problem problem = problem_of(space_of_knobs(5, 0), few_matter, 0.1);
+  const auto result = reduce_with(problem, {{7, 7, 7, 7, 7}});
+  ASSERT_EQ(result.size(), 1U);
+  EXPECT_EQ(changed(result.front()), (Changed{0, 1}));
+}
+
+TEST(TuneReduce, WithoutNoiseOnlyTheLeastGainDecides) {
+  const Problem problem = problem_of(space_of_knobs(5, 0), few_matter, 0);
+  EXPECT_EQ(changed(reduce_with(problem, {{7, 7, 7, 7, 7}}).front()), (Changed{0, 1}));
+  EXPECT_EQ(changed(reduce_with(problem, {{7, 7, 7, 7, 7}}, 0.0001).front()), (Changed{0, 1, 2}));
+  EXPECT_EQ(changed(reduce_with(problem, {{7, 7, 7, 7, 7}}, 0.3).front()), (Changed{0}));
+}
+
+TEST(TuneReduce, OneRunIsAFactWhereAllRunsAreTheSame) {
+  const Problem problem = problem_of(space_of_knobs(5, 0), few_matter, 0);
+  EXPECT_EQ(changed(reduce_with(problem, {{7, 7, 7, 7, 7}}, 0.02, {0, 1}).front()),
+            (Changed{0, 1}));
+}
+
+/// Each of six changes gains 1.5 %: none is worth a line alone, but all together are.
+TEST(TuneReduce, SmallLossesDoNotAddUp) {
+  const Formula each_a_little = [](const Point& point) {
+    double completion = 1e8;
+    for (const std::int64_t value : point) completion *= value > 0 ? 0.985 : 1;
+    return Cost{completion, 10};
+  };
+  const Problem problem = problem_of(space_of_knobs(6, 0), each_a_little, 0);
+  const auto result = reduce_with(problem, {{1, 1, 1, 1, 1, 1}});
+  EXPECT_EQ(problem.space.changes(result.front()).size(), 5U);
+}
+
+/// Two changes of which either alone does it: one is enough, and not both are set back.
+TEST(TuneReduce, OneOfTwoThatDoTheSame) {
+  const Formula either = [](const Point& point) {
+    return Cost{point[0] > 0 || point[1] > 0 ? 5e7 : 1e8, 10};
+  };
+  const Problem problem = problem_of(space_of_knobs(2, 0), either, 0.05);
+  const auto result = reduce_with(problem, {{9, 9}});
+  EXPECT_EQ(problem.space.changes(result.front()).size(), 1U);
+}
+
+/// Setting the second knob back would cost nothing, but break a property.
+TEST(TuneReduce, SetsNothingBackThatWouldBreak) {
+  Problem problem = problem_of(
+      space_of_knobs(2, 0),
+      [](const Point& point) {
+        return Cost{point[0] > 0 ? 5e7 : 1e8, 10};
+      },
+      0);
+  const auto run = problem.run;
+  problem.run = [run](const Point& point, std::uint64_t seed, model::Nanoseconds limit) {
+    auto outcome = run(point, seed, limit);
+    if (point[0] > 0 && point[1] == 0) outcome->broken.emplace_back("planted.property");
+    return outcome;
+  };
+  EXPECT_EQ(changed(reduce_with(problem, {{9, 9}}).front()), (Changed{0, 1}));
+}
+
+TEST(TuneReduce, AllPointsGoTheirOwnWay) {
+  const Problem problem = problem_of(space_of_knobs(5, 0), few_matter, 0.1);
+  const auto result = reduce_with(problem, {{7, 0, 7, 0, 0}, {0, 0, 0, 0, 0}, {0, 3, 0, 3, 3}});
+  ASSERT_EQ(result.size(), 3U);
+  EXPECT_EQ(changed(result[0]), (Changed{0}));
+  EXPECT_EQ(changed(result[1]), (Changed{}));
+  EXPECT_EQ(changed(result[2]), (Changed{1}));
+}
+
+/// Beyond 100 the knob does nothing more: part of the way back, and again, but not below.
+TEST(TuneReduce, GoesNoFurtherThanItHelps) {
+  const Formula saturating = [](const Point& point) {
+    return Cost{2e8 - 1e6 * static_cast<double>(std::min<std::int64_t>(point[0], 100)), 10};
+  };
+  const Problem problem = problem_of(space_of_knobs(1, 0), saturating, 0);
+  const std::int64_t value = reduce_with(problem, {{1'000}}).front()[0];
+  EXPECT_GE(value, 100);
+  EXPECT_LT(value, 300);
+  EXPECT_EQ(reduce_with(problem, {{90}}).front()[0], 90) << "every step back costs something";
+}
+
+}  // namespace
+}  // namespace stormproof::tune

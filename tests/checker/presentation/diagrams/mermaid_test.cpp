@@ -1,0 +1,55 @@
+// Mermaid diagrams of machines.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "checker/presentation/diagrams/draw_machine.hpp"
+#include "checker/presentation/diagrams/mermaid_text.hpp"
+#include "fsm/machines.hpp"
+
+namespace stormproof::draw {
+namespace {
+
+fsm::MachineInfo machine_named(std::string_view name) {
+  const auto machines = fsm::machines();
+  return *std::ranges::find(machines, name, &fsm::MachineInfo::name);
+}
+
+TEST(Mermaid, DrawsTheTable) {
+  EXPECT_EQ(draw_machine(machine_named("DescriptorRepair"), Format::mermaid),
+            R"(stateDiagram-v2
+  %% DescriptorRepair
+  [*] --> U
+  U --> R : AckNackReceived [Listed] / Request
+  R --> Q : RepairDue / Generate
+  Q --> S : RepairSent
+  S --> U : SuppressionEnded / Return
+  U --> A : AckNackReceived [Confirmed] / Acknowledge
+  R --> A : AckNackReceived [Confirmed] / Acknowledge
+  Q --> A : AckNackReceived [Confirmed] / Acknowledge
+  S --> A : AckNackReceived [Confirmed] / Acknowledge
+)");
+}
+
+TEST(Mermaid, AChangedTableChangesTheDrawing) {
+  fsm::MachineInfo machine = machine_named("SingleShot");
+  const std::string before = draw_machine(machine, Format::mermaid);
+  machine.rows[0].target = machine.rows[0].source;
+  const std::string after = draw_machine(machine, Format::mermaid);
+  EXPECT_NE(before.find("Idle --> Pending : Requested / Schedule"), std::string::npos);
+  EXPECT_NE(after.find("Idle --> Idle : Requested / Schedule"), std::string::npos);
+}
+
+TEST(Mermaid, TextsCannotBecomeSyntax) {
+  EXPECT_EQ(mermaid_text("a; b #1 <c>\n100 %"), "a#59; b #35;1 #lt;c#gt; 100 #37;");
+}
+
+TEST(Formats, HaveNames) {
+  for (const Format format : {Format::mermaid, Format::dot, Format::svg}) {
+    EXPECT_EQ(format_named(name_of(format)), format);
+  }
+  EXPECT_FALSE(format_named("png"));
+}
+
+}  // namespace
+}  // namespace stormproof::draw

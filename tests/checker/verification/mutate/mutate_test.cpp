@@ -1,0 +1,131 @@
+// Every check can fail: at least 95 % of the mutants are noticed, every property notices at least
+// one, and survivors say why. Half of the mutants that a run can show are noticed by laws, too.
+#include "checker/verification/mutate/mutate.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "checker/verification/mutate/law_trials.hpp"
+#include "checker/verification/mutate/mutate_report.hpp"
+#include "fsm/machines.hpp"
+#include "props/property.hpp"
+
+namespace stormproof::mutate {
+namespace {
+
+TEST(Mutants, HaveUniqueIdsDescriptionsAndMistakes) {
+  std::set<std::string> ids;
+  for (const CatalogueEntry& entry : mutants()) {
+    const checker::Mutant& mutant = entry.mutant;
+    EXPECT_TRUE(ids.insert(mutant.id).second) << mutant.id;
+    EXPECT_FALSE(mutant.description.empty()) << mutant.id;
+    const bool mistaken = !mutant.rules.tables.empty() || !mutant.rules.events.empty() ||
+                          mutant.rules.live_bitmaps || mutant.knobs ||
+                          mutant.order != checker::OrderRule::time_class_insertion;
+    EXPECT_TRUE(mistaken) << mutant.id;
+  }
+  EXPECT_GE(ids.size(), 30U);
+}
+
+TEST(Mutants, CoverEveryMachine) {
+  std::set<std::string> mutated;
+  for (const CatalogueEntry& entry : mutants()) {
+    for (const fsm::TableMutation& table : entry.mutant.rules.tables) mutated.insert(table.machine);
+  }
+  for (const char* machine :
+       {"DescriptorRepair", "DiscoveryReader", "HeartbeatTimer", "InitialAckNack", "Announcer",
+        "Channel", "ChangeForReader", "SingleShot", "ControlReader"}) {
+    EXPECT_TRUE(mutated.contains(machine)) << machine;
+  }
+}
+
+/// One mutant of each kind with a property that must notice it.
+TEST(Mutate, EachKindOfMistakeIsNoticedByTheRightProperty) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"acknowledges-everything", "safety.ack-implies-received"},
+      {"repairs-unasked", "safety.repair-only-if-asked"},
+      {"live-bitmap", "safety.snapshot"},
+      {"expiry-doubled", "timer.single-heartbeat"},
+      {"queue-twice-as-large", "safety.conservation"},
+      {"order-pairwise", "order.total"},
+      {"base-ignored", "safety.ack-implies-received"}};
+  MutateOptions options;
+  for (const auto& [mutant, property] : cases) options.only.push_back(mutant);
+  const MutationReport report = mutate(options);
+  ASSERT_EQ(report.mutants.size(), cases.size());
+  for (const auto& [mutant, property] : cases) {
+    const auto found = std::find_if(report.mutants.begin(), report.mutants.end(),
+                                    [&, id = mutant](const auto& each) { return each.id == id; });
+    ASSERT_NE(found, report.mutants.end()) << mutant;
+    EXPECT_EQ(std::count(found->killed_by.begin(), found->killed_by.end(), property), 1)
+        << mutant << " is not noticed by " << property;
+  }
+}
+
+/// One mutant of each kind with a law that must notice it; and what laws cannot see.
+TEST(LawTrials, MistakesAreNoticedByTheRightLaw) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"never-acknowledged", "law.silence"},
+      {"repair-a-nanosecond-late", "law.single-loss"},
+      {"acknack-not-sent", "law.answers"},
+      {"channel-idles", "law.work-conserving"},
+      {"announcements-end", "law.announcements"},
+      {"attempts-mistake-interval", "law.initial-attempts"},
+      {"base-ignored", "law.failure-free"},
+      {"order-pairwise", ""},
+      {"suppression-zero", ""}};
+  LawTrials trials;
+  for (const CatalogueEntry& entry : mutants()) {
+    const auto found = std::find_if(cases.begin(), cases.end(), [&](const auto& each) {
+      return each.first == entry.mutant.id;
+    });
+    if (found == cases.end()) continue;
+    const std::vector<std::string> killers =
+        shows_in_runs(entry.mutant) ? trials.killers(entry) : std::vector<std::string>{};
+    if (found->second.empty()) {
+      EXPECT_TRUE(killers.empty()) << entry.mutant.id << " is noticed by " << killers.front();
+    } else {
+      EXPECT_EQ(std::count(killers.begin(), killers.end(), found->second), 1)
+          << entry.mutant.id << " is not noticed by " << found->second;
+    }
+  }
+}
+
+TEST(MutateReport, ShowsLawsBesideProperties) {
+  MutationReport report;
+  report.mutants.push_back({"a", "first", {"timer.armed"}, "", {{"law.counts", "law.answers"}}});
+  report.mutants.push_back({"b", "second", {"timer.armed"}, "", std::vector<std::string>{}});
+  report.mutants.push_back({"c", "third", {"order.total"}, "", {}});
+  const std::string text = to_text(report);
+  EXPECT_NE(text.find("property tests: law.counts, law.answers"), std::string::npos) << text;
+  EXPECT_NE(text.find("property tests: none"), std::string::npos) << text;
+  EXPECT_NE(text.find("property tests: – (no run shows it)"), std::string::npos) << text;
+  EXPECT_NE(text.find("killed by property tests: 1 of the 2 that a run can show (50.0 %)"),
+            std::string::npos)
+      << text;
+  const nlohmann::ordered_json json = to_json(report);
+  EXPECT_EQ(json["mutants"][0]["killed_by_laws"].size(), 2U);
+  EXPECT_EQ(json["mutants"][1]["killed_by_laws"].size(), 0U);
+  EXPECT_TRUE(json["mutants"][2]["killed_by_laws"].is_null());
+  EXPECT_EQ(json["killed_by_laws"], 1);
+  EXPECT_EQ(json["tried_on_laws"], 2);
+  EXPECT_EQ(json["laws"]["law.counts"], 1);
+}
+
+TEST(Mutate, PropertiesNoticeTheMutants) {
+  const MutationReport report = mutate({});
+  for (const MutantResult& mutant : report.mutants) {
+    EXPECT_TRUE(!mutant.killed_by.empty() || !mutant.reason.empty()) << mutant.id;
+  }
+  EXPECT_GE(100 * report.killed(), 95 * report.mutants.size());
+  EXPECT_GE(2 * report.killed_by_laws(), report.tried_on_laws());
+  for (const props::Property& property : props::catalogue()) {
+    EXPECT_GE(report.killed_by(property.id), 1U) << property.id << " notices no mutant";
+  }
+}
+
+}  // namespace
+}  // namespace stormproof::mutate
