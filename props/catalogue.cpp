@@ -1,4 +1,4 @@
-// The property catalogue. Symbols as in specs/model.md: D a descriptor of a relation (i, j, s), X
+// The property catalogue. Symbols as in specs/guide/model.md: D a descriptor of a relation (i, j, s), X
 // its bit at the reader j, C its state at the writer i, W the size of a source queue, Δ a bound on
 // the delay of a packet from its emission to its reception.
 #include <array>
@@ -119,14 +119,14 @@ const std::array entries{
         "Counted from the match or the creation of the descriptor, whichever comes last.",
         "delays ≤ Δ, losses ≤ k",
         {timelines, explorer, exact_run},
-        "specs/bounds.md"},
+        "specs/guide/bounds.md"},
     Property{"live.quiescence",
              "After completion and without further loss SEDP traffic stops, within a bound.",
              "no DATA, HEARTBEAT or ACKNACK is sent later than T_disc + Q(Δ, τ)",
              "",
              "delays ≤ Δ, no loss after completion",
              {timelines, explorer, exact_run},
-             "specs/bounds.md"},
+             "specs/guide/bounds.md"},
     Property{"storm.single-copy",
              "Without loss no descriptor reaches a receiver twice.",
              "no losses ⇒ □ (each D is received at most once); for constant delay Δ and two "
@@ -134,14 +134,14 @@ const std::array entries{
              "",
              "no loss",
              {timelines, explorer, exact_run},
-             "specs/bounds.md"},
+             "specs/guide/bounds.md"},
     Property{"storm.free-threshold",
              "No repair is possible as long as no packet takes longer than a threshold.",
              "∀ delays ≤ Δ: no repair, iff Δ ≤ Δ*(τ_A, τ_N, τ_H, τ_I)",
              "Also for descriptors that are pulled: none is sent twice.",
              "no loss",
              {timelines, explorer, exact_run},
-             "specs/bounds.md"},
+             "specs/guide/bounds.md"},
 };
 
 }  // namespace

@@ -18,7 +18,7 @@
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "model/config/provenance.hpp"
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::cli {
 

@@ -8,7 +8,7 @@
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/experiments/diff/paired_charts.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/trace_writer.hpp"
 

@@ -11,7 +11,7 @@
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/output_file.hpp"
 #include "fsm/machines.hpp"
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::cli {
 

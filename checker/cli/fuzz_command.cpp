@@ -19,7 +19,7 @@
 #include "checker/cli/run_monitor.hpp"
 #include "checker/verification/counterexample/story.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 
 namespace stormproof::cli {
 

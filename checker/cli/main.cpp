@@ -7,7 +7,7 @@
 
 #include "checker/cli/command_line.hpp"
 #include "checker/cli/exit_code.hpp"
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/suggestion.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "checker/cli/run_monitor.hpp"
 #include "checker/verification/mutate/mutate.hpp"
 #include "checker/verification/mutate/mutate_report.hpp"
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::cli {
 

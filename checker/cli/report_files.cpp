@@ -7,7 +7,7 @@
 
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/options.hpp"
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::cli {
 

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "checker/presentation/document/format.hpp"
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 
 namespace stormproof::cli {
 

@@ -13,7 +13,7 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/experiments/sensitivity/report.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::cli {

@@ -18,7 +18,7 @@
 #include "checker/engines/smt/claims.hpp"
 #include "checker/experiments/tune/deploy.hpp"
 #include "checker/experiments/tune/report.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::cli {
 

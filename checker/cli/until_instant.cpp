@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::cli {
 

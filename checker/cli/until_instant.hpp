@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 
 namespace stormproof::cli {
 

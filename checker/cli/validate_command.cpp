@@ -19,8 +19,8 @@
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/evidence/validate/validate.hpp"
-#include "model/config/effective.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::cli {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::model::config {
 namespace fs = std::filesystem;

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "model/config/spec_path.hpp"
-#include "model/config/tree.hpp"
+#include "model/config/tree/tree.hpp"
 #include "model/config/vendor/vendor_profile.hpp"
 
 namespace stormproof::model::config {

@@ -8,7 +8,7 @@
 
 #include "model/config/profile_files.hpp"
 #include "model/config/scenario_file.hpp"
-#include "model/config/tree.hpp"
+#include "model/config/tree/tree.hpp"
 #include "model/config/vendor/vendor_profile.hpp"
 
 namespace stormproof::model::config {

@@ -9,7 +9,7 @@
 
 #include "model/config/profile_files.hpp"
 #include "model/config/spec_path.hpp"
-#include "model/config/tree.hpp"
+#include "model/config/tree/tree.hpp"
 
 namespace stormproof::model::config {
 

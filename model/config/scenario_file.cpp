@@ -1,7 +1,7 @@
 // The last step of reading: the knob tables read the resolved tree.
 #include "model/config/scenario_file.hpp"
 
-#include "model/config/knob_reader.hpp"
+#include "model/config/knobs/knob_reader.hpp"
 #include "model/config/resolve.hpp"
 
 namespace stormproof::model::config {

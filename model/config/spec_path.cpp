@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "model/config/suggestion.hpp"
-#include "model/config/tree.hpp"
+#include "model/config/tree/suggestion.hpp"
+#include "model/config/tree/tree.hpp"
 #include "model/config/vendor/reference.hpp"
 
 namespace stormproof::model::config {

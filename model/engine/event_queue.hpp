@@ -1,6 +1,6 @@
 // The one event queue: the next event is the least (time, class, insertion number). The classes
 // make the order of same-time events what the model asks for: a reception comes before any protocol
-// decision of that instant, and a channel starts serving after both (specs/model.md, "Events and
+// decision of that instant, and a channel starts serving after both (specs/guide/model.md, "Events and
 // their order").
 //
 // Nearly every kind of event is scheduled at a constant distance from now, so its events arrive in

@@ -1,5 +1,5 @@
 // The wireless service: backlog, source queue, fragments, the stages of the route and their
-// channels (paper, "Shared Wireless Service"; specs/model.md, "Packets, fragments, queue,
+// channels (paper, "Shared Wireless Service"; specs/guide/model.md, "Packets, fragments, queue,
 // channel"). It knows packets, not what they mean: their source completion and reception go to the
 // DDS implementation.
 #pragma once

@@ -1,4 +1,4 @@
-// Fast DDS 2.6.11 as its source code has it (specs/fastdds.md): endpoints are created over time,
+// Fast DDS 2.6.11 as its source code has it (specs/guide/fastdds.md): endpoints are created over time,
 // descriptors that exist at the match are pulled and later ones pushed, one writer serves all its
 // readers, and what is repaired goes through one asynchronous queue per participant. By rule group:
 //   announcements.cpp  creation of endpoints, SPDP, matching

@@ -1,7 +1,7 @@
 // The run as a timeline for ui.perfetto.dev: what each channel serves and for whom, what each
 // participant sends and receives, how long its backlog is, and arrows that follow a packet from its
 // sender over the channel to its receiver and a timer from its start to its end.
-// specs/trace-format.md says how to read it.
+// specs/guide/trace-format.md says how to read it.
 #pragma once
 
 #include <iosfwd>

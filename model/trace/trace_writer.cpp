@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "model/trace/event_subject.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/packet_text.hpp"

@@ -1,6 +1,6 @@
 // The trace of a run: JSON Lines, one line for every processed event, with all that it changed. A
 // trace says why a run took as long as it did, it can be searched with jq, and `replay` proves that
-// it is right. specs/trace-format.md describes every key.
+// it is right. specs/guide/trace-format.md describes every key.
 #pragma once
 
 #include <functional>

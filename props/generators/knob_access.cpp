@@ -2,8 +2,8 @@
 // finds; members of lists, whose number differs, get their base from the profile.
 #include "props/generators/knob_access.hpp"
 
-#include "model/config/dds_knobs.hpp"
-#include "model/config/wireless_knobs.hpp"
+#include "model/config/knobs/dds_knobs.hpp"
+#include "model/config/knobs/wireless_knobs.hpp"
 
 namespace stormproof::props {
 

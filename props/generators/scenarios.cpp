@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "props/generators/edits.hpp"
 
 namespace stormproof::props {

@@ -1,7 +1,7 @@
 // Applies the edits one by one and keeps what is valid and simpler.
 #include "props/generators/simpler.hpp"
 
-#include "model/config/numeric_knobs.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "props/generators/edits.hpp"
 
 namespace stormproof::props {

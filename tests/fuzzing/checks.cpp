@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "model/config/effective.hpp"
-#include "model/config/largest_packet.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/knobs/largest_packet.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
 

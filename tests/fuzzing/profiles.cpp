@@ -2,7 +2,7 @@
 // scenario of the smallest deployment, or be refused with an error.
 #include <nlohmann/json.hpp>
 
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "model/config/scenario_file.hpp"
 #include "tests/fuzzing/checks.hpp"
 #include "tests/fuzzing/memory_file.hpp"

@@ -1,5 +1,5 @@
 // Fuzz target: numbers with units (model/config/quantities.hpp).
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 
 #include "tests/fuzzing/checks.hpp"
 #include "tests/fuzzing/targets.hpp"

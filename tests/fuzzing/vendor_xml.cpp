@@ -2,7 +2,7 @@
 // describes another system or one that the vendor's library refuses, that profile is valid.
 #include <nlohmann/json.hpp>
 
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "model/config/profile_files.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/vendor/vendor_profile.hpp"

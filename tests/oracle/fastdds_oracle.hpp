@@ -1,5 +1,5 @@
 // The oracle of `implementation: fastdds`: a second, deliberately naive simulator of the rules in
-// specs/fastdds.md. Like the paper's oracle it exists to be compared with the product on any
+// specs/guide/fastdds.md. Like the paper's oracle it exists to be compared with the product on any
 // scenario, and shares nothing with it but the plain input structs.
 #pragma once
 

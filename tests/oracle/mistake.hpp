@@ -11,7 +11,7 @@
 
 namespace stormproof::oracle {
 
-/// What the paper's oracle does wrong (specs/model.md has the rules).
+/// What the paper's oracle does wrong (specs/guide/model.md has the rules).
 enum class Mistake : std::uint8_t {
   none,
   // Events, packets and the channel.
@@ -61,7 +61,7 @@ enum class Mistake : std::uint8_t {
   late_response_ends_cycle,  ///< a second response of a reader can end the cycle, too
 };
 
-/// What the oracle of `implementation: fastdds` does wrong (specs/fastdds.md has the rules).
+/// What the oracle of `implementation: fastdds` does wrong (specs/guide/fastdds.md has the rules).
 enum class FastddsMistake : std::uint8_t {
   none,
   // Deployment, packets, SPDP.

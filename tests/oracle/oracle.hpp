@@ -1,4 +1,4 @@
-// The oracle: a second, deliberately naive simulator of the rules in specs/model.md. It exists to
+// The oracle: a second, deliberately naive simulator of the rules in specs/guide/model.md. It exists to
 // be compared with the product on any scenario, so it shares nothing with it but the plain input
 // structs: one sorted map of events, one switch, and standard containers everywhere. It is slow,
 // and it is easy to read.

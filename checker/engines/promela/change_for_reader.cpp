@@ -1,7 +1,7 @@
 // The model of Fast DDS's writer: descriptors that exist when the reader is matched are pulled,
 // those that are created afterwards are pushed, HEARTBEATs say how many there are, ACKNACKs have a
 // base, and initial ACKNACKs make the writer forget what it took as acknowledged
-// (specs/fastdds.md).
+// (specs/guide/fastdds.md).
 #include "fsm/change_for_reader.hpp"
 
 #include "checker/engines/promela/promela.hpp"

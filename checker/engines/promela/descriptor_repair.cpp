@@ -1,5 +1,5 @@
 // The model of the paper's writer: initial DATA of all descriptors, then HEARTBEAT, ACKNACK and
-// repair until everything is acknowledged (specs/model.md, "The reader", "The writer").
+// repair until everything is acknowledged (specs/guide/model.md, "The reader", "The writer").
 #include "fsm/descriptor_repair.hpp"
 
 #include "checker/engines/promela/promela.hpp"

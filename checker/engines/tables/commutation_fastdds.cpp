@@ -1,7 +1,7 @@
 // One relation of Fast DDS as order.commutation sees it: the writer's record of one generic
 // descriptor, the reader's bits of it, the reader machine, the single-shot timers (reply,
 // suppression, nack response, asynchronous run), the initial ACKNACK timer and the HEARTBEAT timer,
-// all stepped by their tables. The rules between them are those of specs/fastdds.md.
+// all stepped by their tables. The rules between them are those of specs/guide/fastdds.md.
 #include "checker/engines/tables/fastdds_relation_state.hpp"
 
 namespace stormproof::tables {

@@ -1,6 +1,6 @@
 // B(k, Δ, τ): how long after its opening a relation can lack a descriptor, if no packet takes
 // longer than Δ and at most k of its packets are lost (live.completion). Derivation in
-// specs/bounds.md; proof in checker/engines/timeline/completion_theorem.cpp.
+// specs/guide/bounds.md; proof in checker/engines/timeline/completion_theorem.cpp.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// live.completion as a theorem: the conditions of the proof in specs/bounds.md, for all values of
+// live.completion as a theorem: the conditions of the proof in specs/guide/bounds.md, for all values of
 // all parameters. The bound itself is in checker/engines/timeline/completion_bound.hpp.
 #pragma once
 

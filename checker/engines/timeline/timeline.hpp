@@ -1,5 +1,5 @@
 // The engine "timelines": bounds and thresholds of one relation as linear-integer arithmetic,
-// proved for all values of the timers, delays and losses (specs/bounds.md).
+// proved for all values of the timers, delays and losses (specs/guide/bounds.md).
 #pragma once
 
 #include <span>

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "checker/evidence/capture/bytes.hpp"
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 
 struct pcap;
 

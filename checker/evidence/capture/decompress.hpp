@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "checker/evidence/capture/bytes.hpp"
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 
 namespace stormproof::capture {
 

@@ -21,7 +21,7 @@
 #include "checker/evidence/capture/remarks.hpp"
 #include "checker/evidence/capture/rtps_message.hpp"
 #include "checker/evidence/capture/topology.hpp"
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 
 namespace stormproof::capture {
 

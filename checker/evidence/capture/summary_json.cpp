@@ -1,4 +1,4 @@
-// The summary as JSON; specs/captures.md explains the keys.
+// The summary as JSON; specs/guide/captures.md explains the keys.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>

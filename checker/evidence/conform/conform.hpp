@@ -20,13 +20,13 @@
 
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/conform/bounds.hpp"
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/dds_profile.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::conform {
 
-/// Why a captured event happens. specs/conforming.md has each rule's text.
+/// Why a captured event happens. specs/guide/conforming.md has each rule's text.
 enum class Rule : std::uint8_t {
   announcement_scheduled,  ///< SPDP multicast by the announcement timer
   announcement_resent,     ///< SPDP because a participant was recognised

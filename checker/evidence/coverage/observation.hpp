@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 
 namespace stormproof::prediction {
 

@@ -24,7 +24,7 @@ struct Heading {
 [[nodiscard]] std::string to_text(const Heading& heading, const Study& study);
 
 /// Keys: observations, command, samples, seed, profiles (name, skipped runs, configurations with
-/// their measured and predicted medians), rows, effects. specs/coverage.md describes them.
+/// their measured and predicted medians), rows, effects. specs/guide/coverage.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Heading& heading, const Study& study);
 
 struct ChartFile {

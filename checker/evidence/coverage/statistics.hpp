@@ -1,6 +1,6 @@
 // How well predictions fit measurements: the statistics of the paper's Table IV (coverage and M/O
 // among covered runs), and those of a prediction that is a distribution (share of runs within the
-// range, calibration of quantiles). specs/coverage.md defines each of them.
+// range, calibration of quantiles). specs/guide/coverage.md defines each of them.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "checker/evidence/capture/events.hpp"
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::validate {

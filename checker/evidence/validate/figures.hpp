@@ -1,5 +1,5 @@
 // What is compared: the same figures of a captured discovery and of each run of the model, by the
-// same rules (specs/validating.md). One list, so that no report can compare a figure with another
+// same rules (specs/guide/validating.md). One list, so that no report can compare a figure with another
 // one.
 #pragma once
 

@@ -1,9 +1,9 @@
-// The report for scripts; specs/validating.md explains the keys.
+// The report for scripts; specs/guide/validating.md explains the keys.
 #include <nlohmann/json.hpp>
 
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/evidence/validate/validate.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 
 namespace stormproof::validate {
 

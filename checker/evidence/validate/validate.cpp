@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "checker/evidence/coverage/statistics.hpp"
-#include "model/config/numeric_knobs.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::validate {

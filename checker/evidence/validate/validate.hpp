@@ -1,5 +1,5 @@
 // `stormproof validate`: predicts the discovery that a capture shows, and puts the model beside the
-// observation, figure by figure and over time (specs/validating.md).
+// observation, figure by figure and over time (specs/guide/validating.md).
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 #include "checker/evidence/validate/differences.hpp"
 #include "checker/evidence/validate/observation.hpp"
 #include "checker/evidence/validate/predicted_runs.hpp"
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::validate {

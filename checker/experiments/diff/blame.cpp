@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "model/config/effective.hpp"
-#include "model/config/knob_reader.hpp"
-#include "model/config/yaml_text.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/knobs/knob_reader.hpp"
+#include "model/config/tree/yaml_text.hpp"
 
 namespace stormproof::diff {
 

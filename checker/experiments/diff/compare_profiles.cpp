@@ -10,7 +10,7 @@
 
 #include "checker/experiments/diff/diff.hpp"
 #include "checker/experiments/diff/normal_form.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 
 namespace stormproof::diff {
 

@@ -1,4 +1,4 @@
-// A comparison as JSON; specs/output.md describes the keys. What does not exist is null, what is
+// A comparison as JSON; specs/guide/output.md describes the keys. What does not exist is null, what is
 // infinite is text ("infinity"), as JSON has no number for it.
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "checker/experiments/diff/diff_report.hpp"
 #include "checker/experiments/diff/summary.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 
 namespace stormproof::diff {
 

@@ -17,7 +17,7 @@ using Files = std::map<std::string, std::string, std::less<>>;
 /// configurations.
 [[nodiscard]] std::string to_text(const DiffReport& report, const Files& files,
                                   bool verbose = false);
-/// specs/output.md describes the keys.
+/// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const DiffReport& report, const Files& files);
 /// For a pull-request comment: the judgment first, details folded away.
 [[nodiscard]] std::string to_markdown(const DiffReport& report, const Files& files);

@@ -1,5 +1,5 @@
 // What counts as a regression of the costs: each configuration by itself, and those together that
-// do not settle it by themselves. specs/diff.md states the rules for users.
+// do not settle it by themselves. specs/guide/diff.md states the rules for users.
 //
 // With C configurations and M measures that are judged some interval would lie on the wrong side by
 // chance alone, so all statements share the probability of a mistake, α = 1 − confidence: half of

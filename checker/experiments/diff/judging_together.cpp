@@ -7,7 +7,7 @@
 #include "checker/experiments/diff/judging.hpp"
 #include "checker/experiments/diff/words.hpp"
 #include "checker/experiments/statistics/confidence.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::diff {
 

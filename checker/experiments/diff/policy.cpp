@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "checker/experiments/diff/diff.hpp"
-#include "model/config/knob_reader.hpp"
+#include "model/config/knobs/knob_reader.hpp"
 #include "model/config/named_file.hpp"
 #include "model/config/profile_files.hpp"
-#include "model/config/suggestion.hpp"
-#include "model/config/yaml_text.hpp"
+#include "model/config/tree/suggestion.hpp"
+#include "model/config/tree/yaml_text.hpp"
 
 namespace stormproof::diff {
 

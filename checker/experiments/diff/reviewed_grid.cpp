@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/experiments/sweep/plan.hpp"
-#include "model/config/effective.hpp"
-#include "model/config/knob_reader.hpp"
-#include "model/config/suggestion.hpp"
-#include "model/config/yaml_text.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/knobs/knob_reader.hpp"
+#include "model/config/tree/suggestion.hpp"
+#include "model/config/tree/yaml_text.hpp"
 #include "model/reference.hpp"
 
 namespace stormproof::diff {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/config/spec_path.hpp"
 #include "model/scenario.hpp"
 

@@ -13,8 +13,8 @@
 #include "checker/experiments/diff/normal_form.hpp"
 #include "checker/experiments/diff/small_scenarios.hpp"
 #include "checker/presentation/text/numbers.hpp"
-#include "model/config/numeric_knobs.hpp"
-#include "model/config/value_types.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
+#include "model/config/knobs/value_types.hpp"
 #include "props/generators/simpler.hpp"
 
 namespace stormproof::diff {

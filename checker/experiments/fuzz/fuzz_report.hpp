@@ -25,7 +25,7 @@ struct FuzzContext {
 /// At most 100 columns wide, but for commands.
 [[nodiscard]] std::string to_text(const FuzzReport& report, const FuzzContext& context);
 
-/// specs/output.md describes the keys.
+/// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const FuzzReport& report, const FuzzContext& context);
 
 }  // namespace stormproof::fuzz

@@ -8,7 +8,7 @@
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::fuzz {
@@ -192,7 +192,7 @@ std::string to_text(const FuzzReport& report, const FuzzContext& context) {
   if (report.undrawable) {
     text += paragraph("",
                       "1,000 draws in a row gave no valid scenario: the ranges and the rules "
-                      "between knobs (specs/model.md) hardly meet.");
+                      "between knobs (specs/guide/model.md) hardly meet.");
   }
   if (report.interrupted) {
     text += fmt::format("Interrupted after {} of {}.\n", grouped(report.runs.size()),

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "model/config/quantities.hpp"
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/quantities.hpp"
+#include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::fuzz {
 

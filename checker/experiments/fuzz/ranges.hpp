@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "model/config/numeric_knobs.hpp"
-#include "model/config/result.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::fuzz {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "model/config/numeric_knobs.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "props/generators/simpler.hpp"
 
 namespace stormproof::fuzz {

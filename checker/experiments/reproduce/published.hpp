@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/config/spec_path.hpp"
 
 namespace stormproof::reproduce {

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "model/config/numeric_knobs.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::sensitivity {
 

@@ -6,7 +6,7 @@
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/experiments/simulate/sampling_report.hpp"
 #include "checker/experiments/simulate/simulation_report.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 
 namespace stormproof::report {
 

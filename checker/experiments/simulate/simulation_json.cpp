@@ -4,7 +4,7 @@
 
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/experiments/simulate/simulation_report.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "model/reference.hpp"
 
 namespace stormproof::report {

@@ -33,7 +33,7 @@ struct Simulation {
 
 /// Keys: scenario, completed, end, t_disc_ns, end_ns, counts, failure_free, amplification, events,
 /// open_loop_ns, closed_to_open_loop, limits (if the scenario has any), missing, channels, backlog,
-/// latency, deliveries, last_delivery, profile. specs/output.md describes them.
+/// latency, deliveries, last_delivery, profile. specs/guide/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Simulation& simulation);
 
 /// How a run ended, as the JSON and traces spell it.

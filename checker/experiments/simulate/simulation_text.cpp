@@ -251,7 +251,7 @@ std::string footer(const Simulation& s) {
   std::string text = fmt::format(
       "\n{} events. This is the one trajectory of the model for these inputs, exact to the ns;\n"
       "{} states its rules and assumptions.\n",
-      grouped(s.result.events), fastdds ? "specs/fastdds.md" : "specs/model.md");
+      grouped(s.result.events), fastdds ? "specs/guide/fastdds.md" : "specs/guide/model.md");
   if (s.result.counts.repair_data > 0) {
     text +=
         s.scenario.deployment.schedule

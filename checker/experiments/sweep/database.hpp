@@ -1,6 +1,6 @@
 // The results of sweeps in SQLite: one row for each job that is done. It exists so that a sweep can
 // be killed at any moment and go on later, and so that results of many grids can be asked questions
-// in SQL. specs/sweeping.md describes the columns.
+// in SQL. specs/guide/sweeping.md describes the columns.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 #include "checker/experiments/sweep/digest.hpp"
 #include "checker/experiments/sweep/outcome.hpp"
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;

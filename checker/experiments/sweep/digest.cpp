@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "model/config/dds_knobs.hpp"
-#include "model/config/wireless_knobs.hpp"
+#include "model/config/knobs/dds_knobs.hpp"
+#include "model/config/knobs/wireless_knobs.hpp"
 
 namespace stormproof::sweep {
 

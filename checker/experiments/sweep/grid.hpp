@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "model/config/overrides.hpp"
-#include "model/config/result.hpp"
+#include "model/config/tree/overrides.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/config/spec_path.hpp"
-#include "model/config/tree.hpp"
+#include "model/config/tree/tree.hpp"
 
 namespace stormproof::sweep {
 

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "checker/experiments/sweep/grid.hpp"
-#include "model/config/knob_reader.hpp"
+#include "model/config/knobs/knob_reader.hpp"
 #include "model/config/named_file.hpp"
 #include "model/config/profile_files.hpp"
-#include "model/config/yaml_text.hpp"
+#include "model/config/tree/yaml_text.hpp"
 
 namespace stormproof::sweep {
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "checker/experiments/sweep/grid.hpp"
-#include "model/config/knob_reader.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/knobs/knob_reader.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::sweep {
 

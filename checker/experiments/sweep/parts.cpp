@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "model/config/knob_reader.hpp"
+#include "model/config/knobs/knob_reader.hpp"
 #include "model/config/profile_files.hpp"
 
 namespace stormproof::sweep {

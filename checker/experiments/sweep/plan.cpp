@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::sweep {
 

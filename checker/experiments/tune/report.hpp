@@ -24,7 +24,7 @@ struct Context {
 };
 
 [[nodiscard]] std::string to_text(const Report& report, const Context& context);
-/// specs/output.md describes the keys.
+/// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Context& context);
 [[nodiscard]] std::string to_svg(const Report& report, const Context& context);
 

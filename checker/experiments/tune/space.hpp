@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/config/numeric_knobs.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
 #include "model/scenario.hpp"
 

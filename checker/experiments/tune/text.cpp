@@ -9,7 +9,7 @@
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/experiments/tune/report.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::tune {
 
@@ -227,7 +227,7 @@ class TextReport {
                         "which are not.");
     }
     out_ += paragraph("  limits   ",
-                      "what is measured is the model (specs/model.md, specs/fastdds.md), not your "
+                      "what is measured is the model (specs/guide/model.md, specs/guide/fastdds.md), not your "
                       "network; specs/findings/interventions.md has what was predicted and "
                       "measured for some of these settings.");
     for (const auto& [setting, effect] : context_.subject.scenario.dds.unmodelled) {

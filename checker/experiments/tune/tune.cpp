@@ -12,7 +12,7 @@
 #include "checker/experiments/trials/parallel.hpp"
 #include "checker/experiments/tune/comparison.hpp"
 #include "checker/experiments/tune/model_runs.hpp"
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/suggestion.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
 #include "props/limits.hpp"
 #include "props/monitor.hpp"

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "model/config/tree.hpp"
+#include "model/config/tree/tree.hpp"
 
 namespace stormproof::report {
 

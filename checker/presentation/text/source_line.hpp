@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/config/tree.hpp"
+#include "model/config/tree/tree.hpp"
 
 namespace stormproof::report {
 

@@ -10,7 +10,7 @@
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/run_plots.hpp"
 #include "checker/verification/counterexample/stepper.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 
 namespace stormproof::checker {
 

@@ -26,7 +26,7 @@ struct CheckContext {
 /// One line for each property, then what is violated and why; at most 100 columns wide.
 [[nodiscard]] std::string to_text(const CheckReport& report, const CheckContext& context);
 
-/// Keys: scenario, implementation, seconds, interrupted, summary, verdicts. specs/output.md
+/// Keys: scenario, implementation, seconds, interrupted, summary, verdicts. specs/guide/output.md
 /// describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const CheckReport& report,
                                              const CheckContext& context);

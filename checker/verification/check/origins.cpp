@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "model/config/spec_path.hpp"
-#include "model/config/yaml_text.hpp"
+#include "model/config/tree/yaml_text.hpp"
 
 namespace stormproof::checker {
 

@@ -7,7 +7,7 @@
 
 #include "checker/verification/counterexample/story.hpp"
 #include "checker/presentation/text/paragraph.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::counterexample {

@@ -34,7 +34,7 @@ struct LintCounts {
 /// Reads the files again for their lines.
 [[nodiscard]] std::string to_text(const std::vector<LintedFile>& files);
 
-/// specs/output.md describes the keys.
+/// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<LintedFile>& files);
 
 }  // namespace stormproof::report

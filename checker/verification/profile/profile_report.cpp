@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
 
 namespace stormproof::report {

@@ -75,7 +75,7 @@ struct ProfileReport {
 /// At most 100 columns wide, but for names that are longer.
 [[nodiscard]] std::string to_text(const ProfileReport& report);
 
-/// specs/output.md describes the keys.
+/// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const ProfileReport& report);
 
 }  // namespace stormproof::report

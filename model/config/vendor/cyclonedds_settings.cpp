@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "model/config/value_types.hpp"
+#include "model/config/knobs/value_types.hpp"
 
 namespace stormproof::model::config::vendor {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "model/config/tree.hpp"
+#include "model/config/tree/tree.hpp"
 
 namespace stormproof::model::config::vendor {
 namespace {

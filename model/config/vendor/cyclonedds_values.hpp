@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::model::config::vendor {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::model::config::vendor::fastdds {
 namespace {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/suggestion.hpp"
 #include "model/config/vendor/fastdds_discovery.hpp"
 
 namespace stormproof::model::config::vendor::fastdds {

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "model/config/quantities.hpp"
-#include "model/config/suggestion.hpp"
+#include "model/config/tree/quantities.hpp"
+#include "model/config/tree/suggestion.hpp"
 #include "model/config/vendor/fastdds_section.hpp"
 
 namespace stormproof::model::config::vendor::fastdds {

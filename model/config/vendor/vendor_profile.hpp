@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/config/tree.hpp"
+#include "model/config/tree/tree.hpp"
 #include "model/config/vendor/xml_text.hpp"
 
 namespace stormproof::model::config::vendor {

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "model/config/effective.hpp"
-#include "model/config/tree.hpp"
-#include "model/config/value_types.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/tree/tree.hpp"
+#include "model/config/knobs/value_types.hpp"
 #include "model/config/vendor/cyclonedds_values.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/config/tree.hpp"
+#include "model/config/tree/tree.hpp"
 
 namespace stormproof::model::config::vendor {
 

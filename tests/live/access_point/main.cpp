@@ -16,7 +16,7 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/output_file.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "tests/live/access_point/relay.hpp"
 #include "tests/live/access_point/serving_profile.hpp"
 

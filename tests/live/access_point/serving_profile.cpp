@@ -1,7 +1,7 @@
 // Which of the model's channels two TAP devices and one program can be.
 #include "tests/live/access_point/serving_profile.hpp"
 
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::live {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/wireless_profile.hpp"
 
 namespace stormproof::live {

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "model/config/result.hpp"
+#include "model/config/tree/result.hpp"
 
 namespace stormproof::live {
 

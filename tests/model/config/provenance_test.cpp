@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/config/yaml_text.hpp"
+#include "model/config/tree/yaml_text.hpp"
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "model/config/scenario_file.hpp"
 #include "tests/model/trace/recording.hpp"
 

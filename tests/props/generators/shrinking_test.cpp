@@ -3,8 +3,8 @@
 // round numbers.
 #include <gtest/gtest.h>
 
-#include "model/config/effective.hpp"
-#include "model/config/numeric_knobs.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 #include "props/generators/complexity.hpp"
 #include "props/generators/scenarios.hpp"

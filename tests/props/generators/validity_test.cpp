@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "model/config/effective.hpp"
-#include "model/config/numeric_knobs.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
 #include "props/generators/scenarios.hpp"

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "model/config/effective.hpp"
-#include "model/config/knob_list.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/knobs/knob_list.hpp"
 #include "model/simulator.hpp"
 #include "props/generators/scenarios.hpp"
 

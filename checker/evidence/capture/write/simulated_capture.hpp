@@ -1,5 +1,5 @@
 // A simulated run as a capture file in memory: what `stormproof simulate --pcap` writes, for
-// callers that read it at once, as a real capture (specs/captures.md, "Simulated captures").
+// callers that read it at once, as a real capture (specs/guide/captures.md, "Simulated captures").
 #pragma once
 
 #include <cstdint>

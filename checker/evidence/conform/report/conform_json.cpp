@@ -1,4 +1,4 @@
-// The report as JSON; specs/conforming.md explains the keys. Names in a capture are any bytes, so
+// The report as JSON; specs/guide/conforming.md explains the keys. Names in a capture are any bytes, so
 // every text is made valid here.
 #include <algorithm>
 

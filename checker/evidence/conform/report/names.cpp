@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "checker/presentation/text/plain_text.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::conform {
 

@@ -1,5 +1,5 @@
 // Guards the directions of the predictions on specs/findings/interventions.md, on one deployment
-// with fixed seeds, and the fit that specs/coverage.md states, on the smaller configurations.
+// with fixed seeds, and the fit that specs/guide/coverage.md states, on the smaller configurations.
 #include <fstream>
 
 #include <gtest/gtest.h>

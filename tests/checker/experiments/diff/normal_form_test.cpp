@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "checker/experiments/diff/diff.hpp"
-#include "model/config/numeric_knobs.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/trace_writer.hpp"
 #include "props/generators/space.hpp"

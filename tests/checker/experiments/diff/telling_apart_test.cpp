@@ -10,7 +10,7 @@
 
 #include "checker/experiments/diff/first_difference.hpp"
 #include "checker/experiments/diff/normal_form.hpp"
-#include "model/config/numeric_knobs.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
 #include "props/generators/knob_access.hpp"

@@ -12,7 +12,7 @@
 #include "checker/verification/counterexample/write.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/experiments/fuzz/variant.hpp"
-#include "model/config/effective.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/replay.hpp"

@@ -7,7 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "model/config/profile_files.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "model/config/scenario_file.hpp"
 #include "tests/model/config/test_files.hpp"
 #include "tests/model/config/vendor/fastdds_document.hpp"

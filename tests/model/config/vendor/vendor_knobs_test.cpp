@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "model/config/effective.hpp"
-#include "model/config/numeric_knobs.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/scenario.hpp"
 #include "tests/model/config/test_files.hpp"

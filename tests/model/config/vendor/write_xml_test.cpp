@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "model/config/numeric_knobs.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
 #include "model/scenario.hpp"

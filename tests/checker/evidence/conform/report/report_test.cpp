@@ -13,7 +13,7 @@
 #include "checker/evidence/conform/report/findings.hpp"
 #include "checker/evidence/conform/report/names.hpp"
 #include "checker/presentation/text/paragraph.hpp"
-#include "model/config/quantities.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "tests/checker/evidence/conform/report/results.hpp"
 
 namespace stormproof::conform {
@@ -200,7 +200,7 @@ void collect_keys(const Json& json, std::set<std::string>& keys) {
 }
 
 std::string documentation() {
-  std::ifstream file{STORMPROOF_SOURCE_DIR "/specs/conforming.md"};
+  std::ifstream file{STORMPROOF_SOURCE_DIR "/specs/guide/conforming.md"};
   return {std::istreambuf_iterator<char>{file}, {}};
 }
 

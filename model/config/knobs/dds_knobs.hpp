@@ -1,0 +1,192 @@
+// The table of the DDS profile: every key, its range and its meaning, in the order of the file. See
+// knobs.hpp for what visits it. The two implementations share the timers; the relation rules and
+// all sizes are keys of the paper's model alone, because they are constants of the other one.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "model/config/knobs/knobs.hpp"
+#include "model/config/knobs/value_types.hpp"
+#include "model/dds_profile.hpp"
+
+namespace stormproof::model::config {
+
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<ImplementationKind>{"paper", "fastdds"};
+template <>
+inline constexpr std::array<std::string_view, 4> enum_names<SpdpResend>{
+    "all_known", "new_and_multicast", "new_only", "none"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<RelationOpening>{"receiver",
+                                                                             "each_side"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<InitialData>{"push", "pull"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Unmatched>{"drop", "accept"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<InitialAckNackReply>{
+    "bitmap", "heartbeat", "none"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<InitialAckNackInterval>{"doubling",
+                                                                                    "constant"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Acknowledge>{"bitmap", "prefix"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<HeartbeatTimerKind>{"single",
+                                                                                "additive"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<HeartbeatRecipients>{"unacknowledged",
+                                                                                 "matched"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<HeartbeatPolicy>{"periodic",
+                                                                             "adaptive"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<Grouping>{"message", "mtu", "single"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<Piggyback>{"cumulative", "linear",
+                                                                       "off"};
+
+/// Sizes of packets and of their parts.
+inline constexpr NumberType packet_bytes = byte_range(1, 1'000'000'000);
+/// 20·T and T·H of the adaptive policy stay within 64 bits for every T up to 10^6 s and this
+/// denominator.
+inline constexpr std::int64_t max_epsilon_denominator = 1'000;
+
+/// Of a key that only the paper's model has.
+[[nodiscard]] constexpr Presence in_paper(ImplementationKind implementation) {
+  return implementation == ImplementationKind::paper ? Presence::required : Presence::of_paper;
+}
+
+void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp, ImplementationKind implementation) {
+  visit.knob("period", spdp.period, period_range, "announcement period after startup (tau_P)");
+  visit.knob("startup_announcements", spdp.startup_announcements, count_range(0, 1'000'000),
+             "announcements at the startup period, after the immediate one");
+  visit.knob("startup_period", spdp.startup_period, period_range,
+             "announcement period during startup");
+  visit.knob("resend", spdp.resend, ChoiceType<SpdpResend>{},
+             "what is sent when a participant is recognised for the first time");
+  visit.knob("payload_bytes", spdp.payload_bytes, packet_bytes, "UDP payload of an announcement",
+             in_paper(implementation));
+}
+
+void visit_knobs(auto& visit, Is<AdaptiveProfile> auto& adaptive) {
+  visit.knob("min_period", adaptive.min_period, period_range, "least HEARTBEAT period (T_min)");
+  visit.knob("max_period", adaptive.max_period, period_range, "greatest HEARTBEAT period (T_max)");
+  visit.knob("epsilon", FractionParts{adaptive.epsilon_numerator, adaptive.epsilon_denominator},
+             FractionType{max_epsilon_denominator}, "floor of the share of responsive readers");
+  visit.rule(adaptive.min_period <= adaptive.max_period, "min_period",
+             "a period that does not exceed max_period");
+}
+
+/// Delays and periods of the SEDP endpoints; the first part of `sedp`.
+void visit_sedp_timers(auto& visit, Is<SedpProfile> auto& sedp) {
+  visit.knob("heartbeat_period", sedp.heartbeat_period, period_range,
+             "periodic HEARTBEAT of a writer (tau_H)");
+  visit.knob("heartbeat_response_delay", sedp.heartbeat_response_delay, delay_range,
+             "from a HEARTBEAT to the ACKNACK that answers it (tau_A)");
+  visit.knob("nack_response_delay", sedp.nack_response_delay, delay_range,
+             "from an ACKNACK to the repair that it asks for (tau_N)");
+  visit.knob("nack_suppression_duration", sedp.nack_suppression_duration, delay_range,
+             "how long a repaired descriptor cannot be asked for again (tau_S)");
+  visit.knob("initial_acknack_delay", sedp.initial_acknack_delay, delay_range,
+             "until the first initial ACKNACK (tau_I); 0 disables them");
+  visit.knob("initial_acknack_interval", sedp.initial_acknack_interval,
+             ChoiceType<InitialAckNackInterval>{},
+             "whether the delay between initial ACKNACKs doubles each time or stays",
+             Presence::defaulted);
+}
+
+/// How relations open, repair and acknowledge; the second part of `sedp`.
+void visit_sedp_rules(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
+  const Presence of_paper = in_paper(implementation);
+  visit.knob("relation_opening", sedp.relation_opening, ChoiceType<RelationOpening>{},
+             "when the writer side opens: with the receiver's recognition, or with its own",
+             of_paper);
+  visit.knob("initial_data", sedp.initial_data, ChoiceType<InitialData>{},
+             "whether descriptors are sent when a relation opens, or only when asked for",
+             of_paper);
+  visit.knob("unmatched", sedp.unmatched, ChoiceType<Unmatched>{},
+             "what a reader side that is not open does with DATA and HEARTBEATs (with each_side)",
+             of_paper);
+  visit.knob("initial_acknack", sedp.initial_acknack, ChoiceType<InitialAckNackReply>{},
+             "what a writer does with an initial ACKNACK", of_paper);
+  visit.knob("acknowledge", sedp.acknowledge, ChoiceType<Acknowledge>{},
+             "what an ACKNACK confirms: all outside its bitmap, or only the contiguous prefix",
+             of_paper);
+  visit.knob("heartbeat_timer", sedp.heartbeat_timer, ChoiceType<HeartbeatTimerKind>{},
+             "one pending periodic HEARTBEAT per writer, or one more for each suppression end",
+             of_paper);
+  visit.knob("heartbeat_recipients", sedp.heartbeat_recipients, ChoiceType<HeartbeatRecipients>{},
+             "who receives a periodic HEARTBEAT", of_paper);
+  visit.knob("heartbeat_policy", sedp.heartbeat_policy, ChoiceType<HeartbeatPolicy>{},
+             "fixed period, or the response-aware policy");
+  visit.section("adaptive", sedp.adaptive, "the response-aware HEARTBEAT policy");
+}
+
+/// How DATA shares packets, and what packets weigh; the last part of `sedp`.
+void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
+                        ImplementationKind implementation) {
+  const Presence of_paper = in_paper(implementation);
+  visit.knob("grouping", sedp.grouping, ChoiceType<Grouping>{},
+             "how descriptors share packets: up to a limit, one MTU, or one a packet", of_paper);
+  visit.knob(
+      "grouping_limit_bytes", sedp.grouping_limit_bytes, packet_bytes,
+      "largest UDP payload of a packet with grouping: message, or that fastdds fills",
+      implementation == ImplementationKind::paper ? Presence::required : Presence::defaulted);
+  visit.knob("piggyback", sedp.piggyback, ChoiceType<Piggyback>{},
+             "what DATA is charged against the threshold of the piggyback HEARTBEAT");
+  visit.knob("piggyback_threshold_bytes", sedp.piggyback_threshold_bytes,
+             byte_range(0, 1'000'000'000'000), "bytes that a writer may send without a HEARTBEAT");
+  visit.knob("heartbeat_bytes", sedp.heartbeat_bytes, packet_bytes,
+             "UDP payload of a HEARTBEAT of its own", of_paper);
+  visit.knob("acknack_bytes", sedp.acknack_bytes, packet_bytes,
+             "UDP payload of an ACKNACK with no bitmap", of_paper);
+  visit.knob("piggyback_heartbeat_bytes", sedp.piggyback_heartbeat_bytes, packet_bytes,
+             "what a HEARTBEAT adds to a packet with DATA", of_paper);
+  visit.knob("shared_header_bytes", sedp.shared_header_bytes, packet_bytes,
+             "RTPS header and INFO_DST, once per packet", of_paper);
+}
+
+void visit_knobs(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
+  visit_sedp_timers(visit, sedp);
+  visit_sedp_rules(visit, sedp, implementation);
+  visit_sedp_packets(visit, sedp, implementation);
+}
+
+void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors) {
+  visit.knob("default_publications", descriptors.default_publications, count_range(0, 100'000),
+             "publications of a participant without user endpoints");
+  visit.knob("default_subscriptions", descriptors.default_subscriptions, count_range(0, 100'000),
+             "subscriptions of a participant without user endpoints");
+  visit.knob(
+      "default_bytes", descriptors.default_bytes, BytesPairType{packet_bytes},
+      "UDP payload of the first and the last default descriptor, each in a packet of its own");
+  visit.knob("user_bytes", descriptors.user_bytes, packet_bytes,
+             "UDP payload of a user endpoint's descriptor in a packet of its own");
+}
+
+/// Where a profile says whose writer it describes; the reader looks at it before anything else.
+inline constexpr std::string_view implementation_key = "implementation";
+
+void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
+  const Presence of_paper = in_paper(dds.implementation);
+  visit.knob(implementation_key, dds.implementation, ChoiceType<ImplementationKind>{},
+             "whose writer: the paper's, or Fast DDS's own", Presence::optional);
+  visit.section("spdp", dds.spdp, "participant announcements", Presence::required,
+                dds.implementation);
+  visit.section("sedp", dds.sedp, "reliable exchange of endpoint descriptors", Presence::required,
+                dds.implementation);
+  visit.section("descriptors", dds.descriptors, "number and size of descriptors", of_paper);
+  visit.knob("unmodelled", dds.unmodelled, TextMapType{},
+             "settings of the real system that the model has not, and what they do there",
+             Presence::optional);
+
+  const Bytes header = dds.sedp.shared_header_bytes;
+  const std::string more =
+      fmt::format("more than the {} bytes of shared_header_bytes", header.count());
+  const auto& [first, last] = dds.descriptors.default_bytes;
+  visit.rule(first > header && last > header, "descriptors.default_bytes", more);
+  visit.rule(dds.descriptors.user_bytes > header, "descriptors.user_bytes", more);
+}
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,183 @@
+// The parts of reading that do not depend on the table, and the tables with keys that depend on
+// each other: the two forms of a deployment, its schedule, the two implementations.
+#include "model/config/knobs/knob_reader.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/ranges.h>
+
+#include "model/config/tree/suggestion.hpp"
+
+namespace stormproof::model::config {
+namespace {
+
+/// " in dds.sedp", or nothing at the top.
+std::string inside(std::string_view path) {
+  return path.empty() ? std::string{} : fmt::format(" in {}", path);
+}
+
+bool contains(const std::vector<std::string>& keys, const std::string& key) {
+  return std::ranges::find(keys, key) != keys.end();
+}
+
+/// "implementation: paper".
+std::string shown(ImplementationKind implementation) {
+  return fmt::format("{}: {}", implementation_key, name_of(implementation));
+}
+
+}  // namespace
+
+std::string join_path(std::string_view path, std::string_view key) {
+  return path.empty() ? std::string{key} : fmt::format("{}.{}", path, key);
+}
+
+std::optional<InputError> check_keys(const Node& map, std::string_view path,
+                                     const KnownKeys& keys) {
+  if (!map.is_map()) {
+    const std::string name = path.empty() ? std::string{} : fmt::format("{}: ", path);
+    return error_at(map.place, fmt::format("{}{} is not a map; expected the keys {}", name,
+                                           map.shown(), fmt::join(keys.allowed, ", ")));
+  }
+  for (const Member& member : map.members) {
+    if (contains(keys.allowed, member.key)) continue;
+    if (contains(keys.of_paper, member.key)) {
+      return error_at(member.key_place,
+                      fmt::format("{}: only {} has this key; expected none of it in a profile with "
+                                  "{}",
+                                  join_path(path, member.key), shown(ImplementationKind::paper),
+                                  shown(ImplementationKind::fastdds)));
+    }
+    std::string hint = suggestion(member.key, keys.allowed);
+    if (hint.empty()) hint = fmt::format("; expected one of {}", fmt::join(keys.allowed, ", "));
+    return error_at(member.key_place,
+                    fmt::format("unknown key {}{}{}", quote(member.key), inside(path), hint));
+  }
+  return std::nullopt;
+}
+
+void KnobReader::complain_missing(std::string_view key, std::string_view expected) {
+  fail(map_.place, fmt::format("missing key '{}'{}; expected {}", key, inside(path_), expected));
+}
+
+void KnobReader::fail(const Place& place, std::string message) {
+  if (!error_) error_ = error_at(place, std::move(message));
+}
+
+void KnobReader::rule(bool holds, std::string_view key, std::string_view expected) {
+  if (holds || error_) return;
+  const Node* node = &map_;
+  for (std::string_view rest = key; node != nullptr && !rest.empty();) {
+    const std::size_t dot = std::min(rest.find('.'), rest.size());
+    node = node->find(rest.substr(0, dot));
+    rest.remove_prefix(std::min(dot + 1, rest.size()));
+  }
+  const Node& blamed = node != nullptr ? *node : map_;
+  fail(blamed.place,
+       fmt::format("{}: {}; expected {}", join_path(path_, key), blamed.shown(), expected));
+}
+
+namespace {
+
+/// A time that is given beside a schedule has to be the one that the schedule draws; otherwise a
+/// new seed would silently change nothing.
+void check_time(const Node& participant, const std::string& path, std::string_view key,
+                Nanoseconds given, Nanoseconds drawn, std::optional<InputError>& error) {
+  const Node* node = participant.find(key);
+  if (error || node == nullptr || given == drawn) return;
+  error = error_at(node->place,
+                   fmt::format("{}: {}; expected {}, which the schedule draws, or no {} at all",
+                               join_path(path, key), node->shown(), print_duration(drawn), key));
+}
+
+/// Draws the schedule. `list` holds the participants, if they are given one by one.
+void draw(Deployment& deployment, const Node* list, const std::string& path,
+          std::optional<InputError>& error) {
+  const std::vector<Participant> given = deployment.participants;
+  deployment.draw_schedule(deployment.schedule->seed);
+  for (std::size_t k = 0; list != nullptr && k < given.size(); ++k) {
+    const Participant& drawn = deployment.participants[k];
+    const std::string name = fmt::format("{}.{}.{}", path, participants_key, k);
+    check_time(list->items[k], name, start_key, given[k].start, drawn.start, error);
+    check_time(list->items[k], name, endpoints_done_key, given[k].endpoints_done,
+               drawn.endpoints_done, error);
+  }
+}
+
+}  // namespace
+
+void read_knobs(const Node& map, const std::string& path, Deployment& value,
+                std::optional<InputError>& error) {
+  HomogeneousForm form;
+  const std::vector<std::string> of_form = keys_of(form).allowed;
+  KnownKeys both{of_form, {}};
+  for (const std::string& key : keys_of(value).allowed) both.allowed.push_back(key);
+  if (!error) error = check_keys(map, path, both);
+  if (error) return;
+
+  KnobReader reader{map, path, error};
+  const Node* list = map.find(participants_key);
+  if (list == nullptr) {
+    visit_knobs(reader, form);
+    if (error) return;
+    value = Deployment::homogeneous(form.hosts, form.participants_per_host,
+                                    form.endpoints_per_participant);
+    visit_common_knobs(reader, value);
+  } else {
+    for (const Member& member : map.members) {
+      if (!contains(of_form, member.key)) continue;
+      error = error_at(member.key_place,
+                       fmt::format("{}: not together with {}; expected only one of the two forms",
+                                   join_path(path, member.key), participants_key));
+      return;
+    }
+    visit_knobs(reader, value);
+  }
+  if (!error && value.schedule) draw(value, list, path, error);
+}
+
+void read_knobs(const Node& map, const std::string& path, Participant& value,
+                std::optional<InputError>& error) {
+  read_table(map, path, value, error);
+  if (error) return;
+  if (map.find(endpoints_done_key) == nullptr) value.endpoints_done = value.start;
+  KnobReader reader{map, path, error};
+  reader.rule(value.endpoints_done >= value.start, endpoints_done_key,
+              fmt::format("at least its start of {}", print_duration(value.start)));
+}
+
+void read_knobs(const Node& map, const std::string& path, Schedule& value,
+                std::optional<InputError>& error) {
+  read_table(map, path, value, error);
+  if (error || map.find(endpoints_done_key) != nullptr) return;
+  value.endpoints_done_min = value.start_min;
+  value.endpoints_done_max = value.start_max;
+}
+
+void read_knobs(const Node& map, const std::string& path, DdsProfile& value,
+                std::optional<InputError>& error) {
+  // What is wrong with the word, if anything, is said when all keys are read.
+  const Node* word = map.find(implementation_key);
+  if (word != nullptr) (void)ChoiceType<ImplementationKind>{}.read(*word, value.implementation);
+  read_table(map, path, value, error);
+}
+
+void read_knobs(const Node& map, const std::string& path, WirelessProfile& value,
+                std::optional<InputError>& error) {
+  read_table(map, path, value, error);
+  if (error || value.packet_delays.empty()) return;
+  const Node& list = *map.find(packet_delays_key);
+  std::set<std::uint64_t> packets;
+  for (std::size_t k = 0; k < value.packet_delays.size(); ++k) {
+    const Node& packet = *list.items[k].find(packet_key);
+    if (packets.insert(value.packet_delays[k].packet).second) continue;
+    const std::string name = fmt::format("{}.{}.{}", packet_delays_key, k, packet_key);
+    error = error_at(packet.place,
+                     fmt::format("{}: packet {} is given twice; expected one entry for each packet",
+                                 join_path(path, name), packet.shown()));
+    return;
+  }
+  std::ranges::sort(value.packet_delays, {}, &PacketDelay::packet);
+}
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,53 @@
+// The bounds follow the packets that each implementation builds: a message is closed before it
+// exceeds its limit, unless one descriptor alone does; a piggybacked HEARTBEAT may come on top.
+#include "model/config/knobs/largest_packet.hpp"
+
+#include <algorithm>
+
+#include "model/descriptor_sizes.hpp"
+#include "model/fastdds/endpoints.hpp"
+
+namespace stormproof::model::config {
+namespace {
+
+/// UDP payload of an ACKNACK that misses everything: four bytes for every 32 descriptors.
+Bytes largest_acknack(const Scenario& scenario) {
+  std::uint32_t most = 0;
+  for (const Participant& participant : scenario.deployment.participants) {
+    most = std::max({most, participant.publications, participant.subscriptions});
+  }
+  const DescriptorProfile& descriptors = scenario.dds.descriptors;
+  most += std::max(descriptors.default_publications, descriptors.default_subscriptions);
+  return scenario.dds.sedp.acknack_bytes + Bytes{std::int64_t{4} * ((most + 31) / 32)};
+}
+
+LargestPacket largest_paper_packet(const Scenario& scenario) {
+  const SedpProfile& sedp = scenario.dds.sedp;
+  const DescriptorProfile& descriptors = scenario.dds.descriptors;
+  const Bytes heartbeat =
+      sedp.piggyback == Piggyback::off ? Bytes{0} : sedp.piggyback_heartbeat_bytes;
+  const LargestPacket candidates[] = {
+      {sedp.grouping == Grouping::message ? sedp.grouping_limit_bytes + heartbeat : Bytes{0},
+       "dds.sedp.grouping_limit_bytes"},
+      {std::max(descriptors.default_bytes[0], descriptors.default_bytes[1]) + heartbeat,
+       "dds.descriptors.default_bytes"},
+      {descriptors.user_bytes + heartbeat, "dds.descriptors.user_bytes"},
+      {scenario.dds.spdp.payload_bytes, "dds.spdp.payload_bytes"},
+      {sedp.heartbeat_bytes, "dds.sedp.heartbeat_bytes"},
+      {largest_acknack(scenario), "dds.sedp.acknack_bytes"}};
+  return *std::ranges::max_element(candidates, {}, &LargestPacket::payload);
+}
+
+}  // namespace
+
+LargestPacket largest_packet(const Scenario& scenario) {
+  if (scenario.dds.implementation == ImplementationKind::paper) {
+    return largest_paper_packet(scenario);
+  }
+  const std::int64_t alone = fastdds::message_header_bytes + fastdds::destination_bytes +
+                             fastdds::timestamp_bytes + fastdds::largest_submessage_bytes;
+  const std::int64_t message = std::max(scenario.dds.sedp.grouping_limit_bytes.count(), alone);
+  return {Bytes{message + fastdds::heartbeat_submessage_bytes}, "dds.sedp.grouping_limit_bytes"};
+}
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,182 @@
+// The tables of the deployment, in its two forms, and of the scenario that joins everything. See
+// knobs.hpp for what visits them.
+#pragma once
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "model/config/knobs/dds_knobs.hpp"
+#include "model/config/knobs/knobs.hpp"
+#include "model/config/knobs/largest_packet.hpp"
+#include "model/config/knobs/value_types.hpp"
+#include "model/config/knobs/wireless_knobs.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::model::config {
+
+/// The short form of a deployment: equal hosts with equal participants, which all start at 0 unless
+/// there is a schedule.
+struct HomogeneousForm {
+  std::uint32_t hosts = 2;
+  std::uint32_t participants_per_host = 1;
+  std::uint32_t endpoints_per_participant = 2;
+};
+
+/// Keys that the reader treats in a way of their own.
+inline constexpr std::string_view participants_key = "participants";
+inline constexpr std::string_view schedule_key = "schedule";
+inline constexpr std::string_view start_key = "start";
+inline constexpr std::string_view endpoints_done_key = "endpoints_done";
+
+inline constexpr NumberType participant_count = count_range(1, Deployment::max_participants);
+inline constexpr NumberType endpoint_count = count_range(0, Deployment::max_endpoints);
+
+void visit_knobs(auto& visit, Is<HomogeneousForm> auto& form) {
+  visit.knob("hosts", form.hosts, participant_count, "number of hosts (N_H)");
+  visit.knob("participants_per_host", form.participants_per_host, participant_count,
+             "participants on each host (N_P)");
+  visit.knob("endpoints_per_participant", form.endpoints_per_participant, endpoint_count,
+             "user endpoints of each participant, half of them publications, rounded up (N_E)");
+  visit.rule(std::uint64_t{form.hosts} * form.participants_per_host <= Deployment::max_participants,
+             "participants_per_host",
+             fmt::format("at most {} participants in all (hosts × participants_per_host)",
+                         Deployment::max_participants));
+}
+
+void visit_knobs(auto& visit, Is<Participant> auto& participant) {
+  visit.knob("host", participant.host.value, count_range(0, Deployment::max_participants - 1),
+             "number of its host");
+  visit.knob("publications", participant.publications, endpoint_count, "user publications");
+  visit.knob("subscriptions", participant.subscriptions, endpoint_count, "user subscriptions");
+  visit.knob(start_key, participant.start, delay_range, "when it starts; 0 if absent",
+             Presence::optional);
+  visit.knob(endpoints_done_key, participant.endpoints_done, delay_range,
+             "when it has created all its endpoints, not before its start, which it is if absent; "
+             "used by implementation: fastdds",
+             Presence::optional);
+}
+
+void visit_knobs(auto& visit, Is<Schedule> auto& schedule) {
+  visit.knob(start_key, RangeParts{schedule.start_min, schedule.start_max},
+             DurationRangeType{delay_range},
+             "range of the participants' starts; all start at 0 if absent", Presence::optional);
+  visit.knob(
+      endpoints_done_key, RangeParts{schedule.endpoints_done_min, schedule.endpoints_done_max},
+      DurationRangeType{delay_range},
+      "range of the participants' endpoints_done; that of start if absent", Presence::optional);
+  visit.knob("seed", schedule.seed, SeedType{}, "of the draw; 0 if absent", Presence::optional);
+}
+
+/// What both forms of a deployment have.
+void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
+  visit.knob("loopback_delay", deployment.loopback_delay, delay_range,
+             "delay of packets to the same host; 2ms if absent; used by implementation: fastdds",
+             Presence::optional);
+  visit.section(schedule_key, deployment.schedule,
+                "ranges that all start and endpoints_done are drawn from, uniformly; a time that a "
+                "participant gives beside it has to be the drawn one",
+                Presence::optional);
+}
+
+void visit_knobs(auto& visit, Is<Deployment> auto& deployment) {
+  visit.list(participants_key, deployment.participants, ListSize{1, Deployment::max_participants},
+             "the participants, numbered from 0 in this order");
+  visit_common_knobs(visit, deployment);
+}
+
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<RunUntil>{"completion", "time_limit"};
+
+/// Most descriptors to be delivered, over all ordered pairs of participants. A run keeps five bits
+/// for each, in words of 64: 6.25 GB at this limit.
+inline constexpr std::uint64_t max_descriptor_deliveries = 10'000'000'000;
+
+/// How many deliveries there are if each participant has to learn every descriptor of every other
+/// one.
+[[nodiscard]] inline std::uint64_t descriptor_deliveries(const Scenario& scenario) {
+  const DescriptorProfile& defaults = scenario.dds.descriptors;
+  std::uint64_t descriptors = 0;
+  for (const Participant& participant : scenario.deployment.participants) {
+    descriptors += std::uint64_t{defaults.default_publications} + defaults.default_subscriptions +
+                   participant.publications + participant.subscriptions;
+  }
+  return descriptors * (scenario.deployment.participants.size() - 1);
+}
+
+/// Amplifications of real storms are around 10; the limit keeps products within 64 bits.
+inline constexpr std::int64_t max_amplification = 1'000'000;
+
+void visit_knobs(auto& visit, Is<Limits> auto& limits) {
+  visit.knob("completion", limits.completion, period_range,
+             "discovery is complete at this time, at the latest", Presence::optional);
+  visit.knob("messages", limits.messages, count_range(0, 1'000'000'000'000),
+             "messages of all classes, at most", Presence::optional);
+  visit.knob("amplification", limits.amplification, RatioType{max_amplification},
+             "messages over those of the failure-free reference, at most", Presence::optional);
+  visit.knob("backlog", limits.backlog, count_range(0, 1'000'000'000'000),
+             "packets that wait for the source queue of one participant, at most",
+             Presence::optional);
+}
+
+void visit_knobs(auto& visit, Is<Variation> auto& vary) {
+  visit.knob("start_jitter", vary.start_jitter, delay_range,
+             "each participant starts up to this much later", Presence::optional);
+  visit.knob("loss", vary.loss, RatioType{1}, "probability that a packet is lost",
+             Presence::optional);
+  visit.knob("sizes", vary.sizes, RatioType{1}, "relative range of packet sizes",
+             Presence::optional);
+  visit.knob("delays", vary.delays, RatioType{1},
+             "relative range of airtime overheads, rates and constant delays", Presence::optional);
+  visit.knob("timers", vary.timers, RatioType{1},
+             "relative range of the periods and delays of the DDS profile", Presence::optional);
+}
+
+/// The keys whose values may be the name of a file.
+inline constexpr std::string_view dds_key = "dds";
+inline constexpr std::string_view wireless_key = "wireless";
+
+void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
+  visit.section("deployment", scenario.deployment, "who takes part, and where");
+  visit.section(dds_key, scenario.dds, "DDS profile");
+  visit.section(wireless_key, scenario.wireless, "wireless profile");
+  visit.knob("time_limit", scenario.time_limit, period_range,
+             "events after this time are not processed");
+  visit.knob("run_until", scenario.run_until, UsualChoiceType<RunUntil>{{}, RunUntil::completion},
+             "whether the run ends when discovery is complete, as it does if absent, or goes on "
+             "until the time limit",
+             Presence::optional);
+  visit.section("limits", scenario.limits, "what a run may cost, for stormproof fuzz",
+                Presence::optional);
+  visit.section("vary", scenario.vary, "ranges around the scenario, for stormproof fuzz",
+                Presence::optional);
+
+  const DescriptorProfile& defaults = scenario.dds.descriptors;
+  const auto has_descriptors = [&defaults](const Participant& participant) {
+    return defaults.default_publications + defaults.default_subscriptions +
+               participant.publications + participant.subscriptions >
+           0;
+  };
+  visit.rule(scenario.deployment.has_cross_host_pair(), "deployment",
+             "participants on at least two hosts; otherwise there is nothing to discover");
+  visit.rule(std::ranges::any_of(scenario.deployment.participants, has_descriptors), "deployment",
+             "at least one endpoint, user or default; otherwise there is nothing to discover");
+  visit.rule(descriptor_deliveries(scenario) <= max_descriptor_deliveries, "deployment",
+             fmt::format("at most {} descriptors over all pairs of participants; each keeps state",
+                         max_descriptor_deliveries));
+
+  visit.rule(!scenario.limits || !scenario.limits->completion ||
+                 *scenario.limits->completion <= scenario.time_limit,
+             "limits.completion",
+             fmt::format("at most the time_limit of {}, as the run ends there",
+                         print_duration(scenario.time_limit)));
+
+  const LargestPacket packet = largest_packet(scenario);
+  visit.rule(scenario.wireless.kind == ServiceKind::constant_delay ||
+                 Fragmentation{scenario.wireless}.count(packet.payload.count()) <= max_fragments,
+             "wireless.mtu_payload_bytes",
+             fmt::format("at most {} fragments a packet; the largest has {} bytes of payload ({})",
+                         max_fragments, packet.payload.count(), packet.origin));
+}
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,255 @@
+// The kinds of value a knob can have: number with a range, choice, text, fraction, and a few lists.
+// Each kind knows how to read itself from a tree, write itself as JSON, and describe itself in an
+// error, a schema and a list of knobs; the knob tables combine them with keys and ranges.
+//
+// Every kind has
+//   read(node, value)  fills `value`, or returns what is wrong with the node
+//   write(value)       the JSON that `read` turns back into `value`
+//   info()             range, expectation and schema
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "model/config/tree/quantities.hpp"
+#include "model/config/tree/tree.hpp"
+#include "model/limits.hpp"
+#include "model/units.hpp"
+
+namespace stormproof::model::config {
+
+/// JSON whose keys stay in the order of the tables.
+using Json = nlohmann::ordered_json;
+
+/// What is wrong with a value ("'5' has no unit"), and where.
+struct Fault {
+  Place place;
+  std::string reason;
+};
+using Complaint = std::optional<Fault>;
+
+/// How a kind of value describes itself.
+struct TypeInfo {
+  std::string name;                        ///< "duration", "choice", …
+  std::string expected;                    ///< completes "expected …"
+  std::string minimum = {}, maximum = {};  ///< of a number, as a file would say it
+  std::vector<std::string> choices = {};   ///< of a choice
+  Json schema = Json::object();            ///< JSON Schema of one value
+};
+
+/// An integer amount in a range: of nanoseconds, bit/s, bytes, or things.
+class NumberType {
+ public:
+  enum class Unit { nanoseconds, bits_per_second, bytes, things };
+
+  constexpr NumberType(Unit unit, std::int64_t minimum, std::int64_t maximum)
+      : unit_{unit}, minimum_{minimum}, maximum_{maximum} {}
+
+  template <class Tag>
+  Complaint read(const Node& node, Quantity<Tag>& value) const {
+    std::int64_t count = 0;
+    Complaint complaint = read_count(node, count);
+    if (!complaint) value = Quantity<Tag>{count};
+    return complaint;
+  }
+  template <std::integral Integer>
+  Complaint read(const Node& node, Integer& value) const {
+    std::int64_t count = 0;
+    Complaint complaint = read_count(node, count);
+    if (!complaint) value = static_cast<Integer>(count);
+    return complaint;
+  }
+  template <class Tag>
+  Json write(const Quantity<Tag>& value) const {
+    return write_count(value.count());
+  }
+  template <std::integral Integer>
+  Json write(const Integer& value) const {
+    return write_count(static_cast<std::int64_t>(value));
+  }
+  TypeInfo info() const;
+
+  constexpr Unit unit() const { return unit_; }
+  constexpr std::int64_t minimum() const { return minimum_; }
+  constexpr std::int64_t maximum() const { return maximum_; }
+  constexpr bool contains(std::int64_t count) const {
+    return count >= minimum_ && count <= maximum_;
+  }
+
+ private:
+  Complaint read_count(const Node& node, std::int64_t& count) const;
+  Json write_count(std::int64_t count) const;
+  std::string print(std::int64_t count) const;
+
+  Unit unit_;
+  std::int64_t minimum_, maximum_;
+};
+
+inline constexpr std::int64_t second_ns = 1'000'000'000;
+/// Longest duration in a file, 10^6 s; products of two quantities of a run then stay within 64
+/// bits.
+inline constexpr std::int64_t max_duration_ns = 1'000'000 * second_ns;
+
+/// A duration that may be zero.
+inline constexpr NumberType delay_range{NumberType::Unit::nanoseconds, 0, max_duration_ns};
+/// The period of a timer that schedules itself again: zero would stop the clock.
+inline constexpr NumberType period_range{NumberType::Unit::nanoseconds, 1, max_duration_ns};
+/// 1 bit/s to 1 Pbit/s.
+inline constexpr NumberType rate_range{NumberType::Unit::bits_per_second, 1, 1'000'000'000'000'000};
+constexpr NumberType byte_range(std::int64_t minimum, std::int64_t maximum) {
+  return {NumberType::Unit::bytes, minimum, maximum};
+}
+constexpr NumberType count_range(std::int64_t minimum, std::int64_t maximum) {
+  return {NumberType::Unit::things, minimum, maximum};
+}
+
+/// Any unsigned 64-bit integer.
+struct SeedType {
+  Complaint read(const Node& node, std::uint64_t& value) const;
+  Json write(std::uint64_t value) const { return value; }
+  TypeInfo info() const;
+};
+
+/// Bytes, or a word that stands for one special value.
+struct BytesOrWordType {
+  NumberType number;
+  std::string_view word;
+  Bytes meaning;
+
+  Complaint read(const Node& node, Bytes& value) const;
+  Json write(Bytes value) const;
+  TypeInfo info() const;
+};
+
+/// The enumerators' names in a file, in the order of their values. Specialised beside the table
+/// that uses them.
+template <class Enum>
+inline constexpr std::array<std::string_view, 0> enum_names{};
+
+/// The name of an enumerator, as a file spells it.
+template <class Enum>
+requires std::is_enum_v<Enum>
+[[nodiscard]] constexpr std::string_view name_of(Enum value) {
+  return enum_names<Enum>[static_cast<std::size_t>(value)];
+}
+
+/// Number of the name in `names` that `node` holds.
+Parsed<std::size_t> read_choice(const Node& node, const std::vector<std::string>& names);
+TypeInfo choice_info(std::vector<std::string> names);
+
+template <class Enum>
+struct ChoiceType {
+  static std::vector<std::string> names() {
+    return {enum_names<Enum>.begin(), enum_names<Enum>.end()};
+  }
+  Complaint read(const Node& node, Enum& value) const {
+    const auto chosen = read_choice(node, names());
+    if (!chosen) return Fault{node.place, chosen.error()};
+    value = static_cast<Enum>(*chosen);
+    return std::nullopt;
+  }
+  Json write(const Enum& value) const { return name_of(value); }
+  TypeInfo info() const { return choice_info(names()); }
+};
+
+/// A choice that is written only if it is not the usual one.
+template <class Enum>
+struct UsualChoiceType : ChoiceType<Enum> {
+  Enum usual{};
+
+  Json write(const Enum& value) const {
+    return value == usual ? Json() : ChoiceType<Enum>::write(value);
+  }
+};
+
+/// Text that is not empty.
+struct TextType {
+  Complaint read(const Node& node, std::string& value) const;
+  Json write(const std::string& value) const { return value; }
+  TypeInfo info() const;
+};
+
+/// A map of texts with free keys; written only if it is not empty.
+struct TextMapType {
+  Complaint read(const Node& node, std::map<std::string, std::string>& value) const;
+  Json write(const std::map<std::string, std::string>& value) const;
+  TypeInfo info() const;
+};
+
+/// A decimal or fraction, greater than 0 and at most `maximum`, whose reduced denominator is at
+/// most `max_denominator`.
+struct RatioType {
+  std::int64_t maximum;
+  std::int64_t max_denominator = 1'000'000;
+
+  Complaint read(const Node& node, Ratio& value) const;
+  Json write(const Ratio& value) const;
+  TypeInfo info() const;
+};
+
+/// The two members of a profile that hold one fraction.
+template <class Integer>
+struct FractionParts {
+  Integer& numerator;
+  Integer& denominator;
+};
+template <class Integer>
+FractionParts(Integer&, Integer&)
+    -> FractionParts<Integer>;  // clang 14 does not deduce it by itself
+
+/// A decimal or fraction, greater than 0 and at most 1, whose reduced denominator is at most
+/// `max_denominator`.
+struct FractionType {
+  std::int64_t max_denominator;
+
+  Complaint read(const Node& node, FractionParts<std::int64_t> value) const;
+  Json write(FractionParts<const std::int64_t> value) const;
+  TypeInfo info() const { return RatioType{1, max_denominator}.info(); }
+};
+
+/// `[first, last]`, two byte counts.
+struct BytesPairType {
+  NumberType number;
+
+  Complaint read(const Node& node, std::array<Bytes, 2>& value) const;
+  Json write(const std::array<Bytes, 2>& value) const;
+  TypeInfo info() const;
+};
+
+/// The two members of a struct that hold one range.
+template <class Duration>
+struct RangeParts {
+  Duration& low;
+  Duration& high;
+};
+template <class Duration>
+RangeParts(Duration&, Duration&) -> RangeParts<Duration>;
+
+/// `[low, high]`, two durations, the first at most the second.
+struct DurationRangeType {
+  NumberType number;
+
+  Complaint read(const Node& node, RangeParts<Nanoseconds> value) const;
+  Json write(RangeParts<const Nanoseconds> value) const;
+  TypeInfo info() const;
+};
+
+/// A list of integers, sorted and without duplicates once it is read.
+struct NumberSetType {
+  NumberType number;
+
+  Complaint read(const Node& node, std::vector<std::uint64_t>& value) const;
+  Json write(const std::vector<std::uint64_t>& value) const { return value; }
+  TypeInfo info() const;
+};
+
+}  // namespace stormproof::model::config

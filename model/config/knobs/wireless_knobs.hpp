@@ -1,0 +1,99 @@
+// The table of the wireless profile: every key, its range and its meaning, in the order of the
+// file. See knobs.hpp for what visits it.
+#pragma once
+
+#include "model/config/knobs/knobs.hpp"
+#include "model/config/knobs/value_types.hpp"
+#include "model/wireless_profile.hpp"
+
+namespace stormproof::model::config {
+
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<ServiceKind>{"shared_channel",
+                                                                         "constant_delay"};
+template <>
+inline constexpr std::array<std::string_view, 4> enum_names<ServiceOrder>{
+    "fifo_uplink", "fifo_downlink", "fifo", "datagram_uplink"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<FragmentRequest>{"sequential",
+                                                                             "at_admission"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<MulticastAs>{"unicast", "multicast"};
+
+/// The airtime of a fragment is computed as 8·B·10^9 + R/2 with B = payload + 20 + link overhead.
+/// With these two limits B stays below 1.1·10^9 + 21, and the sum (R up to 10^15) below 2^63
+/// = 9.2·10^18.
+inline constexpr NumberType mtu_range = byte_range(1, 1'000'000'000);
+inline constexpr NumberType link_overhead_range = byte_range(0, 100'000'000);
+
+void visit_knobs(auto& visit, Is<Stage> auto& stage) {
+  visit.knob("name", stage.name, TextType{}, "name in traces and reports");
+  visit.knob("channel", stage.channel, TextType{},
+             "stages with the same channel share its airtime");
+  visit.knob("multicast_as", stage.multicast_as, ChoiceType<MulticastAs>{},
+             "how a multicast packet is served in this stage");
+  visit.knob("overhead_unicast", stage.overhead_unicast, delay_range,
+             "replaces the profile's value in this stage", Presence::optional);
+  visit.knob("overhead_multicast", stage.overhead_multicast, delay_range,
+             "replaces the profile's value in this stage", Presence::optional);
+  visit.knob("rate_unicast", stage.rate_unicast, rate_range,
+             "replaces the profile's value in this stage", Presence::optional);
+  visit.knob("rate_multicast", stage.rate_multicast, rate_range,
+             "replaces the profile's value in this stage", Presence::optional);
+}
+
+/// Numbers of packets, in `lost_packets` and `packet_delays`.
+inline constexpr NumberType packet_number = count_range(0, 1'000'000'000'000'000);
+inline constexpr std::size_t max_packet_delays = 1'000'000;
+inline constexpr std::string_view packet_delays_key = "packet_delays";
+inline constexpr std::string_view packet_key = "packet";
+
+void visit_knobs(auto& visit, Is<PacketDelay> auto& delay) {
+  visit.knob(packet_key, delay.packet, packet_number, "its number, by emission order from 0");
+  visit.knob("leaves_after", delay.leaves_after, delay_range,
+             "from its emission until it has left its source; 0 if absent", Presence::optional);
+  visit.knob("one_way", delay.one_way, delay_range, "from its emission until its reception");
+  visit.rule(delay.leaves_after <= delay.one_way, "leaves_after",
+             "at most the one_way of the same packet");
+}
+
+void visit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
+  visit.knob("kind", wireless.kind, ChoiceType<ServiceKind>{},
+             "a channel that is shared, or a fixed delay");
+  const bool is_shared = wireless.kind == ServiceKind::shared_channel;
+  const Presence of_channel = is_shared ? Presence::required : Presence::optional;
+  const Presence of_delay = is_shared ? Presence::optional : Presence::required;
+
+  visit.knob("overhead_unicast", wireless.overhead_unicast, delay_range,
+             "channel access and protocol cost of a unicast fragment (O_u)", of_channel);
+  visit.knob("overhead_multicast", wireless.overhead_multicast, delay_range,
+             "channel access and protocol cost of a multicast fragment (O_m)", of_channel);
+  visit.knob("rate_unicast", wireless.rate_unicast, rate_range,
+             "physical-layer rate of unicast (R_u)", of_channel);
+  visit.knob("rate_multicast", wireless.rate_multicast, rate_range,
+             "physical-layer rate of multicast (R_m)", of_channel);
+  visit.knob("link_overhead_bytes", wireless.link_overhead_bytes, link_overhead_range,
+             "link-layer bytes of a fragment, on top of its IP header", of_channel);
+  visit.knob("mtu_payload_bytes", wireless.mtu_payload_bytes, mtu_range,
+             "IP payload bytes of a full fragment", of_channel);
+  visit.knob(
+      "source_queue_bytes", wireless.source_queue_bytes,
+      BytesOrWordType{byte_range(1, 1'000'000'000'000), "unlimited", WirelessProfile::unlimited},
+      "capacity of a participant's source queue (W)", of_channel);
+  visit.knob("order", wireless.order, ChoiceType<ServiceOrder>{},
+             "which stage goes first among fragments that wait since the same instant", of_channel);
+  visit.knob("fragment_request", wireless.fragment_request, ChoiceType<FragmentRequest>{},
+             "whether admission requests service for the first fragment or for all", of_channel);
+  visit.knob("lost_packets", wireless.lost_packets, NumberSetType{packet_number},
+             "packets that are not received, by emission order from 0", Presence::optional);
+  visit.knob("one_way", wireless.one_way, delay_range,
+             "delay of every packet with kind: constant_delay", of_delay);
+  visit.list(packet_delays_key, wireless.packet_delays, ListSize{0, max_packet_delays},
+             "packets with delays of their own, with kind: constant_delay", Presence::optional);
+  visit.rule(!is_shared || wireless.packet_delays.empty(), packet_delays_key,
+             "no such list, or kind: constant_delay");
+  visit.list("stages", wireless.stages, ListSize{1, WirelessProfile::max_stages},
+             "the route of every packet, in order", of_channel);
+}
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,93 @@
+// The list of knobs is complete, has no duplicates, and its keys are those that `--set` takes.
+#include "model/config/knobs/knob_list.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "model/config/scenario_file.hpp"
+#include "tests/model/config/test_files.hpp"
+
+namespace stormproof::model::config {
+namespace {
+
+TEST(KnobList, every_knob_is_there_once_with_its_documentation) {
+  std::set<std::string> keys;
+  for (const KnobInfo& knob : scenario_knob_list()) {
+    EXPECT_TRUE(keys.insert(knob.key).second) << knob.key;
+    EXPECT_FALSE(knob.doc.empty()) << knob.key;
+    EXPECT_FALSE(knob.type.expected.empty()) << knob.key;
+    EXPECT_FALSE(knob.type.schema.empty()) << knob.key;
+    EXPECT_TRUE(!knob.type.minimum.empty() || !knob.type.choices.empty() ||
+                knob.type.name.starts_with("text"))
+        << knob.key;
+  }
+  for (const char* key :
+       {"time_limit", "deployment.hosts", "deployment.participants.*.start",
+        "deployment.participants.*.endpoints_done", "deployment.loopback_delay",
+        "deployment.schedule.start", "deployment.schedule.seed", "dds.implementation",
+        "dds.sedp.heartbeat_period", "dds.sedp.adaptive.epsilon", "dds.descriptors.default_bytes",
+        "wireless.source_queue_bytes", "wireless.stages.*.rate_multicast", "run_until",
+        "wireless.packet_delays.*.leaves_after"}) {
+    EXPECT_TRUE(keys.contains(key)) << key;
+  }
+}
+
+TEST(KnobList, fast_dds_has_the_same_list_with_the_keys_of_the_paper_marked) {
+  const auto paper = scenario_knob_list(ImplementationKind::paper);
+  const auto fastdds = scenario_knob_list(ImplementationKind::fastdds);
+  ASSERT_EQ(paper.size(), fastdds.size());
+  std::set<std::string> of_paper;
+  for (std::size_t k = 0; k < paper.size(); ++k) {
+    EXPECT_EQ(paper[k].key, fastdds[k].key);
+    EXPECT_NE(paper[k].presence, Presence::of_paper) << paper[k].key;
+    if (fastdds[k].presence == Presence::of_paper) of_paper.insert(fastdds[k].key);
+  }
+  EXPECT_EQ(of_paper,
+            (std::set<std::string>{
+                "dds.spdp.payload_bytes", "dds.sedp.relation_opening", "dds.sedp.initial_data",
+                "dds.sedp.unmatched", "dds.sedp.initial_acknack", "dds.sedp.acknowledge",
+                "dds.sedp.heartbeat_timer", "dds.sedp.heartbeat_recipients", "dds.sedp.grouping",
+                "dds.sedp.heartbeat_bytes", "dds.sedp.acknack_bytes",
+                "dds.sedp.piggyback_heartbeat_bytes", "dds.sedp.shared_header_bytes",
+                "dds.descriptors.default_publications", "dds.descriptors.default_subscriptions",
+                "dds.descriptors.default_bytes", "dds.descriptors.user_bytes"}));
+}
+
+TEST(KnobList, the_keys_of_the_paper_are_refused_with_fast_dds) {
+  for (const KnobInfo& knob : scenario_knob_list(ImplementationKind::fastdds)) {
+    if (!knob.key.starts_with("dds.") || knob.default_value.is_null()) continue;
+    const std::vector<std::string> overrides{knob.key + "=" + knob.default_value.dump()};
+    const auto scenario = read_scenario("live-5x20", overrides, source_specs());
+    if (knob.presence != Presence::of_paper) {
+      EXPECT_TRUE(scenario) << to_string(scenario.error());
+      continue;
+    }
+    ASSERT_FALSE(scenario) << knob.key;
+    EXPECT_EQ(scenario.error().where, "--set " + overrides[0]);
+    EXPECT_NE(scenario.error().message.find("only implementation: paper has this key"),
+              std::string::npos)
+        << scenario.error().message;
+  }
+}
+
+TEST(KnobList, defaults_ranges_and_choices_can_be_set) {
+  for (const KnobInfo& knob : scenario_knob_list()) {
+    if (knob.key.starts_with("deployment.") || knob.key == "dds.implementation") continue;
+    if (knob.key.starts_with("wireless.packet_delays.")) continue;  // no list to reach into
+    std::string key = knob.key;
+    if (const auto star = key.find('*'); star != std::string::npos) key.replace(star, 1, "0");
+    std::vector<std::string> values = knob.type.choices;
+    if (!knob.default_value.is_null() && !(knob.type.name == "text"))
+      values.push_back(knob.default_value.dump());
+    for (const std::string& value : values) {
+      const std::vector<std::string> overrides{key + "=" + value};
+      const auto scenario = read_scenario("wifi-5x20", overrides, source_specs());
+      EXPECT_TRUE(scenario) << to_string(scenario.error());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace stormproof::model::config
