@@ -1,6 +1,6 @@
 // The DDS profile: every protocol knob of the paper's model, with the value of the paper's own
-// evaluation as the default. specs/guide/model.md explains each knob; `model/config/dds_knobs.hpp` gives
-// its key, unit and range.
+// evaluation as the default. specs/guide/model.md explains each knob; `model/config/dds_knobs.hpp`
+// gives its key, unit and range.
 #pragma once
 
 #include <array>
@@ -117,5 +117,10 @@ struct DdsProfile {
 
   bool operator==(const DdsProfile&) const = default;
 };
+
+/// Whether the profile describes Fast DDS's own writer, rather than the paper's model of it.
+[[nodiscard]] inline bool is_fastdds(const DdsProfile& dds) {
+  return dds.implementation == ImplementationKind::fastdds;
+}
 
 }  // namespace stormproof::model

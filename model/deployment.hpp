@@ -1,6 +1,6 @@
 // The deployment: who takes part, on which host, from when on, and with how many user endpoints
-// (the paper's structural discovery workload; specs/guide/model.md, section "Deployment"). Pure data; a
-// scenario file or a caller fills it in.
+// (the paper's structural discovery workload; specs/guide/model.md, section "Deployment"). Pure
+// data; a scenario file or a caller fills it in.
 #pragma once
 
 #include <cstdint>

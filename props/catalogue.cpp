@@ -1,6 +1,6 @@
-// The property catalogue. Symbols as in specs/guide/model.md: D a descriptor of a relation (i, j, s), X
-// its bit at the reader j, C its state at the writer i, W the size of a source queue, Δ a bound on
-// the delay of a packet from its emission to its reception.
+// The property catalogue. Symbols as in specs/guide/model.md: D a descriptor of a relation (i, j,
+// s), X its bit at the reader j, C its state at the writer i, W the size of a source queue, Δ a
+// bound on the delay of a packet from its emission to its reception.
 #include <array>
 
 #include "props/limits.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 using enum Engine;
 
-const std::array entries{
+const std::array properties{
     Property{"fsm.determinism",
              "In no state do two rows of a machine fire on one event.",
              "∀ machine, state q, event e, input x: at most one row (q, e, g) has g(x)",
@@ -160,7 +160,7 @@ const char* name_of(Engine engine) {
   return "";
 }
 
-std::span<const Property> catalogue() { return entries; }
+std::span<const Property> catalogue() { return properties; }
 
 std::string statement_of(const Property& property, model::ImplementationKind implementation) {
   std::string text{property.statement};

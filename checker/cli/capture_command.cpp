@@ -7,15 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "checker/evidence/capture/counting.hpp"
-#include "checker/evidence/capture/events.hpp"
-#include "checker/evidence/capture/summary.hpp"
 #include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/cli/until_instant.hpp"
+#include "checker/evidence/capture/counting.hpp"
+#include "checker/evidence/capture/events.hpp"
+#include "checker/evidence/capture/summary.hpp"
 #include "checker/presentation/text/numbers.hpp"
 
 namespace stormproof::cli {

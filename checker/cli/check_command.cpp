@@ -8,15 +8,15 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "checker/verification/check/check.hpp"
-#include "checker/verification/check/check_report.hpp"
 #include "checker/cli/complain.hpp"
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/report_files.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/presentation/text/plain_text.hpp"
 #include "checker/engines/smt/claims.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+#include "checker/verification/check/check.hpp"
+#include "checker/verification/check/check_report.hpp"
 #include "model/config/provenance.hpp"
 #include "model/config/tree/suggestion.hpp"
 

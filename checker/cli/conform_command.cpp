@@ -17,8 +17,8 @@
 #include "checker/evidence/conform/report/report.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
-#include "model/config/tree/quantities.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::cli {
 

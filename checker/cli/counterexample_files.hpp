@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "checker/cli/check_command.hpp"
 #include "checker/verification/check/check.hpp"
 #include "checker/verification/check/check_report.hpp"
-#include "checker/cli/check_command.hpp"
 
 namespace stormproof::cli {
 

@@ -17,8 +17,8 @@
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/verification/counterexample/story.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
+#include "checker/verification/counterexample/story.hpp"
 #include "model/config/knobs/effective.hpp"
 
 namespace stormproof::cli {

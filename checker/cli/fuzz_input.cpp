@@ -7,8 +7,8 @@
 
 #include <fmt/core.h>
 
-#include "model/config/tree/quantities.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "model/config/tree/suggestion.hpp"
 #include "props/limits.hpp"
 #include "props/property.hpp"

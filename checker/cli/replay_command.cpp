@@ -7,9 +7,9 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/verification/counterexample/observe.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
+#include "checker/verification/counterexample/observe.hpp"
 #include "model/trace/replay.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/property.hpp"

@@ -13,8 +13,8 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/experiments/sensitivity/report.hpp"
-#include "model/config/tree/quantities.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::cli {
 

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "checker/evidence/capture/write/capture_probe.hpp"
 #include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/cli/sample_command.hpp"
+#include "checker/evidence/capture/write/capture_probe.hpp"
 #include "checker/experiments/simulate/simulation_report.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"

@@ -14,12 +14,12 @@
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/experiments/trials/parallel.hpp"
-#include "checker/presentation/text/assumptions.hpp"
-#include "checker/presentation/text/numbers.hpp"
 #include "checker/experiments/sweep/mpi_ranks.hpp"
 #include "checker/experiments/sweep/sweep.hpp"
 #include "checker/experiments/sweep/tables.hpp"
+#include "checker/experiments/trials/parallel.hpp"
+#include "checker/presentation/text/assumptions.hpp"
+#include "checker/presentation/text/numbers.hpp"
 
 namespace stormproof::cli {
 

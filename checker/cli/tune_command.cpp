@@ -7,17 +7,17 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "checker/verification/check/check.hpp"
 #include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/cli/tune_files.hpp"
-#include "checker/presentation/text/plain_text.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/experiments/tune/deploy.hpp"
 #include "checker/experiments/tune/report.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+#include "checker/verification/check/check.hpp"
 #include "model/config/tree/quantities.hpp"
 
 namespace stormproof::cli {

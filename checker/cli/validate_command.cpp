@@ -9,16 +9,16 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "checker/evidence/capture/events.hpp"
 #include "checker/cli/complain.hpp"
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/cli/until_instant.hpp"
+#include "checker/evidence/capture/events.hpp"
+#include "checker/evidence/validate/validate.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
-#include "checker/evidence/validate/validate.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/config/tree/quantities.hpp"
 

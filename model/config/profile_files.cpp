@@ -10,9 +10,9 @@
 #include <fmt/ranges.h>
 
 #include "model/config/knobs/dds_knobs.hpp"
+#include "model/config/tree/yaml_text.hpp"
 #include "model/config/vendor/reference.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
-#include "model/config/tree/yaml_text.hpp"
 
 namespace stormproof::model::config {
 namespace fs = std::filesystem;

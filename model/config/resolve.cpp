@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "model/config/knobs/dds_knobs.hpp"
-#include "model/config/tree/overrides.hpp"
 #include "model/config/knobs/scenario_knobs.hpp"
-#include "model/config/vendor/reference.hpp"
+#include "model/config/tree/overrides.hpp"
 #include "model/config/tree/yaml_text.hpp"
+#include "model/config/vendor/reference.hpp"
 
 namespace stormproof::model::config {
 namespace {

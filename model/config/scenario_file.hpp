@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "model/config/tree/result.hpp"
 #include "model/config/spec_path.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::model::config {

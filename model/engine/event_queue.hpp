@@ -1,7 +1,7 @@
 // The one event queue: the next event is the least (time, class, insertion number). The classes
 // make the order of same-time events what the model asks for: a reception comes before any protocol
-// decision of that instant, and a channel starts serving after both (specs/guide/model.md, "Events and
-// their order").
+// decision of that instant, and a channel starts serving after both (specs/guide/model.md, "Events
+// and their order").
 //
 // Nearly every kind of event is scheduled at a constant distance from now, so its events arrive in
 // ascending order. Each kind therefore has a lane, a plain queue; what would break the order of its

@@ -1,6 +1,7 @@
-// Fast DDS 2.6.11 as its source code has it (specs/guide/fastdds.md): endpoints are created over time,
-// descriptors that exist at the match are pulled and later ones pushed, one writer serves all its
-// readers, and what is repaired goes through one asynchronous queue per participant. By rule group:
+// Fast DDS 2.6.11 as its source code has it (specs/guide/fastdds.md): endpoints are created over
+// time, descriptors that exist at the match are pulled and later ones pushed, one writer serves all
+// its readers, and what is repaired goes through one asynchronous queue per participant. By rule
+// group:
 //   announcements.cpp  creation of endpoints, SPDP, matching
 //   writer.cpp         HEARTBEATs, ACKNACKs, nack response, suppression
 //   sender.cpp         creation and async run: messages, piggyback, flushing

@@ -1,6 +1,6 @@
 // The paper's DDS implementation: announcements, the reader side and the writer side of every
-// relation, by the rules of specs/guide/model.md. The class is spread over four source files by rule
-// group:
+// relation, by the rules of specs/guide/model.md. The class is spread over four source files by
+// rule group:
 //   announcements.cpp  SPDP: sending, reception, opening of relations
 //   reader.cpp         reception of DATA and HEARTBEAT, ACKNACKs
 //   writer.cpp         reception of ACKNACKs, repair, suppression

@@ -13,8 +13,8 @@
 #include <optional>
 #include <string>
 
-#include "model/config/tree/result.hpp"
 #include "model/config/spec_path.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/trace_json.hpp"
 

@@ -12,7 +12,7 @@ using model::Bytes;
 using model::Nanoseconds;
 using model::Scenario;
 
-constexpr std::int64_t longest_period = 1'000'000 * second;
+constexpr std::int64_t longest_drawn_period = 1'000'000 * second;
 
 void draw_descriptors(Dice& dice, Scenario& scenario) {
   model::DescriptorProfile& d = scenario.dds.descriptors;
@@ -111,7 +111,7 @@ void draw_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds) {
   model::AdaptiveProfile& adaptive = sedp.adaptive;
   adaptive.min_period = draw_period(dice, clock);
   const std::int64_t longest = adaptive.min_period.count() * dice.among({1, 2, 10, 100});
-  adaptive.max_period = Nanoseconds{std::min(longest, longest_period)};
+  adaptive.max_period = Nanoseconds{std::min(longest, longest_drawn_period)};
   const std::int64_t numerator = dice.among({1, 1, 1, 2, 3});
   const std::int64_t denominator = dice.among({20, 20, 3, 4, 7, 1'000});
   const std::int64_t common = std::gcd(numerator, denominator);

@@ -18,10 +18,6 @@ using model::PacketKind;
 using model::Scenario;
 using Broken = std::optional<std::string>;
 
-bool is_shared(const Scenario& scenario) {
-  return scenario.wireless.kind == model::ServiceKind::shared_channel;
-}
-
 Broken unequal(std::string_view what, std::uint64_t happened, std::uint64_t reported) {
   if (happened == reported) return std::nullopt;
   return fmt::format("{}: {} happened, {} are reported.", what, happened, reported);
@@ -261,7 +257,7 @@ Broken delays(const Scenario& scenario, const Simulate& simulate) {
   return counter.against(result);
 }
 
-constexpr Law all[] = {
+constexpr Law accounting_list[] = {
     {"law.counts", "Each count is the number of messages, or descriptors in DATA, emitted.", always,
      counts},
     {"law.deliveries",
@@ -277,6 +273,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> accounting_laws() { return all; }
+std::span<const Law> accounting_laws() { return accounting_list; }
 
 }  // namespace stormproof::props

@@ -166,7 +166,7 @@ Broken recipients(const Scenario& scenario, const Simulate& simulate) {
   return observe(watch, longer, simulate);
 }
 
-constexpr Law all[] = {
+constexpr Law adaptive_list[] = {
     {"law.adaptive-period", "Every period is τ_H or lies between T_min and T_max.", is_adaptive,
      period},
     {"law.adaptive-dies",
@@ -178,6 +178,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> adaptive_laws() { return all; }
+std::span<const Law> adaptive_laws() { return adaptive_list; }
 
 }  // namespace stormproof::props

@@ -147,7 +147,7 @@ Broken completion(const Scenario& scenario, const Simulate& simulate) {
       time_text(bound));
 }
 
-constexpr Law all[] = {
+constexpr Law bounds_list[] = {
     {"law.physical-bound",
      "T_disc is at least the first start and, on every channel, the airtime of one DATA packet "
      "with all descriptors for each relation.",
@@ -160,6 +160,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> bound_laws() { return all; }
+std::span<const Law> bound_laws() { return bounds_list; }
 
 }  // namespace stormproof::props

@@ -18,14 +18,14 @@ using model::Bytes;
 using model::Scenario;
 using Broken = std::optional<std::string>;
 
-constexpr std::int64_t factor = 3;
+constexpr std::int64_t size_factor = 3;
 
 bool of_paper(const Scenario& scenario) {
   return scenario.dds.implementation == model::ImplementationKind::paper;
 }
 
 /// The scenario with values that scale exactly.
-Scenario scalable(Scenario scenario) {
+Scenario with_scalable_bytes(Scenario scenario) {
   model::SedpProfile& sedp = scenario.dds.sedp;
   sedp.piggyback = model::Piggyback::off;
   if (sedp.grouping == model::Grouping::mtu) sedp.grouping = model::Grouping::message;
@@ -43,10 +43,10 @@ Scenario scalable(Scenario scenario) {
 
 Bytes scaled_payload(Bytes payload) {
   constexpr Bytes header{model::udp_header_bytes};
-  return (payload + header) * factor - header;
+  return (payload + header) * size_factor - header;
 }
 
-Scenario scaled(Scenario scenario) {
+Scenario with_scaled_bytes(Scenario scenario) {
   model::SedpProfile& sedp = scenario.dds.sedp;
   model::DescriptorProfile& descriptors = scenario.dds.descriptors;
   for (Bytes* payload :
@@ -57,12 +57,13 @@ Scenario scaled(Scenario scenario) {
   }
   model::WirelessProfile& wireless = scenario.wireless;
   constexpr Bytes ip_header{model::ip_header_bytes};
-  wireless.link_overhead_bytes = (wireless.link_overhead_bytes + ip_header) * factor - ip_header;
-  wireless.mtu_payload_bytes = wireless.mtu_payload_bytes * factor;
+  wireless.link_overhead_bytes =
+      (wireless.link_overhead_bytes + ip_header) * size_factor - ip_header;
+  wireless.mtu_payload_bytes = wireless.mtu_payload_bytes * size_factor;
   if (wireless.source_queue_bytes != model::WirelessProfile::unlimited) {
-    wireless.source_queue_bytes = wireless.source_queue_bytes * factor;
+    wireless.source_queue_bytes = wireless.source_queue_bytes * size_factor;
   }
-  const auto faster = [](BitsPerSecond& rate) { rate = rate * factor; };
+  const auto faster = [](BitsPerSecond& rate) { rate = rate * size_factor; };
   faster(wireless.rate_unicast);
   faster(wireless.rate_multicast);
   for (model::Stage& stage : wireless.stages) {
@@ -72,12 +73,12 @@ Scenario scaled(Scenario scenario) {
   return scenario;
 }
 
-Broken scaling(const Scenario& scenario, const Simulate& simulate) {
-  const Scenario one = scalable(scenario);
+Broken byte_scaling(const Scenario& scenario, const Simulate& simulate) {
+  const Scenario one = with_scalable_bytes(scenario);
   RunLog first{{.sizes = false}};
   RunLog second{{.sizes = false}};
   const model::RunResult a = simulate(one, &first);
-  const model::RunResult b = simulate(scaled(one), &second);
+  const model::RunResult b = simulate(with_scaled_bytes(one), &second);
   const bool to_the_end = one.wireless.kind == model::ServiceKind::constant_delay ||
                           first.first_bitmap() == first.entries().size();
   if (Broken difference =
@@ -87,15 +88,15 @@ Broken scaling(const Scenario& scenario, const Simulate& simulate) {
   return to_the_end ? result_difference(a, b) : std::nullopt;
 }
 
-constexpr Law all[] = {
+constexpr Law bytes_list[] = {
     {"law.byte-scaling",
      "With all sizes × c and rates × c the run is the same (no piggyback; up to the first ACKNACK "
      "with a bitmap).",
-     of_paper, scaling},
+     of_paper, byte_scaling},
 };
 
 }  // namespace
 
-std::span<const Law> byte_laws() { return all; }
+std::span<const Law> byte_laws() { return bytes_list; }
 
 }  // namespace stormproof::props

@@ -233,7 +233,7 @@ Broken knowledge(const Scenario& scenario, const Simulate& simulate) {
   return objection(watch);
 }
 
-constexpr Law all[] = {
+constexpr Law causality_list[] = {
     {"law.causality",
      "Nothing is scheduled in the past, and a packet is received at most once, only if it is not "
      "lost, and not before its emission and its airtime.",
@@ -249,6 +249,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> causality_laws() { return all; }
+std::span<const Law> causality_laws() { return causality_list; }
 
 }  // namespace stormproof::props

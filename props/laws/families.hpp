@@ -7,6 +7,11 @@
 
 namespace stormproof::props {
 
+/// Whether packets wait for one another.
+[[nodiscard]] inline bool is_shared(const model::Scenario& scenario) {
+  return scenario.wireless.kind == model::ServiceKind::shared_channel;
+}
+
 [[nodiscard]] std::span<const Law> repetition_laws();  ///< runs of the same scenario, cut or not
 [[nodiscard]] std::span<const Law> naming_laws();      ///< names and numbers
 [[nodiscard]] std::span<const Law> time_laws();        ///< other units and another origin of time

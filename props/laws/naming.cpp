@@ -100,7 +100,7 @@ Broken participant_order(const Scenario& scenario, const Simulate& simulate) {
   return run_difference(scenario, other, simulate, reading);
 }
 
-constexpr Law all[] = {
+constexpr Law naming_list[] = {
     {"law.host-names", "Hosts may be renumbered.", always, host_names},
     {"law.route-names", "Stages and channels may be renamed.", always, route_names},
     {"law.participant-order",
@@ -111,6 +111,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> naming_laws() { return all; }
+std::span<const Law> naming_laws() { return naming_list; }
 
 }  // namespace stormproof::props

@@ -283,11 +283,7 @@ Broken observed(const Scenario& scenario, const Simulate& simulate) {
   return watch.violation()->reason;
 }
 
-bool is_shared(const Scenario& scenario) {
-  return scenario.wireless.kind == model::ServiceKind::shared_channel;
-}
-
-constexpr Law all[] = {
+constexpr Law obligations_list[] = {
     {"law.answers",
      "A HEARTBEAT at an open reader side is answered by one ACKNACK τ_A later, and no other "
      "ACKNACK is sent (Fast DDS: one answer to all that came meanwhile).",
@@ -305,6 +301,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> obligation_laws() { return all; }
+std::span<const Law> obligation_laws() { return obligations_list; }
 
 }  // namespace stormproof::props

@@ -235,7 +235,7 @@ Broken double_loss(const Scenario& scenario, const Simulate& simulate) {
                      time_text(expected), time_text(*result.discovery_time));
 }
 
-constexpr Law all[] = {
+constexpr Law quiet_list[] = {
     {"law.failure-free",
      "With a short constant delay, everybody there at 0 and nothing lost, the messages are those "
      "of the failure-free reference (eq. 4), without repairs.",
@@ -254,6 +254,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> quiet_laws() { return all; }
+std::span<const Law> quiet_laws() { return quiet_list; }
 
 }  // namespace stormproof::props

@@ -97,7 +97,7 @@ Broken unused_values(const Scenario& scenario, const Simulate& simulate) {
   return run_difference(scenario, other, simulate);
 }
 
-constexpr Law all[] = {
+constexpr Law repetition_list[] = {
     {"law.determinism", "Two runs of a scenario are the same, event by event.", always,
      determinism},
     {"law.observation", "A run that is observed has the result of one that is not.", always,
@@ -116,6 +116,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> repetition_laws() { return all; }
+std::span<const Law> repetition_laws() { return repetition_list; }
 
 }  // namespace stormproof::props

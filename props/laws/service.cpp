@@ -15,10 +15,6 @@ using model::Scenario;
 using model::ServiceKind;
 using Broken = std::optional<std::string>;
 
-bool is_shared(const Scenario& scenario) {
-  return scenario.wireless.kind == ServiceKind::shared_channel;
-}
-
 bool has_constant_losses(const Scenario& scenario) {
   return !is_shared(scenario) && !scenario.wireless.lost_packets.empty();
 }
@@ -96,7 +92,7 @@ Broken lost_is_late(const Scenario& scenario, const Simulate& simulate) {
   return run_difference(scenario, late, simulate, reading);
 }
 
-constexpr Law all[] = {
+constexpr Law service_list[] = {
     {"law.single-stage-order", "With a single stage the service order does not matter.", is_shared,
      single_stage},
     {"law.unlimited-queue",
@@ -111,6 +107,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> service_laws() { return all; }
+std::span<const Law> service_laws() { return service_list; }
 
 }  // namespace stormproof::props

@@ -24,7 +24,7 @@ using model::Nanoseconds;
 using model::Scenario;
 using Broken = std::optional<std::string>;
 
-constexpr std::int64_t factor = 10;
+constexpr std::int64_t time_scale = 10;
 constexpr Nanoseconds shift{123'456'789};
 
 Broken translation(const Scenario& scenario, const Simulate& simulate) {
@@ -40,13 +40,13 @@ Broken translation(const Scenario& scenario, const Simulate& simulate) {
 }
 
 /// The next slower rate (the next faster below that) at which a byte takes a whole number of
-/// nanoseconds, and does so at `factor` times that rate's inverse, too.
+/// nanoseconds, and does so at `time_scale` times that rate's inverse, too.
 BitsPerSecond whole(BitsPerSecond rate) {
   constexpr std::int64_t bits = 8'000'000'000;
-  std::int64_t best = factor;
-  for (std::int64_t fives = 1; fives <= bits / factor; fives *= 5) {
-    for (std::int64_t slow = fives; slow <= bits / factor; slow *= 2) {
-      if (bits % slow != 0 || bits / slow % factor != 0) continue;
+  std::int64_t best = time_scale;
+  for (std::int64_t fives = 1; fives <= bits / time_scale; fives *= 5) {
+    for (std::int64_t slow = fives; slow <= bits / time_scale; slow *= 2) {
+      if (bits % slow != 0 || bits / slow % time_scale != 0) continue;
       const std::int64_t candidate = bits / slow;  // in bit/s: `slow` nanoseconds a byte
       const bool fits = candidate <= rate.count();
       if (fits ? candidate > best || best > rate.count() : best > rate.count() && candidate < best)
@@ -68,7 +68,7 @@ void for_each_rate(Scenario& scenario, Change&& change) {
 }
 
 /// The scenario with values that scale exactly.
-Scenario scalable(Scenario scenario) {
+Scenario with_scalable_times(Scenario scenario) {
   for_each_rate(scenario, [](BitsPerSecond& rate) { rate = whole(rate); });
   scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
   if (scenario.dds.implementation == ImplementationKind::paper) return scenario;
@@ -120,13 +120,14 @@ bool has_one_unit(const Scenario& scenario) {
          scenario.wireless.kind == model::ServiceKind::constant_delay;
 }
 
-Broken scaling(const Scenario& scenario, const Simulate& simulate) {
-  const Scenario one = scalable(scenario);
+Broken time_scaling(const Scenario& scenario, const Simulate& simulate) {
+  const Scenario one = with_scalable_times(scenario);
   Scenario other = one;
-  for_each_duration(other, [](Nanoseconds& duration) { duration = duration * factor; });
-  for_each_rate(other, [](BitsPerSecond& rate) { rate = BitsPerSecond{rate.count() / factor}; });
+  for_each_duration(other, [](Nanoseconds& duration) { duration = duration * time_scale; });
+  for_each_rate(other,
+                [](BitsPerSecond& rate) { rate = BitsPerSecond{rate.count() / time_scale}; });
   Reading reading;
-  reading.time_factor = factor;
+  reading.time_factor = time_scale;
   RunLog first{reading};
   RunLog second;
   const model::RunResult a = simulate(one, &first);
@@ -139,17 +140,17 @@ Broken scaling(const Scenario& scenario, const Simulate& simulate) {
   return result_difference(a, b, reading);
 }
 
-constexpr Law all[] = {
+constexpr Law time_list[] = {
     {"law.time-translation", "If everybody starts later by t, everything happens later by t.",
      always, translation},
     {"law.time-scaling",
      "With durations × c and rates / c the run is the same, c times as slow (periodic policy, "
      "whole nanoseconds per byte).",
-     has_one_unit, scaling},
+     has_one_unit, time_scaling},
 };
 
 }  // namespace
 
-std::span<const Law> time_laws() { return all; }
+std::span<const Law> time_laws() { return time_list; }
 
 }  // namespace stormproof::props

@@ -203,7 +203,7 @@ Broken homogeneous_forms(const Scenario& scenario, const Simulate& simulate) {
                      open_loop(regular, grid));
 }
 
-constexpr Law all[] = {
+constexpr Law workload_list[] = {
     {"law.workload",
      "Delivered and missing descriptors are F of eq. (1) together, and initial DATA = F at "
      "completion.",
@@ -216,6 +216,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> workload_laws() { return all; }
+std::span<const Law> workload_laws() { return workload_list; }
 
 }  // namespace stormproof::props

@@ -2,8 +2,8 @@
 // and have not left it, never more than W except for one packet alone; a channel never idles while
 // a fragment waits for it, once all events of an instant are processed; no packet is admitted twice
 // or lost between the backlog and its reception; a channel serves one fragment at a time
-// (specs/guide/model.md, "Packets, fragments, queue, channel"). With `constant_delay` there is neither
-// queue nor channel, so nothing can break.
+// (specs/guide/model.md, "Packets, fragments, queue, channel"). With `constant_delay` there is
+// neither queue nor channel, so nothing can break.
 //
 // Packets are admitted in the order of their emission, so the length of a backlog tells which ones.
 #include <algorithm>

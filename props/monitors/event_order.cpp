@@ -1,5 +1,6 @@
 // order.reception-first: a reception that completes at t is seen by every protocol decision of t,
-// and a channel serves only after all other events of t (specs/guide/model.md, "Events and their order").
+// and a channel serves only after all other events of t (specs/guide/model.md, "Events and their
+// order").
 //
 // Both say that processed events ascend in (time, class, insertion number), where the class is that
 // of the event's kind and not what the queue was told. A link without any delay breaks it: what a

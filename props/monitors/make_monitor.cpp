@@ -11,7 +11,7 @@ struct Entry {
   MonitorPtr (*make)(const model::Scenario&);
 };
 
-constexpr Entry entries[] = {
+constexpr Entry makers[] = {
     {"order.reception-first", watch_event_order},
     {"safety.ack-implies-received", watch_acknowledgments},
     {"safety.repair-only-if-asked", watch_repair_requests},
@@ -29,7 +29,7 @@ constexpr Entry entries[] = {
 }  // namespace
 
 std::unique_ptr<Monitor> make_monitor(std::string_view property, const model::Scenario& scenario) {
-  for (const Entry& entry : entries) {
+  for (const Entry& entry : makers) {
     if (entry.property == property) return entry.make(scenario);
   }
   return watch_limit(property, scenario);
@@ -37,7 +37,7 @@ std::unique_ptr<Monitor> make_monitor(std::string_view property, const model::Sc
 
 std::vector<std::string_view> monitored_properties() {
   std::vector<std::string_view> properties;
-  for (const Entry& entry : entries) properties.push_back(entry.property);
+  for (const Entry& entry : makers) properties.push_back(entry.property);
   return properties;
 }
 

@@ -14,7 +14,7 @@
 #include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
-namespace {
+namespace workflow_test {
 
 namespace fs = std::filesystem;
 
@@ -166,4 +166,4 @@ TEST_F(Examples, TheHooksPassAndStop) {
   EXPECT_EQ(run_hook("stormproof-limits"), 1) << output();
 }
 
-}  // namespace
+}  // namespace workflow_test

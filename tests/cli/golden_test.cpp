@@ -20,7 +20,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-namespace {
+namespace golden_test {
 
 namespace fs = std::filesystem;
 
@@ -143,4 +143,4 @@ INSTANTIATE_TEST_SUITE_P(Files, Golden, testing::ValuesIn(golden_files()), [](co
   return name;
 });
 
-}  // namespace
+}  // namespace golden_test

@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace {
+namespace interrupt_test {
 
 namespace fs = std::filesystem;
 
@@ -61,4 +61,4 @@ TEST_F(Interrupt, ReportsWhatIsKnownAndCompletesTheTrace) {
   EXPECT_NE(trace.find("\"end\":\"interrupted\""), std::string::npos);
 }
 
-}  // namespace
+}  // namespace interrupt_test

@@ -6,7 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 namespace stormproof::fsm {
-namespace {
+namespace adaptive_period_test {
 
 using Cycle = AdaptiveCycle<Plain>;
 
@@ -94,5 +94,5 @@ RC_GTEST_PROP(AdaptivePeriod, MoreResponsesNeverLengthenIt, ()) {
   RC_ASSERT(stretched(period, contacted, responded + 1) <= stretched(period, contacted, responded));
 }
 
-}  // namespace
+}  // namespace adaptive_period_test
 }  // namespace stormproof::fsm

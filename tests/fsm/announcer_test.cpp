@@ -11,7 +11,7 @@
 
 namespace stormproof::fsm {
 
-namespace {
+namespace announcer_test {
 
 using namespace announcer;
 using M = Announcer;
@@ -71,8 +71,8 @@ TEST(Announcer, FiveStartupAnnouncementsGiveSixInTheFirstHalfSecond) {
 
 RC_GTEST_PROP(Announcer, FlyweightEqualsObjectsOfTheirOwn, ()) { FlyweightLaw<M>::check(inputs()); }
 
-}  // namespace
+}  // namespace announcer_test
 
-MachineSurvey survey_announcer() { return Surveyor<Announcer>{inputs()}.run(); }
+MachineSurvey survey_announcer() { return Surveyor<Announcer>{announcer_test::inputs()}.run(); }
 
 }  // namespace stormproof::fsm

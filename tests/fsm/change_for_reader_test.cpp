@@ -11,7 +11,7 @@
 
 namespace stormproof::fsm {
 
-namespace {
+namespace change_for_reader_test {
 
 using namespace change_for_reader;
 using M = ChangeForReader;
@@ -104,8 +104,10 @@ RC_GTEST_PROP(ChangeForReader, FlyweightEqualsObjectsOfTheirOwn, ()) {
   FlyweightLaw<M>::check(inputs());
 }
 
-}  // namespace
+}  // namespace change_for_reader_test
 
-MachineSurvey survey_change_for_reader() { return Surveyor<ChangeForReader>{inputs()}.run(); }
+MachineSurvey survey_change_for_reader() {
+  return Surveyor<ChangeForReader>{change_for_reader_test::inputs()}.run();
+}
 
 }  // namespace stormproof::fsm

@@ -10,7 +10,7 @@
 
 namespace stormproof::fsm {
 
-namespace {
+namespace channel_test {
 
 using namespace channel;
 using M = Channel;
@@ -54,8 +54,8 @@ TEST(Channel, AfterTheEffectsOfAServiceItLooksForWork) {
 
 RC_GTEST_PROP(Channel, FlyweightEqualsObjectsOfTheirOwn, ()) { FlyweightLaw<M>::check(inputs()); }
 
-}  // namespace
+}  // namespace channel_test
 
-MachineSurvey survey_channel() { return Surveyor<Channel>{inputs()}.run(); }
+MachineSurvey survey_channel() { return Surveyor<Channel>{channel_test::inputs()}.run(); }
 
 }  // namespace stormproof::fsm

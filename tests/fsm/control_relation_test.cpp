@@ -10,7 +10,7 @@
 
 namespace stormproof::fsm {
 
-namespace {
+namespace control_relation_test {
 
 using namespace control_relation;
 using Input = Flyweight<ControlWriter>::Input;
@@ -58,9 +58,13 @@ RC_GTEST_PROP(ControlReader, FlyweightEqualsObjectsOfTheirOwn, ()) {
   FlyweightLaw<ControlReader>::check(inputs());
 }
 
-}  // namespace
+}  // namespace control_relation_test
 
-MachineSurvey survey_control_writer() { return Surveyor<ControlWriter>{inputs()}.run(); }
-MachineSurvey survey_control_reader() { return Surveyor<ControlReader>{inputs()}.run(); }
+MachineSurvey survey_control_writer() {
+  return Surveyor<ControlWriter>{control_relation_test::inputs()}.run();
+}
+MachineSurvey survey_control_reader() {
+  return Surveyor<ControlReader>{control_relation_test::inputs()}.run();
+}
 
 }  // namespace stormproof::fsm

@@ -11,7 +11,7 @@
 
 namespace stormproof::fsm {
 
-namespace {
+namespace descriptor_repair_test {
 
 using namespace descriptor_repair;
 using M = DescriptorRepair;
@@ -96,8 +96,10 @@ RC_GTEST_PROP(DescriptorRepair, FlyweightEqualsObjectsOfTheirOwn, ()) {
   FlyweightLaw<M>::check(inputs());
 }
 
-}  // namespace
+}  // namespace descriptor_repair_test
 
-MachineSurvey survey_descriptor_repair() { return Surveyor<DescriptorRepair>{inputs()}.run(); }
+MachineSurvey survey_descriptor_repair() {
+  return Surveyor<DescriptorRepair>{descriptor_repair_test::inputs()}.run();
+}
 
 }  // namespace stormproof::fsm

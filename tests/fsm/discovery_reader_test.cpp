@@ -10,7 +10,7 @@
 
 namespace stormproof::fsm {
 
-namespace {
+namespace discovery_reader_test {
 
 using namespace discovery_reader;
 using M = DiscoveryReader;
@@ -89,8 +89,10 @@ RC_GTEST_PROP(DiscoveryReader, FlyweightEqualsObjectsOfTheirOwn, ()) {
   FlyweightLaw<M>::check(inputs());
 }
 
-}  // namespace
+}  // namespace discovery_reader_test
 
-MachineSurvey survey_discovery_reader() { return Surveyor<DiscoveryReader>{inputs()}.run(); }
+MachineSurvey survey_discovery_reader() {
+  return Surveyor<DiscoveryReader>{discovery_reader_test::inputs()}.run();
+}
 
 }  // namespace stormproof::fsm

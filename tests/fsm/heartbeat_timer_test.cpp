@@ -11,7 +11,7 @@
 
 namespace stormproof::fsm {
 
-namespace {
+namespace heartbeat_timer_test {
 
 using namespace heartbeat_timer;
 using M = HeartbeatTimer;
@@ -189,8 +189,10 @@ RC_GTEST_PROP(HeartbeatTimer, FlyweightEqualsObjectsOfTheirOwn, ()) {
   FlyweightLaw<M>::check(inputs());
 }
 
-}  // namespace
+}  // namespace heartbeat_timer_test
 
-MachineSurvey survey_heartbeat_timer() { return Surveyor<HeartbeatTimer>{inputs()}.run(); }
+MachineSurvey survey_heartbeat_timer() {
+  return Surveyor<HeartbeatTimer>{heartbeat_timer_test::inputs()}.run();
+}
 
 }  // namespace stormproof::fsm

@@ -11,7 +11,7 @@
 
 namespace stormproof::fsm {
 
-namespace {
+namespace initial_acknack_test {
 
 using namespace initial_acknack;
 using M = InitialAckNack;
@@ -104,8 +104,10 @@ RC_GTEST_PROP(InitialAckNack, FlyweightEqualsObjectsOfTheirOwn, ()) {
   FlyweightLaw<M>::check(inputs());
 }
 
-}  // namespace
+}  // namespace initial_acknack_test
 
-MachineSurvey survey_initial_acknack() { return Surveyor<InitialAckNack>{inputs()}.run(); }
+MachineSurvey survey_initial_acknack() {
+  return Surveyor<InitialAckNack>{initial_acknack_test::inputs()}.run();
+}
 
 }  // namespace stormproof::fsm

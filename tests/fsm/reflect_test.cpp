@@ -9,7 +9,7 @@
 #include "fsm/machines.hpp"
 
 namespace stormproof::fsm {
-namespace {
+namespace reflect_test {
 
 using Names = std::vector<std::string_view>;
 
@@ -112,5 +112,5 @@ TEST(Reflect, NumbersAreWithinRangeAndNamesUnique) {
   }
 }
 
-}  // namespace
+}  // namespace reflect_test
 }  // namespace stormproof::fsm

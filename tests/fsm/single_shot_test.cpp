@@ -10,7 +10,7 @@
 
 namespace stormproof::fsm {
 
-namespace {
+namespace single_shot_test {
 
 using namespace single_shot;
 using M = SingleShot;
@@ -61,8 +61,10 @@ RC_GTEST_PROP(SingleShot, FlyweightEqualsObjectsOfTheirOwn, ()) {
   FlyweightLaw<M>::check(inputs());
 }
 
-}  // namespace
+}  // namespace single_shot_test
 
-MachineSurvey survey_single_shot() { return Surveyor<SingleShot>{inputs()}.run(); }
+MachineSurvey survey_single_shot() {
+  return Surveyor<SingleShot>{single_shot_test::inputs()}.run();
+}
 
 }  // namespace stormproof::fsm

@@ -8,7 +8,7 @@
 #include "fsm/machines.hpp"
 
 namespace stormproof::fsm {
-namespace {
+namespace survey_test {
 
 const std::vector<MachineSurvey>& surveys() {
   static const std::vector<MachineSurvey> all = all_surveys();
@@ -83,5 +83,5 @@ TEST(Surveys, StateNumbersAreThoseOfMsm) {
   }
 }
 
-}  // namespace
+}  // namespace survey_test
 }  // namespace stormproof::fsm

@@ -9,7 +9,7 @@
 #include "tests/fsm/table_law.hpp"
 
 namespace stormproof::fsm {
-namespace {
+namespace table_mutation_test {
 
 using namespace descriptor_repair;
 using M = DescriptorRepair;
@@ -146,5 +146,5 @@ TEST(TableMutations, SeveralAddUpByTheNumbersOfTheCorrectTable) {
   EXPECT_EQ(differences(table, Info::Events{}), (Pairs{"U AckNackReceived", "R RepairDue"}));
 }
 
-}  // namespace
+}  // namespace table_mutation_test
 }  // namespace stormproof::fsm

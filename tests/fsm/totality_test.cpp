@@ -11,7 +11,7 @@
 #include "tests/fsm/survey.hpp"
 
 namespace stormproof::fsm {
-namespace {
+namespace totality_test {
 
 enum class Entry { no_row, guards_reject };
 using Pair = std::pair<std::string, std::string>;  // state, event
@@ -117,5 +117,5 @@ TEST(Totality, EveryEntryGivesAReasonAndSaysWhetherItOccurs) {
   }
 }
 
-}  // namespace
+}  // namespace totality_test
 }  // namespace stormproof::fsm

@@ -1,5 +1,5 @@
-// Fuzz target: captures (checker/evidence/capture/events.hpp). An input that starts as an RTPS message is
-// one, so that a fuzzer reaches the submessages without learning the layers below them.
+// Fuzz target: captures (checker/evidence/capture/events.hpp). An input that starts as an RTPS
+// message is one, so that a fuzzer reaches the submessages without learning the layers below them.
 #include <limits>
 
 #include "checker/evidence/capture/counting.hpp"

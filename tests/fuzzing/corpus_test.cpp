@@ -15,7 +15,7 @@ namespace stormproof::fuzzing {
 /// For the names of the tests.
 void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
 
-namespace {
+namespace corpus_test {
 
 namespace fs = std::filesystem;
 
@@ -58,5 +58,5 @@ TEST_P(Corpus, OtherReadersSurviveIt) {
 INSTANTIATE_TEST_SUITE_P(Fuzzing, Corpus, testing::ValuesIn(targets),
                          [](const auto& target) { return std::string{target.param.name}; });
 
-}  // namespace
+}  // namespace corpus_test
 }  // namespace stormproof::fuzzing

@@ -11,7 +11,7 @@
 #include "tests/fuzzing/memory_file.hpp"
 
 namespace stormproof::fuzzing {
-namespace {
+namespace limits_test {
 
 using model::Scenario;
 
@@ -119,5 +119,5 @@ TEST(HostileSizes, ABrokenLawEndsTheProgram) {
   require(true, "one is one");
 }
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace stormproof::fuzzing

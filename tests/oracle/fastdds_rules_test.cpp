@@ -8,7 +8,7 @@
 #include "tests/oracle/fastdds_world.hpp"
 
 namespace stormproof::oracle::fastdds {
-namespace {
+namespace fastdds_rules_test {
 
 using State = DescriptorState;
 
@@ -133,5 +133,5 @@ TEST_F(FastddsRules, ClosedReaderDropsData) {
   EXPECT_EQ(pending(w_, EventKind::acknack_generation), 0);
 }
 
-}  // namespace
+}  // namespace fastdds_rules_test
 }  // namespace stormproof::oracle::fastdds

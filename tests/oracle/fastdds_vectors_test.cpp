@@ -9,7 +9,7 @@
 #include "tests/oracle/fastdds_oracle.hpp"
 
 namespace stormproof::oracle {
-namespace {
+namespace fastdds_vectors_test {
 
 class FastddsOracleVector : public testing::TestWithParam<vectors::FastddsVector> {};
 
@@ -62,5 +62,5 @@ TEST(FastddsOracle, LogIsInTheOrderOfEvents) {
   EXPECT_EQ(entries, outcome.events);
 }
 
-}  // namespace
+}  // namespace fastdds_vectors_test
 }  // namespace stormproof::oracle

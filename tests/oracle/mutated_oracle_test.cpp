@@ -8,7 +8,7 @@
 #include "tests/oracle/sharp_scenario.hpp"
 
 namespace stormproof::oracle {
-namespace {
+namespace mutated_oracle_test {
 
 constexpr std::size_t tries = 1'000;
 
@@ -52,5 +52,5 @@ TEST(MutatedOracle, MistakesHaveNames) {
   EXPECT_EQ(name_of(FastddsMistake::response_with_old_base), "response_with_old_base");
 }
 
-}  // namespace
+}  // namespace mutated_oracle_test
 }  // namespace stormproof::oracle

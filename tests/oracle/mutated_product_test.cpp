@@ -10,7 +10,7 @@
 #include "tests/oracle/sharp_scenario.hpp"
 
 namespace stormproof::oracle {
-namespace {
+namespace mutated_product_test {
 
 using mutate::CatalogueEntry;
 using mutate::Concerns;
@@ -79,5 +79,5 @@ TEST(MutatedProduct, EveryFastddsMutantIsNoticedThatCanBe) {
   EXPECT_EQ(unnoticed(runs, Concerns::paper), cannot_be_noticed());
 }
 
-}  // namespace
+}  // namespace mutated_product_test
 }  // namespace stormproof::oracle

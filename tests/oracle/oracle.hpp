@@ -1,7 +1,7 @@
-// The oracle: a second, deliberately naive simulator of the rules in specs/guide/model.md. It exists to
-// be compared with the product on any scenario, so it shares nothing with it but the plain input
-// structs: one sorted map of events, one switch, and standard containers everywhere. It is slow,
-// and it is easy to read.
+// The oracle: a second, deliberately naive simulator of the rules in specs/guide/model.md. It
+// exists to be compared with the product on any scenario, so it shares nothing with it but the
+// plain input structs: one sorted map of events, one switch, and standard containers everywhere. It
+// is slow, and it is easy to read.
 #pragma once
 
 #include <cstdint>

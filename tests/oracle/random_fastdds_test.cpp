@@ -10,7 +10,7 @@
 #include "tests/oracle/random_scenario.hpp"
 
 namespace stormproof::oracle {
-namespace {
+namespace random_fastdds_test {
 
 constexpr std::uint64_t seeds = 400;
 
@@ -80,5 +80,5 @@ TEST(RandomFastddsScenario, RunsAreShortAndVaried) {
   EXPECT_LT(counted[0], static_cast<int>(seeds * 70 / 100));
 }
 
-}  // namespace
+}  // namespace random_fastdds_test
 }  // namespace stormproof::oracle

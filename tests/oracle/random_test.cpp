@@ -10,7 +10,7 @@
 #include "tests/oracle/random_scenario.hpp"
 
 namespace stormproof::oracle {
-namespace {
+namespace random_test {
 
 constexpr std::uint64_t seeds = 400;
 
@@ -68,5 +68,5 @@ TEST(RandomScenario, RunsAreShortAndVaried) {
   EXPECT_LT(counted[0], static_cast<int>(seeds * 65 / 100));
 }
 
-}  // namespace
+}  // namespace random_test
 }  // namespace stormproof::oracle

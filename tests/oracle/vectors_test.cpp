@@ -8,7 +8,7 @@
 #include "tests/vectors/paper_vectors.hpp"
 
 namespace stormproof::oracle {
-namespace {
+namespace vectors_test {
 
 class OracleVector : public testing::TestWithParam<vectors::Vector> {};
 
@@ -63,5 +63,5 @@ TEST(Oracle, LogIsInTheOrderOfEvents) {
   EXPECT_EQ(entries, outcome.events);
 }
 
-}  // namespace
+}  // namespace vectors_test
 }  // namespace stormproof::oracle

@@ -10,7 +10,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace bounds_test {
 
 using model::Nanoseconds;
 
@@ -121,5 +121,5 @@ TEST(CompletionMonitor, MeasuresDelayAndLosses) {
   EXPECT_NE(run.remarks("live.completion").find(", 2 packets lost."), std::string::npos);
 }
 
-}  // namespace
+}  // namespace bounds_test
 }  // namespace stormproof::props

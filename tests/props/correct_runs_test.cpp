@@ -10,7 +10,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace correct_runs_test {
 
 using model::Scenario;
 
@@ -111,5 +111,5 @@ TEST_P(RandomRuns, OfFastDdsHaveTrueFindingsOnly) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomRuns, testing::Range(0, 6));
 
-}  // namespace
+}  // namespace correct_runs_test
 }  // namespace stormproof::props

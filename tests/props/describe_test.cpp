@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::props {
-namespace {
+namespace describe_test {
 
 std::string text(std::int64_t ns) { return time_text(model::Nanoseconds{ns}); }
 
@@ -24,5 +24,5 @@ TEST(WriterText, NamesParticipantAndStream) {
   EXPECT_EQ(writer_text(7), "participant 3's sub writer");
 }
 
-}  // namespace
+}  // namespace describe_test
 }  // namespace stormproof::props

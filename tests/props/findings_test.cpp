@@ -5,7 +5,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace findings_test {
 
 const char* const lost_batch = "wireless.lost_packets=[2,3,4,5,6,7,8,9,10]";
 
@@ -69,5 +69,5 @@ TEST(Findings, InitialAckNacksNeverEndAfterALostHeartbeat) {
   EXPECT_EQ(run.violated(), "live.quiescence");
 }
 
-}  // namespace
+}  // namespace findings_test
 }  // namespace stormproof::props

@@ -7,7 +7,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace mistakes_test {
 
 using fsm::TableMutation;
 using model::EventClass;
@@ -214,5 +214,5 @@ TEST(OtherSpecification, LongerSuppressionThanTheOneThatRuns) {
   EXPECT_NE(run_monitored(runs, specification).violation("timer.suppression-honoured"), nullptr);
 }
 
-}  // namespace
+}  // namespace mistakes_test
 }  // namespace stormproof::props

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "checker/engines/check_request.hpp"
+#include "checker/engines/bounds/check_request.hpp"
 
 namespace stormproof::explorer {
 

@@ -22,9 +22,7 @@ using Changes = fsm::Reflect<fsm::ChangeForReader>;
 
 /// From here on a delay of the initial ACKNACK that doubles stays as it is, so that the explored
 /// world is finite.
-constexpr std::uint8_t last_doubling = 6;
 
-constexpr std::uint16_t member(unsigned d) { return static_cast<std::uint16_t>(1U << d); }
 constexpr std::uint16_t below(unsigned d) { return static_cast<std::uint16_t>(member(d) - 1); }
 
 }  // namespace

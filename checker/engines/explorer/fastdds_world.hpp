@@ -1,7 +1,7 @@
-// One relation of Fast DDS (specs/guide/fastdds.md) as a world for the explorer: a default participant's
-// nine publications, of which the last ones may be created after the match, towards one reader.
-// Rules and order are those of model/fastdds/; piggybacked HEARTBEATs are left out, because they
-// depend on everything that the participant sends.
+// One relation of Fast DDS (specs/guide/fastdds.md) as a world for the explorer: a default
+// participant's nine publications, of which the last ones may be created after the match, towards
+// one reader. Rules and order are those of model/fastdds/; piggybacked HEARTBEATs are left out,
+// because they depend on everything that the participant sends.
 #pragma once
 
 #include <array>

@@ -14,7 +14,6 @@ namespace timer = fsm::heartbeat_timer;
 namespace {
 using Changes = fsm::Reflect<fsm::ChangeForReader>;
 
-constexpr std::uint16_t member(unsigned d) { return static_cast<std::uint16_t>(1U << d); }
 }  // namespace
 
 template <class Event>

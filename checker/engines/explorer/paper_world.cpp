@@ -21,9 +21,6 @@ constexpr fsm::StateId id = fsm::Reflect<Machine>::template id<S>;
 
 /// From here on a delay of the initial ACKNACK that doubles stays as it is. Doubling without end,
 /// the explored world would never come back to a state.
-constexpr std::uint8_t last_doubling = 6;
-
-constexpr std::uint16_t member(unsigned d) { return static_cast<std::uint16_t>(1U << d); }
 
 /// In the explored world user descriptors only: default ones differ in nothing but their size.
 model::DescriptorProfile without_defaults(model::DescriptorProfile profile) {

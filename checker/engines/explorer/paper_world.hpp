@@ -1,7 +1,7 @@
 // One relation of the paper's model as a world for the explorer: the writer's descriptors and
 // HEARTBEAT timer, the reader with its bitmap X, and everything that is pending between them. It
-// applies the rules of specs/guide/model.md in the order in which the simulator (model/paper/) does,
-// through the same machines, so that a path of the explorer can be run by the simulator.
+// applies the rules of specs/guide/model.md in the order in which the simulator (model/paper/)
+// does, through the same machines, so that a path of the explorer can be run by the simulator.
 #pragma once
 
 #include <array>

@@ -9,9 +9,7 @@ namespace stormproof::explorer {
 namespace repair = fsm::descriptor_repair;
 namespace timer = fsm::heartbeat_timer;
 
-namespace {
-constexpr std::uint16_t member(unsigned d) { return static_cast<std::uint16_t>(1U << d); }
-}  // namespace
+namespace {}  // namespace
 
 template <class Event>
 void PaperWorld::step_heartbeat(State& state, Frame& frame) {

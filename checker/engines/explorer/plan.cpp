@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "checker/engines/timeline/completion_bound.hpp"
+#include "checker/engines/bounds/completion_bound.hpp"
 #include "model/descriptor_sizes.hpp"
 #include "model/simulator.hpp"
 #include "props/monitors/describe.hpp"

@@ -31,9 +31,9 @@ struct DelayBound {
 /// Whether the first two user descriptors travel in different packets.
 [[nodiscard]] bool splits_packets(const model::Scenario& scenario);
 
-/// B(k) for the scope (checker/engines/timeline/completion_bound.hpp): no later than this after the start
-/// of the world everything is received. Absent where that bound counts from something else: if the
-/// two sides open apart, if descriptors are created later, and for the adaptive policy.
+/// B(k) for the scope (checker/engines/bounds/completion_bound.hpp): no later than this after the
+/// start of the world everything is received. Absent where that bound counts from something else:
+/// if the two sides open apart, if descriptors are created later, and for the adaptive policy.
 [[nodiscard]] std::optional<model::Nanoseconds> completion_bound(const model::DdsProfile& dds,
                                                                  const Scope& scope);
 

@@ -9,6 +9,14 @@
 
 namespace stormproof::explorer {
 
+/// The set of descriptor d alone.
+[[nodiscard]] constexpr std::uint16_t member(unsigned d) {
+  return static_cast<std::uint16_t>(1U << d);
+}
+
+/// The interval of initial ACKNACKs doubles no more often than this.
+inline constexpr std::uint8_t last_doubling = 6;
+
 enum class What : std::uint8_t {
   // Pending.
   data,               ///< reception of DATA; `set`: its descriptors

@@ -11,14 +11,14 @@
 namespace stormproof::promela {
 namespace {
 
-using Machine = fsm::ChangeForReader;
+using ChangeMachine = fsm::ChangeForReader;
 
-Requests requests(const TableMacros<Machine>::Output& output) {
+Requests change_requests(const TableMacros<ChangeMachine>::Output& output) {
   return {{"requested", output.requested}, {"generated", output.enqueue}};
 }
 
 /// How many descriptors exist at the match is chosen by the state in which `created` stops in init.
-constexpr std::string_view start_and_reader = R"(
+constexpr std::string_view change_start_and_reader = R"(
 #define ANNOUNCED created
 #define TAKE(d) received = received | (1 << (d)); announced = (announced > (d) -> announced : (d) + 1)
 
@@ -77,7 +77,7 @@ end:
 constexpr std::string_view count_prefix =
     "       base = (base == {0} && (received >> {0} & 1) -> {0} + 1 : base);\n";
 
-constexpr std::string_view acknack_reception = R"(
+constexpr std::string_view change_acknack_reception = R"(
 /* Inputs of AckNackReceived: listed, below_base. */
 active proctype AckNackReception() {{
   byte base, asked;
@@ -90,7 +90,7 @@ end:
   od
 }}
 )";
-constexpr std::string_view receive_acknack =
+constexpr std::string_view change_receive_acknack =
     R"(       AckNackReceived({0}, (asked >> {0} & 1) + (base > {0} -> 2 : 0));
        repair_due = repair_due || requested[{0}]; requested[{0}] = false;
 )";
@@ -157,7 +157,7 @@ inline SEND_IF_QUEUED(d) {
 }
 )";
 
-constexpr std::string_view suppression_end = R"(
+constexpr std::string_view change_suppression_end = R"(
 active proctype SuppressionEnd() {{
 end:
   do
@@ -172,18 +172,19 @@ end:
 
 std::string promela_of_change_for_reader(unsigned descriptors,
                                          std::span<const fsm::TableMutation> mutations) {
-  const TableMacros<Machine> table{mutations, requests};
+  const TableMacros<ChangeMachine> table{mutations, change_requests};
   const auto process = [&](std::string_view text, std::string_view for_each) {
     return fmt::format(fmt::runtime(text), each_descriptor(descriptors, for_each));
   };
   return preamble("ChangeForReader", descriptors) + table.text() + variables(descriptors) +
-         std::string{sending} + process(start_and_reader, match) +
-         process(acknack_generation, count_prefix) + process(acknack_reception, receive_acknack) +
+         std::string{sending} + process(change_start_and_reader, match) +
+         process(acknack_generation, count_prefix) +
+         process(change_acknack_reception, change_receive_acknack) +
          process(initial_acknack_reception, "       InitialAckNackReceived({0}, 0);\n") +
          process(creation, create) + process(nack_response, enqueue) +
          process(async_run, serialize) +
-         process(suppression_end, "       SuppressionEnded({0}, 0);\n") + processes(descriptors) +
-         claims(descriptors);
+         process(change_suppression_end, "       SuppressionEnded({0}, 0);\n") +
+         processes(descriptors) + claims(descriptors);
 }
 
 }  // namespace stormproof::promela

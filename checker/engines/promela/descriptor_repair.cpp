@@ -9,9 +9,9 @@
 namespace stormproof::promela {
 namespace {
 
-using Machine = fsm::DescriptorRepair;
+using RepairMachine = fsm::DescriptorRepair;
 
-Requests requests(const TableMacros<Machine>::Output& output) {
+Requests requests(const TableMacros<RepairMachine>::Output& output) {
   return {{"requested", output.requested}, {"generated", output.generate}};
 }
 
@@ -111,7 +111,7 @@ end:
 
 std::string promela_of_descriptor_repair(unsigned descriptors,
                                          std::span<const fsm::TableMutation> mutations) {
-  const TableMacros<Machine> table{mutations, requests};
+  const TableMacros<RepairMachine> table{mutations, requests};
   const auto process = [&](std::string_view text, std::string_view for_each) {
     return fmt::format(fmt::runtime(text), each_descriptor(descriptors, for_each));
   };

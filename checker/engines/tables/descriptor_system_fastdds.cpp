@@ -12,12 +12,12 @@ namespace stormproof::tables {
 namespace {
 
 namespace change = fsm::change_for_reader;
-using Writer = MachineStep<fsm::ChangeForReader>;
+using ChangeStep = MachineStep<fsm::ChangeForReader>;
 using smt::SymbolicBool;
 
-class Builder {
+class FastDdsSystem {
  public:
-  explicit Builder(Proof& proof)
+  explicit FastDdsSystem(Proof& proof)
       : writer_{proof.mistakes().tables}, live_{proof.mistakes().live_bitmaps} {}
 
   DescriptorSystem build() {
@@ -28,12 +28,12 @@ class Builder {
     add_creation();
     add_writer_event<change::InitialAckNackReceived>("initial ACKNACK received", yes());
     add_writer_event<change::NackResponseDue>("nack response", yes());
-    add_writer_event<change::Serialized>("serialized", Writer::is<change::Q>(state_));
+    add_writer_event<change::Serialized>("serialized", ChangeStep::is<change::Q>(state_));
     add_writer_event<change::SuppressionEnded>("suppression ends", yes());
     const Exprs false_at_first{received_, listing_, below_, asked_, pushed_, unasked_repair_};
-    const Expr initial = Writer::is_initial(state_) && !any_of(false_at_first);
+    const Expr initial = ChangeStep::is_initial(state_) && !any_of(false_at_first);
     return {{variables(), initial, steps_, yes()},
-            Writer::is<change::A>(state_),
+            ChangeStep::is<change::A>(state_),
             received_,
             unasked_repair_};
   }
@@ -97,16 +97,16 @@ class Builder {
   template <class Event>
   void add_writer_event(const std::string& name, const Expr& guard) {
     const auto effect = writer_.step<Event>(state_, {}, yes());
-    Expr unasked = effect.asks(&Writer::Output::enqueue) && !asked_;
+    Expr unasked = effect.asks(&ChangeStep::Output::enqueue) && !asked_;
     if constexpr (std::is_same_v<Event, change::Serialized>) {
       unasked = effect.fires() && !asked_ && !pushed_;
     }
     add(name, {}, guard, {.state = effect.next, .unasked_repair = unasked_repair_ || unasked});
   }
 
-  Writer writer_;
+  ChangeStep writer_;
   bool live_;
-  OneHot state_ = Writer::unknown_state("C=");
+  OneHot state_ = ChangeStep::unknown_state("C=");
   Expr received_ = SymbolicBool::named("received").expr();
   Expr listing_ = SymbolicBool::named("listing_acknack_sent").expr();
   Expr below_ = SymbolicBool::named("confirming_acknack_sent").expr();
@@ -118,6 +118,6 @@ class Builder {
 
 }  // namespace
 
-DescriptorSystem fastdds_descriptor_system(Proof& proof) { return Builder{proof}.build(); }
+DescriptorSystem fastdds_descriptor_system(Proof& proof) { return FastDdsSystem{proof}.build(); }
 
 }  // namespace stormproof::tables

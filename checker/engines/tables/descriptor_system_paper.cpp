@@ -13,9 +13,9 @@ namespace repair = fsm::descriptor_repair;
 using Writer = MachineStep<fsm::DescriptorRepair>;
 using smt::SymbolicBool;
 
-class Builder {
+class PaperSystem {
  public:
-  explicit Builder(Proof& proof)
+  explicit PaperSystem(Proof& proof)
       : writer_{proof.mistakes().tables},
         live_{proof.mistakes().live_bitmaps},
         prefix_only_{proof.scenario().dds.sedp.acknowledge == model::Acknowledge::prefix} {}
@@ -111,6 +111,6 @@ class Builder {
 
 }  // namespace
 
-DescriptorSystem paper_descriptor_system(Proof& proof) { return Builder{proof}.build(); }
+DescriptorSystem paper_descriptor_system(Proof& proof) { return PaperSystem{proof}.build(); }
 
 }  // namespace stormproof::tables

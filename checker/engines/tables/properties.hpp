@@ -2,7 +2,7 @@
 // z3::exception; checker/engines/tables/check.cpp catches it.
 #pragma once
 
-#include "checker/engines/check_request.hpp"
+#include "checker/engines/bounds/check_request.hpp"
 
 namespace stormproof::tables {
 

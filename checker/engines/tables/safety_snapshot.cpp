@@ -14,9 +14,9 @@ using Reader = MachineStep<fsm::DiscoveryReader>;
 using smt::SymbolicBool;
 using smt::SymbolicInt;
 
-class Builder {
+class SnapshotSystem {
  public:
-  explicit Builder(Proof& proof)
+  explicit SnapshotSystem(Proof& proof)
       : reader_{proof.mistakes().tables}, live_{proof.mistakes().live_bitmaps} {}
 
   TransitionSystem build() {
@@ -69,7 +69,7 @@ Finding safety_snapshot(const CheckRequest& request) {
       "A packet is a value: after its generation nothing writes to its bitmap, unless the "
       "rules themselves say so.");
   proof.assume("Any number of descriptors and ACKNACKs: one of each is looked at.");
-  const TransitionSystem system = Builder{proof}.build();
+  const TransitionSystem system = SnapshotSystem{proof}.build();
   return proof.finish(
       prove_unreachable(proof, system, "the bitmap of an ACKNACK has changed on its way"));
 }

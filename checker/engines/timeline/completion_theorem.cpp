@@ -1,5 +1,5 @@
-// The proof that a descriptor is received within B(k) after its relation opens (specs/guide/bounds.md).
-// Four steps:
+// The proof that a descriptor is received within B(k) after its relation opens
+// (specs/guide/bounds.md). Four steps:
 //   1. A HEARTBEAT whose exchange is not spoilt leads to reception within F = 3Δ + τ_A + τ_N.
 //   2. A lost repair spoils only HEARTBEATs within a window of W = 2(Δ − μ) + σ + τ_N + τ_S.
 //   3. A window of W holds at most s + 1 periodic HEARTBEATs, s = ⌊W/τ_H⌋.

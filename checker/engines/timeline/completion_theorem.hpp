@@ -1,5 +1,5 @@
-// live.completion as a theorem: the conditions of the proof in specs/guide/bounds.md, for all values of
-// all parameters. The bound itself is in checker/engines/timeline/completion_bound.hpp.
+// live.completion as a theorem: the conditions of the proof in specs/guide/bounds.md, for all
+// values of all parameters. The bound itself is in checker/engines/bounds/completion_bound.hpp.
 #pragma once
 
 #include "checker/engines/timeline/theorem.hpp"

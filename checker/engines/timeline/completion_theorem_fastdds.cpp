@@ -1,8 +1,9 @@
-// The completion bound for Fast DDS's writer (specs/guide/bounds.md). Its timer dies at an expiry that
-// finds nothing unacknowledged, for example because all is suppressed, so the periodic HEARTBEATs
-// have no fixed phase. What is left: from the end of a suppression on, an expiry is pending within
-// τ_H, and as long as the descriptor stays in U it sends a HEARTBEAT. Each loss therefore moves
-// that expiry by at most L = τ_H + 2Δ + τ_A + τ_N + τ_S, in which everything is linear.
+// The completion bound for Fast DDS's writer (specs/guide/bounds.md). Its timer dies at an expiry
+// that finds nothing unacknowledged, for example because all is suppressed, so the periodic
+// HEARTBEATs have no fixed phase. What is left: from the end of a suppression on, an expiry is
+// pending within τ_H, and as long as the descriptor stays in U it sends a HEARTBEAT. Each loss
+// therefore moves that expiry by at most L = τ_H + 2Δ + τ_A + τ_N + τ_S, in which everything is
+// linear.
 #include "checker/engines/timeline/completion_theorem.hpp"
 
 namespace stormproof::timeline {

@@ -3,7 +3,7 @@
 // it runs through the machines it ties the proof to them.
 #pragma once
 
-#include "checker/engines/timeline/completion_bound.hpp"
+#include "checker/engines/bounds/completion_bound.hpp"
 #include "checker/engines/timeline/directed_run.hpp"
 
 namespace stormproof::timeline {

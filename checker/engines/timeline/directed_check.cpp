@@ -9,7 +9,7 @@
 namespace stormproof::timeline {
 namespace {
 
-constexpr std::uint64_t most_events = 200'000;
+constexpr std::uint64_t events_of_check = 200'000;
 
 const model::Mutation* mistakes(const checker::CheckRequest& request) {
   return request.mutant != nullptr ? &request.mutant->rules : nullptr;
@@ -97,7 +97,7 @@ std::optional<props::Counterexample> confirmed_counterexample(std::string_view p
   model::RunOptions options;
   options.probe = monitor.get();
   options.mutation = mutation;
-  options.max_events = most_events;
+  options.max_events = events_of_check;
   const model::RunResult result = model::simulate(scenario, options);
   // Beyond the last event of a run that has no more, nothing happens.
   const bool known =

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "checker/engines/check_request.hpp"
+#include "checker/engines/bounds/check_request.hpp"
 #include "checker/engines/timeline/relation_timeline.hpp"
 
 namespace stormproof::timeline {

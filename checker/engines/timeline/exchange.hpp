@@ -1,8 +1,8 @@
 // The timeline of one descriptor of one relation: from each HEARTBEAT to its ACKNACK to the repair,
 // as arithmetic on times instead of events in a queue. It restates the writer's and the reader's
-// rules (specs/guide/model.md; derivations in specs/guide/bounds.md), so it is written once, over a domain
-// (fsm/domain.hpp): the solvers get the very text that the bridge in tests/checker/engines/timeline
-// evaluates on numbers and holds against runs of the machines.
+// rules (specs/guide/model.md; derivations in specs/guide/bounds.md), so it is written once, over a
+// domain (fsm/domain.hpp): the solvers get the very text that the bridge in
+// tests/checker/engines/timeline evaluates on numbers and holds against runs of the machines.
 //
 // Why one descriptor is enough: a relation's descriptors meet only in shared packets and in the
 // repair generations and suppression ends of each other, and those can only make a descriptor leave

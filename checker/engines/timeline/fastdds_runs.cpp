@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "checker/engines/timeline/completion_bound.hpp"
+#include "checker/engines/bounds/completion_bound.hpp"
 #include "checker/engines/timeline/directed_run.hpp"
 #include "props/monitors/describe.hpp"
 

@@ -1,8 +1,8 @@
 // The verdicts of this engine: each theorem, applied to a scenario.
 #pragma once
 
-#include "checker/engines/check_request.hpp"
-#include "checker/engines/exact/measure.hpp"
+#include "checker/engines/bounds/check_request.hpp"
+#include "checker/engines/bounds/measure.hpp"
 
 namespace stormproof::timeline {
 

@@ -28,11 +28,6 @@ Director constant(Nanoseconds delay) {
   return [delay](const DirectedPacket&) -> Passing { return {delay, Nanoseconds{0}, false}; };
 }
 
-bool asks_by_itself(const model::SedpProfile& sedp) {
-  return sedp.initial_acknack == model::InitialAckNackReply::bitmap &&
-         sedp.initial_acknack_delay > Nanoseconds{0};
-}
-
 std::function<std::string(const Prediction&)> expect_data(std::uint64_t count) {
   return [count](const Prediction& p) -> std::string {
     if (p.data == count) return {};
@@ -115,6 +110,11 @@ void add_pulled(const model::SedpProfile& sedp, Nanoseconds delta,
 }
 
 }  // namespace
+
+bool asks_by_itself(const model::SedpProfile& sedp) {
+  return sedp.initial_acknack == model::InitialAckNackReply::bitmap &&
+         sedp.initial_acknack_delay > Nanoseconds{0};
+}
 
 std::optional<props::Counterexample> needless_repair(const model::Scenario& scenario,
                                                      std::string_view property, Nanoseconds delta) {

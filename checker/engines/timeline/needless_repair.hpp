@@ -14,6 +14,9 @@ namespace stormproof::timeline {
                                                                    std::string_view property,
                                                                    model::Nanoseconds delta);
 
+/// Whether a reader asks for everything in its initial ACKNACK, without a HEARTBEAT.
+[[nodiscard]] bool asks_by_itself(const model::SedpProfile& sedp);
+
 /// DATA that arrives at the instant of the ACKNACK's generation, and a nanosecond later.
 [[nodiscard]] std::vector<BoundaryPoint> threshold_points(const model::DdsProfile& dds);
 

@@ -7,8 +7,8 @@
 
 namespace stormproof::timeline {
 
-/// Decides the conditions of the proof in specs/guide/bounds.md, for the paper's writer with the periodic
-/// policy and a single timer. `tighter`: the bound is claimed to be smaller by this many
+/// Decides the conditions of the proof in specs/guide/bounds.md, for the paper's writer with the
+/// periodic policy and a single timer. `tighter`: the bound is claimed to be smaller by this many
 /// nanoseconds, to show that it cannot be.
 void prove_quiescence(Theorem& theorem, int tighter = 0);
 

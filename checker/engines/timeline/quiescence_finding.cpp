@@ -6,6 +6,7 @@
 
 #include "checker/engines/timeline/directed_check.hpp"
 #include "checker/engines/timeline/findings.hpp"
+#include "checker/engines/timeline/needless_repair.hpp"
 #include "checker/engines/timeline/quiescence.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/quiescence.hpp"
@@ -15,11 +16,6 @@ namespace {
 
 using model::Nanoseconds;
 using props::time_text;
-
-bool asks_by_itself(const model::SedpProfile& sedp) {
-  return sedp.initial_acknack == model::InitialAckNackReply::bitmap &&
-         sedp.initial_acknack_delay > Nanoseconds{0};
-}
 
 bool is_doubling(const model::SedpProfile& sedp) {
   return sedp.initial_acknack_interval == model::InitialAckNackInterval::doubling;

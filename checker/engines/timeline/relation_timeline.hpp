@@ -1,7 +1,8 @@
 // The timeline of a whole relation with one descriptor, on numbers: which HEARTBEATs are sent,
 // which ACKNACKs answer them, what is repaired and when the descriptor arrives. It is the encoding
-// of checker/engines/timeline/exchange.hpp evaluated on plain values, and answers to the same director as a
-// run of the machines (checker/engines/timeline/directed_run.hpp): the two must agree.
+// of checker/engines/timeline/exchange.hpp evaluated on plain values, and answers to the same
+// director as a run of the machines (checker/engines/timeline/directed_run.hpp): the two must
+// agree.
 #pragma once
 
 #include "checker/engines/timeline/directed_run.hpp"

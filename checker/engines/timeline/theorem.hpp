@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "checker/engines/check_request.hpp"
+#include "checker/engines/bounds/check_request.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/engines/smt/symbolic.hpp"
 #include "checker/engines/timeline/exchange.hpp"

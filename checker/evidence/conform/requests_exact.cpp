@@ -10,7 +10,8 @@ namespace stormproof::conform {
 
 namespace {
 
-/// With the plain solver: those with tactics have timers of their own (checker/engines/smt/deadline.hpp).
+/// With the plain solver: those with tactics have timers of their own
+/// (checker/engines/smt/deadline.hpp).
 class Question {
  public:
   Question(const Relation& relation, const Requests& requests)

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/charts/plot.hpp"
 #include "checker/evidence/coverage/report.hpp"
+#include "checker/presentation/charts/plot.hpp"
 
 namespace stormproof::prediction {
 

@@ -28,8 +28,8 @@ struct Configuration {
 /// In ascending order of N_P, N_E, hosts, set and channel; runs in the order of the file.
 [[nodiscard]] std::vector<Configuration> configurations(const std::vector<Observation>& rows);
 
-/// Where the schedules of a configuration are drawn from, in ms. The rule, in specs/guide/coverage.md,
-/// is the same for every configuration and every machine.
+/// Where the schedules of a configuration are drawn from, in ms. The rule, in
+/// specs/guide/coverage.md, is the same for every configuration and every machine.
 struct ScheduleRanges {
   Range start;
   Range endpoints_done;

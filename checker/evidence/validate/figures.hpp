@@ -1,6 +1,6 @@
 // What is compared: the same figures of a captured discovery and of each run of the model, by the
-// same rules (specs/guide/validating.md). One list, so that no report can compare a figure with another
-// one.
+// same rules (specs/guide/validating.md). One list, so that no report can compare a figure with
+// another one.
 #pragma once
 
 #include <array>

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/text/numbers.hpp"
 #include "checker/evidence/validate/difference_finder.hpp"
+#include "checker/presentation/text/numbers.hpp"
 
 namespace stormproof::validate {
 

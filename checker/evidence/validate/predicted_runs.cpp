@@ -6,9 +6,9 @@
 #include <optional>
 #include <random>
 
-#include "checker/experiments/trials/parallel.hpp"
 #include "checker/evidence/coverage/predict.hpp"
 #include "checker/evidence/validate/message_tally.hpp"
+#include "checker/experiments/trials/parallel.hpp"
 #include "model/simulator.hpp"
 
 namespace stormproof::validate {

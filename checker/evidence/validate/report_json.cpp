@@ -1,8 +1,8 @@
 // The report for scripts; specs/guide/validating.md explains the keys.
 #include <nlohmann/json.hpp>
 
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/evidence/validate/validate.hpp"
+#include "checker/presentation/text/assumptions.hpp"
 #include "model/config/knobs/effective.hpp"
 
 namespace stormproof::validate {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/charts/plot.hpp"
 #include "checker/evidence/validate/validate.hpp"
+#include "checker/presentation/charts/plot.hpp"
 
 namespace stormproof::validate {
 

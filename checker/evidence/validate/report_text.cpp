@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/validate/validate.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
-#include "checker/evidence/validate/validate.hpp"
 
 namespace stormproof::validate {
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "checker/verification/counterexample/history.hpp"
 #include "checker/experiments/diff/first_difference.hpp"
 #include "checker/experiments/diff/run_log.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/verification/counterexample/history.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/event_subject.hpp"
 #include "model/trace/perfetto_labels.hpp"

@@ -174,8 +174,8 @@ struct CostComparison {
 
 /// How far a profile is from needless repairs.
 struct Margin {
-  /// Δ* of the theorem (checker/engines/timeline/free_threshold.hpp): at delays up to it no descriptor is
-  /// sent again without loss. Absent: there is none above 0, or it is not known.
+  /// Δ* of the theorem (checker/engines/timeline/free_threshold.hpp): at delays up to it no
+  /// descriptor is sent again without loss. Absent: there is none above 0, or it is not known.
   std::optional<model::Nanoseconds> threshold;
   bool unlimited = false;  ///< no delay is too long
   std::string formula;     ///< of the threshold, or why there is none

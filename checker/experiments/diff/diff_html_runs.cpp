@@ -2,9 +2,9 @@
 // scenario that tells the profiles apart.
 #include <fmt/format.h>
 
-#include "checker/verification/counterexample/chart.hpp"
 #include "checker/experiments/diff/diff_html_parts.hpp"
 #include "checker/presentation/document/html_page.hpp"
+#include "checker/verification/counterexample/chart.hpp"
 #include "checker/verification/counterexample/stepper.hpp"
 
 namespace stormproof::diff {

@@ -1,5 +1,5 @@
-// A comparison as JSON; specs/guide/output.md describes the keys. What does not exist is null, what is
-// infinite is text ("infinity"), as JSON has no number for it.
+// A comparison as JSON; specs/guide/output.md describes the keys. What does not exist is null, what
+// is infinite is text ("infinity"), as JSON has no number for it.
 #include <cmath>
 
 #include <nlohmann/json.hpp>

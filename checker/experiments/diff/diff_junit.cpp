@@ -4,8 +4,8 @@
 #include "checker/experiments/diff/diff_report.hpp"
 #include "checker/experiments/diff/summary.hpp"
 #include "checker/experiments/diff/words.hpp"
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/document/junit.hpp"
+#include "checker/presentation/text/assumptions.hpp"
 
 namespace stormproof::diff {
 

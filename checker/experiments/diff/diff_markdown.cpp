@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "checker/verification/counterexample/chart.hpp"
 #include "checker/experiments/diff/diff_report.hpp"
 #include "checker/experiments/diff/summary.hpp"
 #include "checker/experiments/diff/words.hpp"
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/document/markdown.hpp"
+#include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/verification/counterexample/chart.hpp"
 
 namespace stormproof::diff {
 

@@ -7,8 +7,8 @@
 #include "checker/experiments/diff/judging.hpp"
 #include "checker/experiments/diff/summary.hpp"
 #include "checker/experiments/diff/words.hpp"
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/document/sarif.hpp"
+#include "checker/presentation/text/assumptions.hpp"
 
 namespace stormproof::diff {
 
@@ -24,7 +24,7 @@ constexpr const char* margin_rule = "diff.margin";
 constexpr const char* knob_rule = "diff.knob";
 constexpr const char* unmodelled_rule = "diff.unmodelled";
 
-std::vector<report::SarifRule> rules() {
+std::vector<report::SarifRule> sarif_rules() {
   return {{verdict_rule, "A property that holds with the base does not with the candidate.", ""},
           {cost_rule, "Discovery costs more with the candidate than the policy tolerates.", ""},
           {limit_rule, "The candidate exceeds a limit that the base keeps.", ""},
@@ -74,7 +74,7 @@ std::string file_of(const model::config::TracedProfile& profile) {
 class Log {
  public:
   explicit Log(const DiffReport& report) : report_{report} {
-    log_.rules = rules();
+    log_.rules = sarif_rules();
     log_.command = report.command;
     log_.complete = !report.interrupted;
     log_.exit_code = report.judgment == Judgment::regression                      ? 1

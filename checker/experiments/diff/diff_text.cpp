@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "checker/verification/counterexample/story.hpp"
 #include "checker/experiments/diff/cost_text.hpp"
 #include "checker/experiments/diff/diff_report.hpp"
 #include "checker/experiments/diff/summary.hpp"
@@ -12,6 +11,7 @@
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
+#include "checker/verification/counterexample/story.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::diff {

@@ -6,19 +6,15 @@
 
 #include <fmt/format.h>
 
+#include "checker/engines/timeline/free_threshold.hpp"
 #include "checker/experiments/diff/costs.hpp"
 #include "checker/experiments/diff/words.hpp"
 #include "checker/presentation/text/numbers.hpp"
-#include "checker/engines/timeline/free_threshold.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::diff {
 
 namespace {
-
-bool is_fastdds(const model::DdsProfile& dds) {
-  return dds.implementation == model::ImplementationKind::fastdds;
-}
 
 void add_threshold(const model::DdsProfile& dds, bool constant_delay, Margin& margin) {
   if (is_fastdds(dds)) {

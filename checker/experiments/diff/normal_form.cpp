@@ -11,12 +11,13 @@ namespace stormproof::diff {
 
 namespace {
 
+using model::is_fastdds;
+
 using Dds = model::DdsProfile;
 
 constexpr model::Bytes mtu_limit{1'472};  // what `grouping: mtu` fills a packet up to
 
 // The choices that leave something unread.
-bool is_fastdds(const Dds& dds) { return dds.implementation == model::ImplementationKind::fastdds; }
 bool is_periodic(const Dds& dds) {
   return dds.sedp.heartbeat_policy == model::HeartbeatPolicy::periodic;
 }

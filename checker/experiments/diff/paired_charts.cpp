@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "checker/verification/counterexample/chart.hpp"
 #include "checker/presentation/diagrams/svg.hpp"
+#include "checker/verification/counterexample/chart.hpp"
 
 namespace stormproof::diff {
 

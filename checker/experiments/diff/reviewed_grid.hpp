@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/config/tree/result.hpp"
 #include "model/config/spec_path.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::diff {

@@ -13,7 +13,7 @@ namespace stormproof::diff {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// P(W = w) for w = 0 … m·n. Either the greatest of all m + n values is one of the m, and exceeds
 /// all n others, or it is one of the n:
@@ -83,15 +83,15 @@ double median(std::vector<double> values) {
 double relative_change(double before, double after) {
   if (std::isinf(before)) return -1;
   if (before > 0) return after / before - 1;
-  return after > 0 ? infinity : 0;
+  return after > 0 ? unbounded : 0;
 }
 
 void PairwiseChanges::add(double before, double after, bool relative) {
   const bool unknown = std::isinf(after) && std::isinf(before);
-  const double least = relative ? -1 : -infinity;
+  const double least = relative ? -1 : -unbounded;
   const double change = unknown ? 0 : relative ? relative_change(before, after) : after - before;
   low_.push_back(unknown ? least : change);
-  high_.push_back(unknown ? infinity : change);
+  high_.push_back(unknown ? unbounded : change);
   middle_.push_back(change);
 }
 

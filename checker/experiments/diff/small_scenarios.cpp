@@ -28,7 +28,7 @@ constexpr std::array<std::int64_t, 6> delays{millisecond,      100 * microsecond
 constexpr std::array<std::uint32_t, 5> endpoints_without_loss{0, 1, 2, 20, 400};
 constexpr std::array<std::uint32_t, 2> endpoints_with_loss{0, 2};
 constexpr std::uint64_t first_packets = 32;  // in which a loss begins
-constexpr std::array<RunUntil, 2> ends{RunUntil::completion, RunUntil::time_limit};
+constexpr std::array<RunUntil, 2> run_ends{RunUntil::completion, RunUntil::time_limit};
 
 /// How much later the last participant starts, and how long creating the endpoints takes.
 struct Starts {
@@ -82,7 +82,7 @@ class Series {
   }
 
   bool until_each_end(Scenario scenario) {
-    for (const RunUntil end : ends) {
+    for (const RunUntil end : run_ends) {
       scenario.run_until = end;
       if (on_channels(scenario)) return true;
     }
@@ -126,7 +126,7 @@ class Series {
   bool losing_one_packet(Scenario scenario) {
     for (std::uint64_t packet = 0; packet < first_packets; ++packet) {
       scenario.wireless.lost_packets = {packet};
-      for (const RunUntil end : ends) {
+      for (const RunUntil end : run_ends) {
         scenario.run_until = end;
         if (visit_(scenario)) return true;
       }
@@ -135,7 +135,7 @@ class Series {
   }
 
   /// DATA is lost, the initial ACKNACK asks for it, and the answer to the first HEARTBEAT asks
-  /// again just when the longer suppression of the two profiles ends.
+  /// again just when the longer suppression of the two profiles run_ends.
   bool asking_while_suppressed(std::uint32_t hosts) {
     const model::SedpProfile& sedp = parts_.base.sedp;
     Scenario scenario = plain(hosts, 0);
@@ -151,7 +151,7 @@ class Series {
         std::vector<std::uint64_t> lost(length);
         for (std::uint64_t k = 0; k < length; ++k) lost[k] = first + k;
         for (const std::uint32_t endpoints : endpoints_with_loss) {
-          for (const RunUntil end : ends) {
+          for (const RunUntil end : run_ends) {
             Scenario scenario = plain(hosts, endpoints);
             scenario.wireless.lost_packets = lost;
             scenario.run_until = end;

@@ -9,9 +9,9 @@
 #include <array>
 #include <mutex>
 
-#include "checker/verification/check/check.hpp"
-#include "checker/experiments/trials/parallel.hpp"
 #include "checker/engines/smt/claims.hpp"
+#include "checker/experiments/trials/parallel.hpp"
+#include "checker/verification/check/check.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::diff {

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "checker/experiments/statistics/confidence.hpp"
 #include "checker/experiments/fuzz/judged_run.hpp"
 #include "checker/experiments/fuzz/ranges.hpp"
 #include "checker/experiments/fuzz/shrink.hpp"
+#include "checker/experiments/statistics/confidence.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "props/verdict.hpp"
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/diagrams/svg.hpp"
-#include "checker/presentation/document/drawings.hpp"
 #include "checker/experiments/reproduce/measures.hpp"
 #include "checker/experiments/reproduce/plots.hpp"
 #include "checker/experiments/reproduce/report.hpp"
+#include "checker/presentation/diagrams/svg.hpp"
+#include "checker/presentation/document/drawings.hpp"
 
 namespace stormproof::reproduce {
 
@@ -183,7 +183,7 @@ std::string other_sections(const Report& report) {
   return html;
 }
 
-std::string reasons(const Report& report) {
+std::string reasons_html(const Report& report) {
   std::string html = "<h2>What is known of the differences</h2>\n<ol>\n";
   for (std::size_t k = 0; k < report.published.reasons.size(); ++k) {
     const Reason& reason = report.published.reasons[k];
@@ -241,7 +241,7 @@ std::string to_html(const Report& report) {
   html += page_style;
   html += drawings.style();
   html += "</style>\n</head>\n<body>\n" + drawings.definitions();
-  html += heading(report) + shown + other_sections(report) + reasons(report);
+  html += heading(report) + shown + other_sections(report) + reasons_html(report);
   html += "<h2>Configurations</h2>\n";
   for (std::size_t v = 0; v < report.results.plan.variants.size(); ++v) {
     html += configuration_table(report, v);

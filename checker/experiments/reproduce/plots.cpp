@@ -7,31 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/charts/plot.hpp"
 #include "checker/experiments/reproduce/measures.hpp"
+#include "checker/experiments/reproduce/plot_style.hpp"
+#include "checker/presentation/charts/plot.hpp"
 
 namespace stormproof::reproduce {
 
 namespace {
 
 using model::HeartbeatPolicy;
-
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t published_color = 4;
-constexpr int half = 570;
-
-/// A colour for each variant, apart from those of published values and references.
-std::size_t color_of(std::size_t variant) { return variant; }
-
-std::set<std::uint32_t> participant_counts(const Plan& plan) {
-  std::set<std::uint32_t> counts;
-  for (const Configuration& one : plan.configurations) counts.insert(one.participants_per_host);
-  return counts;
-}
-
-std::string variant_name(const Report& report, std::size_t variant) {
-  return report.results.plan.variants[variant].id;
-}
 
 }  // namespace
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "model/config/tree/result.hpp"
 #include "model/config/spec_path.hpp"
+#include "model/config/tree/result.hpp"
 
 namespace stormproof::reproduce {
 

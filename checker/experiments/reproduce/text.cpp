@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/text/numbers.hpp"
-#include "checker/presentation/text/paragraph.hpp"
 #include "checker/experiments/reproduce/measures.hpp"
 #include "checker/experiments/reproduce/report.hpp"
+#include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/paragraph.hpp"
 
 namespace stormproof::reproduce {
 
@@ -73,7 +73,7 @@ std::string figure_tables(const Report& report) {
   return text;
 }
 
-std::string reasons(const Report& report) {
+std::string reasons_text(const Report& report) {
   std::set<std::size_t> used;
   for (const Figure& figure : report.figures) {
     used.insert(figure.reasons.begin(), figure.reasons.end());
@@ -209,7 +209,7 @@ std::string to_text(const Report& report) {
   text += incomplete(report);
   text += figure_tables(report);
   text += "\nWhat is known of the differences\n";
-  text += reasons(report);
+  text += reasons_text(report);
   if (!plan.variants.empty()) text += grids(report, 0);
   text += "\nReproduce: " + report.command + "\n";
   return text;

@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/charts/plot.hpp"
 #include "checker/experiments/reproduce/measures.hpp"
+#include "checker/experiments/reproduce/plot_style.hpp"
 #include "checker/experiments/reproduce/plots.hpp"
+#include "checker/presentation/charts/plot.hpp"
 
 namespace stormproof::reproduce {
 
@@ -16,21 +17,9 @@ namespace {
 
 using model::HeartbeatPolicy;
 
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 constexpr double block_width = 0.85;  // of the distance between two N_P
-constexpr std::size_t published_color = 4;
 constexpr std::size_t reference_color = 6;
 constexpr int wide = 1160;
-constexpr int half = 570;
-
-/// A colour for each variant, apart from those of published values and references.
-std::size_t color_of(std::size_t variant) { return variant; }
-
-std::set<std::uint32_t> participant_counts(const Plan& plan) {
-  std::set<std::uint32_t> counts;
-  for (const Configuration& one : plan.configurations) counts.insert(one.participants_per_host);
-  return counts;
-}
 
 /// Where a configuration lies on the axis of the workload.
 class Workload {
@@ -127,10 +116,6 @@ void add_band(const Report& report, std::size_t variant, plot::Series& series) {
   series.low = of([](const Outcome& outcome) { return outcome.fastest_s(); }).y;
   series.high = of([](const Outcome& outcome) { return outcome.slowest_s(); }).y;
   series.spread = plot::Spread::band;
-}
-
-std::string variant_name(const Report& report, std::size_t variant) {
-  return report.results.plan.variants[variant].id;
 }
 
 }  // namespace

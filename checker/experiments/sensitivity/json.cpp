@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/experiments/sensitivity/report.hpp"
+#include "checker/presentation/text/assumptions.hpp"
 
 namespace stormproof::sensitivity {
 

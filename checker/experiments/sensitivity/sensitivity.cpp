@@ -8,8 +8,8 @@
 #include <mutex>
 #include <random>
 
-#include "checker/experiments/trials/parallel.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
+#include "checker/experiments/trials/parallel.hpp"
 #include "model/simulator.hpp"
 
 namespace stormproof::sensitivity {

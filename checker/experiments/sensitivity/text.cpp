@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "checker/experiments/sensitivity/report.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
-#include "checker/experiments/sensitivity/report.hpp"
 
 namespace stormproof::sensitivity {
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/charts/plot.hpp"
 #include "checker/experiments/sensitivity/report.hpp"
+#include "checker/presentation/charts/plot.hpp"
 
 namespace stormproof::sensitivity {
 

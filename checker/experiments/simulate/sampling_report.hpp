@@ -42,8 +42,8 @@ struct SampleSummary {
 [[nodiscard]] std::string to_text(const Sampling& sampling);
 
 /// Keys: scenario, seed, wanted, command, samples (array of runs), summary, profile; with several
-/// profiles also compare, an array of {profile_name, samples, summary, profile}. specs/guide/output.md
-/// describes them.
+/// profiles also compare, an array of {profile_name, samples, summary, profile}.
+/// specs/guide/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Sampling& sampling);
 
 }  // namespace stormproof::report

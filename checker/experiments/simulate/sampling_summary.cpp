@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/experiments/simulate/sampling_report.hpp"
 #include "checker/experiments/simulate/simulation_report.hpp"
+#include "checker/presentation/text/assumptions.hpp"
 #include "model/config/knobs/effective.hpp"
 
 namespace stormproof::report {

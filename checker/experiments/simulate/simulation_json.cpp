@@ -2,8 +2,8 @@
 // null.
 #include <nlohmann/json.hpp>
 
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/experiments/simulate/simulation_report.hpp"
+#include "checker/presentation/text/assumptions.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/reference.hpp"
 

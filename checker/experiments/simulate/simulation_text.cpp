@@ -4,9 +4,9 @@
 
 #include <fmt/core.h>
 
+#include "checker/experiments/simulate/simulation_report.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/numbers.hpp"
-#include "checker/experiments/simulate/simulation_report.hpp"
 
 namespace stormproof::report {
 

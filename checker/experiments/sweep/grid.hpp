@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "model/config/spec_path.hpp"
 #include "model/config/tree/overrides.hpp"
 #include "model/config/tree/result.hpp"
-#include "model/config/spec_path.hpp"
 #include "model/config/tree/tree.hpp"
 
 namespace stormproof::sweep {

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <set>
 
-#include "checker/experiments/trials/parallel.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
+#include "checker/experiments/trials/parallel.hpp"
 
 namespace stormproof::tune {
 

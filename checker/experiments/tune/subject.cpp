@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "model/config/tree/overrides.hpp"
 #include "model/config/profile_files.hpp"
 #include "model/config/scenario_file.hpp"
-#include "model/config/vendor/vendor_knobs.hpp"
+#include "model/config/tree/overrides.hpp"
 #include "model/config/tree/yaml_text.hpp"
+#include "model/config/vendor/vendor_knobs.hpp"
 
 namespace stormproof::tune {
 

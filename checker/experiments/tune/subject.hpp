@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "model/config/tree/result.hpp"
 #include "model/config/spec_path.hpp"
+#include "model/config/tree/result.hpp"
 #include "model/config/vendor/vendor_profile.hpp"
 #include "model/scenario.hpp"
 

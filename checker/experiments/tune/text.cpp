@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "checker/experiments/tune/report.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
-#include "checker/experiments/tune/report.hpp"
 #include "model/config/tree/quantities.hpp"
 
 namespace stormproof::tune {
@@ -226,10 +226,11 @@ class TextReport {
                         "be chance. --start-jitter 10ms, or a deployment with a schedule, tells "
                         "which are not.");
     }
-    out_ += paragraph("  limits   ",
-                      "what is measured is the model (specs/guide/model.md, specs/guide/fastdds.md), not your "
-                      "network; specs/findings/interventions.md has what was predicted and "
-                      "measured for some of these settings.");
+    out_ += paragraph(
+        "  limits   ",
+        "what is measured is the model (specs/guide/model.md, specs/guide/fastdds.md), not your "
+        "network; specs/findings/interventions.md has what was predicted and "
+        "measured for some of these settings.");
     for (const auto& [setting, effect] : context_.subject.scenario.dds.unmodelled) {
       out_ += paragraph("  assumed  ", fmt::format("{}: {}", setting, effect));
     }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "checker/presentation/diagrams/svg.hpp"
 #include "checker/presentation/charts/axis.hpp"
+#include "checker/presentation/diagrams/svg.hpp"
 
 namespace stormproof::plot {
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/document/html_page.hpp"
+#include "checker/presentation/text/assumptions.hpp"
 
 namespace stormproof::report {
 

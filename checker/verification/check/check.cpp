@@ -5,11 +5,11 @@
 #include <chrono>
 #include <sstream>
 
-#include "checker/verification/counterexample/write.hpp"
 #include "checker/engines/exact/exact.hpp"
 #include "checker/engines/explorer/explorer.hpp"
 #include "checker/engines/tables/tables.hpp"
 #include "checker/engines/timeline/timeline.hpp"
+#include "checker/verification/counterexample/write.hpp"
 
 namespace stormproof::checker {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "checker/engines/check_request.hpp"
+#include "checker/engines/bounds/check_request.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::checker {

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "checker/verification/check/check_report.hpp"
-#include "checker/verification/check/origins.hpp"
 #include "checker/presentation/document/html_page.hpp"
 #include "checker/presentation/document/html_parts.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
+#include "checker/verification/check/check_report.hpp"
+#include "checker/verification/check/origins.hpp"
 #include "checker/verification/check/run_plots.hpp"
 #include "checker/verification/counterexample/stepper.hpp"
 #include "model/config/knobs/effective.hpp"

@@ -1,8 +1,8 @@
 // The JSON of a check.
 #include <nlohmann/json.hpp>
 
-#include "checker/verification/check/check_report.hpp"
 #include "checker/presentation/text/assumptions.hpp"
+#include "checker/verification/check/check_report.hpp"
 
 namespace stormproof::checker {
 

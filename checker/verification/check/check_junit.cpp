@@ -1,9 +1,9 @@
 // A check as JUnit XML, the form that CI systems show as test results.
 #include <fmt/core.h>
 
-#include "checker/verification/check/check_report.hpp"
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/document/junit.hpp"
+#include "checker/presentation/text/assumptions.hpp"
+#include "checker/verification/check/check_report.hpp"
 
 namespace stormproof::checker {
 

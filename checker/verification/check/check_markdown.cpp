@@ -1,11 +1,11 @@
 // A check as GitHub's Markdown: what a comment on a pull request says about it.
 #include <fmt/format.h>
 
+#include "checker/presentation/document/markdown.hpp"
+#include "checker/presentation/text/assumptions.hpp"
+#include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/check_report.hpp"
 #include "checker/verification/counterexample/chart.hpp"
-#include "checker/presentation/text/assumptions.hpp"
-#include "checker/presentation/document/markdown.hpp"
-#include "checker/presentation/text/plain_text.hpp"
 
 namespace stormproof::checker {
 

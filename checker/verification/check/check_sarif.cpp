@@ -2,10 +2,10 @@
 // of the user's file that sets the knob it is about.
 #include <nlohmann/json.hpp>
 
+#include "checker/presentation/document/sarif.hpp"
+#include "checker/presentation/text/assumptions.hpp"
 #include "checker/verification/check/check_report.hpp"
 #include "checker/verification/check/origins.hpp"
-#include "checker/presentation/text/assumptions.hpp"
-#include "checker/presentation/document/sarif.hpp"
 
 namespace stormproof::checker {
 

@@ -1,10 +1,10 @@
 // A check for a person at a terminal: verdicts first, then what is violated and why.
 #include <fmt/core.h>
 
-#include "checker/verification/check/check_report.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
+#include "checker/verification/check/check_report.hpp"
 
 namespace stormproof::checker {
 

@@ -253,7 +253,8 @@ class Narrator {
     if (!relevant || timer.kind == EventKind::announcement_due) return;
     std::string label = model::trace::timer_label(timer.kind);
     if (label.ends_with(" due")) label.resize(label.size() - 4);
-    add(Act::Kind::change, *who, fmt::format("{} at {} ms", label, milliseconds(timer.due)));
+    add(Act::Kind::change, *who,
+        fmt::format("{} at {} ms", label, report::milliseconds(timer.due)));
   }
 
   /// Only the network does something here.

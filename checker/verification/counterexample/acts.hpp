@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "checker/presentation/text/time_text.hpp"
 #include "checker/verification/counterexample/history.hpp"
 #include "checker/verification/counterexample/relevance.hpp"
-#include "checker/verification/counterexample/time_text.hpp"
 
 namespace stormproof::counterexample {
 

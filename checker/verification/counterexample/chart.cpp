@@ -18,7 +18,7 @@ namespace stormproof::counterexample {
 
 namespace {
 
-constexpr std::size_t most_events = 40;
+constexpr std::size_t drawn_events = 40;
 
 Chart::Line::Kind line_kind(Act::Kind kind) {
   switch (kind) {
@@ -53,7 +53,7 @@ class Builder {
       : counterexample_{counterexample},
         history_{record(counterexample)},
         relevance_{relevance_with(history_, packets)},
-        selected_{select(history_, relevance_, most_events)} {}
+        selected_{select(history_, relevance_, drawn_events)} {}
 
   Chart run() && {
     describe();

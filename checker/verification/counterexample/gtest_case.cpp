@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "checker/verification/counterexample/story.hpp"
 #include "checker/presentation/text/paragraph.hpp"
+#include "checker/verification/counterexample/story.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "props/property.hpp"
 

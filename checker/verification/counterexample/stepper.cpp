@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "checker/verification/counterexample/chart.hpp"
-#include "checker/verification/counterexample/time_text.hpp"
 #include "checker/presentation/diagrams/machine_svg.hpp"
 #include "checker/presentation/document/html_page.hpp"
 #include "checker/presentation/document/html_parts.hpp"
+#include "checker/presentation/text/time_text.hpp"
+#include "checker/verification/counterexample/chart.hpp"
 #include "checker/verification/counterexample/machine_states.hpp"
 #include "fsm/machines.hpp"
 
@@ -63,9 +63,8 @@ std::string step_html(const Chart& chart, std::size_t number, const std::vector<
       row.kind == RowKind::gap ? "some events later" : fmt::format("event {}", row.event);
   return fmt::format(
       "<li data-row=\"{}\" data-packets=\"{}\"><p class=\"when\">{}{}, {} ms</p>\n{}{}</li>\n",
-      number, list, row.violation ? html_text(chart.sign) + " " : "", what,
-      counterexample::milliseconds(row.time), acts_html(chart, row),
-      states == nullptr ? "" : states_html(*states));
+      number, list, row.violation ? html_text(chart.sign) + " " : "", what, milliseconds(row.time),
+      acts_html(chart, row), states == nullptr ? "" : states_html(*states));
 }
 
 std::string controls_html(std::size_t steps, std::string_view id) {

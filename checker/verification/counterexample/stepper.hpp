@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "checker/verification/counterexample/chart.hpp"
 #include "checker/presentation/document/drawings.hpp"
+#include "checker/verification/counterexample/chart.hpp"
 #include "props/verdict.hpp"
 
 namespace stormproof::report {

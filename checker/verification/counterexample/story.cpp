@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "checker/verification/counterexample/acts.hpp"
-#include "checker/verification/counterexample/selection.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
+#include "checker/verification/counterexample/acts.hpp"
+#include "checker/verification/counterexample/selection.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/property.hpp"
 
@@ -16,7 +16,7 @@ namespace stormproof::counterexample {
 
 namespace {
 
-constexpr std::size_t most_events = 40;
+constexpr std::size_t told_events = 40;
 
 std::string user_endpoints(const model::Participant& participant) {
   return fmt::format("{} pub + {} sub", participant.publications, participant.subscriptions);
@@ -67,7 +67,7 @@ std::string line_of(const History& history, const Relevance& relevance, std::siz
   }
   const bool last = n + 1 == history.steps.size();
   const std::string first =
-      fmt::format("{}{:>7} {:>15}  ", last ? "!" : " ", n, milliseconds(event.time));
+      fmt::format("{}{:>7} {:>15}  ", last ? "!" : " ", n, report::milliseconds(event.time));
   return report::paragraph(first, text);
 }
 
@@ -139,7 +139,7 @@ std::string story(const props::Counterexample& counterexample) {
   text += report::paragraph("  run        ", deployment_text(counterexample.scenario));
   text += report::paragraph("  timers     ", timers_text(counterexample.scenario));
   text += "\n   event              ms  participant: what it does; what changes\n";
-  for (const Selected& selected : select(history, relevance, most_events)) {
+  for (const Selected& selected : select(history, relevance, told_events)) {
     if (!selected.gap)
       text += line_of(history, relevance, selected.step);
     else if (selected.last - selected.step >= 2 || leaves_out_more(relevance, selected))

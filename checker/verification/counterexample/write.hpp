@@ -1,6 +1,6 @@
 // Counterexamples as files: a trace in the format of `simulate --trace` that stops at the event
-// that breaks a property (specs/guide/trace-format.md, "Counterexamples"). `stormproof replay` runs it
-// again, so nobody has to believe it.
+// that breaks a property (specs/guide/trace-format.md, "Counterexamples"). `stormproof replay` runs
+// it again, so nobody has to believe it.
 #pragma once
 
 #include <iosfwd>

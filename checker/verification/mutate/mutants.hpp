@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "checker/engines/check_request.hpp"
+#include "checker/engines/bounds/check_request.hpp"
 
 namespace stormproof::mutate {
 

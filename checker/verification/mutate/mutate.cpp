@@ -8,10 +8,10 @@
 
 #include "checker/engines/exact/exact.hpp"
 #include "checker/engines/explorer/explorer.hpp"
-#include "checker/verification/mutate/law_trials.hpp"
-#include "checker/verification/mutate/trial_scenarios.hpp"
 #include "checker/engines/tables/tables.hpp"
 #include "checker/engines/timeline/timeline.hpp"
+#include "checker/verification/mutate/law_trials.hpp"
+#include "checker/verification/mutate/trial_scenarios.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::mutate {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "checker/verification/mutate/mutants.hpp"
 #include "checker/engines/smt/claims.hpp"
+#include "checker/verification/mutate/mutants.hpp"
 
 namespace stormproof::mutate {
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "model/config/knobs/knob_writer.hpp"
-#include "model/config/profile_files.hpp"
 #include "model/config/knobs/scenario_knobs.hpp"
+#include "model/config/profile_files.hpp"
 
 namespace stormproof::model::config {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/scenario_knobs.hpp"
-#include "model/config/tree/tree.hpp"
 #include "model/config/knobs/value_types.hpp"
+#include "model/config/tree/tree.hpp"
 
 namespace stormproof::model::config {
 

@@ -5,7 +5,7 @@
 namespace stormproof::model::config::vendor::cyclone {
 namespace {
 
-constexpr CycloneOption options[] = {
+constexpr CycloneOption internal_list[] = {
     {"Internal/AccelerateRexmitBlockSize", natural, "0", assumed,
      "a reader that catches up gets this many descriptors, asked for or not"},
     {"Internal/AckDelay",
@@ -163,6 +163,6 @@ constexpr CycloneOption options[] = {
 
 }  // namespace
 
-std::span<const CycloneOption> internal_options() { return options; }
+std::span<const CycloneOption> internal_options() { return internal_list; }
 
 }  // namespace stormproof::model::config::vendor::cyclone

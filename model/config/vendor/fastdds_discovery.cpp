@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "model/config/knobs/value_types.hpp"
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/suggestion.hpp"
-#include "model/config/knobs/value_types.hpp"
 
 namespace stormproof::model::config::vendor::fastdds {
 namespace {

@@ -21,6 +21,10 @@ struct Transport {
   bool is_named = false;  ///< in the <userTransports> of any participant
 };
 
+[[nodiscard]] inline bool is_udp(const Transport& transport) {
+  return transport.type.starts_with("UDP");
+}
+
 /// What the parts of the reading share.
 struct Reading {
   Version version = oldest_version;

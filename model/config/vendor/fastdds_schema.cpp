@@ -15,17 +15,12 @@ namespace {
 
 using enum ValueKind;
 
-constexpr std::string_view port_note = "moves ports; no packet more or less";
 constexpr std::string_view memory_note =
     "memory of the builtin endpoints; ROS 2 sets its own policy, and no packet depends on it";
 constexpr std::string_view allocation_note = "memory that is allocated in advance";
-constexpr std::string_view thread_note = "priority and stack of a thread";
 constexpr std::string_view limit_note =
     "at most so many are known at a time, further ones are refused; the model has no such limit";
 constexpr std::string_view protocols = "SIMPLE|NONE|CLIENT|SUPER_CLIENT|SERVER|BACKUP";
-constexpr std::string_view history_policies =
-    "PREALLOCATED|PREALLOCATED_WITH_REALLOC|DYNAMIC|DYNAMIC_REUSABLE";
-
 constexpr std::array participant_items{
     SchemaItem{"domainId", uint32, "", Effect::none, "all participants of a scenario share it"},
     SchemaItem{"rtps", group, "", Effect::none, ""},

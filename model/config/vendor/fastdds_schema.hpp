@@ -43,6 +43,12 @@ inline constexpr Version oldest_version = 206;
 /// Kinds of transport that read an element of a transport descriptor.
 inline constexpr unsigned udp = 1, tcp = 2, shm = 4, any_transport = udp | tcp | shm;
 
+// What several items say.
+inline constexpr std::string_view port_note = "moves ports; no packet more or less";
+inline constexpr std::string_view thread_note = "priority and stack of a thread";
+inline constexpr std::string_view history_policies =
+    "PREALLOCATED|PREALLOCATED_WITH_REALLOC|DYNAMIC|DYNAMIC_REUSABLE";
+
 struct SchemaItem {
   std::string_view path;  ///< from the profile's element: "rtps/builtin/initialPeersList"
   ValueKind kind = ValueKind::opaque;

@@ -10,11 +10,6 @@ namespace {
 
 using enum ValueKind;
 
-constexpr std::string_view port_note = "moves ports; no packet more or less";
-constexpr std::string_view thread_note = "priority and stack of a thread";
-constexpr std::string_view history_policies =
-    "PREALLOCATED|PREALLOCATED_WITH_REALLOC|DYNAMIC|DYNAMIC_REUSABLE";
-
 constexpr std::string_view tcp_note = "acts on TCP only";
 
 constexpr std::array transport_items{

@@ -30,8 +30,6 @@ struct Contribution {
   std::string owner;              ///< "transport 'UDP1'"
 };
 
-bool is_udp(const Transport& transport) { return transport.type.starts_with("UDP"); }
-
 /// The sizes that one transport registers with, or that make it fail.
 void check_sizes(Reading& reading, const Found* buffer, std::int64_t message,
                  std::string_view owner) {

@@ -17,8 +17,6 @@ struct Registered {
   const Found* choice = nullptr;  ///< the setting that made it so, if any
 };
 
-bool is_udp(const Transport& transport) { return transport.type.starts_with("UDP"); }
-
 void register_builtin(Registered& registered, std::string_view choice) {
   const bool is_default = choice == "DEFAULT" || choice == "DEFAULTv6";
   const bool is_udp6 = choice == "DEFAULTv6" || choice == "UDPv6";

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "model/config/knobs/effective.hpp"
-#include "model/config/tree/tree.hpp"
 #include "model/config/knobs/value_types.hpp"
+#include "model/config/tree/tree.hpp"
 #include "model/config/vendor/cyclonedds_values.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
 

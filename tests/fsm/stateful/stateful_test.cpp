@@ -16,7 +16,7 @@ namespace stormproof::fsm::stateful {
 
 void PrintTo(const MachineSubject& subject, std::ostream* out) { *out << subject.name; }
 
-namespace {
+namespace stateful_test {
 
 using Kind = TableMutation::Kind;
 
@@ -180,5 +180,5 @@ TEST(StatefulMutants, WhatIsFoundIsToldAsTheShortestSequence) {
   EXPECT_EQ(broken->find("suppression end\n"), std::string::npos) << *broken;
 }
 
-}  // namespace
+}  // namespace stateful_test
 }  // namespace stormproof::fsm::stateful

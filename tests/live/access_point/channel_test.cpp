@@ -6,7 +6,7 @@
 #include "tests/live/access_point/half_duplex_channel.hpp"
 
 namespace stormproof::live {
-namespace {
+namespace channel_test {
 
 constexpr std::int64_t us = 1'000;
 
@@ -256,5 +256,5 @@ TEST(AccessPointChannel, AccountsForEveryFrameAndNanosecond) {
   EXPECT_EQ(statistics.deepest_queue, 4U);
 }
 
-}  // namespace
+}  // namespace channel_test
 }  // namespace stormproof::live

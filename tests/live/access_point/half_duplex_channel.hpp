@@ -1,8 +1,9 @@
 // The access point without sockets and clocks: requests go in with their times, services come out
 // with theirs. It serves every Ethernet frame twice on one channel, uplink then downlink, by the
-// simulator's rules (specs/guide/model.md, "Packets, fragments, queue, channel") and with the simulator's
-// own parts: the states of fsm::Channel, the waiting fragments, the airtime. What it has beyond the
-// simulator belongs to a real access point: queues that overflow, and frames that are lost.
+// simulator's rules (specs/guide/model.md, "Packets, fragments, queue, channel") and with the
+// simulator's own parts: the states of fsm::Channel, the waiting fragments, the airtime. What it
+// has beyond the simulator belongs to a real access point: queues that overflow, and frames that
+// are lost.
 #pragma once
 
 #include <array>

@@ -18,7 +18,7 @@
 #include "tests/live/access_point/two_hosts.hpp"
 
 namespace stormproof::live {
-namespace {
+namespace program_test {
 
 using Clock = std::chrono::steady_clock;
 
@@ -209,5 +209,5 @@ TEST(AccessPointUsage, BadInputIsRefused) {
   EXPECT_EQ(code_of({"--help"}, said), 0);
 }
 
-}  // namespace
+}  // namespace program_test
 }  // namespace stormproof::live

@@ -1,8 +1,8 @@
 // Which of the model's channels two TAP devices and one program can be.
 #include "tests/live/access_point/serving_profile.hpp"
 
-#include "model/config/tree/quantities.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::live {
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::live {
-namespace {
+namespace serving_profile_test {
 
 std::string refusal(const std::string& profile, const std::vector<std::string>& overrides = {},
                     const std::string& overhead = {}) {
@@ -54,5 +54,5 @@ TEST(AccessPointProfile, RefusesBadInputWithItsPlace) {
   EXPECT_TRUE(mentions(refusal("emulated-ap", {"overheads=1us"}), "--set overheads=1us: "));
 }
 
-}  // namespace
+}  // namespace serving_profile_test
 }  // namespace stormproof::live

@@ -10,7 +10,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::live {
-namespace {
+namespace simulator_tie_test {
 
 using model::RunLog;
 using model::Scenario;
@@ -155,5 +155,5 @@ TEST(AccessPointTie, OneNanosecondOrAnotherOrderIsSeen) {
   }
 }
 
-}  // namespace
+}  // namespace simulator_tie_test
 }  // namespace stormproof::live

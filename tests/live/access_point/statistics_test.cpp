@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 namespace stormproof::live {
-namespace {
+namespace statistics_test {
 
 Lateness of(const std::vector<std::int64_t>& values_ns) {
   Lateness lateness;
@@ -75,5 +75,5 @@ TEST(AccessPointStatistics, SaysWhatWasServedAndWithWhat) {
   EXPECT_EQ(json["lateness_ns"]["max"], 2'000);
 }
 
-}  // namespace
+}  // namespace statistics_test
 }  // namespace stormproof::live

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::live {
-namespace {
+namespace judgement_test {
 
 namespace fs = std::filesystem;
 
@@ -210,5 +210,5 @@ TEST_F(Folder, SaysWhichFileIsWrong) {
   EXPECT_THROW((void)read_run(path_), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace judgement_test
 }  // namespace stormproof::live

@@ -9,7 +9,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace bad_input_test {
 
 const std::string good =
     R"(deployment: {hosts: 2, participants_per_host: 5, endpoints_per_participant: 20}
@@ -602,5 +602,5 @@ TEST(BadInput, every_single_key_is_missed) {
   EXPECT_EQ(removed, 43U);
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace stormproof::model::config

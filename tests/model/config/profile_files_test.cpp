@@ -7,7 +7,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace profile_files_test {
 
 class ProfileFiles : public testing::Test {
  protected:
@@ -104,5 +104,5 @@ TEST_F(ProfileFiles, what_is_no_profile_is_refused) {
   EXPECT_EQ(refusal("folder"), files.path("dds/folder.yaml") + ": is a directory; expected a file");
 }
 
-}  // namespace
+}  // namespace profile_files_test
 }  // namespace stormproof::model::config

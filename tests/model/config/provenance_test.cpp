@@ -8,7 +8,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace provenance_test {
 
 constexpr const char* robots_xml = R"(<?xml version="1.0"?>
 <dds xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles">
@@ -216,5 +216,5 @@ TEST_F(Provenance, what_the_model_has_not_got_adds_up) {
   EXPECT_EQ(place(profile.places, "unmodelled.b"), above + ":2:17");
 }
 
-}  // namespace
+}  // namespace provenance_test
 }  // namespace stormproof::model::config

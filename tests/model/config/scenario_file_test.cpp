@@ -6,7 +6,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace scenario_file_test {
 
 const std::string plain =
     "deployment: {hosts: 2, participants_per_host: 1, endpoints_per_participant: 3}\n"
@@ -299,5 +299,5 @@ TEST(ScenarioFile, packet_delays_are_sorted_by_packet) {
   EXPECT_EQ(changed->run_until, RunUntil::completion);
 }
 
-}  // namespace
+}  // namespace scenario_file_test
 }  // namespace stormproof::model::config

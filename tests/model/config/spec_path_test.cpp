@@ -8,7 +8,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace spec_path_test {
 
 TEST(SpecPath, the_first_folder_wins) {
   const TestFiles files;
@@ -55,5 +55,5 @@ TEST(SpecPath, the_environment_comes_first) {
   EXPECT_EQ(SpecPath::standard().directories.size() + 2, specs.directories.size());
 }
 
-}  // namespace
+}  // namespace spec_path_test
 }  // namespace stormproof::model::config

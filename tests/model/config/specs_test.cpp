@@ -7,7 +7,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace specs_test {
 
 DdsProfile dds(const std::string& name) {
   const auto profile = read_dds_profile(name, {}, source_specs());
@@ -144,5 +144,5 @@ TEST(Specs, other_wireless_profiles) {
   EXPECT_EQ(wireless("cellular").stages[0].rate_unicast, BitsPerSecond{50'000'000});
 }
 
-}  // namespace
+}  // namespace specs_test
 }  // namespace stormproof::model::config

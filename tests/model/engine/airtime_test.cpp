@@ -5,7 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 namespace stormproof::model {
-namespace {
+namespace airtime_test {
 
 TEST(Fragmentation, APacketOfOneMtuIsOneFragment) {
   const Fragmentation f{WirelessProfile{}};
@@ -96,5 +96,5 @@ TEST(ServiceRate, AStageMayOverrideEachValueAlone) {
   EXPECT_EQ(service_rate(wireless, stage, false).bits_per_second, 2);
 }
 
-}  // namespace
+}  // namespace airtime_test
 }  // namespace stormproof::model

@@ -8,7 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 namespace stormproof::model {
-namespace {
+namespace descriptor_set_test {
 
 std::vector<std::uint64_t> words_of(const std::set<std::uint32_t>& members, std::uint32_t words) {
   std::vector<std::uint64_t> bits(words);
@@ -73,5 +73,5 @@ TEST(DescriptorSet, WordsAreCountedUp) {
   EXPECT_EQ(words_for(65), 2U);
 }
 
-}  // namespace
+}  // namespace descriptor_set_test
 }  // namespace stormproof::model

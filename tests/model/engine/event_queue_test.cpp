@@ -12,7 +12,7 @@
 #include <rapidcheck/gtest.h>
 
 namespace stormproof::model {
-namespace {
+namespace event_queue_test {
 
 using Key = std::tuple<std::int64_t, int, std::uint64_t>;
 using Content = std::tuple<EventKind, std::uint32_t, std::uint32_t>;
@@ -156,5 +156,5 @@ TEST(EventQueue, EveryKindHasANameAndAClass) {
   EXPECT_EQ(class_of(EventKind::dispatch), EventClass::dispatch);
 }
 
-}  // namespace
+}  // namespace event_queue_test
 }  // namespace stormproof::model

@@ -10,7 +10,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace network_test {
 
 /// One participant on each of two hosts; the first has enough publications for a DATA packet of
 /// three fragments.
@@ -185,5 +185,5 @@ TEST(Network, PacketNumbersCountCopiesOneByOne) {
   for (std::size_t k = 0; k < log.sent.size(); ++k) ASSERT_EQ(log.sent[k].number, k);
 }
 
-}  // namespace
+}  // namespace network_test
 }  // namespace stormproof::model

@@ -12,7 +12,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace relation_bits_test {
 
 using Bits = RelationBits<fsm::DescriptorRepair>;
 using Members = std::set<std::uint32_t>;
@@ -77,5 +77,5 @@ TEST(RelationBits, ARelationWithoutDescriptorsIsEmpty) {
   EXPECT_TRUE(bits.missing(1).empty());
 }
 
-}  // namespace
+}  // namespace relation_bits_test
 }  // namespace stormproof::model

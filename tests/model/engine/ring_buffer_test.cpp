@@ -7,7 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 namespace stormproof::model {
-namespace {
+namespace ring_buffer_test {
 
 RC_GTEST_PROP(RingBuffer, IsAFirstInFirstOutQueue, ()) {
   RingBuffer<int> ring;
@@ -45,5 +45,5 @@ TEST(RingBuffer, KeepsItsOrderWhenItGrowsWhileWrapped) {
   EXPECT_TRUE(ring.empty());
 }
 
-}  // namespace
+}  // namespace ring_buffer_test
 }  // namespace stormproof::model

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model {
-namespace {
+namespace slot_pool_test {
 
 TEST(SlotPool, GivesOutDifferentSlotsWithStableAddresses) {
   SlotPool<int> pool;
@@ -46,5 +46,5 @@ TEST(SlotPool, AFreedSlotKeepsItsContentUntilItIsTaken) {
   EXPECT_EQ(pool[slot], 42);
 }
 
-}  // namespace
+}  // namespace slot_pool_test
 }  // namespace stormproof::model

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model {
-namespace {
+namespace source_queue_test {
 
 const Fragmentation fragmentation{WirelessProfile{}};
 
@@ -82,5 +82,5 @@ TEST(SourceQueue, ThePeakIsWhatDidNotFit) {
   EXPECT_EQ(peak.packets_at_end, 3U);
 }
 
-}  // namespace
+}  // namespace source_queue_test
 }  // namespace stormproof::model

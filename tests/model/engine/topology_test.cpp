@@ -5,7 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 namespace stormproof::model {
-namespace {
+namespace topology_test {
 
 Deployment on_hosts(const std::vector<std::uint32_t>& hosts) {
   Deployment deployment;
@@ -74,5 +74,5 @@ TEST(Topology, OneHostHasNoPairs) {
   EXPECT_EQ(topology.peer_count(1), 0U);
 }
 
-}  // namespace
+}  // namespace topology_test
 }  // namespace stormproof::model

@@ -10,7 +10,7 @@
 #include <rapidcheck/gtest.h>
 
 namespace stormproof::model {
-namespace {
+namespace waiting_fragments_test {
 
 /// The ranks of three stages, as the orders assign them: fifo_uplink, fifo_downlink, fifo.
 const std::vector<std::vector<int>> ranks_by_order{{0, 1, 2}, {0, -1, -2}, {0, 0, 0}};
@@ -87,5 +87,5 @@ TEST(WaitingFragments, WithEqualRanksTheNumberDecides) {
   EXPECT_EQ(waiting.pop().position, up);
 }
 
-}  // namespace
+}  // namespace waiting_fragments_test
 }  // namespace stormproof::model

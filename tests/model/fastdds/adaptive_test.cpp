@@ -5,7 +5,7 @@
 #include "tests/model/fastdds/fastdds_run.hpp"
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace adaptive_test {
 
 using Kind = PacketKind;
 constexpr std::uint32_t pub_writer_of_0 = 0;
@@ -110,5 +110,5 @@ TEST(FastddsAdaptive, ARequestIsNoResponse) {
   }
 }
 
-}  // namespace
+}  // namespace adaptive_test
 }  // namespace stormproof::model::fastdds

@@ -5,7 +5,7 @@
 #include "tests/model/fastdds/fastdds_run.hpp"
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace announcements_test {
 
 using Kind = PacketKind;
 constexpr std::uint64_t all_others = 100'000;
@@ -184,5 +184,5 @@ TEST(FastddsLoss, NothingArrivesWhenEverythingIsLost) {
   EXPECT_EQ(log.result.counts.heartbeat, 0U);
 }
 
-}  // namespace
+}  // namespace announcements_test
 }  // namespace stormproof::model::fastdds

@@ -15,7 +15,7 @@
 #include "tests/model/fastdds/fastdds_run.hpp"
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace change_states_test {
 
 using Members = std::set<std::uint32_t>;
 constexpr std::uint32_t relation = 0;
@@ -209,5 +209,5 @@ RC_GTEST_PROP(ChangeStates, AreALetterForEachDescriptor, ()) {
   }
 }
 
-}  // namespace
+}  // namespace change_states_test
 }  // namespace stormproof::model::fastdds

@@ -5,7 +5,7 @@
 #include "tests/model/fastdds/fastdds_run.hpp"
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace control_test {
 
 using Kind = PacketKind;
 constexpr std::uint64_t all_others = 100'000;
@@ -184,5 +184,5 @@ TEST(FastddsControl, TheWriterSideOpensWithItsOwnPublicationIfThatComesLast) {
   EXPECT_EQ(opened(log, "ControlWriter", parameter_events), Times{160 * ms});
 }
 
-}  // namespace
+}  // namespace control_test
 }  // namespace stormproof::model::fastdds

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace endpoints_test {
 
 std::string order_of(std::uint32_t publications, std::uint32_t subscriptions) {
   std::string order;
@@ -68,5 +68,5 @@ TEST(Endpoints, ATopicLeadsBackToItsDescriptor) {
   }
 }
 
-}  // namespace
+}  // namespace endpoints_test
 }  // namespace stormproof::model::fastdds

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace message_test {
 
 Message opened(const std::vector<std::uint32_t>& readers, std::uint32_t count = 130) {
   Message message;
@@ -59,5 +59,5 @@ TEST(Message, StartedAgainItCarriesNothing) {
   EXPECT_EQ(message.carries_initial, std::vector<bool>(2, false));
 }
 
-}  // namespace
+}  // namespace message_test
 }  // namespace stormproof::model::fastdds

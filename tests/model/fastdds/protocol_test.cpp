@@ -8,7 +8,7 @@
 #include "tests/model/fastdds/fastdds_run.hpp"
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace protocol_test {
 
 constexpr std::uint32_t pub_writer_of_0 = 0;
 constexpr std::uint32_t descriptors = 9;
@@ -101,5 +101,5 @@ TEST_F(FastddsProtocol, AnOlderAckNackDoesNotLowerTheMark) {
   EXPECT_EQ(heartbeats_of_expiry(), 0U);
 }
 
-}  // namespace
+}  // namespace protocol_test
 }  // namespace stormproof::model::fastdds

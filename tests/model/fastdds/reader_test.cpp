@@ -4,7 +4,7 @@
 #include "tests/model/fastdds/fastdds_run.hpp"
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace reader_test {
 
 using Kind = PacketKind;
 constexpr std::uint64_t all_others = 100'000;
@@ -164,5 +164,5 @@ TEST(FastddsReader, ADuplicateIsCountedAndChangesNothing) {
   EXPECT_EQ(log.result.duplicate_deliveries, 17U);
 }
 
-}  // namespace
+}  // namespace reader_test
 }  // namespace stormproof::model::fastdds

@@ -6,7 +6,7 @@
 #include "tests/model/fastdds/fastdds_run.hpp"
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace sender_test {
 
 using Kind = PacketKind;
 constexpr std::int64_t pulled_ns = 3'110 * us;  // when what existed at the match is sent
@@ -230,5 +230,5 @@ TEST(FastddsSender, SameHostReadersFeedTheCumulativeCharge) {
   EXPECT_EQ(first_message(0).descriptors, (Numbers{0, 1, 2}));
 }
 
-}  // namespace
+}  // namespace sender_test
 }  // namespace stormproof::model::fastdds

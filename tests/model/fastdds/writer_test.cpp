@@ -7,7 +7,7 @@
 #include "tests/model/fastdds/fastdds_run.hpp"
 
 namespace stormproof::model::fastdds {
-namespace {
+namespace writer_test {
 
 using Kind = PacketKind;
 using Timers = std::vector<std::pair<std::int64_t, std::int64_t>>;
@@ -248,5 +248,5 @@ TEST(FastddsWriter, ASecondNackRepairsWhatIsStillOnItsWayOnceSuppressionIsOver) 
   }
 }
 
-}  // namespace
+}  // namespace writer_test
 }  // namespace stormproof::model::fastdds

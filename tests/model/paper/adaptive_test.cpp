@@ -5,7 +5,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace adaptive_test {
 
 using Times = std::vector<std::int64_t>;
 constexpr std::uint64_t all_others = 100'000;
@@ -96,5 +96,5 @@ TEST(Adaptive, TheEndOfASuppressionSchedulesNothing) {
   EXPECT_TRUE(log.scheduled_of(EventKind::heartbeat_expiry, pub_writer_of_0).empty());
 }
 
-}  // namespace
+}  // namespace adaptive_test
 }  // namespace stormproof::model

@@ -5,7 +5,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace announcements_test {
 
 constexpr std::uint64_t all_others = 100'000;
 
@@ -126,5 +126,5 @@ TEST(Announcements, ALostMulticastIsReceivedByNobody) {
   EXPECT_EQ(log.times_of(PacketKind::data, 0, 2), std::vector<std::int64_t>{101 * ms});
 }
 
-}  // namespace
+}  // namespace announcements_test
 }  // namespace stormproof::model

@@ -4,7 +4,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace data_test {
 
 std::vector<std::int64_t> payloads(const Scenario& scenario, Stream s = Stream::pub) {
   std::vector<std::int64_t> list;
@@ -131,5 +131,5 @@ TEST(Piggyback, TheHeartbeatToAllIsChargedOnce) {
   EXPECT_EQ(heartbeats_to_1(2'827), 3U);  // and one more to all with the last descriptor
 }
 
-}  // namespace
+}  // namespace data_test
 }  // namespace stormproof::model

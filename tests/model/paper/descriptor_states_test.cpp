@@ -13,7 +13,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model::paper {
-namespace {
+namespace descriptor_states_test {
 
 using Members = std::set<std::uint32_t>;
 
@@ -152,5 +152,5 @@ TEST(DescriptorStates, RelationsDoNotTouchEachOther) {
   EXPECT_EQ(states.acknack(2, states.all(2), false).requested, 66U);
 }
 
-}  // namespace
+}  // namespace descriptor_states_test
 }  // namespace stormproof::model::paper

@@ -4,7 +4,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace heartbeat_test {
 
 using Times = std::vector<std::int64_t>;
 constexpr std::uint64_t all_others = 100'000;
@@ -116,5 +116,5 @@ TEST(Heartbeat, AStreamWithoutDescriptorsNeverNeedsAnother) {
   EXPECT_EQ(run_and_log(scenario).times_of(PacketKind::heartbeat, 0, 1, Stream::sub), Times{ms});
 }
 
-}  // namespace
+}  // namespace heartbeat_test
 }  // namespace stormproof::model

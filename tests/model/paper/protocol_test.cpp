@@ -5,7 +5,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace protocol_test {
 
 TEST(RunEnd, TheTimeLimitIsInclusive) {
   Scenario scenario = by_hand({{0, 3}, {1, 2}});
@@ -98,5 +98,5 @@ TEST(EmptyStreams, NothingToAdvertiseIsCompleteAtOnce) {
   EXPECT_EQ(log.result.counts, Counts{});
 }
 
-}  // namespace
+}  // namespace protocol_test
 }  // namespace stormproof::model

@@ -5,7 +5,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace reader_test {
 
 constexpr std::uint64_t all_others = 100'000;
 
@@ -166,5 +166,5 @@ TEST(Reader, APacketWithSeveralHeartbeatsIsAnsweredOnce) {
   EXPECT_EQ(log.of(PacketKind::acknack, 1, 0).size(), 2U);
 }
 
-}  // namespace
+}  // namespace reader_test
 }  // namespace stormproof::model

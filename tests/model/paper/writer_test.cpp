@@ -6,7 +6,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace writer_test {
 
 /// 0 has `publications`, 1 has none; packet 2 is the first DATA packet, and it is lost.
 Scenario first_data_lost(std::uint32_t publications) {
@@ -132,5 +132,5 @@ TEST(Writer, AWriterThatIsNotOpenIgnoresAckNacks) {
   EXPECT_EQ(log.result.counts.repair_data, 0U);
 }
 
-}  // namespace
+}  // namespace writer_test
 }  // namespace stormproof::model

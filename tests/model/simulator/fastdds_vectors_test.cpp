@@ -7,7 +7,7 @@
 #include "model/simulator.hpp"
 
 namespace stormproof {
-namespace {
+namespace fastdds_vectors_test {
 
 vectors::Expected outcome(const model::RunResult& result) {
   const model::Counts& counts = result.counts;
@@ -46,5 +46,5 @@ TEST_P(FastddsVectors, DeliverEveryDescriptorOnceForTheFirstTime) {
 INSTANTIATE_TEST_SUITE_P(All, FastddsVectors, testing::ValuesIn(vectors::fastdds_vectors()),
                          [](const auto& tested) { return tested.param.name; });
 
-}  // namespace
+}  // namespace fastdds_vectors_test
 }  // namespace stormproof

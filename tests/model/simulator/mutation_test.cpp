@@ -11,7 +11,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace mutation_test {
 
 using Change = EventMutation::Change;
 using fsm::TableMutation;
@@ -294,5 +294,5 @@ TEST_P(AnyMistake, InATableLeavesTheSimulatorIntact) {
 
 INSTANTIATE_TEST_SUITE_P(Variants, AnyMistake, testing::Range(0, 8));
 
-}  // namespace
+}  // namespace mutation_test
 }  // namespace stormproof::model

@@ -10,7 +10,7 @@
 #include "tests/oracle/comparison.hpp"
 
 namespace stormproof {
-namespace {
+namespace oracle_property_test {
 
 /// The text that RapidCheck prints when the property fails, or nothing. The seed is fixed.
 template <class Property>
@@ -80,5 +80,5 @@ INSTANTIATE_TEST_SUITE_P(Implementations, OracleProperty,
                                                                                  : "Fastdds";
                          });
 
-}  // namespace
+}  // namespace oracle_property_test
 }  // namespace stormproof

@@ -7,7 +7,7 @@
 #include "tests/oracle/sharp_scenario.hpp"
 
 namespace stormproof {
-namespace {
+namespace oracle_test {
 
 class AgainstOracle : public testing::TestWithParam<int> {
  protected:
@@ -31,5 +31,5 @@ TEST_P(AgainstFastddsOracle, SameEventsSameOutcome) {
 }
 INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstFastddsOracle, testing::Range(0, 14));
 
-}  // namespace
+}  // namespace oracle_test
 }  // namespace stormproof

@@ -4,7 +4,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace packet_delays_test {
 
 /// Two participants, one publication at the first; every packet takes 1 ms.
 Scenario one_publication() { return by_hand({{0, 1}, {1, 0}}); }
@@ -103,5 +103,5 @@ TEST(PacketDelays, HoldWithFastddsToo) {
   EXPECT_EQ(first_reception(), 42);
 }
 
-}  // namespace
+}  // namespace packet_delays_test
 }  // namespace stormproof::model

@@ -5,7 +5,7 @@
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model {
-namespace {
+namespace run_until_test {
 
 Scenario beyond(Scenario scenario, std::int64_t time_limit_ns) {
   scenario.run_until = RunUntil::time_limit;
@@ -91,5 +91,5 @@ TEST(MaxEvents, InterruptsTheRunAfterExactlySoMany) {
   EXPECT_EQ(simulate(scenario, options).end, RunEnd::completed);
 }
 
-}  // namespace
+}  // namespace run_until_test
 }  // namespace stormproof::model

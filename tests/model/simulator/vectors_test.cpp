@@ -7,7 +7,7 @@
 #include "tests/vectors/paper_vectors.hpp"
 
 namespace stormproof {
-namespace {
+namespace vectors_test {
 
 vectors::Expected run(const model::Scenario& scenario) {
   const model::RunResult result = model::simulate(scenario);
@@ -44,5 +44,5 @@ TEST_P(OpenLoopVectors, AgreeExactly) {
 INSTANTIATE_TEST_SUITE_P(All, OpenLoopVectors, testing::ValuesIn(vectors::open_loop_vectors()),
                          [](const auto& tested) { return tested.param.name; });
 
-}  // namespace
+}  // namespace vectors_test
 }  // namespace stormproof

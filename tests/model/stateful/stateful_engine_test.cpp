@@ -10,7 +10,7 @@ namespace stormproof::model::stateful {
 
 void PrintTo(const EngineSubject& subject, std::ostream* out) { *out << subject.name; }
 
-namespace {
+namespace stateful_engine_test {
 
 std::vector<EngineSubject> all_subjects() {
   std::vector<EngineSubject> all = queue_subjects();
@@ -40,5 +40,5 @@ TEST_P(StatefulEngine, IsToldFromEveryWrongModel) {
 INSTANTIATE_TEST_SUITE_P(Parts, StatefulEngine, testing::ValuesIn(all_subjects()),
                          [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace stateful_engine_test
 }  // namespace stormproof::model::stateful

@@ -9,7 +9,7 @@
 #include "tests/model/trace/recording.hpp"
 
 namespace stormproof::model::trace {
-namespace {
+namespace format_document_test {
 
 /// The JSON blocks of the document, each as one line.
 std::vector<std::string> excerpts() {
@@ -37,5 +37,5 @@ TEST(FormatDocument, ItsExcerptsAreLinesOfTheTrace) {
   }
 }
 
-}  // namespace
+}  // namespace format_document_test
 }  // namespace stormproof::model::trace

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model::trace {
-namespace {
+namespace json_text_test {
 
 std::string microseconds(std::int64_t ns) {
   std::string text;
@@ -49,5 +49,5 @@ TEST(JsonText, StringsAreEscapedAndAlwaysUtf8) {
   EXPECT_EQ(json_string("\xff"), "\"\xef\xbf\xbd\"");
 }
 
-}  // namespace
+}  // namespace json_text_test
 }  // namespace stormproof::model::trace

@@ -6,7 +6,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::trace {
-namespace {
+namespace line_reader_test {
 
 using Status = LineReader::Status;
 
@@ -57,5 +57,5 @@ TEST(LineReader, RefusesAnEndlessLine) {
   EXPECT_LE(reader.text().size(), LineReader::max_line_bytes);
 }
 
-}  // namespace
+}  // namespace line_reader_test
 }  // namespace stormproof::model::trace

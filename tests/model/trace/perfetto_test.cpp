@@ -11,7 +11,7 @@
 #include "tests/model/trace/recording.hpp"
 
 namespace stormproof::model::trace {
-namespace {
+namespace perfetto_test {
 
 using Json = nlohmann::ordered_json;
 using TrackKey = std::pair<std::uint32_t, std::uint32_t>;
@@ -156,5 +156,5 @@ TEST(Perfetto, LostPacketsShowAtTheirSender) {
   EXPECT_EQ(lost, (std::set<std::string>{"22", "36"}));
 }
 
-}  // namespace
+}  // namespace perfetto_test
 }  // namespace stormproof::model::trace

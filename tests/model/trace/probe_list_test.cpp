@@ -10,7 +10,7 @@
 #include "tests/model/trace/recording.hpp"
 
 namespace stormproof::model::trace {
-namespace {
+namespace probe_list_test {
 
 TEST(ProbeList, ForwardsEverythingToAll) {
   const Scenario& scenario = case_named("v3");
@@ -41,5 +41,5 @@ TEST(ProbeList, ObserversDoNotChangeTheRun) {
   }
 }
 
-}  // namespace
+}  // namespace probe_list_test
 }  // namespace stormproof::model::trace

@@ -7,7 +7,7 @@
 #include "tests/model/trace/recording.hpp"
 
 namespace stormproof::model::trace {
-namespace {
+namespace replay_errors_test {
 
 using config::TestFiles;
 
@@ -120,5 +120,5 @@ TEST(ReplayErrors, LinesAfterTheEnd) {
                                           "the end of the file");
 }
 
-}  // namespace
+}  // namespace replay_errors_test
 }  // namespace stormproof::model::trace

@@ -7,7 +7,7 @@
 #include "tests/model/trace/recording.hpp"
 
 namespace stormproof::model::trace {
-namespace {
+namespace replay_test {
 
 class Replaying {
  public:
@@ -153,5 +153,5 @@ TEST(Replay, TheCallerCanStopIt) {
   EXPECT_EQ(result->events, RunOptions::progress_interval);
 }
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace stormproof::model::trace

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model::trace {
-namespace {
+namespace trace_json_test {
 
 std::string difference(const char* recorded, const char* replayed) {
   const auto found = first_difference(Json::parse(recorded), Json::parse(replayed));
@@ -50,5 +50,5 @@ TEST(TraceJson, LongValuesAreCut) {
   EXPECT_LT(found->recorded.size(), 500U);
 }
 
-}  // namespace
+}  // namespace trace_json_test
 }  // namespace stormproof::model::trace

@@ -9,7 +9,7 @@
 #include "tests/model/trace/recording.hpp"
 
 namespace stormproof::model::trace {
-namespace {
+namespace trace_machines_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -83,5 +83,5 @@ TEST_P(TraceMachinesTest, TransitionsAreRowsAndFollowEachOther) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, TraceMachinesTest, testing::ValuesIn(trace_cases()), CaseName{});
 
-}  // namespace
+}  // namespace trace_machines_test
 }  // namespace stormproof::model::trace

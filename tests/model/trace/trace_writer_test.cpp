@@ -11,7 +11,7 @@
 #include "tests/model/trace/recording.hpp"
 
 namespace stormproof::model::trace {
-namespace {
+namespace trace_writer_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -217,5 +217,5 @@ TEST(TraceWriter, InterruptedRunHasACompleteTrace) {
   EXPECT_EQ(trace.events.size(), RunOptions::progress_interval);
 }
 
-}  // namespace
+}  // namespace trace_writer_test
 }  // namespace stormproof::model::trace

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model::trace {
-namespace {
+namespace transition_list_test {
 
 constexpr MachineRef repair{"DescriptorRepair", MachineRef::Kind::relation, 5};
 constexpr MachineRef other{"DescriptorRepair", MachineRef::Kind::relation, 6};
@@ -48,5 +48,5 @@ TEST(TransitionList, ForgetsWhatWasCleared) {
   EXPECT_EQ(list.entries()[0].words, (std::vector<std::uint64_t>{1}));
 }
 
-}  // namespace
+}  // namespace transition_list_test
 }  // namespace stormproof::model::trace

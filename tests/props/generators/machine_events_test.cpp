@@ -12,7 +12,7 @@
 #include "fsm/heartbeat_timer.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace machine_events_test {
 
 /// States that the sequence visits.
 template <class Machine>
@@ -106,5 +106,5 @@ TEST(MachineEvents, CyclesAreLegal) {
   }
 }
 
-}  // namespace
+}  // namespace machine_events_test
 }  // namespace stormproof::props

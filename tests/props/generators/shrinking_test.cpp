@@ -11,7 +11,7 @@
 #include "props/generators/simpler.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace shrinking_test {
 
 using model::Nanoseconds;
 using model::Scenario;
@@ -165,5 +165,5 @@ TEST(Shrinking, EveryStepIsValidAndSimpler) {
   EXPECT_GT(seen, 100U);
 }
 
-}  // namespace
+}  // namespace shrinking_test
 }  // namespace stormproof::props

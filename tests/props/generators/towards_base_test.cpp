@@ -9,7 +9,7 @@
 #include "props/generators/simpler.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace towards_base_test {
 
 using model::Nanoseconds;
 using model::Scenario;
@@ -136,5 +136,5 @@ TEST(Printing, RapidCheckPrintsAFailureAsAFile) {
   EXPECT_GT(failures, 5);
 }
 
-}  // namespace
+}  // namespace towards_base_test
 }  // namespace stormproof::props

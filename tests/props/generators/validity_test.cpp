@@ -13,7 +13,7 @@
 #include "props/generators/scenarios.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace validity_test {
 
 using model::Scenario;
 
@@ -108,5 +108,5 @@ TEST(RandomScenario, SizesGrow) {
   }
 }
 
-}  // namespace
+}  // namespace validity_test
 }  // namespace stormproof::props

@@ -16,7 +16,7 @@
 #include "props/generators/scenarios.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace variety_test {
 
 using model::Nanoseconds;
 using model::Scenario;
@@ -232,5 +232,5 @@ TEST(Variety, APlainScenarioHasNoneOfThem) {
   }
 }
 
-}  // namespace
+}  // namespace variety_test
 }  // namespace stormproof::props

@@ -6,7 +6,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace findings_test {
 
 model::RunResult run_of(const std::string& name, const std::vector<std::string>& overrides = {}) {
   const std::string path = std::string{STORMPROOF_FINDINGS_DIR} + "/" + name + ".yaml";
@@ -71,5 +71,5 @@ TEST(Findings, TimeDoesNotScaleExactly) {
   EXPECT_EQ(scaled.counts, correct(shipped("smallest"), nullptr).counts);
 }
 
-}  // namespace
+}  // namespace findings_test
 }  // namespace stormproof::props

@@ -7,7 +7,7 @@
 #include "tests/props/laws/mistakes.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace laws_fail_test {
 
 const Law& law_called(std::string_view id) {
   const auto found = std::ranges::find(laws(), id, &Law::id);
@@ -43,5 +43,5 @@ TEST(Mistakes, AreShownWithASmallScenario) {
   EXPECT_NE(broken->find("participants"), std::string::npos) << *broken;
 }
 
-}  // namespace
+}  // namespace laws_fail_test
 }  // namespace stormproof::props

@@ -14,7 +14,7 @@ namespace stormproof::props {
 /// GoogleTest prints the law of a failing test by its statement.
 static void PrintTo(const Law& law, std::ostream* out) { *out << law.id << ": " << law.statement; }
 
-namespace {
+namespace laws_hold_test {
 
 std::string test_name(const testing::TestParamInfo<Law>& info) {
   std::string name{info.param.id.substr(info.param.id.find('.') + 1)};
@@ -50,5 +50,5 @@ TEST(Laws, HaveUniqueIdsAndStatementsOfOneLine) {
   EXPECT_GE(ids.size(), 20U);
 }
 
-}  // namespace
+}  // namespace laws_hold_test
 }  // namespace stormproof::props

@@ -18,8 +18,6 @@ constexpr std::uint16_t default_unicast_locator = 0x0031;
 constexpr std::uint16_t builtin_endpoint_set = 0x0058;
 }  // namespace pid
 
-std::uint16_t id_of(ParameterId id) { return static_cast<std::uint16_t>(id); }
-
 void add_version(ParameterWriter& out, VendorId vendor) {
   constexpr std::array<std::uint8_t, 4> version{2, 2, 0, 0};
   const std::array<std::uint8_t, 4> octets{static_cast<std::uint8_t>(vendor >> 8U),

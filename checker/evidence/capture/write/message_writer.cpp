@@ -16,8 +16,6 @@ constexpr std::uint8_t little_endian = 0x01;
 constexpr std::uint8_t final_flag = 0x02;
 constexpr std::uint8_t data_flag = 0x04;
 
-std::uint16_t id_of(ParameterId id) { return static_cast<std::uint16_t>(id); }
-
 }  // namespace
 
 ParameterWriter& ParameterWriter::number(std::uint16_t id, std::uint64_t value) {

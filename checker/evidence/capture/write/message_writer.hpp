@@ -6,10 +6,15 @@
 #include <cstdint>
 
 #include "checker/evidence/capture/address.hpp"
+#include "checker/evidence/capture/parameter_list.hpp"
 #include "checker/evidence/capture/rtps_message.hpp"
 #include "checker/evidence/capture/write/byte_writer.hpp"
 
 namespace stormproof::capture::write {
+
+[[nodiscard]] constexpr std::uint16_t id_of(ParameterId id) {
+  return static_cast<std::uint16_t>(id);
+}
 
 /// A parameter list with its encapsulation, without its sentinel.
 class ParameterWriter {

@@ -1,5 +1,6 @@
-// What a packet of the model holds, byte for byte: the model keeps only the sum (specs/guide/model.md and
-// specs/guide/fastdds.md, sizes). From it follow whether there is an INFO_DST, and where each DATA ends.
+// What a packet of the model holds, byte for byte: the model keeps only the sum
+// (specs/guide/model.md and specs/guide/fastdds.md, sizes). From it follow whether there is an
+// INFO_DST, and where each DATA ends.
 #pragma once
 
 #include <algorithm>

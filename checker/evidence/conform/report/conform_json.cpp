@@ -1,5 +1,5 @@
-// The report as JSON; specs/guide/conforming.md explains the keys. Names in a capture are any bytes, so
-// every text is made valid here.
+// The report as JSON; specs/guide/conforming.md explains the keys. Names in a capture are any
+// bytes, so every text is made valid here.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>

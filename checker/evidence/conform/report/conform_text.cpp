@@ -88,7 +88,7 @@ std::string checked(const Report& report) {
   return text;
 }
 
-std::string rules(const Conformance& result) {
+std::string rules_text(const Conformance& result) {
   std::string text =
       fmt::format("\nRules: {} of {} explain something\n", rules_used(result), rule_count);
   std::string never;
@@ -186,7 +186,7 @@ std::string to_text(const Report& report) {
                         report::plural(report.conversation.topology.hosts, "host"),
                         grouped(result.places.size())));
   return text + first_unexplained(report, names) + all_faults(report, names) + more(report, names) +
-         checked(report) + rules(result) + coverage(report) + assignment(report) +
+         checked(report) + rules_text(result) + coverage(report) + assignment(report) +
          assumptions(report);
 }
 

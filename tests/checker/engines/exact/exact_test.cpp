@@ -10,7 +10,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::exact {
-namespace {
+namespace exact_test {
 
 using checker::CheckRequest;
 using props::Finding;
@@ -159,5 +159,5 @@ TEST_F(ExactRun, ScenarioToRunIsTheMutants) {
   EXPECT_EQ(scenario_to_run(request).time_limit, model::Nanoseconds{7});
 }
 
-}  // namespace
+}  // namespace exact_test
 }  // namespace stormproof::exact

@@ -1,5 +1,5 @@
 // What `measure` says about runs whose delays are known.
-#include "checker/engines/exact/measure.hpp"
+#include "checker/engines/bounds/measure.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::exact {
-namespace {
+namespace measure_test {
 
 Measured measured(const std::string& name, const std::vector<std::string>& overrides = {}) {
   smt::Claims claims;
@@ -58,5 +58,5 @@ TEST(Measure, AnIncompleteRunHasNoDiscoveryTime) {
   EXPECT_GT(m.largest_delay, model::Nanoseconds{});
 }
 
-}  // namespace
+}  // namespace measure_test
 }  // namespace stormproof::exact

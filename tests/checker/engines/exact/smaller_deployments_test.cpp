@@ -6,7 +6,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::exact {
-namespace {
+namespace smaller_deployments_test {
 
 TEST(SmallerDeployments, BeginWithTheSmallest) {
   const model::Scenario scenario = props::shipped("wifi-5x20");
@@ -40,5 +40,5 @@ TEST(SmallerDeployments, ContainPartsOfTheGivenOne) {
   EXPECT_TRUE(late_joiner);
 }
 
-}  // namespace
+}  // namespace smaller_deployments_test
 }  // namespace stormproof::exact

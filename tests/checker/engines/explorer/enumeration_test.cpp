@@ -15,7 +15,7 @@
 #include "tests/checker/engines/explorer/tiny.hpp"
 
 namespace stormproof::explorer {
-namespace {
+namespace enumeration_test {
 
 struct Outcomes {
   std::set<std::pair<std::int64_t, std::uint64_t>> completions;  ///< time, repairs until then
@@ -214,5 +214,5 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"two_packets", 3, 0, 0, 2, model::Grouping::single, 100}),
     [](const auto& test) { return std::string{test.param.name}; });
 
-}  // namespace
+}  // namespace enumeration_test
 }  // namespace stormproof::explorer

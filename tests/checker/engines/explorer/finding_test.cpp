@@ -13,7 +13,7 @@
 #include "tests/checker/engines/explorer/tiny.hpp"
 
 namespace stormproof::explorer {
-namespace {
+namespace finding_test {
 
 using model::Nanoseconds;
 using props::Finding;
@@ -210,5 +210,5 @@ TEST(Explorer, AnUnfinishedSearchSaysHowFarItCame) {
   EXPECT_FALSE(result.exhausted);
 }
 
-}  // namespace
+}  // namespace finding_test
 }  // namespace stormproof::explorer

@@ -12,7 +12,7 @@
 #include "fsm/reflect.hpp"
 
 namespace stormproof::explorer {
-namespace {
+namespace mutant_test {
 
 using fsm::TableMutation;
 using model::EventKind;
@@ -140,5 +140,5 @@ TEST_P(Mutants, AreCaught) {
 INSTANTIATE_TEST_SUITE_P(Explorer, Mutants, testing::ValuesIn(cases()),
                          [](const auto& test) { return std::string{test.param.name}; });
 
-}  // namespace
+}  // namespace mutant_test
 }  // namespace stormproof::explorer

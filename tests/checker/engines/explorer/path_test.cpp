@@ -9,7 +9,7 @@
 #include "tests/checker/engines/explorer/tiny.hpp"
 
 namespace stormproof::explorer {
-namespace {
+namespace path_test {
 
 using model::Nanoseconds;
 
@@ -86,5 +86,5 @@ TEST(Replay, APathThatTheSimulatorDoesNotTakeIsRefused) {
   EXPECT_NE(outcome.why_not.find("in the simulator"), std::string::npos) << outcome.why_not;
 }
 
-}  // namespace
+}  // namespace path_test
 }  // namespace stormproof::explorer

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::explorer {
-namespace {
+namespace zone_test {
 
 /// All solutions; column 0 is the present.
 class Solutions {
@@ -141,5 +141,5 @@ TEST(Zone, ATieIsDecidedByItsLimit) {
   EXPECT_FALSE(zone.can_be_next(1, limits));
 }
 
-}  // namespace
+}  // namespace zone_test
 }  // namespace stormproof::explorer

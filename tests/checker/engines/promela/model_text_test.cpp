@@ -9,7 +9,7 @@
 #include "fsm/machines.hpp"
 
 namespace stormproof::promela {
-namespace {
+namespace model_text_test {
 
 using Kind = fsm::TableMutation::Kind;
 
@@ -75,5 +75,5 @@ TEST(ModelText, LeavesOutWhatADroppedActionAskedFor) {
             Lines{"  :: state[d] == U && (in == 1) -> state[d] = R"});
 }
 
-}  // namespace
+}  // namespace model_text_test
 }  // namespace stormproof::promela

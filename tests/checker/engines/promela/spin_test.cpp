@@ -9,7 +9,7 @@
 #include "checker/engines/promela/run_spin.hpp"
 
 namespace stormproof::promela {
-namespace {
+namespace spin_test {
 
 using Kind = fsm::TableMutation::Kind;
 
@@ -107,5 +107,5 @@ TEST_F(Spin, NeedsAFolderThatExists) {
   EXPECT_NE(run.error().find("no model can be written there"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace spin_test
 }  // namespace stormproof::promela

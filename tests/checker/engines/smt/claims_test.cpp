@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::smt {
-namespace {
+namespace claims_test {
 
 z3::expr_vector list(std::initializer_list<z3::expr> expressions) {
   z3::expr_vector vector{expressions.begin()->ctx()};
@@ -72,5 +72,5 @@ TEST(Claims, TheSolverNamesItsVersion) {
   EXPECT_EQ(Claims({.seed = 7}).options().seed, 7U);
 }
 
-}  // namespace
+}  // namespace claims_test
 }  // namespace stormproof::smt

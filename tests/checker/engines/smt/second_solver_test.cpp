@@ -7,7 +7,7 @@
 #include "tests/checker/engines/smt/solver_on_path.hpp"
 
 namespace stormproof::smt {
-namespace {
+namespace second_solver_test {
 
 namespace fs = std::filesystem;
 
@@ -177,5 +177,5 @@ TEST(Export, AFileThatCannotBeWrittenIsReported) {
   EXPECT_NE(claims.second_opinion("some.property").problem.find("cannot write"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace second_solver_test
 }  // namespace stormproof::smt

@@ -19,7 +19,7 @@
 #include "fsm/single_shot.hpp"
 
 namespace stormproof::smt {
-namespace {
+namespace symbolic_test {
 
 using Dice = std::mt19937;
 
@@ -107,5 +107,5 @@ TEST(SymbolicValues, ContextsNest) {
   EXPECT_EQ(&SymbolicContext::current(), &outer);
 }
 
-}  // namespace
+}  // namespace symbolic_test
 }  // namespace stormproof::smt

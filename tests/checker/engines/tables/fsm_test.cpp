@@ -3,7 +3,7 @@
 #include "tests/checker/engines/tables/table_check.hpp"
 
 namespace stormproof::tables {
-namespace {
+namespace fsm_test {
 
 using Kind = fsm::TableMutation::Kind;
 
@@ -92,5 +92,5 @@ TEST(Fsm, AMistakeInATableThatDoesNotExistMakesNoProof) {
   EXPECT_FALSE(finding.details.empty());
 }
 
-}  // namespace
+}  // namespace fsm_test
 }  // namespace stormproof::tables

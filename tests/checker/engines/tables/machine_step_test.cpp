@@ -7,7 +7,7 @@
 #include "fsm/descriptor_repair.hpp"
 
 namespace stormproof::tables {
-namespace {
+namespace machine_step_test {
 
 using fsm::DescriptorRepair;
 using fsm::TableMutation;
@@ -69,5 +69,5 @@ TEST(MachineStep, AgreesWithTheInterpreterOfTables) {
   }
 }
 
-}  // namespace
+}  // namespace machine_step_test
 }  // namespace stormproof::tables

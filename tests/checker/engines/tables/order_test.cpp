@@ -4,7 +4,7 @@
 #include "tests/checker/engines/tables/table_check.hpp"
 
 namespace stormproof::tables {
-namespace {
+namespace order_test {
 
 using checker::OrderRule;
 using Kind = fsm::TableMutation::Kind;
@@ -116,5 +116,5 @@ TEST(OrderCommutation, AMistakeInATableChangesTheMatrix) {
                   "source completion");
 }
 
-}  // namespace
+}  // namespace order_test
 }  // namespace stormproof::tables

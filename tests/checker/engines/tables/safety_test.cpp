@@ -9,7 +9,7 @@
 #include "tests/checker/engines/tables/table_check.hpp"
 
 namespace stormproof::tables {
-namespace {
+namespace safety_test {
 
 using Kind = fsm::TableMutation::Kind;
 using model::EventKind;
@@ -164,5 +164,5 @@ TEST(Check, IsSilentAboutWhatItCannotDecideAndStopsWhenAsked) {
   EXPECT_TRUE(check(properties, stopped).empty());
 }
 
-}  // namespace
+}  // namespace safety_test
 }  // namespace stormproof::tables

@@ -10,7 +10,7 @@
 #include "checker/engines/tables/ignored_pairs.hpp"
 
 namespace stormproof::tables {
-namespace {
+namespace specs_test {
 
 std::string text_of(const std::string& name) {
   std::ostringstream text;
@@ -50,5 +50,5 @@ TEST(IgnoredPairs, AreReadPerMachine) {
   EXPECT_TRUE(ignored_pairs("Announcer").no_row.empty());
 }
 
-}  // namespace
+}  // namespace specs_test
 }  // namespace stormproof::tables

@@ -5,7 +5,7 @@
 #include "tests/checker/engines/timeline/drawn_runs.hpp"
 
 namespace stormproof::timeline {
-namespace {
+namespace bridge_test {
 
 Setting drawn_setting() {
   Setting setting;
@@ -85,5 +85,5 @@ TEST(TimelineBridge, AWrongEncodingIsNoticed) {
   EXPECT_FALSE(agrees);
 }
 
-}  // namespace
+}  // namespace bridge_test
 }  // namespace stormproof::timeline

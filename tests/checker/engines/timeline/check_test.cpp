@@ -7,7 +7,7 @@
 #include "tests/checker/engines/timeline/requests.hpp"
 
 namespace stormproof::timeline {
-namespace {
+namespace check_test {
 
 using model::Nanoseconds;
 using props::VerdictKind;
@@ -136,5 +136,5 @@ TEST(TimelineCheck, IsSilentAboutOtherProperties) {
   EXPECT_TRUE(check(ids, request).empty());
 }
 
-}  // namespace
+}  // namespace check_test
 }  // namespace stormproof::timeline

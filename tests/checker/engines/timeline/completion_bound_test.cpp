@@ -1,10 +1,10 @@
 // B in numbers, by hand.
-#include "checker/engines/timeline/completion_bound.hpp"
+#include "checker/engines/bounds/completion_bound.hpp"
 
 #include <gtest/gtest.h>
 
 namespace stormproof::timeline {
-namespace {
+namespace completion_bound_test {
 
 using model::Nanoseconds;
 
@@ -72,5 +72,5 @@ TEST(CompletionBound, FastDds) {
   EXPECT_EQ(bound->after(2), Nanoseconds{1'003'120'000} + Nanoseconds{1'002'120'000} * 2);
 }
 
-}  // namespace
+}  // namespace completion_bound_test
 }  // namespace stormproof::timeline

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "checker/engines/timeline/completion_bound.hpp"
+#include "checker/engines/bounds/completion_bound.hpp"
 #include "checker/engines/timeline/directed_run.hpp"
 
 namespace stormproof::timeline {

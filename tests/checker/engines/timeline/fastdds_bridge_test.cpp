@@ -3,7 +3,7 @@
 #include "tests/checker/engines/timeline/drawn_runs.hpp"
 
 namespace stormproof::timeline {
-namespace {
+namespace fastdds_bridge_test {
 
 TEST(TimelineBridge, FastDdsIsNotLaterThanItsBound) {
   STORMPROOF_DRAWN("completion ≤ B(losses, Δ)", [] {
@@ -37,5 +37,5 @@ TEST(TimelineBridge, FastDdsIsNotLaterThanItsBound) {
   });
 }
 
-}  // namespace
+}  // namespace fastdds_bridge_test
 }  // namespace stormproof::timeline

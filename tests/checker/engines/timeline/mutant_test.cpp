@@ -5,7 +5,7 @@
 #include "tests/checker/engines/timeline/requests.hpp"
 
 namespace stormproof::timeline {
-namespace {
+namespace mutant_test {
 
 using model::EventKind;
 using model::EventMutation;
@@ -120,5 +120,5 @@ TEST(TimelineMutants, LateReceptions) {
   EXPECT_EQ(verdict("storm.free-threshold", rules), VerdictKind::violated);
 }
 
-}  // namespace
+}  // namespace mutant_test
 }  // namespace stormproof::timeline

@@ -8,7 +8,7 @@
 #include "tests/checker/engines/timeline/requests.hpp"
 
 namespace stormproof::timeline {
-namespace {
+namespace theorem_test {
 
 class Theorems : public testing::Test {
  protected:
@@ -66,5 +66,5 @@ TEST_F(Theorems, WhatIsRefutedImpossibleOrOpenIsNotProved) {
   EXPECT_TRUE(proves([](Theorem& t) { t.holds("x is not negative", t.at_least("x", 0) >= 0); }));
 }
 
-}  // namespace
+}  // namespace theorem_test
 }  // namespace stormproof::timeline

@@ -5,7 +5,7 @@
 #include "tests/checker/engines/timeline/requests.hpp"
 
 namespace stormproof::timeline {
-namespace {
+namespace threshold_test {
 
 using model::Nanoseconds;
 
@@ -51,5 +51,5 @@ TEST(FreeThreshold, OfProfiles) {
   EXPECT_FALSE(free_threshold(sedp, false).exists);
 }
 
-}  // namespace
+}  // namespace threshold_test
 }  // namespace stormproof::timeline

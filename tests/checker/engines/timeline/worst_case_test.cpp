@@ -4,7 +4,7 @@
 #include "tests/checker/engines/timeline/drawn_runs.hpp"
 
 namespace stormproof::timeline {
-namespace {
+namespace worst_case_test {
 
 TEST(WorstCase, TakesExactlyTheBound) {
   STORMPROOF_DRAWN("completion of the worst case = B", [] {
@@ -48,5 +48,5 @@ TEST(WorstCase, PhaseLiesWithinThePeriod) {
   }
 }
 
-}  // namespace
+}  // namespace worst_case_test
 }  // namespace stormproof::timeline

@@ -9,7 +9,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace counting_test {
 
 using namespace testing;
 
@@ -233,5 +233,5 @@ TEST(RequiredKeys, AnEndpointThatIsGoneIsNotRequired) {
   EXPECT_EQ(count_of(file).required, 0U);
 }
 
-}  // namespace
+}  // namespace counting_test
 }  // namespace stormproof::capture

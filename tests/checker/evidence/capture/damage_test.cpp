@@ -16,7 +16,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace damage_test {
 
 using testing::Buffer;
 using testing::gzip;
@@ -221,5 +221,5 @@ TEST(Damage, ARealCompressedCaptureCutOffAnywhere) {
   }
 }
 
-}  // namespace
+}  // namespace damage_test
 }  // namespace stormproof::capture

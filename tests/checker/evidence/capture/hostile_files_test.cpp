@@ -16,7 +16,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace hostile_files_test {
 
 namespace fs = std::filesystem;
 using namespace testing;
@@ -212,5 +212,5 @@ TEST_F(Files, AFileThatGrowsOrShrinksWhileItIsRead) {
   EXPECT_NE(shrinking->damage(), "");
 }
 
-}  // namespace
+}  // namespace hostile_files_test
 }  // namespace stormproof::capture

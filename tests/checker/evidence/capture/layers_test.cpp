@@ -11,7 +11,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace layers_test {
 
 using namespace testing;
 
@@ -131,5 +131,5 @@ TEST(Decompress, GzipWithSeveralMembersUpToTheLimit) {
   EXPECT_EQ(cut->damage, "the .gz data is cut off");
 }
 
-}  // namespace
+}  // namespace layers_test
 }  // namespace stormproof::capture

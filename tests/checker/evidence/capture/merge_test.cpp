@@ -10,7 +10,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace merge_test {
 
 using namespace testing;
 
@@ -101,5 +101,5 @@ TEST(Merge, AnotherPayloadPortOrIdentificationIsAnotherDatagram) {
   EXPECT_EQ(merge(sightings), (std::vector<bool>{true, true, true, true, false}));
 }
 
-}  // namespace
+}  // namespace merge_test
 }  // namespace stormproof::capture

@@ -8,7 +8,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace message_test {
 
 using namespace testing;
 
@@ -274,5 +274,5 @@ TEST(Message, ACaptureWithoutAnyIsAnError) {
   EXPECT_EQ(to_string(conversation.error()), "dns.pcap: no RTPS message in it");
 }
 
-}  // namespace
+}  // namespace message_test
 }  // namespace stormproof::capture

@@ -8,7 +8,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace reassembly_test {
 
 using namespace testing;
 
@@ -237,5 +237,5 @@ TEST(Reassembly, Ipv6WholeAndInFragments) {
   EXPECT_EQ(parts.payloads[1], payload);
 }
 
-}  // namespace
+}  // namespace reassembly_test
 }  // namespace stormproof::capture

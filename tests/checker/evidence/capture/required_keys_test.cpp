@@ -13,7 +13,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace required_keys_test {
 
 using namespace testing;
 
@@ -171,5 +171,5 @@ TEST(RequiredKeysOneByOne, ManyGapsAndSourcesAreNotLookedAtForEveryNumber) {
   EXPECT_EQ(counting.missing.size(), most_missing_listed);
 }
 
-}  // namespace
+}  // namespace required_keys_test
 }  // namespace stormproof::capture

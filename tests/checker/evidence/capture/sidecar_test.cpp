@@ -14,7 +14,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace sidecar_test {
 
 namespace fs = std::filesystem;
 using testing::Buffer;
@@ -144,5 +144,5 @@ TEST(Sidecars, ACaptureTogetherWithItselfCountsOnce) {
   EXPECT_EQ(count(*both, cutoff_ns).counts, count(read(name), cutoff_ns).counts);
 }
 
-}  // namespace
+}  // namespace sidecar_test
 }  // namespace stormproof::capture

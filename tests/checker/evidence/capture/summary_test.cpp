@@ -11,7 +11,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace summary_test {
 
 using namespace testing;
 
@@ -98,5 +98,5 @@ TEST(Summary, ThePlotHasALineForEachClass) {
   EXPECT_NE(svg.find("every descriptor sent"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace summary_test
 }  // namespace stormproof::capture

@@ -24,7 +24,7 @@
 
 namespace stormproof::capture {
 
-namespace {
+namespace tshark_test {
 
 namespace fs = std::filesystem;
 using namespace testing;
@@ -243,5 +243,5 @@ TEST_F(TsharkOnBuilt, DisagreesAboutAnAlteredSubmessage) {
   }
 }
 
-}  // namespace
+}  // namespace tshark_test
 }  // namespace stormproof::capture

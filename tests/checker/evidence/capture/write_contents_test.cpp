@@ -13,7 +13,7 @@
 #include "tests/vectors/paper_vectors.hpp"
 
 namespace stormproof::capture::testing {
-namespace {
+namespace write_contents_test {
 
 model::Scenario scenario_of(model::Deployment deployment, const model::Scenario& like) {
   model::Scenario scenario = like;
@@ -208,5 +208,5 @@ TEST(WriteContents, HostsAreNumberedByAddressHoweverManyThereAre) {
   EXPECT_EQ(all[299].name, "simulated_h598_p0");
 }
 
-}  // namespace
+}  // namespace write_contents_test
 }  // namespace stormproof::capture::testing

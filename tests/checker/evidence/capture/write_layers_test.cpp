@@ -9,7 +9,7 @@
 #include "tests/checker/evidence/capture/packets.hpp"
 
 namespace stormproof::capture::testing {
-namespace {
+namespace write_layers_test {
 
 Buffer frames_of(const std::vector<Buffer>& payloads, std::int64_t time_ns = 5'000'000'007) {
   Buffer file;
@@ -76,7 +76,8 @@ TEST(WriteLayers, DatagramsAreFragmentedAtTheMtu) {
     write::MessageWriter out = message();
     out.heartbeat(0, entity::publications_writer, 7, 3);
     out.fill(payload);
-    const Conversation read = conversation_of({frames_of({out.buffer(), out.buffer()})});
+    const Conversation read =
+        conversation_of(std::vector<Buffer>{frames_of({out.buffer(), out.buffer()})});
     EXPECT_TRUE(read.remarks.empty());
     ASSERT_EQ(read.datagrams.size(), 2U);
     EXPECT_EQ(read.datagrams[1].payload_bytes, payload);
@@ -98,5 +99,5 @@ TEST(WriteLayers, IpHeadersHaveTheirChecksum) {
   EXPECT_EQ((sum & 0xffffU) + (sum >> 16U), 0xffffU);
 }
 
-}  // namespace
+}  // namespace write_layers_test
 }  // namespace stormproof::capture::testing

@@ -10,7 +10,7 @@
 #include "tests/vectors/paper_vectors.hpp"
 
 namespace stormproof::capture::testing {
-namespace {
+namespace write_runs_test {
 
 /// Both comparisons, with every size as the model has it.
 void expect_agreement(const model::Scenario& scenario) {
@@ -109,5 +109,5 @@ TEST(WriteRuns, TheComparisonNoticesWhatIsLeftOut) {
   EXPECT_NE(difference(small_fastdds(), recorder.emissions(), half), "");
 }
 
-}  // namespace
+}  // namespace write_runs_test
 }  // namespace stormproof::capture::testing

@@ -17,7 +17,7 @@
 #include "tests/vectors/paper_vectors.hpp"
 
 namespace stormproof::capture::testing {
-namespace {
+namespace write_tshark_test {
 
 bool tshark_is_available() { return std::system("command -v tshark >/dev/null 2>&1") == 0; }
 
@@ -90,5 +90,5 @@ TEST(WriteTshark, ComplainsAboutADamagedCapture) {
   EXPECT_EQ(dissect(capture.pcap).experts, std::vector<std::string>{"1"});
 }
 
-}  // namespace
+}  // namespace write_tshark_test
 }  // namespace stormproof::capture::testing

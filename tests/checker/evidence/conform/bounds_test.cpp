@@ -5,7 +5,7 @@
 #include "tests/checker/evidence/conform/edits.hpp"
 
 namespace stormproof::conform::testing {
-namespace {
+namespace bounds_test {
 
 constexpr std::int64_t ms = 1'000'000;
 constexpr std::int64_t resolution = 1'000;  ///< of captures in microseconds, which is forgiven
@@ -209,5 +209,5 @@ TEST_F(BoundsEffect, NeitherOneHostNorThePapersWriterCanBeChecked) {
   EXPECT_NE(to_string(refused.error()).find("one host"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace bounds_test
 }  // namespace stormproof::conform::testing

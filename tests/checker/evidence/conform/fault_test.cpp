@@ -8,7 +8,7 @@
 #include "tests/checker/evidence/conform/fault_cases.hpp"
 
 namespace stormproof::conform::testing {
-namespace {
+namespace fault_test {
 
 class FoundFault : public ::testing::TestWithParam<Case> {};
 
@@ -47,5 +47,5 @@ TEST(FoundFaults, CoverAllKinds) {
   }
 }
 
-}  // namespace
+}  // namespace fault_test
 }  // namespace stormproof::conform::testing

@@ -10,7 +10,7 @@
 #include "tests/checker/evidence/conform/captures.hpp"
 
 namespace stormproof::conform::testing {
-namespace {
+namespace mutants_test {
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -128,5 +128,5 @@ TEST(Mutants, OfEveryMachineThatTakesPartAreNoticed) {
   EXPECT_GE(2 * noticed["all"], all) << noticed["all"] << " of " << all;
 }
 
-}  // namespace
+}  // namespace mutants_test
 }  // namespace stormproof::conform::testing

@@ -8,7 +8,7 @@
 #include "tests/checker/evidence/conform/edits.hpp"
 
 namespace stormproof::conform::testing {
-namespace {
+namespace parts_test {
 
 Submessage data(std::uint32_t descriptor, std::uint32_t datagram = 1) {
   return {0, 0, datagram, descriptor, {}};
@@ -160,5 +160,5 @@ TEST_F(Sorting, EndsAtTheInstantGiven) {
   }
 }
 
-}  // namespace
+}  // namespace parts_test
 }  // namespace stormproof::conform::testing

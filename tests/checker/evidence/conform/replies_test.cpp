@@ -7,7 +7,7 @@
 #include "props/generators/dice.hpp"
 
 namespace stormproof::conform {
-namespace {
+namespace replies_test {
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -142,5 +142,5 @@ TEST(Replies, WithoutLossesEverythingArrives) {
   EXPECT_GT(only_with_losses, 100U);
 }
 
-}  // namespace
+}  // namespace replies_test
 }  // namespace stormproof::conform

@@ -6,7 +6,7 @@
 #include "props/generators/dice.hpp"
 
 namespace stormproof::conform {
-namespace {
+namespace requests_test {
 
 constexpr std::chrono::milliseconds patience{10'000};
 
@@ -169,5 +169,5 @@ TEST(RequestsExact, ADemandThatNobodyAsksForIsImpossible) {
             ExactAnswer::Kind::impossible);
 }
 
-}  // namespace
+}  // namespace requests_test
 }  // namespace stormproof::conform

@@ -7,7 +7,7 @@
 #include "tests/checker/evidence/conform/captures.hpp"
 
 namespace stormproof::conform::testing {
-namespace {
+namespace shipped_test {
 
 struct Shipped {
   std::string name;
@@ -119,5 +119,5 @@ TEST(TellingVersionsApart, CycloneConformsToNoFastDds) {
   }
 }
 
-}  // namespace
+}  // namespace shipped_test
 }  // namespace stormproof::conform::testing

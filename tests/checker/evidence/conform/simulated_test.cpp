@@ -8,7 +8,7 @@
 #include "tests/vectors/fastdds_vectors.hpp"
 
 namespace stormproof::conform::testing {
-namespace {
+namespace simulated_test {
 
 void expect_conforming(const model::Scenario& scenario) {
   const Simulated run = simulated(scenario);
@@ -89,5 +89,5 @@ void check_random(bool losses) {
 RC_GTEST_PROP(SimulatedRandom, ConformsExactly, ()) { check_random(true); }
 RC_GTEST_PROP(SimulatedRandom, ConformsWithoutAdmittingLosses, ()) { check_random(false); }
 
-}  // namespace
+}  // namespace simulated_test
 }  // namespace stormproof::conform::testing

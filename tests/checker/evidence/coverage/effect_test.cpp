@@ -6,7 +6,7 @@
 #include "examples.hpp"
 
 namespace stormproof::prediction {
-namespace {
+namespace effect_test {
 
 /// The effect when one configuration is predicted and measured, changed and unchanged.
 Effect effect_of(const std::vector<double>& changed_model,
@@ -52,5 +52,5 @@ TEST(Effect, ASystemThatDoesNotCompleteIsWorse) {
   EXPECT_EQ(effect_of({never, never, never}, {never}).predicted.median, never);
 }
 
-}  // namespace
+}  // namespace effect_test
 }  // namespace stormproof::prediction

@@ -8,7 +8,7 @@
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::prediction {
-namespace {
+namespace intervention_test {
 
 const std::string specs = STORMPROOF_SOURCE_DIR "/specs/";
 
@@ -84,5 +84,5 @@ TEST(LiveRuns, ArePredictedWithinTheStatedError) {
   EXPECT_LE(fits[1].fit.median_abs_ln_ratio, 0.2);   // all messages
 }
 
-}  // namespace
+}  // namespace intervention_test
 }  // namespace stormproof::prediction

@@ -4,7 +4,7 @@
 #include "examples.hpp"
 
 namespace stormproof::prediction {
-namespace {
+namespace observation_test {
 
 std::optional<double> value(const Observation& run, Measure measure) {
   return run.values[static_cast<std::size_t>(measure)];
@@ -85,5 +85,5 @@ TEST(Observations, RefusesImpossibleValues) {
   EXPECT_NE(error_of(head + R"("completed":"yes"})").find("true or false"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace observation_test
 }  // namespace stormproof::prediction

@@ -5,7 +5,7 @@
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::prediction {
-namespace {
+namespace schedule_test {
 
 TEST(Schedule, MeasuredStartsAreTakenAsTheyAre) {
   Configuration c = configuration_of({50, 60});
@@ -93,5 +93,5 @@ TEST(Losses, AreDrawnWithTheirProbabilityAndFromTheirSeed) {
   EXPECT_TRUE(draw_losses(0, 3).empty());
 }
 
-}  // namespace
+}  // namespace schedule_test
 }  // namespace stormproof::prediction

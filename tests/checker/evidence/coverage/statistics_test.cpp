@@ -6,7 +6,7 @@
 #include "examples.hpp"
 
 namespace stormproof::prediction {
-namespace {
+namespace statistics_test {
 
 /// The fit of one configuration.
 Fit fit_of(const std::vector<double>& measured, const std::vector<double>& model) {
@@ -78,5 +78,5 @@ TEST(Statistics, NothingPredictedAndNothingSeenIsEqual) {
   EXPECT_FALSE(fit_of({0, 0}, {5}).median_ratio);  // infinite
 }
 
-}  // namespace
+}  // namespace statistics_test
 }  // namespace stormproof::prediction

@@ -6,7 +6,7 @@
 #include "examples.hpp"
 
 namespace stormproof::prediction {
-namespace {
+namespace study_test {
 
 StudyRequest request_of(const std::vector<std::string>& dds) {
   StudyRequest request;
@@ -94,5 +94,5 @@ TEST(Study, ChartsAndPageForEachProfile) {
   EXPECT_NE(to_html({}, *result).find("</html>"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace study_test
 }  // namespace stormproof::prediction

@@ -7,7 +7,7 @@
 #include "tests/checker/evidence/validate/invented.hpp"
 
 namespace stormproof::validate::testing {
-namespace {
+namespace captured_deployment_test {
 
 constexpr std::int64_t always = INT64_MAX;
 const model::DescriptorProfile defaults{};  // 9 publications, 8 subscriptions
@@ -152,5 +152,5 @@ TEST(Observation, TellsPulledFromPushed) {
   EXPECT_FALSE(observation->values[index_of(Figure::user_control)]) << "none in the capture";
 }
 
-}  // namespace
+}  // namespace captured_deployment_test
 }  // namespace stormproof::validate::testing

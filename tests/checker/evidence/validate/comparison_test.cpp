@@ -4,7 +4,7 @@
 #include "checker/evidence/validate/validate.hpp"
 
 namespace stormproof::validate::testing {
-namespace {
+namespace comparison_test {
 
 const std::vector<double> hundred_to_hundred_twenty{100, 105, 110, 115, 120};
 
@@ -68,5 +68,5 @@ TEST(Agreement, UndecidedWithoutFigures) {
   EXPECT_EQ(agreement(rows(9.0, 1.0), true, {}), Agreement::not_asked);
 }
 
-}  // namespace
+}  // namespace comparison_test
 }  // namespace stormproof::validate::testing

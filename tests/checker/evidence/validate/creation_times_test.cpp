@@ -6,7 +6,7 @@
 #include "tests/checker/evidence/validate/invented.hpp"
 
 namespace stormproof::validate::testing {
-namespace {
+namespace creation_times_test {
 
 constexpr std::int64_t always = INT64_MAX;
 
@@ -84,5 +84,5 @@ TEST(CreationTimes, NothingAfterTheCutCounts) {
   EXPECT_EQ(times.at(Invented::prefix(0)).last_latest, 10 * ms);
 }
 
-}  // namespace
+}  // namespace creation_times_test
 }  // namespace stormproof::validate::testing

@@ -8,7 +8,7 @@
 #include "tests/checker/evidence/validate/invented.hpp"
 
 namespace stormproof::validate::testing {
-namespace {
+namespace differences_test {
 
 /// Two default nodes that describe themselves to each other, pushed at equal intervals of 1 ms.
 Invented plain() {
@@ -127,5 +127,5 @@ TEST(Differences, WhatCannotBeRead) {
   EXPECT_EQ(count_of("unreadable", found(invented)), 3U);
 }
 
-}  // namespace
+}  // namespace differences_test
 }  // namespace stormproof::validate::testing

@@ -9,7 +9,7 @@
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::validate::testing {
-namespace {
+namespace simulated_test {
 
 constexpr const char* text = R"({
   deployment: {participants: [
@@ -181,5 +181,5 @@ TEST(ValidateReport, AllForms) {
   EXPECT_EQ(panels, growth_curves);
 }
 
-}  // namespace
+}  // namespace simulated_test
 }  // namespace stormproof::validate::testing

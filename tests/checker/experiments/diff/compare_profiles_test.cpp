@@ -7,7 +7,7 @@
 #include "checker/experiments/diff/diff.hpp"
 
 namespace stormproof::diff {
-namespace {
+namespace compare_profiles_test {
 
 using model::DdsProfile;
 using model::ImplementationKind;
@@ -165,5 +165,5 @@ TEST(CompareProfiles, KeepsThePlaces) {
   EXPECT_EQ(comparison.changes.front().before_place.line, 0);
 }
 
-}  // namespace
+}  // namespace compare_profiles_test
 }  // namespace stormproof::diff

@@ -15,7 +15,7 @@
 #include "checker/presentation/text/paragraph.hpp"
 
 namespace stormproof::diff {
-namespace {
+namespace diff_test {
 
 namespace config = model::config;
 const config::SpecPath specs{{STORMPROOF_SPECS_DIR}};
@@ -237,5 +237,5 @@ TEST(ReviewedGrid, TheShippedOneFitsEveryPreset) {
   }
 }
 
-}  // namespace
+}  // namespace diff_test
 }  // namespace stormproof::diff

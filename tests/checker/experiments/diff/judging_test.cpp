@@ -10,7 +10,7 @@
 #include "checker/experiments/diff/costs.hpp"
 
 namespace stormproof::diff {
-namespace {
+namespace judging_test {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -246,5 +246,5 @@ TEST(Margins, ThresholdOfTheTheorem) {
   EXPECT_EQ(compare_margins(base, shorter, false, calmer, policy()).judgment, Judgment::better);
 }
 
-}  // namespace
+}  // namespace judging_test
 }  // namespace stormproof::diff

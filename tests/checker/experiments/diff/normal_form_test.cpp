@@ -19,7 +19,7 @@ namespace stormproof::diff {
 
 void PrintTo(const UnreadRule& rule, std::ostream* out) { *out << rule.key << ": " << rule.why; }
 
-namespace {
+namespace normal_form_test {
 
 using model::DdsProfile;
 using model::ImplementationKind;
@@ -164,5 +164,5 @@ INSTANTIATE_TEST_SUITE_P(Rules, MutatedRule,
                          testing::ValuesIn(unread_rules().begin(), unread_rules().end()),
                          name_of_rule);
 
-}  // namespace
+}  // namespace normal_form_test
 }  // namespace stormproof::diff

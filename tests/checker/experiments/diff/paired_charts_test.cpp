@@ -7,12 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/verification/counterexample/chart.hpp"
 #include "checker/experiments/diff/telling_apart.hpp"
+#include "checker/verification/counterexample/chart.hpp"
 #include "tests/checker/presentation/diagrams/svg_texts.hpp"
 
 namespace stormproof::diff {
-namespace {
+namespace paired_charts_test {
 
 using model::DdsProfile;
 
@@ -123,5 +123,5 @@ TEST(PairedCharts, NothingForProfilesThatCannotBeToldApart) {
   EXPECT_TRUE(paired_charts_svg(told({}, {})).empty());
 }
 
-}  // namespace
+}  // namespace paired_charts_test
 }  // namespace stormproof::diff

@@ -10,7 +10,7 @@
 #include "checker/experiments/diff/verdicts.hpp"
 
 namespace stormproof::diff {
-namespace {
+namespace policy_test {
 
 const model::config::SpecPath specs{{STORMPROOF_SPECS_DIR}};
 
@@ -136,5 +136,5 @@ TEST(Verdicts, AreJudgedByThePolicy) {
   EXPECT_EQ(judge_verdicts(VerdictKind::proved, VerdictKind::violated, policy), Judgment::worse);
 }
 
-}  // namespace
+}  // namespace policy_test
 }  // namespace stormproof::diff

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::diff {
-namespace {
+namespace shift_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -165,5 +165,5 @@ TEST(ShiftEstimator, WhatItClaimsCanBeMissed) {
   EXPECT_LT(covered, 350);
 }
 
-}  // namespace
+}  // namespace shift_test
 }  // namespace stormproof::diff

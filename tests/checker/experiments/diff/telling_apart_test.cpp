@@ -16,7 +16,7 @@
 #include "props/generators/knob_access.hpp"
 
 namespace stormproof::diff {
-namespace {
+namespace telling_apart_test {
 
 using model::Bytes;
 using model::DdsProfile;
@@ -282,5 +282,5 @@ TEST(FirstDifference, ATimerThatChangesNoPacketIsInside) {
   EXPECT_FALSE(cut.followed_to_the_end);
 }
 
-}  // namespace
+}  // namespace telling_apart_test
 }  // namespace stormproof::diff

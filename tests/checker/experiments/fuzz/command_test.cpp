@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace {
+namespace command_test {
 
 namespace fs = std::filesystem;
 
@@ -95,4 +95,4 @@ TEST_F(FuzzCommand, reports_what_is_known_when_it_is_interrupted) {
   EXPECT_NE(content("err").find(" of 1000000 runs, "), std::string::npos);
 }
 
-}  // namespace
+}  // namespace command_test

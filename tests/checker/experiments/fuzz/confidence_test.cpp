@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::fuzz {
-namespace {
+namespace confidence_test {
 
 TEST(ClopperPearson, known_values) {
   const RateInterval none = clopper_pearson(0, 200);
@@ -53,5 +53,5 @@ TEST(ClopperPearson, bounds_have_the_tails_of_the_definition) {
   }
 }
 
-}  // namespace
+}  // namespace confidence_test
 }  // namespace stormproof::fuzz

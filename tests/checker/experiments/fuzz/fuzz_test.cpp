@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "checker/verification/counterexample/observe.hpp"
-#include "checker/verification/counterexample/write.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/experiments/fuzz/variant.hpp"
+#include "checker/verification/counterexample/observe.hpp"
+#include "checker/verification/counterexample/write.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
@@ -19,7 +19,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::fuzz {
-namespace {
+namespace fuzz_test {
 
 using props::shipped;
 using props::VerdictKind;
@@ -225,5 +225,5 @@ TEST(Fuzz, says_when_the_ranges_hold_no_valid_scenario) {
   EXPECT_TRUE(report.runs.empty());
 }
 
-}  // namespace
+}  // namespace fuzz_test
 }  // namespace stormproof::fuzz

@@ -16,7 +16,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
-namespace {
+namespace limits_test {
 
 struct Outcome {
   model::RunResult result;
@@ -176,5 +176,5 @@ TEST(Limits, the_first_event_beyond_them_is_named) {
   EXPECT_LE(model::simulate(scenario, options).counts.total(), 100U);
 }
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace stormproof::props

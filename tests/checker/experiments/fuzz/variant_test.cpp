@@ -9,7 +9,7 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::fuzz {
-namespace {
+namespace variant_test {
 
 using model::config::is_valid;
 using model::config::NumericKnob;
@@ -165,5 +165,5 @@ TEST(Losses, have_the_stated_rate_and_continue_each_other) {
   EXPECT_EQ((VariantSource{base, all}.losses(0, 0, 10).size()), 10U);
 }
 
-}  // namespace
+}  // namespace variant_test
 }  // namespace stormproof::fuzz

@@ -6,7 +6,7 @@
 #include "tests/checker/experiments/reproduce/examples.hpp"
 
 namespace stormproof::reproduce {
-namespace {
+namespace measures_test {
 
 using model::HeartbeatPolicy;
 
@@ -105,5 +105,5 @@ TEST_F(MeasuresTest, LoopbackErrorsAreRelativeToTheReference) {
   EXPECT_EQ(measures_.loopback_configurations_with_repair(0), 6);
 }
 
-}  // namespace
+}  // namespace measures_test
 }  // namespace stormproof::reproduce

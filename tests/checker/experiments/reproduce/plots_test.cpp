@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/checker/presentation/diagrams/svg_texts.hpp"
 #include "tests/checker/experiments/reproduce/examples.hpp"
+#include "tests/checker/presentation/diagrams/svg_texts.hpp"
 
 namespace stormproof::reproduce {
-namespace {
+namespace plots_test {
 
 Report full_report() {
   const Published published = shipped_figures();
@@ -56,5 +56,5 @@ TEST(Plots, AreDrawnWithoutResults) {
   expect_readable(spreads_plot(report), "published median");
 }
 
-}  // namespace
+}  // namespace plots_test
 }  // namespace stormproof::reproduce

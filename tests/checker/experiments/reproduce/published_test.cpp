@@ -9,7 +9,7 @@
 #include "tests/checker/experiments/reproduce/examples.hpp"
 
 namespace stormproof::reproduce {
-namespace {
+namespace published_test {
 
 /// All numbers of a YAML document, wherever they are.
 void count_numbers(const YAML::Node& node, std::size_t& count, double& sum) {
@@ -147,5 +147,5 @@ TEST(PublishedErrors, AskForAGrid) {
             "specs: grid.hosts: 2.5 is not a whole number from 1 to 1000");
 }
 
-}  // namespace
+}  // namespace published_test
 }  // namespace stormproof::reproduce

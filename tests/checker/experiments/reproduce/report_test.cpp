@@ -13,7 +13,7 @@
 #include "tests/checker/experiments/reproduce/examples.hpp"
 
 namespace stormproof::reproduce {
-namespace {
+namespace report_test {
 
 /// Paths of all leaves, found without the reader under test.
 void leaf_paths(const YAML::Node& node, const std::string& path, std::vector<std::string>& out) {
@@ -254,5 +254,5 @@ TEST(Numbers, AreWrittenForPeople) {
   EXPECT_EQ(ratio_text(std::nullopt), "–");
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace stormproof::reproduce

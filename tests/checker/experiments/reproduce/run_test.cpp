@@ -8,7 +8,7 @@
 #include "tests/checker/experiments/reproduce/examples.hpp"
 
 namespace stormproof::reproduce {
-namespace {
+namespace run_test {
 
 using model::HeartbeatPolicy;
 using model::config::read_scenario;
@@ -104,5 +104,5 @@ TEST(Interruption, KeepsWhatIsFinished) {
   EXPECT_LT(results.outcomes.size(), plan.cases.size());
 }
 
-}  // namespace
+}  // namespace run_test
 }  // namespace stormproof::reproduce

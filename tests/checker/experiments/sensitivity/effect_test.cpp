@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::sensitivity {
-namespace {
+namespace effect_test {
 
 std::vector<double> one_to(int n) {
   std::vector<double> values;
@@ -49,5 +49,5 @@ TEST(SensitivityEffect, IsZeroOnlyIfNoPairDiffers) {
   EXPECT_FALSE(effect_of({-1, 0, 0}).exactly_zero);
 }
 
-}  // namespace
+}  // namespace effect_test
 }  // namespace stormproof::sensitivity

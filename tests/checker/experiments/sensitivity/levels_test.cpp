@@ -6,7 +6,7 @@
 #include "tests/checker/experiments/sensitivity/scenarios.hpp"
 
 namespace stormproof::sensitivity {
-namespace {
+namespace levels_test {
 
 Knob knob_of(const model::Scenario& scenario, const std::string& key, double range = 0.2) {
   const std::vector<Knob> knobs = knobs_of(scenario, range);
@@ -107,5 +107,5 @@ TEST(SensitivityLevels, MovedGoesOnTopOfOtherChanges) {
   EXPECT_FALSE(moved(scenario, "no.such.key", Direction::up, 0.2));
 }
 
-}  // namespace
+}  // namespace levels_test
 }  // namespace stormproof::sensitivity

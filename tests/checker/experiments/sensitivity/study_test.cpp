@@ -9,7 +9,7 @@
 #include "tests/checker/experiments/sensitivity/scenarios.hpp"
 
 namespace stormproof::sensitivity {
-namespace {
+namespace study_test {
 
 const KnobResult& knob_in(const Report& report, const std::string& key) {
   const auto found = std::ranges::find(report.knobs, key, &KnobResult::key);
@@ -219,5 +219,5 @@ TEST(SensitivityReport, PlotHasTheKnobsWithAnEffect) {
   EXPECT_EQ(svg.find("adaptive.min_period"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace study_test
 }  // namespace stormproof::sensitivity

@@ -9,7 +9,7 @@
 #include <sqlite3.h>
 
 namespace stormproof::sweep {
-namespace {
+namespace database_test {
 
 namespace fs = std::filesystem;
 
@@ -125,5 +125,5 @@ TEST(Digest, IsSha1) {
   EXPECT_EQ(hex(digest_of("abc")), "a9993e364706816aba3e25717850c26c9cd0d89d");
 }
 
-}  // namespace
+}  // namespace database_test
 }  // namespace stormproof::sweep

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::sweep {
-namespace {
+namespace grid_test {
 
 using model::config::SpecPath;
 
@@ -110,5 +110,5 @@ TEST(Grid, AGridThatDoesNotExist) {
   EXPECT_FALSE(read_grid("/no/such/grid.yaml", SpecPath::standard()));
 }
 
-}  // namespace
+}  // namespace grid_test
 }  // namespace stormproof::sweep

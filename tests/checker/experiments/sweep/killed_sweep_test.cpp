@@ -8,7 +8,7 @@
 #include "program_run.hpp"
 
 namespace stormproof::sweep {
-namespace {
+namespace killed_sweep_test {
 
 Arguments with(Arguments command, const Arguments& more) {
   command.insert(command.end(), more.begin(), more.end());
@@ -110,5 +110,5 @@ TEST_F(KilledSweep, BadInputLeavesNothingBehind) {
   EXPECT_EQ(wait_for(start(with(sweep("runs.db"), {"--csv", path("runs.db")}), folder_)), 2);
 }
 
-}  // namespace
+}  // namespace killed_sweep_test
 }  // namespace stormproof::sweep

@@ -9,7 +9,7 @@
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::sweep {
-namespace {
+namespace plan_test {
 
 using model::config::SpecPath;
 
@@ -160,5 +160,5 @@ TEST(Plan, WhatIsWrongWhereverItOccursIsRefused) {
             "g.yaml:2:29: implementation");
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace stormproof::sweep

@@ -10,7 +10,7 @@
 #include "program_run.hpp"
 
 namespace stormproof::sweep {
-namespace {
+namespace ranks_test {
 
 namespace fs = std::filesystem;
 
@@ -103,5 +103,5 @@ TEST_F(Ranks, BadInputIsSaidOnce) {
   EXPECT_EQ(said.find("no dds file named 'papr'", first + 1), std::string::npos);
 }
 
-}  // namespace
+}  // namespace ranks_test
 }  // namespace stormproof::sweep

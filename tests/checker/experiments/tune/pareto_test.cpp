@@ -9,7 +9,7 @@
 #include <rapidcheck/gtest.h>
 
 namespace stormproof::tune {
-namespace {
+namespace pareto_test {
 
 /// Small numbers, so that equal ones are common.
 std::vector<Cost> random_costs() {
@@ -142,5 +142,5 @@ TEST(Pareto, SpreadKeepsEndsAndFillsGaps) {
   EXPECT_EQ(spread_out(costs, pareto_front(costs), 9).size(), 5U);
 }
 
-}  // namespace
+}  // namespace pareto_test
 }  // namespace stormproof::tune

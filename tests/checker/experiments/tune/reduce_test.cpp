@@ -6,7 +6,7 @@
 #include "tests/checker/experiments/tune/stand_in.hpp"
 
 namespace stormproof::tune {
-namespace {
+namespace reduce_test {
 
 /// The first knob halves completion, the second saves a fifth of the messages, the third a
 /// thousandth of completion; the others nothing.
@@ -113,5 +113,5 @@ TEST(TuneReduce, GoesNoFurtherThanItHelps) {
   EXPECT_EQ(reduce_with(problem, {{90}}).front()[0], 90) << "every step back costs something";
 }
 
-}  // namespace
+}  // namespace reduce_test
 }  // namespace stormproof::tune

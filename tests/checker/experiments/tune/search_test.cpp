@@ -10,7 +10,7 @@
 #include "tests/checker/experiments/tune/stand_in.hpp"
 
 namespace stormproof::tune {
-namespace {
+namespace search_test {
 
 /// Shortest at 400 in the first knob and 800 in the second; messages do not matter. The others do
 /// nothing.
@@ -178,5 +178,5 @@ TEST(TuneSearch, IncompleteRunsAreWorseTheMoreIsMissing) {
   EXPECT_LT(cost(almost), cost(hardly));
 }
 
-}  // namespace
+}  // namespace search_test
 }  // namespace stormproof::tune

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::tune {
-namespace {
+namespace shift_test {
 
 TEST(TuneShift, MedianOfPairMeans) {
   // Pair means of 1, 2, 6: 1, 1.5, 2, 3.5, 4, 6.
@@ -65,5 +65,5 @@ TEST(TuneShift, ManyPairsAreCloseToCountedOnes) {
   EXPECT_NEAR(counted.high, normal.high, 0.5);
 }
 
-}  // namespace
+}  // namespace shift_test
 }  // namespace stormproof::tune

@@ -7,7 +7,7 @@
 #include "checker/experiments/tune/subject.hpp"
 
 namespace stormproof::tune {
-namespace {
+namespace space_test {
 
 using model::config::NumericKnob;
 namespace vendor = model::config::vendor;
@@ -137,5 +137,5 @@ TEST(TuneDeploy, SaysWhatLinuxMustAllowAndWhatTheTransportCosts) {
   EXPECT_NE(list[1].find("shared memory"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace space_test
 }  // namespace stormproof::tune

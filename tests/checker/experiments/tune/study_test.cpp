@@ -11,7 +11,7 @@
 #include "checker/experiments/tune/report.hpp"
 
 namespace stormproof::tune {
-namespace {
+namespace study_test {
 
 const model::config::SpecPath specs{{STORMPROOF_SPECS_DIR}};
 
@@ -224,5 +224,5 @@ TEST(TuneRuns, JitterDependsOnTheSeedAlone) {
   }
 }
 
-}  // namespace
+}  // namespace study_test
 }  // namespace stormproof::tune

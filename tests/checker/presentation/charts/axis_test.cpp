@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::plot {
-namespace {
+namespace axis_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -135,5 +135,5 @@ TEST(EveryAxis, HoldsItsDataWhateverItIs) {
   }
 }
 
-}  // namespace
+}  // namespace axis_test
 }  // namespace stormproof::plot

@@ -9,7 +9,7 @@
 #include "tests/checker/presentation/diagrams/svg_texts.hpp"
 
 namespace stormproof::plot {
-namespace {
+namespace svg_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -189,5 +189,5 @@ TEST(HeatMapSvg, HasACellForEachValue) {
   expect_sound(to_svg(chart));
 }
 
-}  // namespace
+}  // namespace svg_test
 }  // namespace stormproof::plot

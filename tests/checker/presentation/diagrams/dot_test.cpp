@@ -10,7 +10,7 @@
 #include "fsm/machines.hpp"
 
 namespace stormproof::draw {
-namespace {
+namespace dot_test {
 
 class Dot : public testing::TestWithParam<fsm::MachineInfo> {};
 
@@ -42,5 +42,5 @@ TEST_P(Dot, GraphvizAcceptsIt) {
 INSTANTIATE_TEST_SUITE_P(All, Dot, testing::ValuesIn(fsm::machines()),
                          [](const auto& chosen) { return std::string{chosen.param.name}; });
 
-}  // namespace
+}  // namespace dot_test
 }  // namespace stormproof::draw

@@ -9,7 +9,7 @@
 #include "tests/checker/presentation/diagrams/svg_texts.hpp"
 
 namespace stormproof::draw {
-namespace {
+namespace machine_svg_test {
 
 class MachineSvg : public testing::TestWithParam<fsm::MachineInfo> {};
 
@@ -77,5 +77,5 @@ TEST(MachineLayout, TheInitialStateIsFirstAndTheRepairCycleGoesDown) {
   EXPECT_EQ(layout.states[shared->target.state].name, "A");
 }
 
-}  // namespace
+}  // namespace machine_svg_test
 }  // namespace stormproof::draw

@@ -8,7 +8,7 @@
 #include "fsm/machines.hpp"
 
 namespace stormproof::draw {
-namespace {
+namespace mermaid_test {
 
 fsm::MachineInfo machine_named(std::string_view name) {
   const auto machines = fsm::machines();
@@ -51,5 +51,5 @@ TEST(Formats, HaveNames) {
   EXPECT_FALSE(format_named("png"));
 }
 
-}  // namespace
+}  // namespace mermaid_test
 }  // namespace stormproof::draw

@@ -7,7 +7,7 @@
 #include "tests/checker/presentation/diagrams/svg_texts.hpp"
 
 namespace stormproof::draw {
-namespace {
+namespace svg_test {
 
 std::string document(int second_x) {
   Svg svg{"a < b", "c & d"};
@@ -53,5 +53,5 @@ TEST(WrappedText, BreaksAtSpacesAndIndents) {
   EXPECT_EQ(wrapped("τ_H τ_A", 7, 0), (Lines{"τ_H τ_A"}));
 }
 
-}  // namespace
+}  // namespace svg_test
 }  // namespace stormproof::draw

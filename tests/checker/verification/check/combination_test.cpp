@@ -7,7 +7,7 @@
 #include "checker/verification/check/check_report.hpp"
 
 namespace stormproof::checker {
-namespace {
+namespace combination_test {
 
 using props::Finding;
 using props::VerdictKind;
@@ -135,5 +135,5 @@ TEST(Catalogue, IdsAreUniqueAndEveryEntryIsComplete) {
   EXPECT_EQ(props::find_property("no.such"), nullptr);
 }
 
-}  // namespace
+}  // namespace combination_test
 }  // namespace stormproof::checker

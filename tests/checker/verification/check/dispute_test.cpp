@@ -2,13 +2,13 @@
 // solver that merely has no answer takes away only the proof.
 #include <gtest/gtest.h>
 
-#include "checker/verification/check/check.hpp"
 #include "checker/engines/smt/claims.hpp"
+#include "checker/verification/check/check.hpp"
 #include "model/config/scenario_file.hpp"
 #include "tests/checker/engines/smt/solver_on_path.hpp"
 
 namespace stormproof::checker {
-namespace {
+namespace dispute_test {
 
 using props::VerdictKind;
 
@@ -35,5 +35,5 @@ TEST(Dispute, AgreementProves) {
   EXPECT_EQ(verdict_with("for k in 1 2 3 4 5 6 7 8; do echo unsat; done"), VerdictKind::proved);
 }
 
-}  // namespace
+}  // namespace dispute_test
 }  // namespace stormproof::checker

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
-#include "checker/verification/check/check.hpp"
 #include "checker/engines/smt/claims.hpp"
+#include "checker/verification/check/check.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::checker {
-namespace {
+namespace expected_verdicts_test {
 
 using Verdicts = std::map<std::string, std::string>;  // property → verdict
 
@@ -73,5 +73,5 @@ TEST(ExpectedVerdicts, CoverEveryScenarioOfTheFile) {
   EXPECT_EQ(names, (std::set<std::string>{"wired-5x20", "wifi-5x20", "wifi-5x20-fastdds"}));
 }
 
-}  // namespace
+}  // namespace expected_verdicts_test
 }  // namespace stormproof::checker

@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/verification/counterexample/chart_layout.hpp"
-#include "tests/checker/verification/counterexample/examples.hpp"
+#include "checker/presentation/sequence/chart_layout.hpp"
 #include "tests/checker/presentation/diagrams/svg_texts.hpp"
+#include "tests/checker/verification/counterexample/examples.hpp"
 
 namespace stormproof::counterexample {
-namespace {
+namespace chart_test {
 
 const Chart::Packet* packet_named(const Chart& chart, const std::string& name) {
   const auto found = std::ranges::find(chart.packets, name, &Chart::Packet::name);
@@ -141,5 +141,5 @@ TEST(SvgChart, MarksLostPacketsWithACross) {
   EXPECT_EQ(svg_chart(smallest()).find("class=\"cross\""), std::string::npos);
 }
 
-}  // namespace
+}  // namespace chart_test
 }  // namespace stormproof::counterexample

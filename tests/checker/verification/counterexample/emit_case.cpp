@@ -12,6 +12,7 @@ int main() {
       scenario_named("smallest", {"wireless.kind=constant_delay", "wireless.one_way=30us"});
   repaired.event = 0;
   const stormproof::props::Counterexample both[] = {smallest(), repaired};
-  std::fputs(gtest_file(both, "tests/checker/verification/counterexample/emit_case.cpp").c_str(), stdout);
+  std::fputs(gtest_file(both, "tests/checker/verification/counterexample/emit_case.cpp").c_str(),
+             stdout);
   return 0;
 }

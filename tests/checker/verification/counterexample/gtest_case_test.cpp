@@ -7,7 +7,7 @@
 #include "tests/checker/verification/counterexample/examples.hpp"
 
 namespace stormproof::counterexample {
-namespace {
+namespace gtest_case_test {
 
 TEST(GTestCase, NamesPropertyEventReasonAndFinder) {
   const std::string text = gtest_case(smallest(), "the explorer");
@@ -41,5 +41,5 @@ TEST(GTestCase, AFileHasAllCasesAndTheIncludes) {
   EXPECT_NE(text.find("TimerSingleHeartbeatAtEvent"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace gtest_case_test
 }  // namespace stormproof::counterexample

@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "checker/presentation/text/paragraph.hpp"
 #include "checker/verification/counterexample/acts.hpp"
 #include "checker/verification/counterexample/selection.hpp"
-#include "checker/presentation/text/paragraph.hpp"
 #include "tests/checker/verification/counterexample/examples.hpp"
 
 namespace stormproof::counterexample {
-namespace {
+namespace story_test {
 
 /// `text` in one line, so that it does not matter where lines break.
 std::string flat(const std::string& text) {
@@ -183,5 +183,5 @@ TEST(Words, TimesAndMembers) {
   EXPECT_EQ(members_text({}), "");
 }
 
-}  // namespace
+}  // namespace story_test
 }  // namespace stormproof::counterexample

@@ -11,7 +11,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::counterexample {
-namespace {
+namespace write_test {
 
 using model::config::Result;
 using model::trace::Replay;
@@ -266,5 +266,5 @@ TEST(Observe, ObjectsInARunAndAfterIt) {
               silent));
 }
 
-}  // namespace
+}  // namespace write_test
 }  // namespace stormproof::counterexample

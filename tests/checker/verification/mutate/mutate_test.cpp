@@ -14,7 +14,7 @@
 #include "props/property.hpp"
 
 namespace stormproof::mutate {
-namespace {
+namespace mutate_test {
 
 TEST(Mutants, HaveUniqueIdsDescriptionsAndMistakes) {
   std::set<std::string> ids;
@@ -127,5 +127,5 @@ TEST(Mutate, PropertiesNoticeTheMutants) {
   }
 }
 
-}  // namespace
+}  // namespace mutate_test
 }  // namespace stormproof::mutate

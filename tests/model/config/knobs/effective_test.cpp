@@ -9,7 +9,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace effective_test {
 
 /// The scenario that `text` describes, without any spec folder: an effective scenario refers to no
 /// file.
@@ -182,5 +182,5 @@ TEST(Effective, the_form_is_that_of_a_scenario_file) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace effective_test
 }  // namespace stormproof::model::config

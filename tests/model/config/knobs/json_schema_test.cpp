@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 namespace stormproof::model::config {
-namespace {
+namespace json_schema_test {
 
 class JsonSchema : public testing::TestWithParam<SchemaKind> {};
 
@@ -80,5 +80,5 @@ TEST(JsonSchemaContent, a_constant_delay_needs_no_channel) {
   EXPECT_EQ(schema["then"]["else"]["required"].size(), 11U);
 }
 
-}  // namespace
+}  // namespace json_schema_test
 }  // namespace stormproof::model::config

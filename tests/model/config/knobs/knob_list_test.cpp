@@ -10,7 +10,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace knob_list_test {
 
 TEST(KnobList, every_knob_is_there_once_with_its_documentation) {
   std::set<std::string> keys;
@@ -89,5 +89,5 @@ TEST(KnobList, defaults_ranges_and_choices_can_be_set) {
   }
 }
 
-}  // namespace
+}  // namespace knob_list_test
 }  // namespace stormproof::model::config

@@ -12,7 +12,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace numeric_knobs_test {
 
 Scenario shipped(const std::string& name, const std::vector<std::string>& overrides = {}) {
   auto scenario = read_scenario(name, overrides, source_specs());
@@ -155,5 +155,5 @@ TEST(IsValid, refuses_what_does_not_fit_together) {
   });
 }
 
-}  // namespace
+}  // namespace numeric_knobs_test
 }  // namespace stormproof::model::config

@@ -9,7 +9,7 @@
 #include "model/config/tree/yaml_text.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace value_types_test {
 
 static_assert(name_of(ImplementationKind::fastdds) == "fastdds");
 static_assert(name_of(SpdpResend::all_known) == "all_known" && name_of(SpdpResend::none) == "none");
@@ -157,5 +157,5 @@ TEST(ValueTypes, text_is_one_line) {
   EXPECT_EQ(complaint(TextType{}, "{a: b}", value), "f:1:1: a map is not text");
 }
 
-}  // namespace
+}  // namespace value_types_test
 }  // namespace stormproof::model::config

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model::config {
-namespace {
+namespace overrides_test {
 
 Result<std::vector<Override>> parse(const std::string& argument) {
   const std::vector<std::string> arguments{argument};
@@ -43,5 +43,5 @@ TEST(Overrides, a_path_that_leads_nowhere_is_an_error) {
             "--set a.b=1: 'a' has no keys below it: it is '1'");
 }
 
-}  // namespace
+}  // namespace overrides_test
 }  // namespace stormproof::model::config

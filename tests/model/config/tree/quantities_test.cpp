@@ -5,7 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 namespace stormproof::model::config {
-namespace {
+namespace quantities_test {
 
 std::int64_t ns(const char* text) {
   const auto parsed = parse_duration(text);
@@ -116,5 +116,5 @@ TEST(Quantities, printing_is_short) {
   EXPECT_EQ(print_rate(BitsPerSecond{1}), "1bps");
 }
 
-}  // namespace
+}  // namespace quantities_test
 }  // namespace stormproof::model::config

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model::config {
-namespace {
+namespace suggestion_test {
 
 const std::vector<std::string> keys{"heartbeat_period", "heartbeat_policy", "grouping"};
 
@@ -24,5 +24,5 @@ TEST(Suggestion, nothing_is_suggested_for_a_word_that_is_far_away) {
   EXPECT_EQ(suggestion("x", {}), "");
 }
 
-}  // namespace
+}  // namespace suggestion_test
 }  // namespace stormproof::model::config

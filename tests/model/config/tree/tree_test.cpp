@@ -6,7 +6,7 @@
 #include "model/config/tree/yaml_text.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace tree_test {
 
 Node tree(const std::string& text, const std::string& source = "t") {
   auto parsed = parse_yaml(text, source);
@@ -67,5 +67,5 @@ TEST(Tree, values_are_shown_short_and_without_control_characters) {
   EXPECT_EQ(tree("~").shown(), "nothing");
 }
 
-}  // namespace
+}  // namespace tree_test
 }  // namespace stormproof::model::config

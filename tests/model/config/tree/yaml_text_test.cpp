@@ -7,7 +7,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
-namespace {
+namespace yaml_text_test {
 
 std::string refusal(const std::string& text) {
   const auto parsed = parse_yaml(text, "f");
@@ -116,5 +116,5 @@ RC_GTEST_PROP(YamlText, no_mess_of_punctuation_does_more_than_be_refused, ()) {
   (void)parse_yaml(text, "f");
 }
 
-}  // namespace
+}  // namespace yaml_text_test
 }  // namespace stormproof::model::config

@@ -3,7 +3,7 @@
 #include "tests/model/config/vendor/cyclonedds_document.hpp"
 
 namespace stormproof::model::config::vendor::cyclonedds_test {
-namespace {
+namespace cyclonedds_lint_test {
 
 TEST(CycloneLint, refuses_values_with_place_and_expectation) {
   const std::string range =
@@ -263,5 +263,5 @@ TEST(CycloneLint, the_shipped_examples_have_no_warnings) {
   }
 }
 
-}  // namespace
+}  // namespace cyclonedds_lint_test
 }  // namespace stormproof::model::config::vendor::cyclonedds_test

@@ -5,7 +5,7 @@
 #include "tests/model/config/vendor/cyclonedds_document.hpp"
 
 namespace stormproof::model::config::vendor::cyclonedds_test {
-namespace {
+namespace cyclonedds_xml_test {
 
 TEST(CycloneXml, timers_and_sizes_become_knobs_at_their_places) {
   const VendorProfile p = read(
@@ -239,5 +239,5 @@ TEST(CycloneXml, the_shipped_examples) {
   EXPECT_EQ(example("wifi.xml").sedp, preset().sedp);
 }
 
-}  // namespace
+}  // namespace cyclonedds_xml_test
 }  // namespace stormproof::model::config::vendor::cyclonedds_test

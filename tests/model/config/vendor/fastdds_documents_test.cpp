@@ -13,7 +13,7 @@
 #include "tests/model/config/vendor/fastdds_document.hpp"
 
 namespace stormproof::model::config::vendor {
-namespace {
+namespace fastdds_documents_test {
 
 using fastdds::SchemaItem;
 using fastdds::ValueKind;
@@ -158,5 +158,5 @@ TEST(FastddsDocuments, what_is_written_out_of_the_defaults_is_the_default_preset
   EXPECT_EQ(*xml, *preset);
 }
 
-}  // namespace
+}  // namespace fastdds_documents_test
 }  // namespace stormproof::model::config::vendor

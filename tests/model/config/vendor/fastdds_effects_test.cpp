@@ -7,7 +7,7 @@
 #include "tests/model/config/vendor/fastdds_document.hpp"
 
 namespace stormproof::model::config::vendor {
-namespace {
+namespace fastdds_effects_test {
 
 struct Judged {
   std::string document, path;
@@ -121,5 +121,5 @@ TEST(FastddsEffects, an_unknown_element_is_a_setting_of_unknown_effect) {
   EXPECT_EQ(profile.settings[0].path, "rtps/builtin/discovery_config/leaseDurration");
 }
 
-}  // namespace
+}  // namespace fastdds_effects_test
 }  // namespace stormproof::model::config::vendor

@@ -8,7 +8,7 @@
 #include "tests/model/config/vendor/fastdds_document.hpp"
 
 namespace stormproof::model::config::vendor {
-namespace {
+namespace fastdds_lint_test {
 
 using Remarks = std::vector<std::string>;
 
@@ -294,5 +294,5 @@ TEST(FastddsLint, messages_name_the_thing_and_hints_the_way_out) {
             "did you mean 'fastdds.max_message_size'?");
 }
 
-}  // namespace
+}  // namespace fastdds_lint_test
 }  // namespace stormproof::model::config::vendor

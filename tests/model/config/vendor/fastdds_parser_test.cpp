@@ -3,7 +3,7 @@
 #include "tests/model/config/vendor/fastdds_document.hpp"
 
 namespace stormproof::model::config::vendor {
-namespace {
+namespace fastdds_parser_test {
 
 std::string participant(const std::string& name, const std::string& seconds) {
   return fmt::format(
@@ -155,5 +155,5 @@ TEST(FastddsParser, a_setting_without_effect_has_no_knob) {
   }
 }
 
-}  // namespace
+}  // namespace fastdds_parser_test
 }  // namespace stormproof::model::config::vendor

@@ -7,13 +7,13 @@
 #include <rapidcheck/gtest.h>
 
 #include "model/config/profile_files.hpp"
-#include "model/config/tree/quantities.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "tests/model/config/test_files.hpp"
 #include "tests/model/config/vendor/fastdds_document.hpp"
 
 namespace stormproof::model::config::vendor {
-namespace {
+namespace fastdds_xml_test {
 
 TEST(FastddsXml, an_empty_participant_changes_nothing) {
   const VendorProfile profile = profile_of(document(""));
@@ -296,5 +296,5 @@ RC_GTEST_PROP(FastddsXml, every_duration_is_read_exactly, ()) {
   RC_ASSERT(read && read->count() == sec * 1'000'000'000 + nanosec);
 }
 
-}  // namespace
+}  // namespace fastdds_xml_test
 }  // namespace stormproof::model::config::vendor

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace stormproof::model::config::vendor {
-namespace {
+namespace reference_test {
 
 /// "file|profile|base", or "no".
 std::string parts(const std::string& reference) {
@@ -42,5 +42,5 @@ TEST(Reference, other_names_are_none) {
   }
 }
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace stormproof::model::config::vendor

@@ -15,7 +15,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config::vendor {
-namespace {
+namespace vendor_knobs_test {
 
 DdsProfile preset(const std::string& name) {
   const auto profile = read_dds_profile(name, {}, source_specs());
@@ -112,5 +112,5 @@ TEST(VendorKnobs, presets_by_name) {
   EXPECT_EQ(presets(Vendor::cyclonedds).size(), 1U);
 }
 
-}  // namespace
+}  // namespace vendor_knobs_test
 }  // namespace stormproof::model::config::vendor

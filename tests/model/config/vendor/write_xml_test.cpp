@@ -12,7 +12,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config::vendor {
-namespace {
+namespace write_xml_test {
 
 DdsProfile preset(const std::string& name) {
   const auto profile = read_dds_profile(name, {}, source_specs());
@@ -171,5 +171,5 @@ TEST(WriteXml, comments_cannot_break_the_document) {
   }
 }
 
-}  // namespace
+}  // namespace write_xml_test
 }  // namespace stormproof::model::config::vendor

@@ -9,7 +9,7 @@
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config::vendor {
-namespace {
+namespace xml_text_test {
 
 XmlElement parsed(std::string_view text) {
   auto root = parse_xml(text, "f.xml");
@@ -200,5 +200,5 @@ RC_GTEST_PROP(XmlText, a_cut_text_is_never_accepted, ()) {
   RC_ASSERT(!parse_xml(whole.substr(0, length), "f.xml"));
 }
 
-}  // namespace
+}  // namespace xml_text_test
 }  // namespace stormproof::model::config::vendor

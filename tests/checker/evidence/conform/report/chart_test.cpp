@@ -8,7 +8,7 @@
 
 namespace stormproof::conform {
 
-namespace {
+namespace chart_test {
 
 using namespace testing;
 
@@ -76,5 +76,5 @@ TEST(Names, NeedsAreWrittenAsOptionsTakeThem) {
   EXPECT_EQ(milliseconds(-1'500'000), "-1.500000 ms");
 }
 
-}  // namespace
+}  // namespace chart_test
 }  // namespace stormproof::conform

@@ -10,7 +10,7 @@
 
 namespace stormproof::conform {
 
-namespace {
+namespace coverage_test {
 
 using namespace testing;
 
@@ -91,5 +91,5 @@ TEST(Coverage, ARowThatFiredIsNeverRuledOut) {
   EXPECT_EQ(machines[0].ruled_out, 0U);
 }
 
-}  // namespace
+}  // namespace coverage_test
 }  // namespace stormproof::conform

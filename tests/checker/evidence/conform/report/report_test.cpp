@@ -18,7 +18,7 @@
 
 namespace stormproof::conform {
 
-namespace {
+namespace report_test {
 
 using namespace testing;
 using Json = nlohmann::ordered_json;
@@ -247,5 +247,5 @@ TEST(Documentation, HasEveryRuleAndFaultWithItsSentence) {
   }
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace stormproof::conform

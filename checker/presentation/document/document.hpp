@@ -1,0 +1,208 @@
+// What a command answers, before anybody renders it: an answer in one line, sections of paragraphs,
+// facts, tables and charts, findings that CI systems count, and the command that gives it again.
+// Every command makes one such document; text, Markdown, HTML, JUnit and SARIF are renderings of it
+// (render.hpp). Strings are plain UTF-8 throughout: each renderer escapes in its own way.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "checker/presentation/sequence/chart.hpp"
+#include "model/config/tree/tree.hpp"
+
+namespace stormproof::report {
+
+/// How a verdict or judgment looks: a colour, and a sign beside the word where colours are missing.
+enum class Tone : std::uint8_t { plain, good, info, warn, bad };
+
+/// A piece of running text.
+struct Span {
+  enum class Kind : std::uint8_t { plain, code, strong, badge, link };
+  Kind kind = Kind::plain;
+  std::string text;
+  std::string target = {};  ///< of a link: id of a section or drawing of the document
+  Tone tone = Tone::plain;  ///< of a badge: its sign and colour
+};
+
+/// Running text on one line; renderers break it.
+class Text {
+ public:
+  Text() = default;
+  Text(std::string plain);       // NOLINT(google-explicit-constructor): a string is a text
+  Text(std::string_view plain);  // NOLINT(google-explicit-constructor)
+  Text(const char* plain);       // NOLINT(google-explicit-constructor)
+  explicit Text(Span span);
+
+  Text& operator+=(const Text& more);
+  friend Text operator+(Text first, const Text& second) { return first += second; }
+
+  [[nodiscard]] bool empty() const { return spans_.empty(); }
+  [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
+  /// Without marks; a badge without its sign.
+  [[nodiscard]] std::string plain() const;
+
+ private:
+  std::vector<Span> spans_;
+};
+
+/// A key, a command, a file: set apart where the format can.
+[[nodiscard]] Text code(std::string_view text);
+[[nodiscard]] Text strong(std::string_view text);
+/// "✗ violated": a word with the sign and colour of its tone.
+[[nodiscard]] Text badge(Tone tone, std::string_view word);
+[[nodiscard]] Text link(std::string_view text, std::string_view target);
+
+// ---- blocks -------------------------------------------------------------------------------------
+
+struct Block;
+using Blocks = std::vector<Block>;
+
+struct Paragraph {
+  Text text;
+};
+
+/// Items of equal rank.
+struct Bullets {
+  std::vector<Text> items;
+};
+
+/// Labels with what they stand for, one below the other: "scenario  2 participants …".
+struct Facts {
+  std::vector<std::pair<std::string, Text>> rows;
+};
+
+struct Column {
+  enum class Align : std::uint8_t { left, right };
+  std::string head;
+  Align align = Align::left;
+  bool wraps = false;  ///< long sentences; other columns are as wide as their longest cell
+};
+
+struct Table {
+  struct Row {
+    std::vector<Text> cells;  ///< as many as there are columns
+    bool marked = false;      ///< shaded: another background
+    Blocks details = {};      ///< belong to the row: below it, folded where the format can
+  };
+  std::vector<Column> columns;
+  std::vector<Row> rows;
+  std::string caption = {};  ///< may be empty
+};
+
+/// A text with its own line breaks: a file, a story, the output of another program.
+struct Listing {
+  std::string text;
+  std::string language = "text";  ///< for highlighting: "yaml", "xml", "mermaid"
+};
+
+/// A command that the reader can run, one or several lines of a shell.
+struct Command {
+  std::string line;
+};
+
+/// A chart or drawing that only pages show. `svg` is a self-contained SVG document.
+struct Drawing {
+  std::string svg;
+  std::string caption;
+  std::string id = {};  ///< unique in the document; may be empty
+};
+
+/// A sequence chart: drawn on pages, Mermaid in Markdown, rows of text at a terminal.
+struct Sequence {
+  sequence::Chart chart;
+  std::string id;  ///< unique in the document
+  std::string caption;
+  std::string story =
+      {};  ///< the same as a text with its own line breaks; then a terminal shows it
+  /// HTML that goes with the drawing on a page: steps to walk through. It is trusted as it is.
+  std::string steps_html = {};
+};
+
+/// Blocks under a heading.
+struct Section {
+  std::string title;
+  std::string id = {};  ///< for links; unique in the document; may be empty
+  Blocks blocks = {};
+  bool folded = false;  ///< details: folded on pages and in Markdown; at a terminal after the rest
+};
+
+/// Who gets to see a block. Not a matter of taste: a terminal has no room for what a page folds
+/// away, and a page draws what a terminal cannot.
+enum class Audience : std::uint8_t {
+  everybody,
+  verbose,  ///< at a terminal only with -v or --explain; folded in Markdown and on pages
+  terminal,
+  documents,  ///< Markdown and pages
+  page
+};
+
+struct Block {
+  std::variant<Paragraph, Bullets, Facts, Table, Listing, Command, Drawing, Sequence, Section>
+      content;
+  Audience audience = Audience::everybody;
+
+  template <class Content>
+  Block(Content made, Audience who = Audience::everybody)  // NOLINT(google-explicit-constructor)
+      : content{std::move(made)}, audience{who} {}
+};
+
+// ---- findings -----------------------------------------------------------------------------------
+
+/// A place in a file. Line and column count from 1; 0: the file as a whole.
+struct Location {
+  std::string file;
+  int line = 0;
+  int column = 0;  ///< in bytes, as `model::config::Place` counts
+  std::string message;
+
+  Location() = default;
+  /// An override on the command line has no file; then `file` stays empty.
+  explicit Location(const model::config::Place& place, std::string text = {});
+};
+
+/// One thing that was looked at, and what came of it: a test case in JUnit, a rule with its result
+/// in SARIF.
+struct Finding {
+  enum class Outcome : std::uint8_t {
+    passed,
+    failed,   ///< it does not hold
+    unknown,  ///< nobody knows: inconclusive, interrupted
+    note      ///< neither: an assumption, a remark. Not a test case
+  };
+  std::string id;           ///< of the rule: "storm.single-copy", "limit.completion"
+  std::string statement;    ///< of the rule, one sentence
+  std::string description;  ///< more about the rule; may be empty
+  Outcome outcome = Outcome::passed;
+  bool warning = false;  ///< failed, but no more than a warning in SARIF
+  std::string word;      ///< what the command calls the outcome: "violated", "regression"
+  std::string message;   ///< one sentence: why
+  std::string details;   ///< lines; may be empty
+  double seconds = 0;
+  std::vector<Location> locations{};  ///< one, or none
+  std::vector<Location> related{};
+  /// What makes it the same finding tomorrow, without numbers that change with every run.
+  std::vector<std::string> identity{};
+};
+
+// ---- the document -------------------------------------------------------------------------------
+
+struct Document {
+  std::string title;  ///< "stormproof check wifi-5x20"
+  Tone tone = Tone::plain;
+  Text answer;       ///< the first line: what the reader asked
+  Text elaboration;  ///< one or two sentences below it; may be empty
+  Blocks blocks;
+  std::vector<Finding> findings{};
+  std::vector<Text> assumptions{};  ///< what the answer takes for granted; listed near the end
+  std::string command{};            ///< gives the same answer again; empty: nothing to repeat
+  int exit_code = 0;                ///< of the program that shows the document
+  bool complete = true;             ///< false: interrupted; what is there holds
+};
+
+}  // namespace stormproof::report

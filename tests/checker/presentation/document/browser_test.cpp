@@ -1,0 +1,185 @@
+// The page in a real browser: headless Chromium opens it once, a script appended to it presses keys
+// and buttons and writes down what it sees.
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/checker/presentation/document/examples.hpp"
+
+namespace stormproof::report {
+namespace browser_test {
+
+namespace fs = std::filesystem;
+
+// Each note becomes a line "name=value" of the text of #notes.
+constexpr std::string_view driver = R"js(
+<pre id="notes"></pre><script>
+const notes = document.getElementById("notes");
+const note = (name, value) => { notes.textContent += name + "=" + value + "\n"; };
+const boxes = [...document.querySelectorAll(".stepper")];
+const at = (k) => boxes[k].querySelector("output").value;
+const press = (target, key) => target.dispatchEvent(
+  new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true }));
+const marked = (k) => {
+  const step = boxes[k].querySelector(".steps > .current");
+  const row = document.getElementById(boxes[k].dataset.drawing).querySelector(".row.current");
+  return row !== null && row.classList.contains("r" + step.dataset.row);
+};
+const visible = (k) => [...boxes[k].querySelectorAll(".steps > li")]
+  .filter((step) => getComputedStyle(step).display !== "none").length;
+for (const area of document.querySelectorAll(".drawing")) area.style.scrollBehavior = "auto";
+note("steppers", boxes.length);
+note("start", at(0));
+note("visible", visible(0));
+press(boxes[0], "ArrowRight"); note("right", at(0)); note("right marks", marked(0));
+press(boxes[0], "ArrowRight"); press(boxes[0], "ArrowLeft"); note("left", at(0));
+press(boxes[0], "End"); note("end", at(0)); note("end marks", marked(0));
+note("end says", boxes[0].querySelector(".steps > .current .violated") !== null);
+note("spoken", boxes[0].querySelector("[aria-live]").textContent.length > 20);
+note("no next", boxes[0].querySelector("[data-go=next]").getAttribute("aria-disabled"));
+press(boxes[0], "ArrowRight"); note("beyond", at(0));
+const area = document.getElementById(boxes[0].dataset.drawing).closest(".drawing");
+note("scrolled", area.scrollHeight <= area.clientHeight || area.scrollTop > 0);
+press(boxes[0], "Home"); note("home", at(0));
+boxes[0].querySelector("[data-go=next]").click(); note("next button", at(0));
+boxes[0].querySelector("[data-go=last]").click();
+boxes[0].querySelector("[data-go=previous]").click(); note("previous button", at(0));
+boxes[0].querySelector("[data-go=first]").click(); note("first button", at(0));
+const slider = boxes[0].querySelector("input");
+slider.value = 2; slider.dispatchEvent(new Event("input")); note("slider", at(0));
+note("states marked", document.querySelectorAll(".state.active").length > 0);
+boxes[1].scrollIntoView({ block: "center", behavior: "instant" });
+press(document.body, "ArrowRight"); note("nearest", at(1)); note("other stays", at(0));
+scrollTo({ top: 0, behavior: "instant" });
+note("far away", press(document.body, "ArrowRight")); note("far away stays", at(1));
+const paper = getComputedStyle(document.body).backgroundColor;
+const themeButton = document.getElementById("theme");
+const label = themeButton.textContent;
+themeButton.click();
+note("theme", document.documentElement.dataset.theme);
+note("theme changes", getComputedStyle(document.body).backgroundColor !== paper);
+note("theme drawing", getComputedStyle(document.querySelector(".art")).getPropertyValue("--paper")
+  .trim());
+note("theme label", themeButton.textContent !== label);
+note("scripts", document.scripts.length);
+note("pwned", typeof pwned);
+note("title", document.title);
+note("errors", errors.join("; "));
+press(boxes[0], "Home"); press(boxes[0], " ");
+note("plays", boxes[0].querySelector("[data-go=play]").textContent);
+setTimeout(() => { note("played", at(0)); press(boxes[0], " "); }, 2500);
+setTimeout(() => { note("paused", at(0)); }, 4500);
+</script></body>)js";
+
+constexpr std::string_view catcher =
+    "<head><script>const errors = []; addEventListener(\"error\", (e) => errors.push(e.message));"
+    "addEventListener(\"securitypolicyviolation\", (e) => errors.push(e.violatedDirective));"
+    "</script>";
+
+std::string with(std::string page, const std::string& from, std::string_view to) {
+  const std::size_t at = page.rfind(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return page.replace(at, from.size(), to);
+}
+
+std::string unescaped(std::string text) {
+  for (const auto& [entity, character] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}}) {
+    for (std::size_t at = 0; (at = text.find(entity, at)) != std::string::npos; ++at) {
+      text.replace(at, std::string_view{entity}.size(), character);
+    }
+  }
+  return text;
+}
+
+std::string document_after(const fs::path& page, const fs::path& folder) {
+  const std::string command =
+      "chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
+      "--disable-background-networking --disable-component-update --disable-sync "
+      "--disable-dev-shm-usage --window-size=1200,900 --virtual-time-budget=8000 "
+      "--user-data-dir='" +
+      (folder / "profile").string() + "' --dump-dom 'file://" + page.string() + "' 2>'" +
+      (folder / "messages").string() + "'";
+  std::string text;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return text;
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+    text.append(buffer.data(), n);
+  }
+  pclose(pipe);
+  return text;
+}
+
+/// What the script noted, by name.
+std::map<std::string, std::string> notes_of(const std::string& page) {
+  std::string folder = testing::TempDir() + "stormproof-browser-XXXXXX";
+  if (mkdtemp(folder.data()) == nullptr) return {};
+  const fs::path file = fs::path{folder} / "page.html";
+  std::ofstream{file} << with(with(page, "<head>", catcher), "</body>", driver);
+  const std::string document = document_after(file, folder);
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  const std::string open = "<pre id=\"notes\">";
+  const std::size_t begin = document.rfind(open);
+  EXPECT_NE(begin, std::string::npos) << "is the program chromium installed?";
+  if (begin == std::string::npos) return {};
+  const std::size_t first = begin + open.size();
+  std::istringstream lines{
+      unescaped(document.substr(first, document.find("</pre>", first) - first))};
+  std::map<std::string, std::string> notes;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t equals = line.find('=');
+    if (equals != std::string::npos) notes[line.substr(0, equals)] = line.substr(equals + 1);
+  }
+  return notes;
+}
+
+TEST(Browser, StepsThroughCounterexamplesByKeysAndButtons) {
+  CheckExample example;
+  auto notes = notes_of(to_html(example.report(), example.context()));
+  const std::string steps = notes["start"].substr(notes["start"].find("of"));
+  const auto step = [&](int k) { return "step " + std::to_string(k) + " " + steps; };
+  const int last = std::atoi(steps.c_str() + 3);
+  EXPECT_GE(last, 5);
+  EXPECT_EQ(notes["steppers"], "2");
+  EXPECT_EQ(notes["start"], step(1));
+  EXPECT_EQ(notes["visible"], "1");
+  EXPECT_EQ(notes["right"], step(2));
+  EXPECT_EQ(notes["left"], step(2));
+  EXPECT_EQ(notes["end"], step(last));
+  EXPECT_EQ(notes["beyond"], step(last));
+  EXPECT_EQ(notes["home"], step(1));
+  EXPECT_EQ(notes["next button"], step(2));
+  EXPECT_EQ(notes["previous button"], step(last - 1));
+  EXPECT_EQ(notes["first button"], step(1));
+  EXPECT_EQ(notes["slider"], step(3));
+  for (const char* fact : {"right marks", "end marks", "end says", "spoken", "no next", "scrolled",
+                           "states marked", "theme changes", "theme label"}) {
+    EXPECT_EQ(notes[fact], "true") << fact;
+  }
+  // Keys anywhere move the stepper that is on the screen, and only then.
+  EXPECT_EQ(notes["nearest"].substr(0, 6), "step 2");
+  EXPECT_EQ(notes["other stays"], step(3));
+  EXPECT_EQ(notes["far away"], "true");
+  EXPECT_EQ(notes["far away stays"], notes["nearest"]);
+  // Themes reach the drawings.
+  EXPECT_EQ(notes["theme"], "dark");
+  EXPECT_EQ(notes["theme drawing"], "#14181d");
+  // Playing goes on by itself until it is paused.
+  EXPECT_EQ(notes["plays"], "❚❚ pause");
+  EXPECT_EQ(notes["played"], step(3));
+  EXPECT_EQ(notes["paused"], step(3));
+  // Nothing of the user's has run, and nothing was refused by the page's own policy.
+  EXPECT_EQ(notes["pwned"], "undefined");
+  EXPECT_EQ(notes["scripts"], "3");
+  EXPECT_EQ(notes["errors"], "");
+  EXPECT_NE(notes["title"].find("<script>pwned=1</script>"), std::string::npos);
+}
+
+}  // namespace browser_test
+}  // namespace stormproof::report
