@@ -174,8 +174,8 @@ TEST(Selection, CoversEveryEventOnceAndKeepsTheLimit) {
 }
 
 TEST(Words, TimesAndMembers) {
-  EXPECT_EQ(milliseconds(model::Nanoseconds{13'653'072}), "13.653072");
-  EXPECT_EQ(milliseconds(model::Nanoseconds{7}), "0.000007");
+  EXPECT_EQ(report::milliseconds(model::Nanoseconds{13'653'072}), "13.653072");
+  EXPECT_EQ(report::milliseconds(model::Nanoseconds{7}), "0.000007");
   const std::vector<std::uint64_t> words{0b1'0111, 1, 0};
   EXPECT_EQ(members_text(words), "0–2, 4, 64");
   const std::vector<std::uint64_t> crossing{std::uint64_t{1} << 63U, 1};
