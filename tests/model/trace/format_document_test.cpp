@@ -13,7 +13,7 @@ namespace format_document_test {
 
 /// The JSON blocks of the document, each as one line.
 std::vector<std::string> excerpts() {
-  std::ifstream in{std::string{STORMPROOF_SPECS_DIR} + "/trace-format.md"};
+  std::ifstream in{std::string{STORMPROOF_SPECS_DIR} + "/guide/trace-format.md"};
   std::vector<std::string> blocks;
   bool inside = false;
   for (std::string line; std::getline(in, line);) {
