@@ -10,7 +10,6 @@ target_compile_options(stormproof_flags INTERFACE
   -Wpedantic
   -Wconversion
   -Wsign-conversion
-  -Wshadow
   -Wold-style-cast
   -Wnon-virtual-dtor
   -Woverloaded-virtual
@@ -20,6 +19,8 @@ target_compile_options(stormproof_flags INTERFACE
   -Wformat=2
   -Wimplicit-fallthrough
   -Wundef
+  # clang warns of names that another file of the same batch has, too.
+  $<$<CXX_COMPILER_ID:GNU>:-Wshadow>
   $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond>
   $<$<CXX_COMPILER_ID:GNU>:-Wlogical-op>
   # GCC 12 reports overlapping copies in std::string that cannot happen (GCC bug 105651).

@@ -110,7 +110,9 @@ class Planner {
       const auto lines = wrapped(row_text(machine_, row), label_columns, 2);
       label.insert(label.end(), lines.begin(), lines.end());
     }
-    for (const auto& [ends, label] : labels) {
+    for (const auto& entry : labels) {
+      const auto& ends = entry.first;  // a lambda of clang 14 captures no structured binding
+      const auto& label = entry.second;
       const Side side = ends.second > ends.first ? Side::right : Side::left;
       const auto twin = std::ranges::find_if(layout_.edges, [&](const Edge& edge) {
         return edge.side == side && edge.target.state == ends.second && edge.label == label;
