@@ -15,13 +15,13 @@ namespace stormproof::diff {
 
 namespace {
 
-using report::code;
 using report::Drawings;
-using report::heading;
 using report::html_text;
-using report::HtmlTable;
-using report::paragraph_html;
 using report::Tone;
+using report::parts::code;
+using report::parts::heading;
+using report::parts::HtmlTable;
+using report::parts::paragraph_html;
 
 std::string signed_name(Judgment judgment) {
   const char* sign = judgment == Judgment::better       ? "✓ "
@@ -36,11 +36,12 @@ std::string judgment_html(const DiffReport& report) {
   const Judgment judgment = report.judgment;
   const bool passed = judgment != Judgment::regression && judgment != Judgment::unclear;
   const char* sign = passed ? "✓" : judgment == Judgment::unclear ? "?" : "✗";
-  std::string html = paragraph_html(headline_sentence(report)) + report::bullets(report.reasons) +
+  std::string html = paragraph_html(headline_sentence(report)) +
+                     report::parts::bullets(report.reasons) +
                      paragraph_html(fmt::format("Policy {}; {:.1f} s of comparing.",
                                                 report.policy.name, report.seconds));
-  return report::banner(passed ? Tone::good : tone_of(judgment),
-                        fmt::format("{} {}", sign, headline(report)), html);
+  return report::parts::banner(passed ? Tone::good : tone_of(judgment),
+                               fmt::format("{} {}", sign, headline(report)), html);
 }
 
 std::string value_cell(const std::string& value, const model::config::Place& place) {
@@ -131,7 +132,7 @@ Tone tone_of(Judgment judgment) {
 }
 
 std::string judgment_badge(Judgment judgment) {
-  return report::badge(tone_of(judgment), signed_name(judgment));
+  return report::parts::badge(tone_of(judgment), signed_name(judgment));
 }
 
 std::string to_html(const DiffReport& report, const Files& files) {
@@ -141,15 +142,15 @@ std::string to_html(const DiffReport& report, const Files& files) {
       fmt::format("stormproof diff {} → {}", report.base.reference, report.candidate.reference);
   std::string body = "<h1>" + html_text(title) + "</h1>\n" + judgment_html(report);
   if (report.interrupted) {
-    body += report::banner(Tone::warn, "? Interrupted: this is what was known until then");
+    body += report::parts::banner(Tone::warn, "? Interrupted: this is what was known until then");
   }
-  body += report::unmodelled_html(report.base.profile, "Base");
-  body += report::unmodelled_html(report.candidate.profile, "Candidate");
+  body += report::parts::unmodelled_html(report.base.profile, "Base");
+  body += report::parts::unmodelled_html(report.candidate.profile, "Candidate");
   body += knobs_html(report) + costs_html(report, drawings) + margin_html(report);
   body += verdicts_html(report, files, drawings, machines);
   body += apart_html(report, files, drawings, machines) + machines_html(machines, drawings);
   body += blame_html(report);
-  body += heading("Repeat it", "repeat") + report::preformatted(report.command);
+  body += heading("Repeat it", "repeat") + report::parts::preformatted(report.command);
   return report::html_page(title, body, drawings);
 }
 

@@ -12,12 +12,12 @@ namespace stormproof::diff {
 
 namespace {
 
-using report::code;
 using report::Drawings;
-using report::heading;
 using report::html_text;
-using report::HtmlTable;
-using report::paragraph_html;
+using report::parts::code;
+using report::parts::heading;
+using report::parts::HtmlTable;
+using report::parts::paragraph_html;
 
 std::string cost_cell(const MeasuredChange& change) {
   return fmt::format("{} → {}<br><span class=\"soft\">{}</span>",
@@ -71,7 +71,7 @@ std::string pooled_html(const CostComparison& costs) {
                     change_text(change.estimate), change_text(change.low), change_text(change.high),
                     share_text(change.confidence), name_of(change.judgment)));
   }
-  return report::bullets(lines);
+  return report::parts::bullets(lines);
 }
 
 }  // namespace

@@ -9,12 +9,12 @@
 
 namespace stormproof::diff {
 
-using report::code;
 using report::Drawings;
-using report::heading;
 using report::html_text;
-using report::HtmlTable;
-using report::paragraph_html;
+using report::parts::code;
+using report::parts::heading;
+using report::parts::HtmlTable;
+using report::parts::paragraph_html;
 
 std::string verdicts_html(const DiffReport& report, const Files& files, Drawings& drawings,
                           std::set<std::string>& machines) {
@@ -29,7 +29,7 @@ std::string verdicts_html(const DiffReport& report, const Files& files, Drawings
   std::size_t number = 0;
   for (const VerdictChange& change : verdicts.properties) {
     const auto verdict = [](props::VerdictKind kind) {
-      return report::badge(report::tone_of(kind), report::signed_name(kind));
+      return report::parts::badge(report::parts::tone_of(kind), report::parts::signed_name(kind));
     };
     table.rows.push_back({code(change.property), verdict(change.before), verdict(change.after),
                           judgment_badge(change.judgment), html_text(change.statement)});
@@ -43,7 +43,8 @@ std::string verdicts_html(const DiffReport& report, const Files& files, Drawings
                           fmt::format("verdict-{}", number++),
                           "How " + change.property + " breaks with " + side, drawings, machines);
     const auto file = files.find(change.property);
-    if (file != files.end()) charts += report::preformatted("stormproof replay " + file->second);
+    if (file != files.end())
+      charts += report::parts::preformatted("stormproof replay " + file->second);
   }
   return html + to_html(table) + charts;
 }

@@ -4,9 +4,8 @@
 // (render.hpp). Strings are plain UTF-8 throughout: each renderer escapes in its own way.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +27,7 @@ struct Span {
   std::string text;
   std::string target = {};  ///< of a link: id of a section or drawing of the document
   Tone tone = Tone::plain;  ///< of a badge: its sign and colour
+  std::string sign = {};    ///< of a badge: in place of the one of its tone
 };
 
 /// Running text on one line; renderers break it.
@@ -39,8 +39,8 @@ class Text {
   Text(const char* plain);       // NOLINT(google-explicit-constructor)
   explicit Text(Span span);
 
-  Text& operator+=(const Text& more);
-  friend Text operator+(Text first, const Text& second) { return first += second; }
+  Text& operator+=(Text more);
+  friend Text operator+(Text first, Text second) { return first += std::move(second); }
 
   [[nodiscard]] bool empty() const { return spans_.empty(); }
   [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
@@ -54,17 +54,32 @@ class Text {
 /// A key, a command, a file: set apart where the format can.
 [[nodiscard]] Text code(std::string_view text);
 [[nodiscard]] Text strong(std::string_view text);
-/// "✗ violated": a word with the sign and colour of its tone.
-[[nodiscard]] Text badge(Tone tone, std::string_view word);
+/// "✗ violated": a word with the sign and colour of its tone, or with another sign.
+[[nodiscard]] Text badge(Tone tone, std::string_view word, std::string_view sign = {});
 [[nodiscard]] Text link(std::string_view text, std::string_view target);
 
+/// "✓", "≈", "?", "✗"; nothing for `plain`.
+[[nodiscard]] std::string_view sign_of(Tone tone);
+
 // ---- blocks -------------------------------------------------------------------------------------
+
+/// Who gets to see a block. Not a matter of taste: a terminal has no room for what a page folds
+/// away, and a page draws what a terminal cannot.
+enum class Audience : std::uint8_t {
+  everybody,
+  verbose,  ///< at a terminal only with -v or --explain; folded in Markdown and on pages
+  terminal,
+  explained,  ///< at a terminal with -v or --explain, and nowhere else
+  documents,  ///< Markdown and pages
+  page
+};
 
 struct Block;
 using Blocks = std::vector<Block>;
 
 struct Paragraph {
   Text text;
+  Tone tone = Tone::plain;  ///< framed on pages unless plain
 };
 
 /// Items of equal rank.
@@ -82,13 +97,15 @@ struct Column {
   std::string head;
   Align align = Align::left;
   bool wraps = false;  ///< long sentences; other columns are as wide as their longest cell
+  Audience audience = Audience::everybody;  ///< `verbose` is for pages and for a terminal with -v
 };
 
 struct Table {
   struct Row {
-    std::vector<Text> cells;  ///< as many as there are columns
-    bool marked = false;      ///< shaded: another background
-    Blocks details = {};      ///< belong to the row: below it, folded where the format can
+    std::vector<Text> cells;   ///< as many as there are columns
+    bool marked = false;       ///< shaded: another background
+    Blocks details = {};       ///< belong to the row: below it, folded where the format can
+    std::string summary = {};  ///< of folded details: "2 assumptions, 1 finding"
   };
   std::vector<Column> columns;
   std::vector<Row> rows;
@@ -106,11 +123,13 @@ struct Command {
   std::string line;
 };
 
-/// A chart or drawing that only pages show. `svg` is a self-contained SVG document.
+/// A chart or drawing that only pages show. `svg` is a self-contained SVG document. Drawings
+/// without a caption that follow each other stand side by side.
 struct Drawing {
   std::string svg;
   std::string caption;
-  std::string id = {};  ///< unique in the document; may be empty
+  std::string id = {};       ///< unique in the document; may be empty
+  std::string machine = {};  ///< a state machine: its states are marked as steps are walked through
 };
 
 /// A sequence chart: drawn on pages, Mermaid in Markdown, rows of text at a terminal.
@@ -130,25 +149,19 @@ struct Section {
   std::string id = {};  ///< for links; unique in the document; may be empty
   Blocks blocks = {};
   bool folded = false;  ///< details: folded on pages and in Markdown; at a terminal after the rest
+  bool folded_in_comments = false;  ///< in Markdown only, where a comment has to be short
 };
 
-/// Who gets to see a block. Not a matter of taste: a terminal has no room for what a page folds
-/// away, and a page draws what a terminal cannot.
-enum class Audience : std::uint8_t {
-  everybody,
-  verbose,  ///< at a terminal only with -v or --explain; folded in Markdown and on pages
-  terminal,
-  documents,  ///< Markdown and pages
-  page
-};
+template <class T, class... Kinds>
+concept OneOf = (std::same_as<T, Kinds> || ...);
 
 struct Block {
   std::variant<Paragraph, Bullets, Facts, Table, Listing, Command, Drawing, Sequence, Section>
       content;
   Audience audience = Audience::everybody;
 
-  template <class Content>
-  Block(Content made, Audience who = Audience::everybody)  // NOLINT(google-explicit-constructor)
+  template <OneOf<Paragraph, Bullets, Facts, Table, Listing, Command, Drawing, Sequence, Section> T>
+  Block(T made, Audience who = Audience::everybody)  // NOLINT(google-explicit-constructor)
       : content{std::move(made)}, audience{who} {}
 };
 
@@ -173,8 +186,11 @@ struct Finding {
     passed,
     failed,   ///< it does not hold
     unknown,  ///< nobody knows: inconclusive, interrupted
-    note      ///< neither: an assumption, a remark. Not a test case
+    note      ///< neither: an assumption, a remark. Not a test case, but among a suite's notes
   };
+  /// What CI systems count and what they show beside the code may differ.
+  enum class Shown : std::uint8_t { everywhere, tests, code };
+
   std::string id;           ///< of the rule: "storm.single-copy", "limit.completion"
   std::string statement;    ///< of the rule, one sentence
   std::string description;  ///< more about the rule; may be empty
@@ -188,21 +204,26 @@ struct Finding {
   std::vector<Location> related{};
   /// What makes it the same finding tomorrow, without numbers that change with every run.
   std::vector<std::string> identity{};
+  std::string group{};    ///< class of the test case: "stormproof.diff.cost"; empty: the title's
+  std::string name{};     ///< of the test case; empty: `id`
+  std::string command{};  ///< shows it: "stormproof replay FILE"; may be empty
+  Shown shown = Shown::everywhere;
 };
 
 // ---- the document -------------------------------------------------------------------------------
 
 struct Document {
-  std::string title;  ///< "stormproof check wifi-5x20"
-  Tone tone = Tone::plain;
-  Text answer;       ///< the first line: what the reader asked
-  Text elaboration;  ///< one or two sentences below it; may be empty
-  Blocks blocks;
+  std::string title;        ///< "stormproof check wifi-5x20"
+  Tone tone = Tone::plain;  ///< of the answer; its sign stands before the answer
+  Text answer;              ///< the first line: what the reader asked
+  Text elaboration;         ///< one or two sentences below it; may be empty
+  Blocks blocks{};
   std::vector<Finding> findings{};
   std::vector<Text> assumptions{};  ///< what the answer takes for granted; listed near the end
   std::string command{};            ///< gives the same answer again; empty: nothing to repeat
   int exit_code = 0;                ///< of the program that shows the document
   bool complete = true;             ///< false: interrupted; what is there holds
+  double seconds = 0;               ///< that the work behind it took, by the clock
 };
 
 }  // namespace stormproof::report

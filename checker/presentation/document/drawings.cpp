@@ -50,13 +50,13 @@ std::string scoped_selectors(std::string_view selectors, std::string_view scope)
   return result;
 }
 
-struct Block {
+struct CssBlock {
   std::string_view prelude;
   std::string_view body;
 };
 
 /// Takes the next "prelude { body }" off the front; an empty prelude at the end.
-Block take_block(std::string_view& css) {
+CssBlock take_block(std::string_view& css) {
   const std::size_t open = css.find('{');
   if (open == std::string_view::npos) return {};
   std::size_t depth = 0;
@@ -65,14 +65,14 @@ Block take_block(std::string_view& css) {
     if (css[end] == '{') ++depth;
     if (css[end] == '}' && --depth == 0) break;
   }
-  const Block block{trimmed(css.substr(0, open)), trimmed(css.substr(open + 1, end - open - 1))};
+  const CssBlock block{trimmed(css.substr(0, open)), trimmed(css.substr(open + 1, end - open - 1))};
   css.remove_prefix(std::min(end + 1, css.size()));
   return block;
 }
 
 std::string scoped_rules(std::string_view css, const std::string& scope) {
   std::string result;
-  for (Block block = take_block(css); !block.prelude.empty(); block = take_block(css)) {
+  for (CssBlock block = take_block(css); !block.prelude.empty(); block = take_block(css)) {
     if (!block.prelude.starts_with("@media")) {
       result += fmt::format("{} {{ {} }}\n", scoped_selectors(block.prelude, scope), block.body);
       continue;

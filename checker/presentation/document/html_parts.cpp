@@ -6,7 +6,7 @@
 #include "checker/presentation/document/html_page.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 
-namespace stormproof::report {
+namespace stormproof::report::parts {
 
 namespace {
 
@@ -22,11 +22,13 @@ const char* class_of(Tone tone) {
       return "warn";
     case Tone::bad:
       return "bad";
+    case Tone::plain:
+      break;
   }
   return "info";
 }
 
-const char* cell_class(char align) {
+const char* old_cell_class(char align) {
   return align == 'r' ? " class=\"number\"" : align == 't' ? " class=\"tight\"" : "";
 }
 
@@ -105,15 +107,15 @@ std::string to_html(const HtmlTable& table) {
   if (!table.caption.empty()) html += "<caption>" + html_text(table.caption) + "</caption>\n";
   html += "<thead><tr>";
   for (std::size_t k = 0; k < table.head.size(); ++k) {
-    html +=
-        fmt::format("<th scope=\"col\"{}>{}</th>", cell_class(align(k)), html_text(table.head[k]));
+    html += fmt::format("<th scope=\"col\"{}>{}</th>", old_cell_class(align(k)),
+                        html_text(table.head[k]));
   }
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const bool marked = r < table.marked.size() && table.marked[r];
     html += marked ? "<tr class=\"different\">" : "<tr>";
     for (std::size_t k = 0; k < table.rows[r].size(); ++k) {
-      html += fmt::format("<td{}>{}</td>", cell_class(align(k)), table.rows[r][k]);
+      html += fmt::format("<td{}>{}</td>", old_cell_class(align(k)), table.rows[r][k]);
     }
     html += "</tr>\n";
   }
@@ -139,4 +141,4 @@ std::string unmodelled_html(const model::DdsProfile& profile, std::string_view p
       "<p>No statement of this report depends on these settings:</p>\n" + list + "</ul>\n");
 }
 
-}  // namespace stormproof::report
+}  // namespace stormproof::report::parts

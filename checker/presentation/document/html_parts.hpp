@@ -7,13 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/presentation/document/document.hpp"
 #include "model/dds_profile.hpp"
 #include "props/verdict.hpp"
 
-namespace stormproof::report {
-
-/// How a verdict or judgment looks: a colour, a sign, a word.
-enum class Tone { good, info, warn, bad };
+namespace stormproof::report::parts {
 
 /// "✗ violated", in a coloured frame. Plain text.
 [[nodiscard]] std::string badge(Tone tone, std::string_view words);
@@ -54,4 +52,4 @@ struct HtmlTable {
 [[nodiscard]] std::string unmodelled_html(const model::DdsProfile& profile,
                                           std::string_view profile_name);
 
-}  // namespace stormproof::report
+}  // namespace stormproof::report::parts

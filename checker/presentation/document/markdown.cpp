@@ -1,140 +1,259 @@
-// Escaping of Markdown. A backslash keeps punctuation from formatting; mentions (@) and references
-// (#) are made later, from the rendered text, so an empty comment is put behind those.
+// A document as a comment on a pull request: short parts open, long ones folded. What the reader
+// can do without is left out, part by part, where the comment gets too long.
 #include "checker/presentation/document/markdown.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "checker/presentation/document/render.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
 namespace stormproof::report {
 
 namespace {
 
-std::size_t longest_run_of_backticks(std::string_view text) {
-  std::size_t longest = 0;
-  std::size_t run = 0;
-  for (const char c : text) {
-    run = c == '`' ? run + 1 : 0;
-    longest = std::max(longest, run);
+std::string_view emoji_of(Tone tone) {
+  switch (tone) {
+    case Tone::good:
+      return "✅";
+    case Tone::info:
+      return "ℹ️";
+    case Tone::warn:
+      return "❔";
+    case Tone::bad:
+      return "❌";
+    case Tone::plain:
+      break;
   }
-  return longest;
+  return "";
 }
 
-std::string html_entities(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else
-      result += c;
+/// `escaped` with the blanks around it that `text` has; Markdown joins what follows each other.
+std::string with_blanks(std::string_view text, const std::string& escaped) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\n' || c == '\t'; };
+  if (text.empty()) return "";
+  if (escaped.empty()) return " ";
+  return (is_blank(text.front()) ? " " : "") + escaped + (is_blank(text.back()) ? " " : "");
+}
+
+std::string md_span(const Span& span) {
+  switch (span.kind) {
+    case Span::Kind::code:
+      return md_code(span.text);
+    case Span::Kind::strong:
+      return "**" + md_text(span.text) + "**";
+    case Span::Kind::badge: {
+      const std::string_view sign = span.sign.empty() ? emoji_of(span.tone) : span.sign;
+      return sign.empty() ? md_text(span.text) : fmt::format("{} {}", sign, md_text(span.text));
+    }
+    case Span::Kind::plain:
+    case Span::Kind::link:
+      break;
   }
+  return with_blanks(span.text, md_text(span.text));
+}
+
+std::string md(const Text& text) {
+  std::string result;
+  for (const Span& span : text.spans()) result += md_span(span);
   return result;
+}
+
+bool md_sees(Audience audience) {
+  return audience == Audience::everybody || audience == Audience::documents ||
+         audience == Audience::verbose;
+}
+
+bool md_shown(const Block& block) {
+  if (!md_sees(block.audience) || std::holds_alternative<Drawing>(block.content)) return false;
+  const auto* section = std::get_if<Section>(&block.content);
+  return section == nullptr || std::ranges::any_of(section->blocks, md_shown);
+}
+
+std::string to_md(const Blocks& blocks, std::size_t level);
+
+std::string to_md(const Paragraph& block, std::size_t /*level*/) {
+  const std::string_view sign = emoji_of(block.tone);
+  return (sign.empty() ? "" : std::string{sign} + " ") + md(block.text) + "\n";
+}
+
+std::string to_md(const Bullets& block, std::size_t /*level*/) {
+  std::string text;
+  for (const Text& item : block.items) text += "* " + md(item) + "\n";
+  return text;
+}
+
+std::string to_md(const Facts& block, std::size_t /*level*/) {
+  std::string text;
+  for (const auto& [label, value] : block.rows) {
+    text += fmt::format("* {}: {}\n", md_text(label), md(value));
+  }
+  return text;
+}
+
+/// The details of rows, under their first two cells.
+std::string row_details(const Table& block, std::size_t level) {
+  std::string text;
+  for (const Table::Row& row : block.rows) {
+    const std::string details = to_md(row.details, level);
+    if (details.empty()) continue;
+    std::string name;
+    for (std::size_t k = 0; k < std::min<std::size_t>(row.cells.size(), 2); ++k) {
+      name += (k == 0 ? "" : " ") + md(row.cells[k]);
+    }
+    text += (text.empty() ? "" : "\n") + name + "\n\n" + details;
+  }
+  return text.empty() ? text : "\n" + md_details("Details", text);
+}
+
+std::string to_md(const Table& block, std::size_t level) {
+  std::vector<std::size_t> shown;
+  std::vector<std::string> head;
+  std::string align;
+  for (std::size_t k = 0; k < block.columns.size(); ++k) {
+    const Column& column = block.columns[k];
+    if (column.audience != Audience::everybody && column.audience != Audience::documents) continue;
+    shown.push_back(k);
+    head.push_back(md_text(column.head));
+    align += column.align == Column::Align::right ? 'r' : 'l';
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const Table::Row& row : block.rows) {
+    std::vector<std::string>& cells = rows.emplace_back();
+    for (const std::size_t k : shown) cells.push_back(k < row.cells.size() ? md(row.cells[k]) : "");
+  }
+  const std::string caption = block.caption.empty() ? "" : md_text(block.caption) + "\n\n";
+  return caption + md_table(head, align, rows) + row_details(block, level);
+}
+
+std::string to_md(const Listing& block, std::size_t /*level*/) {
+  return md_block(block.language, block.text);
+}
+
+std::string to_md(const Command& block, std::size_t /*level*/) {
+  return md_block("sh", block.line);
+}
+
+std::string to_md(const Drawing& /*block*/, std::size_t /*level*/) { return {}; }
+
+std::string chart_md(const Sequence& block) {
+  return md_details(block.caption.empty() ? "Sequence chart" : block.caption,
+                    md_block("mermaid", sequence::mermaid_chart(block.chart)));
+}
+
+std::string story_md(const Sequence& block) {
+  if (block.story.empty()) return {};
+  const std::string name = block.caption.empty() ? "Story" : block.caption + ", as a story";
+  return md_details(name, md_block("text", block.story));
+}
+
+std::string to_md(const Sequence& block, std::size_t /*level*/) {
+  return chart_md(block) + "\n" + story_md(block);
+}
+
+std::string heading(const Section& block, std::size_t level) {
+  return std::string(std::min<std::size_t>(level, 6), '#') + " " + md_text(block.title) + "\n";
+}
+
+bool is_folded(const Section& block) { return block.folded || block.folded_in_comments; }
+
+std::string to_md(const Section& block, std::size_t level) {
+  if (block.title.empty()) return to_md(block.blocks, level);
+  const std::string inner = to_md(block.blocks, level + 1);
+  if (is_folded(block)) return md_details(block.title, inner);
+  return heading(block, level) + "\n" + inner;
+}
+
+std::string to_md(const Block& block, std::size_t level) {
+  return std::visit([&](const auto& content) { return to_md(content, level); }, block.content);
+}
+
+std::string to_md(const Blocks& blocks, std::size_t level) {
+  std::string text;
+  for (const Block& block : blocks) {
+    if (md_shown(block)) text += (text.empty() ? "" : "\n") + to_md(block, level);
+  }
+  return text;
+}
+
+/// The document in parts that may be left out one by one.
+class Parts {
+ public:
+  void add(const Blocks& blocks, const std::string& name, std::size_t level) {
+    for (const Block& block : blocks) {
+      if (md_shown(block)) add(block, name, level);
+    }
+  }
+
+  void add(const std::string& name, std::string text) { document_.add(name, std::move(text)); }
+
+  [[nodiscard]] std::string text() const {
+    return document_.text("The HTML report shows everything.");
+  }
+
+ private:
+  void add(const Block& block, const std::string& name, std::size_t level) {
+    if (const auto* section = std::get_if<Section>(&block.content)) {
+      add(*section, block.audience == Audience::verbose, name, level);
+    } else if (const auto* sequence = std::get_if<Sequence>(&block.content)) {
+      const std::string chart = sequence->caption.empty() ? "a sequence chart" : sequence->caption;
+      document_.add(chart, chart_md(*sequence));
+      document_.add(chart, story_md(*sequence));
+    } else if (block.audience == Audience::verbose) {
+      document_.add(name.empty() ? "details" : name, md_details("Details", to_md(block, level)));
+    } else {
+      document_.add(name.empty() ? name_of(block) : name, to_md(block, level));
+    }
+  }
+
+  void add(const Section& section, bool verbose, const std::string& name, std::size_t level) {
+    if (section.title.empty() && verbose) {
+      document_.add("details", md_details("Details", to_md(section.blocks, level)));
+    } else if (section.title.empty()) {
+      add(section.blocks, name, level);
+    } else if (verbose || is_folded(section)) {
+      document_.add(section.title, md_details(section.title, to_md(section.blocks, level + 1)));
+    } else {
+      document_.add(section.title, heading(section, level));
+      add(section.blocks, section.title, level + 1);
+    }
+  }
+
+  /// Of what may be left out; short blocks outside of sections always stay.
+  static std::string name_of(const Block& block) {
+    if (const auto* table = std::get_if<Table>(&block.content)) {
+      return table->caption.empty() ? "a table" : table->caption;
+    }
+    return std::holds_alternative<Listing>(block.content) ? "a listing" : "";
+  }
+
+  MarkdownDocument document_;
+};
+
+std::string repeat(const std::string& command) {
+  if (command.find('\n') != std::string::npos) {
+    return "Repeat it:\n\n" + md_block("sh", command);
+  }
+  return fmt::format("Repeat it: {}\n", md_code(command));
 }
 
 }  // namespace
 
-std::string md_text(std::string_view text) {
-  std::string result;
-  for (const char c : one_line(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '@':
-      case '#':
-        result += std::string{c} + "<!-- -->";
-        break;
-      default:
-        if (std::string_view{"\\`*_[]|~!$"}.find(c) != std::string_view::npos) result += '\\';
-        result += c;
-    }
+std::string to_markdown(const Document& document) {
+  Parts parts;
+  const std::string_view sign = emoji_of(document.tone);
+  std::string answer = (sign.empty() ? "" : std::string{sign} + " ") + md(document.answer);
+  const std::string title = md_text(document.title);
+  parts.add("", "### " + title + (title.empty() || answer.empty() ? "" : ": ") + answer + "\n");
+  if (!document.elaboration.empty()) parts.add("", md(document.elaboration) + "\n");
+  parts.add(document.blocks, "", 4);
+  if (!document.assumptions.empty()) {
+    parts.add("the assumptions",
+              md_details("Assumptions", to_md(Bullets{document.assumptions}, 4)));
   }
-  return result;
-}
-
-std::string md_code(std::string_view text) {
-  std::string line = one_line(text);
-  if (line.empty()) return "–";
-  const std::string fence(longest_run_of_backticks(line) + 1, '`');
-  if (line.front() == '`' || line.back() == '`') line = " " + line + " ";
-  // A table takes "\|" for a bar, in code, too.
-  for (std::size_t at = 0; (at = line.find('|', at)) != std::string::npos; at += 2) {
-    line.insert(at, "\\");
-  }
-  return fence + line + fence;
-}
-
-std::string md_block(std::string_view language, std::string_view text) {
-  std::string body = valid_text(text);
-  if (body.empty() || body.back() != '\n') body += '\n';
-  const std::string fence(std::max<std::size_t>(3, longest_run_of_backticks(body) + 1), '`');
-  return fmt::format("{}{}\n{}{}\n", fence, language, body, fence);
-}
-
-std::string md_table(const std::vector<std::string>& head, std::string_view align,
-                     const std::vector<std::vector<std::string>>& rows) {
-  std::string text = "|";
-  for (const std::string& cell : head) text += " " + cell + " |";
-  text += "\n|";
-  for (std::size_t k = 0; k < head.size(); ++k) {
-    text += k < align.size() && align[k] == 'r' ? "---:|" : "---|";
-  }
-  text += "\n";
-  for (const std::vector<std::string>& row : rows) {
-    text += "|";
-    for (const std::string& cell : row) text += " " + cell + " |";
-    text += "\n";
-  }
-  return text;
-}
-
-std::string md_details(std::string_view summary, std::string_view body) {
-  return fmt::format("<details><summary>{}</summary>\n\n{}\n</details>\n",
-                     html_entities(one_line(summary)), body);
-}
-
-void MarkdownDocument::add(std::string name, std::string text) {
-  if (!text.empty()) sections_.push_back({std::move(name), std::move(text)});
-}
-
-std::string MarkdownDocument::text(std::string_view elsewhere, std::size_t limit) const {
-  constexpr std::size_t room_for_notice = 1'000;
-  std::size_t needed = room_for_notice;
-  for (const Section& section : sections_) {
-    if (section.name.empty()) needed += section.text.size() + 1;
-  }
-  std::string text;
-  std::string missing;
-  for (const Section& section : sections_) {
-    if (!section.name.empty()) {
-      if (needed + section.text.size() + 1 > limit) {
-        const std::string name = missing.empty() ? section.name : ", " + section.name;
-        if (missing.size() + name.size() < room_for_notice / 2)
-          missing += name;
-        else if (!missing.ends_with("…"))
-          missing += ", …";
-        continue;
-      }
-      needed += section.text.size() + 1;
-    }
-    text += (text.empty() ? "" : "\n") + section.text;
-  }
-  if (!missing.empty()) {
-    text += fmt::format("\nLeft out to fit into a comment: {}. {}\n", md_text(missing), elsewhere);
-  }
-  return text;
+  if (!document.command.empty()) parts.add("the command", repeat(document.command));
+  return parts.text();
 }
 
 }  // namespace stormproof::report

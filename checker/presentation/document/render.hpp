@@ -30,7 +30,11 @@ struct Terminal {
 /// JUnit XML: one test case for each finding that is no note.
 [[nodiscard]] std::string to_junit(const Document& document);
 
-/// SARIF 2.1.0: the findings with their rules.
+/// SARIF 2.1.0: the findings with their rules. Columns become characters if the file can be read;
+/// paths below the current folder become relative to it.
 [[nodiscard]] nlohmann::ordered_json to_sarif(const Document& document);
+
+/// "file name.xml" → "file%20name.xml"; absolute paths outside of the current folder as file:///….
+[[nodiscard]] std::string uri_of(const std::string& path);
 
 }  // namespace stormproof::report

@@ -1,7 +1,7 @@
-// Writes the log. A result with the level `none` is of kind `pass`; one at the level `warning` that
-// nobody could decide stays a warning, as code scanning shows it.
-#include "checker/presentation/document/sarif.hpp"
-
+// SARIF 2.1.0, the form in which code scanning takes findings: each result says which rule, how
+// bad, and at which line and column of the user's file. A result with the level `none` is of kind
+// `pass`; one at the level `warning` that nobody could decide stays a warning, as code scanning
+// shows it.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "checker/presentation/document/render.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/trace/scenario_names.hpp"
 
@@ -18,20 +19,19 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using Level = SarifResult::Level;
 
-const char* name_of(Level level) {
-  switch (level) {
-    case Level::none:
+const char* level_of(const Finding& finding) {
+  switch (finding.outcome) {
+    case Finding::Outcome::passed:
       return "none";
-    case Level::note:
+    case Finding::Outcome::note:
       return "note";
-    case Level::warning:
+    case Finding::Outcome::unknown:
       return "warning";
-    case Level::error:
-      return "error";
+    case Finding::Outcome::failed:
+      break;
   }
-  return "none";
+  return finding.warning ? "warning" : "error";
 }
 
 Json message(const std::string& text) { return Json{{"text", valid_text(text)}}; }
@@ -48,7 +48,7 @@ std::string fingerprint(const std::vector<std::string>& parts) {
 }
 
 /// The column in characters; in bytes if the line cannot be read.
-int character_column(const SarifLocation& at) {
+int character_column(const Location& at) {
   std::ifstream file{at.file, std::ios::binary};
   std::string line;
   for (int k = 0; k < at.line; ++k) {
@@ -62,7 +62,7 @@ int character_column(const SarifLocation& at) {
   return column + (at.column - 1 - static_cast<int>(before));
 }
 
-Json physical_location(const SarifLocation& at) {
+Json physical_location(const Location& at) {
   Json location;
   location["artifactLocation"] = {{"uri", uri_of(at.file)}};
   // Code scanning wants a region even where the whole file is meant.
@@ -73,65 +73,65 @@ Json physical_location(const SarifLocation& at) {
   return location;
 }
 
-Json location_json(const SarifLocation& at) {
+Json location_json(const Location& at) {
   Json location;
   location["physicalLocation"] = physical_location(at);
   if (!at.message.empty()) location["message"] = message(at.message);
   return location;
 }
 
-Json rule_json(const SarifRule& rule) {
+Json rule_json(const Finding& finding) {
   Json json;
-  json["id"] = rule.id;
-  json["shortDescription"] = message(rule.name);
-  json["fullDescription"] = message(rule.description.empty() ? rule.name : rule.description);
+  json["id"] = finding.id;
+  json["shortDescription"] = message(finding.statement);
+  json["fullDescription"] =
+      message(finding.description.empty() ? finding.statement : finding.description);
   json["defaultConfiguration"] = {{"level", "error"}};
   return json;
 }
 
-Json result_json(const SarifResult& result, const SarifLog& log) {
+std::string sentences_of(const Finding& finding) {
+  std::string text = finding.word.empty() ? finding.message : finding.word + ": " + finding.message;
+  if (!finding.command.empty()) text += " Repeat it: " + finding.command;
+  return text;
+}
+
+Json result_json(const Finding& finding, std::size_t rule) {
   Json json;
-  json["ruleId"] = result.rule;
-  const auto rule = std::ranges::find(log.rules, result.rule, &SarifRule::id);
-  if (rule != log.rules.end()) json["ruleIndex"] = rule - log.rules.begin();
-  json["kind"] = result.level == Level::none ? "pass" : "fail";
-  json["level"] = name_of(result.level);
-  json["message"] = message(result.message);
+  json["ruleId"] = finding.id;
+  json["ruleIndex"] = rule;
+  json["kind"] = finding.outcome == Finding::Outcome::passed ? "pass" : "fail";
+  json["level"] = level_of(finding);
+  json["message"] = message(sentences_of(finding));
   json["locations"] = Json::array();
-  std::vector<std::string> identity{result.rule};
-  for (const SarifLocation& at : result.locations) {
+  std::vector<std::string> identity{finding.id};
+  for (const Location& at : finding.locations) {
     if (at.file.empty()) continue;
     json["locations"].push_back(location_json(at));
     identity.push_back(uri_of(at.file));
   }
-  for (const SarifLocation& at : result.related) {
+  for (const Location& at : finding.related) {
     if (at.file.empty()) continue;
     Json related = location_json(at);
     related["id"] = json.contains("relatedLocations") ? json["relatedLocations"].size() : 0;
     json["relatedLocations"].push_back(std::move(related));
   }
-  identity.insert(identity.end(), result.identity.begin(), result.identity.end());
+  identity.insert(identity.end(), finding.identity.begin(), finding.identity.end());
   json["partialFingerprints"] = {{"stormproofFinding/v1", fingerprint(identity)}};
   return json;
 }
 
-Json driver_json(const SarifLog& log) {
+Json driver_json(Json rules) {
   Json driver;
   driver["name"] = "stormproof";
   const std::string program = model::trace::program_name();  // "stormproof 1.2.3"
   driver["version"] = program.substr(program.find(' ') + 1);
   driver["semanticVersion"] = driver["version"];
-  driver["rules"] = Json::array();
-  for (const SarifRule& rule : log.rules) driver["rules"].push_back(rule_json(rule));
+  driver["rules"] = std::move(rules);
   return driver;
 }
 
 }  // namespace
-
-SarifLocation::SarifLocation(const model::config::Place& place, std::string text)
-    : line{place.line}, column{place.column}, message{std::move(text)} {
-  if (place.source != nullptr && place.line > 0) file = *place.source;
-}
 
 std::string uri_of(const std::string& path) {
   std::error_code failed;
@@ -152,17 +152,26 @@ std::string uri_of(const std::string& path) {
   return uri;
 }
 
-Json to_json(const SarifLog& log) {
-  Json run;
-  run["tool"] = {{"driver", driver_json(log)}};
+Json to_sarif(const Document& document) {
+  Json rules = Json::array();
+  Json results = Json::array();
+  for (const Finding& finding : document.findings) {
+    if (finding.shown == Finding::Shown::tests) continue;
+    const auto is_same = [&](const Json& rule) { return rule["id"] == finding.id; };
+    const auto known = std::ranges::find_if(rules, is_same);
+    const auto rule = static_cast<std::size_t>(known - rules.begin());
+    if (known == rules.end()) rules.push_back(rule_json(finding));
+    results.push_back(result_json(finding, rule));
+  }
   Json invocation;
-  if (!log.command.empty()) invocation["commandLine"] = valid_text(log.command);
-  invocation["executionSuccessful"] = log.complete;
-  invocation["exitCode"] = log.exit_code;
+  if (!document.command.empty()) invocation["commandLine"] = valid_text(document.command);
+  invocation["executionSuccessful"] = document.complete;
+  invocation["exitCode"] = document.exit_code;
+  Json run;
+  run["tool"] = {{"driver", driver_json(std::move(rules))}};
   run["invocations"] = Json::array({invocation});
   run["columnKind"] = "unicodeCodePoints";
-  run["results"] = Json::array();
-  for (const SarifResult& result : log.results) run["results"].push_back(result_json(result, log));
+  run["results"] = std::move(results);
   Json json;
   json["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";
   json["version"] = "2.1.0";

@@ -9,21 +9,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "model/config/tree/tree.hpp"
+#include "checker/presentation/document/document.hpp"
 
 namespace stormproof::report {
 
-/// A place in a file. Line and column count from 1; 0: the file as a whole.
-struct SarifLocation {
-  std::string file;
-  int line = 0;
-  int column = 0;  ///< in bytes, as `model::config::Place` counts
-  std::string message;
-
-  SarifLocation() = default;
-  /// An override on the command line has no file; then `file` stays empty.
-  explicit SarifLocation(const model::config::Place& place, std::string text = {});
-};
+using SarifLocation = Location;
 
 struct SarifRule {
   std::string id;
@@ -53,8 +43,5 @@ struct SarifLog {
 /// Columns become characters if the file can be read; paths below the current folder become
 /// relative to it.
 [[nodiscard]] nlohmann::ordered_json to_json(const SarifLog& log);
-
-/// "file name.xml" → "file%20name.xml"; absolute paths outside of the current folder as file:///….
-[[nodiscard]] std::string uri_of(const std::string& path);
 
 }  // namespace stormproof::report

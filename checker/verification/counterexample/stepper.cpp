@@ -123,8 +123,8 @@ std::string walk_html(const props::Counterexample& counterexample, const Chart& 
       "<div class=\"walk\">\n{}"
       "<div class=\"stepper\" role=\"group\" aria-label=\"Steps: {}\" tabindex=\"0\" "
       "data-drawing=\"{}\">\n{}<ol class=\"steps\">\n{}</ol></div>\n</div>\n",
-      drawing_html(drawings.add(counterexample::svg_chart(chart), id), caption), html_text(caption),
-      html_text(id), controls_html(steps.rows.size(), id), list);
+      parts::drawing_html(drawings.add(counterexample::svg_chart(chart), id), caption),
+      html_text(caption), html_text(id), controls_html(steps.rows.size(), id), list);
 }
 
 std::string machines_html(const std::set<std::string>& machines, Drawings& drawings) {
@@ -133,10 +133,10 @@ std::string machines_html(const std::set<std::string>& machines, Drawings& drawi
     const std::string name{machine.name};
     if (!machines.contains(name)) continue;
     html += fmt::format("<div data-machine=\"{}\">{}</div>\n", name,
-                        drawing_html(drawings.add(draw::machine_svg(machine)), name));
+                        parts::drawing_html(drawings.add(draw::machine_svg(machine)), name));
   }
   if (html.empty()) return {};
-  return details(
+  return parts::details(
       "State machines, as the simulator runs them; the states of the current step are marked",
       html);
 }

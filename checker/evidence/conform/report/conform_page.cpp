@@ -91,7 +91,7 @@ report::Tone tone_of(Verdict verdict) {
 }
 
 std::string table_html(std::vector<std::string> head, std::string align, const Cells& plain) {
-  report::HtmlTable table;
+  report::parts::HtmlTable table;
   table.head = std::move(head);
   table.align = std::move(align);
   table.rows = escaped(plain, [](const std::string& cell) { return report::html_text(cell); });
@@ -105,11 +105,11 @@ std::string charts_html(const Report& report, const Names& names, report::Drawin
     const Unexplained& one = unexplained[k];
     const std::string svg =
         drawings.add(svg_chart(chart_of(report, one)), fmt::format("chart-{}", k));
-    html += report::drawing_html(svg, names.place(one.place) + ": " + one.what);
-    html += report::preformatted(names.tshark(names.event(one.event)));
+    html += report::parts::drawing_html(svg, names.place(one.place) + ": " + one.what);
+    html += report::parts::preformatted(names.tshark(names.event(one.event)));
   }
   if (unexplained.size() > most_charts) {
-    html += report::paragraph_html(
+    html += report::parts::paragraph_html(
         fmt::format("{} more places are in the JSON report.", unexplained.size() - most_charts));
   }
   return html;
@@ -151,24 +151,25 @@ std::string to_markdown(const Report& report) {
 std::string to_html(const Report& report) {
   const Names names{report.conversation};
   report::Drawings drawings;
-  std::string body = report::banner(
-      tone_of(report.result.verdict), verdict_line(report),
-      report::paragraph_html(verdict_meaning(report)) +
-          report::paragraph_html(captures_text(report) + ": " + figures_text(report.result)));
+  std::string body =
+      report::parts::banner(tone_of(report.result.verdict), verdict_line(report),
+                            report::parts::paragraph_html(verdict_meaning(report)) +
+                                report::parts::paragraph_html(captures_text(report) + ": " +
+                                                              figures_text(report.result)));
   if (!report.result.unexplained.empty()) {
-    body += report::heading("What no assignment explains", "unexplained");
+    body += report::parts::heading("What no assignment explains", "unexplained");
     body += table_html({"fault", "places", "first", "packet", "where", "what"}, "trrtll",
                        fault_cells(report, names));
     body += charts_html(report, names, drawings);
   }
   body +=
-      report::heading("Rules", "rules") +
+      report::parts::heading("Rules", "rules") +
       table_html({"rule", "events", "when it sends"}, "trl", rule_cells(report.result)) +
-      report::heading("Rows of the machines", "machines") +
+      report::parts::heading("Rows of the machines", "machines") +
       table_html({"machine", "fired", "possible", "never fired"}, "trrl", machine_cells(report));
   const auto& notes = report.result.assumptions;
   if (!notes.empty())
-    body += report::heading("Assumptions", "assumptions") + report::bullets(notes);
+    body += report::parts::heading("Assumptions", "assumptions") + report::parts::bullets(notes);
   return report::html_page("conform: " + captures_text(report), body, drawings);
 }
 

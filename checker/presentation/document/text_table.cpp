@@ -1,0 +1,147 @@
+// Tables at a terminal. Widths are shared out before anything is written: narrow columns get what
+// their longest cell needs, sentences share the rest.
+#include <algorithm>
+#include <numeric>
+
+#include "checker/presentation/document/text_lines.hpp"
+
+namespace stormproof::report {
+
+namespace {
+
+constexpr std::size_t gap = 2;          ///< columns of a terminal between two of a table
+constexpr std::size_t least_wide = 18;  ///< of a column that is broken
+
+class TextTable {
+ public:
+  TextTable(const Table& table, std::size_t width, bool colours, bool verbose)
+      : table_{table}, width_{width}, colours_{colours} {
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      const Audience who = table.columns[k].audience;
+      if (who == Audience::page || who == Audience::documents) continue;
+      if (!verbose && (who == Audience::verbose || who == Audience::explained)) continue;
+      shown_.push_back(k);
+    }
+    const auto is_marked = [](const Table::Row& row) { return row.marked; };
+    marks_ = std::ranges::any_of(table.rows, is_marked) ? gap : 0;
+  }
+
+  std::vector<std::vector<std::string>> lines() {
+    measure();
+    const bool fits = share();
+    std::vector<std::vector<std::string>> all(1);
+    if (fits) all.front() = head();
+    for (const Table::Row& row : table_.rows) all.push_back(fits ? side_by_side(row) : below(row));
+    return all;
+  }
+
+ private:
+  [[nodiscard]] const Column& column(std::size_t k) const { return table_.columns[shown_[k]]; }
+  [[nodiscard]] Text cell(const Table::Row& row, std::size_t k) const {
+    return shown_[k] < row.cells.size() ? row.cells[shown_[k]] : Text{};
+  }
+
+  void measure() {
+    widths_.assign(shown_.size(), 0);
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+      widths_[k] = unbroken(column(k).head, false).columns;
+      for (const Table::Row& row : table_.rows) {
+        widths_[k] = std::max(widths_[k], unbroken(cell(row, k), false).columns);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t total() const {
+    const std::size_t gaps = shown_.empty() ? 0 : gap * (shown_.size() - 1);
+    return std::accumulate(widths_.begin(), widths_.end(), marks_ + gaps);
+  }
+
+  /// Narrows columns until the table fits; false if it cannot.
+  bool share() {
+    std::vector<std::size_t> broken_columns;
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+      if (column(k).wraps) broken_columns.push_back(k);
+    }
+    if (broken_columns.empty() && total() > width_) {
+      std::vector<std::size_t> all(shown_.size());
+      std::iota(all.begin(), all.end(), std::size_t{0});
+      std::ranges::copy_if(all, std::back_inserter(broken_columns), [&](std::size_t k) {
+        return column(k).align == Column::Align::left && widths_[k] > least_wide;
+      });
+    }
+    while (total() > width_) {
+      // The widest gives, so that in the end they are equally wide.
+      const auto widest =
+          std::ranges::max_element(broken_columns, {}, [&](std::size_t k) { return widths_[k]; });
+      if (widest == broken_columns.end() || widths_[*widest] <= least_wide) return false;
+      --widths_[*widest];
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::vector<std::string> head() const {
+    Table::Row row;
+    row.cells.resize(table_.columns.size());
+    bool empty = true;
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+      row.cells[shown_[k]] = strong(column(k).head);
+      empty = empty && column(k).head.empty();
+    }
+    return empty ? std::vector<std::string>{} : side_by_side(row);
+  }
+
+  [[nodiscard]] std::vector<std::string> side_by_side(const Table::Row& row) const {
+    std::vector<std::vector<TextLine>> cells;
+    std::size_t height = 1;
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+      cells.push_back(broken(cell(row, k), widths_[k], colours_));
+      height = std::max(height, cells.back().size());
+    }
+    std::vector<std::string> lines;
+    for (std::size_t line = 0; line < height; ++line) {
+      std::string text = marks_ == 0 ? "" : row.marked && line == 0 ? "* " : "  ";
+      std::size_t padding = 0;
+      for (std::size_t k = 0; k < cells.size(); ++k) {
+        const TextLine part = line < cells[k].size() ? cells[k][line] : TextLine{};
+        const std::size_t left_over = widths_[k] - std::min(widths_[k], part.columns);
+        const bool right = column(k).align == Column::Align::right;
+        text += std::string(padding + (right ? left_over : 0), ' ') + part.shown;
+        padding = gap + (right ? 0 : left_over);
+      }
+      lines.push_back(std::move(text));
+    }
+    return lines;
+  }
+
+  /// "head: cell", one below the other.
+  [[nodiscard]] std::vector<std::string> below(const Table::Row& row) const {
+    std::vector<std::string> lines;
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+      const Text text = cell(row, k);
+      if (text.empty()) continue;
+      const std::string label = column(k).head.empty() ? "" : column(k).head + ": ";
+      const std::string indent = lines.empty() ? "" : "  ";
+      for (const TextLine& part : broken(Text{label} + text, width_ - gap - 2, colours_)) {
+        const bool first = lines.empty();
+        lines.push_back((first && row.marked ? "* " : indent) + part.shown);
+      }
+    }
+    return lines;
+  }
+
+  const Table& table_;
+  std::size_t width_;
+  bool colours_;
+  std::vector<std::size_t> shown_;   ///< columns of the table that the reader gets to see
+  std::vector<std::size_t> widths_;  ///< of those
+  std::size_t marks_ = 0;            ///< columns in front of all, for the marks of rows
+};
+
+}  // namespace
+
+std::vector<std::vector<std::string>> table_lines(const Table& table, std::size_t width,
+                                                  bool colours, bool verbose) {
+  return TextTable{table, width, colours, verbose}.lines();
+}
+
+}  // namespace stormproof::report
