@@ -10,15 +10,19 @@ namespace stormproof::prediction {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// Infinite values stand for runs that did not complete; JSON has no number for them.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+OrderedJson number(double value) {
+  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
+}
+OrderedJson number(const std::optional<double>& value) {
+  return value ? number(*value) : OrderedJson(nullptr);
+}
 
-Json row_json(const ProfileStudy& profile, const FitRow& row) {
+OrderedJson row_json(const ProfileStudy& profile, const FitRow& row) {
   const Fit& fit = row.fit;
-  Json calibration = Json::object();
+  OrderedJson calibration = OrderedJson::object();
   for (std::size_t k = 0; k < calibration_points; ++k) {
     calibration["0." + std::to_string(k + 1)] = fit.calibration[k];
   }
@@ -44,26 +48,26 @@ Json row_json(const ProfileStudy& profile, const FitRow& row) {
           {"calibration", calibration}};
 }
 
-Json estimate_json(const RatioEstimate& estimate) {
+OrderedJson estimate_json(const RatioEstimate& estimate) {
   return {{"configurations", estimate.configurations},
           {"median", number(estimate.median)},
           {"low", number(estimate.low)},
           {"high", number(estimate.high)}};
 }
 
-Json effect_json(const ProfileStudy& profile, const Effect& effect) {
+OrderedJson effect_json(const ProfileStudy& profile, const Effect& effect) {
   return {{"profile", profile.name},
           {"scope", effect.scope},
           {"class", name_of(effect.measure)},
           {"predicted", estimate_json(effect.predicted)},
-          {"observed", effect.observed ? estimate_json(*effect.observed) : Json(nullptr)},
+          {"observed", effect.observed ? estimate_json(*effect.observed) : OrderedJson(nullptr)},
           {"verdict", name_of(effect.verdict)}};
 }
 
-Json configuration_json(const Pairing& pairing) {
+OrderedJson configuration_json(const Pairing& pairing) {
   const Configuration& c = *pairing.observed;
-  Json observed;
-  Json predicted;
+  OrderedJson observed;
+  OrderedJson predicted;
   for (std::size_t m = 0; m < measure_count; ++m) {
     const auto measure = static_cast<Measure>(m);
     const std::vector<double> runs = observed_values(c, measure);
@@ -82,8 +86,8 @@ Json configuration_json(const Pairing& pairing) {
 
 }  // namespace
 
-Json to_json(const Heading& heading, const Study& study) {
-  Json json;
+OrderedJson to_json(const Heading& heading, const Study& study) {
+  OrderedJson json;
   json["observations"] = heading.observations;
   json["command"] = heading.command;
   json["wireless"] = heading.wireless;
@@ -92,18 +96,18 @@ Json to_json(const Heading& heading, const Study& study) {
   json["read"] = heading.rows;
   json["not_selected"] = heading.not_selected;
   json["interrupted"] = study.interrupted;
-  json["profiles"] = Json::array();
-  json["rows"] = Json::array();
-  json["effects"] = Json::array();
+  json["profiles"] = OrderedJson::array();
+  json["rows"] = OrderedJson::array();
+  json["effects"] = OrderedJson::array();
   for (const ProfileStudy& profile : study.profiles) {
-    Json configurations = Json::array();
+    OrderedJson configurations = OrderedJson::array();
     for (const Pairing& pairing : profile.pairings()) {
       configurations.push_back(configuration_json(pairing));
     }
     json["profiles"].push_back({{"name", profile.name},
                                 {"baseline", profile.is_baseline},
                                 {"sampled", profile.sampled},
-                                {"skipped_runs", Json(profile.skipped)},
+                                {"skipped_runs", OrderedJson(profile.skipped)},
                                 {"configurations", configurations}});
     report::add_unmodelled(json["profiles"].back(), profile.dds);
     for (const FitRow& row : profile.rows) json["rows"].push_back(row_json(profile, row));

@@ -1,5 +1,5 @@
 // A sequence chart before anybody draws it: lanes for the participants with the channels between
-// them, rows for the events, and packets that cross from one to another. Mermaid and SVG are
+// them, rows for the events, and packets that cross from one to another. Text, Mermaid and SVG are
 // renderings of it. Counterexamples and captures make such charts.
 #pragma once
 
@@ -20,7 +20,7 @@ struct Chart {
   };
 
   struct Line {
-    enum class Kind : std::uint8_t { timer, sent, received, lost, change, service };
+    enum class Kind : std::uint8_t { timer, sent, received, lost, change, service, unexplained };
     Kind kind{};
     std::size_t lane = 0;
     std::string text;
@@ -35,6 +35,7 @@ struct Chart {
     };
     Kind kind{};
     std::size_t event = 0;  ///< number; not of a gap
+    std::string packet;     ///< of a capture, as tshark numbers it: "713"; instead of the event
     model::Nanoseconds time;
     std::vector<Line> lines;
     std::string text;
@@ -57,20 +58,30 @@ struct Chart {
     bool lost = false;
     bool local = false;                 ///< between participants of one host, past the network
     std::optional<std::size_t> sender;  ///< its lane, if it has one
+    /// The lane that it is sent to if nobody knows whether it arrives.
+    std::optional<std::size_t> unknown_end;
   };
 
-  std::string property;
-  std::string title;       ///< "timer.single-heartbeat is violated"
-  std::string closing;     ///< heads `reason`: "Why the property breaks"
-  std::string sign = "✗";  ///< marks title, closing and the last event
-  std::string statement;   ///< empty if the catalogue does not have the property
-  std::string reason;
-  std::string deployment;
-  std::string timers;
-  std::vector<Lane> lanes;  ///< from left to right
-  std::vector<Row> rows;    ///< downwards in time
+  std::string title;                 ///< "timer.single-heartbeat is violated"
+  std::string closing;               ///< heads `reason`: "Why the property breaks"
+  std::string sign = "✗";            ///< marks title, closing and the violation
+  std::vector<std::string> header;   ///< what stands below the title; empty lines are left out
+  std::string legend;                ///< what the notation means beside dashed arrows; may be empty
+  std::string reason;                ///< may be empty
+  std::string row_number = "event";  ///< what rows are numbered by
+  std::vector<Lane> lanes;           ///< from left to right
+  std::vector<Row> rows;             ///< downwards in time
   std::vector<Packet> packets;
 };
+
+/// "101", "713": what a row is numbered with; empty for a gap.
+[[nodiscard]] std::string number_of(const Chart::Row& row);
+
+/// What the notation of this chart means, dashed arrows included; may be empty.
+[[nodiscard]] std::string legend_of(const Chart& chart);
+
+/// Rows of at most 100 columns, without title, header and reason.
+[[nodiscard]] std::string text_chart(const Chart& chart);
 
 /// Mermaid source, `sequenceDiagram`.
 [[nodiscard]] std::string mermaid_chart(const Chart& chart);

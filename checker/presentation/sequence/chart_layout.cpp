@@ -53,14 +53,14 @@ class Planner {
   }
 
   void measure_columns() {
-    layout_.time_width = width_of("event") + gutter + width_of("0.000000 ms");
+    layout_.time_width = width_of(chart_.row_number) + gutter + width_of("0.000000 ms");
     for (std::size_t k = 0; k < chart_.lanes.size(); ++k) {
       const Chart::Lane& lane = chart_.lanes[k];
       layout_.lanes[k].width = std::max(width_of(lane.title), width_of(lane.subtitle)) + 2 * gutter;
     }
     std::vector<int> notes(chart_.lanes.size(), 0);
     for (std::size_t r = 0; r < chart_.rows.size(); ++r) {
-      const int time = width_of(fmt::format("{}", chart_.rows[r].event)) + gutter +
+      const int time = width_of(number_of(chart_.rows[r])) + gutter +
                        width_of(report::milliseconds(chart_.rows[r].time));
       layout_.time_width = std::max(layout_.time_width, time);
       for (const ChartLayout::Text& text : layout_.rows[r].texts) {
@@ -153,9 +153,8 @@ class Planner {
         layout_.header.push_back(std::move(line));
       }
     };
-    add(chart_.statement);
-    add(chart_.deployment);
-    add(chart_.timers);
+    for (const std::string& line : chart_.header) add(line);
+    add(legend_of(chart_));
     layout_.top = ChartLayout::margin + 28 +
                   ChartLayout::line_height * static_cast<int>(layout_.header.size()) + 60;
   }

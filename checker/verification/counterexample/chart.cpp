@@ -71,15 +71,14 @@ class Builder {
 
  private:
   void describe() {
-    chart_.property = counterexample_.property;
     chart_.title = counterexample_.property + " is violated";
     chart_.closing = "Why the property breaks";
     chart_.reason = counterexample_.reason;
-    chart_.deployment = deployment_text(counterexample_.scenario);
-    chart_.timers = timers_text(counterexample_.scenario);
     if (const auto* property = props::find_property(counterexample_.property)) {
-      chart_.statement = statement_of(*property, counterexample_.scenario.dds.implementation);
+      chart_.header = {statement_of(*property, counterexample_.scenario.dds.implementation)};
     }
+    chart_.header.push_back(deployment_text(counterexample_.scenario));
+    chart_.header.push_back(timers_text(counterexample_.scenario));
   }
 
   static bool on_network(const Act& act) {

@@ -1,38 +1,20 @@
-// Chooses what a chart of an unexplained event shows, and writes it as text.
+// Chooses what a chart of an unexplained event shows: a row for each captured datagram, and a row
+// for each instant at which the assignment has one received.
 #include "checker/evidence/conform/report/chart.hpp"
 
 #include <algorithm>
-#include <map>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/evidence/conform/report/names.hpp"
-#include "checker/presentation/text/numbers.hpp"
-#include "checker/presentation/text/paragraph.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
 namespace stormproof::conform {
 
 namespace {
 
-using Fate = Chart::Arrow::Fate;
-
-Fate fate_of(Hidden::Kind kind) {
-  switch (kind) {
-    case Hidden::Kind::received:
-      return Fate::received;
-    case Hidden::Kind::dropped:
-      return Fate::dropped;
-    case Hidden::Kind::lost:
-      return Fate::lost;
-    case Hidden::Kind::still_under_way:
-      return Fate::under_way;
-    case Hidden::Kind::recognised:
-    case Hidden::Kind::timer:
-      break;
-  }
-  return Fate::unknown;
-}
+using sequence::Chart;
+using LineKind = Chart::Line::Kind;
 
 class Planner {
  public:
@@ -42,36 +24,52 @@ class Planner {
         names_{report.conversation},
         two_lanes_{unexplained.place.destination.has_value()} {}
 
-  Chart run() {
-    Chart chart;
-    chart.title = fmt::format("{}: {}", names_.place(unexplained_.place), unexplained_.what);
-    chart.rule =
-        fmt::format("{}: {}", name_of(unexplained_.fault), rule_broken_by(unexplained_.fault));
-    chart.nearest = unexplained_.nearest;
-    for (const Need& need : unexplained_.needs) {
-      chart.nearest += (chart.nearest.empty() ? "" : "; ") + need_text(need);
-    }
-    chart.left = lane(unexplained_.place.source);
-    chart.right =
-        two_lanes_ ? lane(*unexplained_.place.destination) : Chart::Lane{"the others", {}};
+  Chart run() && {
+    describe();
     std::vector<std::size_t> events = unexplained_.context;
     events.push_back(unexplained_.event);
     std::ranges::sort(events);
     const auto repeated = std::ranges::unique(events);
     events.erase(repeated.begin(), repeated.end());
-    while (!events.empty()) chart.arrows.push_back(arrow(take_datagram(events)));
-    find_fates(chart.arrows);
-    chart.legend = legend();
-    return chart;
+    while (!events.empty()) add_datagram(take_datagram(events));
+    std::ranges::stable_sort(chart_.rows, {}, &Chart::Row::time);
+    return std::move(chart_);
   }
 
  private:
+  static constexpr std::size_t left = 0;
+  static constexpr std::size_t network = 1;
+  static constexpr std::size_t right = 2;
+
+  void describe() {
+    chart_.title =
+        fmt::format("{}: {}", names_.place(unexplained_.place), name_of(unexplained_.fault));
+    chart_.header = {unexplained_.what,
+                     fmt::format("breaks the rule: {}", rule_broken_by(unexplained_.fault))};
+    chart_.closing = "What the nearest assignment would need";
+    chart_.reason = unexplained_.nearest;
+    for (const Need& need : unexplained_.needs) {
+      chart_.reason += (chart_.reason.empty() ? "" : "; ") + need_text(need);
+    }
+    chart_.row_number = "packet";
+    chart_.legend = "times since the first packet";
+    const auto& captures = report_.conversation.captures;
+    for (std::size_t k = 0; captures.size() > 1 && k < captures.size(); ++k) {
+      chart_.legend += fmt::format("{} {}:N of {}", k == 0 ? "; packets" : ",", k + 1,
+                                   report::one_line(captures[k].name));
+    }
+    chart_.lanes = {
+        lane(unexplained_.place.source),
+        {"network", "", true},
+        two_lanes_ ? lane(*unexplained_.place.destination) : Chart::Lane{"the others", "", false}};
+  }
+
   [[nodiscard]] Chart::Lane lane(std::size_t participant) const {
     const auto& one = report_.conversation.topology.participants.at(participant);
     const std::string name = report::one_line(one.name);
     return {fmt::format("participant {}{}", participant,
                         name.empty() ? "" : fmt::format(" “{}”", name)),
-            fmt::format("host {}, {}", one.host, to_string(one.prefix))};
+            fmt::format("host {}, {}", one.host, to_string(one.prefix)), false};
   }
 
   [[nodiscard]] bool is_at(const capture::GuidPrefix& prefix, std::size_t participant) const {
@@ -88,20 +86,87 @@ class Planner {
     return taken;
   }
 
-  /// "DATA 1–3, 5 of publications": `events` from `k` on, as far as they are DATA of one writer.
-  [[nodiscard]] std::string data_text(const std::vector<std::size_t>& events,
-                                      std::size_t& k) const {
-    const capture::Event& first = names_.event(events[k]);
-    std::vector<std::int64_t> numbers;
-    for (; k < events.size(); ++k) {
-      const capture::Event& event = names_.event(events[k]);
-      if (event.data() == nullptr || event.writer != first.writer) break;
-      numbers.push_back(event.data()->sequence_number);
+  void add_datagram(const std::vector<std::size_t>& events) {
+    const capture::Event& event = names_.event(events.front());
+    const std::size_t from = is_at(event.source, unexplained_.place.source) ? left : right;
+    const std::size_t packet = chart_.packets.size();
+    Chart::Row row = row_at(event, event.time_ns);
+    Chart::Packet& made = chart_.packets.emplace_back();
+    made.name = row.packet;
+    made.sender = from;
+    row.lines.push_back({LineKind::sent, from, label(event, from, events), {packet}});
+    if (std::ranges::find(events, unexplained_.event) != events.end()) {
+      row.violation = true;
+      row.lines.push_back({LineKind::unexplained, from, "not explained", {}});
     }
-    return fmt::format("DATA {} of {}", numbers_text(numbers), writer_name(first.writer));
+    add_fate(events, from == left ? right : left, packet, std::move(row));
   }
 
-  [[nodiscard]] std::string label(const std::vector<std::size_t>& events) const {
+  [[nodiscard]] Chart::Row row_at(const capture::Event& event, std::int64_t time_ns) const {
+    Chart::Row row;
+    row.time = model::Nanoseconds{time_ns - report_.conversation.first_ns};
+    const capture::DatagramRecord& datagram = names_.datagram(event);
+    row.packet = report_.conversation.captures.size() > 1
+                     ? fmt::format("{}:{}", datagram.capture + 1, datagram.packet)
+                     : std::to_string(datagram.packet);
+    return row;
+  }
+
+  /// Adds the row of sending, with what the assignment does to the datagram on its way to `to`.
+  void add_fate(const std::vector<std::size_t>& events, std::size_t to, std::size_t packet,
+                Chart::Row sent) {
+    const Hidden* fate = fate_of(events);
+    const auto on_the_way = [&](LineKind kind, const char* text) {
+      sent.lines.push_back({kind, network, text, {packet}});
+    };
+    if (fate == nullptr)
+      chart_.packets[packet].unknown_end = to;
+    else if (fate->kind == Hidden::Kind::lost)
+      on_the_way(LineKind::lost, "is lost");
+    else if (fate->kind == Hidden::Kind::still_under_way)
+      on_the_way(LineKind::service, "is still under way at the end");
+    const model::Nanoseconds at = sent.time;
+    chart_.packets[packet].lost = fate != nullptr && fate->kind == Hidden::Kind::lost;
+    chart_.rows.push_back(std::move(sent));
+    const bool arrives = fate != nullptr && (fate->kind == Hidden::Kind::received ||
+                                             fate->kind == Hidden::Kind::dropped);
+    if (!arrives) return;
+    Chart::Row row = row_at(names_.event(events.front()), fate->time_ns);
+    row.time = std::max(row.time, at);
+    row.lines.push_back(
+        {LineKind::received,
+         to,
+         fmt::format("packet {} arrives{}", row.packet,
+                     fate->kind == Hidden::Kind::dropped ? ", is dropped: not open yet" : ""),
+         {packet}});
+    chart_.rows.push_back(std::move(row));
+  }
+
+  /// What the assignment has of a datagram; nothing if it does not say. Other places have a fate of
+  /// their own for a multicast event.
+  [[nodiscard]] const Hidden* fate_of(const std::vector<std::size_t>& events) const {
+    const Hidden* found = nullptr;
+    for (const Hidden& hidden : report_.result.hidden) {
+      if (!hidden.event || hidden.place != unexplained_.place) continue;
+      if (hidden.kind == Hidden::Kind::recognised || hidden.kind == Hidden::Kind::timer) continue;
+      if (std::ranges::find(events, *hidden.event) != events.end()) found = &hidden;
+    }
+    return found;
+  }
+
+  /// "ACKNACK 7 …", with source and destination where the lanes do not say them.
+  [[nodiscard]] std::string label(const capture::Event& event, std::size_t from,
+                                  const std::vector<std::size_t>& events) const {
+    std::string text = submessages(events);
+    const bool from_lane =
+        from == left || (two_lanes_ && is_at(event.source, *unexplained_.place.destination));
+    if (!from_lane) text = names_.short_name(event.source) + ": " + text;
+    if (!event.destination) return event.is_multicast ? text + " (multicast)" : text;
+    return two_lanes_ || from == right ? text
+                                       : text + " to " + names_.short_name(*event.destination);
+  }
+
+  [[nodiscard]] std::string submessages(const std::vector<std::size_t>& events) const {
     std::string text;
     for (std::size_t k = 0; k < events.size();) {
       const capture::Event& event = names_.event(events[k]);
@@ -117,129 +182,35 @@ class Planner {
     return text;
   }
 
-  [[nodiscard]] Chart::Arrow arrow(std::vector<std::size_t> events) const {
-    const capture::Event& event = names_.event(events.front());
-    Chart::Arrow one;
-    one.sent_ns = event.time_ns - report_.conversation.first_ns;
-    one.to_right = is_at(event.source, unexplained_.place.source);
-    one.is_unexplained = std::ranges::find(events, unexplained_.event) != events.end();
-    one.label = label(events);
-    one.events = std::move(events);
-    const bool from_lane =
-        one.to_right || (two_lanes_ && is_at(event.source, *unexplained_.place.destination));
-    if (!from_lane) one.label = names_.short_name(event.source) + ": " + one.label;
-    if (!event.destination) {
-      if (event.is_multicast) one.label += " (multicast)";
-    } else if (!two_lanes_ && one.to_right) {
-      one.label += " to " + names_.short_name(*event.destination);
+  /// "DATA 1–3, 5 of publications": `events` from `k` on, as far as they are DATA of one writer.
+  [[nodiscard]] std::string data_text(const std::vector<std::size_t>& events,
+                                      std::size_t& k) const {
+    const capture::Event& first = names_.event(events[k]);
+    std::vector<std::int64_t> numbers;
+    for (; k < events.size(); ++k) {
+      const capture::Event& event = names_.event(events[k]);
+      if (event.data() == nullptr || event.writer != first.writer) break;
+      numbers.push_back(event.data()->sequence_number);
     }
-    const capture::DatagramRecord& datagram = names_.datagram(event);
-    one.packet = report_.conversation.captures.size() > 1
-                     ? fmt::format("{}:{}", datagram.capture + 1, datagram.packet)
-                     : std::to_string(datagram.packet);
-    return one;
-  }
-
-  /// Other places have a fate of their own for a multicast event.
-  void find_fates(std::vector<Chart::Arrow>& arrows) const {
-    for (const Hidden& hidden : report_.result.hidden) {
-      if (!hidden.event || hidden.place != unexplained_.place) continue;
-      if (fate_of(hidden.kind) == Fate::unknown) continue;
-      const auto arrow = std::ranges::find_if(arrows, [&](const Chart::Arrow& one) {
-        return std::ranges::find(one.events, *hidden.event) != one.events.end();
-      });
-      if (arrow == arrows.end()) continue;
-      arrow->fate = fate_of(hidden.kind);
-      arrow->received_ns = std::max(hidden.time_ns - report_.conversation.first_ns, arrow->sent_ns);
-    }
-  }
-
-  [[nodiscard]] std::string legend() const {
-    const auto& captures = report_.conversation.captures;
-    if (captures.size() < 2) return "";
-    std::string text = "packets";
-    for (std::size_t k = 0; k < captures.size(); ++k) {
-      text += fmt::format("{} {}:N of {}", k == 0 ? "" : ",", k + 1,
-                          report::one_line(captures[k].name));
-    }
-    return text;
+    return fmt::format("DATA {} of {}", numbers_text(numbers), writer_name(first.writer));
   }
 
   const Report& report_;
   const Unexplained& unexplained_;
-  Names names_;
-  bool two_lanes_;
+  const Names names_;
+  const bool two_lanes_;
+  Chart chart_;
 };
-
-std::string repeated(std::string_view piece, std::size_t times) {
-  std::string text;
-  for (std::size_t k = 0; k < times; ++k) text += piece;
-  return text;
-}
-
-/// At most `width` columns, "…" where something is cut off.
-std::string cut(const std::string& text, std::size_t width) {
-  if (report::columns(text) <= width) return text;
-  std::string result;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const bool begins = (static_cast<unsigned char>(text[k]) & 0xc0U) != 0x80U;
-    if (begins && report::columns(result) + 1 == width) break;
-    result += text[k];
-  }
-  return result + "…";
-}
-
-constexpr std::size_t span = 68;  ///< columns between the lifelines
-
-/// "|── ACKNACK 7 … ──▷|"
-std::string arrow_text(const Chart::Arrow& arrow) {
-  const std::string label = " " + cut(arrow.label, span - 6) + " ";
-  const std::size_t dashes = span - 1 - report::columns(label);
-  const std::size_t before = dashes / 2;
-  const std::string line = repeated("─", before) + label + repeated("─", dashes - before);
-  return arrow.to_right ? "│" + line + "▷│" : "│◁" + line + "│";
-}
-
-std::string fate_text(const Chart::Arrow& arrow) {
-  switch (arrow.fate) {
-    case Fate::received:
-      return "arrives " + milliseconds(arrow.received_ns);
-    case Fate::dropped:
-      return "arrives " + milliseconds(arrow.received_ns) + ", dropped: not open yet";
-    case Fate::lost:
-      return "is lost";
-    case Fate::under_way:
-      return "is still under way at the end";
-    case Fate::unknown:
-      break;
-  }
-  return "";
-}
 
 }  // namespace
 
-Chart chart_of(const Report& report, const Unexplained& unexplained) {
+sequence::Chart chart_of(const Report& report, const Unexplained& unexplained) {
   return Planner{report, unexplained}.run();
 }
 
-std::string text_chart(const Chart& chart) {
-  const std::string left = cut(chart.left.title, span / 2);
-  const std::string right = cut(chart.right.title, span / 2);
-  const std::size_t gap = span + 2 - report::columns(left) - report::columns(right);
-  std::string text = fmt::format("  {} {}   {}{}{}\n", report::right("after", 15),
-                                 report::right("packet", 8), left, std::string(gap, ' '), right);
-  for (const Chart::Arrow& arrow : chart.arrows) {
-    text += fmt::format("{} {} {}   {}\n", arrow.is_unexplained ? "✗" : " ",
-                        report::right(milliseconds(arrow.sent_ns), 15),
-                        report::right(arrow.packet, 8), arrow_text(arrow));
-    const std::string fate = arrow.is_unexplained ? "not explained" : fate_text(arrow);
-    if (fate.empty()) continue;
-    text += fmt::format(
-        "  {}│{}│\n", std::string(27, ' '),
-        arrow.to_right ? report::right(fate + " ", span) : report::left(" " + fate, span));
-  }
-  if (!chart.legend.empty()) text += report::paragraph("  ", chart.legend);
-  return text;
+std::string to_svg(const Report& report) {
+  const auto& unexplained = report.result.unexplained;
+  return unexplained.empty() ? "" : sequence::svg_chart(chart_of(report, unexplained.front()));
 }
 
 }  // namespace stormproof::conform

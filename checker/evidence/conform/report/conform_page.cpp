@@ -128,9 +128,9 @@ std::string to_markdown(const Report& report) {
     document.add("the faults",
                  "\n" + report::md_table({"fault", "places", "first", "packet", "where", "what"},
                                          "lrrlll", escaped(fault_cells(report, names), md_text)));
-    const Chart chart = chart_of(report, report.result.unexplained.front());
-    document.add("the chart", "\n" + md_text(chart.rule) +
-                                  "\n\nNearest assignment: " + md_text(chart.nearest) + "\n\n" +
+    const sequence::Chart chart = chart_of(report, report.result.unexplained.front());
+    document.add("the chart", "\n" + md_text(chart.header.back()) +
+                                  "\n\nNearest assignment: " + md_text(chart.reason) + "\n\n" +
                                   report::md_block("text", text_chart(chart)));
   }
   document.add("the rules",

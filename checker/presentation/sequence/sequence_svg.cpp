@@ -22,7 +22,7 @@ constexpr std::string_view style = R"(
     .channel { fill: var(--panel); stroke: var(--rule); }
     .packet { stroke: var(--packet); stroke-width: 1.5; marker-end: url(#arrow); }
     .pending { stroke: var(--packet); stroke-width: 1.5; stroke-dasharray: 3 3; }
-    .local { stroke-dasharray: 7 4; }
+    .local, .unknown { stroke-dasharray: 7 4; }
     .doomed { stroke: var(--bad); stroke-width: 1.5; stroke-dasharray: 5 3; }
     .cross { stroke: var(--bad); stroke-width: 3; }
     .block { fill: var(--block); stroke: var(--packet); }
@@ -48,6 +48,7 @@ const char* class_of(LineKind kind) {
     case LineKind::received:
       return "received";
     case LineKind::lost:
+    case LineKind::unexplained:
       return "bad";
     case LineKind::change:
       return "change";
@@ -89,7 +90,7 @@ class Painter {
       y += ChartLayout::line_height;
     }
     const int labels = layout_.top - 34;
-    svg_.text(ChartLayout::margin, labels + 15, "event", "quiet small");
+    svg_.text(ChartLayout::margin, labels + 15, chart_.row_number, "quiet small");
     svg_.text(ChartLayout::margin + layout_.time_width, labels + 15, "ms", "quiet small",
               draw::Anchor::end);
     for (std::size_t k = 0; k < chart_.lanes.size(); ++k) {
@@ -143,8 +144,8 @@ class Painter {
     const bool event = row.kind == Chart::Row::Kind::event;
     const std::string classes = row.violation ? "bad" : event ? "" : "quiet small";
     if (event) {
-      svg_.text(ChartLayout::margin, baseline,
-                fmt::format("{}{}", row.violation ? chart_.sign : "", row.event), classes);
+      svg_.text(ChartLayout::margin, baseline, (row.violation ? chart_.sign : "") + number_of(row),
+                classes);
     }
     if (r == 0 || chart_.rows[r - 1].time != row.time || event) {
       svg_.text(ChartLayout::margin + layout_.time_width, baseline, report::milliseconds(row.time),
@@ -217,7 +218,7 @@ class Painter {
     const auto lost = points(p, LineKind::lost);
     const auto& blocks = layout_.blocks[p];
     if (blocks.empty()) {
-      draw_direct_way(sent, received, lost, chart_.packets[p].local);
+      draw_direct_way(sent, received, lost, chart_.packets[p]);
       return;
     }
     for (const Point from : sent) {
@@ -237,8 +238,9 @@ class Painter {
 
   /// Constant delay, a packet that no channel has served yet, or one that stays on its host.
   void draw_direct_way(const std::vector<Point>& sent, const std::vector<Point>& received,
-                       const std::vector<Point>& lost, bool local) {
+                       const std::vector<Point>& lost, const Chart::Packet& packet) {
     const ChartLayout::Lane& middle = network();
+    const bool local = packet.local;
     for (const Point at : lost) {
       for (const Point from : sent) arrow(from, {middle.left + 12, at.y}, "doomed");
       cross({middle.left + 12, at.y});
@@ -249,6 +251,10 @@ class Painter {
     }
     if (!received.empty() || !lost.empty()) return;
     for (const Point from : sent) {
+      if (packet.unknown_end) {
+        arrow(from, {layout_.lanes[*packet.unknown_end].x, from.y}, "packet unknown");
+        continue;
+      }
       const int stub = from.x < middle.x ? 36 : -36;
       arrow(from, {from.x + stub, from.y}, "pending");
       svg_.circle(from.x + stub, from.y, 3, "block");
@@ -267,6 +273,7 @@ class Painter {
 
   /// The reason, below everything; returns the height of the drawing.
   int draw_verdict() {
+    if (chart_.reason.empty()) return layout_.bottom + ChartLayout::margin;
     const int width = layout_.width - 2 * ChartLayout::margin;
     const auto columns = static_cast<std::size_t>(width - 32) /
                          static_cast<std::size_t>(draw::text_width("m", ChartLayout::font_size));

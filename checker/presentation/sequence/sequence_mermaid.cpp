@@ -23,6 +23,8 @@ class Mermaid {
       text_ += fmt::format("  participant {} as {}<br/>{}\n", id(k), escaped(lane.title),
                            escaped(lane.subtitle));
     }
+    const std::string legend = legend_of(chart_);
+    if (!legend.empty()) text_ += fmt::format("  Note over {}: {}\n", across(), escaped(legend));
     for (const Chart::Row& row : chart_.rows) add(row);
     return std::move(text_);
   }
@@ -58,8 +60,9 @@ class Mermaid {
     time_ = report::milliseconds(row.time) + " ms: ";
     for (std::size_t k = 0; k < row.lines.size();) k = add_line(row.lines, k);
     if (!row.violation) return;
-    text_ += fmt::format("  Note over {}: {} {} at event {}<br/>{}\n", across(), chart_.sign,
-                         escaped(chart_.title), row.event, escaped(chart_.reason));
+    text_ += fmt::format("  Note over {}: {} {} at {} {}{}\n", across(), chart_.sign,
+                         escaped(chart_.title), chart_.row_number, number_of(row),
+                         chart_.reason.empty() ? "" : "<br/>" + escaped(chart_.reason));
     text_ += "  end\n";
   }
 
@@ -70,6 +73,10 @@ class Mermaid {
     switch (line.kind) {
       case Chart::Line::Kind::sent:
         if (is_local(line)) break;
+        if (const auto end = unknown_end(line)) {
+          text_ += fmt::format("  {}-->>{}: {}\n", id(line.lane), id(*end), text);
+          return k + 1;
+        }
         text_ += fmt::format("  {}->>{}: {}\n", id(line.lane), id(network_of(line)), text);
         return k + 1;
       case Chart::Line::Kind::received:
@@ -82,6 +89,7 @@ class Mermaid {
       case Chart::Line::Kind::timer:
       case Chart::Line::Kind::change:
       case Chart::Line::Kind::service:
+      case Chart::Line::Kind::unexplained:
         break;
     }
     std::string note = text;
@@ -97,6 +105,9 @@ class Mermaid {
 
   [[nodiscard]] bool is_local(const Chart::Line& line) const {
     return !line.packets.empty() && chart_.packets[line.packets.front()].local;
+  }
+  [[nodiscard]] std::optional<std::size_t> unknown_end(const Chart::Line& line) const {
+    return line.packets.empty() ? std::nullopt : chart_.packets[line.packets.front()].unknown_end;
   }
   /// The channel that a packet enters.
   [[nodiscard]] std::size_t network_of(const Chart::Line& line) const {
