@@ -18,6 +18,7 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "checker/verification/counterexample/story.hpp"
 #include "model/config/knobs/effective.hpp"
 
@@ -102,7 +103,7 @@ int fuzz(const FuzzArguments& arguments) {
       "{}",
       arguments.json
           ? to_json(report, context).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
-          : to_text(report, context));
+          : report::to_text(document_of(report, context)));
   if (failure) return complain(*failure);
   if (report.violated()) return violated;
   return report.interrupted || report.runs.empty() ? inconclusive : established;

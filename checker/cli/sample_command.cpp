@@ -8,7 +8,8 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/experiments/simulate/sampling_report.hpp"
+#include "checker/experiments/simulate/sample_report.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::cli {
@@ -80,8 +81,8 @@ int sample(const SimulateArguments& arguments, const model::Scenario& scenario) 
     return bad_input;
   }
   const bool finished = run_all(arguments, sampling);
-  fmt::print("{}",
-             arguments.json ? report::to_json(sampling).dump(2) + "\n" : report::to_text(sampling));
+  fmt::print("{}", arguments.json ? report::to_json(sampling).dump(2) + "\n"
+                                  : report::to_text(report::document_of(sampling)));
   const report::SampleSummary own = report::summarize(sampling.profiles.front().samples);
   return finished && own.completed == sampling.wanted ? established : inconclusive;
 }

@@ -12,7 +12,8 @@
 #include "checker/cli/options.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/experiments/sensitivity/report.hpp"
+#include "checker/experiments/sensitivity/sensitivity_report.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
 
@@ -135,7 +136,7 @@ int sensitivity_of(const SensitivityArguments& arguments) {
     report = sensitivity::analyse(*scenario, description.options);
   }
   fmt::print("{}", arguments.json ? to_json(report, description).dump(2) + "\n"
-                                  : to_text(report, description));
+                                  : report::to_text(document_of(report, description)));
   if (!report.finished) return inconclusive;
   if (svg.wanted()) svg.stream() << to_svg(report, description);
   if (const auto error = svg.commit()) return complain(*error);

@@ -14,7 +14,8 @@
 #include "checker/cli/run_monitor.hpp"
 #include "checker/cli/sample_command.hpp"
 #include "checker/evidence/capture/write/capture_probe.hpp"
-#include "checker/experiments/simulate/simulation_report.hpp"
+#include "checker/experiments/simulate/simulate_report.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/perfetto.hpp"
@@ -119,7 +120,7 @@ int simulate(const SimulateArguments& arguments) {
       report::describe(arguments.scenario, *scenario, std::move(result));
   simulation.limits = std::move(limits);
   fmt::print("{}", arguments.json ? report::to_json(simulation).dump(2) + "\n"
-                                  : report::to_text(simulation));
+                                  : report::to_text(report::document_of(simulation)));
   if (error) return complain(*error);
   if (std::ranges::any_of(simulation.limits, &props::LimitReading::exceeded)) return violated;
   return simulation.result.completed() ? established : inconclusive;

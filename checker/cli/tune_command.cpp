@@ -15,7 +15,8 @@
 #include "checker/cli/tune_files.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/experiments/tune/deploy.hpp"
-#include "checker/experiments/tune/report.hpp"
+#include "checker/experiments/tune/tune_report.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/check.hpp"
 #include "model/config/tree/quantities.hpp"
@@ -183,23 +184,22 @@ int tune_scenario(TuneArguments& arguments) {
                         {},
                         {}};
   context.files_wanted = !arguments.output.empty();
-  bool broken = false;
   if (report->answer == tune::Answer::better) {
     const tune::Row& best = report->rows[*report->recommended];
     context.prerequisites = tune::prerequisites(*subject, best.scenario.dds);
     if (const auto file = written.files.find(best.name); file != written.files.end()) {
       context.repeat = repeat_line(arguments, *subject, *report, file->second);
     }
-    if (arguments.check) context.check = check_lines(*report, broken);
+    if (arguments.check) context.check = check_lines(*report, context.newly_violated);
   }
-  fmt::print("{}",
-             arguments.json ? to_json(*report, context).dump(2) + "\n" : to_text(*report, context));
+  fmt::print("{}", arguments.json ? to_json(*report, context).dump(2) + "\n"
+                                  : report::to_text(document_of(*report, context)));
   if (svg.wanted() && !report->rows.empty()) {
     svg.stream() << to_svg(*report, context);
     if (const auto error = svg.commit()) return complain(*error);
   }
   if (report->answer == tune::Answer::interrupted) return inconclusive;
-  return broken ? violated : established;
+  return context.newly_violated ? violated : established;
 }
 
 void add_study_options(CLI::App& command, TuneArguments& arguments) {
