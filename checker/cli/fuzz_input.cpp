@@ -121,34 +121,4 @@ model::config::Result<std::vector<std::string>> ids_to_judge(const FuzzArguments
   return ids;
 }
 
-namespace {
-
-std::string quoted(const std::string& text) {
-  const bool plain = std::ranges::all_of(text, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view{"_-./=,%:+"}.find(c) != std::string_view::npos;
-  });
-  if (plain && !text.empty()) return text;
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string{"'\\''"} : std::string{c};
-  return result + "'";
-}
-
-}  // namespace
-
-std::string command_line(const FuzzArguments& arguments) {
-  std::string command = "stormproof fuzz " + quoted(arguments.scenario);
-  const auto add = [&](const std::string& option, const std::string& value) {
-    command += " " + option + " " + quoted(value);
-  };
-  for (const std::string& change : arguments.overrides) add("--set", change);
-  for (const RangeOption& option : range_options) {
-    if (!(arguments.*option.value).empty()) add(option.name, arguments.*option.value);
-  }
-  for (const std::string& range : arguments.vary) add("--vary", range);
-  for (const std::string& limit : arguments.limits) add("--limit", limit);
-  for (const std::string& id : arguments.properties) add("--property", id);
-  return command;
-}
-
 }  // namespace stormproof::cli
