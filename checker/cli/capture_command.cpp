@@ -1,10 +1,10 @@
 // `stormproof capture summarize FILE…`: what a capture of real discovery holds, counted as the
 // paper counts.
 #include "checker/cli/commands.hpp"
+#include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/rendered.hpp"
-#include "checker/cli/until_instant.hpp"
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/capture/summary.hpp"

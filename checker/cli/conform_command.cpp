@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
+#include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/rendered.hpp"
-#include "checker/cli/until_instant.hpp"
 #include "checker/evidence/conform/report/report.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
@@ -32,47 +32,21 @@ struct ConformArguments {
   OutputFile assignment;
 };
 
-/// A bound in ns; the error names the option.
-Result<std::int64_t, std::string> parse_bound(const char* option, const std::string& text) {
-  constexpr std::int64_t most = 86'400'000'000'000;
-  constexpr const char* expected = "expected a duration from 0 to 86400s, such as 20ms";
-  const auto duration = model::config::parse_duration(text);
-  if (!duration) return fmt::format("{}: {}; {}", option, duration.error(), expected);
-  if (duration->count() > most)
-    return fmt::format("{}: '{}' is too long; {}", option, text, expected);
-  return duration->count();
-}
-
-/// Reads LO..HI into the two bounds of the delay; what is wrong, or nothing.
-std::optional<std::string> parse_delay(const std::string& text, Bounds& bounds) {
-  constexpr std::string_view separator = "..";
-  const std::size_t at = text.find(separator);
-  if (at == std::string::npos) {
-    return fmt::format("--delay: '{}' is no range; expected LO..HI, such as 0..60s", text);
-  }
-  const auto least = parse_bound("--delay", text.substr(0, at));
-  if (!least) return least.error();
-  const auto most = parse_bound("--delay", text.substr(at + separator.size()));
-  if (!most) return most.error();
-  if (*least > *most) {
-    return fmt::format("--delay: '{}' is empty; expected LO..HI with LO at most HI", text);
-  }
-  bounds.least_delay_ns = *least;
-  bounds.most_delay_ns = *most;
-  return std::nullopt;
-}
-
 Result<Bounds, std::string> parse_bounds(const ConformArguments& arguments) {
+  constexpr model::Nanoseconds most{86'400'000'000'000};
   Bounds bounds;
   if (!arguments.delay.empty()) {
-    if (auto error = parse_delay(arguments.delay, bounds)) return *error;
+    const auto delay = parse_duration_range("--delay", arguments.delay, most);
+    if (!delay) return delay.error();
+    bounds.least_delay_ns = delay->first.count();
+    bounds.most_delay_ns = delay->second.count();
   }
-  const auto read = [](const char* option, const std::string& text,
-                       std::int64_t& bound) -> std::optional<std::string> {
+  const auto read = [&](const char* option, const std::string& text,
+                        std::int64_t& bound) -> std::optional<std::string> {
     if (text.empty()) return std::nullopt;
-    const auto value = parse_bound(option, text);
+    const auto value = parse_duration(option, text, most);
     if (!value) return value.error();
-    bound = *value;
+    bound = value->count();
     return std::nullopt;
   };
   auto error = read("--send-lag", arguments.send_lag, bounds.most_send_lag_ns);
@@ -120,7 +94,7 @@ std::string render(report::Format format, const conform::Report& report) {
 }
 
 /// The files beside the report.
-void write_files(ConformArguments& arguments, const conform::Report& report, Answer& answer) {
+void write_beside(ConformArguments& arguments, const conform::Report& report, Answer& answer) {
   if (arguments.assignment.wanted()) {
     arguments.assignment.stream() << conform::assignment_lines(report);
   }
@@ -158,7 +132,7 @@ Outcome run(ConformArguments& arguments, Session& session) {
   answer.json = to_json(report);
   answer.rendered =
       rendered(session, [&](report::Format format) { return render(format, report); });
-  write_files(arguments, report, answer);
+  write_beside(arguments, report, answer);
   return answer;
 }
 

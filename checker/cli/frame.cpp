@@ -207,7 +207,7 @@ void Frame::group(const char* name, const char* help) {
 }
 
 void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
-                std::function<Outcome(Session&)> run) {
+                std::function<Outcome(Session&)> work) {
   CLI::App* parent = &parser_->app;
   std::string name = verb.name;
   if (const std::size_t space = name.find(' '); space != std::string::npos) {
@@ -216,7 +216,7 @@ void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
   }
   CLI::App* app = parent->add_subcommand(name, verb.help);
   app->footer(verb.exit_codes);
-  parser_->commands.push_back(Command{std::move(verb), app, std::move(run)});
+  parser_->commands.push_back(Command{std::move(verb), app, std::move(work)});
   Command& command = parser_->commands.back();
   Options options{*app, command.declared};
   declare(options);

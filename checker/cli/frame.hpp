@@ -45,14 +45,14 @@ class Frame {
   /// A word that has commands below it.
   void group(const char* name, const char* help);
 
-  /// `declare` says what the command accepts, `run` does the work. A request lives as long as the
+  /// `declare` says what the command accepts, `work` does it. A request lives as long as the
   /// frame.
   template <class Request>
-  void add(Verb verb, void (*declare)(Options&, Request&), Outcome (*run)(Request&, Session&)) {
+  void add(Verb verb, void (*declare)(Options&, Request&), Outcome (*work)(Request&, Session&)) {
     const auto request = std::make_shared<Request>();
     add(
         std::move(verb), [=](Options& options) { declare(options, *request); },
-        [=](Session& session) { return run(*request, session); });
+        [=](Session& session) { return work(*request, session); });
   }
 
   /// Parses, runs, shows; returns the exit code.
@@ -63,7 +63,7 @@ class Frame {
   struct Command;
 
   void add(Verb verb, const std::function<void(Options&)>& declare,
-           std::function<Outcome(Session&)> run);
+           std::function<Outcome(Session&)> work);
 
   std::unique_ptr<Parser> parser_;
 };

@@ -21,8 +21,9 @@ constexpr std::size_t usual_runs = 200;
 constexpr std::size_t most_runs = 1'000'000;
 
 /// Writes STEM.yaml, .jsonl, .svg, .mmd and .txt of every shrunk counterexample.
-std::optional<std::string> write_files(const FuzzArguments& arguments,
-                                       const fuzz::FuzzReport& report, fuzz::FuzzContext& context) {
+std::optional<std::string> write_shrunk(const FuzzArguments& arguments,
+                                        const fuzz::FuzzReport& report,
+                                        fuzz::FuzzContext& context) {
   for (const fuzz::Judgment& judgment : report.judgments) {
     if (!judgment.shrunk) continue;
     std::error_code error;
@@ -88,7 +89,7 @@ Outcome run(FuzzArguments& arguments, Session& session) {
                             session.command({"--runs", "--seconds", "--seed", "--first"}),
                             {}};
   Answer answer;
-  answer.complaint = write_files(arguments, report, context).value_or("");
+  answer.complaint = write_shrunk(arguments, report, context).value_or("");
   const bool undecided = report.interrupted || report.runs.empty();
   answer.exit_code = report.violated() ? violated : undecided ? inconclusive : established;
   // How many runs there is time for is never twice the same.

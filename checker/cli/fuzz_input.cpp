@@ -35,12 +35,10 @@ constexpr RangeOption range_options[] = {
 
 bool means_none(const std::string& value) { return value == "0" || value == "0%"; }
 
-/// "2%" → "2/100"; anything else as it is.
+/// "2%" → "1/50"; anything else as it is, for the reader of scenarios to refuse.
 std::string without_percent(const std::string& value) {
-  if (!value.ends_with('%')) return value;
-  const auto fraction = model::config::parse_fraction(value.substr(0, value.size() - 1));
-  if (!fraction || fraction->denominator > 1'000'000'000) return value;
-  return fmt::format("{}/{}", fraction->numerator, fraction->denominator * 100);
+  const auto share = model::config::parse_share(value);
+  return share && value.ends_with('%') ? print_fraction(*share) : value;
 }
 
 /// The overrides of the scenario, and by override the option that it comes from.

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
+#include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/rendered.hpp"
@@ -34,38 +35,22 @@ struct SensitivityArguments {
   OutputFile svg;
 };
 
-/// "20%", "0.2" or "1/5"; nothing if it is none of these, or not between 0 and 1.
-std::optional<double> parse_range(std::string text) {
-  const bool is_percent = text.ends_with('%');
-  if (is_percent) text.pop_back();
-  const auto fraction = model::config::parse_fraction(text);
-  if (!fraction) return std::nullopt;
-  const double range = static_cast<double>(fraction->numerator) /
-                       static_cast<double>(fraction->denominator) / (is_percent ? 100 : 1);
-  if (range <= 0 || range >= 1) return std::nullopt;
-  return range;
-}
-
 /// The options of the study; an error message if one is wrong.
 model::config::Result<Description, std::string> describe(const SensitivityArguments& arguments,
                                                          const model::Scenario& scenario) {
   Description description;
   sensitivity::Options& options = description.options;
-  const auto range = parse_range(arguments.range);
-  if (!range) {
+  const auto range = model::config::parse_share(arguments.range);
+  if (!range || range->numerator == 0 || range->value() >= 1) {
     return fmt::format(
         "--range {}: expected a percentage, decimal or fraction between 0 and 1, "
         "such as 20%, 0.2 or 1/5",
         arguments.range);
   }
-  options.range = *range;
+  options.range = range->value();
   if (!arguments.start_jitter.empty()) {
-    const auto jitter = model::config::parse_duration(arguments.start_jitter);
-    constexpr model::Nanoseconds longest{1'000'000'000'000};
-    if (!jitter) return fmt::format("--start-jitter: {}", jitter.error());
-    if (*jitter > longest) {
-      return fmt::format("--start-jitter {}: expected at most 1000s", arguments.start_jitter);
-    }
+    const auto jitter = parse_start_jitter(arguments.start_jitter);
+    if (!jitter) return jitter.error();
     options.start_jitter = *jitter;
   } else if (scenario.vary && scenario.vary->start_jitter) {
     options.start_jitter = *scenario.vary->start_jitter;

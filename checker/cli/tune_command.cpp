@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
+#include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/rendered.hpp"
@@ -33,36 +34,19 @@ struct TuneArguments {
   bool check = false;
 };
 
-/// "2%", "0.02" or "1/50"; nothing if it is none of these, or more than 1.
-std::optional<double> parse_share(std::string text) {
-  if (text == "0" || text == "0%") return 0;
-  const bool is_percent = text.ends_with('%');
-  if (is_percent) text.pop_back();
-  const auto fraction = model::config::parse_fraction(text);
-  if (!fraction) return std::nullopt;
-  const double share = static_cast<double>(fraction->numerator) /
-                       static_cast<double>(fraction->denominator) / (is_percent ? 100 : 1);
-  if (share < 0 || share >= 1) return std::nullopt;
-  return share;
-}
-
 /// What is wrong with the options, or nothing; `arguments.options` are then complete.
 std::optional<std::string> complete(TuneArguments& arguments, const model::Scenario& scenario) {
-  const auto least = parse_share(arguments.least);
-  if (!least) {
+  const auto least = model::config::parse_share(arguments.least);
+  if (!least || least->value() >= 1) {
     return fmt::format(
         "--least-gain {}: expected a percentage, decimal or fraction of at least 0 "
         "and below 1, such as 2%",
         arguments.least);
   }
-  arguments.options.least = *least;
+  arguments.options.least = least->value();
   if (!arguments.start_jitter.empty()) {
-    const auto jitter = model::config::parse_duration(arguments.start_jitter);
-    constexpr model::Nanoseconds longest{1'000'000'000'000};
-    if (!jitter) return fmt::format("--start-jitter: {}", jitter.error());
-    if (*jitter > longest) {
-      return fmt::format("--start-jitter {}: expected at most 1000s", arguments.start_jitter);
-    }
+    const auto jitter = parse_start_jitter(arguments.start_jitter);
+    if (!jitter) return jitter.error();
     arguments.options.start_jitter = *jitter;
   } else if (scenario.vary && scenario.vary->start_jitter) {
     arguments.options.start_jitter = *scenario.vary->start_jitter;

@@ -1,14 +1,11 @@
 // `stormproof validate CAPTURE…`: predicts what a capture shows, and puts both side by side.
-#include <charconv>
-#include <limits>
-
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
+#include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/rendered.hpp"
-#include "checker/cli/until_instant.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/validate/validate.hpp"
 #include "model/config/knobs/effective.hpp"
@@ -18,9 +15,6 @@ namespace stormproof::cli {
 
 namespace {
 
-using model::Nanoseconds;
-using TimeRange = std::pair<Nanoseconds, Nanoseconds>;
-
 struct ValidateArguments {
   std::vector<std::string> files;
   validate::Request request;
@@ -29,48 +23,26 @@ struct ValidateArguments {
   OutputFile scenario;
 };
 
-template <class T>
-using Parsed = model::config::Result<T, std::string>;
-
-Parsed<std::optional<TimeRange>> parse_range(const std::string& text) {
-  if (text.empty()) return std::optional<TimeRange>{};
-  const std::size_t dots = text.find("..");
-  if (dots != std::string::npos) {
-    const auto low = model::config::parse_duration(std::string_view{text}.substr(0, dots));
-    const auto high = model::config::parse_duration(std::string_view{text}.substr(dots + 2));
-    const Nanoseconds longest{1'000'000'000'000'000};
-    if (low && high && *low >= Nanoseconds{0} && *low <= *high && *high <= longest) {
-      return std::optional{TimeRange{*low, *high}};
-    }
-  }
-  return fmt::format(
-      "--endpoints-done '{}': expected two durations in ascending order, such as 20ms..80ms", text);
-}
-
-/// "5%" or "0.05".
-Parsed<double> parse_loss(const std::string& text) {
-  if (text.empty()) return 0.0;
-  const bool percent = text.ends_with('%');
-  const std::size_t digits = text.size() - (percent ? 1 : 0);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + digits, value);
-  if (percent) value /= 100;
-  if (error == std::errc{} && end == text.data() + digits && value >= 0 && value < 1) return value;
-  return fmt::format("--loss '{}': expected a probability below 1, such as 5% or 0.05", text);
-}
-
 /// Options that are texts, as values of the request; what is wrong with one, or nothing.
 std::optional<std::string> complete(validate::Request& request, const ValidateArguments& arguments,
                                     std::int64_t first_ns) {
+  constexpr model::Nanoseconds longest{1'000'000'000'000'000};
   const auto until = parse_until(arguments.until, first_ns);
   if (!until) return until.error();
-  const auto range = parse_range(arguments.endpoints_done);
-  if (!range) return range.error();
-  const auto loss = parse_loss(arguments.loss);
-  if (!loss) return loss.error();
   if (!arguments.until.empty()) request.until_ns = *until;
-  request.endpoints_done = *range;
-  request.sampling.loss = *loss;
+  if (!arguments.endpoints_done.empty()) {
+    const auto range = parse_duration_range("--endpoints-done", arguments.endpoints_done, longest);
+    if (!range) return range.error();
+    request.endpoints_done = *range;
+  }
+  if (!arguments.loss.empty()) {
+    const auto loss = model::config::parse_share(arguments.loss);
+    if (!loss || loss->value() >= 1) {
+      return fmt::format("--loss '{}': expected a probability below 1, such as 5% or 0.05",
+                         arguments.loss);
+    }
+    request.sampling.loss = loss->value();
+  }
   return std::nullopt;
 }
 
