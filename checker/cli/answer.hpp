@@ -16,12 +16,11 @@
 
 namespace stormproof::cli {
 
-/// The frame completes both forms: the document gets the exit code and, if it has none, the
-/// command; the JSON starts with `schema` and `command`.
+/// The frame completes both forms: the document, which knows the exit code, gets the command unless
+/// it has one; the JSON starts with `schema`, `command`, `exit_code` and `interrupted`.
 struct Answer {
   report::Document document;
   nlohmann::ordered_json json;
-  int exit_code = established;
   std::string csv = {};                 ///< of verbs that offer `--format csv`
   std::vector<std::string> notes = {};  ///< lines on standard error, after the answer
   std::vector<std::pair<std::string, report::Format>> files = {};  ///< written by the frame: paths

@@ -34,7 +34,8 @@ Outcome run(CaptureArguments& arguments, Session& session) {
   }
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(summary);
   const bool complete = !Session::interrupted() && counting.last_initial_ns;
-  answer.exit_code = complete ? established : inconclusive;
+  answer.document.complete = !Session::interrupted();
+  answer.document.exit_code = complete ? established : inconclusive;
   return answer;
 }
 

@@ -116,7 +116,8 @@ Outcome run(CheckArguments& arguments, Session& session) {
     arguments.emit_test.stream() << counterexample::gtest_file(all, session.command());
   }
   answer.json = to_json(report, context);
-  answer.exit_code = context.exit_code;
+  answer.document.complete = !report.interrupted;
+  answer.document.exit_code = context.exit_code;
   answer.rendered =
       rendered(session, [&](report::Format format) { return render(format, report, context); });
   return answer;

@@ -125,10 +125,15 @@ Outcome run(ConformArguments& arguments, Session& session) {
   const auto result = conform::conform({*conversation, *until, *dds, *bounds, on_progress});
   if (!result) return result.error();
   Answer answer;
-  answer.exit_code = exit_code(result->verdict);
-  const conform::Report report{*conversation,           *result, *dds,
-                               profile_name(arguments), *until,  session.command(),
-                               answer.exit_code};
+  answer.document.complete = !Session::interrupted();
+  answer.document.exit_code = exit_code(result->verdict);
+  const conform::Report report{*conversation,
+                               *result,
+                               *dds,
+                               profile_name(arguments),
+                               *until,
+                               session.command(),
+                               answer.document.exit_code};
   answer.json = to_json(report);
   answer.rendered =
       rendered(session, [&](report::Format format) { return render(format, report); });

@@ -74,7 +74,8 @@ Outcome run(CoverageArguments& arguments, Session& session) {
                                     request.wireless,          request.predict.samples,
                                     request.predict.first_seed};
   Answer answer;
-  answer.exit_code = study->interrupted ? inconclusive : established;
+  answer.document.complete = !study->interrupted;
+  answer.document.exit_code = study->interrupted ? inconclusive : established;
   answer.json = to_json(heading, *study);
   answer.rendered = rendered(session, [&](report::Format) { return to_text(heading, *study); });
   if (!arguments.output.empty()) {

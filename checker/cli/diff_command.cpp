@@ -84,7 +84,8 @@ Outcome run(DiffArguments& arguments, Session& session) {
   diff::Files files;
   Answer answer;
   answer.complaint = write_diff_files(arguments.directory, *report, files).value_or("");
-  answer.exit_code = exit_code(*report);
+  answer.document.complete = !report->interrupted;
+  answer.document.exit_code = exit_code(*report);
   answer.json = to_json(*report, files);
   answer.rendered = rendered(session, [&](report::Format format) {
     return render(format, *report, files, session.verbose());

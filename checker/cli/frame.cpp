@@ -38,12 +38,15 @@ std::string dumped(const ordered_json& json) {
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// The document and the JSON with what all of them have.
+/// The document and the JSON with what all of them have. The keys are those of
+/// specs/guide/output.md.
 void complete(Answer& answer, const std::string& command) {
   report::Document& document = answer.document;
-  document.exit_code = answer.exit_code;
   if (document.command.empty()) document.command = command;
-  ordered_json json{{"schema", json_schema}, {"command", document.command}};
+  ordered_json json{{"schema", json_schema},
+                    {"command", document.command},
+                    {"exit_code", document.exit_code},
+                    {"interrupted", !document.complete}};
   for (auto& [key, value] : answer.json.items()) json.emplace(key, std::move(value));
   answer.json = std::move(json);
 }
@@ -185,7 +188,7 @@ int Frame::Command::execute() {
   const auto error = write_files(answer);
   if (!answer.complaint.empty()) return complain(answer.complaint);
   if (error) return complain(*error);
-  return answer.exit_code;
+  return answer.document.exit_code;
 }
 
 struct Frame::Parser {

@@ -42,7 +42,8 @@ Outcome run(MutateArguments& arguments, Session& session) {
   const mutate::MutationReport report = mutate::mutate(options);
   Answer answer;
   const bool enough = 100 * report.killed() >= required_percent * report.mutants.size();
-  answer.exit_code = report.interrupted ? inconclusive : enough ? established : violated;
+  answer.document.complete = !report.interrupted;
+  answer.document.exit_code = report.interrupted ? inconclusive : enough ? established : violated;
   answer.json = to_json(report);
   answer.rendered = rendered(session, [&](report::Format) { return to_text(report); });
   return answer;

@@ -41,9 +41,9 @@ Outcome run(LintArguments& arguments, Session& session) {
   }
   const report::LintCounts counts = count(files);
   Answer answer;
-  answer.exit_code = counts.unreadable > 0                 ? bad_input
-                     : counts.errors + counts.warnings > 0 ? violated
-                                                           : established;
+  answer.document.exit_code = counts.unreadable > 0                 ? bad_input
+                              : counts.errors + counts.warnings > 0 ? violated
+                                                                    : established;
   answer.json = to_json(files);
   answer.rendered = rendered(session, [&](report::Format) { return to_text(files); });
   return answer;

@@ -147,7 +147,8 @@ Outcome run(ReplayArguments& arguments, Session& session) {
                            session.on_simulation(), counterexample::catalogue_watches());
   if (!result) return result.error();
   Answer answer;
-  answer.exit_code = exit_code(*result);
+  answer.document.complete = result->verdict != Verdict::stopped;
+  answer.document.exit_code = exit_code(*result);
   answer.json = to_json(arguments.file, *result);
   answer.rendered =
       rendered(session, [&](report::Format) { return to_text(arguments.file, *result); });

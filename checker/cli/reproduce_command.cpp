@@ -88,7 +88,8 @@ Outcome run(ReproduceArguments& arguments, Session& session) {
   report.results = run_plan(arguments, *plan, session);
   report.figures = compare(report.published, report.results);
   Answer answer;
-  answer.exit_code = report.results.complete ? established : inconclusive;
+  answer.document.complete = report.results.complete;
+  answer.document.exit_code = report.results.complete ? established : inconclusive;
   answer.notes = times(*plan, report.results);
   answer.json = to_json(report);
   answer.csv = figures_csv(report);

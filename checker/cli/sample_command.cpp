@@ -1,10 +1,7 @@
 // `simulate --samples N` and `--compare PROFILE`: the same schedules under one or several DDS
 // profiles.
-#include <fmt/core.h>
-
-#include "checker/cli/rendered.hpp"
 #include "checker/cli/simulate_request.hpp"
-#include "checker/experiments/simulate/sampling_report.hpp"
+#include "checker/experiments/simulate/sample_report.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::cli {
@@ -50,7 +47,6 @@ Outcome sample(const SimulateArguments& arguments, const model::Scenario& scenar
   sampling.name = arguments.scenario;
   sampling.wanted = arguments.samples.value_or(1);
   sampling.first_seed = arguments.seed.value_or(schedule ? schedule->seed : 0);
-  sampling.command = session.command();
   if (sampling.wanted > 1 && !schedule) {
     return Complaint{arguments.scenario +
                      ": has no schedule to sample; give the short form of the deployment\n"
@@ -58,13 +54,7 @@ Outcome sample(const SimulateArguments& arguments, const model::Scenario& scenar
   }
   if (const auto error = add_profiles(arguments, scenario, sampling)) return *error;
   run_all(sampling, session);
-  Answer answer;
-  answer.json = to_json(sampling);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(sampling); });
-  const report::SampleSummary own = report::summarize(sampling.profiles.front().samples);
-  const bool complete = !Session::interrupted() && own.completed == sampling.wanted;
-  answer.exit_code = complete ? established : inconclusive;
-  return answer;
+  return Answer{document_of(sampling), to_json(sampling)};
 }
 
 }  // namespace stormproof::cli

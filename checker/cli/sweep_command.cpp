@@ -171,7 +171,8 @@ Outcome lead(SweepArguments& arguments, const Plan& plan, const sweep::MpiWorld*
   }
   const Totals totals = count(plan, results);
   Answer answer;
-  answer.exit_code = totals.completed == plan.size() ? established : inconclusive;
+  answer.document.complete = totals.completed + totals.incomplete + totals.failed == plan.size();
+  answer.document.exit_code = totals.completed == plan.size() ? established : inconclusive;
   answer.json = summary_json(arguments, plan, results, totals);
   answer.rendered =
       rendered(session, [&](report::Format) { return summary(arguments, plan, results, totals); });

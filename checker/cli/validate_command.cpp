@@ -72,7 +72,8 @@ Outcome run(ValidateArguments& arguments, Session& session) {
   if (!report) return report.error();
   const validate::Heading heading{arguments.files, session.command()};
   Answer answer;
-  answer.exit_code = exit_code(*report);
+  answer.document.complete = !report->interrupted();
+  answer.document.exit_code = exit_code(*report);
   answer.json = to_json(*report, heading);
   answer.rendered = rendered(session, [&](report::Format) { return to_text(*report, heading); });
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(*report);

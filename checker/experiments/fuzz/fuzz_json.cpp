@@ -89,12 +89,10 @@ Json judgment_json(const FuzzReport& report, const Judgment& judgment, const Fuz
 Json to_json(const FuzzReport& report, const FuzzContext& context) {
   Json json;
   json["scenario"] = context.name;
-  json["command"] = context.whole(report);
   json["seed"] = report.seed;
   json["first"] = report.first;
   json["wanted"] = report.wanted;
   json["runs"] = report.runs.size();
-  json["interrupted"] = report.interrupted;
   json["incomplete"] = report.incomplete;
   json["rejected_draws"] = report.rejected;
   json["usual_ranges"] = report.ranges.usual;

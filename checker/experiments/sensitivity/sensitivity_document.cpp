@@ -85,7 +85,6 @@ class Builder {
  private:
   void head() {
     document_.title = "stormproof sensitivity " + description_.scenario;
-    document_.command = description_.command;
     document_.complete = report_.finished;
     document_.exit_code = report_.finished ? 0 : 3;
     document_.tone = report_.finished ? report::Tone::info : report::Tone::warn;

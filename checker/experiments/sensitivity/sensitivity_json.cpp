@@ -62,17 +62,15 @@ Json levels_of(const KnobResult& knob) {
 Json to_json(const Report& report, const Description& description) {
   const Options& options = description.options;
   Json json{{"scenario", description.scenario},
-            {"command", description.command},
             {"range", options.range},
             {"samples", report.samples},
             {"seed", options.first_seed},
             {"start_jitter_ns", options.start_jitter.count()},
             {"sampled", description.is_sampled()},
             {"by", name_of(options.by)},
-            {"finished", report.finished},
             {"runs", report.runs},
             {"base",
-             {{"completion_ns", report.base[0]},
+             {{"t_disc_ns", report.base[0]},
               {"messages", report.base[1]},
               {"incomplete", report.incomplete}}}};
   const auto by_completion = ranks(report, Measure::completion);

@@ -13,7 +13,6 @@ namespace stormproof::sensitivity {
 /// What the output says about how the report came about.
 struct Description {
   std::string scenario;  ///< as it was named
-  std::string command;   ///< that gives the same output
   Options options;
   model::DdsProfile dds;  ///< of the scenario
   bool has_schedule = false;

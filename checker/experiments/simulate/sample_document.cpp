@@ -116,7 +116,6 @@ Document document_of(const Sampling& sampling) {
   const bool alone = sampling.profiles.size() == 1;
   Document document;
   document.title = "stormproof simulate " + sampling.name;
-  document.command = sampling.command;
   document.subject =
       drawn ? fmt::format("{}: {} of {} runs, each with its own schedule", sampling.name,
                           own.samples.size(), sampling.wanted)

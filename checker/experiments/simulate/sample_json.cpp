@@ -72,7 +72,6 @@ Json to_json(const Sampling& sampling) {
   json["scenario"] = sampling.name;
   json["seed"] = sampling.first_seed;
   json["wanted"] = sampling.wanted;
-  json["command"] = sampling.command;
   add_profile(json, sampling.profiles.front());
   if (sampling.profiles.size() == 1) return json;
   Json others = Json::array();

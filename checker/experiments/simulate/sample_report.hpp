@@ -25,7 +25,6 @@ struct Sampling {
   std::string name;        ///< what the user called the scenario
   std::size_t wanted = 0;  ///< samples asked for; fewer exist if the runs were interrupted
   std::uint64_t first_seed = 0;
-  std::string command;                   ///< reproduces this output
   std::vector<SampledProfile> profiles;  ///< the scenario's own first, then those to compare with
 };
 
@@ -42,7 +41,7 @@ struct SampleSummary {
 
 [[nodiscard]] Document document_of(const Sampling& sampling);
 
-/// Keys: scenario, seed, wanted, command, samples (array of runs), summary, profile; with several
+/// Keys: scenario, seed, wanted, samples (array of runs), summary, profile; with several
 /// profiles also compare, an array of {profile_name, samples, summary, profile}.
 /// specs/guide/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Sampling& sampling);

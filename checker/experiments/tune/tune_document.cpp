@@ -103,7 +103,6 @@ class Builder {
   void head() {
     const bool interrupted = report_.answer == Answer::interrupted;
     document_.title = "stormproof tune " + context_.scenario;
-    document_.command = context_.command;
     document_.complete = !interrupted;
     document_.exit_code = interrupted ? 3 : context_.newly_violated ? 1 : 0;
     document_.tone = interrupted                        ? Tone::warn

@@ -75,7 +75,7 @@ Json to_json(const Row& row, const Context& context) {
             {"changes", std::move(changes)},
             {"runs", s.runs},
             {"completed", s.completed},
-            {"completion_ns", to_json(s.completion_ns)},
+            {"t_disc_ns", to_json(s.completion_ns)},
             {"messages", to_json(s.messages)},
             {"heartbeat", to_json(s.heartbeat)},
             {"repair_data", to_json(s.repair_data)},
@@ -109,7 +109,6 @@ Json to_json(const Space& space) {
 
 Json to_json(const Report& report, const Context& context) {
   Json json{{"scenario", context.scenario},
-            {"command", context.command},
             {"preset", context.subject.preset},
             {"vendor", model::config::vendor::name_of(context.subject.vendor)},
             {"answer", name_of(report.answer)},

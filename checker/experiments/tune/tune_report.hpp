@@ -14,7 +14,6 @@ namespace stormproof::tune {
 /// What surrounds a report.
 struct Context {
   std::string scenario;  ///< as it was named
-  std::string command;   ///< that gives the same output
   const Subject& subject;
   const Options& options;
   std::map<std::string, std::string, std::less<>> files;  ///< name of a row → its written XML

@@ -103,7 +103,6 @@ Options jittered() {
 Description description_of(const Options& options) {
   Description description;
   description.scenario = "test";
-  description.command = "stormproof sensitivity test";
   description.options = options;
   return description;
 }
@@ -213,7 +212,7 @@ TEST(SensitivityReport, JsonRanksBothMeasures) {
   EXPECT_EQ(first["rank_completion"], 1);
   EXPECT_GT(first["rank_messages"], 1);
   EXPECT_EQ(first["levels"][0]["completion"]["median_ns"], -40'000);
-  EXPECT_EQ(json["base"]["completion_ns"], 200'000);
+  EXPECT_EQ(json["base"]["t_disc_ns"], 200'000);
 }
 
 TEST(SensitivityReport, PlotHasTheKnobsWithAnEffect) {

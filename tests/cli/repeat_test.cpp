@@ -1,0 +1,131 @@
+// The line "repeat it with" keeps its word: for every verb, the printed command goes through a
+// shell and gives the same answer again. The scenario's path has a space and a quote in it.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+namespace repeat_test {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Case {
+  const char* name;
+  const char* arguments;  ///< as a user types them; $S is the scenario, $C a capture
+};
+
+void PrintTo(const Case& tested, std::ostream* out) { *out << tested.name; }
+
+const Case cases[] = {
+    {"simulate", "simulate \"$S\" --set 'time_limit=3s' --set 'limits={completion: 1s}'"},
+    {"samples",
+     "simulate \"$S\" --samples 3 --seed 7 --compare fastdds-2.6.11 --no-progress --set "
+     "'deployment={hosts: 2, participants_per_host: 1, endpoints_per_participant: 1, schedule: "
+     "{start: [0ms, 20ms], endpoints_done: [50ms, 120ms]}}'"},
+    {"check",
+     "check \"$S\" --timeout 5 --single-solver --seed 3 --property live.completion --property "
+     "storm.single-copy --set 'vary={start_jitter: 1s}' -v --counterexamples \"it's\""},
+    {"fuzz", "fuzz \"$S\" --set 'vary={start_jitter: 1s}' --runs 5 --limit 'completion=1ms'"},
+    {"fuzz_for_a_time", "fuzz \"$S\" --loss 2% --seconds 0.2 --first 3 --property safety.snapshot"},
+    {"sensitivity", "sensitivity \"$S\" --set 'time_limit=3s' --pairs --range 1/10 --jobs 2"},
+    {"tune", "tune \"$S\" --preset fastdds-2.6.11 --budget 50 --set 'time_limit=3s'"},
+    {"diff",
+     "diff fastdds-2.6.11 'it'\"'\"'s new.yaml' --over \"$S\" --no-check --no-telling-apart"},
+    {"coverage",
+     "coverage \"$SPECS/observations/fastdds-2.6.11-ap150.jsonl\" --dds fastdds-2.6.11 --wireless "
+     "wifi-80211n --channel row --scope np1 --samples 1 --set 'time_limit=3s'"},
+    {"capture", "capture summarize \"$C\" --until 3s"},
+    {"conform",
+     "conform \"$C\" --dds fastdds-2.9.1 --delay 0..30s --set 'sedp.heartbeat_period=3s'"},
+    {"validate",
+     "validate \"$C\" --dds fastdds-2.9.1 --wireless wifi-80211n --samples 2 --loss 5% "
+     "--endpoints-done 20ms..80ms"},
+    {"properties", "properties"},
+    {"profile_show", "profile show fastdds-2.6.11 --set 'sedp.heartbeat_period=3s'"},
+    {"profile_lint", "profile lint \"it's new.yaml\" fastdds-2.6.11"},
+    {"replay", "replay \"it's a trace.jsonl\""},
+    {"sweep", "sweep \"it's a grid.yaml\" -o 'the runs.db'"},
+    {"reproduce", "reproduce paper --samples 1 --profile paper"},
+    {"mutate", "mutate --mutant repairs-unasked --timeout 5"},
+};
+
+/// Without what is never twice the same.
+void drop_times(Json& json) {
+  for (const char* key : {"seconds", "already_done", "finished"}) {
+    if (json.is_object()) json.erase(key);
+  }
+  for (Json& value : json) {
+    if (value.is_structured()) drop_times(value);
+  }
+}
+
+class Repeat : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "stormproof repeat-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    fs::copy_file(STORMPROOF_SPECS_DIR "/scenarios/smallest.yaml", folder_ / "it's one.yaml");
+    std::ofstream{folder_ / "it's new.yaml"} << "base: fastdds-2.6.11\n"
+                                                "sedp: {heartbeat_period: 2s}\n";
+    std::ofstream{folder_ / "it's a grid.yaml"} << "scenarios: [smallest]\n"
+                                                   "grid: {time_limit: [2s, 3s]}\n";
+    shell("stormproof simulate smallest --trace \"it's a trace.jsonl\"", "trace");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// The standard output of a command, run in the folder.
+  std::string shell(const std::string& command, const std::string& name) {
+    const fs::path script = folder_ / (name + ".sh");
+    std::ofstream{script} << "PATH='" << fs::path{STORMPROOF_PROGRAM}.parent_path().string()
+                          << "':$PATH\nSPECS='" STORMPROOF_SPECS_DIR "'\n"
+                          << "S=\"it's one.yaml\"\n"
+                          << "C='" STORMPROOF_CAPTURES_DIR "/fastdds291_veth_np1_ne2_r0.pcap.xz'\n"
+                          << command << '\n';
+    const std::string run = "cd '" + folder_.string() + "' && sh " + name + ".sh >" + name +
+                            ".out 2>" + name + ".err </dev/null";
+    exit_code_ = WEXITSTATUS(std::system(run.c_str()));
+    return content(name + ".out");
+  }
+
+  [[nodiscard]] std::string content(const std::string& name) const {
+    std::ifstream in{folder_ / name};
+    return {std::istreambuf_iterator<char>{in}, {}};
+  }
+
+  fs::path folder_;
+  int exit_code_ = -1;
+};
+
+TEST_P(Repeat, TheCommandGivesTheSameAnswer) {
+  const std::string typed = std::string{"stormproof "} + GetParam().arguments;
+  const std::string printed = shell(typed + " --report json=first.json", "first");
+  const int first_code = exit_code_;
+  ASSERT_NE(first_code, 2) << content("first.err");
+  Json first = Json::parse(content("first.json"));
+  EXPECT_EQ(first.at("schema"), 2);
+  EXPECT_EQ(first.at("exit_code"), first_code);
+  EXPECT_EQ(first.at("interrupted"), false);
+  const auto command = first.at("command").get<std::string>();
+  EXPECT_NE(printed.find(command), std::string::npos) << printed;
+
+  Json second = Json::parse(shell(command + " --format json", "second"), nullptr, false);
+  EXPECT_EQ(exit_code_, first_code);
+  ASSERT_FALSE(second.is_discarded()) << command << '\n' << content("second.err");
+  EXPECT_EQ(second.at("command"), command);
+  drop_times(first);
+  drop_times(second);
+  EXPECT_EQ(first, second);
+}
+
+INSTANTIATE_TEST_SUITE_P(Verbs, Repeat, testing::ValuesIn(cases),
+                         [](const auto& tested) { return std::string{tested.param.name}; });
+
+}  // namespace repeat_test
