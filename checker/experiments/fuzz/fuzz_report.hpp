@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/experiments/fuzz/fuzz.hpp"
+#include "checker/presentation/document/document.hpp"
 
 namespace stormproof::fuzz {
 
@@ -22,8 +23,7 @@ struct FuzzContext {
   [[nodiscard]] std::string single(const FuzzReport& report, std::uint64_t number) const;
 };
 
-/// At most 100 columns wide, but for commands.
-[[nodiscard]] std::string to_text(const FuzzReport& report, const FuzzContext& context);
+[[nodiscard]] report::Document document_of(const FuzzReport& report, const FuzzContext& context);
 
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const FuzzReport& report, const FuzzContext& context);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "checker/experiments/sensitivity/report.hpp"
+#include "checker/experiments/sensitivity/sensitivity_report.hpp"
 #include "checker/presentation/charts/plot.hpp"
 
 namespace stormproof::sensitivity {

@@ -6,7 +6,7 @@
 #include <ctime>
 #include <new>
 
-#include "checker/experiments/simulate/simulation_report.hpp"
+#include "checker/experiments/simulate/simulate_report.hpp"
 #include "model/reference.hpp"
 #include "model/simulator.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "checker/experiments/tune/report.hpp"
+#include "checker/experiments/tune/tune_report.hpp"
 
 namespace stormproof::tune {
 

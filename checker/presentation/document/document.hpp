@@ -215,6 +215,7 @@ struct Finding {
 struct Document {
   std::string title;        ///< "stormproof check wifi-5x20"
   Tone tone = Tone::plain;  ///< of the answer; its sign stands before the answer
+  Text subject{};           ///< what was looked at, one line above the answer; may be empty
   Text answer;              ///< the first line: what the reader asked
   Text elaboration;         ///< one or two sentences below it; may be empty
   Blocks blocks{};

@@ -4,8 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "checker/experiments/sensitivity/report.hpp"
 #include "checker/experiments/sensitivity/sensitivity.hpp"
+#include "checker/experiments/sensitivity/sensitivity_report.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "tests/checker/experiments/sensitivity/scenarios.hpp"
 
 namespace stormproof::sensitivity {
@@ -153,7 +154,8 @@ TEST(SensitivityStudy, StoppedStudiesSaySo) {
   EXPECT_EQ(report.runs, 8U);
   EXPECT_FALSE(report.knobs.empty());
   EXPECT_LT(report.knobs.size(), analyse(wired(), {}).knobs.size());
-  EXPECT_NE(to_text(report, description_of(options)).find("interrupted"), std::string::npos);
+  EXPECT_NE(report::to_text(document_of(report, description_of(options))).find("interrupted"),
+            std::string::npos);
 }
 
 TEST(SensitivityStudy, StoppedSamplesAreFewerSamples) {
@@ -186,18 +188,20 @@ TEST(SensitivityStudy, NothingIsKnownWithoutTheUnchangedRun) {
   options.start_jitter = model::Nanoseconds{1'000};
   const Report report = analyse(wired(), options);
   EXPECT_TRUE(report.knobs.empty());
-  EXPECT_NE(to_text(report, description_of(options)).find("Interrupted before any change"),
+  EXPECT_NE(report::to_text(document_of(report, description_of(options)))
+                .find("Interrupted before any change"),
             std::string::npos);
 }
 
 TEST(SensitivityReport, TextWarnsOfSingleTrajectories) {
   const Report report = analyse(wired(), {});
-  const std::string text = to_text(report, description_of({}));
+  const std::string text = report::to_text(document_of(report, description_of({})));
   EXPECT_NE(text.find("wireless.one_way"), std::string::npos);
   EXPECT_NE(text.find("+40.00 µs"), std::string::npos) << text;
   EXPECT_NE(text.find("each change is one trajectory"), std::string::npos);
   const Options options = jittered();
-  const std::string sampled = to_text(analyse(wired(), options), description_of(options));
+  const std::string sampled =
+      report::to_text(document_of(analyse(wired(), options), description_of(options)));
   EXPECT_EQ(sampled.find("each change is one trajectory"), std::string::npos);
   EXPECT_NE(sampled.find("98.4 %"), std::string::npos) << sampled;
 }

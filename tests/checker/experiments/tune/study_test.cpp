@@ -8,7 +8,8 @@
 #include "checker/experiments/tune/comparison.hpp"
 #include "checker/experiments/tune/deploy.hpp"
 #include "checker/experiments/tune/model_runs.hpp"
-#include "checker/experiments/tune/report.hpp"
+#include "checker/experiments/tune/tune_report.hpp"
+#include "checker/presentation/document/render.hpp"
 
 namespace stormproof::tune {
 namespace study_test {
@@ -72,7 +73,8 @@ TEST(TuneStudy, FindsLessOfAStorm) {
   ASSERT_NE(row_named(report, "adaptive HEARTBEATs"), nullptr);
   EXPECT_FALSE(row_named(report, "adaptive HEARTBEATs")->note.empty());
 
-  const std::string text = to_text(report, {"small", "again", subject, options, {}, {}, {}, {}});
+  const std::string text =
+      report::to_text(document_of(report, {"small", "again", subject, options, {}, {}, {}, {}}));
   EXPECT_TRUE(text.find("BETTER") != std::string::npos);
   EXPECT_TRUE(text.find("unchanged") != std::string::npos);
   const std::string svg = to_svg(report, {"small", "again", subject, options, {}, {}, {}, {}});
@@ -134,7 +136,8 @@ TEST(TuneStudy, SaysThatNothingIsBetter) {
   const Report report = study(subject, options);
   EXPECT_EQ(report.answer, Answer::nothing_better);
   EXPECT_EQ(report.recommended, std::optional<std::size_t>{0});
-  const std::string text = to_text(report, {"small", "again", subject, options, {}, {}, {}, {}});
+  const std::string text =
+      report::to_text(document_of(report, {"small", "again", subject, options, {}, {}, {}, {}}));
   EXPECT_TRUE(text.find("NOTHING BETTER") != std::string::npos);
 }
 
@@ -170,7 +173,8 @@ TEST(TuneStudy, OneTrajectoryIsOneRun) {
   const Report report = study(*subject, options);
   EXPECT_FALSE(report.is_sampled);
   EXPECT_EQ(report.basis.count, 1U);
-  const std::string text = to_text(report, {"small", "again", *subject, options, {}, {}, {}, {}});
+  const std::string text =
+      report::to_text(document_of(report, {"small", "again", *subject, options, {}, {}, {}, {}}));
   EXPECT_TRUE(text.find("one trajectory") != std::string::npos);
 }
 
@@ -181,7 +185,8 @@ TEST(TuneStudy, InterruptedItTellsTheBestKnown) {
   const Report report = study(subject, options);
   EXPECT_EQ(report.answer, Answer::interrupted);
   ASSERT_FALSE(report.rows.empty());
-  const std::string text = to_text(report, {"small", "again", subject, options, {}, {}, {}, {}});
+  const std::string text =
+      report::to_text(document_of(report, {"small", "again", subject, options, {}, {}, {}, {}}));
   EXPECT_TRUE(text.find("INTERRUPTED") != std::string::npos);
   options.on_progress = [](std::string_view, std::size_t, std::size_t) { return false; };
   EXPECT_EQ(study(subject, options).answer, Answer::interrupted);

@@ -10,6 +10,7 @@
 
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "checker/experiments/trials/sample_runs.hpp"
+#include "checker/presentation/document/document.hpp"
 
 namespace stormproof::report {
 
@@ -39,7 +40,7 @@ struct SampleSummary {
 };
 [[nodiscard]] SampleSummary summarize(const std::vector<sampling::Sample>& samples);
 
-[[nodiscard]] std::string to_text(const Sampling& sampling);
+[[nodiscard]] Document document_of(const Sampling& sampling);
 
 /// Keys: scenario, seed, wanted, command, samples (array of runs), summary, profile; with several
 /// profiles also compare, an array of {profile_name, samples, summary, profile}.

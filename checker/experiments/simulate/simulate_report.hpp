@@ -1,5 +1,5 @@
-// The answer of `stormproof simulate`: one run beside what it is compared with, as text and as
-// JSON.
+// The answer of `stormproof simulate`: one run beside what it is compared with, as a document and
+// as JSON.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "checker/presentation/document/document.hpp"
 #include "model/counts.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
@@ -28,8 +29,8 @@ struct Simulation {
 [[nodiscard]] Simulation describe(std::string name, const model::Scenario& scenario,
                                   model::RunResult result);
 
-/// For a person who knows ROS 2 but not this project; at most 100 columns wide.
-[[nodiscard]] std::string to_text(const Simulation& simulation);
+/// For a person who knows ROS 2 but not this project.
+[[nodiscard]] Document document_of(const Simulation& simulation);
 
 /// Keys: scenario, completed, end, t_disc_ns, end_ns, counts, failure_free, amplification, events,
 /// open_loop_ns, closed_to_open_loop, limits (if the scenario has any), missing, channels, backlog,

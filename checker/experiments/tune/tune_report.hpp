@@ -1,4 +1,4 @@
-// The report of a tuning as text, as JSON, and as a plot of completion against messages.
+// The report of a tuning as a document, as JSON, and as a plot of completion against messages.
 #pragma once
 
 #include <map>
@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/experiments/tune/tune.hpp"
+#include "checker/presentation/document/document.hpp"
 
 namespace stormproof::tune {
 
@@ -21,9 +22,10 @@ struct Context {
   std::string repeat;  ///< command that measures the recommended file again; empty: none
   std::vector<std::string> check;  ///< lines of the check of the recommended setting; may be empty
   bool files_wanted = false;       ///< if there are none, the report says so
+  bool newly_violated = false;     ///< by that check
 };
 
-[[nodiscard]] std::string to_text(const Report& report, const Context& context);
+[[nodiscard]] report::Document document_of(const Report& report, const Context& context);
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Context& context);
 [[nodiscard]] std::string to_svg(const Report& report, const Context& context);

@@ -1,10 +1,10 @@
-// Statistics of sampled runs, and their JSON form.
+// The JSON form of sampled runs.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
 
-#include "checker/experiments/simulate/sampling_report.hpp"
-#include "checker/experiments/simulate/simulation_report.hpp"
+#include "checker/experiments/simulate/sample_report.hpp"
+#include "checker/experiments/simulate/simulate_report.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 #include "model/config/knobs/effective.hpp"
 
@@ -15,14 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using sampling::Quantiles;
 using sampling::Sample;
-
-template <class Value>
-Quantiles quantiles_of(const std::vector<Sample>& samples, Value&& value) {
-  std::vector<double> values;
-  values.reserve(samples.size());
-  for (const Sample& sample : samples) values.push_back(static_cast<double>(value(sample)));
-  return sampling::quantiles(std::move(values));
-}
 
 Json quantiles_json(const Quantiles& q) {
   const auto value = [](const std::optional<double>& v) { return v ? Json(*v) : Json(nullptr); };
@@ -74,24 +66,6 @@ void add_profile(Json& json, const SampledProfile& profile) {
 }
 
 }  // namespace
-
-SampleSummary summarize(const std::vector<Sample>& samples) {
-  SampleSummary summary;
-  summary.runs = samples.size();
-  std::vector<double> times;
-  for (const Sample& sample : samples) {
-    if (sample.discovery_time) times.push_back(static_cast<double>(sample.discovery_time->count()));
-  }
-  summary.completed = times.size();
-  summary.discovery_time_ns = sampling::quantiles(times, samples.size() - times.size());
-  for (std::size_t k = 0; k < summary.counts.size(); ++k) {
-    summary.counts[k] =
-        quantiles_of(samples, [k](const Sample& s) { return s.counts.entries()[k].value; });
-  }
-  summary.total = quantiles_of(samples, [](const Sample& s) { return s.counts.total(); });
-  summary.user_control = quantiles_of(samples, [](const Sample& s) { return s.user_control; });
-  return summary;
-}
 
 Json to_json(const Sampling& sampling) {
   Json json;

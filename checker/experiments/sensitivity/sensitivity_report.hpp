@@ -1,4 +1,4 @@
-// The sensitivity report as text with a tornado of bars, as JSON, and as an SVG tornado plot.
+// The sensitivity report as a document, as JSON, and as an SVG tornado plot.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/experiments/sensitivity/sensitivity.hpp"
+#include "checker/presentation/document/document.hpp"
 
 namespace stormproof::sensitivity {
 
@@ -22,7 +23,7 @@ struct Description {
   [[nodiscard]] bool is_sampled() const { return has_schedule || options.start_jitter.count() > 0; }
 };
 
-[[nodiscard]] std::string to_text(const Report& report, const Description& description);
+[[nodiscard]] report::Document document_of(const Report& report, const Description& description);
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Description& description);
 /// A bar for each of the first knobs that have an effect on `description.options.by`.
 [[nodiscard]] std::string to_svg(const Report& report, const Description& description);

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "checker/experiments/tune/report.hpp"
+#include "checker/experiments/tune/tune_report.hpp"
 
 namespace stormproof::tune {
 

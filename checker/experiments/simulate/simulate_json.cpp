@@ -2,7 +2,7 @@
 // null.
 #include <nlohmann/json.hpp>
 
-#include "checker/experiments/simulate/simulation_report.hpp"
+#include "checker/experiments/simulate/simulate_report.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/reference.hpp"

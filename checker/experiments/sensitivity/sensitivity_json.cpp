@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "checker/experiments/sensitivity/report.hpp"
+#include "checker/experiments/sensitivity/sensitivity_report.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 
 namespace stormproof::sensitivity {

@@ -1,0 +1,271 @@
+// A fuzz report as a document: what was varied, the verdicts, the distribution of the runs, then
+// each counterexample.
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "checker/experiments/fuzz/fuzz_report.hpp"
+#include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+#include "model/config/tree/quantities.hpp"
+
+namespace stormproof::fuzz {
+
+namespace {
+
+using model::config::print_duration;
+using report::Blocks;
+using report::Column;
+using report::Document;
+using report::Facts;
+using report::grouped;
+using report::Paragraph;
+using report::plural;
+using report::Section;
+using report::Table;
+using report::Text;
+using report::Tone;
+
+std::string rate_text(double rate) { return fmt::format("{:.2f} %", 100 * rate); }
+
+/// "limit.completion 3s".
+std::string name_text(const Judgment& judgment, const model::Scenario& scenario) {
+  std::string text{judgment.id};
+  if (!scenario.limits) return text;
+  const model::Limits& limits = *scenario.limits;
+  if (text == "limit.completion") return text + " " + print_duration(*limits.completion);
+  if (text == "limit.messages") return text + " " + grouped(*limits.messages);
+  if (text == "limit.amplification") {
+    return text + fmt::format(" {:.4g}×", limits.amplification->value());
+  }
+  if (text == "limit.backlog") return text + " " + plural(*limits.backlog, "packet");
+  return text;
+}
+
+Tone tone_of(props::VerdictKind verdict) {
+  if (verdict == props::VerdictKind::violated) return Tone::bad;
+  return verdict == props::VerdictKind::inconclusive ? Tone::warn : Tone::good;
+}
+
+/// "40 runs, seed 3, numbers 0 to 39; each is drawn from".
+std::string runs_text(const FuzzReport& report) {
+  std::string text = fmt::format("{}, seed {}", plural(report.runs.size(), "run"), report.seed);
+  if (!report.runs.empty()) {
+    text += fmt::format(", numbers {} to {}", report.first, report.runs.back().number);
+  }
+  return text + "; each is drawn from";
+}
+
+void add_ranges(Blocks& blocks, const FuzzReport& report, const model::Scenario& scenario) {
+  blocks.emplace_back(Paragraph{runs_text(report)});
+  Facts facts;
+  for (RangeText& range : describe(report.ranges, scenario)) {
+    facts.rows.emplace_back(std::move(range.name), std::move(range.text));
+  }
+  if (facts.rows.empty()) {
+    blocks.emplace_back(Paragraph{"nothing: no range is left, so all runs are the same"});
+  } else {
+    blocks.emplace_back(std::move(facts));
+  }
+  std::string remarks;
+  if (report.ranges.usual) {
+    remarks +=
+        "These are the usual ranges: neither the scenario (vary:) nor an option states any. ";
+  }
+  if (!scenario.limits || !scenario.limits->any()) {
+    remarks +=
+        "The scenario has no limits, so only properties are judged; limits: in the scenario or "
+        "--limit NAME=VALUE adds some. ";
+  }
+  if (report.rejected > 0) {
+    remarks += fmt::format("{} gave no valid scenario and {} repeated. ",
+                           plural(report.rejected, "draw"), report.rejected == 1 ? "was" : "were");
+  }
+  if (remarks.empty()) return;
+  remarks.pop_back();
+  blocks.emplace_back(Paragraph{std::move(remarks)});
+}
+
+std::string result_text(const Judgment& judgment) {
+  if (!judgment.sampled) {
+    return "without any variation, so no variant was judged by it; see stormproof check";
+  }
+  if (judgment.runs == 0) return "no run says anything about it";
+  std::string text =
+      fmt::format("{} of {}: ", grouped(judgment.broken), plural(judgment.runs, "run"));
+  if (judgment.broken == 0) {
+    text += "at most " + rate_text(judgment.rate.high);
+  } else {
+    text += fmt::format(
+        "{}, between {} and {}",
+        rate_text(static_cast<double>(judgment.broken) / static_cast<double>(judgment.runs)),
+        rate_text(judgment.rate.low), rate_text(judgment.rate.high));
+  }
+  if (judgment.in_base) text += ", and without any variation";
+  return text;
+}
+
+Table verdicts(const FuzzReport& report, const FuzzContext& context) {
+  Table table{{{"verdict"}, {"property or limit"}, {"violated in", Column::Align::left, true}}, {}};
+  for (const Judgment& judgment : report.judgments) {
+    const auto verdict = judgment.sampled ? judgment.verdict : props::VerdictKind::violated;
+    // What breaks without any variation was known before: no verdict of this sample.
+    const Tone tone = judgment.sampled ? tone_of(verdict) : Tone::info;
+    table.rows.push_back({{report::badge(tone, props::name_of(verdict)),
+                           name_text(judgment, context.scenario), result_text(judgment)},
+                          judgment.broken > 0});
+  }
+  return table;
+}
+
+Table distribution(const FuzzReport& report) {
+  const auto time = [](double ns) {
+    return report::duration(model::Nanoseconds{static_cast<std::int64_t>(ns)});
+  };
+  const auto count = [](double value) { return grouped(static_cast<std::uint64_t>(value)); };
+  const auto ratio = [](double value) { return fmt::format("{:.3g}×", value); };
+  Table table{{{""}}, {}};
+  for (const char* head : {"least", "10 %", "median", "90 %", "most", "unperturbed"}) {
+    table.columns.push_back({head, Column::Align::right});
+  }
+  const auto row = [&table](const char* name, const sampling::Quantiles& q, auto&& print,
+                            std::string unperturbed) {
+    std::vector<Text> cells{name};
+    for (const auto& value : {q.min, q.p10, q.median, q.p90, q.max}) {
+      cells.emplace_back(value ? print(*value) : "–");
+    }
+    cells.emplace_back(std::move(unperturbed));
+    table.rows.push_back({std::move(cells)});
+  };
+  const JudgedRun& base = report.base;
+  row("completion", report.completion_ns, time,
+      base.discovery_time ? report::duration(*base.discovery_time) : "–");
+  row("messages", report.messages, count, grouped(base.messages));
+  row("amplification", report.amplification, ratio, ratio(base.amplification));
+  row("highest backlog", report.backlog, count, grouped(base.backlog));
+  return table;
+}
+
+Section counterexample(const FuzzReport& report, const Judgment& judgment,
+                       const FuzzContext& context) {
+  Facts facts;
+  facts.rows.emplace_back("statement", judgment.statement);
+  facts.rows.emplace_back("that run", judgment.first_reason);
+  if (judgment.shrunk) {
+    const Shrunk& shrunk = *judgment.shrunk;
+    facts.rows.emplace_back(
+        "smallest",
+        fmt::format("{} ({} of {} simpler scenarios broke it, too{})", shrunk.counterexample.reason,
+                    shrunk.accepted, shrunk.tried,
+                    shrunk.finished ? "" : "; the search ended there, its effort spent"));
+    const char* label = "differs";
+    for (std::string& line : differences(shrunk.counterexample.scenario, context.scenario)) {
+      facts.rows.emplace_back(std::exchange(label, ""), std::move(line));
+    }
+  }
+  const auto stem = context.stems.find(judgment.id);
+  if (stem != context.stems.end()) {
+    facts.rows.emplace_back("files", report::code(stem->second + ".yaml") +
+                                         " (scenario), .txt (story), .svg and .mmd "
+                                         "(chart)");
+    facts.rows.emplace_back("replay", report::code("stormproof replay " + stem->second + ".jsonl"));
+  }
+  facts.rows.emplace_back("run it", report::code(context.single(report, judgment.first_broken)));
+  return {fmt::format("VIOLATED {}, first by run {}", judgment.id, judgment.first_broken),
+          std::string{judgment.id},
+          {std::move(facts)}};
+}
+
+report::Finding finding_of(const Judgment& judgment, const FuzzContext& context) {
+  using Outcome = report::Finding::Outcome;
+  report::Finding finding;
+  finding.id = judgment.id;
+  finding.statement = judgment.statement;
+  finding.outcome = !judgment.sampled                                      ? Outcome::note
+                    : judgment.verdict == props::VerdictKind::violated     ? Outcome::failed
+                    : judgment.verdict == props::VerdictKind::inconclusive ? Outcome::unknown
+                                                                           : Outcome::passed;
+  finding.word = props::name_of(judgment.verdict);
+  finding.message = name_text(judgment, context.scenario) + ": " + result_text(judgment);
+  finding.details = judgment.first_reason;
+  finding.identity = {context.name};
+  return finding;
+}
+
+std::string answer_text(const FuzzReport& report) {
+  if (report.runs.empty()) return "No run finished, so nothing is known.";
+  const auto broken = std::ranges::count_if(
+      report.judgments, [](const Judgment& judgment) { return judgment.broken > 0; });
+  if (broken == 0) return "No run of the sample breaks anything.";
+  return fmt::format("Runs of the sample break {} of {} properties and limits.", broken,
+                     report.judgments.size());
+}
+
+void add_reservations(Document& document, const FuzzReport& report) {
+  Blocks& blocks = document.blocks;
+  if (report.undrawable) {
+    blocks.emplace_back(
+        Paragraph{"1,000 draws in a row gave no valid scenario: the ranges and the rules between "
+                  "knobs (specs/guide/model.md) hardly meet."});
+  }
+  if (report.interrupted) {
+    blocks.emplace_back(Paragraph{fmt::format(
+        "Interrupted after {} of {}.", grouped(report.runs.size()), plural(report.wanted, "run"))});
+  }
+  if (report.runs.empty()) return;
+  blocks.emplace_back(Paragraph{fmt::format(
+      "Rates are those of all scenarios in the ranges, with {:.0f} % confidence (exact "
+      "interval of Clopper and Pearson). A sample proves nothing about the runs that it "
+      "does not contain.",
+      100 * confidence_level)});
+}
+
+}  // namespace
+
+std::string FuzzContext::whole(const FuzzReport& report) const {
+  std::string text =
+      fmt::format("{} --runs {} --seed {}", command, report.runs.size(), report.seed);
+  if (report.first > 0) text += fmt::format(" --first {}", report.first);
+  return text;
+}
+
+std::string FuzzContext::single(const FuzzReport& report, std::uint64_t number) const {
+  return fmt::format("{} --runs 1 --seed {} --first {}", command, report.seed, number);
+}
+
+Document document_of(const FuzzReport& report, const FuzzContext& context) {
+  const model::Scenario& scenario = context.scenario;
+  const bool fastdds = scenario.dds.implementation == model::ImplementationKind::fastdds;
+  const bool open = report.interrupted || report.runs.empty();
+  Document document;
+  document.title = "stormproof fuzz " + context.name;
+  document.exit_code = report.violated() ? 1 : open ? 3 : 0;
+  document.tone = report.violated() ? Tone::bad : open ? Tone::warn : Tone::good;
+  document.complete = !report.interrupted;
+  document.command = context.whole(report);
+  document.subject =
+      fmt::format("{}: {}, {}", context.name, plural(scenario.deployment.size(), "participant"),
+                  fastdds ? "Fast DDS's own rules" : "the rules of the closed-loop model");
+  document.answer = answer_text(report);
+  add_ranges(document.blocks, report, scenario);
+  document.blocks.emplace_back(verdicts(report, context));
+  if (!report.runs.empty()) document.blocks.emplace_back(distribution(report));
+  if (report.incomplete > 0) {
+    document.blocks.emplace_back(
+        Paragraph{fmt::format("Discovery was not complete at the time limit in {} of {}.",
+                              grouped(report.incomplete), plural(report.runs.size(), "run"))});
+  }
+  for (const Judgment& judgment : report.judgments) {
+    document.findings.push_back(finding_of(judgment, context));
+    if (judgment.broken > 0) {
+      document.blocks.emplace_back(counterexample(report, judgment, context));
+    }
+  }
+  add_reservations(document, report);
+  report::add_unmodelled(document, scenario.dds);
+  return document;
+}
+
+}  // namespace stormproof::fuzz

@@ -1,0 +1,149 @@
+// Sampled runs as a document: the distribution of one profile, or the medians of several side by
+// side.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "checker/experiments/simulate/sample_report.hpp"
+#include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/numbers.hpp"
+
+namespace stormproof::report {
+
+namespace {
+
+using sampling::Quantiles;
+using sampling::Sample;
+
+constexpr const char* class_labels[] = {"initial DATA", "repair DATA",    "HEARTBEAT",
+                                        "ACKNACK",      "SPDP multicast", "SPDP unicast"};
+
+using Print = std::string (*)(double);
+std::string as_time(double ns) {
+  return duration(model::Nanoseconds{static_cast<std::int64_t>(std::llround(ns))});
+}
+std::string as_count(double value) {
+  return grouped(static_cast<std::uint64_t>(std::llround(value)));
+}
+
+std::string or_beyond(const std::optional<double>& value, Print print) {
+  return value ? print(*value) : "> limit";
+}
+
+Column number_column(const char* head) { return {head, Column::Align::right}; }
+
+Table distribution(const SampleSummary& s) {
+  Table table{{{""},
+               number_column("median"),
+               number_column("10 %"),
+               number_column("90 %"),
+               number_column("least"),
+               number_column("greatest")},
+              {}};
+  const auto row = [&table](const char* name, const Quantiles& q, Print print) {
+    table.rows.push_back(
+        {{name, or_beyond(q.median, print), or_beyond(q.p10, print), or_beyond(q.p90, print),
+          or_beyond(q.min, print), or_beyond(q.max, print)}});
+  };
+  row("completion", s.discovery_time_ns, as_time);
+  for (std::size_t k = 0; k < s.counts.size(); ++k) row(class_labels[k], s.counts[k], as_count);
+  row("total", s.total, as_count);
+  if (s.user_control.max.value_or(0) > 0) row("user control", s.user_control, as_count);
+  return table;
+}
+
+/// How many runs completed in each tenth of the range of completion times.
+void add_histogram(Blocks& blocks, const std::vector<Sample>& samples) {
+  std::vector<double> times;
+  for (const Sample& sample : samples) {
+    if (sample.discovery_time) times.push_back(static_cast<double>(sample.discovery_time->count()));
+  }
+  if (times.size() < 2) return;
+  constexpr std::size_t bins = 10;
+  const auto [least, greatest] = std::ranges::minmax_element(times);
+  const double first = *least;
+  const double width = std::max((*greatest - first) / static_cast<double>(bins), 1.0);
+  std::vector<std::size_t> count(bins, 0);
+  for (const double time : times) {
+    ++count[std::min(bins - 1, static_cast<std::size_t>((time - first) / width))];
+  }
+  const double most = static_cast<double>(*std::ranges::max_element(count));
+  Table table{{{"runs by completion time"}, number_column("runs"), {""}}, {}};
+  for (std::size_t k = 0; k < bins; ++k) {
+    const double from = first + width * static_cast<double>(k);
+    const auto bar = static_cast<std::size_t>(40 * static_cast<double>(count[k]) / most + 0.5);
+    table.rows.push_back({{fmt::format("{} – {}", as_time(from), as_time(from + width)),
+                           std::to_string(count[k]), std::string(bar, '#')}});
+  }
+  const std::size_t beyond = samples.size() - times.size();
+  if (beyond > 0) {
+    table.rows.push_back({{"not within the limit", std::to_string(beyond), ""}});
+  }
+  blocks.emplace_back(std::move(table));
+}
+
+/// One line per profile: the range of completion, and the medians of the counts.
+Table side_by_side(const Sampling& sampling) {
+  Table table{{{"medians"},
+               number_column("complete"),
+               number_column("completion [10–90 %]"),
+               number_column("repair"),
+               number_column("HEARTBEAT"),
+               number_column("ACKNACK"),
+               number_column("total"),
+               number_column("user")},
+              {}};
+  for (const SampledProfile& profile : sampling.profiles) {
+    const SampleSummary s = summarize(profile.samples);
+    const Quantiles& t = s.discovery_time_ns;
+    const auto count = [](const Quantiles& q) { return or_beyond(q.median, as_count); };
+    table.rows.push_back({{profile.name, fmt::format("{}/{}", s.completed, s.runs),
+                           fmt::format("{} [{}–{}]", or_beyond(t.median, as_time),
+                                       or_beyond(t.p10, as_time), or_beyond(t.p90, as_time)),
+                           count(s.counts[1]), count(s.counts[2]), count(s.counts[3]),
+                           count(s.total), count(s.user_control)}});
+  }
+  return table;
+}
+
+}  // namespace
+
+Document document_of(const Sampling& sampling) {
+  const SampledProfile& own = sampling.profiles.front();
+  const SampleSummary summary = summarize(own.samples);
+  const bool drawn = own.scenario.deployment.schedule.has_value();
+  const bool alone = sampling.profiles.size() == 1;
+  Document document;
+  document.title = "stormproof simulate " + sampling.name;
+  document.command = sampling.command;
+  document.subject =
+      drawn ? fmt::format("{}: {} of {} runs, each with its own schedule", sampling.name,
+                          own.samples.size(), sampling.wanted)
+            : fmt::format("{}: one run with the start times of the scenario", sampling.name);
+  if (alone) {
+    document.answer = fmt::format("{} of {} complete within {}.", summary.completed, summary.runs,
+                                  duration(own.scenario.time_limit));
+    document.blocks.emplace_back(distribution(summary));
+    add_histogram(document.blocks, own.samples);
+  } else {
+    document.answer = "All profiles run the same start times.";
+    document.blocks.emplace_back(side_by_side(sampling));
+  }
+  for (const SampledProfile& profile : sampling.profiles) {
+    document.complete = document.complete && profile.samples.size() == sampling.wanted;
+    add_unmodelled(document, profile.scenario.dds, alone ? "" : profile.name);
+  }
+  const bool all = document.complete && summary.completed == sampling.wanted;
+  document.tone = all ? Tone::good : Tone::warn;
+  document.exit_code = all ? 0 : 3;
+  if (drawn) {
+    document.blocks.emplace_back(Paragraph{
+        fmt::format("One of the runs: --set deployment.schedule.seed=K without --samples, K from "
+                    "{} to {}",
+                    sampling.first_seed, sampling.first_seed + sampling.wanted - 1)});
+  }
+  return document;
+}
+
+}  // namespace stormproof::report

@@ -1,0 +1,307 @@
+// A simulation as a document: the answer first, then what it consists of, then what it means.
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/core.h>
+
+#include "checker/experiments/simulate/simulate_report.hpp"
+#include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+
+namespace stormproof::report {
+
+namespace {
+
+using model::Nanoseconds;
+using model::RunResult;
+
+constexpr auto to_right = Column::Align::right;
+
+const char* label(std::size_t message_class) {
+  static constexpr const char* labels[] = {"initial DATA", "repair DATA",    "HEARTBEAT",
+                                           "ACKNACK",      "SPDP multicast", "SPDP unicast"};
+  return labels[message_class];
+}
+
+const char* label(model::TrafficClass traffic) {
+  static constexpr const char* labels[] = {"SPDP",      "initial DATA", "repair DATA",
+                                           "HEARTBEAT", "ACKNACK",      "user control"};
+  return labels[static_cast<std::size_t>(traffic)];
+}
+
+std::string headline(const Simulation& s) {
+  const RunResult& result = s.result;
+  if (result.completed()) {
+    return fmt::format("Discovery completes after {}.", duration(*result.discovery_time));
+  }
+  std::string reason;
+  switch (result.end) {
+    case model::RunEnd::time_limit:
+      reason = "by the time limit of " + duration(s.scenario.time_limit);
+      break;
+    case model::RunEnd::no_more_events:
+      reason = "and no event is left";
+      break;
+    case model::RunEnd::interrupted:
+      reason = "by " + duration(result.end_time) + ", when the run was interrupted";
+      break;
+    case model::RunEnd::completed:
+      break;
+  }
+  return fmt::format("Discovery does NOT complete {}: {} of {} descriptor deliveries are missing.",
+                     reason, grouped(result.missing_count), grouped(s.failure_free.initial_data));
+}
+
+/// If the run goes on after discovery, that it does; then the open loop.
+std::string elaboration(const Simulation& s) {
+  const RunResult& result = s.result;
+  std::string text;
+  if (result.completed() && result.end != model::RunEnd::completed) {
+    text = fmt::format(
+        "The run goes on after that, as run_until: time_limit asks for, and ends after {}; what "
+        "follows covers all of it. ",
+        duration(result.end_time));
+  }
+  if (!s.open_loop) {
+    return text + "No open-loop airtime: this profile has a constant delay and no channel.";
+  }
+  const auto open_loop = static_cast<double>(s.open_loop->count());
+  const auto end = static_cast<double>(result.discovery_time.value_or(result.end_time).count());
+  text += fmt::format("Everything sent once would need {} of airtime (open loop); ",
+                      duration(*s.open_loop));
+  return text + (result.completed()
+                     ? fmt::format("the closed loop takes {} as long.", ratio(end, open_loop))
+                     : fmt::format("the run ended after {} of that.", ratio(end, open_loop)));
+}
+
+/// Each as a row of the table and as a finding.
+void add_limits(Document& document, const Simulation& s) {
+  if (s.limits.empty()) return;
+  Table table{{{"limit"}, {"allowed", to_right}, {"reached", to_right}, {"verdict"}}, {}};
+  for (const props::LimitReading& reading : s.limits) {
+    const std::string name{reading.id.substr(reading.id.find('.') + 1)};
+    const auto print = [&](double value) -> std::string {
+      if (name == "completion") return duration(Nanoseconds{static_cast<std::int64_t>(value)});
+      if (name == "amplification") return ratio(value, 1);
+      return grouped(static_cast<std::uint64_t>(value));
+    };
+    const std::string reached = reading.reached ? print(*reading.reached) : "not complete";
+    const char* word = reading.exceeded ? "exceeded" : reading.reached ? "kept" : "not known";
+    const Tone tone = reading.exceeded ? Tone::bad : reading.reached ? Tone::good : Tone::warn;
+    table.rows.push_back({{name, print(reading.limit), reached, badge(tone, word)}});
+    Finding finding;
+    finding.id = reading.id;
+    finding.statement =
+        fmt::format("The {} of a run is at most that of the scenario's limits.", name);
+    finding.outcome = reading.exceeded  ? Finding::Outcome::failed
+                      : reading.reached ? Finding::Outcome::passed
+                                        : Finding::Outcome::unknown;
+    finding.word = word;
+    finding.message =
+        fmt::format("limit {} {}: {} ({})", name, print(reading.limit), word, reached);
+    finding.identity = {s.name};
+    document.findings.push_back(std::move(finding));
+  }
+  document.blocks.emplace_back(std::move(table));
+}
+
+Table messages(const Simulation& s) {
+  Table table{{{"messages"},
+               {"this run", to_right},
+               {"failure-free", to_right},
+               {"amplification", to_right}},
+              {}};
+  const auto row = [&](const char* name, std::uint64_t value, std::uint64_t reference) {
+    table.rows.push_back({{name, grouped(value), grouped(reference),
+                           ratio(static_cast<double>(value), static_cast<double>(reference))}});
+  };
+  const auto counts = s.result.counts.entries();
+  const auto reference = s.failure_free.entries();
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    row(label(k), counts[k].value, reference[k].value);
+  }
+  row("total", s.result.counts.total(), s.failure_free.total());
+  if (s.result.user_control > 0) {
+    table.rows.push_back({{"user control", grouped(s.result.user_control), "", ""}});
+  }
+  return table;
+}
+
+/// One row for each class with a bar of its share of the elapsed time.
+void add_channels(Blocks& blocks, const RunResult& result) {
+  const auto elapsed = static_cast<double>(result.end_time.count());
+  for (const model::ChannelUse& channel : result.channels) {
+    const auto busy = static_cast<double>(channel.total_busy().count());
+    Table table{{{"channel " + channel.name},
+                 {"time", to_right},
+                 {"share", to_right},
+                 {fmt::format("busy {} of the time", percent(busy, elapsed))}},
+                {}};
+    const auto row = [&](const char* name, Nanoseconds time) {
+      const double share = elapsed > 0 ? static_cast<double>(time.count()) / elapsed : 0;
+      table.rows.push_back(
+          {{name, duration(time), percent(static_cast<double>(time.count()), elapsed),
+            std::string(static_cast<std::size_t>(40 * share + 0.5), '#')}});
+    };
+    for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
+      if (channel.busy[k].count() > 0) {
+        row(label(static_cast<model::TrafficClass>(k)), channel.busy[k]);
+      }
+    }
+    row("idle", result.end_time - channel.total_busy());
+    blocks.emplace_back(std::move(table));
+  }
+}
+
+Table delays(const RunResult& result) {
+  Table table{{{"delay of packets"},
+               {"received", to_right},
+               {"in backlog", to_right},
+               {"queue+service", to_right},
+               {"longest", to_right}},
+              {}};
+  for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
+    const model::Latency& latency = result.latency[k];
+    if (latency.packets == 0) continue;
+    const auto mean = [&](Nanoseconds sum) {
+      return duration(Nanoseconds{sum.count() / static_cast<std::int64_t>(latency.packets)});
+    };
+    table.rows.push_back(
+        {{label(static_cast<model::TrafficClass>(k)), grouped(latency.packets),
+          mean(latency.backlog_sum), mean(latency.service_sum), duration(latency.longest)}});
+  }
+  return table;
+}
+
+void add_backlogs(Blocks& blocks, const Simulation& s) {
+  if (s.result.channels.empty()) return;
+  constexpr std::size_t listed = 12;
+  const auto& backlog = s.result.backlog;
+  std::vector<std::size_t> order(backlog.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return backlog[a].packets > backlog[b].packets; });
+  if (backlog[order.front()].packets == 0) {
+    blocks.emplace_back(Paragraph{"highest backlog: no packet waited for room in a source queue"});
+    return;
+  }
+  Table table{
+      {{"highest backlog"}, {"packets", to_right}, {"at", to_right}, {"at the end", to_right}}, {}};
+  for (std::size_t k = 0; k < std::min(order.size(), listed); ++k) {
+    const model::BacklogPeak& peak = backlog[order[k]];
+    const std::uint32_t host = s.scenario.deployment.participants[order[k]].host.value;
+    table.rows.push_back(
+        {{fmt::format("participant {} on host {}", order[k], host), grouped(peak.packets),
+          duration(peak.at), grouped(peak.packets_at_end)}});
+  }
+  blocks.emplace_back(std::move(table));
+  if (order.size() > listed) {
+    blocks.emplace_back(
+        Paragraph{fmt::format("… and {} more, none higher", order.size() - listed)});
+  }
+}
+
+std::string descriptor_text(const model::MissingDescriptor& d) {
+  return fmt::format("{} {} of participant {} at participant {}", name_of(d.stream),
+                     d.descriptor.value, d.source.value, d.destination.value);
+}
+
+void add_last_delivery(Blocks& blocks, const RunResult& result) {
+  if (!result.last_delivery) return;
+  const model::LastDelivery& last = *result.last_delivery;
+  blocks.emplace_back(Paragraph{fmt::format(
+      "last descriptor: {}, in {} DATA; generated at {}, {} in the backlog, {} in queue and "
+      "service, received at {}",
+      descriptor_text(last.descriptor), last.repair ? "repair" : "initial", duration(last.emitted),
+      duration(last.admitted - last.emitted), duration(last.received - last.admitted),
+      duration(last.received))});
+}
+
+void add_missing(Blocks& blocks, const RunResult& result) {
+  if (result.missing.empty()) return;
+  constexpr std::size_t listed = 5;
+  Bullets bullets;
+  for (std::size_t k = 0; k < std::min(listed, result.missing.size()); ++k) {
+    bullets.items.emplace_back(descriptor_text(result.missing[k]));
+  }
+  if (result.missing_count > listed) {
+    bullets.items.emplace_back(fmt::format("and {} more (--format json lists the first {})",
+                                           grouped(result.missing_count - listed),
+                                           RunResult::missing_listed));
+  }
+  blocks.emplace_back(Section{"missing descriptors", "missing", {std::move(bullets)}});
+}
+
+Section reading(const RunResult& result) {
+  const std::uint64_t all = result.useful_deliveries + result.duplicate_deliveries;
+  Bullets bullets;
+  if (result.duplicate_deliveries > 0) {
+    bullets.items.emplace_back(fmt::format(
+        "{} of the descriptor deliveries were repeats of what the receiver already had.",
+        percent(static_cast<double>(result.duplicate_deliveries), static_cast<double>(all))));
+  }
+  if (result.counts.repair_data > 0) {
+    bullets.items.emplace_back(fmt::format(
+        "{} repairs for {} initial DATA: receivers reported as missing what was still on its way "
+        "(or lost), and each repair queued behind the traffic that had delayed the original.",
+        grouped(result.counts.repair_data), grouped(result.counts.initial_data)));
+  } else {
+    bullets.items.emplace_back(
+        "No repair was generated: no ACKNACK reported as missing what was still on its way.");
+  }
+  const std::uint64_t control = result.counts.heartbeat + result.counts.acknack;
+  bullets.items.emplace_back(fmt::format(
+      "{} of all messages are HEARTBEATs and ACKNACKs.",
+      percent(static_cast<double>(control), static_cast<double>(result.counts.total()))));
+  return {"reading", "reading", {std::move(bullets)}};
+}
+
+void add_footer(Blocks& blocks, const Simulation& s) {
+  const bool fastdds = s.scenario.dds.implementation == model::ImplementationKind::fastdds;
+  blocks.emplace_back(Paragraph{fmt::format(
+      "{} events. This is the one trajectory of the model for these inputs, exact to the ns; {} "
+      "states its rules and assumptions.",
+      grouped(s.result.events), fastdds ? "specs/guide/fastdds.md" : "specs/guide/model.md")});
+  if (s.result.counts.repair_data == 0) return;
+  blocks.emplace_back(Paragraph{
+      s.scenario.deployment.schedule
+          ? "A single run of a storm is chaotic: --samples 12 shows the range over start times."
+          : "A single run of a storm is chaotic: with start times drawn from ranges "
+            "(deployment.schedule), --samples 12 shows the range of outcomes."});
+}
+
+}  // namespace
+
+Document document_of(const Simulation& s) {
+  const bool exceeded = std::ranges::any_of(s.limits, &props::LimitReading::exceeded);
+  Document document;
+  document.title = "stormproof simulate " + s.name;
+  document.exit_code = exceeded ? 1 : s.result.completed() ? 0 : 3;
+  document.tone = exceeded ? Tone::bad : s.result.completed() ? Tone::good : Tone::warn;
+  document.complete = s.result.end != model::RunEnd::interrupted;
+  document.subject = fmt::format("{}: {}, {}, {} to be delivered across hosts", s.name,
+                                 plural(s.scenario.deployment.host_count(), "host"),
+                                 plural(s.scenario.deployment.size(), "participant"),
+                                 plural(s.failure_free.initial_data, "descriptor"));
+  document.answer = headline(s);
+  document.elaboration = elaboration(s);
+  add_limits(document, s);
+  Blocks& blocks = document.blocks;
+  blocks.emplace_back(messages(s));
+  if (s.result.user_control > 0) {
+    blocks.emplace_back(
+        Paragraph{"user control: matched user endpoints and liveliness; in no class"});
+  }
+  add_channels(blocks, s.result);
+  blocks.emplace_back(delays(s.result));
+  add_backlogs(blocks, s);
+  add_last_delivery(blocks, s.result);
+  add_missing(blocks, s.result);
+  blocks.emplace_back(reading(s.result));
+  add_footer(blocks, s);
+  add_unmodelled(document, s.scenario.dds);
+  return document;
+}
+
+}  // namespace stormproof::report
