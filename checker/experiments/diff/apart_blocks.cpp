@@ -35,20 +35,19 @@ Facts apart_facts(const TellingApart& apart, const Files& files) {
   return facts;
 }
 
-report::Sequence run_of(const DiffReport& report, bool candidate,
-                        std::set<std::string>& machines) {
+report::Sequence run_of(const DiffReport& report, bool candidate, std::set<std::string>& machines) {
   const TellingApart& apart = report.telling_apart;
   const props::Counterexample& run = candidate ? apart.candidate_run : apart.base_run;
   counterexample::Chart chart =
       counterexample::chart_of(run, candidate ? apart.candidate_packets : apart.base_packets);
-  chart.title = candidate ? "Candidate: " + report.candidate.reference
-                          : "Base: " + report.base.reference;
+  chart.title =
+      candidate ? "Candidate: " + report.candidate.reference : "Base: " + report.base.reference;
   chart.closing = "Here the runs part";
   chart.sign = "≠";
-  return report::walk(run, std::move(chart), candidate ? "apart-candidate" : "apart-base",
-                      fmt::format("The run of the {}, up to where the two part",
-                                  candidate ? "candidate" : "base"),
-                      machines);
+  return report::walk(
+      run, std::move(chart), candidate ? "apart-candidate" : "apart-base",
+      fmt::format("The run of the {}, up to where the two part", candidate ? "candidate" : "base"),
+      machines);
 }
 
 }  // namespace
@@ -62,8 +61,7 @@ void add_apart(report::Blocks& blocks, const DiffReport& report, const Files& fi
     section.blocks.emplace_back(apart_facts(apart, files));
     std::set<std::string> machines;
     for (const bool candidate : {false, true}) {
-      section.blocks.emplace_back(run_of(report, candidate, machines),
-                                  report::Audience::documents);
+      section.blocks.emplace_back(run_of(report, candidate, machines), report::Audience::documents);
     }
     report::add_machines(section.blocks, machines);
   } else {

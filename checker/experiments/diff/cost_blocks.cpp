@@ -81,15 +81,15 @@ Table table_of(const Order& order, std::size_t from, std::size_t to, const Polic
   for (std::size_t k = from; k < to; ++k) {
     const Configuration& one = *order[k];
     const MeasuredChange& completion = one[Measure::completion];
-    table.rows.push_back(
-        {{values_text(one), badge_of(judgment_of(one, policy)),
-          median_text(completion, completion.before.median),
-          median_text(completion, completion.after.median),
-          one.identical_runs ? "the same runs" : change_text(completion),
-          one.identical_runs ? "" : change_text(one[Measure::messages]),
-          report::grouped(one.samples), both_text(one[Measure::repair_data]),
-          both_text(one[Measure::backlog]),
-          fmt::format("{} → {}", one.storm_before ? "yes" : "no", one.storm_after ? "yes" : "no")}});
+    table.rows.push_back({{values_text(one), badge_of(judgment_of(one, policy)),
+                           median_text(completion, completion.before.median),
+                           median_text(completion, completion.after.median),
+                           one.identical_runs ? "the same runs" : change_text(completion),
+                           one.identical_runs ? "" : change_text(one[Measure::messages]),
+                           report::grouped(one.samples), both_text(one[Measure::repair_data]),
+                           both_text(one[Measure::backlog]),
+                           fmt::format("{} → {}", one.storm_before ? "yes" : "no",
+                                       one.storm_after ? "yes" : "no")}});
   }
   return table;
 }
@@ -122,10 +122,10 @@ Table details_of(const char* which, const Configuration& configuration) {
   for (const MeasuredChange& change : configuration.measures) {
     const bool silent = change.before.max == 0.0 && change.after.max == 0.0;
     if (silent) continue;
-    table.rows.push_back({{words_of(change.measure), median_text(change, change.before.median),
-                           median_text(change, change.after.median), change_text(change),
-                           change.judgment == Judgment::same ? report::Text{}
-                                                             : badge_of(change.judgment)}});
+    table.rows.push_back(
+        {{words_of(change.measure), median_text(change, change.before.median),
+          median_text(change, change.after.median), change_text(change),
+          change.judgment == Judgment::same ? report::Text{} : badge_of(change.judgment)}});
   }
   return table;
 }
@@ -141,11 +141,11 @@ void add_details(Blocks& blocks, const CostComparison& costs) {
   const std::size_t middle = order.size() / 2;
   Section others{"all measures of the other configurations", "", {}, true};
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const char* which = order.size() == 1                      ? ""
-                        : k == 0                               ? "slowed most: "
-                        : k == order.size() - 1                ? "slowed least: "
-                        : k == middle                          ? "median: "
-                                                               : nullptr;
+    const char* which = order.size() == 1       ? ""
+                        : k == 0                ? "slowed most: "
+                        : k == order.size() - 1 ? "slowed least: "
+                        : k == middle           ? "median: "
+                                                : nullptr;
     if (which != nullptr) {
       blocks.emplace_back(details_of(which, *order[k]));
     } else {
@@ -203,14 +203,15 @@ std::string about(const DiffReport& report) {
     const std::optional<Shift>& shift = each[Measure::messages].shift;
     return shift && !shift->exact;
   });
-  std::string text = fmt::format("{}: {} of {}, both profiles on the same schedules", costs.grid,
-                                 costs.configurations.size(), plural(costs.wanted, "configuration"));
+  std::string text =
+      fmt::format("{}: {} of {}, both profiles on the same schedules", costs.grid,
+                  costs.configurations.size(), plural(costs.wanted, "configuration"));
   if (!drawn) return text + ".";
-  return text +
-         fmt::format(" ({} of each at first, seed {}). Medians; intervals of the shift that all "
-                     "hold together with {} confidence ({} each).",
-                     costs.samples, costs.seed, share_text(report.policy.confidence),
-                     share_text(costs.confidence));
+  return text + fmt::format(
+                    " ({} of each at first, seed {}). Medians; intervals of the shift that all "
+                    "hold together with {} confidence ({} each).",
+                    costs.samples, costs.seed, share_text(report.policy.confidence),
+                    share_text(costs.confidence));
 }
 
 }  // namespace

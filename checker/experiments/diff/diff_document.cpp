@@ -95,8 +95,8 @@ Table verdict_table(const VerdictComparison& verdicts, const Files& files, bool 
   Table table{{{"judgment"}, {"property"}, {"base"}, {"candidate"}}, {}};
   for (const VerdictChange& change : verdicts.properties) {
     if ((change.before != change.after) != changed) continue;
-    Table::Row row{{badge_of(change.judgment), code(change.property),
-                    props::name_of(change.before), props::name_of(change.after)}};
+    Table::Row row{{badge_of(change.judgment), code(change.property), props::name_of(change.before),
+                    props::name_of(change.after)}};
     if (changed) {
       Facts facts{{{"statement", change.statement},
                    {"before", change.before_how},
@@ -125,10 +125,10 @@ void add_counterexamples(Blocks& blocks, const VerdictComparison& verdicts,
     const char* side = change.after == props::VerdictKind::violated ? "candidate" : "base";
     Section section{fmt::format("{} with the {}", change.property, side)};
     section.folded_in_comments = true;
-    section.blocks.emplace_back(report::walk(
-        *change.counterexample, counterexample::chart_of(*change.counterexample),
-        fmt::format("verdict-{}", number++),
-        fmt::format("How {} breaks with the {}", change.property, side), machines));
+    section.blocks.emplace_back(
+        report::walk(*change.counterexample, counterexample::chart_of(*change.counterexample),
+                     fmt::format("verdict-{}", number++),
+                     fmt::format("How {} breaks with the {}", change.property, side), machines));
     blocks.emplace_back(std::move(section), Audience::documents);
   }
 }
@@ -160,10 +160,10 @@ void add_verdicts(Blocks& blocks, const DiffReport& report, const Files& files) 
 }
 
 std::string margin_side(const Margin& margin) {
-  std::string text = margin.unlimited ? "no needless repair at any delay"
-                     : margin.threshold
-                         ? "no needless repair at delays up to " + props::time_text(*margin.threshold)
-                         : "no delay rules out needless repairs";
+  std::string text = margin.unlimited   ? "no needless repair at any delay"
+                     : margin.threshold ? "no needless repair at delays up to " +
+                                              props::time_text(*margin.threshold)
+                                        : "no delay rules out needless repairs";
   if (!margin.unlimited && !margin.formula.empty()) {
     text += margin.threshold ? " = " + margin.formula : " (" + margin.formula + ")";
   }
@@ -200,11 +200,11 @@ void add_blame(Blocks& blocks, const DiffReport& report) {
                            entry.cures ? "yes" : "no"},
                           entry.cures});
   }
-  blocks.emplace_back(Section{
-      "which knob does it",
-      "blame",
-      {Paragraph{report.blame->configuration + ", with knobs set back to the base:"},
-       std::move(table)}});
+  blocks.emplace_back(
+      Section{"which knob does it",
+              "blame",
+              {Paragraph{report.blame->configuration + ", with knobs set back to the base:"},
+               std::move(table)}});
 }
 
 }  // namespace
@@ -221,16 +221,15 @@ Document document_of(const DiffReport& report, const Files& files) {
   document.title =
       fmt::format("stormproof diff {} {}", report.base.reference, report.candidate.reference);
   document.tone = passed ? Tone::good : tone_of(judgment);
-  document.exit_code = judgment == Judgment::regression                       ? 1
+  document.exit_code = judgment == Judgment::regression                      ? 1
                        : judgment == Judgment::unclear || report.interrupted ? 3
                                                                              : 0;
   document.complete = !report.interrupted;
   document.seconds = report.seconds;
   document.command = report.command;
   document.answer = std::string{headline(report)} + ": " + headline_sentence(report);
-  document.elaboration =
-      fmt::format("{} → {}, policy {}", report.base.reference, report.candidate.reference,
-                  report.policy.name);
+  document.elaboration = fmt::format("{} → {}, policy {}", report.base.reference,
+                                     report.candidate.reference, report.policy.name);
   Blocks& blocks = document.blocks;
   add_reasons(blocks, report);
   add_knobs(blocks, report);

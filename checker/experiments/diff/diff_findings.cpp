@@ -107,9 +107,9 @@ class Findings {
     const std::string replay =
         file == files_.end() ? std::string{} : "stormproof replay " + file->second;
     Finding& one = test("verdict", change.property, change.judgment);
-    one.message = fmt::format("{} with the base, {} with the candidate, on {}",
-                              props::name_of(change.before), props::name_of(change.after),
-                              report_.verdicts.scenario);
+    one.message =
+        fmt::format("{} with the base, {} with the candidate, on {}", props::name_of(change.before),
+                    props::name_of(change.after), report_.verdicts.scenario);
     one.details = fmt::format("{}\n{}\nbase: {}\ncandidate: {}\n", one.message, change.statement,
                               change.before_how, change.after_how);
     one.command = replay;
@@ -136,9 +136,9 @@ class Findings {
       if (list != nullptr) *list += (list->empty() ? "" : "; ") + sentence;
     };
     for (const MeasuredChange& change : one.measures) {
-      const std::string medians = fmt::format(
-          "{} → {}, {}", value_text(change.measure, change.before.median),
-          value_text(change.measure, change.after.median), change_text(change));
+      const std::string medians =
+          fmt::format("{} → {}, {}", value_text(change.measure, change.before.median),
+                      value_text(change.measure, change.after.median), change_text(change));
       note(change.judgment, fmt::format("{}: {}", words_of(change.measure), change.reason));
       text += fmt::format("{}: {}\n", words_of(change.measure), medians);
       if (!is_judged(report_.policy, change.measure)) continue;
@@ -150,8 +150,8 @@ class Findings {
     }
     for (const LimitCrossing& crossing : one.crossings) {
       const std::string exceeded =
-          fmt::format("exceeded by {} of the runs before, by {} after",
-                      share_text(crossing.before), share_text(crossing.after));
+          fmt::format("exceeded by {} of the runs before, by {} after", share_text(crossing.before),
+                      share_text(crossing.after));
       note(crossing.judgment, fmt::format("limit {}: {}", crossing.text, exceeded));
       text += fmt::format("limit {}: {}\n", crossing.text, exceeded);
       beside("diff.limit", "The candidate exceeds a limit that the base keeps.", crossing.judgment,
@@ -169,14 +169,14 @@ class Findings {
   /// At its own place, so that a review shows it beside the line.
   void add(const KnobChange& change) {
     const bool unmodelled = change.key.starts_with("unmodelled.");
-    Finding* finding = beside(
-        unmodelled ? "diff.unmodelled" : "diff.knob",
-        unmodelled ? "A setting that the model has not got has another value."
-                   : "A knob has another value.",
-        Judgment::worse,
-        fmt::format("{}: {} with the base, {} with the candidate.{}{}", change.key, change.before,
-                    change.after, change.why.empty() ? "" : " ", change.why),
-        {change.key});
+    Finding* finding =
+        beside(unmodelled ? "diff.unmodelled" : "diff.knob",
+               unmodelled ? "A setting that the model has not got has another value."
+                          : "A knob has another value.",
+               Judgment::worse,
+               fmt::format("{}: {} with the base, {} with the candidate.{}{}", change.key,
+                           change.before, change.after, change.why.empty() ? "" : " ", change.why),
+               {change.key});
     finding->related.clear();
     if (Location own{change.after_place}; !own.file.empty()) finding->locations = {own};
   }

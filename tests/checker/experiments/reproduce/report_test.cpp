@@ -1,7 +1,5 @@
 // Every published figure is in every form of the report, numbers are numbers, and the page needs
 // nothing but itself.
-#include "checker/experiments/reproduce/report.hpp"
-
 #include <regex>
 #include <sstream>
 
@@ -10,6 +8,7 @@
 #include <tinyxml2.h>
 #include <yaml-cpp/yaml.h>
 
+#include "checker/experiments/reproduce/reproduce_report.hpp"
 #include "tests/checker/experiments/reproduce/examples.hpp"
 
 namespace stormproof::reproduce {
@@ -185,7 +184,7 @@ TEST_F(ReportTest, JsonHasEveryCaseWithExactTimes) {
         one["endpoints_per_participant"] == 20 && one["order"] == "fifo_uplink" &&
         one["heartbeat_policy"] == "periodic") {
       EXPECT_EQ(one["t_disc_ns"][0], 100'000'000);
-      EXPECT_EQ(one["messages"]["total"], 50);
+      EXPECT_EQ(one["counts"]["total"], 50);
     }
   }
 }
