@@ -55,7 +55,7 @@ report::Sequence run_of(const DiffReport& report, bool candidate, std::set<std::
 void add_apart(report::Blocks& blocks, const DiffReport& report, const Files& files) {
   const TellingApart& apart = report.telling_apart;
   if (apart.how.empty() && !apart.found) return;
-  report::Section section{"the smallest scenario that tells them apart", "apart"};
+  report::Section section{"The smallest scenario that tells them apart", "apart"};
   section.folded_in_comments = true;
   if (apart.found) {
     section.blocks.emplace_back(apart_facts(apart, files));

@@ -139,7 +139,7 @@ void add_details(Blocks& blocks, const CostComparison& costs) {
   std::ranges::stable_sort(order, std::greater{},
                            [](const Configuration* each) { return rank_of(*each); });
   const std::size_t middle = order.size() / 2;
-  Section others{"all measures of the other configurations", "", {}, true};
+  Section others{"All measures of the other configurations", "", {}, true};
   for (std::size_t k = 0; k < order.size(); ++k) {
     const char* which = order.size() == 1       ? ""
                         : k == 0                ? "slowed most: "
@@ -170,7 +170,7 @@ void add_crossings(Blocks& blocks, const CostComparison& costs) {
   }
   if (table.rows.empty()) return;
   blocks.emplace_back(Section{
-      "limits that are crossed, and the share of runs that exceed them", "", {std::move(table)}});
+      "Limits that are crossed, and the share of runs that exceed them", "", {std::move(table)}});
 }
 
 void add_pooled(Blocks& blocks, const CostComparison& costs) {
@@ -219,7 +219,7 @@ std::string about(const DiffReport& report) {
 void add_costs(Blocks& blocks, const DiffReport& report) {
   const CostComparison& costs = report.costs;
   if (costs.wanted == 0) return;
-  Section section{"costs", "costs"};
+  Section section{"Costs", "costs"};
   section.folded_in_comments = true;
   if (costs.configurations.empty()) {
     section.blocks.emplace_back(Paragraph{"No configuration was finished."});

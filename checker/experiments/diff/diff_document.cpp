@@ -64,7 +64,7 @@ std::string place_text(const KnobChange& change) {
 }
 
 void add_knobs(Blocks& blocks, const DiffReport& report) {
-  Section section{"knobs that differ", "knobs"};
+  Section section{"Knobs that differ", "knobs"};
   if (report.profiles.changes.empty()) {
     section.blocks.emplace_back(Paragraph{"None: every knob has the same value."});
     blocks.emplace_back(std::move(section), Audience::documents);
@@ -135,7 +135,7 @@ void add_counterexamples(Blocks& blocks, const VerdictComparison& verdicts,
 
 void add_verdicts(Blocks& blocks, const DiffReport& report, const Files& files) {
   const VerdictComparison& verdicts = report.verdicts;
-  Section section{"verdicts", "verdicts"};
+  Section section{"Verdicts", "verdicts"};
   if (!verdicts.done) {
     section.blocks.emplace_back(Paragraph{"Left out by request."});
     blocks.emplace_back(std::move(section), Audience::documents);
@@ -180,7 +180,7 @@ void add_margin(Blocks& blocks, const DiffReport& report) {
   if (!margin.reason.empty()) {
     facts.rows.emplace_back("judgment", badge_of(margin.judgment) + ": " + margin.reason);
   }
-  blocks.emplace_back(Section{"storm-free margin", "margin", {std::move(facts)}});
+  blocks.emplace_back(Section{"Storm-free margin", "margin", {std::move(facts)}});
 }
 
 void add_blame(Blocks& blocks, const DiffReport& report) {
@@ -201,7 +201,7 @@ void add_blame(Blocks& blocks, const DiffReport& report) {
                           entry.cures});
   }
   blocks.emplace_back(
-      Section{"which knob does it",
+      Section{"Which knob does it",
               "blame",
               {Paragraph{report.blame->configuration + ", with knobs set back to the base:"},
                std::move(table)}});
