@@ -4,14 +4,11 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/diff_files.hpp"
 #include "checker/cli/frame.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/experiments/diff/diff_report.hpp"
 
 namespace stormproof::cli {
 
 namespace {
-
-using diff::DiffReport;
 
 struct DiffArguments {
   std::string base, candidate;
@@ -26,11 +23,6 @@ struct DiffArguments {
   std::string directory = "diff";
   std::size_t jobs = 0;
 };
-
-ExitCode exit_code(const DiffReport& report) {
-  if (report.judgment == diff::Judgment::regression) return violated;
-  return report.judgment == diff::Judgment::unclear ? inconclusive : established;
-}
 
 /// What is compared, from the command line; the error if something in it is wrong.
 model::config::Result<diff::DiffRequest> request_of(const DiffArguments& arguments,
@@ -59,22 +51,6 @@ model::config::Result<diff::DiffRequest> request_of(const DiffArguments& argumen
   return request;
 }
 
-std::string render(report::Format format, const DiffReport& report, const diff::Files& files,
-                   bool verbose) {
-  switch (format) {
-    case report::Format::markdown:
-      return to_markdown(report, files);
-    case report::Format::html:
-      return to_html(report, files);
-    case report::Format::junit:
-      return to_junit(report, files);
-    case report::Format::sarif:
-      return to_sarif(report, files).dump(2) + "\n";
-    default:
-      return to_text(report, files, verbose);
-  }
-}
-
 Outcome run(DiffArguments& arguments, Session& session) {
   const model::config::SpecPath specs = model::config::SpecPath::standard();
   const auto request = request_of(arguments, specs, session);
@@ -84,11 +60,9 @@ Outcome run(DiffArguments& arguments, Session& session) {
   diff::Files files;
   Answer answer;
   answer.complaint = write_diff_files(arguments.directory, *report, files).value_or("");
-  answer.exit_code = exit_code(*report);
+  answer.document = document_of(*report, files);
+  answer.exit_code = answer.document.exit_code;
   answer.json = to_json(*report, files);
-  answer.rendered = rendered(session, [&](report::Format format) {
-    return render(format, *report, files, session.verbose());
-  });
   return answer;
 }
 

@@ -8,7 +8,6 @@
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/fuzz_input.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/verification/counterexample/story.hpp"
 #include "model/config/knobs/effective.hpp"
@@ -90,12 +89,10 @@ Outcome run(FuzzArguments& arguments, Session& session) {
                             {}};
   Answer answer;
   answer.complaint = write_shrunk(arguments, report, context).value_or("");
-  const bool undecided = report.interrupted || report.runs.empty();
-  answer.exit_code = report.violated() ? violated : undecided ? inconclusive : established;
-  // How many runs there is time for is never twice the same.
-  if (arguments.seconds) answer.document.command = context.whole(report);
+  // Its command says how many runs there was time for, which is never twice the same.
+  answer.document = document_of(report, context);
+  answer.exit_code = answer.document.exit_code;
   answer.json = to_json(report, context);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(report, context); });
   return answer;
 }
 
@@ -142,7 +139,7 @@ void declare_fuzz(Frame& frame) {
       {"fuzz", "Run variants of a scenario within ranges and look for one that breaks its limits",
        "Exit code: 0 no run of the sample breaks anything, 1 one does, 2 bad input,\n"
        "3 interrupted, or no run finished.",
-       Formats::plain},
+       Formats::findings},
       declare, run);
 }
 

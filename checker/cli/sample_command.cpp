@@ -2,9 +2,8 @@
 // profiles.
 #include <fmt/core.h>
 
-#include "checker/cli/rendered.hpp"
 #include "checker/cli/simulate_request.hpp"
-#include "checker/experiments/simulate/sampling_report.hpp"
+#include "checker/experiments/simulate/sample_report.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::cli {
@@ -59,11 +58,9 @@ Outcome sample(const SimulateArguments& arguments, const model::Scenario& scenar
   if (const auto error = add_profiles(arguments, scenario, sampling)) return *error;
   run_all(sampling, session);
   Answer answer;
+  answer.document = document_of(sampling);
+  answer.exit_code = answer.document.exit_code;
   answer.json = to_json(sampling);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(sampling); });
-  const report::SampleSummary own = report::summarize(sampling.profiles.front().samples);
-  const bool complete = !Session::interrupted() && own.completed == sampling.wanted;
-  answer.exit_code = complete ? established : inconclusive;
   return answer;
 }
 

@@ -5,8 +5,7 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/rendered.hpp"
-#include "checker/experiments/sensitivity/report.hpp"
+#include "checker/experiments/sensitivity/sensitivity_report.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
 
@@ -84,9 +83,9 @@ Outcome run(SensitivityArguments& arguments, Session& session) {
   description.options.on_progress = session.on_runs();
   const sensitivity::Report report = sensitivity::analyse(*scenario, description.options);
   Answer answer;
-  answer.exit_code = report.finished ? established : inconclusive;
+  answer.document = document_of(report, description);
+  answer.exit_code = answer.document.exit_code;
   answer.json = to_json(report, description);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(report, description); });
   if (!report.finished) arguments.svg.discard();
   if (report.finished && arguments.svg.wanted()) {
     arguments.svg.stream() << to_svg(report, description);
@@ -123,7 +122,7 @@ void declare(Options& options, SensitivityArguments& arguments) {
 void declare_sensitivity(Frame& frame) {
   frame.add<SensitivityArguments>(
       {"sensitivity", "Which knob matters: change every number a little and rank the effects",
-       "Exit code: 0 all changes were run, 3 interrupted, 2 bad input.", Formats::plain},
+       "Exit code: 0 all changes were run, 3 interrupted, 2 bad input.", Formats::pages},
       declare, run);
 }
 

@@ -5,10 +5,9 @@
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/cli/simulate_request.hpp"
 #include "checker/evidence/capture/write/capture_probe.hpp"
-#include "checker/experiments/simulate/simulation_report.hpp"
+#include "checker/experiments/simulate/simulate_report.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
@@ -84,12 +83,9 @@ Outcome run(SimulateArguments& arguments, Session& session) {
       report::describe(arguments.scenario, *scenario, std::move(result));
   simulation.limits = std::move(limits);
   Answer answer;
+  answer.document = document_of(simulation);
+  answer.exit_code = answer.document.exit_code;
   answer.json = to_json(simulation);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(simulation); });
-  const bool exceeded = std::ranges::any_of(simulation.limits, &props::LimitReading::exceeded);
-  answer.exit_code = exceeded                        ? violated
-                     : simulation.result.completed() ? established
-                                                     : inconclusive;
   return answer;
 }
 
@@ -121,7 +117,7 @@ void declare_simulate(Frame& frame) {
        "Exit code: 0 discovery completes (with --samples: in every run), 1 a limit of the "
        "scenario\n"
        "is exceeded, 3 it does not complete within the time limit, 2 bad input.",
-       Formats::plain},
+       Formats::findings},
       declare, run);
 }
 

@@ -6,11 +6,10 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/cli/tune_files.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/experiments/tune/deploy.hpp"
-#include "checker/experiments/tune/report.hpp"
+#include "checker/experiments/tune/tune_report.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/check.hpp"
 #include "model/config/tree/quantities.hpp"
@@ -104,10 +103,9 @@ std::optional<InputError> refuse_unwritable(const tune::Subject& subject) {
   return xml.error();
 }
 
-/// What the report says around the study; `broken` is set if --check finds something.
+/// What the report says around the study.
 tune::Context context_of(const TuneArguments& arguments, const tune::Subject& subject,
-                         const tune::Report& report, const TuneFiles& written, Session& session,
-                         bool& broken) {
+                         const tune::Report& report, const TuneFiles& written, Session& session) {
   tune::Context context{
       arguments.scenario, session.command(), subject, arguments.options, written.files, {}, {}, {}};
   context.files_wanted = !arguments.output.empty();
@@ -117,7 +115,7 @@ tune::Context context_of(const TuneArguments& arguments, const tune::Subject& su
   if (const auto file = written.files.find(best.name); file != written.files.end()) {
     context.repeat = repeat_line(arguments, subject, report, file->second);
   }
-  if (arguments.check) context.check = check_lines(report, broken);
+  if (arguments.check) context.check = check_lines(report, context.newly_violated);
   return context;
 }
 
@@ -137,14 +135,12 @@ Outcome run(TuneArguments& arguments, Session& session) {
   if (!report) return report.error();
   const TuneFiles written = write_files(
       {arguments.output, arguments.scenario, arguments.options.seed}, *subject, *report);
-  bool broken = false;
-  const tune::Context context = context_of(arguments, *subject, *report, written, session, broken);
+  const tune::Context context = context_of(arguments, *subject, *report, written, session);
   Answer answer;
   if (written.error) answer.complaint = to_string(*written.error);
-  const bool interrupted = report->answer == tune::Answer::interrupted;
-  answer.exit_code = interrupted ? inconclusive : broken ? violated : established;
+  answer.document = document_of(*report, context);
+  answer.exit_code = answer.document.exit_code;
   answer.json = to_json(*report, context);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(*report, context); });
   if (report->rows.empty()) {
     arguments.svg.discard();
   } else if (arguments.svg.wanted()) {
@@ -192,7 +188,7 @@ void declare_tune(Frame& frame) {
        "Exit code: 0 something better was found, or nothing better exists (the output says "
        "which),\n"
        "1 with --check a property is newly violated, 2 bad input, 3 interrupted.",
-       Formats::plain},
+       Formats::pages},
       declare, run);
 }
 
