@@ -4,14 +4,11 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/diff_files.hpp"
 #include "checker/cli/frame.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/experiments/diff/diff_report.hpp"
 
 namespace stormproof::cli {
 
 namespace {
-
-using diff::DiffReport;
 
 struct DiffArguments {
   std::string base, candidate;
@@ -26,11 +23,6 @@ struct DiffArguments {
   std::string directory = "diff";
   std::size_t jobs = 0;
 };
-
-ExitCode exit_code(const DiffReport& report) {
-  if (report.judgment == diff::Judgment::regression) return violated;
-  return report.judgment == diff::Judgment::unclear ? inconclusive : established;
-}
 
 /// What is compared, from the command line; the error if something in it is wrong.
 model::config::Result<diff::DiffRequest> request_of(const DiffArguments& arguments,
@@ -54,25 +46,8 @@ model::config::Result<diff::DiffRequest> request_of(const DiffArguments& argumen
   request.check_verdicts = !arguments.no_check;
   request.tell_apart = !arguments.no_telling_apart;
   request.threads = arguments.jobs;
-  request.command = session.command();
   request.on_progress = session.on_steps();
   return request;
-}
-
-std::string render(report::Format format, const DiffReport& report, const diff::Files& files,
-                   bool verbose) {
-  switch (format) {
-    case report::Format::markdown:
-      return to_markdown(report, files);
-    case report::Format::html:
-      return to_html(report, files);
-    case report::Format::junit:
-      return to_junit(report, files);
-    case report::Format::sarif:
-      return to_sarif(report, files).dump(2) + "\n";
-    default:
-      return to_text(report, files, verbose);
-  }
 }
 
 Outcome run(DiffArguments& arguments, Session& session) {
@@ -84,12 +59,8 @@ Outcome run(DiffArguments& arguments, Session& session) {
   diff::Files files;
   Answer answer;
   answer.complaint = write_diff_files(arguments.directory, *report, files).value_or("");
-  answer.document.complete = !report->interrupted;
-  answer.document.exit_code = exit_code(*report);
+  answer.document = document_of(*report, files);
   answer.json = to_json(*report, files);
-  answer.rendered = rendered(session, [&](report::Format format) {
-    return render(format, *report, files, session.verbose());
-  });
   return answer;
 }
 

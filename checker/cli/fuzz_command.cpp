@@ -89,6 +89,7 @@ Outcome run(FuzzArguments& arguments, Session& session) {
                             {}};
   Answer answer;
   answer.complaint = write_shrunk(arguments, report, context).value_or("");
+  // Its command says how many runs there was time for, which is never twice the same.
   answer.document = document_of(report, context);
   answer.json = to_json(report, context);
   return answer;

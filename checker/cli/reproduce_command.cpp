@@ -7,8 +7,7 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/rendered.hpp"
-#include "checker/experiments/reproduce/report.hpp"
+#include "checker/experiments/reproduce/reproduce_report.hpp"
 
 namespace stormproof::cli {
 
@@ -82,19 +81,15 @@ Outcome run(ReproduceArguments& arguments, Session& session) {
     }
   }
   Report report;
-  report.command = session.command();
   report.version = STORMPROOF_VERSION;
   report.published = *published;
   report.results = run_plan(arguments, *plan, session);
   report.figures = compare(report.published, report.results);
   Answer answer;
-  answer.document.complete = report.results.complete;
-  answer.document.exit_code = report.results.complete ? established : inconclusive;
+  answer.document = document_of(report);
   answer.notes = times(*plan, report.results);
   answer.json = to_json(report);
   answer.csv = figures_csv(report);
-  answer.rendered = {{report::Format::text, to_text(report)},
-                     {report::Format::html, to_html(report)}};
   if (!arguments.directory.empty()) {
     answer.complaint = write_all(report, arguments.directory, answer);
   }

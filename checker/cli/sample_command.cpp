@@ -1,5 +1,7 @@
 // `simulate --samples N` and `--compare PROFILE`: the same schedules under one or several DDS
 // profiles.
+#include <fmt/core.h>
+
 #include "checker/cli/simulate_request.hpp"
 #include "checker/experiments/simulate/sample_report.hpp"
 #include "model/config/scenario_file.hpp"
@@ -54,7 +56,10 @@ Outcome sample(const SimulateArguments& arguments, const model::Scenario& scenar
   }
   if (const auto error = add_profiles(arguments, scenario, sampling)) return *error;
   run_all(sampling, session);
-  return Answer{document_of(sampling), to_json(sampling)};
+  Answer answer;
+  answer.document = document_of(sampling);
+  answer.json = to_json(sampling);
+  return answer;
 }
 
 }  // namespace stormproof::cli

@@ -81,11 +81,14 @@ Outcome run(SensitivityArguments& arguments, Session& session) {
   Description& description = *described;
   description.options.on_progress = session.on_runs();
   const sensitivity::Report report = sensitivity::analyse(*scenario, description.options);
+  Answer answer;
+  answer.document = document_of(report, description);
+  answer.json = to_json(report, description);
   if (!report.finished) arguments.svg.discard();
   if (report.finished && arguments.svg.wanted()) {
     arguments.svg.stream() << to_svg(report, description);
   }
-  return Answer{document_of(report, description), to_json(report, description)};
+  return answer;
 }
 
 void declare(Options& options, SensitivityArguments& arguments) {

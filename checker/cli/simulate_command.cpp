@@ -1,9 +1,11 @@
 // `stormproof simulate SCENARIO`: reads the scenario, runs it with the observers that were asked
 // for and those of its limits.
+
 #include "checker/cli/commands.hpp"
 #include "checker/cli/simulate_request.hpp"
 #include "checker/evidence/capture/write/capture_probe.hpp"
 #include "checker/experiments/simulate/simulate_report.hpp"
+#include "checker/presentation/text/numbers.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/perfetto.hpp"
@@ -77,7 +79,10 @@ Outcome run(SimulateArguments& arguments, Session& session) {
   report::Simulation simulation =
       report::describe(arguments.scenario, *scenario, std::move(result));
   simulation.limits = std::move(limits);
-  return Answer{document_of(simulation), to_json(simulation)};
+  Answer answer;
+  answer.document = document_of(simulation);
+  answer.json = to_json(simulation);
+  return answer;
 }
 
 void declare(Options& options, SimulateArguments& arguments) {

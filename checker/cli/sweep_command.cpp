@@ -1,7 +1,6 @@
 // `stormproof sweep GRID -o FILE`: runs all scenarios of a grid, on all cores or under mpirun, and
 // keeps the results in SQLite; goes on where it stopped.
 #include <filesystem>
-#include <set>
 
 #include <fmt/core.h>
 #include <sys/resource.h>
@@ -9,12 +8,11 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/experiments/sweep/mpi_ranks.hpp"
 #include "checker/experiments/sweep/sweep.hpp"
+#include "checker/experiments/sweep/sweep_report.hpp"
 #include "checker/experiments/sweep/tables.hpp"
 #include "checker/experiments/trials/parallel.hpp"
-#include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/numbers.hpp"
 
 namespace stormproof::cli {
@@ -40,72 +38,6 @@ double process_cpu_seconds() {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-struct Totals {
-  std::size_t completed = 0;
-  std::size_t incomplete = 0;
-  std::size_t failed = 0;
-  std::string first_error;
-};
-
-Totals count(const Plan& plan, const Collector& results) {
-  Totals totals;
-  for (std::size_t job = 0; job < plan.size(); ++job) {
-    const sweep::Outcome* outcome = results.outcome(job);
-    if (outcome == nullptr) continue;
-    if (outcome->failed() && totals.first_error.empty()) totals.first_error = outcome->error;
-    ++(outcome->failed()      ? totals.failed
-       : outcome->completed() ? totals.completed
-                              : totals.incomplete);
-  }
-  return totals;
-}
-
-std::string summary(const SweepArguments& arguments, const Plan& plan, const Collector& results,
-                    const Totals& totals) {
-  const sweep::Status& status = results.status();
-  const auto number = [](std::size_t value) { return report::grouped(value); };
-  std::string text = fmt::format("{}: {} of {} already done in {}, {} run now\n",
-                                 plan.grid().source, number(status.already_done),
-                                 number(status.jobs), arguments.database, number(status.finished));
-  text += fmt::format("{} of {} complete discovery", number(totals.completed), number(status.jobs));
-  if (totals.incomplete > 0) {
-    text += fmt::format(", {} incomplete when they ended", number(totals.incomplete));
-  }
-  if (totals.failed > 0) text += fmt::format(", {} cannot run", number(totals.failed));
-  const std::size_t open = status.jobs - totals.completed - totals.incomplete - totals.failed;
-  if (open > 0) text += fmt::format(", {} left: the sweep was interrupted", number(open));
-  text += "\n";
-  if (totals.failed > 0) text += fmt::format("first that cannot run: {}\n", totals.first_error);
-  return text;
-}
-
-nlohmann::ordered_json summary_json(const SweepArguments& arguments, const Plan& plan,
-                                    const Collector& results, const Totals& totals) {
-  const sweep::Status& status = results.status();
-  nlohmann::ordered_json json{{"grid", plan.grid().source},
-                              {"database", arguments.database},
-                              {"jobs", status.jobs},
-                              {"already_done", status.already_done},
-                              {"finished", status.finished},
-                              {"completed", totals.completed},
-                              {"incomplete", totals.incomplete},
-                              {"failed", totals.failed},
-                              {"first_error", nullptr}};
-  if (totals.failed > 0) json["first_error"] = totals.first_error;
-  return json;
-}
-
-/// What the model has not got of the systems in the plan: one line for each of their profiles.
-std::set<std::string> unmodelled_lines(const Plan& plan) {
-  std::set<std::string> lines;
-  for (std::size_t job = 0; job < plan.size(); ++job) {
-    if (plan.first_alike(job) != job || plan.error(job)) continue;
-    std::string line = report::unmodelled_line(plan.scenario(job).dds);
-    if (!line.empty()) lines.insert(std::move(line));
-  }
-  return lines;
 }
 
 /// How long it took and what of it was simulation: a note, because it is never twice the same.
@@ -169,14 +101,9 @@ Outcome lead(SweepArguments& arguments, const Plan& plan, const sweep::MpiWorld*
   if (arguments.json.wanted()) {
     sweep::write_json(arguments.json.stream(), plan, results, STORMPROOF_VERSION);
   }
-  const Totals totals = count(plan, results);
   Answer answer;
-  answer.document.complete = totals.completed + totals.incomplete + totals.failed == plan.size();
-  answer.document.exit_code = totals.completed == plan.size() ? established : inconclusive;
-  answer.json = summary_json(arguments, plan, results, totals);
-  answer.rendered =
-      rendered(session, [&](report::Format) { return summary(arguments, plan, results, totals); });
-  for (const std::string& line : unmodelled_lines(plan)) answer.notes.push_back(line);
+  answer.document = document_of(plan, results, arguments.database);
+  answer.json = to_json(plan, results, arguments.database);
   if (results.status().finished > 0) {
     answer.notes.push_back(times(arguments, results, session.seconds()));
   }
@@ -235,7 +162,7 @@ void declare_sweep(Frame& frame) {
        .exit_codes =
            "Exit code: 0 all jobs complete discovery, 3 some do not or the sweep was interrupted,\n"
            "2 bad input.",
-       .formats = Formats::plain,
+       .formats = Formats::pages,
        .writes = is_leader},
       declare, run);
 }

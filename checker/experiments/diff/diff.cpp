@@ -26,7 +26,6 @@ class DiffStudy {
     report_.base = request.base;
     report_.candidate = request.candidate;
     report_.policy = request.policy;
-    report_.command = request.command;
     if (request.samples) report_.policy.samples = *request.samples;
   }
 

@@ -261,7 +261,6 @@ struct DiffReport {
   std::optional<Blame> blame;
   bool interrupted = false;
   double seconds = 0;
-  std::string command;  ///< repeats this
 
   /// The worst of all parts. `unclear` if something is undecided and nothing is a regression; also
   /// if the profiles differ in unmodelled settings.
@@ -282,7 +281,6 @@ struct DiffRequest {
   bool check_verdicts = true;
   bool tell_apart = true;
   std::size_t threads = 0;
-  std::string command;
   std::function<bool(std::string_view what)> on_progress;  ///< false interrupts
 };
 

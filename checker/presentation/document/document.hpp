@@ -110,6 +110,7 @@ struct Table {
   std::vector<Column> columns;
   std::vector<Row> rows;
   std::string caption = {};  ///< may be empty
+  bool wide = false;         ///< many numbers: at a terminal up to 140 columns rather than broken
 };
 
 /// A text with its own line breaks: a file, a story, the output of another program.

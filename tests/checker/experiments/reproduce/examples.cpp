@@ -80,7 +80,6 @@ Results made_up(const Plan& plan) {
 
 Report report_of(const Published& published, Results results) {
   Report report;
-  report.command = "stormproof reproduce paper";
   report.version = "test";
   report.published = published;
   report.results = std::move(results);

@@ -151,7 +151,6 @@ diff::DiffReport regression() {
   report.blame = blame(worst.name);
   report.judgment = diff::Judgment::regression;
   report.reasons = {"completion at " + worst.name + ": worse " + hostile};
-  report.command = "stormproof diff a b";
   return report;
 }
 
@@ -163,7 +162,6 @@ diff::DiffReport equality() {
   report.profiles.relation = diff::Relation::identical;
   report.profiles.proof = "Every knob has the same value.";
   report.telling_apart.how = "Equal profiles have equal runs.";
-  report.command = "stormproof diff paper paper";
   return report;
 }
 

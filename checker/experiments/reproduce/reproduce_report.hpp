@@ -1,4 +1,4 @@
-// The report of a reproduction, as text, JSON, CSV and one HTML page.
+// The report of a reproduction, as a document, JSON and CSV.
 #pragma once
 
 #include <string>
@@ -6,19 +6,19 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/experiments/reproduce/figures.hpp"
+#include "checker/presentation/document/document.hpp"
 
 namespace stormproof::reproduce {
 
 struct Report {
-  std::string command;  ///< the command line that makes it again
   std::string version;  ///< of this program
   Published published;
   Results results;
   std::vector<Figure> figures;
 };
 
-/// Tables for people, at most 140 columns wide.
-[[nodiscard]] std::string to_text(const Report& report);
+/// Tables, and on pages plots in the shape of the paper's figures.
+[[nodiscard]] report::Document document_of(const Report& report);
 
 /// Everything, exact times in nanoseconds included. A value that does not exist is null.
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report);
@@ -27,9 +27,6 @@ struct Report {
 [[nodiscard]] std::string figures_csv(const Report& report);
 /// One line for each configuration, variant, network, HEARTBEAT policy and order of service.
 [[nodiscard]] std::string configurations_csv(const Report& report);
-
-/// A page that needs nothing but itself: tables, and plots in the shape of the paper's figures.
-[[nodiscard]] std::string to_html(const Report& report);
 
 /// "120", "1,850", "0.07", "3.13": four significant digits, all digits of numbers below 100,000
 /// that are whole; "–" without a value.
