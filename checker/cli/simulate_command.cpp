@@ -1,6 +1,5 @@
 // `stormproof simulate SCENARIO`: reads the scenario, runs it with the observers that were asked
 // for and those of its limits.
-
 #include "checker/cli/commands.hpp"
 #include "checker/cli/simulate_request.hpp"
 #include "checker/evidence/capture/write/capture_probe.hpp"

@@ -177,7 +177,7 @@ TEST_F(ReportTest, CsvLinesHaveAsManyFieldsAsTheHeader) {
 
 TEST_F(ReportTest, JsonHasEveryCaseWithExactTimes) {
   const auto json = nlohmann::json::parse(to_json(*report_).dump());
-  EXPECT_TRUE(document_of(report).complete);
+  EXPECT_TRUE(document_of(*report_).complete);
   EXPECT_EQ(json["cases"].size(), report_->results.plan.cases.size());
   EXPECT_EQ(json["configurations"].size(), 4U * 90);
   for (const auto& one : json["cases"]) {
