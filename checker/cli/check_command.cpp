@@ -14,6 +14,8 @@
 #include "checker/cli/report_files.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/engines/smt/claims.hpp"
+#include "checker/presentation/document/render.hpp"
+#include "checker/presentation/json/dumped.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/check.hpp"
 #include "checker/verification/check/check_report.hpp"
@@ -89,26 +91,23 @@ checker::CheckReport run_check(const CheckArguments& arguments, const model::Sce
 }
 
 std::string render(report::Format format, const checker::CheckReport& report,
-                   const checker::CheckContext& context) {
-  using Json = nlohmann::ordered_json;
-  const auto dumped = [](const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  };
+                   const checker::CheckContext& context, bool verbose) {
+  if (format == report::Format::json) return report::dumped(to_json(report, context));
+  const report::Document document = document_of(report, context);
   switch (format) {
-    case report::Format::json:
-      return dumped(to_json(report, context));
     case report::Format::markdown:
-      return to_markdown(report, context);
+      return to_markdown(document);
     case report::Format::html:
-      return to_html(report, context);
+      return to_html(document);
     case report::Format::junit:
-      return to_junit(report, context);
+      return to_junit(document);
     case report::Format::sarif:
-      return dumped(to_sarif(report, context));
+      return report::dumped(to_sarif(document));
+    case report::Format::json:
     case report::Format::text:
       break;
   }
-  return to_text(report, context);
+  return to_text(document, {.verbose = verbose});
 }
 
 /// The command that gives the same verdicts.
@@ -143,14 +142,16 @@ int check(const CheckArguments& arguments) {
     }
   }
   const checker::CheckReport report = run_check(arguments, traced->scenario);
-  checker::CheckContext context{arguments.scenario, traced->scenario, {}, {}, arguments.verbose};
+  checker::CheckContext context{arguments.scenario, traced->scenario, {}, {}};
   context.places = traced->places;
   context.command = command_line(arguments);
   context.exit_code = exit_code(report, arguments.require);
   if (const auto error = write_counterexamples(arguments, report, context)) {
     return complain(*error);
   }
-  const auto rendered = [&](report::Format format) { return render(format, report, context); };
+  const auto rendered = [&](report::Format format) {
+    return render(format, report, context, arguments.verbose);
+  };
   if (const auto error = write_report_files(*reports, rendered)) return complain(*error);
   fmt::print("{}", rendered(arguments.format));
   return context.exit_code;

@@ -9,6 +9,8 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/run_monitor.hpp"
+#include "checker/presentation/document/render.hpp"
+#include "checker/presentation/json/dumped.hpp"
 #include "checker/verification/mutate/mutate.hpp"
 #include "checker/verification/mutate/mutate_report.hpp"
 #include "model/config/tree/suggestion.hpp"
@@ -16,9 +18,6 @@
 namespace stormproof::cli {
 
 namespace {
-
-/// The share of mutants that must be noticed, in percent.
-constexpr std::size_t required_percent = 95;
 
 std::optional<std::string> unknown_mutant(const std::vector<std::string>& ids) {
   std::vector<std::string> known;
@@ -41,7 +40,7 @@ int mutate(const MutateArguments& arguments) {
   options.only = arguments.only;
   options.solver.timeout =
       std::chrono::milliseconds{static_cast<std::int64_t>(arguments.timeout_seconds * 1000)};
-  const mutate::MutationReport report = [&] {
+  const mutate::MutationReport mutations = [&] {
     const InterruptGuard guard;
     StatusLine status{arguments.progress.value_or(isatty(STDERR_FILENO) != 0)};
     options.on_progress = [&](std::string_view what) {
@@ -50,9 +49,10 @@ int mutate(const MutateArguments& arguments) {
     };
     return mutate::mutate(options);
   }();
-  fmt::print("{}", arguments.json ? to_json(report).dump(2) + "\n" : to_text(report));
-  if (report.interrupted) return inconclusive;
-  return 100 * report.killed() >= required_percent * report.mutants.size() ? established : violated;
+  fmt::print("{}",
+             arguments.json ? report::dumped(to_json(mutations)) : to_text(document_of(mutations)));
+  if (mutations.interrupted) return inconclusive;
+  return mutations.notices_enough() ? established : violated;
 }
 
 }  // namespace stormproof::cli

@@ -8,6 +8,8 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/options.hpp"
+#include "checker/presentation/document/render.hpp"
+#include "checker/presentation/json/dumped.hpp"
 #include "checker/verification/profile/lint_report.hpp"
 #include "checker/verification/profile/profile_report.hpp"
 
@@ -31,8 +33,9 @@ int show(const ShowArguments& arguments) {
     fmt::print(stderr, "stormproof: {}\n", to_string(traced.error()));
     return bad_input;
   }
-  const report::ProfileReport report = report::describe_profile(*traced, specs);
-  fmt::print("{}", arguments.json ? to_json(report).dump(2) + "\n" : to_text(report));
+  const report::ProfileReport profile = report::describe_profile(*traced, specs);
+  fmt::print("{}",
+             arguments.json ? report::dumped(to_json(profile)) : to_text(document_of(profile)));
   return established;
 }
 
@@ -47,7 +50,7 @@ int lint(const LintArguments& arguments) {
   for (const std::string& reference : arguments.references) {
     files.push_back(report::lint_profile(reference, specs));
   }
-  fmt::print("{}", arguments.json ? to_json(files).dump(2) + "\n" : to_text(files));
+  fmt::print("{}", arguments.json ? report::dumped(to_json(files)) : to_text(document_of(files)));
   const report::LintCounts counts = count(files);
   if (counts.unreadable > 0) return bad_input;
   return counts.errors + counts.warnings > 0 ? violated : established;

@@ -7,20 +7,17 @@
 
 #include "checker/cli/exit_code.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/presentation/text/numbers.hpp"
-#include "checker/presentation/text/paragraph.hpp"
+#include "checker/presentation/document/render.hpp"
+#include "checker/presentation/json/dumped.hpp"
 #include "checker/verification/counterexample/observe.hpp"
+#include "checker/verification/counterexample/replay_report.hpp"
 #include "model/trace/replay.hpp"
-#include "props/monitors/describe.hpp"
-#include "props/property.hpp"
 
 namespace stormproof::cli {
 
 namespace {
 
-using model::trace::Difference;
 using model::trace::Replay;
-using model::trace::TraceViolation;
 using model::trace::Verdict;
 
 int exit_code(const Replay& replay) {
@@ -38,105 +35,6 @@ int exit_code(const Replay& replay) {
       return inconclusive;
   }
   return internal_error;
-}
-
-nlohmann::ordered_json to_json(const std::optional<TraceViolation>& violation) {
-  if (!violation) return nullptr;
-  return to_json(*violation);
-}
-
-nlohmann::ordered_json to_json(const std::string& file, const Replay& replay) {
-  nlohmann::ordered_json json;
-  json["verdict"] = name_of(replay.verdict);
-  json["trace"] = file;
-  json["recorded_by"] = replay.recorded_by;
-  json["lines_that_agree"] = replay.lines;
-  json["events_that_agree"] = replay.events;
-  json["last_event_ns"] = replay.last_time.count();
-  json["t_disc_ns"] = nullptr;
-  if (replay.discovery_time) json["t_disc_ns"] = replay.discovery_time->count();
-  json["expected"] = to_json(replay.expected);
-  json["violation"] = to_json(replay.violation);
-  json["difference"] = nullptr;
-  if (!replay.difference) return json;
-  const Difference& difference = *replay.difference;
-  json["difference"] = {{"line", difference.line},
-                        {"key", difference.mismatch.key},
-                        {"recorded", difference.mismatch.recorded},
-                        {"replayed", difference.mismatch.replayed},
-                        {"recorded_line", difference.recorded_line},
-                        {"replayed_line", difference.replayed_line}};
-  return json;
-}
-
-std::string agreement(const Replay& replay) {
-  if (replay.events == 0) return "no event was compared";
-  return fmt::format("the first {} event{} happen{} again, up to {}",
-                     report::grouped(replay.events), replay.events == 1 ? "" : "s",
-                     replay.events == 1 ? "s" : "", report::duration(replay.last_time));
-}
-
-std::string text_of(const std::string& file, const Replay& replay) {
-  const Difference& difference = *replay.difference;
-  std::string text =
-      fmt::format("{}: {}:{} is not what happens in the replay\n\n",
-                  replay.expected ? "INCONCLUSIVE" : "DIFFERENT", file, difference.line);
-  const std::string& key = difference.mismatch.key;
-  text += fmt::format("  key       {}\n", key.empty() ? "(the whole line)" : key);
-  text += fmt::format("  recorded  {}\n", difference.mismatch.recorded);
-  text += fmt::format("  replayed  {}\n\n", difference.mismatch.replayed);
-  return text;
-}
-
-std::string text_of(const TraceViolation& violation) {
-  const props::Property* property = props::find_property(violation.property);
-  std::string text =
-      fmt::format("VIOLATED: {} at event {}, {}\n\n", violation.property,
-                  report::grouped(violation.event), props::time_text(violation.time));
-  if (property != nullptr) text += report::paragraph("  statement  ", property->statement);
-  return text + report::paragraph("  reason     ", violation.reason) + "\n";
-}
-
-/// Why a counterexample whose events all happen again is none.
-std::string text_of_absence(const std::string& file, const Replay& replay) {
-  std::string text =
-      fmt::format("INCONCLUSIVE: {} expects a violation of {} at event {}, {}.\n", file,
-                  replay.expected->property, report::grouped(replay.expected->event),
-                  props::time_text(replay.expected->time));
-  if (!replay.violation) return text + "Its events happen again, but nothing violates it.\n";
-  return text +
-         fmt::format("Its events happen again, but the violation occurs at event {}, {}:\n{}\n",
-                     report::grouped(replay.violation->event),
-                     props::time_text(replay.violation->time), replay.violation->reason);
-}
-
-std::string to_text(const std::string& file, const Replay& replay) {
-  switch (replay.verdict) {
-    case Verdict::identical: {
-      const std::string end = replay.discovery_time ? "discovery completes after " +
-                                                          report::duration(*replay.discovery_time)
-                                                    : "discovery does not complete";
-      return fmt::format("IDENTICAL: all {} events of {} happen again, to the nanosecond; {}\n",
-                         report::grouped(replay.events), file, end);
-    }
-    case Verdict::different:
-      return text_of(file, replay) + "Before that, " + agreement(replay) + ".\n";
-    case Verdict::violated:
-      return text_of(*replay.violation) +
-             fmt::format("All {} events of {} happen again, to the nanosecond.\n",
-                         report::grouped(replay.events), file);
-    case Verdict::not_violated:
-      return text_of_absence(file, replay);
-    case Verdict::ends_early:
-      return fmt::format(
-          "INCONCLUSIVE: {} ends before the run does; it was interrupted.\nAll that it has "
-          "agrees: {}.\n",
-          file, agreement(replay));
-    case Verdict::stopped:
-      return fmt::format("INCONCLUSIVE: the replay was interrupted. So far, {}.\n",
-                         agreement(replay));
-  }
-  return "";
 }
 
 }  // namespace
@@ -157,13 +55,8 @@ int replay(const ReplayArguments& arguments) {
     fmt::print(stderr, "stormproof: {}\n", to_string(result.error()));
     return bad_input;
   }
-  using Json = nlohmann::ordered_json;
-  fmt::print(
-      "{}",
-      arguments.json
-          ? to_json(arguments.file, *result).dump(2, ' ', false, Json::error_handler_t::replace) +
-                "\n"
-          : to_text(arguments.file, *result));
+  fmt::print("{}", arguments.json ? report::dumped(counterexample::to_json(arguments.file, *result))
+                                  : to_text(counterexample::document_of(arguments.file, *result)));
   return exit_code(*result);
 }
 

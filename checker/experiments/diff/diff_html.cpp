@@ -114,6 +114,17 @@ std::string blame_html(const DiffReport& report) {
   return heading("Which knob does it", "blame") + to_html(table);
 }
 
+std::string machines_html(const std::set<std::string>& machines, Drawings& drawings) {
+  const report::Section section = counterexample::diagrams_of(machines);
+  std::string html;
+  for (const report::Block& block : section.blocks) {
+    const auto& drawing = std::get<report::Drawing>(block.content);
+    html += fmt::format("<div data-machine=\"{}\">{}</div>\n", drawing.machine,
+                        report::parts::drawing_html(drawings.add(drawing.svg), drawing.caption));
+  }
+  return html.empty() ? html : report::parts::details(section.title, html);
+}
+
 }  // namespace
 
 Tone tone_of(Judgment judgment) {

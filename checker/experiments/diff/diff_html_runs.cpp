@@ -16,6 +16,19 @@ using report::parts::heading;
 using report::parts::HtmlTable;
 using report::parts::paragraph_html;
 
+namespace {
+
+std::string walk_html(const props::Counterexample& run, const counterexample::Chart& chart,
+                      const std::string& id, const std::string& caption, Drawings& drawings,
+                      std::set<std::string>& machines) {
+  const report::Sequence walk = counterexample::walk(run, chart, id, caption, machines);
+  return "<div class=\"walk\">\n" +
+         report::parts::drawing_html(drawings.add(counterexample::svg_chart(chart), id), caption) +
+         walk.steps_html + "</div>\n";
+}
+
+}  // namespace
+
 std::string verdicts_html(const DiffReport& report, const Files& files, Drawings& drawings,
                           std::set<std::string>& machines) {
   const VerdictComparison& verdicts = report.verdicts;
@@ -37,11 +50,10 @@ std::string verdicts_html(const DiffReport& report, const Files& files, Drawings
     if (change.before == change.after || !change.counterexample) continue;
     const std::string side =
         change.after == props::VerdictKind::violated ? "the candidate" : "the base";
-    charts +=
-        "<h3>" + html_text("✗ " + change.property + " with " + side) + "</h3>\n" +
-        report::walk_html(*change.counterexample, counterexample::chart_of(*change.counterexample),
-                          fmt::format("verdict-{}", number++),
-                          "How " + change.property + " breaks with " + side, drawings, machines);
+    charts += "<h3>" + html_text("✗ " + change.property + " with " + side) + "</h3>\n" +
+              walk_html(*change.counterexample, counterexample::chart_of(*change.counterexample),
+                        fmt::format("verdict-{}", number++),
+                        "How " + change.property + " breaks with " + side, drawings, machines);
     const auto file = files.find(change.property);
     if (file != files.end())
       charts += report::parts::preformatted("stormproof replay " + file->second);
@@ -69,8 +81,8 @@ std::string apart_html(const DiffReport& report, const Files& files, Drawings& d
                                             candidate ? "candidate" : "base");
     const char* id = candidate ? "apart-candidate" : "apart-base";
     html += "<h3>" + html_text(name) + "</h3>\n" +
-            report::walk_html(candidate ? apart.candidate_run : apart.base_run, chart, id, caption,
-                              drawings, machines);
+            walk_html(candidate ? apart.candidate_run : apart.base_run, chart, id, caption,
+                      drawings, machines);
     const auto file = files.find(candidate ? "telling-apart.candidate" : "telling-apart.base");
     if (file != files.end()) html += paragraph_html("Written to " + file->second + ".");
   };

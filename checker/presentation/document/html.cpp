@@ -111,6 +111,7 @@ class Page {
  public:
   std::string run(const Document& document) {
     std::string body = "<h1>" + html_text(document.title) + "</h1>\n";
+    if (!document.subject.empty()) body += "<p>" + html(document.subject) + "</p>\n";
     std::string more;
     if (!document.elaboration.empty()) more = "<p>" + html(document.elaboration) + "</p>\n";
     if (!document.answer.empty()) {
@@ -230,6 +231,8 @@ class Page {
     return block.story.empty() ? text
                                : text + details("The same as a story", preformatted(block.story));
   }
+
+  std::string add(const Later& block, std::size_t level) { return blocks(block.make(), level); }
 
   std::string add(const Section& block, std::size_t level) {
     if (block.title.empty()) return blocks(block.blocks, level);

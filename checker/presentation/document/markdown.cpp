@@ -152,6 +152,8 @@ std::string to_md(const Sequence& block, std::size_t /*level*/) {
   return chart_md(block) + "\n" + story_md(block);
 }
 
+std::string to_md(const Later& block, std::size_t level) { return to_md(block.make(), level); }
+
 std::string heading(const Section& block, std::size_t level) {
   return std::string(std::min<std::size_t>(level, 6), '#') + " " + md_text(block.title) + "\n";
 }
@@ -200,6 +202,8 @@ class Parts {
       const std::string chart = sequence->caption.empty() ? "a sequence chart" : sequence->caption;
       document_.add(chart, chart_md(*sequence));
       document_.add(chart, story_md(*sequence));
+    } else if (const auto* later = std::get_if<Later>(&block.content)) {
+      add(later->make(), name, level);
     } else if (block.audience == Audience::verbose) {
       document_.add(name.empty() ? "details" : name, md_details("Details", to_md(block, level)));
     } else {
@@ -246,6 +250,7 @@ std::string to_markdown(const Document& document) {
   std::string answer = (sign.empty() ? "" : std::string{sign} + " ") + md(document.answer);
   const std::string title = md_text(document.title);
   parts.add("", "### " + title + (title.empty() || answer.empty() ? "" : ": ") + answer + "\n");
+  if (!document.subject.empty()) parts.add("", md(document.subject) + "\n");
   if (!document.elaboration.empty()) parts.add("", md(document.elaboration) + "\n");
   parts.add(document.blocks, "", 4);
   if (!document.assumptions.empty()) {

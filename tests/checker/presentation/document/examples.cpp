@@ -77,7 +77,7 @@ diff::Blame blame(const std::string& name) {
 
 CheckExample::CheckExample()
     : scenario_{counterexample::scenario_named("smallest")},
-      context_{"robots " + hostile + ".yaml", scenario_, {}, {}, false} {
+      context_{"robots " + hostile + ".yaml", scenario_, {}, {}} {
   report_.results.push_back(
       result_of("fsm.determinism", finding(VerdictKind::proved, "for all states")));
   report_.results.push_back(

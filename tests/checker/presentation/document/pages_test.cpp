@@ -6,6 +6,7 @@
 
 #include "checker/presentation/document/drawings.hpp"
 #include "checker/presentation/document/html_page.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "checker/verification/counterexample/machine_states.hpp"
 #include "tests/checker/presentation/document/examples.hpp"
 #include "tests/checker/presentation/document/html_checks.hpp"
@@ -17,7 +18,7 @@ namespace pages_test {
 const std::string& check_page() {
   static const std::string page = [] {
     CheckExample example;
-    return to_html(example.report(), example.context());
+    return to_html(document_of(example.report(), example.context()));
   }();
   return page;
 }
@@ -81,14 +82,15 @@ TEST(Pages, StepsTellTheStatesAfterThem) {
   EXPECT_NE(page.find("data-machine=\"DescriptorRepair\""), std::string::npos);
 }
 
-const StateRow& row_named(const std::vector<StateRow>& rows, const std::string& machine) {
-  return *std::ranges::find(rows, machine, &StateRow::machine);
+const counterexample::StateRow& row_named(const std::vector<counterexample::StateRow>& rows,
+                                          const std::string& machine) {
+  return *std::ranges::find(rows, machine, &counterexample::StateRow::machine);
 }
 
 TEST(MachineStates, FollowTheRunOfACounterexample) {
-  const props::Counterexample counterexample = counterexample::delayed();
-  const std::vector<std::uint64_t> events{0, counterexample.event - 1, counterexample.event};
-  const auto states = states_after(counterexample, events);
+  const props::Counterexample run = counterexample::delayed();
+  const std::vector<std::uint64_t> events{0, run.event - 1, run.event};
+  const auto states = counterexample::states_after(run, events);
   ASSERT_EQ(states.size(), 3U);
   EXPECT_EQ(row_named(states[0], "DiscoveryReader").text, "Unknown");
   EXPECT_EQ(row_named(states[2], "DiscoveryReader").text, "Complete");
