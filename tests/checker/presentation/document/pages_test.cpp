@@ -71,7 +71,7 @@ TEST(Pages, ACheckShowsVerdictsFirstThenEachViolationWithChartAndSteps) {
   EXPECT_NE(page.find("<svg id=\"chart-1\""), std::string::npos);
   EXPECT_NE(page.find("class=\"row r0\""), std::string::npos);
   EXPECT_NE(page.find("stormproof replay ce/storm.free-threshold.jsonl"), std::string::npos);
-  EXPECT_NE(page.find("Not in the model"), std::string::npos);
+  EXPECT_NE(page.find("(not in the model)"), std::string::npos);
   EXPECT_NE(page.find("my robots.yaml:7"), std::string::npos);
 }
 
