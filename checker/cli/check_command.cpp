@@ -8,7 +8,6 @@
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/verification/check/check.hpp"
 #include "checker/verification/check/check_report.hpp"
@@ -70,22 +69,6 @@ checker::CheckReport run_check(const CheckArguments& arguments, const model::Sce
                          session.on_steps("checking, ")});
 }
 
-std::string render(report::Format format, const checker::CheckReport& report,
-                   const checker::CheckContext& context) {
-  switch (format) {
-    case report::Format::markdown:
-      return to_markdown(report, context);
-    case report::Format::html:
-      return to_html(report, context);
-    case report::Format::junit:
-      return to_junit(report, context);
-    case report::Format::sarif:
-      return to_sarif(report, context).dump(2) + "\n";
-    default:
-      return to_text(report, context);
-  }
-}
-
 Outcome run(CheckArguments& arguments, Session& session) {
   const auto traced = model::config::trace_scenario(arguments.scenario, arguments.overrides,
                                                     model::config::SpecPath::standard());
@@ -100,9 +83,8 @@ Outcome run(CheckArguments& arguments, Session& session) {
     }
   }
   const checker::CheckReport report = run_check(arguments, traced->scenario, session);
-  checker::CheckContext context{arguments.scenario, traced->scenario, {}, {}, session.verbose()};
+  checker::CheckContext context{arguments.scenario, traced->scenario, {}, {}};
   context.places = traced->places;
-  context.command = session.command();
   context.exit_code = exit_code(report, arguments.require);
   Answer answer;
   if (const auto error = write_counterexamples(arguments.counterexamples, report, context)) {
@@ -115,11 +97,8 @@ Outcome run(CheckArguments& arguments, Session& session) {
     }
     arguments.emit_test.stream() << counterexample::gtest_file(all, session.command());
   }
+  answer.document = document_of(report, context);
   answer.json = to_json(report, context);
-  answer.document.complete = !report.interrupted;
-  answer.document.exit_code = context.exit_code;
-  answer.rendered =
-      rendered(session, [&](report::Format format) { return render(format, report, context); });
   return answer;
 }
 

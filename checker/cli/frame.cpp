@@ -13,6 +13,7 @@
 #include "checker/cli/complain.hpp"
 #include "checker/cli/report_files.hpp"
 #include "checker/cli/terminal.hpp"
+#include "checker/presentation/json/dumped.hpp"
 #include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::cli {
@@ -34,10 +35,6 @@ std::vector<NamedFormat> formats_of(Formats formats) {
   return all;
 }
 
-std::string dumped(const ordered_json& json) {
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
-
 /// The document and the JSON with what all of them have. The keys are those of
 /// specs/guide/output.md.
 void complete(Answer& answer, const std::string& command) {
@@ -52,7 +49,7 @@ void complete(Answer& answer, const std::string& command) {
 }
 
 std::string render(const Answer& answer, Format format, const report::Terminal& terminal) {
-  if (format == Format::json) return dumped(answer.json);
+  if (format == Format::json) return report::dumped(answer.json);
   if (const auto old = answer.rendered.find(format); old != answer.rendered.end()) {
     return old->second;
   }
@@ -68,7 +65,7 @@ std::string render(const Answer& answer, Format format, const report::Terminal& 
     case Format::junit:
       return to_junit(answer.document);
     case Format::sarif:
-      return dumped(to_sarif(answer.document));
+      return report::dumped(to_sarif(answer.document));
     case Format::text:
       return to_text(answer.document, terminal);
   }

@@ -5,7 +5,6 @@
 
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/verification/mutate/mutate.hpp"
 #include "checker/verification/mutate/mutate_report.hpp"
 #include "model/config/tree/suggestion.hpp"
@@ -18,9 +17,6 @@ struct MutateArguments {
   std::vector<std::string> only;  ///< ids of mutants; empty: all
   double timeout_seconds = 10;    ///< of each query
 };
-
-/// The share of mutants that must be noticed, in percent.
-constexpr std::size_t required_percent = 95;
 
 std::optional<std::string> unknown_mutant(const std::vector<std::string>& ids) {
   std::vector<std::string> known;
@@ -40,12 +36,9 @@ Outcome run(MutateArguments& arguments, Session& session) {
       std::chrono::milliseconds{static_cast<std::int64_t>(arguments.timeout_seconds * 1000)};
   options.on_progress = session.on_steps("trying ");
   const mutate::MutationReport report = mutate::mutate(options);
-  Answer answer;
-  const bool enough = 100 * report.killed() >= required_percent * report.mutants.size();
-  answer.document.complete = !report.interrupted;
-  answer.document.exit_code = report.interrupted ? inconclusive : enough ? established : violated;
-  answer.json = to_json(report);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(report); });
+  Answer answer{document_of(report), to_json(report)};
+  const ExitCode decided = report.notices_enough() ? established : violated;
+  answer.document.exit_code = report.interrupted ? inconclusive : decided;
   return answer;
 }
 
@@ -61,7 +54,7 @@ void declare_mutate(Frame& frame) {
       {"mutate", "Put mistakes into tables and rules, and see which property notices them",
        "Exit code: 0 at least 95 % of the mutants are noticed, 1 fewer, 2 bad input,\n"
        "3 interrupted.",
-       Formats::plain},
+       Formats::findings},
       declare, run);
 }
 

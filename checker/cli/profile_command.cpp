@@ -2,7 +2,6 @@
 // vendor's own XML, really says about discovery.
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/verification/profile/lint_report.hpp"
 #include "checker/verification/profile/profile_report.hpp"
 
@@ -23,10 +22,7 @@ Outcome run(ShowArguments& arguments, Session& session) {
                                                        specs, model::config::Outside::admitted);
   if (!traced) return traced.error();
   const report::ProfileReport report = report::describe_profile(*traced, specs);
-  Answer answer;
-  answer.json = to_json(report);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(report); });
-  return answer;
+  return Answer{document_of(report), to_json(report)};
 }
 
 struct LintArguments {
@@ -39,13 +35,10 @@ Outcome run(LintArguments& arguments, Session& session) {
   for (const std::string& reference : arguments.references) {
     files.push_back(report::lint_profile(reference, specs));
   }
+  Answer answer{document_of(files), to_json(files)};
   const report::LintCounts counts = count(files);
-  Answer answer;
-  answer.document.exit_code = counts.unreadable > 0                 ? bad_input
-                              : counts.errors + counts.warnings > 0 ? violated
-                                                                    : established;
-  answer.json = to_json(files);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(files); });
+  const ExitCode readable = counts.errors + counts.warnings > 0 ? violated : established;
+  answer.document.exit_code = counts.unreadable > 0 ? bad_input : readable;
   return answer;
 }
 
@@ -70,7 +63,7 @@ void declare_profile(Frame& frame) {
       {.name = "profile show",
        .help = "Every knob of a profile: its value, where that came from, who can change it",
        .exit_codes = "Exit code: 0, or 2 bad input.",
-       .formats = Formats::plain,
+       .formats = Formats::pages,
        .takes_long = false},
       declare, run);
   frame.add<LintArguments>(
@@ -78,7 +71,7 @@ void declare_profile(Frame& frame) {
        .help = "What in a profile does not do what it seems to",
        .exit_codes = "Exit code: 0 nothing but notes, 1 warnings or errors, 2 a file cannot be "
                      "read as a profile.",
-       .formats = Formats::plain,
+       .formats = Formats::findings,
        .takes_long = false},
       declare, run);
 }

@@ -44,7 +44,7 @@ report::Sequence run_of(const DiffReport& report, bool candidate, std::set<std::
       candidate ? "Candidate: " + report.candidate.reference : "Base: " + report.base.reference;
   chart.closing = "Here the runs part";
   chart.sign = "≠";
-  return report::walk(
+  return counterexample::walk(
       run, std::move(chart), candidate ? "apart-candidate" : "apart-base",
       fmt::format("The run of the {}, up to where the two part", candidate ? "candidate" : "base"),
       machines);
@@ -63,7 +63,9 @@ void add_apart(report::Blocks& blocks, const DiffReport& report, const Files& fi
     for (const bool candidate : {false, true}) {
       section.blocks.emplace_back(run_of(report, candidate, machines), report::Audience::documents);
     }
-    report::add_machines(section.blocks, machines);
+    if (!machines.empty()) {
+      section.blocks.emplace_back(counterexample::diagrams_of(machines), report::Audience::page);
+    }
   } else {
     section.blocks.emplace_back(report::Paragraph{apart.how});
   }

@@ -125,10 +125,10 @@ void add_counterexamples(Blocks& blocks, const VerdictComparison& verdicts,
     const char* side = change.after == props::VerdictKind::violated ? "candidate" : "base";
     Section section{fmt::format("{} with the {}", change.property, side)};
     section.folded_in_comments = true;
-    section.blocks.emplace_back(
-        report::walk(*change.counterexample, counterexample::chart_of(*change.counterexample),
-                     fmt::format("verdict-{}", number++),
-                     fmt::format("How {} breaks with the {}", change.property, side), machines));
+    section.blocks.emplace_back(counterexample::walk(
+        *change.counterexample, counterexample::chart_of(*change.counterexample),
+        fmt::format("verdict-{}", number++),
+        fmt::format("How {} breaks with the {}", change.property, side), machines));
     blocks.emplace_back(std::move(section), Audience::documents);
   }
 }
@@ -150,7 +150,9 @@ void add_verdicts(Blocks& blocks, const DiffReport& report, const Files& files) 
   section.blocks.emplace_back(Paragraph{same});
   std::set<std::string> machines;
   add_counterexamples(section.blocks, verdicts, machines);
-  report::add_machines(section.blocks, machines);
+  if (!machines.empty()) {
+    section.blocks.emplace_back(counterexample::diagrams_of(machines), report::Audience::page);
+  }
   Table others = verdict_table(verdicts, files, false);
   if (!others.rows.empty()) {
     Section kept{"Verdicts that do not change", "", {std::move(others)}, true};

@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -153,15 +154,24 @@ struct Section {
   bool folded_in_comments = false;  ///< in Markdown only, where a comment has to be short
 };
 
+/// Blocks that only those pay for who see them: the renderers of other formats never call `make`.
+/// It owns what it needs, because it is called when the command is done.
+struct Later {
+  std::function<Blocks()> make;
+};
+
 template <class T, class... Kinds>
 concept OneOf = (std::same_as<T, Kinds> || ...);
 
 struct Block {
-  std::variant<Paragraph, Bullets, Facts, Table, Listing, Command, Drawing, Sequence, Section>
+  std::variant<Paragraph, Bullets, Facts, Table, Listing, Command, Drawing, Sequence, Section,
+               Later>
       content;
   Audience audience = Audience::everybody;
 
-  template <OneOf<Paragraph, Bullets, Facts, Table, Listing, Command, Drawing, Sequence, Section> T>
+  template <
+      OneOf<Paragraph, Bullets, Facts, Table, Listing, Command, Drawing, Sequence, Section, Later>
+          T>
   Block(T made, Audience who = Audience::everybody)  // NOLINT(google-explicit-constructor)
       : content{std::move(made)}, audience{who} {}
 };

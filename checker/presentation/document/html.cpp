@@ -232,6 +232,8 @@ class Page {
                                : text + details("The same as a story", preformatted(block.story));
   }
 
+  std::string add(const Later& block, std::size_t level) { return blocks(block.make(), level); }
+
   std::string add(const Section& block, std::size_t level) {
     if (block.title.empty()) return blocks(block.blocks, level);
     const std::string inner = blocks(block.blocks, level + 1);

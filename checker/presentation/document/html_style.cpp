@@ -69,6 +69,8 @@ td.tight { white-space: nowrap; }
 tr.different td { background: var(--panel); }
 table.wide { width: 100%; }
 caption { text-align: left; color: var(--soft); padding-bottom: .3rem; }
+.facts { display: grid; grid-template-columns: max-content 1fr; gap: .15rem .9rem; margin: .5rem 0; }
+.facts dt { color: var(--soft); } .facts dd { margin: 0; overflow-wrap: anywhere; }
 details { margin: .4rem 0; }
 summary { cursor: pointer; color: var(--accent); padding: .1rem 0; }
 td details { margin: .15rem 0; font-size: 13px; }
@@ -109,7 +111,8 @@ kbd { border: 1px solid var(--soft); border-radius: 4px; padding: 0 .3rem; font-
 [hidden] { display: none !important; }
 @media (max-width: 640px) { main { padding: .8rem .7rem 3rem; } h1 { margin-right: 0; }
   #theme { position: static; margin: .7rem .7rem 0; }
-  table.cards thead { display: none; }
+  .facts { grid-template-columns: 1fr; gap: 0; } .facts dd { margin: 0 0 .3rem; }
+  table.cards thead { display: none; } td.tight { white-space: normal; overflow-wrap: anywhere; }
   table.cards tr { display: block; border-bottom: 1px solid var(--edge); padding: .4rem 0; }
   table.cards td { display: block; border: 0; padding: .1rem 0; } }
 @media (prefers-reduced-motion: no-preference) { .js .drawing { scroll-behavior: smooth; } }

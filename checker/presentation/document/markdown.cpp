@@ -152,6 +152,8 @@ std::string to_md(const Sequence& block, std::size_t /*level*/) {
   return chart_md(block) + "\n" + story_md(block);
 }
 
+std::string to_md(const Later& block, std::size_t level) { return to_md(block.make(), level); }
+
 std::string heading(const Section& block, std::size_t level) {
   return std::string(std::min<std::size_t>(level, 6), '#') + " " + md_text(block.title) + "\n";
 }
@@ -200,6 +202,8 @@ class Parts {
       const std::string chart = sequence->caption.empty() ? "a sequence chart" : sequence->caption;
       document_.add(chart, chart_md(*sequence));
       document_.add(chart, story_md(*sequence));
+    } else if (const auto* later = std::get_if<Later>(&block.content)) {
+      add(later->make(), name, level);
     } else if (block.audience == Audience::verbose) {
       document_.add(name.empty() ? "details" : name, md_details("Details", to_md(block, level)));
     } else {

@@ -10,7 +10,6 @@
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/presentation/text/plain_text.hpp"
-#include "checker/presentation/text/time_text.hpp"
 
 namespace stormproof::report {
 
@@ -69,7 +68,10 @@ class TextPage {
   }
 
   void answer(const Document& document) {
-    if (!document.subject.empty()) running(0, "", document.subject);
+    if (!document.subject.empty()) {
+      running(0, "", document.subject);
+      blank_line();
+    }
     const std::string_view sign = sign_of(document.tone);
     if (!document.answer.empty()) {
       const std::string words = (sign.empty() ? "" : std::string{sign} + " ") +
@@ -167,16 +169,10 @@ class TextPage {
       return;
     }
     if (!block.caption.empty()) running(indent, "", block.caption);
-    for (const sequence::Chart::Row& row : block.chart.rows) {
-      if (row.kind == sequence::Chart::Row::Kind::service) continue;
-      if (!row.text.empty()) running(indent, std::string(16, ' ') + "… ", row.text);
-      std::string time = right(milliseconds(row.time) + " ms", 16) + "  ";
-      for (const sequence::Chart::Line& one : row.lines) {
-        running(indent, time, block.chart.lanes[one.lane].title + ": " + one.text);
-        time = std::string(time.size(), ' ');
-      }
-    }
+    lines_of(0, valid_text(sequence::text_chart(block.chart)));
   }
+
+  void add(const Later& block, std::size_t indent) { blocks(block.make(), indent); }
 
   void add(const Section& block, std::size_t indent) {
     if (block.title.empty()) {

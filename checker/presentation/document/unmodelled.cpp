@@ -1,12 +1,26 @@
-// Says what the model leaves out.
+// Says what the model leaves out: to people as assumptions, to code scanning as notes.
 #include "checker/presentation/document/unmodelled.hpp"
+
+#include "checker/presentation/text/assumptions.hpp"
 
 namespace stormproof::report {
 
-void add_unmodelled(Document& document, const model::DdsProfile& dds, std::string_view whose) {
+void add_unmodelled(Document& document, const model::DdsProfile& dds, std::string_view whose,
+                    const model::config::Places* places) {
   const std::string of = whose.empty() ? std::string{} : ", of " + std::string{whose};
   for (const auto& [setting, effect] : dds.unmodelled) {
     document.assumptions.push_back(code(setting) + (" (not in the model" + of + "): " + effect));
+    Finding& note = document.findings.emplace_back();
+    note.id = "stormproof.unmodelled";
+    note.statement = unmodelled_heading;
+    note.description = "No result depends on a setting that the model has not got.";
+    note.outcome = Finding::Outcome::note;
+    note.shown = Finding::Shown::code;
+    note.message = setting + ": " + effect;
+    note.identity = {document.title, std::string{whose}, setting};
+    if (places == nullptr) continue;
+    const auto place = places->find("dds.unmodelled." + setting);
+    if (place != places->end()) note.locations.emplace_back(place->second);
   }
 }
 

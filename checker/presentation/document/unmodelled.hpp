@@ -5,11 +5,14 @@
 #include <string_view>
 
 #include "checker/presentation/document/document.hpp"
+#include "model/config/provenance.hpp"
 #include "model/dds_profile.hpp"
 
 namespace stormproof::report {
 
-/// One assumption for each setting. `whose` names the profile if there are several.
-void add_unmodelled(Document& document, const model::DdsProfile& dds, std::string_view whose = {});
+/// One assumption for each setting, and a note at the line that names it. `whose` names the profile
+/// if there are several; `places` are those of the scenario, if they are known.
+void add_unmodelled(Document& document, const model::DdsProfile& dds, std::string_view whose = {},
+                    const model::config::Places* places = nullptr);
 
 }  // namespace stormproof::report

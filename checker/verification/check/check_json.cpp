@@ -1,75 +1,92 @@
 // The JSON of a check.
-#include <nlohmann/json.hpp>
-
-#include "checker/presentation/text/assumptions.hpp"
+#include "checker/presentation/json/describe.hpp"
 #include "checker/verification/check/check_report.hpp"
+
+namespace stormproof::props {
+
+template <class V>
+void describe(V& v, const Finding& finding) {
+  v("engine", finding.engine);
+  v("verdict", finding.kind);
+  v("how", finding.how);
+  v("assumptions", finding.assumptions);
+  v("seconds", finding.seconds);
+  v.or_null("solver", finding.solver);
+  v("seed", finding.seed);
+  v("details", finding.details);
+}
+
+}  // namespace stormproof::props
 
 namespace stormproof::checker {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-using props::VerdictKind;
+struct ResultInContext {
+  const PropertyResult& result;
+  const CheckContext& context;
+};
 
-Json finding_json(const props::Finding& finding) {
-  Json json;
-  json["engine"] = finding.engine;
-  json["verdict"] = name_of(finding.kind);
-  json["how"] = finding.how;
-  json["assumptions"] = finding.assumptions;
-  json["seconds"] = finding.seconds;
-  json["solver"] = finding.solver.empty() ? Json() : Json(finding.solver);
-  json["seed"] = finding.seed;
-  json["details"] = finding.details;
-  return json;
-}
-
-Json result_json(const PropertyResult& result, const CheckContext& context) {
+template <class V>
+void describe(V& v, const ResultInContext& shown) {
+  const PropertyResult& result = shown.result;
   const props::Finding& decisive = result.decisive();
-  Json json;
-  json["id"] = result.property->id;
-  json["statement"] = statement_of(*result.property, context.scenario.dds.implementation);
-  json["verdict"] = name_of(result.verdict);
-  json["engine"] = decisive.engine;
-  json["how"] = decisive.how;
-  json["assumptions"] = decisive.assumptions;
+  v("id", result.property->id);
+  v("statement", statement_of(*result.property, shown.context.scenario.dds.implementation));
+  v("verdict", result.verdict);
+  v("engine", decisive.engine);
+  v("how", decisive.how);
+  v("assumptions", decisive.assumptions);
   double seconds = 0;
   for (const props::Finding& finding : result.findings) seconds += finding.seconds;
-  json["seconds"] = seconds;
-  json["solver"] = decisive.solver.empty() ? Json() : Json(decisive.solver);
-  json["seed"] = decisive.seed;
-  const auto file = context.counterexamples.find(result.property->id);
-  json["counterexample"] = file == context.counterexamples.end() ? Json() : Json(file->second);
+  v("seconds", seconds);
+  v.or_null("solver", decisive.solver);
+  v("seed", decisive.seed);
+  const auto file = shown.context.counterexamples.find(result.property->id);
+  v.or_null("counterexample", file == shown.context.counterexamples.end() ? "" : file->second);
   const props::Counterexample* counterexample = result.counterexample();
-  json["reason"] = counterexample == nullptr ? Json() : Json(counterexample->reason);
-  json["findings"] = Json::array();
-  for (const props::Finding& finding : result.findings) {
-    json["findings"].push_back(finding_json(finding));
+  v.or_null("reason", counterexample == nullptr ? "" : counterexample->reason);
+  v("findings", result.findings);
+}
+
+struct Summary {
+  const CheckReport& report;
+};
+
+template <class V>
+void describe(V& v, const Summary& summary) {
+  using props::VerdictKind;
+  for (const VerdictKind kind : {VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled,
+                                 VerdictKind::violated, VerdictKind::inconclusive}) {
+    v(name_of(kind), summary.report.count(kind));
   }
-  return json;
+}
+
+struct ReportInContext {
+  const CheckReport& report;
+  const CheckContext& context;
+};
+
+template <class V>
+void describe(V& v, const ReportInContext& shown) {
+  const model::DdsProfile& dds = shown.context.scenario.dds;
+  v("scenario", shown.context.name);
+  v("implementation",
+    dds.implementation == model::ImplementationKind::fastdds ? "fastdds" : "paper");
+  v("seconds", shown.report.seconds);
+  v("summary", Summary{shown.report});
+  v.unless_empty("unmodelled", dds.unmodelled);
+  std::vector<ResultInContext> verdicts;
+  for (const PropertyResult& result : shown.report.results) {
+    verdicts.push_back({result, shown.context});
+  }
+  v("verdicts", verdicts);
 }
 
 }  // namespace
 
-Json to_json(const CheckReport& report, const CheckContext& context) {
-  Json json;
-  json["scenario"] = context.name;
-  json["implementation"] = context.scenario.dds.implementation == model::ImplementationKind::fastdds
-                               ? "fastdds"
-                               : "paper";
-  json["seconds"] = report.seconds;
-  json["interrupted"] = report.interrupted;
-  json["summary"] = Json::object();
-  for (const VerdictKind kind : {VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled,
-                                 VerdictKind::violated, VerdictKind::inconclusive}) {
-    json["summary"][name_of(kind)] = report.count(kind);
-  }
-  report::add_unmodelled(json, context.scenario.dds);
-  json["verdicts"] = Json::array();
-  for (const PropertyResult& result : report.results) {
-    json["verdicts"].push_back(result_json(result, context));
-  }
-  return json;
+nlohmann::ordered_json to_json(const CheckReport& report, const CheckContext& context) {
+  return report::json_of(ReportInContext{report, context});
 }
 
 }  // namespace stormproof::checker

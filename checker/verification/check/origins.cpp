@@ -102,20 +102,20 @@ std::string scenario_file(const Places& places, const std::string& reference) {
   return reference;
 }
 
-report::SarifLocation location_of(std::string_view property, const Places& places,
-                                  const std::string& reference) {
+report::Location location_of(std::string_view property, const Places& places,
+                             const std::string& reference) {
   const std::string file = scenario_file(places, reference);
   for (const std::string_view key : knobs_of(property)) {
     const auto found = places.find(key);
     if (found == places.end() || !in_file(found->second)) continue;
     if (by_user(found->second, file)) {
-      return report::SarifLocation{found->second, std::string{key}};
+      return report::Location{found->second, std::string{key}};
     }
   }
   if (const auto profile = profile_in(file)) {
-    return report::SarifLocation{*profile, "the DDS profile"};
+    return report::Location{*profile, "the DDS profile"};
   }
-  report::SarifLocation whole;
+  report::Location whole;
   whole.file = file;
   whole.line = 1;
   whole.message = "the scenario";

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "checker/presentation/document/sarif.hpp"
+#include "checker/presentation/document/document.hpp"
 #include "model/config/provenance.hpp"
 #include "props/property.hpp"
 
@@ -26,9 +26,9 @@ namespace stormproof::checker {
 
 /// The first knob of the property that the user's own file sets; otherwise the DDS profile in the
 /// scenario; otherwise the scenario.
-[[nodiscard]] report::SarifLocation location_of(std::string_view property,
-                                                const model::config::Places& places,
-                                                const std::string& reference);
+[[nodiscard]] report::Location location_of(std::string_view property,
+                                           const model::config::Places& places,
+                                           const std::string& reference);
 
 /// "file:12", "--set …", or "–".
 [[nodiscard]] std::string origin_text(const model::config::Place& place);

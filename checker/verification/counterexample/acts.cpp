@@ -11,14 +11,14 @@
 
 namespace stormproof::counterexample {
 
+const char* stream_name(std::uint32_t number) { return number % 2 == 0 ? "pub" : "sub"; }
+
 namespace {
 
 using model::EventKind;
 using model::trace::Subject;
 using model::trace::subject_of;
 using Transition = model::trace::TransitionList::Entry;
-
-const char* stream_name(std::uint32_t number) { return number % 2 == 0 ? "pub" : "sub"; }
 
 std::string relation_name(const History& history, std::uint32_t relation) {
   const model::Pair& pair = history.topology.pair(relation / 2);

@@ -30,6 +30,9 @@ struct Act {
 [[nodiscard]] std::vector<Act> acts_of(const History& history, std::size_t step,
                                        const Relevance& relevance);
 
+/// "pub", "sub": the stream of a relation or writer with this number.
+[[nodiscard]] const char* stream_name(std::uint32_t number);
+
 /// "p14 ACKNACK 1→0 pub, lacks 0–9".
 [[nodiscard]] std::string packet_text(const History& history, std::uint64_t packet);
 

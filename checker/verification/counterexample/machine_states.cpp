@@ -8,19 +8,18 @@
 
 #include <fmt/format.h>
 
+#include "checker/verification/counterexample/acts.hpp"
 #include "checker/verification/counterexample/history.hpp"
 #include "checker/verification/counterexample/relevance.hpp"
 #include "fsm/machines.hpp"
 #include "model/simulator.hpp"
 
-namespace stormproof::report {
+namespace stormproof::counterexample {
 
 namespace {
 
 using Kind = model::MachineRef::Kind;
 using Words = std::vector<std::uint64_t>;
-
-const char* stream_name(std::uint32_t number) { return number % 2 == 0 ? "pub" : "sub"; }
 
 std::string_view initial_state(std::string_view machine) {
   static const std::vector<fsm::MachineInfo> all = fsm::machines();
@@ -36,7 +35,7 @@ struct Followed {
 
 class Follower final : public model::Probe {
  public:
-  Follower(const counterexample::History& history, std::set<std::uint32_t> relations,
+  Follower(const History& history, std::set<std::uint32_t> relations,
            std::span<const std::uint64_t> events)
       : history_{history}, relations_{std::move(relations)}, events_{events} {
     for (const std::uint32_t relation : relations_) {
@@ -139,7 +138,7 @@ class Follower final : public model::Probe {
       StateRow row{owner(kind, subject), std::string{machine}, std::string{followed.state}, {}};
       if (followed.descriptors.empty()) row.states.emplace_back(followed.state);
       for (const auto& [state, members] : followed.descriptors) {
-        const std::string list = counterexample::members_text(members);
+        const std::string list = members_text(members);
         if (list.empty()) continue;
         row.text += fmt::format("{}{} {}", row.text.empty() ? "" : "; ", state, list);
         row.states.emplace_back(state);
@@ -147,7 +146,7 @@ class Follower final : public model::Probe {
       rows.push_back(std::move(row));
     }
     for (const auto& [relation, have] : received_) {
-      const std::string list = counterexample::members_text(have);
+      const std::string list = members_text(have);
       rows.push_back(
           {owner(Kind::relation, relation), "received", list.empty() ? "nothing" : list, {}});
     }
@@ -176,7 +175,7 @@ class Follower final : public model::Probe {
     }
   }
 
-  const counterexample::History& history_;
+  const History& history_;
   std::set<std::uint32_t> relations_;
   std::set<std::uint32_t> writers_;
   std::span<const std::uint64_t> events_;
@@ -193,12 +192,12 @@ class Follower final : public model::Probe {
 std::vector<std::vector<StateRow>> states_after(const props::Counterexample& counterexample,
                                                 std::span<const std::uint64_t> events,
                                                 std::size_t relations) {
-  const counterexample::History history = counterexample::record(counterexample);
+  const History history = record(counterexample);
   std::set<std::uint32_t> chosen;
-  for (const std::uint32_t relation : counterexample::relevance_of(history).relations) {
+  for (const std::uint32_t relation : relevance_of(history).relations) {
     if (chosen.size() < relations) chosen.insert(relation);
   }
   return Follower{history, std::move(chosen), events}.run(counterexample.scenario);
 }
 
-}  // namespace stormproof::report
+}  // namespace stormproof::counterexample

@@ -10,7 +10,7 @@
 
 #include "props/verdict.hpp"
 
-namespace stormproof::report {
+namespace stormproof::counterexample {
 
 struct StateRow {
   std::string owner;                ///< "relation 0→1 pub", "pub writer of participant 0"
@@ -26,4 +26,4 @@ struct StateRow {
     const props::Counterexample& counterexample, std::span<const std::uint64_t> events,
     std::size_t relations = 3);
 
-}  // namespace stormproof::report
+}  // namespace stormproof::counterexample

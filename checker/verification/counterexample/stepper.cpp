@@ -5,17 +5,16 @@
 
 #include "checker/presentation/diagrams/machine_svg.hpp"
 #include "checker/presentation/document/html_page.hpp"
-#include "checker/presentation/document/html_parts.hpp"
 #include "checker/presentation/text/time_text.hpp"
 #include "checker/verification/counterexample/chart.hpp"
 #include "checker/verification/counterexample/machine_states.hpp"
 #include "fsm/machines.hpp"
 
-namespace stormproof::report {
+namespace stormproof::counterexample {
 
 namespace {
 
-using counterexample::Chart;
+using report::html_text;
 using RowKind = Chart::Row::Kind;
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -63,8 +62,9 @@ std::string step_html(const Chart& chart, std::size_t number, const std::vector<
       row.kind == RowKind::gap ? "some events later" : fmt::format("event {}", row.event);
   return fmt::format(
       "<li data-row=\"{}\" data-packets=\"{}\"><p class=\"when\">{}{}, {} ms</p>\n{}{}</li>\n",
-      number, list, row.violation ? html_text(chart.sign) + " " : "", what, milliseconds(row.time),
-      acts_html(chart, row), states == nullptr ? "" : states_html(*states));
+      number, list, row.violation ? html_text(chart.sign) + " " : "", what,
+      report::milliseconds(row.time), acts_html(chart, row),
+      states == nullptr ? "" : states_html(*states));
 }
 
 std::string controls_html(std::size_t steps, std::string_view id) {
@@ -102,69 +102,44 @@ Steps steps_of(const Chart& chart) {
 
 }  // namespace
 
-Sequence walk(const props::Counterexample& counterexample, Chart chart, std::string id,
-              std::string caption, std::set<std::string>& machines) {
+report::Sequence walk(const props::Counterexample& counterexample, Chart chart, std::string id,
+                      std::string caption, std::set<std::string>& machines) {
   const Steps steps = steps_of(chart);
-  const auto states = states_after(counterexample, steps.events);
-  for (const StateRow& row : states.empty() ? std::vector<StateRow>{} : states.back()) {
-    if (row.machine != "received") machines.insert(row.machine);
+  report::Sequence sequence;
+  if (!steps.rows.empty()) {
+    const auto states = states_after(counterexample, steps.events);
+    for (const StateRow& row : states.empty() ? std::vector<StateRow>{} : states.back()) {
+      if (row.machine != "received") machines.insert(row.machine);
+    }
+    std::string list;
+    std::size_t event = 0;
+    for (const std::size_t row : steps.rows) {
+      const bool gap = chart.rows[row].kind == RowKind::gap;
+      const auto* shown = gap || event >= states.size() ? nullptr : &states[event];
+      if (!gap) ++event;
+      list += step_html(chart, row, shown);
+    }
+    sequence.steps_html = fmt::format(
+        "<div class=\"stepper\" role=\"group\" aria-label=\"Steps: {}\" tabindex=\"0\" "
+        "data-drawing=\"{}\">\n{}<ol class=\"steps\">\n{}</ol></div>\n",
+        html_text(caption), html_text(id), controls_html(steps.rows.size(), id), list);
   }
-  std::string list;
-  std::size_t event = 0;
-  for (const std::size_t row : steps.rows) {
-    const bool gap = chart.rows[row].kind == RowKind::gap;
-    const auto* shown = gap || event >= states.size() ? nullptr : &states[event];
-    if (!gap) ++event;
-    list += step_html(chart, row, shown);
-  }
-  Sequence sequence{std::move(chart), std::move(id), std::move(caption)};
-  if (steps.rows.empty()) return sequence;
-  sequence.steps_html = fmt::format(
-      "<div class=\"stepper\" role=\"group\" aria-label=\"Steps: {}\" tabindex=\"0\" "
-      "data-drawing=\"{}\">\n{}<ol class=\"steps\">\n{}</ol></div>\n",
-      html_text(sequence.caption), html_text(sequence.id),
-      controls_html(steps.rows.size(), sequence.id), list);
+  sequence.chart = std::move(chart);
+  sequence.id = std::move(id);
+  sequence.caption = std::move(caption);
   return sequence;
 }
 
-void add_machines(Blocks& blocks, const std::set<std::string>& machines) {
-  Section section{
-      "State machines, as the simulator runs them; the states of the current step are marked",
-      "",
-      {},
-      true};
-  for (const fsm::MachineInfo& machine : fsm::machines()) {
-    std::string name{machine.name};
-    if (!machines.contains(name)) continue;
-    section.blocks.emplace_back(Drawing{draw::machine_svg(machine), name, "", name});
-  }
-  if (!section.blocks.empty()) blocks.emplace_back(std::move(section), Audience::page);
-}
-
-std::string walk_html(const props::Counterexample& counterexample, const Chart& chart,
-                      std::string_view id, std::string_view caption, Drawings& drawings,
-                      std::set<std::string>& machines) {
-  const Sequence sequence =
-      walk(counterexample, chart, std::string{id}, std::string{caption}, machines);
-  if (sequence.steps_html.empty()) return {};
-  return fmt::format(
-      "<div class=\"walk\">\n{}{}</div>\n",
-      parts::drawing_html(drawings.add(counterexample::svg_chart(chart), id), caption),
-      sequence.steps_html);
-}
-
-std::string machines_html(const std::set<std::string>& machines, Drawings& drawings) {
-  std::string html;
+report::Section diagrams_of(const std::set<std::string>& machines) {
+  report::Section section{
+      "State machines, as the simulator runs them; the states of the current step are marked"};
+  section.folded = true;
   for (const fsm::MachineInfo& machine : fsm::machines()) {
     const std::string name{machine.name};
     if (!machines.contains(name)) continue;
-    html += fmt::format("<div data-machine=\"{}\">{}</div>\n", name,
-                        parts::drawing_html(drawings.add(draw::machine_svg(machine)), name));
+    section.blocks.emplace_back(report::Drawing{draw::machine_svg(machine), name, "", name});
   }
-  if (html.empty()) return {};
-  return parts::details(
-      "State machines, as the simulator runs them; the states of the current step are marked",
-      html);
+  return section;
 }
 
-}  // namespace stormproof::report
+}  // namespace stormproof::counterexample

@@ -162,6 +162,11 @@ std::size_t MutationReport::killed() const {
                     [](const MutantResult& mutant) { return !mutant.killed_by.empty(); }));
 }
 
+bool MutationReport::notices_enough() const {
+  constexpr std::size_t required_percent = 95;
+  return 100 * killed() >= required_percent * mutants.size();
+}
+
 std::size_t MutationReport::killed_by(std::string_view property) const {
   return static_cast<std::size_t>(
       std::count_if(mutants.begin(), mutants.end(), [&](const MutantResult& mutant) {

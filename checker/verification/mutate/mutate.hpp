@@ -28,6 +28,8 @@ struct MutationReport {
   bool interrupted = false;
 
   [[nodiscard]] std::size_t killed() const;
+  /// At least 95 % of them.
+  [[nodiscard]] bool notices_enough() const;
   /// How many mutants the property notices.
   [[nodiscard]] std::size_t killed_by(std::string_view property) const;
   /// How many mutants at least one law notices, and on how many the laws were tried.

@@ -1,13 +1,15 @@
-// The result of `stormproof mutate` as text and as JSON.
+// The result of `stormproof mutate` as a document and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "checker/presentation/document/document.hpp"
 #include "checker/verification/mutate/mutate.hpp"
 
 namespace stormproof::mutate {
 
-[[nodiscard]] std::string to_text(const MutationReport& report);
+/// Who notices which mutant, and how many each property and each law notices.
+[[nodiscard]] report::Document document_of(const MutationReport& report);
 
 /// Keys: mutants (id, description, killed_by, reason, killed_by_laws), killed, properties,
 /// killed_by_laws, tried_on_laws, laws, seconds, interrupted.

@@ -1,21 +1,15 @@
-// Collects remarks and writes them, as text and as JSON.
+// Collects remarks.
 #include "checker/verification/profile/lint_report.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <tuple>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include "checker/presentation/text/paragraph.hpp"
-#include "checker/presentation/text/source_line.hpp"
 
 namespace stormproof::report {
 
 namespace config = model::config;
 namespace vendor = model::config::vendor;
-using Json = nlohmann::ordered_json;
 using vendor::Remark;
 using vendor::Severity;
 
@@ -62,54 +56,6 @@ void add_unmodelled(const config::TracedProfile& traced, const config::SpecPath&
   }
 }
 
-std::string plural(std::size_t count, const char* word) {
-  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
-}
-
-/// `text` in lines of the report's width. The first is as a compiler's warning begins; the others
-/// are indented, so that a program that looks for places finds each remark once.
-std::string folded(std::string_view text) {
-  constexpr std::string_view indent = "    ";
-  std::string out;
-  std::size_t used = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const bool breaks = used > indent.size() && used + 1 + columns(word) > report_width;
-    if (breaks) {
-      out += '\n';
-      out += indent;
-      used = indent.size();
-    } else if (!out.empty()) {
-      out += ' ';
-      ++used;
-    }
-    out += word;
-    used += columns(word);
-  }
-  return out + "\n";
-}
-
-std::string remark_text(const Remark& remark, SourceLines& sources) {
-  std::string text =
-      folded(fmt::format("{}: {}: {} [{}]", remark.place.to_string(),
-                         vendor::name_of(remark.severity), remark.message, remark.rule));
-  text += sources.marked(remark.place);
-  if (!remark.hint.empty()) text += paragraph("  hint: ", remark.hint);
-  return text;
-}
-
-Json remark_json(const Remark& remark) {
-  return {{"severity", vendor::name_of(remark.severity)},
-          {"rule", remark.rule},
-          {"file", source_of(remark.place)},
-          {"line", remark.place.line},
-          {"column", remark.place.column},
-          {"message", remark.message},
-          {"hint", remark.hint.empty() ? Json() : Json(remark.hint)}};
-}
-
 }  // namespace
 
 LintedFile lint_profile(const std::string& reference, const config::SpecPath& specs) {
@@ -138,49 +84,6 @@ LintCounts count(const std::vector<LintedFile>& files) {
     }
   }
   return counts;
-}
-
-std::string to_text(const std::vector<LintedFile>& files) {
-  std::string text;
-  SourceLines sources;
-  for (const LintedFile& file : files) {
-    if (file.error) {
-      text += folded(fmt::format("{}: error: {}", file.error->where, file.error->message));
-    }
-    for (const Remark& remark : file.remarks) text += remark_text(remark, sources);
-    if (file.unmodelled_below == 0) continue;
-    text += folded(fmt::format(
-        "{}: its base, {}, names {} that the model has not got; profile show lists them",
-        file.reference, file.preset, plural(file.unmodelled_below, "setting")));
-  }
-  const LintCounts counts = count(files);
-  text +=
-      fmt::format("{}: {}, {}, {}", plural(files.size(), "file"), plural(counts.errors, "error"),
-                  plural(counts.warnings, "warning"), plural(counts.notes, "note"));
-  if (counts.unreadable > 0) text += fmt::format(", {} unreadable", counts.unreadable);
-  return text + "\n";
-}
-
-Json to_json(const std::vector<LintedFile>& files) {
-  Json json;
-  json["files"] = Json::array();
-  for (const LintedFile& file : files) {
-    Json entry{{"file", file.reference}, {"error", nullptr}};
-    if (file.error) {
-      entry["error"] = {{"where", file.error->where}, {"message", file.error->message}};
-    }
-    entry["preset"] = file.preset.empty() ? Json() : Json(file.preset);
-    entry["remarks"] = Json::array();
-    for (const Remark& remark : file.remarks) entry["remarks"].push_back(remark_json(remark));
-    entry["unmodelled_below"] = file.unmodelled_below;
-    json["files"].push_back(std::move(entry));
-  }
-  const LintCounts counts = count(files);
-  json["summary"] = {{"errors", counts.errors},
-                     {"warnings", counts.warnings},
-                     {"notes", counts.notes},
-                     {"unreadable", counts.unreadable}};
-  return json;
 }
 
 }  // namespace stormproof::report

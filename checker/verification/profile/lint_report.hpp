@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "checker/presentation/document/document.hpp"
 #include "model/config/provenance.hpp"
 
 namespace stormproof::report {
@@ -30,9 +31,9 @@ struct LintCounts {
 };
 [[nodiscard]] LintCounts count(const std::vector<LintedFile>& files);
 
-/// "FILE:LINE:COLUMN: warning: MESSAGE [RULE]", hint, line and caret for each; then a summary.
+/// A summary; then "FILE:LINE:COLUMN: warning: MESSAGE [RULE]", hint, line and caret for each.
 /// Reads the files again for their lines.
-[[nodiscard]] std::string to_text(const std::vector<LintedFile>& files);
+[[nodiscard]] Document document_of(const std::vector<LintedFile>& files);
 
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<LintedFile>& files);

@@ -158,26 +158,6 @@ class Describer {
   ProfileReport report_;
 };
 
-Json origin_json(const Origin& origin) {
-  Json json{{"by", name_of(origin.giver)}};
-  if (origin.place.source) json["source"] = *origin.place.source;
-  if (origin.place.line > 0) {
-    json["line"] = origin.place.line;
-    json["column"] = origin.place.column;
-  }
-  if (!origin.preset.empty()) json["preset"] = origin.preset;
-  if (!origin.evidence.empty()) json["evidence"] = origin.evidence;
-  if (!origin.element.empty()) json["element"] = origin.element;
-  return json;
-}
-
-Json access_json(const std::optional<Access>& access) {
-  if (!access) return nullptr;
-  return {{"changeable", access->changeable},
-          {"setting", access->changeable ? Json(access->setting) : Json()},
-          {"why", access->why}};
-}
-
 }  // namespace
 
 const char* name_of(Giver giver) {
@@ -187,38 +167,6 @@ const char* name_of(Giver giver) {
 
 ProfileReport describe_profile(const config::TracedProfile& traced, const config::SpecPath& specs) {
   return Describer{traced, specs}.describe();
-}
-
-Json to_json(const ProfileReport& report) {
-  Json json;
-  json["reference"] = report.reference;
-  json["preset"] = report.preset.empty() ? Json() : Json(report.preset);
-  json["vendor"] = report.vendor ? Json(vendor::name_of(*report.vendor)) : Json();
-  json["vendor_file"] = report.vendor_file.empty() ? Json() : Json(report.vendor_file);
-  json["selected"] = report.selected.empty() ? Json() : Json(report.selected);
-  json["knobs"] = Json::array();
-  for (const KnobRow& row : report.knobs) {
-    json["knobs"].push_back({{"key", row.key},
-                             {"value", row.value},
-                             {"origin", origin_json(row.origin)},
-                             {"user", access_json(row.access)}});
-  }
-  json["settings"] = Json::array();
-  for (const vendor::Setting& setting : report.others) {
-    json["settings"].push_back({{"path", setting.path},
-                                {"value", setting.value},
-                                {"line", setting.place.line},
-                                {"column", setting.place.column},
-                                {"effect", vendor::name_of(setting.effect)},
-                                {"note", setting.note}});
-  }
-  json["unmodelled"] = Json::array();
-  for (const UnmodelledRow& row : report.unmodelled) {
-    json["unmodelled"].push_back(
-        {{"setting", row.setting}, {"effect", row.effect}, {"origin", origin_json(row.origin)}});
-  }
-  json["remarks"] = report.remarks;
-  return json;
 }
 
 }  // namespace stormproof::report

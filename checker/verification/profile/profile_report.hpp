@@ -11,6 +11,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "checker/presentation/document/document.hpp"
 #include "model/config/provenance.hpp"
 
 namespace stormproof::report {
@@ -72,8 +73,8 @@ struct ProfileReport {
 [[nodiscard]] ProfileReport describe_profile(const model::config::TracedProfile& traced,
                                              const model::config::SpecPath& specs);
 
-/// At most 100 columns wide, but for names that are longer.
-[[nodiscard]] std::string to_text(const ProfileReport& report);
+/// Knobs in a table, what sets no knob below it.
+[[nodiscard]] Document document_of(const ProfileReport& report);
 
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const ProfileReport& report);

@@ -142,7 +142,7 @@ std::map<std::string, std::string> notes_of(const std::string& page) {
 
 TEST(Browser, StepsThroughCounterexamplesByKeysAndButtons) {
   CheckExample example;
-  auto notes = notes_of(to_html(example.report(), example.context()));
+  auto notes = notes_of(to_html(document_of(example.report(), example.context())));
   const std::string steps = notes["start"].substr(notes["start"].find("of"));
   const auto step = [&](int k) { return "step " + std::to_string(k) + " " + steps; };
   const int last = std::atoi(steps.c_str() + 3);

@@ -77,7 +77,7 @@ diff::Blame blame(const std::string& name) {
 
 CheckExample::CheckExample()
     : scenario_{counterexample::scenario_named("smallest")},
-      context_{"robots " + hostile + ".yaml", scenario_, {}, {}, false} {
+      context_{"robots " + hostile + ".yaml", scenario_, {}, {}} {
   report_.results.push_back(
       result_of("fsm.determinism", finding(VerdictKind::proved, "for all states")));
   report_.results.push_back(
@@ -89,7 +89,6 @@ CheckExample::CheckExample()
   scenario_.dds.unmodelled.emplace("setting " + hostile, "an effect " + hostile);
   context_.counterexamples.emplace("storm.free-threshold", "ce/storm.free-threshold.jsonl");
   context_.stories.emplace("storm.free-threshold", "a story\nof " + hostile);
-  context_.command = "stormproof check '" + hostile + "'";
   context_.exit_code = 1;
   const std::string file = "my robots.yaml";
   context_.places.emplace("deployment", place(file, 1, 1));

@@ -7,10 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <tinyxml2.h>
 
-#include "checker/presentation/document/junit.hpp"
 #include "checker/presentation/document/markdown.hpp"
 #include "checker/presentation/document/render.hpp"
-#include "checker/presentation/document/sarif.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "tests/checker/presentation/document/examples.hpp"
 
@@ -72,7 +70,7 @@ Json region_of(const Json& result) { return result["locations"][0]["physicalLoca
 
 TEST(Sarif, OfACheckPointsAtTheKnobInTheUsersFile) {
   CheckExample example;
-  const Json log = to_sarif(example.report(), example.context());
+  const Json log = to_sarif(document_of(example.report(), example.context()));
   EXPECT_EQ(sarif_fault(log), "");
   EXPECT_NO_THROW(static_cast<void>(log.dump()));
   const Json& violated = result_of(log, "timer.single-heartbeat");
@@ -131,18 +129,15 @@ TEST(Sarif, PathsBecomeUris) {
 TEST(Sarif, ColumnsCountCharacters) {
   const std::string file = testing::TempDir() + "stormproof-columns.yaml";
   std::ofstream{file} << "first\nkey: {größe: 1, value: 2}\n";
-  SarifLog log;
-  log.rules = {{"r", "a rule", ""}};
-  SarifResult result;
-  result.rule = "r";
-  result.message = "m";
-  SarifLocation at;
+  Document document;
+  Finding& finding = document.findings.emplace_back();
+  finding.id = "r";
+  finding.message = "m";
+  Location& at = finding.locations.emplace_back();
   at.file = file;
   at.line = 2;
   at.column = 27;  // of "2", in bytes
-  result.locations = {at};
-  log.results = {result};
-  EXPECT_EQ(region_of(to_json(log)["runs"][0]["results"][0]),
+  EXPECT_EQ(region_of(to_sarif(document)["runs"][0]["results"][0]),
             (Json{{"startLine", 2}, {"startColumn", 25}}));
   std::remove(file.c_str());
 }
@@ -156,19 +151,25 @@ TEST(JUnit, CountsRegressionsAsFailuresAndWhatIsUnclearAsErrors) {
   EXPECT_EQ(suite->IntAttribute("errors"), 1);
   EXPECT_EQ(std::string{suite->Attribute("name")}.find('\xff'), std::string::npos);
   CheckExample example;
-  ASSERT_EQ(document.Parse(to_junit(example.report(), example.context()).c_str()),
+  ASSERT_EQ(document.Parse(to_junit(document_of(example.report(), example.context())).c_str()),
             tinyxml2::XML_SUCCESS);
 }
 
 TEST(JUnit, HoldsWhatXmlCannot) {
-  const JUnitSuite suite{
-      "a\x01 <b>", 1, {{"c", "n", 0, JUnitCase::Outcome::failed, "t", "\xff", "]]>"}}};
+  Document hostile;
+  hostile.title = "a\x01 <b>";
+  Finding& finding = hostile.findings.emplace_back();
+  finding.group = "c";
+  finding.name = "n\xff\" '";
+  finding.outcome = Finding::Outcome::failed;
+  finding.details = "]]> & \x1b[31m";
   tinyxml2::XMLDocument document;
-  ASSERT_EQ(document.Parse(to_xml(suite).c_str()), tinyxml2::XML_SUCCESS);
+  ASSERT_EQ(document.Parse(to_junit(hostile).c_str()), tinyxml2::XML_SUCCESS);
   const auto* element = document.FirstChildElement("testsuites")->FirstChildElement("testsuite");
   EXPECT_STREQ(element->Attribute("name"), "a <b>");
-  EXPECT_STREQ(element->FirstChildElement("testcase")->FirstChildElement("failure")->GetText(),
-               "]]>");
+  const auto* test = element->FirstChildElement("testcase");
+  EXPECT_STREQ(test->Attribute("name"), "n\xef\xbf\xbd\" '");
+  EXPECT_STREQ(test->FirstChildElement("failure")->GetText(), "]]> & [31m");
 }
 
 TEST(Markdown, NothingOfAUserFormatsMentionsOrIsHtml) {
@@ -178,10 +179,11 @@ TEST(Markdown, NothingOfAUserFormatsMentionsOrIsHtml) {
   EXPECT_EQ(md_code("`"), "`` ` ``");
   EXPECT_EQ(md_code(""), "–");
   EXPECT_EQ(md_block("text", "a\n```\nb"), "````text\na\n```\nb\n````\n");
-  for (const std::string& text : {to_markdown(document_of(regression(), {})), [] {
-                                    CheckExample example;
-                                    return to_markdown(example.report(), example.context());
-                                  }()}) {
+  for (const std::string& text :
+       {to_markdown(document_of(regression(), {})), [] {
+          CheckExample example;
+          return to_markdown(document_of(example.report(), example.context()));
+        }()}) {
     EXPECT_EQ(text.find('\xff'), std::string::npos);
     EXPECT_EQ(text.find(" @team #1 &amp;"), std::string::npos);
     EXPECT_LE(text.size(), markdown_bytes);

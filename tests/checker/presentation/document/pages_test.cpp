@@ -18,7 +18,7 @@ namespace pages_test {
 const std::string& check_page() {
   static const std::string page = [] {
     CheckExample example;
-    return to_html(example.report(), example.context());
+    return to_html(document_of(example.report(), example.context()));
   }();
   return page;
 }
@@ -71,7 +71,7 @@ TEST(Pages, ACheckShowsVerdictsFirstThenEachViolationWithChartAndSteps) {
   EXPECT_NE(page.find("<svg id=\"chart-1\""), std::string::npos);
   EXPECT_NE(page.find("class=\"row r0\""), std::string::npos);
   EXPECT_NE(page.find("stormproof replay ce/storm.free-threshold.jsonl"), std::string::npos);
-  EXPECT_NE(page.find("Not in the model"), std::string::npos);
+  EXPECT_NE(page.find("(not in the model)"), std::string::npos);
   EXPECT_NE(page.find("my robots.yaml:7"), std::string::npos);
 }
 
@@ -82,14 +82,15 @@ TEST(Pages, StepsTellTheStatesAfterThem) {
   EXPECT_NE(page.find("data-machine=\"DescriptorRepair\""), std::string::npos);
 }
 
-const StateRow& row_named(const std::vector<StateRow>& rows, const std::string& machine) {
-  return *std::ranges::find(rows, machine, &StateRow::machine);
+const counterexample::StateRow& row_named(const std::vector<counterexample::StateRow>& rows,
+                                          const std::string& machine) {
+  return *std::ranges::find(rows, machine, &counterexample::StateRow::machine);
 }
 
 TEST(MachineStates, FollowTheRunOfACounterexample) {
-  const props::Counterexample counterexample = counterexample::delayed();
-  const std::vector<std::uint64_t> events{0, counterexample.event - 1, counterexample.event};
-  const auto states = states_after(counterexample, events);
+  const props::Counterexample run = counterexample::delayed();
+  const std::vector<std::uint64_t> events{0, run.event - 1, run.event};
+  const auto states = counterexample::states_after(run, events);
   ASSERT_EQ(states.size(), 3U);
   EXPECT_EQ(row_named(states[0], "DiscoveryReader").text, "Unknown");
   EXPECT_EQ(row_named(states[2], "DiscoveryReader").text, "Complete");

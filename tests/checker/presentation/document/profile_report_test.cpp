@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "checker/presentation/document/render.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/presentation/text/source_line.hpp"
@@ -59,7 +60,7 @@ TEST(ProfileReport, every_knob_of_every_preset_has_its_evidence) {
     for (const UnmodelledRow& unmodelled : report.unmodelled) {
       EXPECT_FALSE(unmodelled.origin.evidence.empty()) << name << " " << unmodelled.setting;
     }
-    expect_narrow(to_text(report));
+    expect_narrow(to_text(document_of(report)));
   }
 }
 
@@ -107,7 +108,7 @@ TEST(ProfileReport, what_sets_no_knob_is_listed) {
   EXPECT_TRUE(has("receiveBufferSize", config::vendor::Effect::unmodelled));
   EXPECT_TRUE(has("heartbeatPeriod", config::vendor::Effect::none));
   EXPECT_FALSE(has("sendBufferSize", config::vendor::Effect::none));
-  const std::string text = to_text(report);
+  const std::string text = to_text(document_of(report));
   EXPECT_NE(text.find("receiveBufferSize"), std::string::npos);
   EXPECT_NE(text.find("heartbeatPeriod"), std::string::npos);
   const auto json = to_json(report);
@@ -202,7 +203,7 @@ TEST(LintReport, settings_of_one_line_are_each_a_remark) {
                          "</Discovery></Domain></CycloneDDS>";
   const LintedFile linted = lint_profile(path, specs);
   EXPECT_EQ(std::ranges::count(linted.remarks, "unmodelled", &config::vendor::Remark::rule), 2);
-  expect_narrow(to_text({linted}).substr(path.size()));
+  expect_narrow(to_text(document_of({linted})).substr(path.size()));
   std::ofstream{path} << "<CycloneDDS><Domain><General><AllowMulticast>spdp</AllowMulticast>"
                          "</General></Domain></CycloneDDS>";
   EXPECT_TRUE(lint_profile(path, specs).remarks.empty());
@@ -216,7 +217,7 @@ TEST(LintReport, as_many_remarks_as_elements_are_no_trouble) {
   std::ofstream{path} << text << "</participant></profiles></dds>";
   const LintedFile linted = lint_profile(path, specs);
   EXPECT_EQ(count({linted}).errors, 20'000U);
-  EXPECT_NE(to_text({linted}).find("19999 | <nothing/>"), std::string::npos);
+  EXPECT_NE(to_text(document_of({linted})).find("19999 | <nothing/>"), std::string::npos);
   std::remove(path.c_str());
 }
 

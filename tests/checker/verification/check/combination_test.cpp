@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <tinyxml2.h>
 
+#include "checker/presentation/document/render.hpp"
 #include "checker/verification/check/check.hpp"
 #include "checker/verification/check/check_report.hpp"
 
@@ -80,7 +81,7 @@ class Reports : public testing::Test {
 
   CheckReport report_;
   model::Scenario scenario_;
-  CheckContext context_{"some-scenario", scenario_, {}, {}, false};
+  CheckContext context_{"some-scenario", scenario_, {}, {}};
 };
 
 TEST_F(Reports, JsonHasAllKeysOfTheInterface) {
@@ -103,7 +104,8 @@ TEST_F(Reports, JsonHasAllKeysOfTheInterface) {
 
 TEST_F(Reports, JUnitCountsAViolationAsFailureAndAnOpenQuestionAsError) {
   tinyxml2::XMLDocument document;
-  ASSERT_EQ(document.Parse(to_junit(report_, context_).c_str()), tinyxml2::XML_SUCCESS);
+  ASSERT_EQ(document.Parse(to_junit(document_of(report_, context_)).c_str()),
+            tinyxml2::XML_SUCCESS);
   const auto* suite = document.FirstChildElement("testsuites")->FirstChildElement("testsuite");
   EXPECT_EQ(suite->IntAttribute("tests"), 3);
   EXPECT_EQ(suite->IntAttribute("failures"), 1);
@@ -114,11 +116,11 @@ TEST_F(Reports, JUnitCountsAViolationAsFailureAndAnOpenQuestionAsError) {
 }
 
 TEST_F(Reports, TextNamesVerdictAssumptionsAndTheFileToReplay) {
-  const std::string text = to_text(report_, context_);
-  EXPECT_NE(text.find("VIOLATED      timer.single-heartbeat"), std::string::npos) << text;
+  const std::string text = to_text(document_of(report_, context_));
+  EXPECT_NE(text.find("✗ violated      timer.single-heartbeat"), std::string::npos) << text;
   EXPECT_NE(text.find("assuming an assumption"), std::string::npos) << text;
   EXPECT_NE(text.find("stormproof replay ce/timer.single-heartbeat.jsonl"), std::string::npos);
-  EXPECT_NE(text.find("1 proved, 1 violated, 1 inconclusive"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 violated, 1 inconclusive, 1 proved"), std::string::npos) << text;
 }
 
 TEST(Catalogue, IdsAreUniqueAndEveryEntryIsComplete) {

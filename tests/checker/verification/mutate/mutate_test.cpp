@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "checker/presentation/document/render.hpp"
 #include "checker/verification/mutate/law_trials.hpp"
 #include "checker/verification/mutate/mutate_report.hpp"
 #include "fsm/machines.hpp"
@@ -99,7 +100,7 @@ TEST(MutateReport, ShowsLawsBesideProperties) {
   report.mutants.push_back({"a", "first", {"timer.armed"}, "", {{"law.counts", "law.answers"}}});
   report.mutants.push_back({"b", "second", {"timer.armed"}, "", std::vector<std::string>{}});
   report.mutants.push_back({"c", "third", {"order.total"}, "", {}});
-  const std::string text = to_text(report);
+  const std::string text = to_text(document_of(report));
   EXPECT_NE(text.find("property tests: law.counts, law.answers"), std::string::npos) << text;
   EXPECT_NE(text.find("property tests: none"), std::string::npos) << text;
   EXPECT_NE(text.find("property tests: – (no run shows it)"), std::string::npos) << text;

@@ -1,0 +1,14 @@
+// How verdicts look in reports.
+#pragma once
+
+#include "checker/presentation/document/document.hpp"
+#include "props/verdict.hpp"
+
+namespace stormproof::report {
+
+[[nodiscard]] Tone tone_of(props::VerdictKind kind);
+
+/// "✓ proved", "≤ bounded", "≈ sampled", "✗ violated", "? inconclusive".
+[[nodiscard]] Text badge(props::VerdictKind kind);
+
+}  // namespace stormproof::report

@@ -1,0 +1,293 @@
+// A check as a document: what is violated and what nobody knows first, then what holds, then how
+// each violation comes about, step by step.
+#include <array>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/document/verdicts.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+#include "checker/verification/check/check_findings.hpp"
+#include "checker/verification/check/check_report.hpp"
+#include "checker/verification/check/origins.hpp"
+#include "checker/verification/check/run_plots.hpp"
+#include "checker/verification/counterexample/stepper.hpp"
+#include "model/config/knobs/effective.hpp"
+
+namespace stormproof::checker {
+
+namespace {
+
+using props::VerdictKind;
+using report::Audience;
+using report::Block;
+using report::Blocks;
+using report::Bullets;
+using report::Listing;
+using report::Paragraph;
+using report::Section;
+using report::Table;
+using report::Text;
+
+constexpr std::array all_kinds{VerdictKind::violated, VerdictKind::inconclusive,
+                               VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled};
+
+bool is_problem(const PropertyResult& result) {
+  return result.verdict == VerdictKind::violated || result.verdict == VerdictKind::inconclusive;
+}
+
+/// "tables: no two rows …"
+std::string method(const props::Finding& finding) {
+  return finding.engine.empty() ? finding.how : finding.engine + ": " + finding.how;
+}
+
+/// Why it is violated, or how it was decided.
+std::string sentence_of(const PropertyResult& result) {
+  const props::Counterexample* counterexample = result.counterexample();
+  return counterexample == nullptr ? method(result.decisive()) : counterexample->reason;
+}
+
+Blocks findings_at_terminal(const PropertyResult& result, const CheckContext& context) {
+  Blocks blocks;
+  const props::Finding& decisive = result.decisive();
+  if (result.counterexample() != nullptr) {
+    blocks.emplace_back(Paragraph{"by " + method(decisive)}, Audience::terminal);
+  }
+  blocks.emplace_back(
+      Paragraph{statement_of(*result.property, context.scenario.dds.implementation)},
+      Audience::explained);
+  Bullets assumptions;
+  for (const std::string& one : decisive.assumptions) {
+    assumptions.items.emplace_back("assuming " + one);
+  }
+  blocks.emplace_back(std::move(assumptions), Audience::terminal);
+  std::string lines;
+  for (const std::string& line : decisive.details) lines += line + "\n";
+  if (!decisive.solver.empty()) {
+    lines +=
+        fmt::format("{}, seed {}, {:.3f} s\n", decisive.solver, decisive.seed, decisive.seconds);
+  }
+  blocks.emplace_back(Listing{lines}, Audience::explained);
+  for (const props::Finding& other : result.findings) {
+    if (&other == &decisive) continue;
+    const Audience who =
+        result.verdict == VerdictKind::inconclusive ? Audience::terminal : Audience::explained;
+    blocks.emplace_back(Paragraph{fmt::format("also {}, {}", name_of(other.kind), method(other))},
+                        who);
+    std::string more;
+    for (const std::string& line : other.details) more += line + "\n";
+    blocks.emplace_back(Listing{more}, who);
+  }
+  return blocks;
+}
+
+/// The findings of all engines.
+Blocks findings_in_documents(const PropertyResult& result) {
+  Blocks blocks;
+  for (const props::Finding& finding : result.findings) {
+    std::string line = finding.engine.empty() ? "" : finding.engine + ", ";
+    line += fmt::format("{}: {}", name_of(finding.kind), finding.how);
+    blocks.emplace_back(Paragraph{line}, Audience::documents);
+    Bullets assumptions;
+    for (const std::string& one : finding.assumptions) {
+      assumptions.items.emplace_back("assuming " + one);
+    }
+    if (!assumptions.items.empty()) blocks.emplace_back(assumptions, Audience::documents);
+    std::string lines;
+    for (const std::string& one : finding.details) lines += one + "\n";
+    if (!lines.empty()) blocks.emplace_back(Listing{lines}, Audience::documents);
+  }
+  return blocks;
+}
+
+Table::Row row_of(const PropertyResult& result, const CheckContext& context) {
+  const std::string id{result.property->id};
+  const bool told = result.verdict == VerdictKind::violated && result.counterexample() != nullptr;
+  Table::Row row;
+  row.cells = {report::badge(result.verdict), told ? report::link(id, id) : report::code(id),
+               statement_of(*result.property, context.scenario.dds.implementation),
+               sentence_of(result)};
+  row.details = findings_at_terminal(result, context);
+  for (Block& block : findings_in_documents(result)) row.details.push_back(std::move(block));
+  const std::size_t count = result.decisive().assumptions.size();
+  row.summary = (count == 0 ? "no assumptions" : report::plural(count, "assumption")) + ", " +
+                report::plural(result.findings.size(), "finding");
+  return row;
+}
+
+/// The properties that are a problem, or those that are none.
+void add_verdicts(report::Document& document, const CheckReport& report,
+                  const CheckContext& context, bool problems) {
+  Table table;
+  table.columns = {{"verdict"}, {"property"}, {"what it says"}, {problems ? "why" : "how"}};
+  table.columns[2].audience = Audience::page;
+  table.columns[2].wraps = true;
+  table.columns[3].wraps = true;
+  for (const VerdictKind kind : all_kinds) {
+    for (const PropertyResult& result : report.results) {
+      if (result.verdict != kind || is_problem(result) != problems) continue;
+      table.rows.push_back(row_of(result, context));
+    }
+  }
+  if (table.rows.empty()) return;
+  Section section{problems ? "What does not hold" : "What holds, and how",
+                  problems ? "problems" : "verdicts"};
+  section.folded_in_comments = !problems;
+  section.blocks.emplace_back(std::move(table));
+  document.blocks.emplace_back(std::move(section));
+}
+
+/// Names of machines that pages draw below all violations.
+using Machines = std::shared_ptr<std::set<std::string>>;
+
+Section violation(const PropertyResult& result, const CheckContext& context, std::size_t number,
+                  const Machines& machines) {
+  const std::string id{result.property->id};
+  Section section{"✗ " + id, id};
+  const auto found = context.stories.find(id);
+  const std::string story = found == context.stories.end() ? "" : found->second;
+  const std::string statement = statement_of(*result.property, context.scenario.dds.implementation);
+  const Audience unless_told = story.empty() ? Audience::everybody : Audience::documents;
+  section.blocks.emplace_back(Paragraph{statement}, unless_told);
+  section.blocks.emplace_back(Paragraph{sentence_of(result), report::Tone::bad}, unless_told);
+  if (const props::Counterexample* counterexample = result.counterexample()) {
+    const auto walk = [run = *counterexample, id, number, story, machines]() -> Blocks {
+      report::Sequence sequence =
+          counterexample::walk(run, counterexample::chart_of(run), fmt::format("chart-{}", number),
+                               "How " + id + " breaks", *machines);
+      sequence.story = story;
+      return {std::move(sequence)};
+    };
+    section.blocks.emplace_back(report::Later{walk}, Audience::documents);
+  }
+  if (!story.empty()) {
+    report::Sequence told;
+    told.story = story;
+    section.blocks.emplace_back(std::move(told), Audience::terminal);
+  }
+  std::string details;
+  for (const std::string& line : result.decisive().details) details += line + "\n";
+  section.blocks.emplace_back(Listing{details},
+                              story.empty() ? Audience::terminal : Audience::explained);
+  const auto file = context.counterexamples.find(id);
+  if (file != context.counterexamples.end()) {
+    section.blocks.emplace_back(Paragraph{"Replay it through the state machines:"});
+    section.blocks.emplace_back(report::Command{"stormproof replay " + file->second});
+  }
+  return section;
+}
+
+void add_violations(report::Document& document, const CheckReport& report,
+                    const CheckContext& context) {
+  Section section{"What breaks, step by step", "violations"};
+  const auto machines = std::make_shared<std::set<std::string>>();
+  std::size_t number = 0;
+  for (const PropertyResult& result : report.results) {
+    if (result.verdict != VerdictKind::violated) continue;
+    section.blocks.emplace_back(violation(result, context, number++, machines));
+  }
+  if (section.blocks.empty()) return;
+  const auto diagrams = [machines]() -> Blocks {
+    if (machines->empty()) return {};
+    return {counterexample::diagrams_of(*machines)};
+  };
+  section.blocks.emplace_back(report::Later{diagrams}, Audience::page);
+  document.blocks.emplace_back(std::move(section));
+}
+
+void add_run(report::Document& document, const CheckContext& context) {
+  const auto plots = [scenario = context.scenario]() -> Blocks {
+    const report::RunPlots run = report::run_plots(scenario);
+    Blocks blocks{Paragraph{run.note}};
+    for (const std::string& svg : run.drawings) blocks.emplace_back(report::Drawing{svg, ""});
+    return blocks;
+  };
+  document.blocks.emplace_back(Section{"The run of the scenario", "run", {report::Later{plots}}},
+                               Audience::page);
+}
+
+void add_knobs(Table& table, const nlohmann::ordered_json& value, const std::string& key,
+               const CheckContext& context, const std::string& file) {
+  if (key == "dds.unmodelled") return;
+  if (value.is_object() && !value.empty()) {
+    for (const auto& [name, part] : value.items()) {
+      add_knobs(table, part, key.empty() ? name : key + "." + name, context, file);
+    }
+    return;
+  }
+  const auto place = context.places.find(key);
+  const bool known = place != context.places.end();
+  table.rows.push_back(
+      {{report::code(key), value.is_string() ? value.get<std::string>() : value.dump(),
+        known ? origin_text(place->second) : "default"},
+       known && by_user(place->second, file)});
+}
+
+void add_profiles(report::Document& document, const CheckContext& context) {
+  const std::string file = scenario_file(context.places, context.name);
+  Table table;
+  table.caption = "Every value that the runs used. Shaded: set by the scenario's own files.";
+  table.columns = {{"key"}, {"value"}, {"where it comes from"}};
+  for (report::Column& column : table.columns) column.wraps = true;
+  add_knobs(table, model::config::effective_json(context.scenario.dds), "dds", context, file);
+  add_knobs(table, model::config::effective_json(context.scenario.wireless), "wireless", context,
+            file);
+  Section section{"DDS and wireless profile, with the origin of each value", "profile"};
+  section.folded = true;
+  section.blocks.emplace_back(std::move(table));
+  document.blocks.emplace_back(std::move(section), Audience::page);
+}
+
+void add_answer(report::Document& document, const CheckReport& report,
+                const CheckContext& context) {
+  const std::size_t violated = report.count(VerdictKind::violated);
+  const std::size_t open = report.count(VerdictKind::inconclusive);
+  const std::size_t all = report.results.size();
+  document.tone = violated > 0 ? report::Tone::bad
+                  : open > 0   ? report::Tone::warn
+                               : report::Tone::good;
+  document.answer = violated > 0 ? fmt::format("{} of {} properties are violated", violated, all)
+                    : open > 0   ? fmt::format("{} of {} properties are inconclusive", open, all)
+                                 : fmt::format("all {} properties hold", all);
+  std::string counts;
+  for (const VerdictKind kind : all_kinds) {
+    if (report.count(kind) == 0) continue;
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", report.count(kind), name_of(kind));
+  }
+  const bool fastdds = context.scenario.dds.implementation == model::ImplementationKind::fastdds;
+  document.elaboration = fmt::format("{} ({:.1f} s)", counts, report.seconds);
+  document.subject =
+      report::code(context.name) +
+      fmt::format(": {}, {}",
+                  report::plural(context.scenario.deployment.participants.size(), "participant"),
+                  fastdds ? "Fast DDS's own rules" : "the rules of the closed-loop model");
+  if (report.interrupted) {
+    document.blocks.emplace_back(
+        Paragraph{"Interrupted: what was not checked is inconclusive.", report::Tone::warn});
+  }
+}
+
+}  // namespace
+
+report::Document document_of(const CheckReport& report, const CheckContext& context) {
+  report::Document document;
+  document.title = "stormproof check " + context.name;
+  document.exit_code = context.exit_code;
+  document.complete = !report.interrupted;
+  document.seconds = report.seconds;
+  add_answer(document, report, context);
+  for (const PropertyResult& result : report.results) {
+    document.findings.push_back(ci_finding(result, context));
+  }
+  add_verdicts(document, report, context, true);
+  add_verdicts(document, report, context, false);
+  add_unmodelled(document, context.scenario.dds, "", &context.places);
+  add_violations(document, report, context);
+  add_run(document, context);
+  add_profiles(document, context);
+  return document;
+}
+
+}  // namespace stormproof::checker

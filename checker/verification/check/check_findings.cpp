@@ -1,0 +1,63 @@
+// Each property is a rule of SARIF and a test case of JUnit, at the line of the user's file that
+// sets the knob it is about.
+#include "checker/verification/check/check_findings.hpp"
+
+#include <fmt/core.h>
+
+#include "checker/verification/check/origins.hpp"
+
+namespace stormproof::checker {
+
+namespace {
+
+using props::VerdictKind;
+
+/// The other knobs of the property that the user set.
+std::vector<report::Location> related_to(std::string_view property, const CheckContext& context,
+                                         const report::Location& chosen) {
+  std::vector<report::Location> related;
+  const std::string file = scenario_file(context.places, context.name);
+  for (const std::string_view key : knobs_of(property)) {
+    const auto place = context.places.find(key);
+    if (place == context.places.end() || !by_user(place->second, file)) continue;
+    if (key != chosen.message) related.emplace_back(place->second, std::string{key});
+  }
+  return related;
+}
+
+}  // namespace
+
+report::Finding ci_finding(const PropertyResult& result, const CheckContext& context) {
+  using Outcome = report::Finding::Outcome;
+  report::Finding one;
+  one.id = result.property->id;
+  one.group = "stormproof." + context.name;
+  one.statement = statement_of(*result.property, context.scenario.dds.implementation);
+  one.description = one.statement;
+  if (!result.property->assumptions.empty()) {
+    one.description += fmt::format(" Claimed under: {}.", result.property->assumptions);
+  }
+  one.outcome = result.verdict == VerdictKind::violated       ? Outcome::failed
+                : result.verdict == VerdictKind::inconclusive ? Outcome::unknown
+                                                              : Outcome::passed;
+  one.word = name_of(result.verdict);
+  const props::Counterexample* counterexample = result.counterexample();
+  one.message = counterexample == nullptr ? result.decisive().how : counterexample->reason;
+  for (const props::Finding& finding : result.findings) {
+    one.seconds += finding.seconds;
+    one.details += fmt::format("{}: {}: {}\n", finding.engine, name_of(finding.kind), finding.how);
+    for (const std::string& line : finding.assumptions) {
+      one.details += "  assuming " + line + "\n";
+    }
+  }
+  const auto file = context.counterexamples.find(result.property->id);
+  if (file != context.counterexamples.end()) one.command = "stormproof replay " + file->second;
+  one.locations.push_back(location_of(one.id, context.places, context.name));
+  if (one.outcome != Outcome::passed) {
+    one.related = related_to(one.id, context, one.locations.front());
+  }
+  one.identity = {context.name, name_of(result.verdict)};
+  return one;
+}
+
+}  // namespace stormproof::checker

@@ -1,0 +1,11 @@
+// What CI systems see of a check.
+#pragma once
+
+#include "checker/verification/check/check_report.hpp"
+
+namespace stormproof::checker {
+
+/// A property: violated is a failure, inconclusive nobody knows.
+[[nodiscard]] report::Finding ci_finding(const PropertyResult& result, const CheckContext& context);
+
+}  // namespace stormproof::checker

@@ -1,0 +1,16 @@
+// The answer of `stormproof properties`: the catalogue.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/presentation/document/document.hpp"
+
+namespace stormproof::checker {
+
+/// Each property with its statement, in words and formally, what it assumes and who decides it.
+[[nodiscard]] report::Document properties_document();
+
+/// Keys: properties (id, statement, formal, fastdds, assumptions, engines, source).
+[[nodiscard]] nlohmann::ordered_json properties_json();
+
+}  // namespace stormproof::checker

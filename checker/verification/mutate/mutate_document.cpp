@@ -1,0 +1,103 @@
+// Mutants first, then what each property and each law is good for.
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include "checker/presentation/text/numbers.hpp"
+#include "checker/verification/mutate/mutate_report.hpp"
+#include "props/laws/law.hpp"
+#include "props/property.hpp"
+
+namespace stormproof::mutate {
+
+namespace {
+
+using report::Column;
+using report::Paragraph;
+
+/// What the property tests say about a mutant.
+std::string laws_text(const MutantResult& mutant) {
+  if (!mutant.killed_by_laws) return "property tests: – (no run shows it)";
+  if (mutant.killed_by_laws->empty()) return "property tests: none";
+  return fmt::format("property tests: {}", fmt::join(*mutant.killed_by_laws, ", "));
+}
+
+std::string noticed_by(const MutantResult& mutant) {
+  return mutant.killed_by.empty() ? "SURVIVES: " + mutant.reason
+                                  : fmt::format("→ {}", fmt::join(mutant.killed_by, ", "));
+}
+
+report::Table mutants_table(const MutationReport& report) {
+  report::Table table;
+  table.columns = {{"mutant"},
+                   {"what is wrong", Column::Align::left, true},
+                   {"who notices", Column::Align::left, true}};
+  for (const MutantResult& mutant : report.mutants) {
+    report::Text who = noticed_by(mutant) + "; " + laws_text(mutant);
+    table.rows.push_back(
+        {{report::code(mutant.id), mutant.description, std::move(who)}, mutant.killed_by.empty()});
+  }
+  return table;
+}
+
+/// "property  12": how many mutants each of `all` notices.
+template <class All, class Count>
+report::Table counts_table(const char* what, const All& all, Count count) {
+  report::Table table;
+  table.columns = {{what}, {"mutants that it notices", Column::Align::right}};
+  for (const auto& one : all) {
+    table.rows.push_back({{report::code(one.id), report::grouped(count(one.id))}});
+  }
+  return table;
+}
+
+/// A survivor fails; the laws do not count.
+report::Finding finding_of(const MutantResult& mutant) {
+  report::Finding finding;
+  finding.id = mutant.id;
+  finding.group = "stormproof.mutate";
+  finding.statement = mutant.description;
+  finding.outcome = mutant.killed_by.empty() ? report::Finding::Outcome::failed
+                                             : report::Finding::Outcome::passed;
+  finding.word = mutant.killed_by.empty() ? "survives" : "noticed";
+  finding.message = noticed_by(mutant);
+  finding.details =
+      mutant.description + "\n" + noticed_by(mutant) + "\n" + laws_text(mutant) + "\n";
+  finding.shown = report::Finding::Shown::tests;
+  return finding;
+}
+
+}  // namespace
+
+report::Document document_of(const MutationReport& report) {
+  const auto share = [](std::size_t part, std::size_t whole) {
+    return report::percent(static_cast<double>(part), static_cast<double>(whole));
+  };
+  const std::size_t total = report.mutants.size();
+  report::Document document;
+  document.title = "stormproof mutate";
+  document.tone = report.interrupted        ? report::Tone::warn
+                  : report.notices_enough() ? report::Tone::good
+                                            : report::Tone::bad;
+  document.answer = fmt::format("{} of {} mutants are noticed ({}), in {:.1f} s", report.killed(),
+                                total, share(report.killed(), total), report.seconds);
+  document.elaboration = fmt::format(
+      "killed by property tests: {} of the {} that a run can show ({})", report.killed_by_laws(),
+      report.tried_on_laws(), share(report.killed_by_laws(), report.tried_on_laws()));
+  if (report.interrupted) {
+    document.blocks.emplace_back(
+        Paragraph{"Interrupted: the other mutants were not tried.", report::Tone::warn});
+  }
+  document.blocks.emplace_back(mutants_table(report));
+  document.blocks.emplace_back(
+      counts_table("property", props::catalogue(), [&](auto id) { return report.killed_by(id); }));
+  document.blocks.emplace_back(
+      counts_table("law", props::laws(), [&](auto id) { return report.killed_by_law(id); }));
+  for (const MutantResult& mutant : report.mutants) {
+    document.findings.push_back(finding_of(mutant));
+  }
+  document.complete = !report.interrupted;
+  document.seconds = report.seconds;
+  return document;
+}
+
+}  // namespace stormproof::mutate

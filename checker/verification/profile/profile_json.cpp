@@ -1,0 +1,71 @@
+// The JSON of `profile show`.
+#include "checker/presentation/json/describe.hpp"
+#include "checker/verification/profile/profile_report.hpp"
+
+namespace stormproof::model::config::vendor {
+
+template <class V>
+void describe(V& v, const Setting& setting) {
+  v("path", setting.path);
+  v("value", setting.value);
+  v("line", setting.place.line);
+  v("column", setting.place.column);
+  v("effect", setting.effect);
+  v("note", setting.note);
+}
+
+}  // namespace stormproof::model::config::vendor
+
+namespace stormproof::report {
+
+template <class V>
+void describe(V& v, const Origin& origin) {
+  v("by", origin.giver);
+  if (origin.place.source) v("source", *origin.place.source);
+  if (origin.place.line > 0) {
+    v("line", origin.place.line);
+    v("column", origin.place.column);
+  }
+  v.unless_empty("preset", origin.preset);
+  v.unless_empty("evidence", origin.evidence);
+  v.unless_empty("element", origin.element);
+}
+
+template <class V>
+void describe(V& v, const Access& access) {
+  v("changeable", access.changeable);
+  v.or_null("setting", access.changeable ? access.setting : "");
+  v("why", access.why);
+}
+
+template <class V>
+void describe(V& v, const KnobRow& row) {
+  v("key", row.key);
+  v("value", row.value);
+  v("origin", row.origin);
+  v("user", row.access);
+}
+
+template <class V>
+void describe(V& v, const UnmodelledRow& row) {
+  v("setting", row.setting);
+  v("effect", row.effect);
+  v("origin", row.origin);
+}
+
+template <class V>
+void describe(V& v, const ProfileReport& report) {
+  v("reference", report.reference);
+  v.or_null("preset", report.preset);
+  v("vendor", report.vendor);
+  v.or_null("vendor_file", report.vendor_file);
+  v.or_null("selected", report.selected);
+  v("knobs", report.knobs);
+  v("settings", report.others);
+  v("unmodelled", report.unmodelled);
+  v("remarks", report.remarks);
+}
+
+nlohmann::ordered_json to_json(const ProfileReport& report) { return json_of(report); }
+
+}  // namespace stormproof::report
