@@ -1,22 +1,18 @@
-// Reads the scenario, checks it, writes the counterexamples, prints the report.
-#include "checker/cli/check_command.hpp"
-
+// `stormproof check SCENARIO`: reads the scenario, checks it, writes the counterexamples.
 #include <algorithm>
 #include <filesystem>
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
-#include <unistd.h>
 
-#include "checker/cli/complain.hpp"
+#include "checker/cli/commands.hpp"
 #include "checker/cli/counterexample_files.hpp"
-#include "checker/cli/exit_code.hpp"
-#include "checker/cli/report_files.hpp"
-#include "checker/cli/run_monitor.hpp"
+#include "checker/cli/frame.hpp"
+#include "checker/cli/output_file.hpp"
+#include "checker/cli/rendered.hpp"
 #include "checker/engines/smt/claims.hpp"
-#include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/check.hpp"
 #include "checker/verification/check/check_report.hpp"
+#include "checker/verification/counterexample/gtest_case.hpp"
 #include "model/config/provenance.hpp"
 #include "model/config/tree/suggestion.hpp"
 
@@ -25,6 +21,20 @@ namespace stormproof::cli {
 namespace {
 
 using props::VerdictKind;
+
+struct CheckArguments {
+  std::string scenario;                        ///< file, or name of a shipped scenario
+  std::vector<std::string> overrides;          ///< key.path=value
+  std::vector<std::string> properties;         ///< ids; empty: the whole catalogue
+  VerdictKind require = VerdictKind::sampled;  ///< the weakest verdict that is accepted
+  double timeout_seconds = 10;                 ///< of each query, for each solver
+  std::string export_directory;                ///< for SMT-LIB 2 files; empty: none
+  std::string counterexamples = "counterexamples";
+  OutputFile emit_test;
+  unsigned seed = 0;
+  std::uint32_t samples = 12;
+  bool single_solver = false;
+};
 
 /// What is wrong with the ids on the command line, or nothing.
 std::optional<std::string> unknown_property(const std::vector<std::string>& ids) {
@@ -38,37 +48,16 @@ std::optional<std::string> unknown_property(const std::vector<std::string>& ids)
   return std::nullopt;
 }
 
-/// Proved 3, bounded 2, sampled 1, anything else 0.
-int strength(VerdictKind kind) {
-  switch (kind) {
-    case VerdictKind::proved:
-      return 3;
-    case VerdictKind::bounded:
-      return 2;
-    case VerdictKind::sampled:
-      return 1;
-    case VerdictKind::violated:
-    case VerdictKind::inconclusive:
-      return 0;
-  }
-  return 0;
-}
-
-int required_strength(const std::string& require) {
-  if (require == "proved") return 3;
-  if (require == "bounded") return 2;
-  return 1;
-}
-
-int exit_code(const checker::CheckReport& report, const std::string& require) {
+ExitCode exit_code(const checker::CheckReport& report, VerdictKind require) {
   if (report.count(VerdictKind::violated) > 0) return violated;
-  for (const checker::PropertyResult& result : report.results) {
-    if (strength(result.verdict) < required_strength(require)) return inconclusive;
-  }
-  return report.interrupted ? inconclusive : established;
+  // Kinds are in the order of their strength.
+  const auto too_weak = [&](const auto& result) { return result.verdict > require; };
+  const bool weak = std::ranges::any_of(report.results, too_weak);
+  return weak || report.interrupted ? inconclusive : established;
 }
 
-checker::CheckReport run_check(const CheckArguments& arguments, const model::Scenario& scenario) {
+checker::CheckReport run_check(const CheckArguments& arguments, const model::Scenario& scenario,
+                               Session& session) {
   smt::Options solver;
   solver.timeout =
       std::chrono::milliseconds{static_cast<std::int64_t>(arguments.timeout_seconds * 1000)};
@@ -76,27 +65,14 @@ checker::CheckReport run_check(const CheckArguments& arguments, const model::Sce
   solver.export_dir = arguments.export_directory;
   solver.second_solver = !arguments.single_solver;
   smt::Claims claims{solver};
-
-  const InterruptGuard guard;
-  StatusLine status{arguments.progress.value_or(isatty(STDERR_FILENO) != 0)};
-  const auto on_progress = [&](std::string_view what) {
-    if (status.due()) status.show(fmt::format("checking, {}: {:.0f} s", what, status.seconds()));
-    return !InterruptGuard::interrupted();
-  };
-  const checker::CheckRequest request{scenario,          claims,     nullptr, arguments.seed,
-                                      arguments.samples, on_progress};
-  return checker::check({arguments.properties.begin(), arguments.properties.end()}, request);
+  return checker::check({arguments.properties.begin(), arguments.properties.end()},
+                        {scenario, claims, nullptr, arguments.seed, arguments.samples,
+                         session.on_steps("checking, ")});
 }
 
 std::string render(report::Format format, const checker::CheckReport& report,
                    const checker::CheckContext& context) {
-  using Json = nlohmann::ordered_json;
-  const auto dumped = [](const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  };
   switch (format) {
-    case report::Format::json:
-      return dumped(to_json(report, context));
     case report::Format::markdown:
       return to_markdown(report, context);
     case report::Format::html:
@@ -104,56 +80,81 @@ std::string render(report::Format format, const checker::CheckReport& report,
     case report::Format::junit:
       return to_junit(report, context);
     case report::Format::sarif:
-      return dumped(to_sarif(report, context));
-    case report::Format::text:
-      break;
+      return to_sarif(report, context).dump(2) + "\n";
+    default:
+      return to_text(report, context);
   }
-  return to_text(report, context);
 }
 
-/// The command that gives the same verdicts.
-std::string command_line(const CheckArguments& arguments) {
-  std::string command = "stormproof check " + report::shell_word(arguments.scenario);
-  for (const std::string& change : arguments.overrides)
-    command += " --set " + report::shell_word(change);
-  for (const std::string& id : arguments.properties) command += " --property " + id;
-  if (!arguments.require.empty()) command += " --require " + arguments.require;
-  if (arguments.seed != 0) command += fmt::format(" --seed {}", arguments.seed);
-  if (arguments.samples != CheckArguments{}.samples) {
-    command += fmt::format(" --samples {}", arguments.samples);
-  }
-  return command;
-}
-
-}  // namespace
-
-int check(const CheckArguments& arguments) {
+Outcome run(CheckArguments& arguments, Session& session) {
   const auto traced = model::config::trace_scenario(arguments.scenario, arguments.overrides,
                                                     model::config::SpecPath::standard());
-  if (!traced) return complain(to_string(traced.error()));
-  const auto reports = parse_report_files(arguments.reports);
-  if (!reports) return complain(to_string(reports.error()));
-  if (const auto error = unknown_property(arguments.properties)) return complain(*error);
+  if (!traced) return traced.error();
+  if (const auto error = unknown_property(arguments.properties)) return Complaint{*error};
   if (!arguments.export_directory.empty()) {
     std::error_code error;
     std::filesystem::create_directories(arguments.export_directory, error);
     if (error) {
-      return complain(fmt::format("--export {}: cannot be created: {}", arguments.export_directory,
-                                  error.message()));
+      return Complaint{fmt::format("--export {}: cannot be created: {}", arguments.export_directory,
+                                   error.message())};
     }
   }
-  const checker::CheckReport report = run_check(arguments, traced->scenario);
-  checker::CheckContext context{arguments.scenario, traced->scenario, {}, {}, arguments.verbose};
+  const checker::CheckReport report = run_check(arguments, traced->scenario, session);
+  checker::CheckContext context{arguments.scenario, traced->scenario, {}, {}, session.verbose()};
   context.places = traced->places;
-  context.command = command_line(arguments);
+  context.command = session.command();
   context.exit_code = exit_code(report, arguments.require);
-  if (const auto error = write_counterexamples(arguments, report, context)) {
-    return complain(*error);
+  Answer answer;
+  if (const auto error = write_counterexamples(arguments.counterexamples, report, context)) {
+    answer.complaint = *error;
   }
-  const auto rendered = [&](report::Format format) { return render(format, report, context); };
-  if (const auto error = write_report_files(*reports, rendered)) return complain(*error);
-  fmt::print("{}", rendered(arguments.format));
-  return context.exit_code;
+  if (arguments.emit_test.wanted()) {
+    std::vector<props::Counterexample> all;
+    for (const checker::PropertyResult& result : report.results) {
+      if (const auto* found = result.counterexample()) all.push_back(*found);
+    }
+    arguments.emit_test.stream() << counterexample::gtest_file(all, session.command());
+  }
+  answer.json = to_json(report, context);
+  answer.exit_code = context.exit_code;
+  answer.rendered =
+      rendered(session, [&](report::Format format) { return render(format, report, context); });
+  return answer;
+}
+
+void declare(Options& options, CheckArguments& arguments) {
+  options.scenario(arguments.scenario, arguments.overrides);
+  options.texts("--property", arguments.properties,
+                "Check only this property (repeatable); 'stormproof properties' lists them", "ID");
+  options.choice("--require", arguments.require,
+                 {{"proved", VerdictKind::proved},
+                  {"bounded", VerdictKind::bounded},
+                  {"sampled", VerdictKind::sampled}},
+                 "Accept only verdicts of at least this kind: proved, bounded or sampled", "KIND");
+  options.timeout(arguments.timeout_seconds);
+  options.folder("--counterexamples", arguments.counterexamples,
+                 "Where counterexamples are written (default: counterexamples/)");
+  options.output("--emit-test", arguments.emit_test,
+                 "Write the counterexamples as GoogleTest cases");
+  options.folder("--export", arguments.export_directory,
+                 "Write the queries in SMT-LIB 2, one file for each property");
+  options.flag("--single-solver", arguments.single_solver, "Do not ask cvc5 for a second opinion");
+  options.number("--seed", arguments.seed, "Seed of solvers and of drawn schedules", "S");
+  options
+      .number("--samples", arguments.samples,
+              "Runs of a scenario whose schedule is drawn (default 12)", "N")
+      .within(1, 1'000'000);
+}
+
+}  // namespace
+
+void declare_check(Frame& frame) {
+  frame.add<CheckArguments>(
+      {"check", "Which properties hold for a scenario: proofs, exploration, counterexamples",
+       "Exit code: 0 everything holds, 1 a property is violated, 3 a verdict is inconclusive or\n"
+       "weaker than --require, 2 bad input.",
+       Formats::findings},
+      declare, run);
 }
 
 }  // namespace stormproof::cli

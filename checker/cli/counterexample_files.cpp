@@ -1,4 +1,4 @@
-// Writes traces, charts and test cases of a check.
+// Writes traces and charts of a check.
 #include "checker/cli/counterexample_files.hpp"
 
 #include <filesystem>
@@ -7,7 +7,6 @@
 
 #include "checker/cli/output_file.hpp"
 #include "checker/verification/counterexample/chart.hpp"
-#include "checker/verification/counterexample/gtest_case.hpp"
 #include "checker/verification/counterexample/story.hpp"
 #include "checker/verification/counterexample/write.hpp"
 
@@ -46,31 +45,24 @@ std::optional<std::string> write_counterexample(const props::Counterexample& cou
   return error;
 }
 
-std::optional<std::string> write_counterexamples(const CheckArguments& arguments,
+std::optional<std::string> write_counterexamples(const std::string& directory,
                                                  const checker::CheckReport& report,
                                                  checker::CheckContext& context) {
-  std::vector<props::Counterexample> all;
   for (const checker::PropertyResult& result : report.results) {
     const props::Counterexample* found = result.counterexample();
     if (found == nullptr) continue;
-    if (all.empty()) {
-      std::error_code error;
-      std::filesystem::create_directories(arguments.output_directory, error);
-      if (error) {
-        return fmt::format("--counterexamples {}: cannot be created: {}",
-                           arguments.output_directory, error.message());
-      }
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (error) {
+      return fmt::format("--counterexamples {}: cannot be created: {}", directory, error.message());
     }
     const std::string id{result.property->id};
-    const std::string stem = (std::filesystem::path{arguments.output_directory} / id).string();
-    if (auto error = write_counterexample(*found, stem)) return error;
+    const std::string stem = (std::filesystem::path{directory} / id).string();
+    if (auto failure = write_counterexample(*found, stem)) return failure;
     context.counterexamples.emplace(id, stem + ".jsonl");
     context.stories.emplace(id, counterexample::story(*found));
-    all.push_back(*found);
   }
-  if (arguments.emit_test.empty()) return std::nullopt;
-  return write_text(arguments.emit_test,
-                    counterexample::gtest_file(all, "stormproof check " + arguments.scenario));
+  return std::nullopt;
 }
 
 }  // namespace stormproof::cli

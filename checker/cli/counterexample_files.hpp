@@ -1,11 +1,10 @@
-// The files that a check writes for each violated property: the trace that `replay` runs again, the
-// sequence charts, and the GoogleTest cases.
+// The files that a check writes for each violated property: the trace that `replay` runs again, and
+// the sequence charts.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "checker/cli/check_command.hpp"
 #include "checker/verification/check/check.hpp"
 #include "checker/verification/check/check_report.hpp"
 
@@ -19,9 +18,9 @@ namespace stormproof::cli {
 [[nodiscard]] std::optional<std::string> write_counterexample(
     const props::Counterexample& counterexample, const std::string& stem);
 
-/// Writes PROPERTY.jsonl, .svg and .mmd into the output directory and notes paths and stories in
-/// `context`. Returns what could not be written, or nothing.
-[[nodiscard]] std::optional<std::string> write_counterexamples(const CheckArguments& arguments,
+/// Writes PROPERTY.jsonl, .svg and .mmd into the directory, which is made if need be, and notes
+/// paths and stories in `context`. Returns what could not be written, or nothing.
+[[nodiscard]] std::optional<std::string> write_counterexamples(const std::string& directory,
                                                                const checker::CheckReport& report,
                                                                checker::CheckContext& context);
 

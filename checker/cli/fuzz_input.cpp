@@ -35,12 +35,10 @@ constexpr RangeOption range_options[] = {
 
 bool means_none(const std::string& value) { return value == "0" || value == "0%"; }
 
-/// "2%" → "2/100"; anything else as it is.
+/// "2%" → "1/50"; anything else as it is, for the reader of scenarios to refuse.
 std::string without_percent(const std::string& value) {
-  if (!value.ends_with('%')) return value;
-  const auto fraction = model::config::parse_fraction(value.substr(0, value.size() - 1));
-  if (!fraction || fraction->denominator > 1'000'000'000) return value;
-  return fmt::format("{}/{}", fraction->numerator, fraction->denominator * 100);
+  const auto share = model::config::parse_share(value);
+  return share && value.ends_with('%') ? print_fraction(*share) : value;
 }
 
 /// The overrides of the scenario, and by override the option that it comes from.
@@ -119,36 +117,6 @@ model::config::Result<std::vector<std::string>> ids_to_judge(const FuzzArguments
     ids.push_back("limit." + limit.substr(0, limit.find('=')));
   }
   return ids;
-}
-
-namespace {
-
-std::string quoted(const std::string& text) {
-  const bool plain = std::ranges::all_of(text, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view{"_-./=,%:+"}.find(c) != std::string_view::npos;
-  });
-  if (plain && !text.empty()) return text;
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string{"'\\''"} : std::string{c};
-  return result + "'";
-}
-
-}  // namespace
-
-std::string command_line(const FuzzArguments& arguments) {
-  std::string command = "stormproof fuzz " + quoted(arguments.scenario);
-  const auto add = [&](const std::string& option, const std::string& value) {
-    command += " " + option + " " + quoted(value);
-  };
-  for (const std::string& change : arguments.overrides) add("--set", change);
-  for (const RangeOption& option : range_options) {
-    if (!(arguments.*option.value).empty()) add(option.name, arguments.*option.value);
-  }
-  for (const std::string& range : arguments.vary) add("--vary", range);
-  for (const std::string& limit : arguments.limits) add("--limit", limit);
-  for (const std::string& id : arguments.properties) add("--property", id);
-  return command;
 }
 
 }  // namespace stormproof::cli

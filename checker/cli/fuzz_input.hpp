@@ -12,9 +12,8 @@
 namespace stormproof::cli {
 
 struct FuzzArguments {
-  std::string scenario;                ///< file, or name of a shipped scenario
-  std::vector<std::string> overrides;  ///< key.path=value
-  bool json = false;
+  std::string scenario;                 ///< file, or name of a shipped scenario
+  std::vector<std::string> overrides;   ///< key.path=value
   std::vector<std::string> properties;  ///< ids to judge by; empty: all
   std::vector<std::string> limits;      ///< NAME=VALUE
   /// Ranges, as written: empty if not given, "0" for none.
@@ -26,7 +25,6 @@ struct FuzzArguments {
   std::uint64_t first = 0;  ///< number of the first variant
   std::size_t jobs = 0;     ///< threads; 0: one for each core
   std::string output_directory = "counterexamples";
-  std::optional<bool> progress;  ///< not given: when stderr is a terminal
 };
 
 /// The scenario with the limits and ranges of the options.
@@ -36,8 +34,5 @@ struct FuzzArguments {
 /// runs of the scenario.
 [[nodiscard]] model::config::Result<std::vector<std::string>> ids_to_judge(
     const FuzzArguments& arguments, const model::Scenario& scenario);
-
-/// The command that repeats the result, but for --runs, --seed and --first.
-[[nodiscard]] std::string command_line(const FuzzArguments& arguments);
 
 }  // namespace stormproof::cli

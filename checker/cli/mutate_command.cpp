@@ -1,14 +1,11 @@
-// Tries the mutants and prints who notices them.
-#include "checker/cli/mutate_command.hpp"
-
+// `stormproof mutate`: which property notices which mistake.
 #include <algorithm>
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
-#include <unistd.h>
 
-#include "checker/cli/exit_code.hpp"
-#include "checker/cli/run_monitor.hpp"
+#include "checker/cli/commands.hpp"
+#include "checker/cli/frame.hpp"
+#include "checker/cli/rendered.hpp"
 #include "checker/verification/mutate/mutate.hpp"
 #include "checker/verification/mutate/mutate_report.hpp"
 #include "model/config/tree/suggestion.hpp"
@@ -16,6 +13,11 @@
 namespace stormproof::cli {
 
 namespace {
+
+struct MutateArguments {
+  std::vector<std::string> only;  ///< ids of mutants; empty: all
+  double timeout_seconds = 10;    ///< of each query
+};
 
 /// The share of mutants that must be noticed, in percent.
 constexpr std::size_t required_percent = 95;
@@ -30,29 +32,36 @@ std::optional<std::string> unknown_mutant(const std::vector<std::string>& ids) {
   return std::nullopt;
 }
 
-}  // namespace
-
-int mutate(const MutateArguments& arguments) {
-  if (const auto error = unknown_mutant(arguments.only)) {
-    fmt::print(stderr, "stormproof: {}\n", *error);
-    return bad_input;
-  }
+Outcome run(MutateArguments& arguments, Session& session) {
+  if (const auto error = unknown_mutant(arguments.only)) return Complaint{*error};
   mutate::MutateOptions options;
   options.only = arguments.only;
   options.solver.timeout =
       std::chrono::milliseconds{static_cast<std::int64_t>(arguments.timeout_seconds * 1000)};
-  const mutate::MutationReport report = [&] {
-    const InterruptGuard guard;
-    StatusLine status{arguments.progress.value_or(isatty(STDERR_FILENO) != 0)};
-    options.on_progress = [&](std::string_view what) {
-      if (status.due()) status.show(fmt::format("trying {}: {:.0f} s", what, status.seconds()));
-      return !InterruptGuard::interrupted();
-    };
-    return mutate::mutate(options);
-  }();
-  fmt::print("{}", arguments.json ? to_json(report).dump(2) + "\n" : to_text(report));
-  if (report.interrupted) return inconclusive;
-  return 100 * report.killed() >= required_percent * report.mutants.size() ? established : violated;
+  options.on_progress = session.on_steps("trying ");
+  const mutate::MutationReport report = mutate::mutate(options);
+  Answer answer;
+  const bool enough = 100 * report.killed() >= required_percent * report.mutants.size();
+  answer.exit_code = report.interrupted ? inconclusive : enough ? established : violated;
+  answer.json = to_json(report);
+  answer.rendered = rendered(session, [&](report::Format) { return to_text(report); });
+  return answer;
+}
+
+void declare(Options& options, MutateArguments& arguments) {
+  options.texts("--mutant", arguments.only, "Try only this mutant (repeatable)", "ID");
+  options.timeout(arguments.timeout_seconds);
+}
+
+}  // namespace
+
+void declare_mutate(Frame& frame) {
+  frame.add<MutateArguments>(
+      {"mutate", "Put mistakes into tables and rules, and see which property notices them",
+       "Exit code: 0 at least 95 % of the mutants are noticed, 1 fewer, 2 bad input,\n"
+       "3 interrupted.",
+       Formats::plain},
+      declare, run);
 }
 
 }  // namespace stormproof::cli

@@ -1,58 +1,150 @@
-// The options that several commands have, worded once.
+// Options in CLI11's terms, and the ones that several commands have, worded once.
 #include "checker/cli/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "checker/cli/output_file.hpp"
 
 namespace stormproof::cli {
 
-void add_format(CLI::App& command, bool& json) {
-  command
-      .add_option_function<std::string>(
-          "--format", [&json](const std::string& value) { json = value == "json"; },
-          "Output format: text (default) or json")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->type_name("FORMAT");
+Option Option::required() const {
+  option_->required();
+  return *this;
 }
 
-void add_format(CLI::App& command, report::Format& format) {
-  using enum report::Format;
-  static const std::map<std::string, report::Format> names{
-      {"text", text}, {"json", json},   {"markdown", markdown},
-      {"html", html}, {"junit", junit}, {"sarif", sarif}};
-  command
-      .add_option_function<std::string>(
-          "--format", [&format](const std::string& value) { format = names.at(value); },
-          "Output format: text (default), json, markdown, html, junit or sarif")
-      ->check(CLI::IsMember({"text", "json", "markdown", "html", "junit", "sarif"}))
-      ->type_name("FORMAT");
+Option Option::excludes(const Option& other) const {
+  option_->excludes(other.option_);
+  return *this;
 }
 
-CLI::Option* add_repeatable(CLI::App& command, const char* name, std::vector<std::string>& values,
-                            const char* help) {
-  return command.add_option(name, values, help)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+Option Option::needs(const Option& other) const {
+  option_->needs(other.option_);
+  return *this;
 }
 
-void add_scenario(CLI::App& command, std::string& scenario, std::vector<std::string>& overrides) {
-  command.add_option("scenario", scenario, "Scenario file, or name of a shipped one")
-      ->required()
-      ->type_name("SCENARIO");
-  add_repeatable(command, "--set", overrides,
-                 "Override a key of the scenario: key.path=value (repeatable)")
-      ->type_name("KEY=VALUE");
+Option Option::within_whole(std::int64_t least, std::int64_t most) const {
+  option_->check(CLI::Range(least, most));
+  return *this;
 }
 
-void add_progress(CLI::App& command, std::optional<bool>& progress) {
-  command.add_flag_callback(
-      "--progress", [&progress] { progress = true; },
-      "Show progress on stderr (default on a terminal)");
-  command.add_flag_callback(
-      "--no-progress", [&progress] { progress = false; }, "Show no progress");
+Option Option::within_real(double least, double most) const {
+  option_->check(CLI::Range(least, most));
+  return *this;
 }
 
-void add_timeout(CLI::App& command, double& seconds) {
-  command.add_option("--timeout", seconds, "Seconds for each query, for each solver (default 10)")
-      ->check(CLI::Range(0.001, 86'400.0))
-      ->type_name("SECONDS");
+Option Option::or_alone(const std::string& text) const {
+  option_->expected(0, 1)->default_str(text);
+  return *this;
+}
+
+Option Option::one_of(const std::vector<std::string>& words) const {
+  option_->check(CLI::IsMember(words));
+  return *this;
+}
+
+Option Option::not_repeated() const {
+  declared_->not_repeated.push_back(option_);
+  return *this;
+}
+
+Option Options::text(const char* name, std::string& value, const std::string& help,
+                     const char* type) {
+  return made(command_.add_option(name, value, help)->type_name(type));
+}
+
+Option Options::texts(const char* name, std::vector<std::string>& values, const std::string& help,
+                      const char* type) {
+  CLI::Option* option = command_.add_option(name, values, help)->type_name(type);
+  if (*name == '-') {
+    option->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  }
+  return made(option);
+}
+
+template <class Number>
+Option Options::number(const char* name, Number& value, const std::string& help, const char* type) {
+  return made(command_.add_option(name, value, help)->type_name(type));
+}
+template Option Options::number(const char*, std::uint32_t&, const std::string&, const char*);
+template Option Options::number(const char*, std::uint64_t&, const std::string&, const char*);
+template Option Options::number(const char*, double&, const std::string&, const char*);
+template Option Options::number(const char*, std::optional<std::uint64_t>&, const std::string&,
+                                const char*);
+template Option Options::number(const char*, std::optional<double>&, const std::string&,
+                                const char*);
+
+Option Options::flag(const char* name, bool& value, const std::string& help) {
+  return made(command_.add_flag(name, value, help));
+}
+
+Option Options::flag(const char* name, std::function<void()> given, const std::string& help) {
+  return made(command_.add_flag_callback(name, std::move(given), help));
+}
+
+Option Options::choice(const char* name, std::vector<std::string> words,
+                       std::function<void(const std::string&)> chosen, const std::string& help,
+                       const char* type) {
+  return made(command_.add_option_function<std::string>(name, std::move(chosen), help)
+                  ->check(CLI::IsMember(std::move(words)))
+                  ->type_name(type));
+}
+
+Option Options::output(const char* name, OutputFile& file, const std::string& help) {
+  declared_.files.push_back({&file, {}});
+  std::string& path = declared_.files.back().path;
+  return text(name, path, help, "FILE").not_repeated();
+}
+
+Option Options::folder(const char* name, std::string& path, const std::string& help,
+                       const char* type) {
+  declared_.folders.push_back({name, &path});
+  return text(name, path, help, type).not_repeated();
+}
+
+void Options::scenario(std::string& scenario, std::vector<std::string>& changes) {
+  text("scenario", scenario, "Scenario file, or name of a shipped one", "SCENARIO").required();
+  overrides(changes, "the scenario");
+}
+
+Option Options::overrides(std::vector<std::string>& overrides, const char* whose) {
+  return texts("--set", overrides,
+               "Override a key of " + std::string{whose} + ": key.path=value (repeatable)",
+               "KEY=VALUE");
+}
+
+Option Options::captures(std::vector<std::string>& files) {
+  return texts("captures", files,
+               "pcap or pcapng, plain, .xz or .gz; several of one run are merged", "FILE")
+      .required();
+}
+
+Option Options::until(std::string& instant, const std::string& help) {
+  return text("--until", instant, help + ": a duration after the first packet, or ns since 1970",
+              "INSTANT");
+}
+
+Option Options::svg(OutputFile& file, const std::string& help) {
+  return output("--svg", file, help);
+}
+
+Option Options::jobs(std::size_t& threads) {
+  return number("--jobs", threads, "Runs at the same time (default: all cores)", "N")
+      .within(1, 4'096);
+}
+
+Option Options::seed(std::uint64_t& seed, const std::string& help) {
+  return number("--seed", seed, help, "S");
+}
+
+Option Options::start_jitter(std::string& duration) {
+  return text("--start-jitter", duration, "Each participant starts up to this much later",
+              "DURATION");
+}
+
+Option Options::timeout(double& seconds) {
+  return number("--timeout", seconds, "Seconds for each query, for each solver (default 10)",
+                "SECONDS")
+      .within(0.001, 86'400.0);
 }
 
 }  // namespace stormproof::cli

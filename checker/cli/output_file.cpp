@@ -8,7 +8,8 @@
 
 namespace stormproof::cli {
 
-OutputFile::OutputFile(std::string path) : path_{std::move(path)} {
+void OutputFile::open(const std::string& path) {
+  path_ = path;
   if (path_.empty()) return;
   // A device or pipe (/dev/stdout, /dev/null) cannot be replaced; it is written as it is.
   std::error_code ignored;
@@ -16,12 +17,7 @@ OutputFile::OutputFile(std::string path) : path_{std::move(path)} {
   const bool special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
   temporary_ = special ? path_ : path_ + ".partial";
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
-}
-
-OutputFile::~OutputFile() {
-  if (!wanted() || committed_ || temporary_ == path_) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  done_ = false;
 }
 
 std::optional<std::string> OutputFile::open_error() const {
@@ -30,14 +26,22 @@ std::optional<std::string> OutputFile::open_error() const {
 }
 
 std::optional<std::string> OutputFile::commit() {
-  if (!wanted()) return std::nullopt;
+  if (done_) return std::nullopt;
   stream_.close();
   if (stream_.fail()) return path_ + ": could not be written completely (is the disk full?)";
   std::error_code error;
   if (temporary_ != path_) std::filesystem::rename(temporary_, path_, error);
   if (error) return path_ + ": " + error.message();
-  committed_ = true;
+  done_ = true;
   return std::nullopt;
+}
+
+void OutputFile::discard() {
+  if (done_) return;
+  done_ = true;
+  stream_.close();
+  std::error_code ignored;
+  if (temporary_ != path_) std::filesystem::remove(temporary_, ignored);
 }
 
 }  // namespace stormproof::cli

@@ -1,13 +1,8 @@
-// Reads profiles with their places and prints what the reports make of them.
-#include "checker/cli/profile_command.hpp"
-
-#include <memory>
-
-#include <fmt/core.h>
-#include <nlohmann/json.hpp>
-
-#include "checker/cli/exit_code.hpp"
-#include "checker/cli/options.hpp"
+// `stormproof profile show FILE` and `stormproof profile lint FILE…`: what a profile, also in a DDS
+// vendor's own XML, really says about discovery.
+#include "checker/cli/commands.hpp"
+#include "checker/cli/frame.hpp"
+#include "checker/cli/rendered.hpp"
 #include "checker/verification/profile/lint_report.hpp"
 #include "checker/verification/profile/profile_report.hpp"
 
@@ -20,80 +15,72 @@ using model::config::SpecPath;
 struct ShowArguments {
   std::string reference;
   std::vector<std::string> overrides;  ///< key.path=value, without "dds."
-  bool json = false;
 };
 
-int show(const ShowArguments& arguments) {
+Outcome run(ShowArguments& arguments, Session& session) {
   const SpecPath specs = SpecPath::standard();
   const auto traced = model::config::trace_dds_profile(arguments.reference, arguments.overrides,
                                                        specs, model::config::Outside::admitted);
-  if (!traced) {
-    fmt::print(stderr, "stormproof: {}\n", to_string(traced.error()));
-    return bad_input;
-  }
+  if (!traced) return traced.error();
   const report::ProfileReport report = report::describe_profile(*traced, specs);
-  fmt::print("{}", arguments.json ? to_json(report).dump(2) + "\n" : to_text(report));
-  return established;
+  Answer answer;
+  answer.json = to_json(report);
+  answer.rendered = rendered(session, [&](report::Format) { return to_text(report); });
+  return answer;
 }
 
 struct LintArguments {
   std::vector<std::string> references;
-  bool json = false;
 };
 
-int lint(const LintArguments& arguments) {
+Outcome run(LintArguments& arguments, Session& session) {
   const SpecPath specs = SpecPath::standard();
   std::vector<report::LintedFile> files;
   for (const std::string& reference : arguments.references) {
     files.push_back(report::lint_profile(reference, specs));
   }
-  fmt::print("{}", arguments.json ? to_json(files).dump(2) + "\n" : to_text(files));
   const report::LintCounts counts = count(files);
-  if (counts.unreadable > 0) return bad_input;
-  return counts.errors + counts.warnings > 0 ? violated : established;
+  Answer answer;
+  answer.exit_code = counts.unreadable > 0                 ? bad_input
+                     : counts.errors + counts.warnings > 0 ? violated
+                                                           : established;
+  answer.json = to_json(files);
+  answer.rendered = rendered(session, [&](report::Format) { return to_text(files); });
+  return answer;
 }
 
 constexpr const char* reference_help =
     "Vendor XML file, with #PROFILE and @PRESET if need be; YAML file, or name of a shipped "
     "profile";
 
-void declare_show(CLI::App& parent, Command& chosen) {
-  const auto arguments = std::make_shared<ShowArguments>();
-  CLI::App* command = parent.add_subcommand(
-      "show", "Every knob of a profile: its value, where that came from, who can change it");
-  command->add_option("profile", arguments->reference, reference_help)
-      ->required()
-      ->type_name("PROFILE");
-  add_repeatable(*command, "--set", arguments->overrides,
-                 "Override a key of the profile: key.path=value (repeatable)")
-      ->type_name("KEY=VALUE");
-  add_format(*command, arguments->json);
-  command->footer("Exit code: 0, or 2 bad input.");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return show(*arguments); }; });
+void declare(Options& options, ShowArguments& arguments) {
+  options.text("profile", arguments.reference, reference_help, "PROFILE").required();
+  options.overrides(arguments.overrides, "the profile");
 }
 
-void declare_lint(CLI::App& parent, Command& chosen) {
-  const auto arguments = std::make_shared<LintArguments>();
-  CLI::App* command =
-      parent.add_subcommand("lint", "What in a profile does not do what it seems to");
-  command->add_option("profile", arguments->references, reference_help)
-      ->required()
-      ->type_name("PROFILE...");
-  add_format(*command, arguments->json);
-  command->footer(
-      "Exit code: 0 nothing but notes, 1 warnings or errors, 2 a file cannot be read as a "
-      "profile.");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return lint(*arguments); }; });
+void declare(Options& options, LintArguments& arguments) {
+  options.texts("profile", arguments.references, reference_help, "PROFILE...").required();
 }
 
 }  // namespace
 
-void declare_profile(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "profile", "Explain a DDS profile, also in a vendor's own XML: show, lint");
-  command->require_subcommand(1);
-  declare_show(*command, chosen);
-  declare_lint(*command, chosen);
+void declare_profile(Frame& frame) {
+  frame.group("profile", "Explain a DDS profile, also in a vendor's own XML: show, lint");
+  frame.add<ShowArguments>(
+      {.name = "profile show",
+       .help = "Every knob of a profile: its value, where that came from, who can change it",
+       .exit_codes = "Exit code: 0, or 2 bad input.",
+       .formats = Formats::plain,
+       .takes_long = false},
+      declare, run);
+  frame.add<LintArguments>(
+      {.name = "profile lint",
+       .help = "What in a profile does not do what it seems to",
+       .exit_codes = "Exit code: 0 nothing but notes, 1 warnings or errors, 2 a file cannot be "
+                     "read as a profile.",
+       .formats = Formats::plain,
+       .takes_long = false},
+      declare, run);
 }
 
 }  // namespace stormproof::cli

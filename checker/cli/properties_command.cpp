@@ -1,10 +1,7 @@
-// Prints the catalogue.
-#include "checker/cli/properties_command.hpp"
-
-#include <fmt/core.h>
-#include <nlohmann/json.hpp>
-
-#include "checker/cli/exit_code.hpp"
+// `stormproof properties`: the catalogue.
+#include "checker/cli/commands.hpp"
+#include "checker/cli/frame.hpp"
+#include "checker/cli/rendered.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "props/property.hpp"
 
@@ -47,20 +44,33 @@ nlohmann::ordered_json to_json(const props::Property& property) {
   return json;
 }
 
+struct PropertiesArguments {};
+
+Outcome run(PropertiesArguments& /*none*/, Session& session) {
+  Answer answer;
+  answer.json["properties"] = nlohmann::ordered_json::array();
+  for (const props::Property& property : props::catalogue()) {
+    answer.json["properties"].push_back(to_json(property));
+  }
+  answer.rendered = rendered(session, [](report::Format) {
+    std::string text;
+    for (const props::Property& property : props::catalogue()) text += to_text(property);
+    return text;
+  });
+  return answer;
+}
+
+void declare(Options& /*none*/, PropertiesArguments& /*none*/) {}
+
 }  // namespace
 
-int properties(bool json) {
-  if (json) {
-    nlohmann::ordered_json document;
-    document["properties"] = nlohmann::ordered_json::array();
-    for (const props::Property& property : props::catalogue()) {
-      document["properties"].push_back(to_json(property));
-    }
-    fmt::print("{}\n", document.dump(2));
-    return established;
-  }
-  for (const props::Property& property : props::catalogue()) fmt::print("{}", to_text(property));
-  return established;
+void declare_properties(Frame& frame) {
+  frame.add<PropertiesArguments>({.name = "properties",
+                                  .help = "List the properties that check knows",
+                                  .exit_codes = "Exit code: 0.",
+                                  .formats = Formats::plain,
+                                  .takes_long = false},
+                                 declare, run);
 }
 
 }  // namespace stormproof::cli

@@ -1,12 +1,10 @@
-// Replays the trace and prints the verdict.
-#include "checker/cli/replay_command.hpp"
-
+// `stormproof replay TRACE`: runs the scenario of a trace again and compares every event. Of a
+// counterexample it also says whether the violation occurs.
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
-#include <unistd.h>
 
-#include "checker/cli/exit_code.hpp"
-#include "checker/cli/run_monitor.hpp"
+#include "checker/cli/commands.hpp"
+#include "checker/cli/frame.hpp"
+#include "checker/cli/rendered.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/verification/counterexample/observe.hpp"
@@ -18,12 +16,16 @@ namespace stormproof::cli {
 
 namespace {
 
+struct ReplayArguments {
+  std::string file;  ///< written by `stormproof simulate --trace` or `stormproof check`
+};
+
 using model::trace::Difference;
 using model::trace::Replay;
 using model::trace::TraceViolation;
 using model::trace::Verdict;
 
-int exit_code(const Replay& replay) {
+ExitCode exit_code(const Replay& replay) {
   switch (replay.verdict) {
     case Verdict::identical:
       return established;
@@ -139,32 +141,33 @@ std::string to_text(const std::string& file, const Replay& replay) {
   return "";
 }
 
+Outcome run(ReplayArguments& arguments, Session& session) {
+  const auto result =
+      model::trace::replay(arguments.file, model::config::SpecPath::standard(),
+                           session.on_simulation(), counterexample::catalogue_watches());
+  if (!result) return result.error();
+  Answer answer;
+  answer.exit_code = exit_code(*result);
+  answer.json = to_json(arguments.file, *result);
+  answer.rendered =
+      rendered(session, [&](report::Format) { return to_text(arguments.file, *result); });
+  return answer;
+}
+
+void declare(Options& options, ReplayArguments& arguments) {
+  options.text("trace", arguments.file, "File written by simulate --trace or by check", "FILE")
+      .required();
+}
+
 }  // namespace
 
-int replay(const ReplayArguments& arguments) {
-  const InterruptGuard guard;
-  const auto result = [&] {
-    ProgressLine progress{isatty(STDERR_FILENO) != 0};
-    return model::trace::replay(
-        arguments.file, model::config::SpecPath::standard(),
-        [&](const model::Progress& state) {
-          progress.update(state);
-          return !InterruptGuard::interrupted();
-        },
-        counterexample::catalogue_watches());
-  }();
-  if (!result) {
-    fmt::print(stderr, "stormproof: {}\n", to_string(result.error()));
-    return bad_input;
-  }
-  using Json = nlohmann::ordered_json;
-  fmt::print(
-      "{}",
-      arguments.json
-          ? to_json(arguments.file, *result).dump(2, ' ', false, Json::error_handler_t::replace) +
-                "\n"
-          : to_text(arguments.file, *result));
-  return exit_code(*result);
+void declare_replay(Frame& frame) {
+  frame.add<ReplayArguments>(
+      {"replay", "Run the scenario of a trace or counterexample again and compare every event",
+       "Exit code of a trace: 0 identical, 1 different, 3 the trace ends early.\n"
+       "Of a counterexample: 1 the violation occurs, 3 it does not. 2 bad input.",
+       Formats::plain},
+      declare, run);
 }
 
 }  // namespace stormproof::cli

@@ -1,32 +1,34 @@
-// `--report FORMAT=FILE`: the report of a command in further formats, each in a file. A CI job
-// wants several at once, and the work behind them is done only once.
+// The formats of an answer: `--format` and `--report FORMAT=FILE`. A CI job wants several at once,
+// and the work behind them is done only once.
 #pragma once
 
-#include <functional>
+#include <deque>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "checker/cli/output_file.hpp"
 #include "checker/presentation/document/format.hpp"
 #include "model/config/tree/result.hpp"
 
 namespace stormproof::cli {
 
+/// A format under its name.
+using NamedFormat = std::pair<std::string, report::Format>;
+
 struct ReportFile {
-  report::Format format{};
+  ReportFile(report::Format of, std::string at) : format{of}, path{std::move(at)} {}
+
+  report::Format format;
   std::string path;
+  OutputFile file{};
 };
 
-void add_report_files(CLI::App& command, std::vector<std::string>& arguments);
-
 /// "html=page.html", …; the error of the first that is no such thing.
-[[nodiscard]] model::config::Result<std::vector<ReportFile>> parse_report_files(
-    const std::vector<std::string>& arguments);
-
-/// Writes each file, as a whole or not at all. Returns what could not be written, or nothing.
-[[nodiscard]] std::optional<std::string> write_report_files(
-    const std::vector<ReportFile>& files, const std::function<std::string(report::Format)>& render);
+[[nodiscard]] std::optional<model::config::InputError> parse_report_files(
+    const std::vector<std::string>& arguments, std::span<const NamedFormat> offered,
+    std::deque<ReportFile>& files);
 
 }  // namespace stormproof::cli

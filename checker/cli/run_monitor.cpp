@@ -6,8 +6,6 @@
 
 #include <fmt/core.h>
 
-#include "checker/presentation/text/numbers.hpp"
-
 namespace stormproof::cli {
 
 namespace {
@@ -55,23 +53,6 @@ void StatusLine::show(const std::string& text) {
 
 double StatusLine::seconds() const {
   return std::chrono::duration<double>(Clock::now() - started_).count();
-}
-
-void ProgressLine::update(const model::Progress& progress) {
-  if (!line_.due()) return;
-  const auto delivered = static_cast<double>(progress.required - progress.missing);
-  const auto events = static_cast<double>(progress.events);
-  line_.show(fmt::format("simulated {}, {} of descriptors delivered, {} events, {:.1f} M/s",
-                         report::duration(progress.now),
-                         report::percent(delivered, static_cast<double>(progress.required)),
-                         report::grouped(progress.events), events / line_.seconds() / 1e6));
-}
-
-void SampleProgressLine::update(std::size_t finished) {
-  if (!line_.due()) return;
-  const double rate = static_cast<double>(finished) / line_.seconds();
-  const double rest = rate > 0 ? static_cast<double>(runs_ - finished) / rate : 0;
-  line_.show(fmt::format("{} of {} runs, about {:.0f} s left", finished, runs_, rest));
 }
 
 }  // namespace stormproof::cli

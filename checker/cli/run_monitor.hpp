@@ -4,8 +4,6 @@
 #include <chrono>
 #include <string>
 
-#include "model/simulator.hpp"
-
 namespace stormproof::cli {
 
 /// While it lives, Ctrl-C (SIGINT, SIGTERM) is remembered instead of ending the program.
@@ -39,27 +37,6 @@ class StatusLine {
   bool shown_ = false;
   Clock::time_point started_ = Clock::now();
   Clock::time_point next_ = started_ + std::chrono::seconds{1};
-};
-
-/// Progress of a single run.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool enabled) : line_{enabled} {}
-  void update(const model::Progress& progress);
-
- private:
-  StatusLine line_;
-};
-
-/// Progress of many runs.
-class SampleProgressLine {
- public:
-  SampleProgressLine(bool enabled, std::size_t runs) : line_{enabled}, runs_{runs} {}
-  void update(std::size_t finished);
-
- private:
-  StatusLine line_;
-  std::size_t runs_;
 };
 
 }  // namespace stormproof::cli

@@ -1,21 +1,14 @@
-// Reads the scenario, runs it with the observers that were asked for and those of its limits, and
-// prints the report.
-#include "checker/cli/simulate_command.hpp"
-
+// `stormproof simulate SCENARIO`: reads the scenario, runs it with the observers that were asked
+// for and those of its limits.
 #include <algorithm>
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
-#include <unistd.h>
 
-#include "checker/cli/complain.hpp"
-#include "checker/cli/exit_code.hpp"
-#include "checker/cli/output_file.hpp"
-#include "checker/cli/run_monitor.hpp"
-#include "checker/cli/sample_command.hpp"
+#include "checker/cli/commands.hpp"
+#include "checker/cli/simulate_request.hpp"
 #include "checker/evidence/capture/write/capture_probe.hpp"
 #include "checker/experiments/simulate/simulate_report.hpp"
-#include "checker/presentation/document/render.hpp"
+#include "checker/presentation/text/numbers.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/perfetto.hpp"
@@ -31,25 +24,21 @@ namespace {
 /// The files that were asked for, as observers of the run.
 class Recorders {
  public:
-  Recorders(const SimulateArguments& arguments, const model::Scenario& scenario)
-      : trace_file_{arguments.trace_file},
-        perfetto_file_{arguments.perfetto_file},
-        pcap_file_{arguments.pcap_file},
-        limits_{scenario} {
+  Recorders(SimulateArguments& arguments, const model::Scenario& scenario) : limits_{scenario} {
     for (model::Probe* probe : limits_.probes()) probes_.add(*probe);
-    if (trace_file_.wanted()) {
-      trace_.emplace(trace_file_.stream(), scenario);
+    if (arguments.trace.wanted()) {
+      trace_.emplace(arguments.trace.stream(), scenario);
       probes_.add(*trace_);
     }
-    if (perfetto_file_.wanted()) {
-      perfetto_.emplace(perfetto_file_.stream(), scenario);
+    if (arguments.perfetto.wanted()) {
+      perfetto_.emplace(arguments.perfetto.stream(), scenario);
       probes_.add(*perfetto_);
     }
-    if (pcap_file_.wanted()) {
+    if (arguments.pcap.wanted()) {
       pcap_.emplace(
-          [this](capture::Bytes bytes) {
-            pcap_file_.stream().write(reinterpret_cast<const char*>(bytes.data()),
-                                      static_cast<std::streamsize>(bytes.size()));
+          [&out = arguments.pcap.stream()](capture::Bytes bytes) {
+            out.write(reinterpret_cast<const char*>(bytes.data()),
+                      static_cast<std::streamsize>(bytes.size()));
           },
           scenario);
       probes_.add(*pcap_);
@@ -58,14 +47,10 @@ class Recorders {
 
   [[nodiscard]] model::Probe* probe() { return probes_.empty() ? nullptr : &probes_; }
 
-  /// Completes the files; the message of what went wrong, or nothing.
-  [[nodiscard]] std::optional<std::string> finish(const model::RunResult& result) {
+  /// What the files still need.
+  void finish(const model::RunResult& result) {
     if (trace_) trace_->finish(result);
     if (perfetto_) perfetto_->finish();
-    for (OutputFile* file : {&trace_file_, &perfetto_file_, &pcap_file_}) {
-      if (auto error = file->commit()) return error;
-    }
-    return std::nullopt;
   }
 
   /// How far the run went with respect to the limits of the scenario.
@@ -74,17 +59,7 @@ class Recorders {
     return limits_.finish(model::trace::known_until(result, scenario));
   }
 
-  [[nodiscard]] std::optional<std::string> open_error() const {
-    for (const OutputFile* file : {&trace_file_, &perfetto_file_, &pcap_file_}) {
-      if (auto error = file->open_error()) return error;
-    }
-    return std::nullopt;
-  }
-
  private:
-  OutputFile trace_file_;
-  OutputFile perfetto_file_;
-  OutputFile pcap_file_;
   props::LimitWatch limits_;
   std::optional<model::trace::TraceWriter> trace_;
   std::optional<model::trace::PerfettoWriter> perfetto_;
@@ -92,38 +67,58 @@ class Recorders {
   model::trace::ProbeList probes_;
 };
 
-}  // namespace
-
-int simulate(const SimulateArguments& arguments) {
+Outcome run(SimulateArguments& arguments, Session& session) {
   const auto scenario = model::config::read_scenario(arguments.scenario, arguments.overrides,
                                                      model::config::SpecPath::standard());
-  if (!scenario) return complain(to_string(scenario.error()));
-  if (arguments.samples || !arguments.compare.empty()) return sample(arguments, *scenario);
+  if (!scenario) return scenario.error();
+  if (arguments.samples || !arguments.compare.empty()) return sample(arguments, *scenario, session);
   Recorders recorders{arguments, *scenario};
-  if (const auto error = recorders.open_error()) return complain(*error);
-
   model::RunOptions options;
   options.probe = recorders.probe();
-  model::RunResult result;
-  {
-    const InterruptGuard guard;
-    ProgressLine progress{arguments.progress.value_or(isatty(STDERR_FILENO) != 0)};
-    options.on_progress = [&](const model::Progress& state) {
-      progress.update(state);
-      return !InterruptGuard::interrupted();
-    };
-    result = model::simulate(*scenario, options);
-  }
-  const auto error = recorders.finish(result);
+  options.on_progress = session.on_simulation();
+  model::RunResult result = model::simulate(*scenario, options);
+  recorders.finish(result);
   std::vector<props::LimitReading> limits = recorders.limits(result, *scenario);
   report::Simulation simulation =
       report::describe(arguments.scenario, *scenario, std::move(result));
   simulation.limits = std::move(limits);
-  fmt::print("{}", arguments.json ? report::to_json(simulation).dump(2) + "\n"
-                                  : report::to_text(report::document_of(simulation)));
-  if (error) return complain(*error);
-  if (std::ranges::any_of(simulation.limits, &props::LimitReading::exceeded)) return violated;
-  return simulation.result.completed() ? established : inconclusive;
+  Answer answer;
+  answer.document = document_of(simulation);
+  answer.exit_code = answer.document.exit_code;
+  answer.json = to_json(simulation);
+  return answer;
+}
+
+void declare(Options& options, SimulateArguments& arguments) {
+  options.scenario(arguments.scenario, arguments.overrides);
+  const Option recordings[] = {
+      options.output("--trace", arguments.trace, "Write every event as JSON Lines"),
+      options.output("--perfetto", arguments.perfetto, "Write a trace that ui.perfetto.dev opens"),
+      options.output("--pcap", arguments.pcap,
+                     "Write the packets as a capture, for Wireshark and stormproof capture")};
+  const Option samples =
+      options
+          .number("--samples", arguments.samples,
+                  "Run N schedules drawn from deployment.schedule, on all cores", "N")
+          .within(1, 1'000'000);
+  options.number("--seed", arguments.seed, "Seed of the first sampled schedule", "S")
+      .needs(samples);
+  const Option compare = options.texts(
+      "--compare", arguments.compare,
+      "Run another DDS profile on the same schedules, side by side (repeatable)", "PROFILE");
+  for (const Option& recording : recordings) recording.excludes(samples).excludes(compare);
+}
+
+}  // namespace
+
+void declare_simulate(Frame& frame) {
+  frame.add<SimulateArguments>(
+      {"simulate", "Predict the discovery of a scenario: completion time, messages, channel use",
+       "Exit code: 0 discovery completes (with --samples: in every run), 1 a limit of the "
+       "scenario\n"
+       "is exceeded, 3 it does not complete within the time limit, 2 bad input.",
+       Formats::findings},
+      declare, run);
 }
 
 }  // namespace stormproof::cli

@@ -1,21 +1,16 @@
 // Starts the programs and reads what the verifier prints.
 #include "checker/engines/promela/run_spin.hpp"
 
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <regex>
 #include <vector>
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <fmt/core.h>
+
+#include "checker/engines/process/process.hpp"
 
 namespace stormproof::promela {
 namespace {
@@ -23,47 +18,14 @@ namespace {
 template <class T>
 using Outcome = model::config::Result<T, std::string>;
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream in{file};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
-
-/// Runs a program in `folder` with its output in the file `log` there. Returns its exit status.
-Outcome<int> run(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                 const std::string& log) {
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  const std::string out = (folder / log).string();
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  pid_t child = -1;
-  const int error = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0)
-    return fmt::format("{} cannot be started: {}", arguments[0], std::strerror(error));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFSIGNALED(status)) {
-    return fmt::format("{} ended by signal {}", arguments[0], WTERMSIG(status));
-  }
-  return WEXITSTATUS(status);
-}
-
-/// The same for a program that has to succeed.
+/// Runs a program in `folder` that has to succeed; what went wrong, or nothing.
 std::optional<std::string> run_tool(const std::vector<std::string>& arguments,
-                                    const std::filesystem::path& folder, const std::string& log) {
-  const Outcome<int> status = run(arguments, folder, log);
-  if (!status) return status.error();
-  if (*status == 0) return std::nullopt;
-  return fmt::format("{} failed with status {}: {}", arguments[0], *status,
-                     read_text(folder / log).substr(0, 500));
+                                    const std::filesystem::path& folder) {
+  const process::Run run = process::run({arguments, folder, true});
+  if (!run.failure.empty()) return arguments[0] + " " + run.failure;
+  if (run.status == 0) return std::nullopt;
+  return fmt::format("{} failed with status {}: {}", arguments[0], run.status,
+                     run.output.substr(0, 500));
 }
 
 /// The names of the claims, in the order of the model.
@@ -105,8 +67,7 @@ std::optional<std::string> add_run(const std::string& name, const std::string& o
 
 bool spin_is_available() {
   const std::filesystem::path nowhere = std::filesystem::temp_directory_path();
-  return !run_tool({"spin", "-V"}, nowhere, "/dev/null") &&
-         !run_tool({"gcc", "--version"}, nowhere, "/dev/null");
+  return !run_tool({"spin", "-V"}, nowhere) && !run_tool({"gcc", "--version"}, nowhere);
 }
 
 Outcome<SpinRun> run_spin(const std::string& promela, const std::string& folder_name) {
@@ -116,11 +77,10 @@ Outcome<SpinRun> run_spin(const std::string& promela, const std::string& folder_
   model << promela;
   model.close();
   if (failure || !model) return fmt::format("{}: no model can be written there", folder_name);
-  if (auto error = run_tool({"spin", "-a", "model.pml"}, folder, "spin.log")) return *error;
+  if (auto error = run_tool({"spin", "-a", "model.pml"}, folder)) return *error;
   // Weak fairness needs a counter for every few processes; at most 18 of them here.
-  if (auto error =
-          run_tool({"gcc", "-O1", "-w", "-DNFAIR=5", "-DMEMLIM=4096", "-o", "pan", "pan.c"}, folder,
-                   "gcc.log")) {
+  if (auto error = run_tool(
+          {"gcc", "-O1", "-w", "-DNFAIR=5", "-DMEMLIM=4096", "-o", "pan", "pan.c"}, folder)) {
     return *error;
   }
   const std::string program = (folder / "pan").string();
@@ -136,13 +96,12 @@ Outcome<SpinRun> run_spin(const std::string& promela, const std::string& folder_
     }
     arguments.push_back(last ? "-noclaim" : names[k]);
     if (names[k] == "progress") arguments.emplace_back("-f");
-    const std::string log = fmt::format("pan.{}.log", k);
     const auto started = std::chrono::steady_clock::now();
-    const Outcome<int> status = run(arguments, folder, log);
+    const process::Run run = process::run({arguments, folder, true});
     total.seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    if (!status) return status.error();
-    if (auto error = add_run(names[k], read_text(folder / log), total)) return *error;
+    if (!run.failure.empty()) return program + " " + run.failure;
+    if (auto error = add_run(names[k], run.output, total)) return *error;
   }
   total.ok = total.error.empty();
   return total;

@@ -2,53 +2,33 @@
 // is infinite is text ("infinity"), as JSON has no number for it.
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "checker/experiments/diff/diff_report.hpp"
 #include "checker/experiments/diff/summary.hpp"
+#include "checker/experiments/statistics/quantiles_json.hpp"
 #include "model/config/knobs/effective.hpp"
 
 namespace stormproof::diff {
 
 namespace {
 
+using report::json_of;
 using Json = nlohmann::ordered_json;
 
 Json number(double value) {
-  if (std::isnan(value)) return nullptr;
   if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
-  return value;
+  return json_of(value);
 }
 
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(); }
 
 Json place_json(const model::config::Place& place) {
   if (!place.source) return nullptr;
   return {{"source", *place.source}, {"line", place.line}, {"column", place.column}};
 }
 
-Json profile_json(const model::config::TracedProfile& profile) {
-  Json json;
-  json["name"] = profile.reference;
-  json["preset"] = profile.preset.empty() ? Json(nullptr) : Json(profile.preset);
-  json["profile"] = model::config::effective_json(profile.profile);
-  return json;
-}
-
-Json knobs_json(const Comparison& profiles) {
-  Json changes = Json::array();
-  for (const KnobChange& change : profiles.changes) {
-    changes.push_back({{"key", change.key},
-                       {"before", change.before},
-                       {"after", change.after},
-                       {"before_place", place_json(change.before_place)},
-                       {"after_place", place_json(change.after_place)},
-                       {"matters", change.modelled ? Json(change.matters) : Json(nullptr)},
-                       {"why", change.why}});
-  }
-  return {{"relation", name_of(profiles.relation)},
-          {"proof", profiles.proof.empty() ? Json(nullptr) : Json(profiles.proof)},
-          {"changes", changes}};
+/// As the JSON of runs has it.
+std::string key_of(Measure measure) {
+  return measure == Measure::completion ? "t_disc_ns" : name_of(measure);
 }
 
 Json counterexample_json(const props::Counterexample& run) {
@@ -57,122 +37,38 @@ Json counterexample_json(const props::Counterexample& run) {
 
 Json file_json(const Files& files, const std::string& what) {
   const auto file = files.find(what);
-  return file == files.end() ? Json(nullptr) : Json(file->second);
+  return file == files.end() ? Json() : Json(file->second);
+}
+
+Json profile_json(const model::config::TracedProfile& profile) {
+  report::JsonObject v;
+  v("name", profile.reference);
+  v.or_null("preset", profile.preset);
+  v("profile", model::config::effective_json(profile.profile));
+  return std::move(v).take();
 }
 
 Json verdicts_json(const VerdictComparison& verdicts, const Files& files) {
   if (!verdicts.done) return nullptr;
   Json properties = Json::array();
   for (const VerdictChange& change : verdicts.properties) {
-    Json property;
-    property["property"] = change.property;
-    property["before"] = props::name_of(change.before);
-    property["after"] = props::name_of(change.after);
-    property["judgment"] = name_of(change.judgment);
-    property["statement"] = change.statement;
-    property["before_how"] = change.before_how;
-    property["after_how"] = change.after_how;
-    property["counterexample"] = nullptr;
+    report::JsonObject v;
+    v("property", change.property);
+    v("before", props::name_of(change.before));
+    v("after", props::name_of(change.after));
+    v("judgment", change.judgment);
+    v("statement", change.statement);
+    v("before_how", change.before_how);
+    v("after_how", change.after_how);
+    Json counterexample;
     if (change.counterexample) {
-      property["counterexample"] = counterexample_json(*change.counterexample);
-      property["counterexample"]["file"] = file_json(files, change.property);
+      counterexample = counterexample_json(*change.counterexample);
+      counterexample["file"] = file_json(files, change.property);
     }
-    properties.push_back(std::move(property));
+    v("counterexample", counterexample);
+    properties.push_back(std::move(v).take());
   }
   return {{"scenario", verdicts.scenario}, {"properties", properties}};
-}
-
-Json quantiles_json(const sampling::Quantiles& quantiles) {
-  return {{"median", number(quantiles.median)},
-          {"p10", number(quantiles.p10)},
-          {"p90", number(quantiles.p90)},
-          {"min", number(quantiles.min)},
-          {"max", number(quantiles.max)}};
-}
-
-Json measure_json(const MeasuredChange& change) {
-  Json json;
-  json["before"] = quantiles_json(change.before);
-  json["after"] = quantiles_json(change.after);
-  json["shift"] = nullptr;
-  if (change.shift) {
-    json["shift"] = {{"estimate", number(change.shift->estimate)},
-                     {"low", number(change.shift->low)},
-                     {"high", number(change.shift->high)},
-                     {"confidence", change.shift->confidence},
-                     {"exact", change.shift->exact}};
-  }
-  json["relative"] = nullptr;
-  if (change.relative) {
-    json["relative"] = {{"estimate", number(change.relative)},
-                        {"low", number(change.relative_low)},
-                        {"high", number(change.relative_high)}};
-  }
-  json["judgment"] = name_of(change.judgment);
-  json["reason"] = change.reason;
-  return json;
-}
-
-Json configuration_json(const Configuration& configuration) {
-  Json json;
-  json["name"] = configuration.name;
-  json["values"] = Json::object();
-  for (const auto& [key, value] : configuration.values) json["values"][key] = value;
-  json["hosts"] = configuration.hosts;
-  json["participants"] = configuration.participants;
-  json["descriptors"] = configuration.descriptors;
-  json["samples"] = configuration.samples;
-  json["identical_runs"] = configuration.identical_runs;
-  json["storm_before"] = configuration.storm_before;
-  json["storm_after"] = configuration.storm_after;
-  for (const MeasuredChange& change : configuration.measures) {
-    json["measures"][name_of(change.measure)] = measure_json(change);
-  }
-  json["crossings"] = Json::array();
-  for (const LimitCrossing& crossing : configuration.crossings) {
-    json["crossings"].push_back({{"limit", crossing.limit},
-                                 {"text", crossing.text},
-                                 {"before", crossing.before},
-                                 {"after", crossing.after},
-                                 {"judgment", name_of(crossing.judgment)}});
-  }
-  return json;
-}
-
-Json costs_json(const CostComparison& costs) {
-  if (costs.wanted == 0) return nullptr;
-  Json json;
-  json["grid"] = costs.grid;
-  json["samples"] = costs.samples;
-  json["seed"] = costs.seed;
-  json["wanted"] = costs.wanted;
-  json["confidence"] = costs.confidence;
-  json["configurations"] = Json::array();
-  for (const Configuration& configuration : costs.configurations) {
-    json["configurations"].push_back(configuration_json(configuration));
-  }
-  json["pooled"] = Json::array();
-  for (const PooledChange& pooled : costs.pooled) {
-    json["pooled"].push_back({{"measure", name_of(pooled.measure)},
-                              {"configurations", pooled.configurations},
-                              {"pairs", pooled.pairs},
-                              {"estimate", number(pooled.estimate)},
-                              {"low", number(pooled.low)},
-                              {"high", number(pooled.high)},
-                              {"confidence", pooled.confidence},
-                              {"judgment", name_of(pooled.judgment)}});
-  }
-  return json;
-}
-
-Json margin_json(const Margin& margin) {
-  Json json;
-  json["threshold_ns"] = margin.threshold ? Json(margin.threshold->count()) : Json(nullptr);
-  json["unlimited"] = margin.unlimited;
-  json["formula"] = margin.formula;
-  json["load"] = margin.load ? Json(*margin.load) : Json(nullptr);
-  json["load_configuration"] = margin.load_configuration;
-  return json;
 }
 
 Json telling_apart_json(const TellingApart& apart, const Files& files) {
@@ -195,44 +91,151 @@ Json telling_apart_json(const TellingApart& apart, const Files& files) {
   return json;
 }
 
-Json blame_json(const Blame& blame) {
-  Json entries = Json::array();
-  for (const Blame::Entry& entry : blame.entries) {
-    entries.push_back({{"reverted", entry.reverted},
-                       {"completion_median_ns", number(entry.completion_median)},
-                       {"messages_median", number(entry.messages_median)},
-                       {"cures", entry.cures}});
-  }
-  return {{"configuration", blame.configuration}, {"entries", entries}};
+}  // namespace
+
+template <class V>
+void describe(V& v, const KnobChange& change) {
+  v("key", change.key);
+  v("before", change.before);
+  v("after", change.after);
+  v("before_place", place_json(change.before_place));
+  v("after_place", place_json(change.after_place));
+  v("matters", change.modelled ? Json(change.matters) : Json());
+  v("why", change.why);
 }
 
-}  // namespace
+template <class V>
+void describe(V& v, const Comparison& profiles) {
+  v("relation", profiles.relation);
+  v.or_null("proof", profiles.proof);
+  v("changes", profiles.changes);
+}
+
+template <class V>
+void describe(V& v, const Shift& shift) {
+  v("estimate", number(shift.estimate));
+  v("low", number(shift.low));
+  v("high", number(shift.high));
+  v("confidence", shift.confidence);
+  v("exact", shift.exact);
+}
+
+template <class V>
+void describe(V& v, const MeasuredChange& change) {
+  v("before", change.before);
+  v("after", change.after);
+  v("shift", change.shift);
+  v("relative", !change.relative ? Json()
+                                 : Json{{"estimate", number(change.relative)},
+                                        {"low", number(change.relative_low)},
+                                        {"high", number(change.relative_high)}});
+  v("judgment", change.judgment);
+  v("reason", change.reason);
+}
+
+template <class V>
+void describe(V& v, const LimitCrossing& crossing) {
+  v("limit", crossing.limit);
+  v("text", crossing.text);
+  v("before", crossing.before);
+  v("after", crossing.after);
+  v("judgment", crossing.judgment);
+}
+
+template <class V>
+void describe(V& v, const Configuration& configuration) {
+  Json values = Json::object();
+  for (const auto& [key, value] : configuration.values) values[key] = value;
+  Json measures;
+  for (const MeasuredChange& change : configuration.measures) {
+    measures[key_of(change.measure)] = json_of(change);
+  }
+  v("name", configuration.name);
+  v("values", values);
+  v("hosts", configuration.hosts);
+  v("participants", configuration.participants);
+  v("descriptors", configuration.descriptors);
+  v("samples", configuration.samples);
+  v("identical_runs", configuration.identical_runs);
+  v("storm_before", configuration.storm_before);
+  v("storm_after", configuration.storm_after);
+  v("measures", measures);
+  v("crossings", configuration.crossings);
+}
+
+template <class V>
+void describe(V& v, const PooledChange& pooled) {
+  v("measure", key_of(pooled.measure));
+  v("configurations", pooled.configurations);
+  v("pairs", pooled.pairs);
+  v("estimate", number(pooled.estimate));
+  v("low", number(pooled.low));
+  v("high", number(pooled.high));
+  v("confidence", pooled.confidence);
+  v("judgment", pooled.judgment);
+}
+
+template <class V>
+void describe(V& v, const CostComparison& costs) {
+  v("grid", costs.grid);
+  v("samples", costs.samples);
+  v("seed", costs.seed);
+  v("wanted", costs.wanted);
+  v("confidence", costs.confidence);
+  v("configurations", costs.configurations);
+  v("pooled", costs.pooled);
+}
+
+template <class V>
+void describe(V& v, const Margin& margin) {
+  v("threshold_ns", margin.threshold);
+  v("unlimited", margin.unlimited);
+  v("formula", margin.formula);
+  v("load", margin.load);
+  v("load_configuration", margin.load_configuration);
+}
+
+template <class V>
+void describe(V& v, const MarginComparison& margin) {
+  v("before", margin.before);
+  v("after", margin.after);
+  v("judgment", margin.judgment);
+  v("reason", margin.reason);
+}
+
+template <class V>
+void describe(V& v, const Blame::Entry& entry) {
+  v("reverted", entry.reverted);
+  v("t_disc_ns", number(entry.completion_median));
+  v("messages", number(entry.messages_median));
+  v("cures", entry.cures);
+}
+
+template <class V>
+void describe(V& v, const Blame& blame) {
+  v("configuration", blame.configuration);
+  v("entries", blame.entries);
+}
 
 Json to_json(const DiffReport& report, const Files& files) {
   const bool ran = report.costs.wanted > 0;
-  Json json;
-  json["judgment"] = name_of(report.judgment);
-  json["summary"] = std::string{headline(report)} + ": " + headline_sentence(report);
-  json["reasons"] = report.reasons;
-  json["policy"] = report.policy.name;
-  json["interrupted"] = report.interrupted;
-  json["seconds"] = report.seconds;
-  json["command"] = report.command;
-  json["base"] = profile_json(report.base);
-  json["candidate"] = profile_json(report.candidate);
-  json["knobs"] = knobs_json(report.profiles);
-  json["verdicts"] = verdicts_json(report.verdicts, files);
-  json["costs"] = costs_json(report.costs);
-  json["margin"] = nullptr;
-  if (ran) {
-    json["margin"] = {{"before", margin_json(report.margin.before)},
-                      {"after", margin_json(report.margin.after)},
-                      {"judgment", name_of(report.margin.judgment)},
-                      {"reason", report.margin.reason}};
-  }
-  json["blame"] = report.blame ? blame_json(*report.blame) : Json(nullptr);
-  json["telling_apart"] = ran ? telling_apart_json(report.telling_apart, files) : Json(nullptr);
-  return json;
+  report::JsonObject v;
+  v("judgment", report.judgment);
+  v("summary", std::string{headline(report)} + ": " + headline_sentence(report));
+  v("reasons", report.reasons);
+  v("policy", report.policy.name);
+  v("interrupted", report.interrupted);
+  v("seconds", report.seconds);
+  v("command", report.command);
+  v("base", profile_json(report.base));
+  v("candidate", profile_json(report.candidate));
+  v("knobs", report.profiles);
+  v("verdicts", verdicts_json(report.verdicts, files));
+  v("costs", ran ? json_of(report.costs) : Json());
+  v("margin", ran ? json_of(report.margin) : Json());
+  v("blame", report.blame);
+  v("telling_apart", ran ? telling_apart_json(report.telling_apart, files) : Json());
+  return std::move(v).take();
 }
 
 }  // namespace stormproof::diff

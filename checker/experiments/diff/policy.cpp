@@ -27,21 +27,6 @@ using Failure = std::optional<InputError>;
 constexpr std::int64_t most_samples = 100'000;
 constexpr double largest_increase = 1'000;
 
-/// "25 %", "25%", "0.25" or "1/4"; nothing if it is none of these.
-std::optional<double> parse_share(const Node& node) {
-  if (!node.is_scalar() || node.quoted) return std::nullopt;
-  std::string text = node.text;
-  const bool is_percent = text.ends_with('%');
-  if (is_percent) text.pop_back();
-  while (is_percent && text.ends_with(' ')) text.pop_back();
-  const double unit = is_percent ? 100 : 1;
-  if (text == "0") return 0;
-  const auto fraction = config::parse_fraction(text);
-  if (!fraction) return std::nullopt;
-  return static_cast<double>(fraction->numerator) / static_cast<double>(fraction->denominator) /
-         unit;
-}
-
 class PolicyReader {
  public:
   explicit PolicyReader(const Node& root) : root_{root} {}
@@ -86,9 +71,11 @@ class PolicyReader {
              std::string_view expected) {
     const Node* node = find(key);
     if (node == nullptr) return;
-    const std::optional<double> parsed = parse_share(*node);
-    if (!parsed || *parsed < least || *parsed > most) return fail(*node, key, expected);
-    value = *parsed;
+    const auto parsed = config::parse_share(node->is_scalar() && !node->quoted ? node->text : "");
+    if (!parsed || parsed->value() < least || parsed->value() > most) {
+      return fail(*node, key, expected);
+    }
+    value = parsed->value();
   }
 
   void flag(std::string_view key, bool& value) {

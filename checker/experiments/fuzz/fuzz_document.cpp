@@ -190,7 +190,7 @@ report::Finding finding_of(const Judgment& judgment, const FuzzContext& context)
   finding.word = props::name_of(judgment.verdict);
   finding.message = name_text(judgment, context.scenario) + ": " + result_text(judgment);
   finding.details = judgment.first_reason;
-  finding.identity = {context.name};
+  finding.shown = report::Finding::Shown::tests;
   return finding;
 }
 

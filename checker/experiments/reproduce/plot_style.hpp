@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "checker/experiments/reproduce/report.hpp"
+#include "checker/experiments/reproduce/reproduce_report.hpp"
 
 namespace stormproof::reproduce {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "checker/experiments/reproduce/report.hpp"
+#include "checker/experiments/reproduce/reproduce_report.hpp"
 
 namespace stormproof::reproduce {
 

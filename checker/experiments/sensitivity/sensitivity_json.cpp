@@ -2,29 +2,12 @@
 #include <algorithm>
 #include <map>
 
-#include <nlohmann/json.hpp>
-
 #include "checker/experiments/sensitivity/sensitivity_report.hpp"
-#include "checker/presentation/text/assumptions.hpp"
+#include "checker/presentation/json/describe.hpp"
 
 namespace stormproof::sensitivity {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json to_json(const Effect& effect, const char* median_key) {
-  return {{median_key, effect.median},
-          {"low", effect.low},
-          {"high", effect.high},
-          {"confidence", effect.confidence},
-          {"exactly_zero", effect.exactly_zero}};
-}
-
-Json to_json(const Effects& effects) {
-  return {{"completion", to_json(of(effects, Measure::completion), "median_ns")},
-          {"messages", to_json(of(effects, Measure::messages), "median")}};
-}
 
 /// Rank from 1 of each knob; equal effects share a rank.
 std::map<std::string, std::size_t> ranks(const Report& report, Measure measure) {
@@ -38,65 +21,96 @@ std::map<std::string, std::size_t> ranks(const Report& report, Measure measure) 
   return rank;
 }
 
-Json to_json(const KnobResult& knob) {
-  Json json{{"key", knob.key}, {"value", knob.value}, {"doc", knob.doc}};
-  if (!knob.obstacle.empty()) json["obstacle"] = knob.obstacle;
-  return json;
+}  // namespace
+
+template <class V>
+void describe(V& v, const Effect& effect) {
+  v("median", effect.median);
+  v("low", effect.low);
+  v("high", effect.high);
+  v("confidence", effect.confidence);
+  v("exactly_zero", effect.exactly_zero);
 }
 
-Json levels_of(const KnobResult& knob) {
-  Json levels = Json::array();
+/// On both measures.
+template <class V>
+void describe_effects(V& v, const Effects& effects) {
+  v("t_disc_ns", of(effects, Measure::completion));
+  v("messages", of(effects, Measure::messages));
+}
+
+static nlohmann::ordered_json effects_json(const Effects& effects) {
+  report::JsonObject v;
+  describe_effects(v, effects);
+  return std::move(v).take();
+}
+
+template <class V>
+void describe(V& v, const PairResult& pair) {
+  v("keys", pair.keys);
+  v("directions", pair.directions);
+  v("joint", effects_json(pair.joint));
+  v("interaction", effects_json(pair.interaction));
+}
+
+/// What is known of a knob before it is varied.
+template <class V>
+void describe(V& v, const KnobResult& knob) {
+  v("key", knob.key);
+  v("value", knob.value);
+  v("doc", knob.doc);
+  if (!knob.obstacle.empty()) v("obstacle", knob.obstacle);
+}
+
+static nlohmann::ordered_json levels_json(const KnobResult& knob) {
+  nlohmann::ordered_json levels = nlohmann::ordered_json::array();
   for (const Direction direction : directions) {
     const auto& level = knob.levels[static_cast<std::size_t>(direction)];
     if (!level) continue;
-    Json json{{"direction", name_of(direction)}, {"value", level->value}};
-    json.update(to_json(level->effects));
-    json["incomplete"] = level->incomplete;
-    levels.push_back(std::move(json));
+    report::JsonObject v;
+    v("direction", direction);
+    v("value", level->value);
+    describe_effects(v, level->effects);
+    v("incomplete", level->incomplete);
+    levels.push_back(std::move(v).take());
   }
   return levels;
 }
 
-}  // namespace
-
-Json to_json(const Report& report, const Description& description) {
+nlohmann::ordered_json to_json(const Report& report, const Description& description) {
   const Options& options = description.options;
-  Json json{{"scenario", description.scenario},
-            {"command", description.command},
-            {"range", options.range},
-            {"samples", report.samples},
-            {"seed", options.first_seed},
-            {"start_jitter_ns", options.start_jitter.count()},
-            {"sampled", description.is_sampled()},
-            {"by", name_of(options.by)},
-            {"finished", report.finished},
-            {"runs", report.runs},
-            {"base",
-             {{"completion_ns", report.base[0]},
-              {"messages", report.base[1]},
-              {"incomplete", report.incomplete}}}};
+  report::JsonObject base;
+  base("t_disc_ns", report.base[0]);
+  base("messages", report.base[1]);
+  base("incomplete", report.incomplete);
+  nlohmann::ordered_json knobs = nlohmann::ordered_json::array();
   const auto by_completion = ranks(report, Measure::completion);
   const auto by_messages = ranks(report, Measure::messages);
-  report::add_unmodelled(json, description.dds);
-  json["knobs"] = Json::array();
   for (const KnobResult& knob : report.knobs) {
-    Json entry = to_json(knob);
-    entry["rank_completion"] = by_completion.at(knob.key);
-    entry["rank_messages"] = by_messages.at(knob.key);
-    entry["levels"] = levels_of(knob);
-    json["knobs"].push_back(std::move(entry));
+    report::JsonObject entry;
+    describe(entry, knob);
+    entry("rank_completion", by_completion.at(knob.key));
+    entry("rank_messages", by_messages.at(knob.key));
+    entry("levels", levels_json(knob));
+    knobs.push_back(std::move(entry).take());
   }
-  json["not_varied"] = Json::array();
-  for (const KnobResult& knob : report.unvaried) json["not_varied"].push_back(to_json(knob));
-  json["pairs"] = Json::array();
-  for (const PairResult& pair : report.pairs) {
-    json["pairs"].push_back(
-        {{"keys", pair.keys},
-         {"directions", {name_of(pair.directions[0]), name_of(pair.directions[1])}},
-         {"joint", to_json(pair.joint)},
-         {"interaction", to_json(pair.interaction)}});
-  }
-  return json;
+  report::JsonObject v;
+  v("scenario", description.scenario);
+  v("command", description.command);
+  v("range", options.range);
+  v("samples", report.samples);
+  v("seed", options.first_seed);
+  v("start_jitter_ns", options.start_jitter);
+  v("sampled", description.is_sampled());
+  v("by", options.by);
+  v("finished", report.finished);
+  v("runs", report.runs);
+  v("base", std::move(base).take());
+  v.unless_empty("unmodelled", description.dds.unmodelled);
+  v("knobs", knobs);
+  v("not_varied", report.unvaried);
+  v("pairs", report.pairs);
+  return std::move(v).take();
 }
 
 }  // namespace stormproof::sensitivity

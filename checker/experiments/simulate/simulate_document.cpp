@@ -100,7 +100,7 @@ void add_limits(Document& document, const Simulation& s) {
     finding.word = word;
     finding.message =
         fmt::format("limit {} {}: {} ({})", name, print(reading.limit), word, reached);
-    finding.identity = {s.name};
+    finding.shown = Finding::Shown::tests;
     document.findings.push_back(std::move(finding));
   }
   document.blocks.emplace_back(std::move(table));

@@ -1,42 +1,15 @@
 // Everything the report knows. Shifts are written as ratios.
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
+#include "checker/experiments/statistics/quantiles_json.hpp"
 #include "checker/experiments/tune/tune_report.hpp"
 
 namespace stormproof::tune {
 
-namespace {
-
+using report::json_of;
 using Json = nlohmann::ordered_json;
 
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
-Json to_json(const sampling::Quantiles& q) {
-  return {{"median", number(q.median)},
-          {"p10", number(q.p10)},
-          {"p90", number(q.p90)},
-          {"min", number(q.min)},
-          {"max", number(q.max)}};
-}
-
-Json to_json(const Shift& shift) {
-  return {{"ratio", std::exp(shift.estimate)},
-          {"low", std::exp(shift.low)},
-          {"high", std::exp(shift.high)},
-          {"confidence", shift.confidence},
-          {"exact", shift.exact},
-          {"clear", shift.is_less() || shift.is_more()}};
-}
-
-Json to_json(const std::optional<Difference>& difference) {
-  if (!difference) return {};
-  return {{"completion", to_json(difference->completion)},
-          {"messages", to_json(difference->messages)}};
-}
-
-const char* name_of(Row::Kind kind) {
+static const char* name_of(Row::Kind kind) {
   switch (kind) {
     case Row::Kind::unchanged:
       return "unchanged";
@@ -48,7 +21,7 @@ const char* name_of(Row::Kind kind) {
   return "";
 }
 
-const char* name_of(Answer answer) {
+static const char* name_of(Answer answer) {
   switch (answer) {
     case Answer::better:
       return "better";
@@ -60,78 +33,116 @@ const char* name_of(Answer answer) {
   return "";
 }
 
-Json to_json(const Row& row, const Context& context) {
-  Json changes = Json::array();
-  for (const Change& change : row.changes) {
-    changes.push_back({{"key", change.key},
-                       {"setting", change.setting},
-                       {"before", change.before},
-                       {"after", change.after},
-                       {"note", change.note}});
-  }
-  const Summary& s = row.summary;
-  Json json{{"kind", name_of(row.kind)},
-            {"name", row.name},
-            {"changes", std::move(changes)},
-            {"runs", s.runs},
-            {"completed", s.completed},
-            {"completion_ns", to_json(s.completion_ns)},
-            {"messages", to_json(s.messages)},
-            {"heartbeat", to_json(s.heartbeat)},
-            {"repair_data", to_json(s.repair_data)},
-            {"acknack", to_json(s.acknack)},
-            {"spdp", to_json(s.spdp)},
-            {"against_unchanged", to_json(row.against_unchanged)},
-            {"recommended_against", to_json(row.recommended_against)},
-            {"broken", row.broken}};
-  if (!row.note.empty()) json["note"] = row.note;
-  const auto file = context.files.find(row.name);
-  json["file"] = file != context.files.end() ? Json(file->second) : Json();
-  return json;
+template <class V>
+void describe(V& v, const Shift& shift) {
+  v("ratio", std::exp(shift.estimate));
+  v("low", std::exp(shift.low));
+  v("high", std::exp(shift.high));
+  v("confidence", shift.confidence);
+  v("exact", shift.exact);
+  v("clear", shift.is_less() || shift.is_more());
 }
 
-Json to_json(const Space& space) {
-  Json searched = Json::array();
-  for (const Dimension& d : space.dimensions) {
-    searched.push_back({{"key", d.key},
-                        {"setting", d.setting},
-                        {"unchanged", model::config::print_quantity(d.unit, d.unchanged)},
-                        {"minimum", model::config::print_quantity(d.unit, d.minimum)},
-                        {"maximum", model::config::print_quantity(d.unit, d.maximum)},
-                        {"note", d.note}});
-  }
-  Json fixed = Json::array();
-  for (const Fixed& f : space.fixed) fixed.push_back({{"key", f.key}, {"why", f.why}});
-  return {{"searched", std::move(searched)}, {"fixed", std::move(fixed)}};
+template <class V>
+void describe(V& v, const Difference& difference) {
+  v("t_disc_ns", difference.completion);
+  v("messages", difference.messages);
+}
+
+template <class V>
+void describe(V& v, const Change& change) {
+  v("key", change.key);
+  v("setting", change.setting);
+  v("before", change.before);
+  v("after", change.after);
+  v("note", change.note);
+}
+
+template <class V>
+void describe(V& v, const Dimension& d) {
+  v("key", d.key);
+  v("setting", d.setting);
+  v("unchanged", model::config::print_quantity(d.unit, d.unchanged));
+  v("minimum", model::config::print_quantity(d.unit, d.minimum));
+  v("maximum", model::config::print_quantity(d.unit, d.maximum));
+  v("note", d.note);
+}
+
+template <class V>
+void describe(V& v, const Fixed& fixed) {
+  v("key", fixed.key);
+  v("why", fixed.why);
+}
+
+template <class V>
+void describe(V& v, const Space& space) {
+  v("searched", space.dimensions);
+  v("fixed", space.fixed);
+}
+
+template <class V>
+void describe(V& v, const Seeds& seeds) {
+  v("first", seeds.first);
+  v("count", seeds.count);
+}
+
+namespace {
+
+Json to_json(const Row& row, const Context& context) {
+  const Summary& s = row.summary;
+  Json counts;
+  counts["heartbeat"] = json_of(s.heartbeat);
+  counts["repair_data"] = json_of(s.repair_data);
+  counts["acknack"] = json_of(s.acknack);
+  counts["spdp"] = json_of(s.spdp);
+  counts["total"] = json_of(s.messages);
+  const auto file = context.files.find(row.name);
+  report::JsonObject v;
+  v("kind", row.kind);
+  v("name", row.name);
+  v("changes", row.changes);
+  v("runs", s.runs);
+  v("completed", s.completed);
+  v("t_disc_ns", s.completion_ns);
+  v("counts", counts);
+  v("against_unchanged", row.against_unchanged);
+  v("recommended_against", row.recommended_against);
+  v("broken", row.broken);
+  v.or_null("note", row.note);
+  v.or_null("file", file != context.files.end() ? std::string_view{file->second} : "");
+  return std::move(v).take();
 }
 
 }  // namespace
 
 Json to_json(const Report& report, const Context& context) {
-  Json json{{"scenario", context.scenario},
-            {"command", context.command},
-            {"preset", context.subject.preset},
-            {"vendor", model::config::vendor::name_of(context.subject.vendor)},
-            {"answer", name_of(report.answer)},
-            {"knobs", to_json(report.space)},
-            {"sampled", report.is_sampled},
-            {"seeds", {{"first", report.basis.first}, {"count", report.basis.count}}},
-            {"runs", report.runs},
-            {"settings", report.settings},
-            {"rejected", report.found.rejected},
-            {"rejected_by", report.found.rejected_by},
-            {"changes_set_back", report.undone},
-            {"front_dropped", report.dropped},
-            {"kept", report.kept},
-            {"not_required", report.not_required}};
-  json["recommended"] = report.recommended ? Json(report.rows[*report.recommended].name) : Json();
-  json["rows"] = Json::array();
-  for (const Row& row : report.rows) json["rows"].push_back(to_json(row, context));
-  json["prerequisites"] = context.prerequisites;
-  json["repeat"] = context.repeat.empty() ? Json() : Json(context.repeat);
-  json["check"] = context.check;
-  json["unmodelled"] = context.subject.scenario.dds.unmodelled;
-  return json;
+  Json rows = Json::array();
+  for (const Row& row : report.rows) rows.push_back(to_json(row, context));
+  report::JsonObject v;
+  v("scenario", context.scenario);
+  v("command", context.command);
+  v("preset", context.subject.preset);
+  v("vendor", model::config::vendor::name_of(context.subject.vendor));
+  v("answer", report.answer);
+  v("knobs", report.space);
+  v("sampled", report.is_sampled);
+  v("seeds", report.basis);
+  v("runs", report.runs);
+  v("settings", report.settings);
+  v("rejected", report.found.rejected);
+  v("rejected_by", report.found.rejected_by);
+  v("changes_set_back", report.undone);
+  v("front_dropped", report.dropped);
+  v("kept", report.kept);
+  v("not_required", report.not_required);
+  v.or_null("recommended",
+            report.recommended ? std::string_view{report.rows[*report.recommended].name} : "");
+  v("rows", rows);
+  v("prerequisites", context.prerequisites);
+  v.or_null("repeat", context.repeat);
+  v("check", context.check);
+  v.unless_empty("unmodelled", context.subject.scenario.dds.unmodelled);
+  return std::move(v).take();
 }
 
 }  // namespace stormproof::tune

@@ -110,6 +110,7 @@ struct Table {
   std::vector<Column> columns;
   std::vector<Row> rows;
   std::string caption = {};  ///< may be empty
+  bool wide = false;         ///< many numbers: at a terminal up to 140 columns rather than broken
 };
 
 /// A text with its own line breaks: a file, a story, the output of another program.
@@ -215,7 +216,7 @@ struct Finding {
 struct Document {
   std::string title;        ///< "stormproof check wifi-5x20"
   Tone tone = Tone::plain;  ///< of the answer; its sign stands before the answer
-  Text subject{};           ///< what was looked at, on one line above the answer; may be empty
+  Text subject{};           ///< what was looked at, one line above the answer; may be empty
   Text answer;              ///< the first line: what the reader asked
   Text elaboration;         ///< one or two sentences below it; may be empty
   Blocks blocks{};

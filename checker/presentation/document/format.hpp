@@ -1,10 +1,11 @@
-// The output formats of `check` and `diff`, by the names that `--format` takes.
+// The output formats, by the names that `--format` takes. CSV is for verbs that have tables of
+// numbers; it is no rendering of the document.
 #pragma once
 
 #include <cstdint>
 
 namespace stormproof::report {
 
-enum class Format : std::uint8_t { text, json, markdown, html, junit, sarif };
+enum class Format : std::uint8_t { text, json, markdown, html, junit, sarif, csv };
 
 }  // namespace stormproof::report

@@ -111,6 +111,7 @@ class Page {
  public:
   std::string run(const Document& document) {
     std::string body = "<h1>" + html_text(document.title) + "</h1>\n";
+    if (!document.subject.empty()) body += "<p>" + html(document.subject) + "</p>\n";
     std::string more;
     if (!document.elaboration.empty()) more = "<p>" + html(document.elaboration) + "</p>\n";
     if (!document.answer.empty()) {

@@ -246,6 +246,7 @@ std::string to_markdown(const Document& document) {
   std::string answer = (sign.empty() ? "" : std::string{sign} + " ") + md(document.answer);
   const std::string title = md_text(document.title);
   parts.add("", "### " + title + (title.empty() || answer.empty() ? "" : ": ") + answer + "\n");
+  if (!document.subject.empty()) parts.add("", md(document.subject) + "\n");
   if (!document.elaboration.empty()) parts.add("", md(document.elaboration) + "\n");
   parts.add(document.blocks, "", 4);
   if (!document.assumptions.empty()) {

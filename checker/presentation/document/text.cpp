@@ -16,6 +16,8 @@ namespace stormproof::report {
 
 namespace {
 
+constexpr std::size_t wide_columns = 140;  ///< of tables that are not broken
+
 class TextPage {
  public:
   explicit TextPage(const Terminal& terminal)
@@ -67,6 +69,7 @@ class TextPage {
   }
 
   void answer(const Document& document) {
+    if (!document.subject.empty()) running(0, "", document.subject);
     const std::string_view sign = sign_of(document.tone);
     if (!document.answer.empty()) {
       const std::string words = (sign.empty() ? "" : std::string{sign} + " ") +
@@ -142,7 +145,8 @@ class TextPage {
 
   void add(const Table& block, std::size_t indent) {
     if (!block.caption.empty()) running(indent, "", block.caption);
-    const auto rows = table_lines(block, width_ - indent, colours_, verbose_);
+    const std::size_t width = block.wide ? std::max(width_, wide_columns) : width_;
+    const auto rows = table_lines(block, width - indent, colours_, verbose_);
     for (const std::string& text : rows.front()) line(indent, text);
     for (std::size_t k = 0; k < block.rows.size(); ++k) {
       for (const std::string& text : rows[k + 1]) line(indent, text);

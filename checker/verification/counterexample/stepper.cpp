@@ -102,11 +102,9 @@ Steps steps_of(const Chart& chart) {
 
 }  // namespace
 
-std::string walk_html(const props::Counterexample& counterexample, const Chart& chart,
-                      std::string_view id, std::string_view caption, Drawings& drawings,
-                      std::set<std::string>& machines) {
+Sequence walk(const props::Counterexample& counterexample, Chart chart, std::string id,
+              std::string caption, std::set<std::string>& machines) {
   const Steps steps = steps_of(chart);
-  if (steps.rows.empty()) return {};
   const auto states = states_after(counterexample, steps.events);
   for (const StateRow& row : states.empty() ? std::vector<StateRow>{} : states.back()) {
     if (row.machine != "received") machines.insert(row.machine);
@@ -119,12 +117,40 @@ std::string walk_html(const props::Counterexample& counterexample, const Chart& 
     if (!gap) ++event;
     list += step_html(chart, row, shown);
   }
-  return fmt::format(
-      "<div class=\"walk\">\n{}"
+  Sequence sequence{std::move(chart), std::move(id), std::move(caption)};
+  if (steps.rows.empty()) return sequence;
+  sequence.steps_html = fmt::format(
       "<div class=\"stepper\" role=\"group\" aria-label=\"Steps: {}\" tabindex=\"0\" "
-      "data-drawing=\"{}\">\n{}<ol class=\"steps\">\n{}</ol></div>\n</div>\n",
+      "data-drawing=\"{}\">\n{}<ol class=\"steps\">\n{}</ol></div>\n",
+      html_text(sequence.caption), html_text(sequence.id),
+      controls_html(steps.rows.size(), sequence.id), list);
+  return sequence;
+}
+
+void add_machines(Blocks& blocks, const std::set<std::string>& machines) {
+  Section section{
+      "State machines, as the simulator runs them; the states of the current step are marked",
+      "",
+      {},
+      true};
+  for (const fsm::MachineInfo& machine : fsm::machines()) {
+    std::string name{machine.name};
+    if (!machines.contains(name)) continue;
+    section.blocks.emplace_back(Drawing{draw::machine_svg(machine), name, "", name});
+  }
+  if (!section.blocks.empty()) blocks.emplace_back(std::move(section), Audience::page);
+}
+
+std::string walk_html(const props::Counterexample& counterexample, const Chart& chart,
+                      std::string_view id, std::string_view caption, Drawings& drawings,
+                      std::set<std::string>& machines) {
+  const Sequence sequence =
+      walk(counterexample, chart, std::string{id}, std::string{caption}, machines);
+  if (sequence.steps_html.empty()) return {};
+  return fmt::format(
+      "<div class=\"walk\">\n{}{}</div>\n",
       parts::drawing_html(drawings.add(counterexample::svg_chart(chart), id), caption),
-      html_text(caption), html_text(id), controls_html(steps.rows.size(), id), list);
+      sequence.steps_html);
 }
 
 std::string machines_html(const std::set<std::string>& machines, Drawings& drawings) {

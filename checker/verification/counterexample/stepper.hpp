@@ -7,11 +7,21 @@
 #include <string>
 #include <string_view>
 
+#include "checker/presentation/document/document.hpp"
 #include "checker/presentation/document/drawings.hpp"
 #include "checker/verification/counterexample/chart.hpp"
 #include "props/verdict.hpp"
 
 namespace stormproof::report {
+
+/// `chart`, which is that of `counterexample`, with its steps; `id` is unique in the document.
+/// Names of machines whose states it shows are added to `machines`.
+[[nodiscard]] Sequence walk(const props::Counterexample& counterexample,
+                            counterexample::Chart chart, std::string id, std::string caption,
+                            std::set<std::string>& machines);
+
+/// Diagrams of these machines, in which the states of the current step are marked; folded.
+void add_machines(Blocks& blocks, const std::set<std::string>& machines);
 
 /// HTML of chart and stepper. `chart` is that of `counterexample`; `id` is unique in the page;
 /// `caption` (plain) says what is shown. Names of machines whose states it shows are added to

@@ -166,6 +166,23 @@ Parsed<Fraction> parse_fraction(std::string_view text) {
   return Fraction{fraction.numerator / divisor, fraction.denominator / divisor};
 }
 
+Parsed<Fraction> parse_share(std::string_view text) {
+  std::string_view number = text;
+  const bool is_percent = number.ends_with('%');
+  if (is_percent) number.remove_suffix(1);
+  while (is_percent && number.ends_with(' ')) number.remove_suffix(1);
+  if (number == "0") return Fraction{0, 1};
+  const auto fraction = parse_fraction(number);
+  if (!fraction) return fmt::format("{} is not a percentage, decimal or fraction", quote(text));
+  if (!is_percent) return *fraction;
+  constexpr std::int64_t hundred = 100;
+  const std::int64_t common = std::gcd(fraction->numerator, hundred);
+  if (fraction->denominator > INT64_MAX / hundred) {
+    return fmt::format("{} has too many digits", quote(text));
+  }
+  return Fraction{fraction->numerator / common, fraction->denominator * (hundred / common)};
+}
+
 std::string print_duration(Nanoseconds duration) {
   return print_quantity(duration.count(), duration_units);
 }

@@ -16,10 +16,14 @@ namespace stormproof::model::config {
 template <class T>
 using Parsed = Result<T, std::string>;
 
-/// A positive fraction in lowest terms.
+/// A fraction in lowest terms, positive unless it is a share.
 struct Fraction {
   std::int64_t numerator = 1;
   std::int64_t denominator = 1;
+
+  [[nodiscard]] double value() const {
+    return static_cast<double>(numerator) / static_cast<double>(denominator);
+  }
 
   bool operator==(const Fraction&) const = default;
 };
@@ -32,6 +36,9 @@ struct Fraction {
 [[nodiscard]] Parsed<std::int64_t> parse_count(std::string_view text);
 /// A decimal ("0.05") or a fraction ("1/20"), greater than 0; reduced.
 [[nodiscard]] Parsed<Fraction> parse_fraction(std::string_view text);
+
+/// A share: "2%", "2 %", "0.02" or "1/50", and "0" or "0%" alone (0/1). At least 0; reduced.
+[[nodiscard]] Parsed<Fraction> parse_share(std::string_view text);
 
 /// The shortest exact spelling whose number is at least 1, the larger unit if two are equally
 /// short: "100us". `duration` must not be negative. `parse_duration` gives the same value back.

@@ -1,7 +1,5 @@
 // Every published figure is in every form of the report, numbers are numbers, and the page needs
 // nothing but itself.
-#include "checker/experiments/reproduce/report.hpp"
-
 #include <regex>
 #include <sstream>
 
@@ -10,6 +8,8 @@
 #include <tinyxml2.h>
 #include <yaml-cpp/yaml.h>
 
+#include "checker/experiments/reproduce/reproduce_report.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "tests/checker/experiments/reproduce/examples.hpp"
 
 namespace stormproof::reproduce {
@@ -64,8 +64,8 @@ TEST_F(ReportTest, EveryPublishedKeyIsInEveryForm) {
   leaf_paths(YAML::Load(shipped("paper-tables.yaml")), "", paths);
   EXPECT_GT(paths.size(), 100U);
   const std::string csv = figures_csv(*report_);
-  const std::string text = to_text(*report_);
-  const std::string html = to_html(*report_);
+  const std::string text = report::to_text(document_of(*report_));
+  const std::string html = report::to_html(document_of(*report_));
   std::set<std::string> in_json;
   const auto json = to_json(*report_);
   for (const auto& one : json["figures"]) in_json.insert(one["id"].get<std::string>());
@@ -150,10 +150,10 @@ TEST_F(ReportTest, AgreementMeansWithinATenth) {
 }
 
 TEST_F(ReportTest, NoFormPrintsWhatIsNoNumber) {
-  EXPECT_FALSE(mentions_no_number(to_text(*report_)));
+  EXPECT_FALSE(mentions_no_number(report::to_text(document_of(*report_))));
   EXPECT_FALSE(mentions_no_number(figures_csv(*report_)));
   EXPECT_FALSE(mentions_no_number(configurations_csv(*report_)));
-  EXPECT_FALSE(mentions_no_number(to_html(*report_)));
+  EXPECT_FALSE(mentions_no_number(report::to_html(document_of(*report_))));
   EXPECT_TRUE(mentions_no_number("a,nan,b")) << "the check itself";
 }
 
@@ -185,13 +185,13 @@ TEST_F(ReportTest, JsonHasEveryCaseWithExactTimes) {
         one["endpoints_per_participant"] == 20 && one["order"] == "fifo_uplink" &&
         one["heartbeat_policy"] == "periodic") {
       EXPECT_EQ(one["t_disc_ns"][0], 100'000'000);
-      EXPECT_EQ(one["messages"]["total"], 50);
+      EXPECT_EQ(one["counts"]["total"], 50);
     }
   }
 }
 
 TEST_F(ReportTest, ThePageIsWellFormedAndNeedsNothingElse) {
-  const std::string html = to_html(*report_);
+  const std::string html = report::to_html(document_of(*report_));
   tinyxml2::XMLDocument document;
   EXPECT_EQ(document.Parse(html.c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
   std::string rest = html;
@@ -208,7 +208,7 @@ TEST_F(ReportTest, ThePageIsWellFormedAndNeedsNothingElse) {
 }
 
 TEST_F(ReportTest, ReasonsThatAreLinkedExist) {
-  const std::string html = to_html(*report_);
+  const std::string html = report::to_html(document_of(*report_));
   const std::regex link{"href=\"#(reason-[0-9]+)\""};
   std::size_t links = 0;
   for (std::sregex_iterator it{html.begin(), html.end(), link}, end; it != end; ++it, ++links) {
@@ -222,21 +222,22 @@ TEST_F(ReportTest, AnInterruptedReportSaysSo) {
   results.outcomes.clear();
   results.complete = false;
   const Report report = report_of(report_->published, std::move(results));
-  EXPECT_NE(to_text(report).find("Interrupted"), std::string::npos);
-  EXPECT_NE(to_html(report).find("Interrupted"), std::string::npos);
+  EXPECT_NE(report::to_text(document_of(report)).find("Interrupted"), std::string::npos);
+  EXPECT_NE(report::to_html(document_of(report)).find("Interrupted"), std::string::npos);
   EXPECT_FALSE(to_json(report)["complete"].get<bool>());
   for (const Figure& one : report.figures) {
     for (const ModelValue& model : one.models) EXPECT_TRUE(model.values.empty());
   }
-  EXPECT_FALSE(mentions_no_number(to_text(report) + to_html(report)));
+  EXPECT_FALSE(mentions_no_number(report::to_text(document_of(report)) +
+                                  report::to_html(document_of(report))));
 }
 
 TEST_F(ReportTest, IsMadeWithoutAnyVariant) {
   const Report report =
       report_of(report_->published, made_up(plan_of(report_->published, {{"none"}, 1})));
   EXPECT_TRUE(report.results.plan.variants.empty());
-  EXPECT_NE(to_text(report).find("23,858.1"), std::string::npos);
-  EXPECT_FALSE(to_html(report).empty());
+  EXPECT_NE(report::to_text(document_of(report)).find("23,858.1"), std::string::npos);
+  EXPECT_FALSE(report::to_html(document_of(report)).empty());
 }
 
 TEST(Numbers, AreWrittenForPeople) {

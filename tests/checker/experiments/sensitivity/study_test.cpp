@@ -212,8 +212,8 @@ TEST(SensitivityReport, JsonRanksBothMeasures) {
   EXPECT_EQ(first["key"], "wireless.one_way");
   EXPECT_EQ(first["rank_completion"], 1);
   EXPECT_GT(first["rank_messages"], 1);
-  EXPECT_EQ(first["levels"][0]["completion"]["median_ns"], -40'000);
-  EXPECT_EQ(json["base"]["completion_ns"], 200'000);
+  EXPECT_EQ(first["levels"][0]["t_disc_ns"]["median"], -40'000);
+  EXPECT_EQ(json["base"]["t_disc_ns"], 200'000);
 }
 
 TEST(SensitivityReport, PlotHasTheKnobsWithAnEffect) {

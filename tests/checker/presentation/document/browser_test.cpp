@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "checker/presentation/document/render.hpp"
 #include "tests/checker/presentation/document/examples.hpp"
 
 namespace stormproof::report {

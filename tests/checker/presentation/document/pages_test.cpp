@@ -6,6 +6,7 @@
 
 #include "checker/presentation/document/drawings.hpp"
 #include "checker/presentation/document/html_page.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "checker/verification/counterexample/machine_states.hpp"
 #include "tests/checker/presentation/document/examples.hpp"
 #include "tests/checker/presentation/document/html_checks.hpp"
@@ -24,7 +25,7 @@ const std::string& check_page() {
 
 const std::string& diff_page() {
   static const std::string page =
-      to_html(regression(), {{"telling-apart.base", "diff/base.jsonl"}});
+      to_html(document_of(regression(), {{"telling-apart.base", "diff/base.jsonl"}}));
   return page;
 }
 
@@ -103,7 +104,7 @@ TEST(Pages, ADiffShowsTheJudgmentFirstThenKnobsCostsAndRuns) {
   const std::string& page = diff_page();
   std::size_t before = page.find("✗ REGRESSION");
   ASSERT_NE(before, std::string::npos);
-  for (const char* id : {"knobs", "costs", "margin", "verdicts", "apart", "blame", "repeat"}) {
+  for (const char* id : {"knobs", "verdicts", "costs", "margin", "blame", "apart", "repeat"}) {
     const std::size_t here = page.find("id=\"" + std::string{id} + "\"");
     EXPECT_NE(here, std::string::npos) << id;
     EXPECT_LT(before, here) << id;
@@ -117,7 +118,7 @@ TEST(Pages, ADiffShowsTheJudgmentFirstThenKnobsCostsAndRuns) {
 }
 
 TEST(Pages, EqualProfilesAreSaidToBeEqualAndByWhatProof) {
-  const std::string page = to_html(equality(), {});
+  const std::string page = to_html(document_of(equality(), {}));
   EXPECT_EQ(html_fault(page), "");
   EXPECT_NE(page.find("✓ NO REGRESSION"), std::string::npos);
   EXPECT_NE(page.find("Every knob has the same value."), std::string::npos);

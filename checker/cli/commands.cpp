@@ -1,0 +1,26 @@
+// The order of the help.
+#include "checker/cli/commands.hpp"
+
+namespace stormproof::cli {
+
+void declare_commands(Frame& frame) {
+  declare_simulate(frame);
+  declare_check(frame);
+  declare_diff(frame);
+  declare_fuzz(frame);
+  declare_sensitivity(frame);
+  declare_sweep(frame);
+  declare_tune(frame);
+  declare_reproduce(frame);
+  declare_coverage(frame);
+  declare_capture(frame);
+  declare_conform(frame);
+  declare_validate(frame);
+  declare_properties(frame);
+  declare_profile(frame);
+  declare_replay(frame);
+  declare_draw(frame);
+  declare_mutate(frame);
+}
+
+}  // namespace stormproof::cli

@@ -1,0 +1,256 @@
+// The life of a command: its files are opened, it runs, its answer is completed and shown.
+#include "checker/cli/frame.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <set>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include "checker/cli/complain.hpp"
+#include "checker/cli/report_files.hpp"
+#include "checker/cli/terminal.hpp"
+#include "model/config/tree/suggestion.hpp"
+
+namespace stormproof::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using report::Format;
+
+std::vector<NamedFormat> formats_of(Formats formats) {
+  std::vector<NamedFormat> all{{"text", Format::text}, {"json", Format::json}};
+  if (formats == Formats::plain) return all;
+  all.insert(all.end(), {{"markdown", Format::markdown}, {"html", Format::html}});
+  if (formats == Formats::tables) all.emplace_back("csv", Format::csv);
+  if (formats == Formats::findings) {
+    all.insert(all.end(), {{"junit", Format::junit}, {"sarif", Format::sarif}});
+  }
+  return all;
+}
+
+std::string dumped(const ordered_json& json) {
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// The document and the JSON with what all of them have.
+void complete(Answer& answer, const std::string& command) {
+  report::Document& document = answer.document;
+  document.exit_code = answer.exit_code;
+  if (document.command.empty()) document.command = command;
+  ordered_json json{{"schema", json_schema}, {"command", document.command}};
+  for (auto& [key, value] : answer.json.items()) json.emplace(key, std::move(value));
+  answer.json = std::move(json);
+}
+
+std::string render(const Answer& answer, Format format, const report::Terminal& terminal) {
+  if (format == Format::json) return dumped(answer.json);
+  if (const auto old = answer.rendered.find(format); old != answer.rendered.end()) {
+    return old->second;
+  }
+  switch (format) {
+    case Format::json:
+      break;
+    case Format::csv:
+      return answer.csv;
+    case Format::markdown:
+      return to_markdown(answer.document);
+    case Format::html:
+      return to_html(answer.document);
+    case Format::junit:
+      return to_junit(answer.document);
+    case Format::sarif:
+      return dumped(to_sarif(answer.document));
+    case Format::text:
+      return to_text(answer.document, terminal);
+  }
+  return {};
+}
+
+/// Why nothing can be written into `folder`, as far as that is known before there is something.
+std::optional<std::string> refuse_folder(const std::string& option, const std::string& folder) {
+  std::error_code ignored;
+  const auto status = fs::status(folder, ignored);
+  if (folder.empty() || fs::is_directory(status) || !fs::exists(status)) return std::nullopt;
+  return fmt::format("{} {}: is no folder", option, folder);
+}
+
+}  // namespace
+
+/// A verb, with what its options were set to.
+struct Frame::Command {
+  Verb verb;
+  const CLI::App* parsed = nullptr;
+  std::function<Outcome(Session&)> run;
+  Declared declared{};
+  Format format = Format::text;
+  std::vector<std::string> report_arguments{};
+  std::deque<ReportFile> reports{};
+  bool verbose = false;
+  std::optional<bool> progress{};  ///< not given: when stderr is a terminal
+
+  void declare_own(Options& options);
+  int execute();
+
+ private:
+  std::optional<std::string> open_files();
+  std::optional<std::string> write_files(const Answer& answer);
+};
+
+void Frame::Command::declare_own(Options& options) {
+  const std::vector<NamedFormat> offered = formats_of(verb.formats);
+  std::string names;
+  for (std::size_t k = 0; k < offered.size(); ++k) {
+    names += (k == 0 ? "" : k + 1 < offered.size() ? ", " : " or ") + offered[k].first;
+    if (k == 0) names += " (default)";
+  }
+  options.choice("--format", format, offered, "Output format: " + names, "FORMAT").not_repeated();
+  options
+      .texts("--report", report_arguments,
+             "Write the answer in another format, too: html=FILE (repeatable)", "FORMAT=FILE")
+      .not_repeated();
+  options.flag("-v,--verbose", verbose, "Show more in the text").not_repeated();
+  if (!verb.takes_long) return;
+  options
+      .flag(
+          "--progress", [this] { progress = true; },
+          "Show progress on stderr (default on a terminal)")
+      .not_repeated();
+  options
+      .flag(
+          "--no-progress", [this] { progress = false; }, "Show no progress")
+      .not_repeated();
+}
+
+std::optional<std::string> Frame::Command::open_files() {
+  if (verb.formats != Formats::none) {
+    if (const auto error = parse_report_files(report_arguments, formats_of(verb.formats), reports))
+      return to_string(*error);
+  }
+  for (const auto& [option, path] : declared.folders) {
+    if (auto error = refuse_folder(option, *path)) return error;
+  }
+  if (!verb.writes()) return std::nullopt;
+  for (const auto& [file, path] : declared.files) {
+    file->open(path);
+    if (auto error = file->open_error()) return error;
+  }
+  for (ReportFile& report : reports) {
+    report.file.open(report.path);
+    if (auto error = report.file.open_error()) return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Frame::Command::write_files(const Answer& answer) {
+  const report::Terminal file{.verbose = verbose};
+  for (ReportFile& report : reports) {
+    report.file.stream() << render(answer, report.format, file);
+    if (auto error = report.file.commit()) return error;
+  }
+  for (const auto& [path, in] : answer.files) {
+    OutputFile written{path};
+    if (auto error = written.open_error()) return error;
+    written.stream() << render(answer, in, file);
+    if (auto error = written.commit()) return error;
+  }
+  for (const auto& [declared_file, path] : declared.files) {
+    if (auto error = declared_file->commit()) return error;
+  }
+  return std::nullopt;
+}
+
+int Frame::Command::execute() {
+  if (const auto error = open_files()) return complain(*error);
+  const std::vector<Given> given = given_to(*parsed, declared.not_repeated);
+  std::set<Format> wanted{format};
+  for (const ReportFile& report : reports) wanted.insert(report.format);
+  Outcome outcome = [&] {
+    Session session{given, wanted, verbose, progress.value_or(isatty(STDERR_FILENO) != 0)};
+    return run(session);
+  }();
+  if (const auto* complaint = std::get_if<Complaint>(&outcome)) return complain(complaint->message);
+  if (const auto* code = std::get_if<ExitCode>(&outcome)) return *code;
+  Answer& answer = std::get<Answer>(outcome);
+  complete(answer, shell_line(given));
+  report::Terminal terminal = standard_output();
+  terminal.verbose = verbose;
+  fmt::print("{}", render(answer, format, terminal));
+  for (const std::string& note : answer.notes) fmt::print(stderr, "{}\n", note);
+  const auto error = write_files(answer);
+  if (!answer.complaint.empty()) return complain(answer.complaint);
+  if (error) return complain(*error);
+  return answer.exit_code;
+}
+
+struct Frame::Parser {
+  CLI::App app{"stormproof: will these ROS 2 / DDS participants discover each other in time?"};
+  std::deque<Command> commands;
+  Command* chosen = nullptr;
+};
+
+Frame::Frame() : parser_{std::make_unique<Parser>()} {
+  parser_->app.name("stormproof");
+  parser_->app.set_version_flag("--version", "stormproof " STORMPROOF_VERSION);
+  parser_->app.require_subcommand(1);
+}
+
+Frame::~Frame() = default;
+
+void Frame::group(const char* name, const char* help) {
+  parser_->app.add_subcommand(name, help)->require_subcommand(1);
+}
+
+void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
+                std::function<Outcome(Session&)> work) {
+  CLI::App* parent = &parser_->app;
+  std::string name = verb.name;
+  if (const std::size_t space = name.find(' '); space != std::string::npos) {
+    parent = parent->get_subcommand(name.substr(0, space));
+    name = name.substr(space + 1);
+  }
+  CLI::App* app = parent->add_subcommand(name, verb.help);
+  app->footer(verb.exit_codes);
+  parser_->commands.push_back(Command{std::move(verb), app, std::move(work)});
+  Command& command = parser_->commands.back();
+  Options options{*app, command.declared};
+  declare(options);
+  if (command.verb.formats != Formats::none) command.declare_own(options);
+  app->callback([this, &command] { parser_->chosen = &command; });
+}
+
+namespace {
+
+/// Whether the first argument is a word that is no command; says so, if it is.
+bool names_no_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return false;
+  const std::string word = argv[1];
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return false;
+  std::string list;
+  for (const std::string& command : commands) list += (list.empty() ? "" : ", ") + command;
+  complain(fmt::format("'{}' is not a command; expected one of {}{}", word, list,
+                       model::config::suggestion(word, commands)));
+  return true;
+}
+
+}  // namespace
+
+int Frame::run(int argc, char** argv) {
+  CLI::App& app = parser_->app;
+  if (names_no_command(app, argc, argv)) return bad_input;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? established : bad_input;
+  }
+  return parser_->chosen->execute();
+}
+
+}  // namespace stormproof::cli

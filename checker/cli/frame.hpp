@@ -1,0 +1,71 @@
+// What all commands have in common: a command declares its options, is run, and returns its answer.
+// Everything else stands here once: formats and files of the answer, progress, Ctrl-C, the line
+// that repeats the command, the exit code.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "checker/cli/answer.hpp"
+#include "checker/cli/options.hpp"
+#include "checker/cli/session.hpp"
+
+namespace stormproof::cli {
+
+/// The version of what `--format json` prints. It grows when a key gets another name or meaning.
+inline constexpr int json_schema = 2;
+
+/// The formats that a command offers.
+enum class Formats : std::uint8_t {
+  none,     ///< it makes no answer
+  plain,    ///< text and JSON
+  pages,    ///< these, Markdown and HTML
+  tables,   ///< these and CSV
+  findings  ///< as `pages`, JUnit and SARIF
+};
+
+struct Verb {
+  std::string name;  ///< "check"; in a group "profile show"
+  std::string help;
+  std::string exit_codes;
+  Formats formats = Formats::pages;
+  bool takes_long = true;  ///< has progress to show
+  /// Under mpirun: whether this process is the one that writes files.
+  bool (*writes)() = [] { return true; };
+};
+
+class Frame {
+ public:
+  Frame();
+  ~Frame();
+  Frame(const Frame&) = delete;
+  Frame& operator=(const Frame&) = delete;
+
+  /// A word that has commands below it.
+  void group(const char* name, const char* help);
+
+  /// `declare` says what the command accepts, `work` does it. A request lives as long as the
+  /// frame.
+  template <class Request>
+  void add(Verb verb, void (*declare)(Options&, Request&), Outcome (*work)(Request&, Session&)) {
+    const auto request = std::make_shared<Request>();
+    add(
+        std::move(verb), [=](Options& options) { declare(options, *request); },
+        [=](Session& session) { return work(*request, session); });
+  }
+
+  /// Parses, runs, shows; returns the exit code.
+  [[nodiscard]] int run(int argc, char** argv);
+
+ private:
+  struct Parser;
+  struct Command;
+
+  void add(Verb verb, const std::function<void(Options&)>& declare,
+           std::function<Outcome(Session&)> work);
+
+  std::unique_ptr<Parser> parser_;
+};
+
+}  // namespace stormproof::cli

@@ -1,0 +1,74 @@
+// What a command has while it runs: the line that repeats it, progress on stderr, and whether
+// somebody wants it to stop.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "checker/cli/given.hpp"
+#include "checker/cli/run_monitor.hpp"
+#include "checker/presentation/document/format.hpp"
+
+namespace stormproof::model {
+struct Progress;
+}
+
+namespace stormproof::cli {
+
+class Session {
+ public:
+  Session(std::vector<Given> given, std::set<report::Format> wanted, bool verbose,
+          bool shows_progress)
+      : given_{std::move(given)},
+        wanted_{std::move(wanted)},
+        verbose_{verbose},
+        line_{shows_progress} {}
+
+  /// Gives the same answer again. `without`: options that are left out.
+  [[nodiscard]] std::string command(std::initializer_list<std::string_view> without = {}) const {
+    return shell_line(given_, without);
+  }
+
+  /// The formats that the answer will be shown in.
+  [[nodiscard]] const std::set<report::Format>& wanted() const { return wanted_; }
+  /// Whether somebody will see drawings, so that it is worth while to make them.
+  [[nodiscard]] bool wants_pages() const { return wanted_.contains(report::Format::html); }
+
+  [[nodiscard]] bool verbose() const { return verbose_; }
+
+  [[nodiscard]] static bool interrupted() { return InterruptGuard::interrupted(); }
+
+  /// For `on_progress` of everything: shows what `text()` says if it is time for that; returns
+  /// whether to go on.
+  template <class MakeText>
+  bool proceed(MakeText&& text) {
+    if (line_.due()) line_.show(text());
+    return !interrupted();
+  }
+  /// The same for many runs: how many are done, and about how long the rest takes.
+  [[nodiscard]] std::function<bool(std::size_t done, std::size_t all)> on_runs();
+  /// The same for steps that take a while: "WHAT, 12 s".
+  [[nodiscard]] std::function<bool(std::string_view what)> on_steps(std::string doing = {});
+  /// The same for a simulation.
+  [[nodiscard]] std::function<bool(const model::Progress&)> on_simulation();
+  /// The same for reading captures.
+  [[nodiscard]] std::function<bool(std::uint64_t packets)> on_packets();
+
+  [[nodiscard]] double seconds() const { return line_.seconds(); }
+
+ private:
+  std::vector<Given> given_;
+  std::set<report::Format> wanted_;
+  bool verbose_;
+  InterruptGuard guard_;
+  StatusLine line_;
+};
+
+}  // namespace stormproof::cli

@@ -1,0 +1,21 @@
+// The parts of the document of a comparison that stand in files of their own.
+#pragma once
+
+#include "checker/experiments/diff/diff_report.hpp"
+
+namespace stormproof::diff {
+
+/// How a judgment looks: "✗ regression".
+[[nodiscard]] report::Text badge_of(Judgment judgment);
+
+/// Configurations with what they cost, plots, limits and what was decided together; nothing if
+/// nothing had to run.
+void add_costs(report::Blocks& blocks, const DiffReport& report);
+
+/// The two runs of the least scenario that tells the profiles apart, or why there is none.
+void add_apart(report::Blocks& blocks, const DiffReport& report, const Files& files);
+
+/// What CI systems count and show beside the changed lines.
+void add_findings(report::Document& document, const DiffReport& report, const Files& files);
+
+}  // namespace stormproof::diff
