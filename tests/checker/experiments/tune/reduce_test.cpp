@@ -27,7 +27,8 @@ using Changed = std::vector<std::size_t>;
 
 std::vector<Point> reduce_with(const Problem& problem, std::vector<Point> points,
                                double least = 0.02, Seeds under = seeds) {
-  Archive archive{problem, stand_in_limit, 1, {}};
+  trials::Runner runner{1};
+  Archive archive{problem, stand_in_limit, runner};
   auto result = reduced(std::move(points), problem, archive, under, least);
   EXPECT_TRUE(result);
   return result.value_or(std::vector<Point>{});
