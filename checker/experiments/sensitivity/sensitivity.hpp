@@ -43,6 +43,7 @@ struct Effect {
 
   /// Whether the interval says in which direction the effect goes.
   [[nodiscard]] bool is_clear() const { return low > 0 || high < 0; }
+  bool operator==(const Effect&) const = default;
 };
 
 /// Effects on both measures, in nanoseconds and messages.

@@ -17,6 +17,7 @@ struct sqlite3_stmt;
 namespace stormproof::sweep {
 
 using grids::Digest;
+using grids::hex;
 
 /// `PRAGMA application_id` and `user_version` of the files.
 inline constexpr int application_id = 0x53544d50;
