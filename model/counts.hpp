@@ -1,8 +1,10 @@
-// The six message classes, counted at generation (paper, "Model Outputs").
+// Messages by class, counted at generation (paper, "Model Outputs").
 #pragma once
 
 #include <array>
 #include <cstdint>
+
+#include "model/message_class.hpp"
 
 namespace stormproof::model {
 
@@ -14,9 +16,18 @@ struct Counts {
   std::uint64_t spdp_multicast = 0;
   std::uint64_t spdp_unicast = 0;
 
+  [[nodiscard]] constexpr std::uint64_t& operator[](MessageClass one) {
+    return this->*members[index_of(one)];
+  }
+  [[nodiscard]] constexpr std::uint64_t operator[](MessageClass one) const {
+    return this->*members[index_of(one)];
+  }
+
   [[nodiscard]] std::uint64_t total() const {
     return initial_data + repair_data + heartbeat + acknack + spdp_multicast + spdp_unicast;
   }
+  /// Both kinds of SPDP, which the paper's tables have in one class.
+  [[nodiscard]] std::uint64_t spdp() const { return spdp_multicast + spdp_unicast; }
   bool operator==(const Counts&) const = default;
 
   /// Name and value of each class, in the order of reports.
@@ -24,14 +35,20 @@ struct Counts {
     const char* name;
     std::uint64_t value;
   };
-  [[nodiscard]] std::array<Entry, 6> entries() const {
-    return {{{"initial_data", initial_data},
-             {"repair_data", repair_data},
-             {"heartbeat", heartbeat},
-             {"acknack", acknack},
-             {"spdp_multicast", spdp_multicast},
-             {"spdp_unicast", spdp_unicast}}};
+  [[nodiscard]] std::array<Entry, message_class_count> entries() const {
+    std::array<Entry, message_class_count> all{};
+    for (const MessageClass one : message_classes) {
+      all[index_of(one)] = {name_of(one), (*this)[one]};
+    }
+    return all;
   }
+
+ private:
+  static const std::array<std::uint64_t Counts::*, message_class_count> members;
 };
+
+inline constexpr std::array<std::uint64_t Counts::*, message_class_count> Counts::members{
+    &Counts::initial_data, &Counts::repair_data,    &Counts::heartbeat,
+    &Counts::acknack,      &Counts::spdp_multicast, &Counts::spdp_unicast};
 
 }  // namespace stormproof::model

@@ -1,4 +1,4 @@
-// Names of packet kinds and traffic classes, as reports and traces show them.
+// Names of packet kinds, traffic classes and ends of runs, as reports and traces show them.
 #include "model/engine/packet.hpp"
 #include "model/run_result.hpp"
 
@@ -29,15 +29,47 @@ const char* name_of(TrafficClass traffic) {
     case TrafficClass::spdp:
       return "spdp";
     case TrafficClass::initial_data:
-      return "initial_data";
+      return name_of(MessageClass::initial_data);
     case TrafficClass::repair_data:
-      return "repair_data";
+      return name_of(MessageClass::repair_data);
     case TrafficClass::heartbeat:
-      return "heartbeat";
+      return name_of(MessageClass::heartbeat);
     case TrafficClass::acknack:
-      return "acknack";
+      return name_of(MessageClass::acknack);
     case TrafficClass::user_control:
       return "user_control";
+  }
+  return "";
+}
+
+const char* words_of(TrafficClass traffic) {
+  switch (traffic) {
+    case TrafficClass::spdp:
+      return "SPDP";
+    case TrafficClass::initial_data:
+      return words_of(MessageClass::initial_data);
+    case TrafficClass::repair_data:
+      return words_of(MessageClass::repair_data);
+    case TrafficClass::heartbeat:
+      return words_of(MessageClass::heartbeat);
+    case TrafficClass::acknack:
+      return words_of(MessageClass::acknack);
+    case TrafficClass::user_control:
+      return "user control";
+  }
+  return "";
+}
+
+const char* name_of(RunEnd end) {
+  switch (end) {
+    case RunEnd::completed:
+      return "completed";
+    case RunEnd::time_limit:
+      return "time_limit";
+    case RunEnd::no_more_events:
+      return "no_more_events";
+    case RunEnd::interrupted:
+      return "interrupted";
   }
   return "";
 }

@@ -15,6 +15,8 @@ namespace stormproof::model {
 /// Why a run ended. `completed` is the end of a run that the completion of discovery ends; a run
 /// with `run_until: time_limit` may have completed discovery and yet ended otherwise.
 enum class RunEnd : std::uint8_t { completed, time_limit, no_more_events, interrupted };
+/// "time_limit", as traces and JSON have it.
+[[nodiscard]] const char* name_of(RunEnd end);
 
 /// A descriptor that had not reached one of its receivers when the run ended.
 struct MissingDescriptor {
@@ -35,6 +37,8 @@ enum class TrafficClass : std::uint8_t {
 };
 inline constexpr std::size_t traffic_class_count = 6;
 [[nodiscard]] const char* name_of(TrafficClass traffic);
+/// "SPDP", "initial DATA", … "user control", for people.
+[[nodiscard]] const char* words_of(TrafficClass traffic);
 
 /// How one channel was used up to the end of the run.
 struct ChannelUse {

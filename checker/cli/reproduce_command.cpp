@@ -26,9 +26,7 @@ reproduce::Results run_plan(const ReproduceArguments& arguments, const reproduce
                             Session& session) {
   reproduce::RunLimits limits;
   limits.threads = arguments.threads;
-  limits.on_progress = [on_runs = session.on_runs(), all = plan.run_count()](std::size_t finished) {
-    return on_runs(finished, all);
-  };
+  limits.on_progress = session.on_runs();
   return reproduce::run(plan, limits);
 }
 

@@ -31,11 +31,13 @@ void run_all(report::Sampling& sampling, Session& session) {
   const std::size_t all = sampling.wanted * sampling.profiles.size();
   std::size_t before = 0;
   for (report::SampledProfile& profile : sampling.profiles) {
-    sampling::SampleOptions options;
+    trials::SampleOptions options;
     options.samples = sampling.wanted;
     options.first_seed = sampling.first_seed;
-    options.on_progress = [&](std::size_t finished) { return on_runs(before + finished, all); };
-    profile.samples = sampling::sample_runs(profile.scenario, options);
+    options.on_progress = [&](std::size_t finished, std::size_t) {
+      return on_runs(before + finished, all);
+    };
+    profile.samples = trials::sample_runs(profile.scenario, options);
     before += sampling.wanted;
   }
 }

@@ -12,7 +12,7 @@
 #include "checker/experiments/sweep/sweep.hpp"
 #include "checker/experiments/sweep/sweep_report.hpp"
 #include "checker/experiments/sweep/tables.hpp"
-#include "checker/experiments/trials/parallel.hpp"
+#include "checker/experiments/trials/runner.hpp"
 #include "checker/presentation/text/numbers.hpp"
 
 namespace stormproof::cli {
@@ -48,7 +48,7 @@ std::string times(const SweepArguments& arguments, const Collector& results, dou
   }
   const double all = process_cpu_seconds();
   return fmt::format("{:.2f} s on {} threads; {:.2f} s of CPU, {} of it in simulation", seconds,
-                     arguments.threads == 0 ? checker::core_count() : arguments.threads, all,
+                     arguments.threads == 0 ? trials::core_count() : arguments.threads, all,
                      report::percent(results.cpu_seconds(), all));
 }
 
@@ -131,9 +131,9 @@ bool is_leader() { return sweep::launch().rank == 0; }
 Outcome run(SweepArguments& arguments, Session& session) {
   const bool leads = is_leader();
   const SpecPath specs = SpecPath::standard();
-  auto grid = sweep::read_grid(arguments.grid, specs);
+  auto grid = grids::read_grid(arguments.grid, specs);
   if (!grid) return leads ? Outcome{grid.error()} : bad_input;
-  const auto plan = sweep::make_plan(*std::move(grid), specs);
+  const auto plan = grids::make_plan(*std::move(grid), specs);
   if (!plan) return leads ? Outcome{plan.error()} : bad_input;
   return sweep::launch().ranks > 1 ? take_part(arguments, *plan, leads, session)
                                    : lead(arguments, *plan, nullptr, session);

@@ -16,18 +16,4 @@ std::vector<std::string> channel_names(const WirelessProfile& wireless) {
 
 std::string program_name() { return "stormproof " STORMPROOF_VERSION; }
 
-const char* end_name(RunEnd end) {
-  switch (end) {
-    case RunEnd::completed:
-      return "completed";
-    case RunEnd::time_limit:
-      return "time_limit";
-    case RunEnd::no_more_events:
-      return "no_more_events";
-    case RunEnd::interrupted:
-      return "interrupted";
-  }
-  return "";
-}
-
 }  // namespace stormproof::model::trace

@@ -17,7 +17,4 @@ namespace stormproof::model::trace {
 /// "stormproof 1.2.3": the program that writes the trace.
 [[nodiscard]] std::string program_name();
 
-/// "completed", "time_limit", "no_more_events", "interrupted".
-[[nodiscard]] const char* end_name(RunEnd end);
-
 }  // namespace stormproof::model::trace

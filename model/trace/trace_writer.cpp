@@ -46,7 +46,7 @@ TraceWriter::TraceWriter(Sink sink, const Scenario& scenario) : sink_{std::move(
 
 void TraceWriter::finish(const RunResult& result) {
   line_.clear();
-  append(line_, R"({"end":")", end_name(result.end), R"(","t_disc_ns":)");
+  append(line_, R"({"end":")", name_of(result.end), R"(","t_disc_ns":)");
   if (result.discovery_time)
     append(line_, result.discovery_time->count());
   else

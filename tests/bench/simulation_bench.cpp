@@ -103,10 +103,10 @@ void fastdds_90_configurations_12_samples(benchmark::State& state) {
   for (auto _ : state) {
     for (std::uint32_t participants = 1; participants <= 6; ++participants) {
       for (std::uint32_t endpoints = 2; endpoints <= 30; endpoints += 2) {
-        stormproof::sampling::SampleOptions options;
+        stormproof::trials::SampleOptions options;
         options.samples = 12;
         const Scenario scenario = live(participants, endpoints, 0);
-        benchmark::DoNotOptimize(stormproof::sampling::sample_runs(scenario, options));
+        benchmark::DoNotOptimize(stormproof::trials::sample_runs(scenario, options));
       }
     }
   }

@@ -52,6 +52,12 @@ ObservedRun run_observed(std::span<const std::string_view> properties, const Run
   return run;
 }
 
+std::vector<std::string_view> ordinary_properties() {
+  std::vector<std::string_view> ids = props::monitored_properties();
+  std::erase(ids, quiescence);
+  return ids;
+}
+
 ObservedRun run_until_quiet(const RunPlan& plan) {
   constexpr std::uint64_t enough_events = 10'000'000;
   constexpr Nanoseconds far_away{1'000'000'000'000'000};

@@ -12,23 +12,6 @@ namespace stormproof::capture {
 
 namespace {
 
-std::uint64_t& of(model::Counts& counts, Class one) {
-  switch (one) {
-    case Class::repair_data:
-      return counts.repair_data;
-    case Class::heartbeat:
-      return counts.heartbeat;
-    case Class::acknack:
-      return counts.acknack;
-    case Class::spdp_multicast:
-      return counts.spdp_multicast;
-    case Class::spdp_unicast:
-      return counts.spdp_unicast;
-    default:
-      return counts.initial_data;
-  }
-}
-
 class Counter {
  public:
   explicit Counter(const Conversation& conversation, Counting& counting)
@@ -36,25 +19,25 @@ class Counter {
 
   /// The events first … last − 1 are those of one datagram.
   void add(const DatagramRecord& datagram, std::size_t first, std::size_t last) {
-    std::array<std::uint32_t, class_count> in_datagram{};
+    std::array<std::uint32_t, message_class_count> in_datagram{};
     std::uint32_t data = 0;
     for (std::size_t k = first; k < last; ++k) {
       const Event& event = conversation_.events[k];
       add_traffic(event);
-      const Class one = classify(event);
-      counting_.classes.push_back(event.is_same_host ? Class::none : one);
-      if (one == Class::none) continue;
-      ++of(event.is_same_host ? counting_.same_host : counting_.counts, one);
+      const std::optional<MessageClass> one = classify(event);
+      counting_.classes.push_back(event.is_same_host ? std::nullopt : one);
+      if (!one) continue;
+      ++(event.is_same_host ? counting_.same_host : counting_.counts)[*one];
       if (event.is_same_host) continue;
-      const auto index = static_cast<std::size_t>(one);
+      const auto index = index_of(*one);
       ++in_datagram[index];
       counting_.sizes[index].submessage_bytes += event.bytes;
-      if (one == Class::initial_data || one == Class::repair_data) ++data;
-      if (one == Class::heartbeat) add_heartbeat(k, datagram.vendor, data > 0);
-      if (one == Class::acknack) add_acknack(event);
+      if (one == MessageClass::initial_data || one == MessageClass::repair_data) ++data;
+      if (one == MessageClass::heartbeat) add_heartbeat(k, datagram.vendor, data > 0);
+      if (one == MessageClass::acknack) add_acknack(event);
       if (!event.destination && !event.is_multicast) ++counting_.unknown_destination;
     }
-    for (std::size_t k = 0; k < class_count; ++k) {
+    for (std::size_t k = 0; k < message_class_count; ++k) {
       if (in_datagram[k] == 1) ++counting_.sizes[k].single[datagram.payload_bytes];
     }
     if (data > 0) ++counting_.data_per_datagram[data];
@@ -78,25 +61,27 @@ class Counter {
     }
   }
 
-  [[nodiscard]] Class classify(const Event& event) {
+  [[nodiscard]] std::optional<MessageClass> classify(const Event& event) {
     const Traffic traffic = event.traffic();
     if (const DataEvent* data = event.data()) {
-      if (data->fragment != 0) return Class::none;
+      if (data->fragment != 0) return std::nullopt;
       if (traffic == Traffic::spdp) {
-        return event.is_multicast ? Class::spdp_multicast : Class::spdp_unicast;
+        return event.is_multicast ? MessageClass::spdp_multicast : MessageClass::spdp_unicast;
       }
-      return traffic == Traffic::sedp ? classify_data(event, *data) : Class::none;
+      if (traffic != Traffic::sedp) return std::nullopt;
+      return classify_data(event, *data);
     }
-    if (traffic != Traffic::sedp) return Class::none;
-    if (event.heartbeat() != nullptr) return Class::heartbeat;
-    return event.acknack() != nullptr ? Class::acknack : Class::none;
+    if (traffic != Traffic::sedp) return std::nullopt;
+    if (event.heartbeat() != nullptr) return MessageClass::heartbeat;
+    if (event.acknack() != nullptr) return MessageClass::acknack;
+    return std::nullopt;
   }
 
-  [[nodiscard]] Class classify_data(const Event& event, const DataEvent& data) {
+  [[nodiscard]] MessageClass classify_data(const Event& event, const DataEvent& data) {
     if (!event.destination && event.is_multicast) ++counting_.multicast_data;
     const bool is_first =
         keys_.insert({event.source, event.destination, event.writer, data.sequence_number}).second;
-    return is_first ? Class::initial_data : Class::repair_data;
+    return is_first ? MessageClass::initial_data : MessageClass::repair_data;
   }
 
   void add_heartbeat(std::size_t index, VendorId vendor, bool is_behind_data) {
@@ -136,13 +121,6 @@ class Counter {
 };
 
 }  // namespace
-
-const char* class_label(Class one) {
-  constexpr std::array labels{"initial DATA", "repair DATA",    "HEARTBEAT",
-                              "ACKNACK",      "SPDP multicast", "SPDP unicast"};
-  const auto index = static_cast<std::size_t>(one);
-  return index < labels.size() ? labels[index] : "";
-}
 
 const char* name_of(HeartbeatKind kind) {
   switch (kind) {

@@ -25,19 +25,8 @@ namespace stormproof::capture {
 /// The heartbeat period of Fast DDS's SEDP writers, a constant of its source code.
 inline constexpr std::int64_t fastdds_heartbeat_period_ns = 1'000'000'000;
 
-/// The class of an event, in the order of model::Counts; `none` is in no count.
-enum class Class : std::uint8_t {
-  initial_data,
-  repair_data,
-  heartbeat,
-  acknack,
-  spdp_multicast,
-  spdp_unicast,
-  none
-};
-inline constexpr std::size_t class_count = 6;
-/// "initial DATA", as reports write it.
-[[nodiscard]] const char* class_label(Class one);
+using model::message_class_count;
+using model::MessageClass;
 
 enum class HeartbeatKind : std::uint8_t {
   relation_open,       ///< the first to this reader alone
@@ -108,7 +97,7 @@ struct Counting {
   HeartbeatFigures heartbeats{};
   AcknackFigures acknacks{};
   std::array<TrafficFigures, all_traffic.size()> traffic{};  ///< in the order of `all_traffic`
-  std::array<SizeFigures, class_count> sizes{};
+  std::array<SizeFigures, message_class_count> sizes{};
   std::map<std::uint32_t, std::uint64_t> data_per_datagram{};  ///< datagrams by their SEDP DATA
   std::uint64_t datagrams = 0;
   std::uint64_t frames = 0;
@@ -121,7 +110,8 @@ struct Counting {
   std::vector<MissingKey> missing{};      ///< the first of them, at most `most_missing_listed`
   /// When the last required key was sent for the first time; nothing while keys are missing.
   std::optional<std::int64_t> last_initial_ns{};
-  std::vector<Class> classes{};  ///< of each event before the cut
+  /// Of each event before the cut; nothing if it is in no count.
+  std::vector<std::optional<MessageClass>> classes{};
   /// Kind of each SEDP HEARTBEAT, by event index.
   std::map<std::size_t, HeartbeatKind> kinds{};
 };

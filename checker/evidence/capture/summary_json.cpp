@@ -54,7 +54,7 @@ Json traffic_json(const Counting& counting) {
 Json sizes_json(const Counting& counting) {
   Json json;
   const auto names = model::Counts{}.entries();
-  for (std::size_t k = 0; k < class_count; ++k) {
+  for (std::size_t k = 0; k < message_class_count; ++k) {
     const SizeFigures& figures = counting.sizes[k];
     Json single = Json::object();
     for (const auto& [size, datagrams] : figures.single) single[std::to_string(size)] = datagrams;
@@ -128,7 +128,7 @@ Json timeline_json(const Summary& summary) {
   const Timeline line = timeline(summary.conversation, summary.counting, summary.end_ns(), steps);
   const auto names = model::Counts{}.entries();
   Json json = {{"step_ns", line.step_ns}};
-  for (std::size_t one = 0; one < class_count; ++one) {
+  for (std::size_t one = 0; one < message_class_count; ++one) {
     Json values = Json::array();
     for (const auto& step : line.steps) values.push_back(step[one]);
     json[names[one].name] = std::move(values);

@@ -92,8 +92,8 @@ std::string messages(const Counting& counting) {
       "\nmessages                    count   submessages    alone in a datagram, UDP payload\n"
       "                                        (bytes)    (bytes: least / median / most)\n";
   const auto entries = counting.counts.entries();
-  for (std::size_t k = 0; k < class_count; ++k) {
-    text += fmt::format("  {} {} {}    {}\n", left(class_label(static_cast<Class>(k)), 16),
+  for (std::size_t k = 0; k < message_class_count; ++k) {
+    text += fmt::format("  {} {} {}    {}\n", left(words_of(static_cast<MessageClass>(k)), 16),
                         right(grouped(entries[k].value), 14),
                         right(grouped(counting.sizes[k].submessage_bytes), 13),
                         size_range(counting.sizes[k].single));
@@ -185,14 +185,16 @@ std::string over_time(const Summary& summary) {
   std::string text = "\nuntil            SPDP   initial    repair  HEARTBEAT   ACKNACK\n";
   for (std::size_t k = 0; k < line.steps.size(); ++k) {
     const auto& step = line.steps[k];
-    const auto of = [&](Class one) { return step[static_cast<std::size_t>(one)]; };
+    const auto of = [&](MessageClass one) { return step[static_cast<std::size_t>(one)]; };
     const double share = static_cast<double>(sum(step)) / static_cast<double>(most);
     text += fmt::format(
         "  {} {} {} {} {} {}  {}\n",
         right(elapsed(static_cast<std::int64_t>(k + 1) * line.step_ns), 10),
-        right(grouped(of(Class::spdp_multicast) + of(Class::spdp_unicast)), 8),
-        right(grouped(of(Class::initial_data)), 9), right(grouped(of(Class::repair_data)), 9),
-        right(grouped(of(Class::heartbeat)), 10), right(grouped(of(Class::acknack)), 9),
+        right(grouped(of(MessageClass::spdp_multicast) + of(MessageClass::spdp_unicast)), 8),
+        right(grouped(of(MessageClass::initial_data)), 9),
+        right(grouped(of(MessageClass::repair_data)), 9),
+        right(grouped(of(MessageClass::heartbeat)), 10),
+        right(grouped(of(MessageClass::acknack)), 9),
         std::string(static_cast<std::size_t>(share * width + 0.5), '#'));
   }
   return text;

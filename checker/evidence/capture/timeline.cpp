@@ -14,10 +14,10 @@ Timeline timeline(const Conversation& conversation, const Counting& counting, st
   const std::int64_t needed = (span + result.step_ns - 1) / result.step_ns;
   result.steps.resize(static_cast<std::size_t>(needed));
   for (std::size_t k = 0; k < counting.classes.size(); ++k) {
-    const Class one = counting.classes[k];
-    if (one == Class::none) continue;
+    const std::optional<MessageClass> one = counting.classes[k];
+    if (!one) continue;
     const std::int64_t since = conversation.events[k].time_ns - conversation.first_ns;
-    ++result.steps[static_cast<std::size_t>(since / result.step_ns)][static_cast<std::size_t>(one)];
+    ++result.steps[static_cast<std::size_t>(since / result.step_ns)][index_of(*one)];
   }
   return result;
 }

@@ -12,7 +12,7 @@ namespace stormproof::capture {
 struct Timeline {
   std::int64_t step_ns = 1;
   /// For each step, the messages of each class in it.
-  std::vector<std::array<std::uint64_t, class_count>> steps{};
+  std::vector<std::array<std::uint64_t, message_class_count>> steps{};
 };
 
 /// `steps` equal steps that cover first_ns … end_ns; fewer if a step would be below 1 ns.

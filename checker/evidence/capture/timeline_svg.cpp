@@ -19,9 +19,9 @@ std::string to_svg(const Summary& summary) {
   chart.x = {.label = "time since the first packet", .min = 0.0, .unit = "s"};
   chart.y = {.label = "messages so far", .min = 0.0};
   chart.width = 760;
-  for (std::size_t one = 0; one < class_count; ++one) {
+  for (std::size_t one = 0; one < message_class_count; ++one) {
     plot::Series series;
-    series.name = class_label(static_cast<Class>(one));
+    series.name = words_of(static_cast<MessageClass>(one));
     series.mark = plot::Mark::line;
     series.color = one;
     series.x.push_back(0);

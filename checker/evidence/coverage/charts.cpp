@@ -68,7 +68,7 @@ plot::Chart calibration(const ProfileStudy& profile) {
   chart.y = {"share of measured runs", plot::Scale::linear, 0.0, 1.0, "", {}};
   for (const FitRow& row : profile.rows) {
     if (row.scope != "all") continue;
-    if (row.measure != Measure::completion && row.measure != Measure::total) continue;
+    if (row.measure != Measure::completion && row.measure != Measure::messages) continue;
     plot::Series series;
     series.name = row.measure == Measure::completion ? "completion" : "messages";
     for (std::size_t k = 0; k < calibration_points; ++k) {
@@ -103,7 +103,7 @@ std::vector<ChartFile> charts(const Study& study) {
     if (profile.rows.empty()) continue;
     const std::string name = short_name(profile.name);
     files.push_back({name + "-completion.svg", to_svg(scatter(profile, Measure::completion))});
-    files.push_back({name + "-messages.svg", to_svg(scatter(profile, Measure::total))});
+    files.push_back({name + "-messages.svg", to_svg(scatter(profile, Measure::messages))});
     if (profile.sampled) {
       files.push_back({name + "-calibration.svg", to_svg(calibration(profile))});
     }

@@ -34,10 +34,8 @@ std::optional<Range> median_range(const std::vector<Observation>& runs,
     low.push_back((run.*field)->low);
     high.push_back((run.*field)->high);
   }
-  const auto least = sampling::quantiles(low).median;
-  const auto greatest = sampling::quantiles(high).median;
-  if (!least || !greatest) return std::nullopt;
-  return Range{*least, *greatest};
+  if (low.empty()) return std::nullopt;
+  return Range{statistics::median(low), statistics::median(high)};
 }
 
 /// For runs without ep_done_ms: the fit to the live machine.

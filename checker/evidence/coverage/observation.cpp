@@ -19,13 +19,11 @@ struct ClassName {
   Measure measure;
   const char* short_name;
 };
-constexpr ClassName class_names[] = {{Measure::spdp_multicast, "spdp_m"},
-                                     {Measure::spdp_unicast, "spdp_u"},
-                                     {Measure::initial_data, "init"},
-                                     {Measure::repair_data, "repair"},
-                                     {Measure::heartbeat, "hb"},
-                                     {Measure::acknack, "ack"},
-                                     {Measure::total, "total"}};
+constexpr ClassName class_names[] = {
+    {Measure::spdp_multicast, "spdp_m"}, {Measure::spdp_unicast, "spdp_u"},
+    {Measure::initial_data, "init"},     {Measure::repair_data, "repair"},
+    {Measure::heartbeat, "hb"},          {Measure::acknack, "ack"},
+    {Measure::messages, "total"}};
 
 /// Reads the fields of one row and remembers the first mistake.
 class Row {
@@ -109,11 +107,11 @@ void read_counts(const Json& json, Row& row, Observation& run) {
     if (!value) value = fields.number(name_of(measure), 0, Row::max_messages, expected);
   }
   if (!fields.error().empty()) return row.fail("counts", "in it: " + fields.error());
-  auto& total = run.values[static_cast<std::size_t>(Measure::total)];
+  auto& total = run.values[static_cast<std::size_t>(Measure::messages)];
   if (total) return;
   double sum = 0;
   for (const auto& [measure, short_name] : class_names) {
-    if (measure == Measure::total) continue;
+    if (measure == Measure::messages) continue;
     const auto& value = run.values[static_cast<std::size_t>(measure)];
     if (!value) return;
     sum += *value;
@@ -179,12 +177,6 @@ Observation read_row(const Json& json, Row& row, const ReadOptions& options) {
 }
 
 }  // namespace
-
-const char* name_of(Measure measure) {
-  constexpr const char* names[] = {"completion",   "total",       "spdp_multicast", "spdp_unicast",
-                                   "initial_data", "repair_data", "heartbeat",      "acknack"};
-  return names[static_cast<std::size_t>(measure)];
-}
 
 model::config::Result<Observations> read_observations(std::istream& input, const std::string& name,
                                                       const ReadOptions& options) {

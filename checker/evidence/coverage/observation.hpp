@@ -9,23 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "checker/experiments/statistics/measure.hpp"
 #include "model/config/tree/result.hpp"
 
 namespace stormproof::prediction {
 
 /// What is compared: the completion time (ms), all messages, and each class of messages.
-enum class Measure : std::uint8_t {
-  completion,
-  total,
-  spdp_multicast,
-  spdp_unicast,
-  initial_data,
-  repair_data,
-  heartbeat,
-  acknack
-};
-inline constexpr std::size_t measure_count = 8;
-[[nodiscard]] const char* name_of(Measure measure);
+using statistics::Measure;
+inline constexpr std::size_t measure_count = statistics::discovery_measure_count;
 
 /// Earliest and latest of one run's participants, in ms since the common start.
 struct Range {

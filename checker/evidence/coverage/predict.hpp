@@ -4,11 +4,11 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "checker/evidence/coverage/observation.hpp"
+#include "checker/experiments/trials/runner.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::prediction {
@@ -34,8 +34,7 @@ struct PredictOptions {
   std::size_t samples = 12;
   std::uint64_t first_seed = 0;  ///< sample k of every case has seed first_seed + k
   std::size_t threads = 0;       ///< 0: as many as the machine has cores
-  /// Called from one thread at a time; returning false stops all runs.
-  std::function<bool(std::size_t finished, std::size_t all)> on_progress;
+  trials::Progress on_progress;
 };
 
 struct Predictions {
@@ -44,9 +43,5 @@ struct Predictions {
   bool finished = false;  ///< whether all runs did, or they were stopped
 };
 [[nodiscard]] Predictions predict(std::span<const Case> cases, const PredictOptions& options);
-
-/// Ascending numbers of the packets that are lost, each packet with this probability, for the first
-/// two million packets of a run. The same seed gives the same numbers on every machine.
-[[nodiscard]] std::vector<std::uint64_t> draw_losses(double probability, std::uint64_t seed);
 
 }  // namespace stormproof::prediction

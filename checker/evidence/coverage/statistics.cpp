@@ -1,35 +1,23 @@
-// The statistics, on Eigen's arrays. Infinity stands for a run that did not complete: it is above
-// every limit, so order statistics stay exact, and no run is dropped.
+// The statistics. A run that did not complete is above every limit, so order statistics stay exact,
+// and no run is dropped.
 #include "checker/evidence/coverage/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <set>
 
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 namespace stormproof::prediction {
 
 namespace {
 
-using Array = Eigen::ArrayXd;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using statistics::unreached;
 
-Array sorted_array(const std::vector<double>& values) {
-  Array array = Eigen::Map<const Array>(values.data(), static_cast<Eigen::Index>(values.size()));
-  std::sort(array.begin(), array.end());
-  return array;
-}
-
-double quantile_of_sorted(const Array& sorted, double q) {
-  const double position = q * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<Eigen::Index>(position);
-  const double weight = position - static_cast<double>(low);
-  if (weight == 0) return sorted[low];
-  if (std::isinf(sorted[low + 1])) return infinity;
-  return sorted[low] + weight * (sorted[low + 1] - sorted[low]);
+std::vector<double> sorted(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values;
 }
 
 std::optional<double> if_finite(double value) {
@@ -43,7 +31,7 @@ std::optional<double> finite_quantile(const std::vector<double>& values, double 
 /// M/O: 1 if both are 0, infinite if only O is.
 double ratio_of(double model, double observed) {
   if (model == observed) return 1;
-  return observed == 0 ? infinity : model / observed;
+  return observed == 0 ? unreached : model / observed;
 }
 
 double share(double part, std::size_t whole) { return part / static_cast<double>(whole); }
@@ -57,10 +45,10 @@ class Collection {
     const std::vector<double> observed =
         observed_values(*pairing.observed, static_cast<Measure>(measure_));
     if (observed.empty()) return;
-    const Array model = sorted_array(pairing.predicted->values[measure_]);
-    const double prediction = quantile_of_sorted(model, 0.5);
+    const std::vector<double> model = sorted(pairing.predicted->values[measure_]);
+    const double prediction = quantile(model, 0.5);
     ++fit_.configurations;
-    fit_.model_runs += static_cast<std::size_t>(model.size());
+    fit_.model_runs += model.size();
     fit_.incomplete_model_runs += pairing.predicted->incomplete;
     add_configuration(prediction, quantile(observed, 0.5));
     add_runs(observed, model, prediction);
@@ -85,7 +73,8 @@ class Collection {
     fit_.median_abs_ln_ratio = finite_quantile(distances, 0.5);
     fit_.percent_configurations = percents_.size();
     if (!percents_.empty()) {
-      fit_.mean_absolute_percent = sorted_array(percents_).mean();
+      fit_.mean_absolute_percent =
+          share(std::accumulate(percents_.begin(), percents_.end(), 0.0), percents_.size());
     }
     return fit_;
   }
@@ -102,19 +91,20 @@ class Collection {
     if (std::isfinite(percent) && std::isfinite(observed)) percents_.push_back(percent);
   }
 
-  void add_runs(const std::vector<double>& observed, const Array& model, double prediction) {
-    const Array runs = sorted_array(observed);
+  /// `model` ascends.
+  void add_runs(const std::vector<double>& observed, const std::vector<double>& model,
+                double prediction) {
     fit_.runs += observed.size();
-    const auto covered = runs <= prediction && runs < infinity;
-    fit_.coverage += static_cast<double>(covered.count());
-    for (Eigen::Index k = 0; k < covered.count(); ++k) {
-      covered_.push_back(ratio_of(prediction, runs[k]));
-    }
-    const auto within = runs >= model[0] && runs <= model[model.size() - 1];
-    fit_.in_range += static_cast<double>(within.count());
-    for (std::size_t k = 0; k < calibration_points; ++k) {
-      const double limit = quantile_of_sorted(model, static_cast<double>(k + 1) / 10);
-      fit_.calibration[k] += static_cast<double>((runs <= limit).count());
+    for (const double run : observed) {
+      if (run <= prediction && run < unreached) {
+        ++fit_.coverage;
+        covered_.push_back(ratio_of(prediction, run));
+      }
+      if (run >= model.front() && run <= model.back()) ++fit_.in_range;
+      for (std::size_t k = 0; k < calibration_points; ++k) {
+        const double limit = statistics::quantile_of_sorted(model, static_cast<double>(k + 1) / 10);
+        if (run <= limit) ++fit_.calibration[k];
+      }
     }
   }
 
@@ -158,15 +148,11 @@ std::optional<Fit> fit(const std::vector<Pairing>& pairings, const std::string& 
   return collection.finish();
 }
 
-double quantile(std::vector<double> values, double q) {
-  return quantile_of_sorted(sorted_array(values), q);
-}
-
 std::vector<double> observed_values(const Configuration& configuration, Measure measure) {
   std::vector<double> values;
   for (const Observation& run : configuration.runs) {
     const auto& value = run.values[static_cast<std::size_t>(measure)];
-    if (value) values.push_back(run.completed ? *value : infinity);
+    if (value) values.push_back(run.completed ? *value : unreached);
   }
   return values;
 }

@@ -10,6 +10,7 @@
 
 #include "checker/evidence/coverage/configuration.hpp"
 #include "checker/evidence/coverage/predict.hpp"
+#include "checker/experiments/statistics/quantiles.hpp"
 
 namespace stormproof::prediction {
 
@@ -23,6 +24,8 @@ struct Pairing {
 /// N_E ≥ 20).
 [[nodiscard]] std::vector<std::string> scopes(const std::vector<Pairing>& pairings);
 [[nodiscard]] bool in_scope(const Configuration& configuration, const std::string& scope);
+
+using statistics::quantile;
 
 inline constexpr std::size_t calibration_points = 9;  ///< quantiles 0.1 to 0.9
 
@@ -56,10 +59,6 @@ struct Fit {
 /// Nothing if no run of the scope has the measure.
 [[nodiscard]] std::optional<Fit> fit(const std::vector<Pairing>& pairings, const std::string& scope,
                                      Measure measure);
-
-/// The quantile of a sample at position q (n − 1) of the sorted values, linearly interpolated;
-/// values may be infinite.
-[[nodiscard]] double quantile(std::vector<double> values, double q);
 
 /// The measured values of a configuration; of runs that did not complete: infinite. Runs without
 /// this measure are left out.

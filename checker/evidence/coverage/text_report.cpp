@@ -23,10 +23,7 @@ std::string plain(const std::optional<double>& value, const char* format = "{:.2
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
 std::string label(Measure measure) {
-  constexpr const char* labels[] = {"completion",   "all messages", "SPDP multicast",
-                                    "SPDP unicast", "initial DATA", "repair DATA",
-                                    "HEARTBEAT",    "ACKNACK"};
-  return labels[static_cast<std::size_t>(measure)];
+  return measure == Measure::messages ? "all messages" : words_of(measure);
 }
 
 std::string fit_line(const FitRow& row) {
@@ -61,7 +58,7 @@ std::string fit_table(const ProfileStudy& profile) {
               right("10/50/90 %", 14) + "\n";
     }
     text += fit_line(row);
-    if (row.measure == Measure::acknack && f.incomplete_runs + f.incomplete_model_runs > 0) {
+    if (row.measure == Measure::spdp_unicast && f.incomplete_runs + f.incomplete_model_runs > 0) {
       text += fmt::format("  {} measured and {} model runs did not complete\n", f.incomplete_runs,
                           f.incomplete_model_runs);
     }

@@ -5,29 +5,41 @@ namespace stormproof::validate {
 
 namespace {
 
+using model::MessageClass;
+
 struct Words {
   const char* name;
   const char* label;
 };
-constexpr std::array<Words, figure_count> words{
-    {{"completion_ns", "completion"},      {"total", "messages"},
-     {"initial_data", "initial DATA"},     {"repair_data", "repair DATA"},
-     {"heartbeat", "HEARTBEAT"},           {"acknack", "ACKNACK"},
-     {"spdp_multicast", "SPDP multicast"}, {"spdp_unicast", "SPDP unicast"},
-     {"initial_pulled", "pulled"},         {"heartbeat_open", "relation opens"},
-     {"heartbeat_reply", "reply"},         {"heartbeat_piggyback", "piggyback"},
-     {"heartbeat_periodic", "periodic"},   {"acknack_initial", "initial"},
-     {"acknack_negative", "negative"},     {"acknack_positive", "positive"},
-     {"datagrams", "datagrams"},           {"payload_bytes", "UDP payload bytes"},
-     {"last_open_ns", "last relation"},    {"last_initial_ns", "last initial DATA"},
-     {"user_control", "user control"}}};
+constexpr Words words_of_class(MessageClass one) { return {name_of(one), words_of(one)}; }
+constexpr std::array<Words, figure_count> words{{{"completion_ns", "completion"},
+                                                 {"total", "messages"},
+                                                 words_of_class(MessageClass::initial_data),
+                                                 words_of_class(MessageClass::repair_data),
+                                                 words_of_class(MessageClass::heartbeat),
+                                                 words_of_class(MessageClass::acknack),
+                                                 words_of_class(MessageClass::spdp_multicast),
+                                                 words_of_class(MessageClass::spdp_unicast),
+                                                 {"initial_pulled", "pulled"},
+                                                 {"heartbeat_open", "relation opens"},
+                                                 {"heartbeat_reply", "reply"},
+                                                 {"heartbeat_piggyback", "piggyback"},
+                                                 {"heartbeat_periodic", "periodic"},
+                                                 {"acknack_initial", "initial"},
+                                                 {"acknack_negative", "negative"},
+                                                 {"acknack_positive", "positive"},
+                                                 {"datagrams", "datagrams"},
+                                                 {"payload_bytes", "UDP payload bytes"},
+                                                 {"last_open_ns", "last relation"},
+                                                 {"last_initial_ns", "last initial DATA"},
+                                                 {"user_control", "user control"}}};
 
 }  // namespace
 
 const char* name_of(Figure figure) { return words[index_of(figure)].name; }
 const char* label_of(Figure figure) { return words[index_of(figure)].label; }
 
-void add(Tally& tally, capture::Class one, std::uint64_t messages) {
+void add(Tally& tally, model::MessageClass one, std::uint64_t messages) {
   tally[index_of(figure_of(one))] += messages;
   tally[index_of(Figure::total)] += messages;
 }

@@ -43,7 +43,7 @@ static_assert(static_cast<std::size_t>(Figure::initial_data) == first_class_figu
   return static_cast<std::size_t>(figure);
 }
 /// The figure of a message class.
-[[nodiscard]] constexpr Figure figure_of(capture::Class one) {
+[[nodiscard]] constexpr Figure figure_of(model::MessageClass one) {
   return static_cast<Figure>(first_class_figure + static_cast<std::size_t>(one));
 }
 /// Whether it is a time, in ns.
@@ -60,10 +60,10 @@ static_assert(static_cast<std::size_t>(Figure::initial_data) == first_class_figu
 using Tally = std::array<std::uint64_t, figure_count>;
 
 /// One message of a class more.
-void add(Tally& tally, capture::Class one, std::uint64_t messages = 1);
+void add(Tally& tally, model::MessageClass one, std::uint64_t messages = 1);
 
 /// The messages of each class, and all of them, that were sent until (k + 1) · step, for each k.
-inline constexpr std::size_t growth_curves = capture::class_count + 1;
+inline constexpr std::size_t growth_curves = model::message_class_count + 1;
 using GrowthPoint = std::array<std::uint64_t, growth_curves>;
 struct Growth {
   std::int64_t step_ns = 1;
@@ -73,11 +73,11 @@ struct Growth {
 [[nodiscard]] GrowthPoint growth_point(const Tally& tally);
 /// The figure of a curve.
 [[nodiscard]] constexpr Figure figure_of_curve(std::size_t curve) {
-  return curve < capture::class_count ? figure_of(static_cast<capture::Class>(curve))
-                                      : Figure::total;
+  return curve < model::message_class_count ? figure_of(static_cast<model::MessageClass>(curve))
+                                            : Figure::total;
 }
 
 /// UDP payloads of the datagrams with exactly one message of a class, by size.
-using Sizes = std::array<std::map<std::uint32_t, std::uint64_t>, capture::class_count>;
+using Sizes = std::array<std::map<std::uint32_t, std::uint64_t>, model::message_class_count>;
 
 }  // namespace stormproof::validate

@@ -9,9 +9,9 @@
 
 namespace stormproof::validate {
 
-using capture::Class;
 using capture::Event;
 using capture::Traffic;
+using model::MessageClass;
 using report::grouped;
 
 namespace {
@@ -106,7 +106,7 @@ void Finder::other_bytes() {
 
 /// Sizes of datagrams with one message of a class that the model never has.
 void Finder::sizes_of_messages() {
-  for (std::size_t k = 0; k < capture::class_count; ++k) {
+  for (std::size_t k = 0; k < model::message_class_count; ++k) {
     if (sizes_[k].empty()) continue;
     std::map<std::uint32_t, std::uint64_t> unknown;
     std::uint64_t others = 0;
@@ -121,7 +121,7 @@ void Finder::sizes_of_messages() {
         fmt::format(
             "{} of {} datagrams with one {} have a UDP payload that the model's never have, "
             "most often {} bytes; the model's have {}",
-            grouped(others), grouped(all), class_label(static_cast<Class>(k)),
+            grouped(others), grouped(all), words_of(static_cast<MessageClass>(k)),
             grouped(usual_size(unknown)), grouped(usual_size(sizes_[k]))));
   }
 }

@@ -8,8 +8,8 @@ namespace stormproof::validate {
 
 namespace {
 
-using capture::Class;
 using model::EventKind;
+using model::MessageClass;
 using model::PacketKind;
 
 std::uint64_t members(const model::DescriptorSet& set) {
@@ -65,7 +65,8 @@ void MessageTally::emitted(const model::Packet& packet, std::uint32_t,
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
     case PacketKind::spdp_unicast: {
-      const Class one = packet.multicast() ? Class::spdp_multicast : Class::spdp_unicast;
+      const MessageClass one =
+          packet.multicast() ? MessageClass::spdp_multicast : MessageClass::spdp_unicast;
       add(tally_, one, copies);
       sizes_[static_cast<std::size_t>(one)][packet.payload_bytes] += copies;
       break;
@@ -90,19 +91,19 @@ void MessageTally::add_data(const model::Packet& packet) {
   });
   const std::uint64_t repairs = members(packet.descriptors) - initial;
   generated_.add(packet.relation(), packet.descriptors);
-  add(tally_, Class::initial_data, initial);
-  add(tally_, Class::repair_data, repairs);
+  add(tally_, MessageClass::initial_data, initial);
+  add(tally_, MessageClass::repair_data, repairs);
   const bool is_pulled = event_ == EventKind::async_run || packet.from_repair;
   if (is_pulled) tally_[index_of(Figure::initial_pulled)] += initial;
   if (initial > 0) {
     emitted_initial_ = true;
     tally_[index_of(Figure::last_initial)] = static_cast<std::uint64_t>(now_ns_);
   }
-  const auto note = [&](Class one, std::uint64_t messages) {
+  const auto note = [&](MessageClass one, std::uint64_t messages) {
     if (messages == 1) ++sizes_[static_cast<std::size_t>(one)][packet.payload_bytes];
   };
-  note(Class::initial_data, initial);
-  note(Class::repair_data, repairs);
+  note(MessageClass::initial_data, initial);
+  note(MessageClass::repair_data, repairs);
 }
 
 /// Those that ride in a message are there because of DATA, even if the DATA went to others.
@@ -110,7 +111,7 @@ void MessageTally::add_heartbeats(const model::Packet& packet, std::uint64_t cop
   const std::uint64_t riding = packet.heartbeats;
   const std::uint64_t messages = std::max(copies, riding);
   if (messages == 0) return;
-  add(tally_, Class::heartbeat, messages);
+  add(tally_, MessageClass::heartbeat, messages);
   const Figure kind = riding > 0 ? Figure::heartbeat_piggyback : reason(event_, incoming_);
   tally_[index_of(kind)] += messages;
   if (kind == Figure::heartbeat_open) {
@@ -118,19 +119,19 @@ void MessageTally::add_heartbeats(const model::Packet& packet, std::uint64_t cop
   }
   const std::uint64_t in_each = std::max<std::uint64_t>(riding, 1);
   if (in_each == 1) {
-    sizes_[static_cast<std::size_t>(Class::heartbeat)][packet.payload_bytes] += messages;
+    sizes_[model::index_of(MessageClass::heartbeat)][packet.payload_bytes] += messages;
   }
 }
 
 void MessageTally::add_acknack(const model::Packet& packet) {
-  add(tally_, Class::acknack);
+  add(tally_, MessageClass::acknack);
   // As in a capture, what decides is what it says, not which timer sent it.
   const bool is_initial = packet.initial_acknack || (acknacks_have_bases_ && packet.detail == 0);
   const Figure kind = !packet.descriptors.empty() ? Figure::acknack_negative
                       : is_initial                ? Figure::acknack_initial
                                                   : Figure::acknack_positive;
   ++tally_[index_of(kind)];
-  ++sizes_[static_cast<std::size_t>(Class::acknack)][packet.payload_bytes];
+  ++sizes_[model::index_of(MessageClass::acknack)][packet.payload_bytes];
 }
 
 /// Steps that end before `until_ns` have all their messages.

@@ -10,17 +10,17 @@ namespace stormproof::validate {
 
 namespace {
 
-using capture::Class;
 using capture::Conversation;
 using capture::Counting;
 using capture::HeartbeatKind;
+using model::MessageClass;
 
 /// Datagrams with a message of a class, and their payloads.
 void add_datagrams(const Conversation& conversation, const Counting& counting, Tally& tally) {
   std::optional<std::uint32_t> last;
   for (std::size_t k = 0; k < counting.classes.size(); ++k) {
     const std::uint32_t datagram = conversation.events[k].datagram;
-    if (counting.classes[k] == Class::none || datagram == last) continue;
+    if (!counting.classes[k] || datagram == last) continue;
     last = datagram;
     ++tally[index_of(Figure::datagrams)];
     tally[index_of(Figure::payload_bytes)] += conversation.datagrams[datagram].payload_bytes;
@@ -41,7 +41,7 @@ std::uint64_t pulled(const Conversation& conversation, const Counting& counting)
         requested.insert(
             {*event.destination, event.writer, event.source, acknack->missing.base + bit});
       }
-    } else if (counting.classes[k] == Class::initial_data) {
+    } else if (counting.classes[k] == MessageClass::initial_data) {
       const std::int64_t number = event.data()->sequence_number;
       if (requested.contains({event.source, event.writer, *event.destination, number})) ++count;
     }
@@ -68,10 +68,7 @@ std::optional<double> control_messages(const Conversation& conversation, std::in
 
 Tally tally_of(const Conversation& conversation, const Counting& counting) {
   Tally tally{};
-  const auto classes = counting.counts.entries();
-  for (std::size_t k = 0; k < capture::class_count; ++k) {
-    add(tally, static_cast<Class>(k), classes[k].value);
-  }
+  for (const MessageClass one : model::message_classes) add(tally, one, counting.counts[one]);
   const auto kind = [&](HeartbeatKind one) { return counting.heartbeats.of(one); };
   const auto set = [&](Figure figure, std::uint64_t value) { tally[index_of(figure)] = value; };
   set(Figure::heartbeat_open, kind(HeartbeatKind::relation_open));
@@ -98,7 +95,7 @@ void add_times(const Conversation& conversation, const Counting& counting, std::
     if (kind == HeartbeatKind::relation_open) set(Figure::last_open, event);
   }
   for (std::size_t k = 0; k < counting.classes.size(); ++k) {
-    if (counting.classes[k] == Class::initial_data) set(Figure::last_initial, k);
+    if (counting.classes[k] == MessageClass::initial_data) set(Figure::last_initial, k);
   }
 }
 
@@ -112,7 +109,7 @@ Growth growth_of(const Conversation& conversation, const Counting& counting, std
   for (std::int64_t step = 1; step <= steps; ++step) {
     for (; next < counting.classes.size(); ++next) {
       if (conversation.events[next].time_ns - zero_ns > step * growth.step_ns) break;
-      if (counting.classes[next] != Class::none) add(so_far, counting.classes[next]);
+      if (counting.classes[next]) add(so_far, *counting.classes[next]);
     }
     growth.points.push_back(growth_point(so_far));
   }

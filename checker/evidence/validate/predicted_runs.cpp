@@ -2,79 +2,13 @@
 #include "checker/evidence/validate/predicted_runs.hpp"
 
 #include <algorithm>
-#include <mutex>
 #include <optional>
 #include <random>
 
-#include "checker/evidence/coverage/predict.hpp"
 #include "checker/evidence/validate/message_tally.hpp"
-#include "checker/experiments/trials/parallel.hpp"
-#include "model/simulator.hpp"
+#include "checker/experiments/trials/losses.hpp"
 
 namespace stormproof::validate {
-
-namespace {
-
-class Pool {
- public:
-  Pool(const model::Scenario& scenario, const Observation& observation, const Sampling& sampling)
-      : scenario_{scenario}, observation_{observation}, sampling_{sampling} {
-    const bool drawn = is_drawn(scenario, observation.deployment, sampling.loss);
-    result_.wanted = drawn ? sampling.samples : std::min<std::size_t>(sampling.samples, 1);
-    runs_.resize(result_.wanted);
-  }
-
-  Predicted run() {
-    checker::parallel_for(result_.wanted, sampling_.threads,
-                          [this](std::size_t k) { return run_sample(k); });
-    for (auto& run : runs_) {
-      if (run) result_.runs.push_back(std::move(*run));
-    }
-    return std::move(result_);
-  }
-
- private:
-  bool run_sample(std::size_t k) {
-    const std::uint64_t seed = sampling_.first_seed + k;
-    const model::Scenario scenario = draw(scenario_, observation_.deployment, sampling_.loss, seed);
-    MessageTally tally{scenario.dds.implementation, observation_.growth.step_ns,
-                       most_growth * observed_steps};
-    model::RunOptions options;
-    options.probe = &tally;
-    options.on_progress = [this](const model::Progress&) { return report(0); };
-    const model::RunResult result = model::simulate(scenario, options);
-    if (result.end == model::RunEnd::interrupted) return false;
-    PredictedRun run;
-    run.seed = seed;
-    run.complete = result.completed();
-    run.tally = tally.tally();
-    run.tally[index_of(Figure::completion)] =
-        static_cast<std::uint64_t>(result.discovery_time.value_or(scenario.time_limit).count());
-    if (observation_.cut == Cut::last_initial && run.complete) run.tally = tally.at_last_initial();
-    if (k == 0) result_.sizes = tally.sizes();
-    run.growth = std::move(tally).finish();
-    runs_[k] = std::move(run);
-    return report(1);
-  }
-
-  bool report(std::size_t newly_finished) {
-    const std::lock_guard lock{mutex_};
-    finished_ += newly_finished;
-    if (sampling_.on_progress && !sampling_.on_progress(finished_, result_.wanted)) stopped_ = true;
-    return !stopped_;
-  }
-
-  const model::Scenario& scenario_;
-  const Observation& observation_;
-  const Sampling& sampling_;
-  Predicted result_;
-  std::vector<std::optional<PredictedRun>> runs_;
-  std::mutex mutex_;
-  std::size_t finished_ = 0;
-  bool stopped_ = false;
-};
-
-}  // namespace
 
 bool is_drawn(const model::Scenario& scenario, const CapturedDeployment& deployment, double loss) {
   if (loss > 0) return true;
@@ -95,13 +29,38 @@ model::Scenario draw(const model::Scenario& scenario, const CapturedDeployment& 
     drawn.deployment.participants[k].endpoints_done =
         one.done_earliest() + model::Nanoseconds{static_cast<std::int64_t>(random() % values)};
   }
-  if (loss > 0) drawn.wireless.lost_packets = prediction::draw_losses(loss, seed);
+  if (loss > 0) drawn.wireless.lost_packets = trials::draw_losses(loss, seed);
   return drawn;
 }
 
 Predicted predict(const model::Scenario& scenario, const Observation& observation,
                   const Sampling& sampling) {
-  return Pool{scenario, observation, sampling}.run();
+  Predicted predicted;
+  const bool drawn = is_drawn(scenario, observation.deployment, sampling.loss);
+  predicted.wanted = drawn ? sampling.samples : std::min<std::size_t>(sampling.samples, 1);
+  trials::Runner runner{sampling.threads, sampling.on_progress};
+  const auto run_sample = [&](std::size_t k) -> std::optional<PredictedRun> {
+    const std::uint64_t seed = sampling.first_seed + k;
+    MessageTally tally{scenario.dds.implementation, observation.growth.step_ns,
+                       most_growth * observed_steps};
+    const auto result =
+        runner.simulate(draw(scenario, observation.deployment, sampling.loss, seed), &tally);
+    if (!result) return std::nullopt;
+    PredictedRun run;
+    run.seed = seed;
+    run.complete = result->completed();
+    run.tally = tally.tally();
+    if (run.complete) {
+      run.tally[index_of(Figure::completion)] =
+          static_cast<std::uint64_t>(result->discovery_time->count());
+      if (observation.cut == Cut::last_initial) run.tally = tally.at_last_initial();
+    }
+    if (k == 0) predicted.sizes = tally.sizes();
+    run.growth = std::move(tally).finish();
+    return run;
+  };
+  predicted.runs = trials::present(runner.run(predicted.wanted, run_sample));
+  return predicted;
 }
 
 }  // namespace stormproof::validate

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "checker/evidence/validate/captured_deployment.hpp"
 #include "checker/evidence/validate/figures.hpp"
 #include "checker/evidence/validate/observation.hpp"
+#include "checker/experiments/trials/runner.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
 
@@ -18,7 +18,7 @@ namespace stormproof::validate {
 struct PredictedRun {
   std::uint64_t seed = 0;
   bool complete = false;  ///< otherwise its figures are lower bounds
-  Tally tally{};          ///< at its cut; of an incomplete run, at the time limit
+  Tally tally{};          ///< at its cut; of an incomplete run, at the end and without completion
   Growth growth{};        ///< a run that is over keeps its counts
 };
 
@@ -27,8 +27,7 @@ struct Sampling {
   std::uint64_t first_seed = 0;  ///< sample k has seed first_seed + k
   std::size_t threads = 0;       ///< 0: as many as the machine has cores
   double loss = 0;               ///< probability of each packet
-  /// Called from one thread at a time; returning false stops all runs.
-  std::function<bool(std::size_t finished, std::size_t all)> on_progress;
+  trials::Progress on_progress;
 };
 
 struct Predicted {

@@ -65,7 +65,7 @@ plot::Series modelled(const Report& report, std::size_t curve, std::size_t steps
 std::string panel(const Report& report, std::size_t curve, std::size_t steps) {
   plot::Chart chart;
   const char* label = label_of(figure_of_curve(curve));
-  chart.title = curve == capture::class_count ? "All messages" : label;
+  chart.title = curve == model::message_class_count ? "All messages" : label;
   chart.description = fmt::format(
       "Cumulative number of {} over the time since the first announcement, observed and predicted",
       label);

@@ -83,13 +83,11 @@ std::string rows_text(const Report& report) {
 /// A few instants of the growth: observed, and the model's median beside it.
 std::string over_time_text(const Report& report) {
   if (report.bands.empty()) return "";
-  constexpr std::array curves{capture::Class::initial_data, capture::Class::repair_data,
-                              capture::Class::heartbeat, capture::Class::acknack,
-                              capture::Class::none};  // none: all
+  constexpr std::array<std::size_t, 5> curves{0, 1, 2, 3, growth_curves - 1};  // without SPDP; all
   constexpr std::size_t instants = 8;
   std::string text = "\nsent so far, observed | model's median\n" + left("", 12);
-  for (const capture::Class curve : curves) {
-    text += right(label_of(figure_of_curve(static_cast<std::size_t>(curve))), 17);
+  for (const std::size_t curve : curves) {
+    text += right(label_of(figure_of_curve(curve)), 17);
   }
   text += "\n";
   const Growth& growth = report.observation.growth;
@@ -97,8 +95,7 @@ std::string over_time_text(const Report& report) {
     const std::size_t step = k * growth.points.size() / instants - 1;
     text +=
         right(time_text(static_cast<double>(growth.step_ns) * static_cast<double>(step + 1)), 12);
-    for (const capture::Class curve : curves) {
-      const auto index = static_cast<std::size_t>(curve);
+    for (const std::size_t index : curves) {
       text += right(
           fmt::format(
               "{} | {}", grouped(growth.points[step][index]),

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
-#include "checker/evidence/coverage/statistics.hpp"
+#include "checker/experiments/statistics/quantiles.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 
@@ -97,13 +96,11 @@ std::vector<Row> rows_of(const Observation& observation, const Predicted& predic
   for (std::size_t k = 0; k < figure_count; ++k) {
     const auto figure = static_cast<Figure>(k);
     std::vector<double> values;
-    std::size_t incomplete = 0;
     for (const PredictedRun& run : predicted.runs) {
       if (figure == Figure::user_control && !has_control) continue;
-      if (run.complete) values.push_back(static_cast<double>(run.tally[k]));
-      if (!run.complete) ++incomplete;
+      values.push_back(run.complete ? static_cast<double>(run.tally[k]) : statistics::unreached);
     }
-    rows.push_back(row(figure, observation.values[k], std::move(values), incomplete,
+    rows.push_back(row(figure, observation.values[k], std::move(values),
                        is_drawn && predicted.runs.size() > 1));  // one value is no range
   }
   return rows;
@@ -119,9 +116,10 @@ std::vector<std::array<Band, growth_curves>> bands_of(const std::vector<Predicte
       for (const PredictedRun& run : runs) {
         values.push_back(static_cast<double>(run.growth.points[step][curve]));
       }
-      bands[step][curve] = {prediction::quantile(values, 0.5),
-                            prediction::quantile(values, low_quantile),
-                            prediction::quantile(values, high_quantile)};
+      std::ranges::sort(values);
+      bands[step][curve] = {statistics::quantile_of_sorted(values, 0.5),
+                            statistics::quantile_of_sorted(values, low_quantile),
+                            statistics::quantile_of_sorted(values, high_quantile)};
     }
   }
   return bands;
@@ -139,16 +137,15 @@ const char* name_of(Agreement agreement) {
   return names[static_cast<std::size_t>(agreement)];
 }
 
-Row row(Figure figure, std::optional<double> observed, std::vector<double> values,
-        std::size_t incomplete, bool is_drawn) {
+Row row(Figure figure, std::optional<double> observed, std::vector<double> values, bool is_drawn) {
   Row result;
   result.figure = figure;
   result.observed = observed;
-  values.insert(values.end(), incomplete, std::numeric_limits<double>::infinity());
   if (values.empty()) return result;
-  const double low = prediction::quantile(values, low_quantile);
-  const double high = prediction::quantile(values, high_quantile);
-  result.median = finite(prediction::quantile(values, 0.5));
+  std::ranges::sort(values);
+  const double low = statistics::quantile_of_sorted(values, low_quantile);
+  const double high = statistics::quantile_of_sorted(values, high_quantile);
+  result.median = finite(statistics::quantile_of_sorted(values, 0.5));
   result.low = finite(low);
   result.high = finite(high);
   if (!observed) return result;

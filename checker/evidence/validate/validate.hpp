@@ -40,8 +40,7 @@ enum class Position : std::uint8_t {
 };
 [[nodiscard]] const char* name_of(Position position);
 
-/// One figure on both sides. Runs that did not complete lie above all others; what falls among them
-/// is absent.
+/// One figure on both sides; absent if it falls among unreached values.
 struct Row {
   Figure figure{};
   std::optional<double> observed{};
@@ -53,9 +52,9 @@ struct Row {
   Position position = Position::unknown;
 };
 
-/// `values` are those of the complete runs; `incomplete` is how many others there are.
+/// `values` may be unreached.
 [[nodiscard]] Row row(Figure figure, std::optional<double> observed, std::vector<double> values,
-                      std::size_t incomplete, bool is_drawn);
+                      bool is_drawn);
 
 /// Median and 5–95 % range of the model's counts at one instant.
 struct Band {

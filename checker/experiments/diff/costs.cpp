@@ -16,17 +16,24 @@ std::size_t count_looks(std::size_t first, std::size_t most) {
   return looks;
 }
 
+/// A first look at fewer pairs than can reach the confidence would say nothing.
+std::size_t first_look(const CostRequest& request, double confidence) {
+  return std::clamp(statistics::fewest_pairs(confidence), request.samples,
+                    std::max(request.samples, request.most_samples));
+}
+
 class CostStudy {
  public:
   explicit CostStudy(const CostRequest& request)
       : request_{request},
         points_{request.grid.points},
         judge_{request.policy, points_, count_looks(request.samples, request.most_samples)},
+        first_{first_look(request, judge_.single_confidence())},
         judged_(points_.size()),
         is_judged_(points_.size(), false) {
     answer_.runs.resize(points_.size());
     answer_.comparison.grid = request.grid.name;
-    answer_.comparison.samples = request.samples;
+    answer_.comparison.samples = first_;
     answer_.comparison.seed = request.first_seed;
     answer_.comparison.wanted = points_.size();
     answer_.comparison.confidence = judge_.single_confidence();
@@ -35,7 +42,7 @@ class CostStudy {
   CostAnswer run() {
     std::vector<std::size_t> open(points_.size());
     for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
-    for (std::size_t samples = request_.samples; !open.empty() && !answer_.interrupted;
+    for (std::size_t samples = first_; !open.empty() && !answer_.interrupted;
          samples = std::min(2 * samples, request_.most_samples)) {
       run_points(open, samples);
       open = judge_points(open);
@@ -92,6 +99,7 @@ class CostStudy {
   const CostRequest& request_;
   const std::vector<ReviewedPoint>& points_;
   CostJudge judge_;
+  const std::size_t first_;  ///< samples of the first look
   CostAnswer answer_;
   std::vector<Configuration> judged_;
   std::vector<bool> is_judged_;

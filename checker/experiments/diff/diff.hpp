@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/experiments/statistics/measure.hpp"
+#include "checker/experiments/statistics/paired.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "model/config/provenance.hpp"
 #include "model/config/spec_path.hpp"
@@ -84,40 +86,20 @@ struct VerdictComparison {
 
 // --- the costs over a grid ----------------------------------------------------------------------
 
-enum class Measure : std::uint8_t {
-  completion,  ///< ns
-  messages,    ///< all six classes
-  initial_data,
-  repair_data,
-  heartbeat,
-  acknack,
-  spdp_multicast,
-  spdp_unicast,
-  user_control,
-  amplification,  ///< messages over those of the failure-free reference
-  backlog         ///< packets, highest of any participant
-};
-inline constexpr std::size_t measure_count = 11;
-/// "completion", "messages", "repair_data", …
-[[nodiscard]] const char* name_of(Measure measure);
+using statistics::Measure;
+using statistics::measure_count;
 /// "ns", "packets", …; empty for counts and ratios.
 [[nodiscard]] const char* unit_of(Measure measure);
 
-/// A confidence interval of the shift between two samples: the Hodges–Lehmann estimate of
-/// candidate − base. Ends that involve runs which did not complete may be infinite.
-struct Shift {
-  double estimate = 0;
-  double low = 0, high = 0;
-  double confidence = 0.95;  ///< reached: at least what was asked for, unless the samples are few
-  bool exact = false;        ///< each side is one trajectory: the shift is a fact, not an estimate
-};
+/// Candidate − base, pair by pair of runs on the same schedule.
+using statistics::Shift;
 
 struct MeasuredChange {
   Measure measure{};
-  sampling::Quantiles before, after;
+  statistics::Quantiles before, after;
   std::optional<Shift> shift;  ///< absent: no run on one of the sides reached it
-  /// The relative change, candidate / base − 1, with the ends of its interval: the shift of the
-  /// logarithms, so it is never below −1. Absent if the median before is 0 or there is no shift.
+  /// The relative change, candidate / base − 1, with the ends of its interval. Absent if the median
+  /// before is 0 or there is no shift.
   std::optional<double> relative, relative_low, relative_high;
   Judgment judgment = Judgment::same;
   std::string reason;  ///< why it is judged so; empty for `same`

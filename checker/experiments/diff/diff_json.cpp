@@ -111,20 +111,19 @@ void describe(V& v, const Comparison& profiles) {
   v("changes", profiles.changes);
 }
 
-template <class V>
-void describe(V& v, const Shift& shift) {
-  v("estimate", number(shift.estimate));
-  v("low", number(shift.low));
-  v("high", number(shift.high));
-  v("confidence", shift.confidence);
-  v("exact", shift.exact);
+static Json shift_json(const Shift& shift) {
+  return {{"estimate", number(shift.estimate)},
+          {"low", number(shift.low)},
+          {"high", number(shift.high)},
+          {"confidence", shift.confidence},
+          {"exact", shift.exact}};
 }
 
 template <class V>
 void describe(V& v, const MeasuredChange& change) {
   v("before", change.before);
   v("after", change.after);
-  v("shift", change.shift);
+  v("shift", change.shift ? shift_json(*change.shift) : Json());
   v("relative", !change.relative ? Json()
                                  : Json{{"estimate", number(change.relative)},
                                         {"low", number(change.relative_low)},

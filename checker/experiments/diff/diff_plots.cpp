@@ -37,7 +37,7 @@ plot::Series series_of(const Configurations& configurations, Measure measure, bo
   series.spread = plot::Spread::band;
   for (const Configuration* one : configurations) {
     const MeasuredChange& change = (*one)[measure];
-    const sampling::Quantiles& values = after ? change.after : change.before;
+    const statistics::Quantiles& values = after ? change.after : change.before;
     series.x.push_back(position(*one));
     series.y.push_back(scaled(measure, values.median));
     series.low.push_back(scaled(measure, values.p10));

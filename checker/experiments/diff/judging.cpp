@@ -20,14 +20,6 @@ const Policy::Tolerance* tolerance_of(const Policy& policy, Measure measure) {
   return at == policy.tolerances.end() ? nullptr : &*at;
 }
 
-sampling::Quantiles quantiles_of(const std::vector<double>& values) {
-  std::vector<double> reached;
-  std::ranges::copy_if(values, std::back_inserter(reached),
-                       [](double value) { return std::isfinite(value); });
-  const std::size_t unreached = values.size() - reached.size();
-  return sampling::quantiles(std::move(reached), unreached);
-}
-
 std::string median_text(Measure measure, const std::optional<double>& median) {
   return median ? value_text(measure, *median) : "never";
 }
@@ -71,25 +63,25 @@ CostJudge::CostJudge(const Policy& policy, const std::vector<ReviewedPoint>& poi
   pooled_confidence_ = 1 - share(policy.tolerances.size());
 }
 
-MeasuredChange CostJudge::change(Measure measure, const PairedRuns& runs, bool exact) {
+MeasuredChange CostJudge::change(Measure measure, const PairedRuns& runs, bool exact) const {
   MeasuredChange change;
   change.measure = measure;
   const std::vector<double> before = PairedRuns::column(runs.before, measure);
   const std::vector<double> after = PairedRuns::column(runs.after, measure);
-  change.before = quantiles_of(before);
-  change.after = quantiles_of(after);
-  Shift relative;
-  if (exact) {
-    PairwiseChanges one;
-    one.add(before.front(), after.front(), true);
-    relative = one.shift({1, 1});
-  } else {
-    relative = *estimator_.ratio(before, after, single_confidence_);
+  change.before = statistics::quantiles(before);
+  change.after = statistics::quantiles(after);
+  statistics::PairedDifferences differences;
+  statistics::PairedDifferences ratios;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    differences.add(after[k] - before[k]);
+    ratios.add_relative(before[k], after[k]);
   }
+  const auto shift_of = [&](const statistics::PairedDifferences& pairs) {
+    return exact ? pairs.fact() : pairs.shift(single_confidence_);
+  };
+  const Shift relative = shift_of(ratios);
   if (!none_finite(before) && !none_finite(after)) {
-    change.shift = exact ? Shift{after.front() - before.front(), after.front() - before.front(),
-                                 after.front() - before.front(), 1, true}
-                         : estimator_.between(before, after, single_confidence_);
+    change.shift = shift_of(differences);
     if (change.before.median.value_or(0) > 0) {
       change.relative = relative.estimate;
       change.relative_low = relative.low;
@@ -132,7 +124,7 @@ void CostJudge::judge_change(MeasuredChange& change, const Shift& relative,
   }
 }
 
-Configuration CostJudge::judge(const ReviewedPoint& point, const PairedRuns& runs) {
+Configuration CostJudge::judge(const ReviewedPoint& point, const PairedRuns& runs) const {
   const bool exact = !point.is_drawn();
   Configuration configuration;
   configuration.name = point.name;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "checker/experiments/diff/measured_runs.hpp"
-#include "checker/experiments/diff/shift.hpp"
 
 namespace stormproof::diff {
 
@@ -23,7 +22,7 @@ class CostJudge {
   [[nodiscard]] double single_confidence() const { return single_confidence_; }
 
   /// Judges one deployment by its runs, of which there must be at least one pair.
-  [[nodiscard]] Configuration judge(const ReviewedPoint& point, const PairedRuns& runs);
+  [[nodiscard]] Configuration judge(const ReviewedPoint& point, const PairedRuns& runs) const;
 
   /// The configurations that leave a measure open, together: settles them if it can. The runs are
   /// those of the configurations, in their order.
@@ -31,7 +30,7 @@ class CostJudge {
                                                  const std::vector<const PairedRuns*>& runs) const;
 
  private:
-  [[nodiscard]] MeasuredChange change(Measure measure, const PairedRuns& runs, bool exact);
+  [[nodiscard]] MeasuredChange change(Measure measure, const PairedRuns& runs, bool exact) const;
   /// `relative`: the interval of the relative change, from `runs` pairs.
   void judge_change(MeasuredChange& change, const Shift& relative, std::size_t runs) const;
   [[nodiscard]] std::vector<LimitCrossing> crossings(const ReviewedPoint& point,
@@ -40,7 +39,6 @@ class CostJudge {
   Policy policy_;
   double single_confidence_ = 0;
   double pooled_confidence_ = 0;
-  ShiftEstimator estimator_;
 };
 
 /// Whether something about the configuration is not settled.

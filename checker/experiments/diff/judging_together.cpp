@@ -84,7 +84,7 @@ std::vector<LimitCrossing> CostJudge::crossings(const ReviewedPoint& point, cons
     const bool kept_after = crossing.after <= policy_.limit_share;
     if (kept_before == kept_after) continue;
     if (kept_before) {
-      const double least = fuzz::clopper_pearson(after, runs.size(), single_confidence_).low;
+      const double least = statistics::clopper_pearson(after, runs.size(), single_confidence_).low;
       const bool sure = exact || runs.identical || least > policy_.limit_share;
       crossing.judgment = sure ? Judgment::regression : Judgment::unclear;
     }
@@ -98,19 +98,19 @@ std::vector<PooledChange> CostJudge::settle(std::vector<Configuration>& configur
   std::vector<PooledChange> answers;
   for (const Policy::Tolerance& tolerance : policy_.tolerances) {
     const auto place = static_cast<std::size_t>(tolerance.measure);
-    PairwiseChanges changes;
+    statistics::PairedDifferences changes;
     PooledChange pooled;
     pooled.measure = tolerance.measure;
     for (std::size_t k = 0; k < configurations.size(); ++k) {
       if (configurations[k].measures[place].judgment != Judgment::unclear) continue;
       ++pooled.configurations;
       for (std::size_t run = 0; run < runs[k]->size(); ++run) {
-        changes.add(runs[k]->before[run][place], runs[k]->after[run][place], true);
+        changes.add_relative(runs[k]->before[run][place], runs[k]->after[run][place]);
       }
     }
     if (pooled.configurations == 0) continue;
     pooled.pairs = changes.size();
-    const Shift shift = changes.shift(sign_interval(pooled.pairs, pooled_confidence_));
+    const Shift shift = changes.shift(pooled_confidence_);
     pooled.estimate = shift.estimate;
     pooled.low = shift.low;
     pooled.high = shift.high;

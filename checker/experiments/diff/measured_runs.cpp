@@ -2,13 +2,11 @@
 #include "checker/experiments/diff/measured_runs.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <mutex>
 #include <optional>
 
-#include "checker/experiments/trials/parallel.hpp"
+#include "checker/experiments/statistics/completion.hpp"
+#include "checker/experiments/trials/under_seed.hpp"
 #include "model/reference.hpp"
-#include "model/simulator.hpp"
 
 namespace stormproof::diff {
 
@@ -28,9 +26,7 @@ RunValues values_of(const RunResult& result, double failure_free) {
   const auto set = [&values](Measure measure, double value) {
     values[static_cast<std::size_t>(measure)] = value;
   };
-  set(Measure::completion, result.discovery_time
-                               ? static_cast<double>(result.discovery_time->count())
-                               : std::numeric_limits<double>::infinity());
+  set(Measure::completion, statistics::completion_ns(result.discovery_time));
   set(Measure::messages, total);
   set(Measure::initial_data, static_cast<double>(counts.initial_data));
   set(Measure::repair_data, static_cast<double>(counts.repair_data));
@@ -83,70 +79,18 @@ struct Pair {
   bool identical = false;
 };
 
-class Runner {
- public:
-  Runner(const std::vector<ReviewedPoint>& points, const RunSettings& settings)
-      : points_{points}, settings_{settings} {
-    for (const ReviewedPoint& point : points) {
-      failure_free_.emplace_back(
-          static_cast<double>(model::failure_free_reference(point.base).total()),
-          static_cast<double>(model::failure_free_reference(point.candidate).total()));
-    }
-  }
+/// Messages of the failure-free references of both sides of a deployment.
+using References = std::pair<double, double>;
 
-  void want(std::size_t point, std::size_t sample) { jobs_.push_back({point, sample, {}}); }
+References references_of(const ReviewedPoint& point) {
+  return {static_cast<double>(model::failure_free_reference(point.base).total()),
+          static_cast<double>(model::failure_free_reference(point.candidate).total())};
+}
 
-  bool run() {
-    return checker::parallel_for(jobs_.size(), settings_.threads,
-                                 [this](std::size_t k) { return run_pair(jobs_[k]); });
-  }
-
-  struct Job {
-    std::size_t point = 0;
-    std::size_t sample = 0;
-    std::optional<Pair> pair;
-  };
-  [[nodiscard]] const std::vector<Job>& jobs() const { return jobs_; }
-
- private:
-  std::optional<RunResult> simulate(const Scenario& scenario) {
-    model::RunOptions options;
-    options.on_progress = [this](const model::Progress&) { return report(0); };
-    RunResult result = model::simulate(scenario, options);
-    if (result.end == model::RunEnd::interrupted) return std::nullopt;
-    return result;
-  }
-
-  bool run_pair(Job& job) {
-    Scenario base = points_[job.point].base;
-    Scenario candidate = points_[job.point].candidate;
-    if (base.deployment.schedule) {
-      base.deployment.draw_schedule(settings_.first_seed + job.sample);
-      candidate.deployment = base.deployment;
-    }
-    const auto before = simulate(base);
-    const auto after = before ? simulate(candidate) : std::nullopt;
-    if (!after) return false;
-    Pair pair{values_of(*before, failure_free_[job.point].first),
-              values_of(*after, failure_free_[job.point].second), same_results(*before, *after)};
-    job.pair = pair;
-    return report(1);
-  }
-
-  bool report(std::size_t newly_finished) {
-    const std::lock_guard lock{mutex_};
-    finished_ += newly_finished;
-    if (settings_.on_progress && !settings_.on_progress(finished_, jobs_.size())) stopped_ = true;
-    return !stopped_;
-  }
-
-  const std::vector<ReviewedPoint>& points_;
-  const RunSettings& settings_;
-  std::vector<std::pair<double, double>> failure_free_;
-  std::vector<Job> jobs_;
-  bool stopped_ = false;
-  std::mutex mutex_;
-  std::size_t finished_ = 0;
+/// One pair of runs of one deployment.
+struct Job {
+  std::size_t point = 0;
+  std::size_t sample = 0;
 };
 
 }  // namespace
@@ -160,22 +104,36 @@ std::vector<double> PairedRuns::column(const std::vector<RunValues>& runs, Measu
 
 bool add_runs(const std::vector<ReviewedPoint>& points, const std::vector<RunsWanted>& wanted,
               const RunSettings& settings, std::vector<PairedRuns>& runs) {
-  Runner runner{points, settings};
+  std::vector<References> references;
+  for (const ReviewedPoint& point : points) references.push_back(references_of(point));
+  std::vector<Job> jobs;
   for (const auto& [point, samples] : wanted) {
-    for (std::size_t k = runs[point].size(); k < samples; ++k) runner.want(point, k);
+    for (std::size_t k = runs[point].size(); k < samples; ++k) jobs.push_back({point, k});
   }
-  const bool finished = runner.run();
+  trials::Runner runner{settings.threads, settings.on_progress};
+  const auto pairs = runner.run(jobs.size(), [&](std::size_t k) -> std::optional<Pair> {
+    const auto& [point, sample] = jobs[k];
+    const Scenario base = trials::under_seed(points[point].base, settings.first_seed + sample);
+    Scenario candidate = points[point].candidate;
+    if (base.deployment.schedule) candidate.deployment = base.deployment;
+    const auto before = runner.simulate(base);
+    const auto after = before ? runner.simulate(candidate) : std::nullopt;
+    if (!after) return std::nullopt;
+    return Pair{values_of(*before, references[point].first),
+                values_of(*after, references[point].second), same_results(*before, *after)};
+  });
   std::vector<bool> whole(points.size(), true);
-  for (const Runner::Job& job : runner.jobs()) {
-    if (!job.pair) whole[job.point] = false;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    if (!pairs[k]) whole[jobs[k].point] = false;
   }
-  for (const Runner::Job& job : runner.jobs()) {
-    if (!whole[job.point]) continue;
-    runs[job.point].before.push_back(job.pair->before);
-    runs[job.point].after.push_back(job.pair->after);
-    runs[job.point].identical = runs[job.point].identical && job.pair->identical;
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    if (!whole[jobs[k].point]) continue;
+    PairedRuns& of_point = runs[jobs[k].point];
+    of_point.before.push_back(pairs[k]->before);
+    of_point.after.push_back(pairs[k]->after);
+    of_point.identical = of_point.identical && pairs[k]->identical;
   }
-  return finished;
+  return !runner.stopped();
 }
 
 }  // namespace stormproof::diff

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "checker/experiments/diff/diff.hpp"
 #include "checker/experiments/diff/reviewed_grid.hpp"
+#include "checker/experiments/trials/runner.hpp"
 
 namespace stormproof::diff {
 
@@ -33,8 +33,7 @@ struct RunsWanted {
 struct RunSettings {
   std::uint64_t first_seed = 0;  ///< run k of a deployment has the schedule of seed first_seed + k
   std::size_t threads = 0;       ///< 0: one for each core
-  /// Called from one thread at a time; false stops all runs.
-  std::function<bool(std::size_t finished_pairs, std::size_t wanted_pairs)> on_progress;
+  trials::Progress on_progress;  ///< told of pairs
 };
 
 /// Adds the missing runs to `runs`, which has one element for each point; all cores work on all

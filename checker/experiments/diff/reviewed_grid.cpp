@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "checker/experiments/sweep/plan.hpp"
+#include "checker/experiments/grids/plan.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/config/knobs/knob_reader.hpp"
 #include "model/config/tree/suggestion.hpp"
@@ -54,25 +54,25 @@ std::vector<std::string> names_in(const SpecPath& specs, const std::string& fold
 }
 
 /// One scenario as a grid.
-Result<sweep::Grid> read_scenario_grid(const std::string& reference, const SpecPath& specs) {
+Result<grids::Grid> read_scenario_grid(const std::string& reference, const SpecPath& specs) {
   const auto file = specs.find(config::SpecKind::scenarios, reference, "", reference);
   if (!file) return file.error();
   Result<Node> root = config::load_yaml(*file);
   if (!root) return root.error();
-  sweep::Grid grid;
+  grids::Grid grid;
   grid.source = *file;
   grid.variants.push_back({"", *std::move(root), {}});
   return grid;
 }
 
-Result<sweep::Grid> read_any_grid(const std::string& reference, const SpecPath& specs) {
+Result<grids::Grid> read_any_grid(const std::string& reference, const SpecPath& specs) {
   if (is_path(reference)) {
     const Result<Node> root = config::load_yaml(reference);
     if (!root) return root.error();
     const bool is_scenario = root->is_map() && root->find("deployment") != nullptr;
-    return is_scenario ? read_scenario_grid(reference, specs) : sweep::read_grid(reference, specs);
+    return is_scenario ? read_scenario_grid(reference, specs) : grids::read_grid(reference, specs);
   }
-  if (is_grid_name(reference, specs)) return sweep::read_grid(reference, specs);
+  if (is_grid_name(reference, specs)) return grids::read_grid(reference, specs);
   for (const std::string& name : specs.names(config::SpecKind::scenarios)) {
     if (name == reference) return read_scenario_grid(reference, specs);
   }
@@ -88,16 +88,16 @@ bool is_dds_key(std::string_view key) {
 }
 
 /// The two profiles take the place of `dds`, so a grid that varies it cannot be meant.
-Failure varied_profile(const sweep::Grid& grid) {
+Failure varied_profile(const grids::Grid& grid) {
   constexpr const char* expected =
       "expected a grid that leaves the DDS profile alone, because the "
       "two profiles take its place";
-  for (const sweep::Axis& axis : grid.axes) {
+  for (const grids::Axis& axis : grid.axes) {
     if (!is_dds_key(axis.key)) continue;
     return error_at(axis.values.front().node.place,
                     fmt::format("{}: the grid sweeps the DDS profile; {}", axis.key, expected));
   }
-  for (const sweep::Variant& variant : grid.variants) {
+  for (const grids::Variant& variant : grid.variants) {
     for (const config::Override& change : variant.overrides) {
       if (!is_dds_key(change.path)) continue;
       return error_at(change.value.place,
@@ -109,10 +109,10 @@ Failure varied_profile(const sweep::Grid& grid) {
 }
 
 /// The grid's plan with `profile` as the DDS profile of all scenarios.
-Result<sweep::Plan> plan_with(sweep::Grid grid, const model::DdsProfile& profile,
+Result<grids::Plan> plan_with(grids::Grid grid, const model::DdsProfile& profile,
                               const SpecPath& specs) {
   const std::string text = config::effective_json(profile).dump();
-  for (sweep::Variant& variant : grid.variants) {
+  for (grids::Variant& variant : grid.variants) {
     Result<Node> dds = config::parse_yaml(text, grid.source);
     if (!dds) return dds.error();
     Node* present = variant.root.find(config::dds_key);
@@ -123,7 +123,7 @@ Result<sweep::Plan> plan_with(sweep::Grid grid, const model::DdsProfile& profile
           {std::string{config::dds_key}, variant.root.place, *std::move(dds)});
     }
   }
-  Result<sweep::Plan> plan = sweep::make_plan(std::move(grid), specs);
+  Result<grids::Plan> plan = grids::make_plan(std::move(grid), specs);
   if (!plan) return plan;
   for (std::size_t job = 0; job < plan->size(); ++job) {
     if (const auto& error = plan->error(job)) return *error;
@@ -131,9 +131,9 @@ Result<sweep::Plan> plan_with(sweep::Grid grid, const model::DdsProfile& profile
   return plan;
 }
 
-Result<std::vector<std::optional<model::Limits>>> limits_of(const sweep::Grid& grid) {
+Result<std::vector<std::optional<model::Limits>>> limits_of(const grids::Grid& grid) {
   std::vector<std::optional<model::Limits>> all;
-  for (const sweep::Variant& variant : grid.variants) {
+  for (const grids::Variant& variant : grid.variants) {
     const Node* node = variant.root.find("limits");
     all.emplace_back();
     if (node == nullptr) continue;
@@ -161,7 +161,7 @@ std::uint64_t load_of(const ReviewedPoint& point) {
 
 Result<ReviewedGrid> read_reviewed_grid(const std::string& reference, const model::DdsProfile& base,
                                         const model::DdsProfile& candidate, const SpecPath& specs) {
-  Result<sweep::Grid> grid = read_any_grid(reference, specs);
+  Result<grids::Grid> grid = read_any_grid(reference, specs);
   if (!grid) return grid.error();
   if (auto failure = varied_profile(*grid)) return *std::move(failure);
   const auto limits = limits_of(*grid);

@@ -10,7 +10,7 @@
 #include <mutex>
 
 #include "checker/engines/smt/claims.hpp"
-#include "checker/experiments/trials/parallel.hpp"
+#include "checker/experiments/trials/runner.hpp"
 #include "checker/verification/check/check.hpp"
 #include "props/property.hpp"
 
@@ -84,7 +84,7 @@ VerdictAnswer compare_verdicts(const VerdictRequest& request, const Policy& poli
     return !stopped;
   };
   std::array<checker::CheckReport, 2> reports;
-  checker::parallel_for(2, request.threads, [&](std::size_t side) {
+  trials::Runner{request.threads}.each(2, [&](std::size_t side) {
     reports[side] = check_one(request, side == 0 ? request.base : request.candidate, on_progress);
     return true;
   });

@@ -32,34 +32,6 @@ std::string value_text(Measure measure, const std::optional<double>& value) {
   return value ? value_text(measure, *value) : "–";
 }
 
-const char* words_of(Measure measure) {
-  switch (measure) {
-    case Measure::completion:
-      return "completion";
-    case Measure::messages:
-      return "messages";
-    case Measure::initial_data:
-      return "initial DATA";
-    case Measure::repair_data:
-      return "repair DATA";
-    case Measure::heartbeat:
-      return "HEARTBEAT";
-    case Measure::acknack:
-      return "ACKNACK";
-    case Measure::spdp_multicast:
-      return "SPDP multicast";
-    case Measure::spdp_unicast:
-      return "SPDP unicast";
-    case Measure::user_control:
-      return "user control";
-    case Measure::amplification:
-      return "amplification";
-    case Measure::backlog:
-      return "highest backlog";
-  }
-  return "";
-}
-
 std::string change_text(double relative) {
   if (std::isinf(relative)) return relative > 0 ? "+∞" : "−∞";
   if (relative >= 9) return fmt::format("×{:.3g}", 1 + relative);

@@ -13,9 +13,6 @@ namespace stormproof::diff {
 /// The same; "–" if there is none.
 [[nodiscard]] std::string value_text(Measure measure, const std::optional<double>& value);
 
-/// "completion", "repair DATA", "highest backlog".
-[[nodiscard]] const char* words_of(Measure measure);
-
 /// +0.254 → "+25 %", −0.5 → "−50 %"; from 10-fold on "×12"; "+∞" and "−∞" as such.
 [[nodiscard]] std::string change_text(double relative);
 

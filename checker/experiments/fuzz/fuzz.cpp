@@ -4,13 +4,14 @@
 #include "checker/experiments/fuzz/fuzz.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <map>
 #include <mutex>
 
 #include "checker/engines/exact/observed_run.hpp"
 #include "checker/experiments/fuzz/variant.hpp"
-#include "checker/experiments/trials/parallel.hpp"
+#include "checker/experiments/trials/runner.hpp"
 #include "props/limits.hpp"
 #include "props/monitor.hpp"
 #include "props/property.hpp"
@@ -29,7 +30,14 @@ bool needs_completion(std::string_view id) {
 class Fuzzer {
  public:
   Fuzzer(const model::Scenario& scenario, const Ranges& ranges, const FuzzOptions& options)
-      : base_{scenario}, ranges_{ranges}, options_{options}, variants_{scenario, ranges} {
+      : base_{scenario},
+        ranges_{ranges},
+        options_{options},
+        variants_{scenario, ranges},
+        runner_{options.jobs, [this](std::size_t finished, std::size_t) {
+                  return !options_.on_progress ||
+                         options_.on_progress({finished, violating_, shrinking_});
+                }} {
     report_.ranges = ranges;
     report_.seed = options.seed;
     report_.first = options.first;
@@ -41,12 +49,12 @@ class Fuzzer {
 
   FuzzReport run() {
     run_base();
-    if (report_.base_known && goes_on()) run_variants();
+    if (report_.base_known && runner_.goes_on()) run_variants();
     conclude();
     for (Judgment& judgment : report_.judgments) {
-      if (judgment.broken > 0 && judgment.sampled && goes_on()) shrink_first(judgment);
+      if (judgment.broken > 0 && judgment.sampled && runner_.goes_on()) shrink_first(judgment);
     }
-    report_.interrupted = stopped_;
+    report_.interrupted = runner_.stopped();
     return std::move(report_);
   }
 
@@ -54,7 +62,7 @@ class Fuzzer {
   void choose_ids() {
     std::vector<std::string_view> known = props::monitored_properties();
     const std::vector<std::string_view> limits = props::set_limits(base_.limits);
-    const std::vector<std::string_view> ordinary = ordinary_properties();
+    const std::vector<std::string_view> ordinary = exact::ordinary_properties();
     known.insert(known.begin(), limits.begin(), limits.end());
     for (const std::string_view id : known) {
       const bool wanted = options_.only.empty()
@@ -70,19 +78,11 @@ class Fuzzer {
     }
   }
 
-  bool goes_on(std::size_t finished = 0, bool violating = false) {
-    const std::lock_guard lock{mutex_};
-    progress_.finished += finished;
-    if (violating) ++progress_.violating;
-    if (options_.on_progress && !options_.on_progress(progress_)) stopped_ = true;
-    return !stopped_;
-  }
-
   void run_base() {
     std::vector<std::string_view> ids;
     for (const Judgment& judgment : report_.judgments) ids.push_back(judgment.id);
     model::Scenario scenario = base_;
-    const auto run = run_and_judge(scenario, ids, {}, 1, [this] { return goes_on(); });
+    const auto run = run_and_judge(scenario, ids, {}, 1, [this] { return runner_.goes_on(); });
     if (!run) return;
     report_.base = *run;
     report_.base_known = true;
@@ -110,7 +110,7 @@ class Fuzzer {
       };
     }
     auto run = run_and_judge(scenario, sampled_, losses, 2 * report_.base.packets,
-                             [this] { return goes_on(); });
+                             [this] { return runner_.goes_on(); });
     if (!run) return std::nullopt;
     run->number = number;
     run->rejected = variant->rejected;
@@ -125,17 +125,15 @@ class Fuzzer {
       return !options_.seconds || passed.count() < *options_.seconds;
     };
     std::map<std::size_t, JudgedRun> finished;
-    checker::parallel_for(options_.runs, options_.jobs, [&](std::size_t k) {
-      if ((k > 0 && !in_time()) || !goes_on()) return false;
+    runner_.each(options_.runs, [&](std::size_t k) {
+      if ((k > 0 && !in_time()) || !runner_.goes_on()) return false;
       model::Scenario scenario;
       auto run = run_variant(options_.first + k, scenario);
       if (!run) return false;
-      const bool violating = !run->breaches.empty();
-      {
-        const std::lock_guard lock{mutex_};
-        finished.emplace(k, *std::move(run));
-      }
-      return goes_on(1, violating);
+      if (!run->breaches.empty()) ++violating_;
+      const std::lock_guard lock{mutex_};
+      finished.emplace(k, *std::move(run));
+      return true;
     });
     for (auto& [k, run] : finished) {
       if (k != report_.runs.size()) break;
@@ -155,7 +153,7 @@ class Fuzzer {
         judgment.first_broken = run.number;
         judgment.first_reason = breach->reason;
       }
-      judgment.rate = clopper_pearson(judgment.broken, judgment.runs);
+      judgment.rate = statistics::clopper_pearson(judgment.broken, judgment.runs);
       if (judgment.broken > 0 || (!judgment.sampled && judgment.in_base))
         judgment.verdict = props::VerdictKind::violated;
       else if (judgment.runs > 0)
@@ -167,24 +165,19 @@ class Fuzzer {
       messages.push_back(static_cast<double>(run.messages));
       amplification.push_back(run.amplification);
       backlog.push_back(static_cast<double>(run.backlog));
-      if (run.discovery_time)
-        completion.push_back(static_cast<double>(run.discovery_time->count()));
-      else
-        ++report_.incomplete;
+      completion.push_back(statistics::completion_ns(run.discovery_time));
+      if (!run.discovery_time) ++report_.incomplete;
     }
-    report_.completion_ns = sampling::quantiles(std::move(completion), report_.incomplete);
-    report_.messages = sampling::quantiles(std::move(messages));
-    report_.amplification = sampling::quantiles(std::move(amplification));
-    report_.backlog = sampling::quantiles(std::move(backlog));
+    report_.completion_ns = statistics::quantiles(std::move(completion));
+    report_.messages = statistics::quantiles(std::move(messages));
+    report_.amplification = statistics::quantiles(std::move(amplification));
+    report_.backlog = statistics::quantiles(std::move(backlog));
   }
 
   void shrink_first(Judgment& judgment) {
-    {
-      const std::lock_guard lock{mutex_};
-      progress_.shrinking = judgment.id;
-    }
+    shrinking_ = judgment.id;  // in one thread
     model::Scenario scenario;
-    const auto go = [this] { return goes_on(); };
+    const auto go = [this] { return runner_.goes_on(); };
     if (!run_variant(judgment.first_broken, scenario)) return;
     std::uint64_t events = 0;
     auto found = find_breach(scenario, judgment.id, 0, events, go);
@@ -199,20 +192,15 @@ class Fuzzer {
   FuzzReport report_;
   std::vector<std::string_view> sampled_;  ///< ids that variants are judged by
   std::mutex mutex_;
-  FuzzProgress progress_;
-  bool stopped_ = false;
+  std::atomic<std::size_t> violating_ = 0;
+  std::string_view shrinking_;
+  trials::Runner runner_;
 };
 
 }  // namespace
 
 bool FuzzReport::violated() const {
   return std::ranges::any_of(judgments, [](const Judgment& j) { return j.broken > 0; });
-}
-
-std::vector<std::string_view> ordinary_properties() {
-  std::vector<std::string_view> ids = props::monitored_properties();
-  std::erase(ids, exact::quiescence);
-  return ids;
 }
 
 FuzzReport fuzz(const model::Scenario& scenario, const Ranges& ranges, const FuzzOptions& options) {

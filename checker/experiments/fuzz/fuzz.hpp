@@ -46,7 +46,7 @@ struct Judgment {
   bool sampled = true;
   std::size_t runs = 0;    ///< that say something about it
   std::size_t broken = 0;  ///< of them
-  RateInterval rate;
+  statistics::RateInterval rate;
   std::uint64_t first_broken = 0;  ///< number of the first variant that breaks it
   std::string first_reason;
   std::optional<Shrunk> shrunk;
@@ -64,13 +64,10 @@ struct FuzzReport {
   std::vector<Judgment> judgments;
   std::uint64_t rejected = 0;
   std::size_t incomplete = 0;  ///< runs in which discovery was not complete at the time limit
-  sampling::Quantiles completion_ns, messages, amplification, backlog;
+  statistics::Quantiles completion_ns, messages, amplification, backlog;
 
   [[nodiscard]] bool violated() const;
 };
-
-/// Ids of the properties that an ordinary run can show; live.quiescence needs a much longer one.
-[[nodiscard]] std::vector<std::string_view> ordinary_properties();
 
 /// `scenario` is valid; its limits are those to judge by.
 [[nodiscard]] FuzzReport fuzz(const model::Scenario& scenario, const Ranges& ranges,

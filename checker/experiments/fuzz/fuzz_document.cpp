@@ -130,7 +130,7 @@ Table distribution(const FuzzReport& report) {
   for (const char* head : {"least", "10 %", "median", "90 %", "most", "unperturbed"}) {
     table.columns.push_back({head, Column::Align::right});
   }
-  const auto row = [&table](const char* name, const sampling::Quantiles& q, auto&& print,
+  const auto row = [&table](const char* name, const statistics::Quantiles& q, auto&& print,
                             std::string unperturbed) {
     std::vector<Text> cells{name};
     for (const auto& value : {q.min, q.p10, q.median, q.p90, q.max}) {
@@ -219,7 +219,7 @@ void add_reservations(Document& document, const FuzzReport& report) {
       "Rates are those of all scenarios in the ranges, with {:.0f} % confidence (exact "
       "interval of Clopper and Pearson). A sample proves nothing about the runs that it "
       "does not contain.",
-      100 * confidence_level)});
+      100 * statistics::confidence_level)});
 }
 
 }  // namespace

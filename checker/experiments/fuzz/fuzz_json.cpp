@@ -113,7 +113,7 @@ Json to_json(const FuzzReport& report, const FuzzContext& context) {
   v("usual_ranges", report.ranges.usual);
   v("ranges", ranges);
   v.unless_empty("unmodelled", context.scenario.dds.unmodelled);
-  v("confidence", confidence_level);
+  v("confidence", statistics::confidence_level);
   v("unperturbed", report.base_known ? report::json_of(report.base) : Json());
   v("results", results);
   v("quantiles", quantiles_json(report));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checker/experiments/statistics/quantiles.hpp"
 #include "model/reference.hpp"
 
 namespace stormproof::reproduce {
@@ -11,13 +12,6 @@ namespace stormproof::reproduce {
 namespace {
 
 using model::HeartbeatPolicy;
-
-double interpolated(const std::vector<double>& sorted, double q) {
-  const double position = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (sorted[above] - sorted[below]) * (position - std::floor(position));
-}
 
 double largest(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
@@ -43,8 +37,10 @@ std::optional<double> spread(const Results& results, std::size_t variant, const 
 }  // namespace
 
 Quartiles quartiles(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return {interpolated(values, 0.25), interpolated(values, 0.5), interpolated(values, 0.75)};
+  std::ranges::sort(values);
+  using statistics::quantile_of_sorted;
+  return {quantile_of_sorted(values, 0.25), quantile_of_sorted(values, 0.5),
+          quantile_of_sorted(values, 0.75)};
 }
 
 double LoopbackNormalisation::sedp(double messages) const { return messages * all / loopback; }
@@ -174,17 +170,17 @@ std::optional<double> Measures::largest_message_spread(std::size_t variant, Clas
 std::optional<double> Measures::loopback_messages(std::size_t variant, Class what,
                                                   const Configuration& one) const {
   const Outcome* loopback = results_.find(variant, Network::loopback, one);
-  if (loopback == nullptr || loopback->completed() == 0) return std::nullopt;
+  const auto spdp = loopback ? loopback->messages(Class::spdp) : std::nullopt;
+  if (!spdp) return std::nullopt;
   const LoopbackNormalisation normalise =
       loopback_normalisation(results_.plan.hosts, one.participants_per_host);
-  const double spdp = *loopback->messages(Class::spdp);
   switch (what) {
     case Class::spdp:
     case Class::spdp_multicast:
     case Class::spdp_unicast:
       return normalise.spdp(*loopback->messages(what));
     case Class::total:
-      return normalise.spdp(spdp) + normalise.sedp(*loopback->messages(Class::total) - spdp);
+      return normalise.spdp(*spdp) + normalise.sedp(*loopback->messages(Class::total) - *spdp);
     default:
       return normalise.sedp(*loopback->messages(what));
   }

@@ -184,8 +184,9 @@ void add_variants(Blocks& blocks, const Report& report) {
     std::string text = variant.title;
     if (variant.runs > 1) text += fmt::format(", mean of {} draws", variant.runs);
     if (open > 0) {
-      text += fmt::format("; {} of {} runs do not complete within 200 s and are in no mean",
-                          report::grouped(open), report::grouped(runs));
+      text += fmt::format(
+          "; {} of {} runs do not complete within 200 s; a mean with one of them does not exist",
+          report::grouped(open), report::grouped(runs));
     }
     facts.rows.emplace_back(fmt::format("({}) {}", v + 1, variant.id), std::move(text));
   }

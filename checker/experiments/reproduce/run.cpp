@@ -3,13 +3,7 @@
 #include "checker/experiments/reproduce/run.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <ctime>
-#include <mutex>
-
-#include "checker/experiments/trials/parallel.hpp"
-#include "model/simulator.hpp"
 
 namespace stormproof::reproduce {
 
@@ -40,42 +34,22 @@ bool is_evaluation(const Plan& plan, const Case& one) {
          one.policy == model::HeartbeatPolicy::periodic && one.order == orders[0];
 }
 
-/// What all threads share.
-class Monitor {
- public:
-  explicit Monitor(const RunLimits& limits) : limits_{limits} {}
-
-  /// Asks whether to go on; also in the middle of a run.
-  bool go_on() {
-    if (stopped_) return false;
-    if (!limits_.on_progress) return true;
-    const std::lock_guard lock{mutex_};
-    if (!limits_.on_progress(finished_)) stopped_ = true;
-    return !stopped_;
-  }
-  bool finished() {
-    ++finished_;
-    return go_on();
-  }
-
- private:
-  const RunLimits& limits_;
-  std::mutex mutex_;
-  std::atomic<std::size_t> finished_ = 0;
-  std::atomic<bool> stopped_ = false;
-};
+/// The class of the model, which has them in the same order.
+std::optional<model::MessageClass> class_of(Class one) {
+  const auto index = static_cast<std::size_t>(one);
+  if (index >= model::message_class_count) return std::nullopt;
+  return model::message_classes[index];
+}
 
 template <class Value>
 std::optional<double> mean_of(const std::vector<Run>& runs, Value value) {
   double sum = 0;
-  std::size_t count = 0;
   for (const Run& one : runs) {
-    if (!one.completion) continue;
+    if (!one.completion) return std::nullopt;
     sum += value(one);
-    ++count;
   }
-  if (count == 0) return std::nullopt;
-  return sum / static_cast<double>(count);
+  if (runs.empty()) return std::nullopt;
+  return sum / static_cast<double>(runs.size());
 }
 
 double seconds(model::Nanoseconds time) { return static_cast<double>(time.count()) * 1e-9; }
@@ -83,47 +57,13 @@ double seconds(model::Nanoseconds time) { return static_cast<double>(time.count(
 }  // namespace
 
 const char* name_of(Class one) {
-  switch (one) {
-    case Class::spdp:
-      return "spdp";
-    case Class::initial_data:
-      return "initial_data";
-    case Class::repair_data:
-      return "repair_data";
-    case Class::heartbeat:
-      return "heartbeat";
-    case Class::acknack:
-      return "acknack";
-    case Class::total:
-      return "total";
-    case Class::spdp_multicast:
-      return "spdp_multicast";
-    case Class::spdp_unicast:
-      return "spdp_unicast";
-  }
-  std::abort();
+  if (const auto of_model = class_of(one)) return model::name_of(*of_model);
+  return one == Class::spdp ? "spdp" : "total";
 }
 
 std::uint64_t count_of(const model::Counts& counts, Class one) {
-  switch (one) {
-    case Class::spdp:
-      return counts.spdp_multicast + counts.spdp_unicast;
-    case Class::initial_data:
-      return counts.initial_data;
-    case Class::repair_data:
-      return counts.repair_data;
-    case Class::heartbeat:
-      return counts.heartbeat;
-    case Class::acknack:
-      return counts.acknack;
-    case Class::total:
-      return counts.total();
-    case Class::spdp_multicast:
-      return counts.spdp_multicast;
-    case Class::spdp_unicast:
-      return counts.spdp_unicast;
-  }
-  std::abort();
+  if (const auto of_model = class_of(one)) return counts[*of_model];
+  return one == Class::spdp ? counts.spdp() : counts.total();
 }
 
 std::size_t Outcome::completed() const {
@@ -146,7 +86,8 @@ std::optional<double> Outcome::fastest_s() const {
 std::optional<double> Outcome::slowest_s() const {
   std::optional<double> worst;
   for (const Run& one : runs) {
-    if (one.completion) worst = std::max(worst.value_or(0), seconds(*one.completion));
+    if (!one.completion) return std::nullopt;
+    worst = std::max(worst.value_or(0), seconds(*one.completion));
   }
   return worst;
 }
@@ -170,19 +111,14 @@ Results run(const Plan& plan, const RunLimits& limits) {
   Results results;
   results.plan = plan;
   const std::vector<Job> jobs = jobs_of(results.plan);
-  std::vector<std::optional<Run>> finished(jobs.size());
   std::vector<double> cpu_s(jobs.size());
-  Monitor monitor{limits};
-  (void)checker::parallel_for(jobs.size(), limits.threads, [&](std::size_t j) {
+  trials::Runner runner{limits.threads, limits.on_progress};
+  const auto finished = runner.run(jobs.size(), [&](std::size_t j) -> std::optional<Run> {
     const double before = thread_cpu_s();
-    const model::Scenario scenario = plan.scenario(*jobs[j].which, jobs[j].k);
-    model::RunOptions options;
-    options.on_progress = [&](const model::Progress&) { return monitor.go_on(); };
-    const model::RunResult result = simulate(scenario, options);
+    const auto result = runner.simulate(plan.scenario(*jobs[j].which, jobs[j].k));
     cpu_s[j] = thread_cpu_s() - before;
-    if (result.end == model::RunEnd::interrupted) return false;
-    finished[j] = Run{result.end, result.discovery_time, result.counts};
-    return monitor.finished();
+    if (!result) return std::nullopt;
+    return Run{result->end, result->discovery_time, result->counts};
   });
   results.complete = true;
   for (std::size_t j = 0; j < jobs.size();) {

@@ -3,12 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "checker/experiments/reproduce/plan.hpp"
+#include "checker/experiments/trials/runner.hpp"
 #include "model/counts.hpp"
 #include "model/run_result.hpp"
 
@@ -21,16 +21,17 @@ struct Run {
   model::Counts counts;
 };
 
-/// The message classes of the report: the paper's, with both kinds of SPDP in one as in its tables.
+/// The message classes of the report: those of the model, and what the paper's tables have beside
+/// them.
 enum class Class : std::uint8_t {
-  spdp,
   initial_data,
   repair_data,
   heartbeat,
   acknack,
-  total,
   spdp_multicast,
-  spdp_unicast
+  spdp_unicast,
+  spdp,  ///< both kinds in one
+  total
 };
 inline constexpr std::array<Class, 6> table_classes{Class::spdp,        Class::initial_data,
                                                     Class::repair_data, Class::heartbeat,
@@ -38,8 +39,8 @@ inline constexpr std::array<Class, 6> table_classes{Class::spdp,        Class::i
 [[nodiscard]] const char* name_of(Class one);
 [[nodiscard]] std::uint64_t count_of(const model::Counts& counts, Class one);
 
-/// All runs of one case. Means are over the runs that complete discovery; without any, they do not
-/// exist.
+/// All runs of one case. A mean with a run that did not complete does not exist: its completion is
+/// unreached, and its messages are only those up to the limit.
 struct Outcome {
   std::vector<Run> runs;
 
@@ -67,8 +68,7 @@ struct Results {
 
 struct RunLimits {
   std::size_t threads = 0;  ///< 0: one for each core
-  /// Called from one thread at a time with the number of finished runs; false stops all.
-  std::function<bool(std::size_t finished)> on_progress{};
+  trials::Progress on_progress{};
 };
 
 [[nodiscard]] Results run(const Plan& plan, const RunLimits& limits = {});

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
-#include <random>
 
+#include "checker/experiments/statistics/completion.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
-#include "checker/experiments/trials/parallel.hpp"
-#include "model/simulator.hpp"
+#include "checker/experiments/trials/under_seed.hpp"
 
 namespace stormproof::sensitivity {
 
@@ -35,74 +33,6 @@ std::size_t incomplete_runs(const Outcomes& outcomes) {
       std::ranges::count_if(outcomes, [](const auto& outcome) { return !outcome->completed; }));
 }
 
-/// The start times of one sample.
-Scenario sampled(Scenario scenario, std::uint64_t seed, model::Nanoseconds jitter) {
-  model::Deployment& deployment = scenario.deployment;
-  if (deployment.schedule) deployment.draw_schedule(seed);
-  if (jitter.count() == 0) return scenario;
-  std::mt19937_64 random{seed};
-  const auto values = static_cast<std::uint64_t>(jitter.count()) + 1;
-  for (model::Participant& participant : deployment.participants) {
-    const model::Nanoseconds later{static_cast<std::int64_t>(random() % values)};
-    participant.start = participant.start + later;
-    participant.endpoints_done = participant.endpoints_done + later;
-  }
-  return scenario;
-}
-
-class Runner {
- public:
-  explicit Runner(const Options& options) : options_{options} {}
-
-  /// Runs every sample of every scenario.
-  std::vector<Outcomes> run(const std::vector<const Scenario*>& scenarios) {
-    std::vector<Outcomes> outcomes(scenarios.size(), Outcomes(options_.samples));
-    planned_ += scenarios.size() * options_.samples;
-    const std::size_t jobs = scenarios.size() * options_.samples;
-    finished_all_ = checker::parallel_for(jobs, options_.threads,
-                                          [&](std::size_t job) {
-                                            // Sample by sample, so that a study that is stopped
-                                            // knows something of every change.
-                                            const std::size_t sample = job / scenarios.size();
-                                            const std::size_t which = job % scenarios.size();
-                                            outcomes[which][sample] = run_one(
-                                                *scenarios[which], options_.first_seed + sample);
-                                            return outcomes[which][sample] && report(1);
-                                          }) &&
-                    finished_all_;
-    return outcomes;
-  }
-
-  [[nodiscard]] bool finished_all() const { return finished_all_; }
-  [[nodiscard]] std::size_t runs() const { return runs_; }
-
- private:
-  std::optional<Outcome> run_one(const Scenario& scenario, std::uint64_t seed) {
-    const Scenario sample = sampled(scenario, seed, options_.start_jitter);
-    model::RunOptions run_options;
-    run_options.on_progress = [this](const model::Progress&) { return report(0); };
-    const model::RunResult run = simulate(sample, run_options);
-    if (run.end == model::RunEnd::interrupted) return std::nullopt;
-    const model::Nanoseconds took = run.discovery_time.value_or(sample.time_limit);
-    return Outcome{{static_cast<double>(took.count()), static_cast<double>(run.counts.total())},
-                   run.completed()};
-  }
-
-  bool report(std::size_t newly_finished) {
-    const std::lock_guard lock{mutex_};
-    runs_ += newly_finished;
-    if (options_.on_progress && !options_.on_progress(runs_, planned_)) stopped_ = true;
-    return !stopped_;
-  }
-
-  const Options& options_;
-  std::mutex mutex_;
-  std::size_t planned_ = 0;
-  std::size_t runs_ = 0;
-  bool stopped_ = false;
-  bool finished_all_ = true;
-};
-
 /// Effects of the sums, over samples, of outcomes with these signs.
 Effects effects_of(const std::vector<std::pair<const Outcomes*, int>>& terms) {
   Effects effects;
@@ -113,7 +43,10 @@ Effects effects_of(const std::vector<std::pair<const Outcomes*, int>>& terms) {
         differences[k] += sign * (*outcomes)[k]->cost[m];
       }
     }
-    effects[m] = effect_of(std::move(differences));
+    statistics::PairedDifferences pairs;
+    for (const double difference : differences) pairs.add(difference);
+    const statistics::Shift shift = pairs.shift();
+    effects[m] = {shift.estimate, shift.low, shift.high, shift.confidence, pairs.all_zero()};
   }
   return effects;
 }
@@ -124,18 +57,40 @@ class Study {
   Study(const Scenario& scenario, const Options& options)
       : scenario_{scenario},
         options_{options},
-        runner_{options},
+        runner_{options.threads, options.on_progress},
         knobs_{knobs_of(scenario, options.range)} {}
 
   Report run() {
     run_single_changes();
     if (report_.finished && options_.pairs_of > 1) run_pairs();
-    report_.runs = runner_.runs();
-    report_.finished = runner_.finished_all();
+    report_.runs = runner_.finished();
+    report_.finished = !runner_.stopped();
     return std::move(report_);
   }
 
  private:
+  /// Every sample of every scenario; sample by sample, so that a study that is stopped knows
+  /// something of every change.
+  std::vector<Outcomes> run_all(const std::vector<const Scenario*>& scenarios) {
+    const std::size_t count = scenarios.size();
+    auto by_job = runner_.run(count * options_.samples, [&](std::size_t job) {
+      return run_one(*scenarios[job % count], options_.first_seed + job / count);
+    });
+    std::vector<Outcomes> outcomes(count);
+    for (std::size_t job = 0; job < by_job.size(); ++job) {
+      outcomes[job % count].push_back(by_job[job]);
+    }
+    return outcomes;
+  }
+
+  std::optional<Outcome> run_one(const Scenario& scenario, std::uint64_t seed) {
+    const auto run = runner_.simulate(trials::under_seed(scenario, seed, options_.start_jitter));
+    if (!run) return std::nullopt;
+    return Outcome{
+        {statistics::completion_ns(run->discovery_time), static_cast<double>(run->counts.total())},
+        run->completed()};
+  }
+
   void run_single_changes() {
     std::vector<const Scenario*> scenarios{&scenario_};
     for (const Knob& knob : knobs_) {
@@ -143,8 +98,8 @@ class Study {
         if (level) scenarios.push_back(&level->scenario);
       }
     }
-    singles_ = runner_.run(scenarios);
-    report_.finished = runner_.finished_all();
+    singles_ = run_all(scenarios);
+    report_.finished = !runner_.stopped();
     keep_complete_samples();
     if (!all_there(singles_.front())) return;
     describe_base();
@@ -171,7 +126,7 @@ class Study {
     for (std::size_t m = 0; m < measures.size(); ++m) {
       std::vector<double> values;
       for (const auto& outcome : singles_.front()) values.push_back(outcome->cost[m]);
-      report_.base[m] = *sampling::quantiles(std::move(values)).median;
+      report_.base[m] = statistics::median(std::move(values));
     }
     report_.incomplete = incomplete_runs(singles_.front());
   }
@@ -224,7 +179,7 @@ class Study {
     }
     std::vector<const Scenario*> scenarios;
     for (const Scenario& scenario : changed) scenarios.push_back(&scenario);
-    const std::vector<Outcomes> outcomes = runner_.run(scenarios);
+    const std::vector<Outcomes> outcomes = run_all(scenarios);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       if (all_there(outcomes[k])) describe(pairs[k], outcomes[k]);
     }
@@ -244,7 +199,7 @@ class Study {
 
   const Scenario& scenario_;
   const Options& options_;
-  Runner runner_;
+  trials::Runner runner_;
   const std::vector<Knob> knobs_;
   std::vector<Outcomes> singles_;  // the unchanged scenario, then each level of each knob
   std::map<std::pair<std::string, Direction>, const Outcomes*> single_of_;
@@ -252,10 +207,6 @@ class Study {
 };
 
 }  // namespace
-
-const char* name_of(Measure measure) {
-  return measure == Measure::completion ? "completion" : "messages";
-}
 
 double KnobResult::swing(Measure measure) const {
   double greatest = 0;

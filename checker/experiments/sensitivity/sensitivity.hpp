@@ -6,21 +6,21 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "checker/experiments/sensitivity/effect.hpp"
 #include "checker/experiments/sensitivity/levels.hpp"
+#include "checker/experiments/statistics/measure.hpp"
+#include "checker/experiments/statistics/paired.hpp"
+#include "checker/experiments/trials/runner.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::sensitivity {
 
-/// What a run costs. A run that does not complete counts as long as its time limit.
-enum class Measure : std::uint8_t { completion, messages };
+/// What a run costs.
+using statistics::Measure;
 inline constexpr std::array<Measure, 2> measures{Measure::completion, Measure::messages};
-[[nodiscard]] const char* name_of(Measure measure);
 
 struct Options {
   double range = 0.2;                ///< relative step, greater than 0 and less than 1
@@ -30,8 +30,20 @@ struct Options {
   Measure by = Measure::completion;  ///< what ranks the knobs
   std::size_t pairs_of = 0;  ///< the interactions of so many of the first knobs are looked at
   std::size_t threads = 0;   ///< 0: one for each core
-  /// Called from one thread at a time; returning false stops all runs.
-  std::function<bool(std::size_t finished, std::size_t runs)> on_progress;
+  trials::Progress on_progress;
+};
+
+/// The effect of a change: the median of the differences between runs with and without it, seed by
+/// seed, and how sure it is.
+struct Effect {
+  double median = 0;  ///< infinite if most runs complete with one of them and not with the other
+  double low = 0, high = 0;  ///< the interval; both are the median if there is one pair
+  double confidence = 0;     ///< of the interval: at least 0.95 from six pairs on; 0 for one pair
+  bool exactly_zero = true;  ///< no pair differs at all
+
+  /// Whether the interval says in which direction the effect goes.
+  [[nodiscard]] bool is_clear() const { return low > 0 || high < 0; }
+  bool operator==(const Effect&) const = default;
 };
 
 /// Effects on both measures, in nanoseconds and messages.
@@ -66,13 +78,14 @@ struct PairResult {
 };
 
 struct Report {
-  std::array<double, measures.size()> base{};  ///< medians of the unchanged scenario
-  std::size_t incomplete = 0;                  ///< of its runs
-  std::vector<KnobResult> knobs;               ///< those with a level, the greatest effect first
-  std::vector<KnobResult> unvaried;            ///< those without
-  std::vector<PairResult> pairs;               ///< the greatest interaction first
-  std::size_t samples = 0;                     ///< runs of each change that count
-  std::size_t runs = 0;                        ///< that finished
+  std::array<double, measures.size()>
+      base{};                        ///< medians of the unchanged scenario; may be infinite
+  std::size_t incomplete = 0;        ///< of its runs
+  std::vector<KnobResult> knobs;     ///< those with a level, the greatest effect first
+  std::vector<KnobResult> unvaried;  ///< those without
+  std::vector<PairResult> pairs;     ///< the greatest interaction first
+  std::size_t samples = 0;           ///< runs of each change that count
+  std::size_t runs = 0;              ///< that finished
   bool finished = true;  ///< false: stopped, so there are fewer samples, or changes are left out
 };
 

@@ -24,6 +24,7 @@ constexpr std::size_t longest_bar = 14;
 constexpr auto to_right = Column::Align::right;
 
 std::string amount(Measure measure, double value) {
+  if (std::isinf(value)) return "∞";
   if (measure == Measure::completion) {
     return report::duration(model::Nanoseconds{std::llround(std::abs(value))});
   }
@@ -40,13 +41,15 @@ std::string signed_amount(Measure measure, double value) {
 
 std::string relative(double value, double base) {
   if (value == 0) return "0";
-  if (base == 0) return "–";
+  if (std::isinf(value)) return value < 0 ? "−∞" : "+∞";
+  if (base == 0 || std::isinf(base)) return "–";
   return fmt::format("{}{:.1f} %", value < 0 ? "−" : "+", std::abs(100 * value / base));
 }
 
 /// As long as the effect; the greatest one has `longest_bar` blocks.
 std::string bar(double value, double greatest) {
-  const double share = greatest > 0 ? std::abs(value) / greatest : 0;
+  const bool fills = std::abs(value) == greatest;  // so do infinite ones
+  const double share = greatest > 0 ? (fills ? 1 : std::abs(value) / greatest) : 0;
   auto length = static_cast<std::size_t>(std::lround(share * static_cast<double>(longest_bar)));
   if (value != 0) length = std::max<std::size_t>(length, 1);
   std::string blocks;
@@ -100,8 +103,9 @@ class Builder {
         "completion {}, {} messages{}", amount(Measure::completion, report_.base[0]),
         amount(Measure::messages, report_.base[1]), report_.samples > 1 ? " (medians)" : "");
     if (report_.incomplete > 0) {
-      unchanged += fmt::format("; {} of {} runs do not complete; they count with the time limit",
-                               report_.incomplete, report_.samples);
+      unchanged +=
+          fmt::format("; {} of {} runs do not complete; they count as longer than all that do",
+                      report_.incomplete, report_.samples);
     }
     std::string runs = report::grouped(report_.runs);
     if (report_.samples > 1) {

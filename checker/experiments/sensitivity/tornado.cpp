@@ -43,13 +43,15 @@ std::string to_svg(const Report& report, const Description& description) {
       name_of(by));
   tornado.value.label = by == Measure::completion ? "time to complete discovery" : "messages";
   tornado.value.unit = by == Measure::completion ? "s" : "";
-  tornado.base = report.base[static_cast<std::size_t>(by)] * unit;
+  const double base = report.base[static_cast<std::size_t>(by)] * unit;
+  tornado.base = std::isfinite(base) ? base : 0;
   for (const KnobResult& knob : report.knobs) {
     if (tornado.bars.size() == description.shown || knob.is_without_effect(by)) continue;
     const auto end = [&](Direction direction) {
       const auto& level = knob.levels[static_cast<std::size_t>(direction)];
       if (!level) return std::numeric_limits<double>::quiet_NaN();
-      return tornado.base + of(level->effects, by).median * unit;
+      const double value = base + of(level->effects, by).median * unit;
+      return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
     };
     const auto text = [&](Direction direction) {
       const auto& level = knob.levels[static_cast<std::size_t>(direction)];

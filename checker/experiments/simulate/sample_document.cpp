@@ -13,11 +13,8 @@ namespace stormproof::report {
 
 namespace {
 
-using sampling::Quantiles;
-using sampling::Sample;
-
-constexpr const char* class_labels[] = {"initial DATA", "repair DATA",    "HEARTBEAT",
-                                        "ACKNACK",      "SPDP multicast", "SPDP unicast"};
+using statistics::Quantiles;
+using trials::Sample;
 
 using Print = std::string (*)(double);
 std::string as_time(double ns) {
@@ -47,7 +44,9 @@ Table distribution(const SampleSummary& s) {
           or_beyond(q.min, print), or_beyond(q.max, print)}});
   };
   row("completion", s.discovery_time_ns, as_time);
-  for (std::size_t k = 0; k < s.counts.size(); ++k) row(class_labels[k], s.counts[k], as_count);
+  for (const model::MessageClass one : model::message_classes) {
+    row(words_of(one), s.counts[model::index_of(one)], as_count);
+  }
   row("total", s.total, as_count);
   if (s.user_control.max.value_or(0) > 0) row("user control", s.user_control, as_count);
   return table;

@@ -7,7 +7,7 @@
 #include "checker/presentation/text/assumptions.hpp"
 #include "model/config/knobs/effective.hpp"
 
-namespace stormproof::sampling {
+namespace stormproof::trials {
 
 template <class V>
 void describe(V& v, const Sample& sample) {
@@ -17,14 +17,14 @@ void describe(V& v, const Sample& sample) {
   counts["user_control"] = sample.user_control;
   v("seed", sample.seed);
   v("completed", sample.discovery_time.has_value());
-  v("end", report::name_of(sample.end));
+  v("end", sample.end);
   v("t_disc_ns", sample.discovery_time);
   v("counts", counts);
   v("user_control", sample.user_control);
   v("events", sample.events);
 }
 
-}  // namespace stormproof::sampling
+}  // namespace stormproof::trials
 
 namespace stormproof::report {
 

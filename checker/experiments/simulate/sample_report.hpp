@@ -18,7 +18,7 @@ namespace stormproof::report {
 struct SampledProfile {
   std::string name;
   model::Scenario scenario;
-  std::vector<sampling::Sample> samples;
+  std::vector<trials::Sample> samples;
 };
 
 struct Sampling {
@@ -32,12 +32,12 @@ struct Sampling {
 struct SampleSummary {
   std::size_t runs = 0;
   std::size_t completed = 0;
-  sampling::Quantiles discovery_time_ns;
-  std::array<sampling::Quantiles, 6> counts;  ///< in the order of Counts::entries
-  sampling::Quantiles total;
-  sampling::Quantiles user_control;
+  statistics::Quantiles discovery_time_ns;
+  std::array<statistics::Quantiles, model::message_class_count> counts;  ///< by class
+  statistics::Quantiles total;
+  statistics::Quantiles user_control;
 };
-[[nodiscard]] SampleSummary summarize(const std::vector<sampling::Sample>& samples);
+[[nodiscard]] SampleSummary summarize(const std::vector<trials::Sample>& samples);
 
 [[nodiscard]] Document document_of(const Sampling& sampling);
 

@@ -1,18 +1,20 @@
 // Statistics of sampled runs.
+#include <algorithm>
+
 #include "checker/experiments/simulate/sample_report.hpp"
 
 namespace stormproof::report {
 
 namespace {
 
-using sampling::Sample;
+using trials::Sample;
 
 template <class Value>
-sampling::Quantiles quantiles_of(const std::vector<Sample>& samples, Value&& value) {
+statistics::Quantiles quantiles_of(const std::vector<Sample>& samples, Value&& value) {
   std::vector<double> values;
   values.reserve(samples.size());
   for (const Sample& sample : samples) values.push_back(static_cast<double>(value(sample)));
-  return sampling::quantiles(std::move(values));
+  return statistics::quantiles(std::move(values));
 }
 
 }  // namespace
@@ -20,15 +22,13 @@ sampling::Quantiles quantiles_of(const std::vector<Sample>& samples, Value&& val
 SampleSummary summarize(const std::vector<Sample>& samples) {
   SampleSummary summary;
   summary.runs = samples.size();
-  std::vector<double> times;
-  for (const Sample& sample : samples) {
-    if (sample.discovery_time) times.push_back(static_cast<double>(sample.discovery_time->count()));
-  }
-  summary.completed = times.size();
-  summary.discovery_time_ns = sampling::quantiles(times, samples.size() - times.size());
-  for (std::size_t k = 0; k < summary.counts.size(); ++k) {
-    summary.counts[k] =
-        quantiles_of(samples, [k](const Sample& s) { return s.counts.entries()[k].value; });
+  summary.completed = static_cast<std::size_t>(std::ranges::count_if(
+      samples, [](const Sample& sample) { return sample.discovery_time.has_value(); }));
+  summary.discovery_time_ns = quantiles_of(
+      samples, [](const Sample& s) { return statistics::completion_ns(s.discovery_time); });
+  for (const model::MessageClass one : model::message_classes) {
+    summary.counts[model::index_of(one)] =
+        quantiles_of(samples, [one](const Sample& s) { return s.counts[one]; });
   }
   summary.total = quantiles_of(samples, [](const Sample& s) { return s.counts.total(); });
   summary.user_control = quantiles_of(samples, [](const Sample& s) { return s.user_control; });

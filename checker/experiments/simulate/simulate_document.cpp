@@ -18,18 +18,6 @@ using model::RunResult;
 
 constexpr auto to_right = Column::Align::right;
 
-const char* label(std::size_t message_class) {
-  static constexpr const char* labels[] = {"initial DATA", "repair DATA",    "HEARTBEAT",
-                                           "ACKNACK",      "SPDP multicast", "SPDP unicast"};
-  return labels[message_class];
-}
-
-const char* label(model::TrafficClass traffic) {
-  static constexpr const char* labels[] = {"SPDP",      "initial DATA", "repair DATA",
-                                           "HEARTBEAT", "ACKNACK",      "user control"};
-  return labels[static_cast<std::size_t>(traffic)];
-}
-
 std::string headline(const Simulation& s) {
   const RunResult& result = s.result;
   if (result.completed()) {
@@ -119,7 +107,7 @@ Table messages(const Simulation& s) {
   const auto counts = s.result.counts.entries();
   const auto reference = s.failure_free.entries();
   for (std::size_t k = 0; k < counts.size(); ++k) {
-    row(label(k), counts[k].value, reference[k].value);
+    row(words_of(model::message_classes[k]), counts[k].value, reference[k].value);
   }
   row("total", s.result.counts.total(), s.failure_free.total());
   if (s.result.user_control > 0) {
@@ -146,7 +134,7 @@ void add_channels(Blocks& blocks, const RunResult& result) {
     };
     for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
       if (channel.busy[k].count() > 0) {
-        row(label(static_cast<model::TrafficClass>(k)), channel.busy[k]);
+        row(words_of(static_cast<model::TrafficClass>(k)), channel.busy[k]);
       }
     }
     row("idle", result.end_time - channel.total_busy());
@@ -168,7 +156,7 @@ Table delays(const RunResult& result) {
       return duration(Nanoseconds{sum.count() / static_cast<std::int64_t>(latency.packets)});
     };
     table.rows.push_back(
-        {{label(static_cast<model::TrafficClass>(k)), grouped(latency.packets),
+        {{words_of(static_cast<model::TrafficClass>(k)), grouped(latency.packets),
           mean(latency.backlog_sum), mean(latency.service_sum), duration(latency.longest)}});
   }
   return table;

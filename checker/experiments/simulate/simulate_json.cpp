@@ -120,20 +120,6 @@ Json last_delivery_json(const RunResult& result) {
 
 }  // namespace
 
-const char* name_of(model::RunEnd end) {
-  switch (end) {
-    case model::RunEnd::completed:
-      return "completed";
-    case model::RunEnd::time_limit:
-      return "time_limit";
-    case model::RunEnd::no_more_events:
-      return "no_more_events";
-    case model::RunEnd::interrupted:
-      return "interrupted";
-  }
-  return "";
-}
-
 Simulation describe(std::string name, const model::Scenario& scenario, model::RunResult result) {
   return {std::move(name), scenario, std::move(result), model::failure_free_reference(scenario),
           model::open_loop_airtime(scenario)};

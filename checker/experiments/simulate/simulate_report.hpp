@@ -37,7 +37,4 @@ struct Simulation {
 /// latency, deliveries, last_delivery, profile. specs/guide/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Simulation& simulation);
 
-/// How a run ended, as the JSON and traces spell it.
-[[nodiscard]] const char* name_of(model::RunEnd end);
-
 }  // namespace stormproof::report

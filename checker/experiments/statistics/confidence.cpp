@@ -4,7 +4,7 @@
 
 #include <boost/math/special_functions/beta.hpp>
 
-namespace stormproof::fuzz {
+namespace stormproof::statistics {
 
 RateInterval clopper_pearson(std::size_t hits, std::size_t runs, double level) {
   RateInterval interval;
@@ -17,4 +17,4 @@ RateInterval clopper_pearson(std::size_t hits, std::size_t runs, double level) {
   return interval;
 }
 
-}  // namespace stormproof::fuzz
+}  // namespace stormproof::statistics

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace stormproof::fuzz {
+namespace stormproof::statistics {
 
 inline constexpr double confidence_level = 0.95;
 
@@ -19,4 +19,4 @@ struct RateInterval {
 [[nodiscard]] RateInterval clopper_pearson(std::size_t hits, std::size_t runs,
                                            double level = confidence_level);
 
-}  // namespace stormproof::fuzz
+}  // namespace stormproof::statistics

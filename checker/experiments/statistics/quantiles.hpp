@@ -1,14 +1,26 @@
-// Order statistics of a sample, for predictions that are distributions.
+// Order statistics of a sample, for answers that are distributions.
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
-namespace stormproof::sampling {
+#include "checker/experiments/statistics/completion.hpp"
 
-/// Median, 10–90 % range and extremes. Values that a run did not reach (it did not complete) lie
-/// above all others, so a quantile that falls among them does not exist.
+namespace stormproof::statistics {
+
+/// Quantile q, from 0 to 1, of n > 0 values, not NaN: at position q·(n − 1) of the sorted values,
+/// linearly interpolated. Between a finite value and an infinite one it is infinite; between −∞ and
+/// +∞ nobody knows, so it is 0. `sorted` ascends.
+[[nodiscard]] double quantile_of_sorted(std::span<const double> sorted, double q);
+[[nodiscard]] double quantile(std::vector<double> values, double q);
+[[nodiscard]] inline double median(std::vector<double> values) {
+  return quantile(std::move(values), 0.5);
+}
+
+/// Median, 10–90 % range and extremes; of a run that did not complete as `completion.hpp` says: a
+/// quantile that falls among unreached values does not exist.
 struct Quantiles {
   std::size_t count = 0;  ///< runs, reached or not
   std::optional<double> min;
@@ -18,8 +30,7 @@ struct Quantiles {
   std::optional<double> max;  ///< absent if some run did not reach it
 };
 
-/// `reached` are the values, `unreached` is how many runs have none. Quantile q of n runs lies at
-/// position q·(n − 1) of the sorted values, linearly interpolated.
-[[nodiscard]] Quantiles quantiles(std::vector<double> reached, std::size_t unreached = 0);
+/// All absent if there are no values. `values` may be `unreached`.
+[[nodiscard]] Quantiles quantiles(std::vector<double> values);
 
-}  // namespace stormproof::sampling
+}  // namespace stormproof::statistics

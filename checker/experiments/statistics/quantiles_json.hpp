@@ -4,7 +4,7 @@
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "checker/presentation/json/describe.hpp"
 
-namespace stormproof::sampling {
+namespace stormproof::statistics {
 
 template <class V>
 void describe(V& v, const Quantiles& quantiles) {
@@ -15,4 +15,4 @@ void describe(V& v, const Quantiles& quantiles) {
   v("max", quantiles.max);
 }
 
-}  // namespace stormproof::sampling
+}  // namespace stormproof::statistics

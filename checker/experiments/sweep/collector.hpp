@@ -10,10 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "checker/experiments/grids/plan.hpp"
 #include "checker/experiments/sweep/database.hpp"
-#include "checker/experiments/sweep/plan.hpp"
 
 namespace stormproof::sweep {
+
+using grids::Plan;
 
 /// How far a sweep is.
 struct Status {

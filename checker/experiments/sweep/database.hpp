@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "checker/experiments/sweep/digest.hpp"
+#include "checker/experiments/grids/digest.hpp"
 #include "checker/experiments/sweep/outcome.hpp"
 #include "model/config/tree/result.hpp"
 
@@ -15,6 +15,9 @@ struct sqlite3;
 struct sqlite3_stmt;
 
 namespace stormproof::sweep {
+
+using grids::Digest;
+using grids::hex;
 
 /// `PRAGMA application_id` and `user_version` of the files.
 inline constexpr int application_id = 0x53544d50;

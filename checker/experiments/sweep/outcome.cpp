@@ -6,7 +6,6 @@
 #include <ctime>
 #include <new>
 
-#include "checker/experiments/simulate/simulate_report.hpp"
 #include "model/reference.hpp"
 #include "model/simulator.hpp"
 
@@ -32,7 +31,7 @@ void fill(Outcome& outcome, const model::Scenario& scenario, const model::RunRes
     peak_backlog = std::max(peak_backlog, peak.packets);
   }
   const model::Counts& counts = result.counts;
-  outcome.end = report::name_of(result.end);
+  outcome.end = name_of(result.end);
   outcome.numbers = {
       number(result.discovery_time),
       number(counts.initial_data),

@@ -4,15 +4,15 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "checker/experiments/trials/runner.hpp"
 #include "model/counts.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
 
-namespace stormproof::sampling {
+namespace stormproof::trials {
 
 /// What is kept of one sampled run.
 struct Sample {
@@ -28,9 +28,7 @@ struct SampleOptions {
   std::size_t samples = 1;
   std::uint64_t first_seed = 0;  ///< sample k draws its schedule from seed first_seed + k
   std::size_t threads = 0;       ///< 0: as many as the machine has cores
-  /// Called from one thread at a time, after each run and now and then in between, with the number
-  /// of finished runs; returning false stops all runs.
-  std::function<bool(std::size_t finished)> on_progress;
+  Progress on_progress;
 };
 
 /// The sampled runs in the order of their seeds; those that were stopped are left out. The
@@ -38,4 +36,4 @@ struct SampleOptions {
 [[nodiscard]] std::vector<Sample> sample_runs(const model::Scenario& scenario,
                                               const SampleOptions& options);
 
-}  // namespace stormproof::sampling
+}  // namespace stormproof::trials

@@ -110,28 +110,27 @@ Summary summary_of(const std::vector<Outcome>& outcomes) {
   std::vector<double> completion, messages, heartbeat, repair, acknack, spdp;
   for (const Outcome& outcome : outcomes) {
     const model::Counts& counts = outcome.counts;
-    if (outcome.completion) completion.push_back(static_cast<double>(outcome.completion->count()));
+    completion.push_back(statistics::completion_ns(outcome.completion));
+    if (outcome.completion) ++summary.completed;
     messages.push_back(static_cast<double>(counts.total()));
     heartbeat.push_back(static_cast<double>(counts.heartbeat));
     repair.push_back(static_cast<double>(counts.repair_data));
     acknack.push_back(static_cast<double>(counts.acknack));
     spdp.push_back(static_cast<double>(counts.spdp_multicast + counts.spdp_unicast));
   }
-  summary.completed = completion.size();
-  summary.completion_ns =
-      sampling::quantiles(std::move(completion), summary.runs - summary.completed);
-  summary.messages = sampling::quantiles(std::move(messages));
-  summary.heartbeat = sampling::quantiles(std::move(heartbeat));
-  summary.repair_data = sampling::quantiles(std::move(repair));
-  summary.acknack = sampling::quantiles(std::move(acknack));
-  summary.spdp = sampling::quantiles(std::move(spdp));
+  summary.completion_ns = statistics::quantiles(std::move(completion));
+  summary.messages = statistics::quantiles(std::move(messages));
+  summary.heartbeat = statistics::quantiles(std::move(heartbeat));
+  summary.repair_data = statistics::quantiles(std::move(repair));
+  summary.acknack = statistics::quantiles(std::move(acknack));
+  summary.spdp = statistics::quantiles(std::move(spdp));
   return summary;
 }
 
-/// The printed medians; a median that does not exist counts as longer than the limit.
+/// The printed medians.
 Cost cost_of(const Row& row) {
-  const double late = 2 * static_cast<double>(row.scenario.time_limit.count());
-  return {row.summary.completion_ns.median.value_or(late), row.summary.messages.median.value_or(0)};
+  return {row.summary.completion_ns.median.value_or(statistics::unreached),
+          row.summary.messages.median.value_or(0)};
 }
 
 void describe(Row& row, const std::vector<Outcome>& outcomes) {
@@ -195,16 +194,15 @@ std::vector<Row> rows_of(const Subject& subject, const Space& space,
 
 void judge_rows(std::vector<Row> rows, const std::vector<std::vector<Outcome>>& outcomes,
                 const Options& options, Report& report) {
-  const model::Nanoseconds limit = rows.front().scenario.time_limit;
   const std::vector<Outcome>* of_choice = nullptr;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     describe(rows[k], outcomes[k]);
-    if (k > 0) rows[k].against_unchanged = difference(outcomes[k], outcomes.front(), limit);
+    if (k > 0) rows[k].against_unchanged = difference(outcomes[k], outcomes.front());
     if (rows[k].is_choice) of_choice = &outcomes[k];
   }
   for (std::size_t k = 0; k < rows.size() && of_choice != nullptr; ++k) {
     if (!rows[k].is_choice) {
-      rows[k].recommended_against = difference(*of_choice, outcomes[k], limit);
+      rows[k].recommended_against = difference(*of_choice, outcomes[k]);
     }
   }
   forgive_unchanged(rows, options, report);

@@ -4,10 +4,8 @@
 #include "checker/experiments/tune/model_runs.hpp"
 
 #include <algorithm>
-#include <random>
 
 #include "checker/engines/exact/observed_run.hpp"
-#include "checker/experiments/fuzz/fuzz.hpp"
 #include "model/reference.hpp"
 #include "props/limits.hpp"
 
@@ -24,21 +22,6 @@ double missing_share(const Scenario& scenario, const model::RunResult& result) {
 }
 
 }  // namespace
-
-Scenario scenario_under(Scenario scenario, std::uint64_t seed, const Circumstances& circumstances) {
-  model::Deployment& deployment = scenario.deployment;
-  if (deployment.schedule) deployment.draw_schedule(seed);
-  const Nanoseconds jitter = circumstances.start_jitter;
-  if (jitter.count() == 0) return scenario;
-  std::mt19937_64 random{seed};
-  const auto values = static_cast<std::uint64_t>(jitter.count()) + 1;
-  for (model::Participant& participant : deployment.participants) {
-    const Nanoseconds later{static_cast<std::int64_t>(random() % values)};
-    participant.start = participant.start + later;
-    participant.endpoints_done = participant.endpoints_done + later;
-  }
-  return scenario;
-}
 
 std::optional<Outcome> run_once(const Scenario& scenario, std::span<const std::string_view> ids,
                                 Nanoseconds limit, const std::function<bool()>& goes_on) {
@@ -68,7 +51,7 @@ std::optional<Outcome> run_once(const Scenario& scenario, std::span<const std::s
 }
 
 std::vector<std::string_view> watchable(const Scenario& scenario) {
-  std::vector<std::string_view> ids = fuzz::ordinary_properties();
+  std::vector<std::string_view> ids = exact::ordinary_properties();
   for (const std::string_view id : props::set_limits(scenario.limits)) ids.push_back(id);
   return ids;
 }

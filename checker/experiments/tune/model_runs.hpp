@@ -10,16 +10,6 @@
 
 namespace stormproof::tune {
 
-/// How runs of one scenario come to differ.
-struct Circumstances {
-  model::Nanoseconds start_jitter;  ///< each participant starts up to this much later
-};
-
-/// `scenario` as it is under `seed`: with start times drawn from its schedule, and later by the
-/// jitter. The times depend on the seed and the deployment alone.
-[[nodiscard]] model::Scenario scenario_under(model::Scenario scenario, std::uint64_t seed,
-                                             const Circumstances& circumstances);
-
 /// One run until completion, or `limit`, whichever comes first. `ids` are properties and limits
 /// that have a monitor. Nothing if `goes_on`, asked now and then, said no.
 [[nodiscard]] std::optional<Outcome> run_once(const model::Scenario& scenario,

@@ -3,32 +3,26 @@
 #include "checker/experiments/tune/outcome.hpp"
 
 #include <algorithm>
-#include <mutex>
+#include <cmath>
 #include <set>
 
 #include "checker/experiments/statistics/quantiles.hpp"
-#include "checker/experiments/trials/parallel.hpp"
 
 namespace stormproof::tune {
 
-namespace {
-
-double median(std::vector<double> values) {
-  return sampling::quantiles(std::move(values)).median.value_or(0);
-}
-
-}  // namespace
-
-Cost cost_of(std::span<const Outcome> outcomes, model::Nanoseconds limit) {
+Cost cost_of(std::span<const Outcome> outcomes) {
+  if (outcomes.empty()) return {};
   std::vector<double> completion;
   std::vector<double> messages;
+  std::vector<double> missing;
   for (const Outcome& outcome : outcomes) {
-    const double late = static_cast<double>(limit.count()) * (1 + outcome.missing);
-    completion.push_back(outcome.completion ? static_cast<double>(outcome.completion->count())
-                                            : late);
+    completion.push_back(statistics::completion_ns(outcome.completion));
     messages.push_back(static_cast<double>(outcome.counts.total()));
+    missing.push_back(outcome.missing);
   }
-  return {median(std::move(completion)), median(std::move(messages))};
+  Cost cost{statistics::median(std::move(completion)), statistics::median(std::move(messages))};
+  if (std::isinf(cost.completion)) cost.missing = statistics::median(std::move(missing));
+  return cost;
 }
 
 std::vector<std::string_view> broken_in(std::span<const Outcome> outcomes) {
@@ -37,15 +31,13 @@ std::vector<std::string_view> broken_in(std::span<const Outcome> outcomes) {
   return {ids.begin(), ids.end()};
 }
 
-Archive::Archive(const Problem& problem, model::Nanoseconds limit, std::size_t threads,
-                 Progress progress)
-    : problem_{problem}, limit_{limit}, threads_{threads}, progress_{std::move(progress)} {}
+Archive::Archive(const Problem& problem, model::Nanoseconds limit, trials::Runner& runner)
+    : problem_{problem}, limit_{limit}, runner_{runner} {}
 
 bool Archive::extend(const std::vector<Point>& points, Seeds seeds) {
   struct Job {
     const Point* point;
     std::uint64_t seed;
-    std::optional<Outcome> outcome;
   };
   std::vector<Job> jobs;
   std::set<Point> distinct;
@@ -53,23 +45,19 @@ bool Archive::extend(const std::vector<Point>& points, Seeds seeds) {
     if (!distinct.insert(point).second) continue;
     const std::map<std::uint64_t, Outcome>& known = outcomes_[point];
     for (std::size_t k = 0; k < seeds.count; ++k) {
-      if (!known.contains(seeds.first + k)) jobs.push_back({&point, seeds.first + k, {}});
+      if (!known.contains(seeds.first + k)) jobs.push_back({&point, seeds.first + k});
     }
   }
-  std::mutex mutex;
-  bool stopped = progress_ && !progress_(finished_);
-  const bool all = !stopped && checker::parallel_for(jobs.size(), threads_, [&](std::size_t k) {
-    jobs[k].outcome = problem_.run(*jobs[k].point, jobs[k].seed, limit_);
-    const std::lock_guard lock{mutex};
-    if (!jobs[k].outcome) return false;
-    ++finished_;
-    if (progress_ && !progress_(finished_)) stopped = true;
-    return !stopped;
+  if (!runner_.goes_on()) return false;
+  auto results = runner_.run(jobs.size(), [&](std::size_t k) {
+    return problem_.run(*jobs[k].point, jobs[k].seed, limit_);
   });
-  for (Job& job : jobs) {
-    if (job.outcome) outcomes_[*job.point].emplace(job.seed, *std::move(job.outcome));
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    if (!results[k]) continue;
+    outcomes_[*jobs[k].point].emplace(jobs[k].seed, *std::move(results[k]));
+    ++runs_;
   }
-  return all;
+  return !runner_.stopped();
 }
 
 std::vector<Outcome> Archive::outcomes(const Point& point, Seeds seeds) const {
@@ -89,7 +77,7 @@ std::size_t Archive::settings() const {
 }
 
 Cost Archive::cost(const Point& point, Seeds seeds) const {
-  return cost_of(outcomes(point, seeds), limit_);
+  return cost_of(outcomes(point, seeds));
 }
 
 bool Archive::keeps(const Point& point, Seeds seeds) const {

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/experiments/trials/runner.hpp"
 #include "checker/experiments/tune/pareto.hpp"
 #include "checker/experiments/tune/space.hpp"
 #include "model/counts.hpp"
@@ -23,7 +24,7 @@ namespace stormproof::tune {
 /// Of one run.
 struct Outcome {
   std::optional<model::Nanoseconds> completion;  ///< absent: not complete within the limit
-  double missing = 0;  ///< share of the descriptors that had not arrived then
+  double missing = 0;  ///< share of the descriptors that had not arrived then; 0 if complete
   model::Counts counts;
   std::vector<std::string_view> broken;  ///< ids of the properties and limits that must hold and
                                          ///< do not, ascending
@@ -45,9 +46,8 @@ struct Seeds {
   std::size_t count = 1;
 };
 
-/// Medians over the runs. A run that is not complete at `limit` counts as longer than it, the more
-/// so the more is missing: so the search can tell bad from worse.
-[[nodiscard]] Cost cost_of(std::span<const Outcome> outcomes, model::Nanoseconds limit);
+/// Medians over the runs.
+[[nodiscard]] Cost cost_of(std::span<const Outcome> outcomes);
 
 /// Ids that break in any of the runs, ascending.
 [[nodiscard]] std::vector<std::string_view> broken_in(std::span<const Outcome> outcomes);
@@ -55,11 +55,8 @@ struct Seeds {
 /// Every run that was made, so that none is made twice. All runs have the same limit.
 class Archive {
  public:
-  /// Told the number of finished runs, by one thread at a time; false interrupts.
-  using Progress = std::function<bool(std::size_t runs)>;
-
-  /// `problem` must outlive this. `threads` 0: one for each core.
-  Archive(const Problem& problem, model::Nanoseconds limit, std::size_t threads, Progress progress);
+  /// `problem` and `runner` must outlive this.
+  Archive(const Problem& problem, model::Nanoseconds limit, trials::Runner& runner);
 
   /// Makes the runs that `points` lack under `seeds`; false if they were interrupted.
   bool extend(const std::vector<Point>& points, Seeds seeds);
@@ -70,7 +67,8 @@ class Archive {
   /// Whether nothing breaks under `seeds`.
   [[nodiscard]] bool keeps(const Point& point, Seeds seeds) const;
 
-  [[nodiscard]] std::size_t runs() const { return finished_; }
+  /// Runs that were made.
+  [[nodiscard]] std::size_t runs() const { return runs_; }
   /// Settings of which at least one run is known.
   [[nodiscard]] std::size_t settings() const;
   [[nodiscard]] model::Nanoseconds limit() const { return limit_; }
@@ -78,9 +76,8 @@ class Archive {
  private:
   const Problem& problem_;
   model::Nanoseconds limit_;
-  std::size_t threads_;
-  Progress progress_;
-  std::size_t finished_ = 0;
+  trials::Runner& runner_;
+  std::size_t runs_ = 0;
   std::map<Point, std::map<std::uint64_t, Outcome>> outcomes_;
 };
 

@@ -13,24 +13,19 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Position on the axis on which gaps are measured.
-Cost logarithms(const Cost& cost) {
-  return {std::log1p(cost.completion), std::log1p(cost.messages)};
-}
+/// By how much two logarithms differ.
+double factor(double a, double b) { return a == b ? 0 : std::abs(std::log1p(a) - std::log1p(b)); }
 
 double distance(const Cost& a, const Cost& b) {
-  const Cost from = logarithms(a);
-  const Cost to = logarithms(b);
-  const double gap =
-      std::abs(to.completion - from.completion) + std::abs(to.messages - from.messages);
-  return std::isnan(gap) ? 0 : gap;  // both infinite: no gap
+  return factor(a.completion, b.completion) + factor(a.messages, b.messages) +
+         std::abs(a.missing - b.missing);
 }
 
 /// The front of the positions in `among`.
 std::vector<std::size_t> front_of(std::span<const Cost> costs, std::vector<std::size_t> among) {
   std::ranges::sort(among, [&](std::size_t a, std::size_t b) {
-    if (costs[a].completion != costs[b].completion)
-      return costs[a].completion < costs[b].completion;
+    if (is_sooner(costs[a], costs[b])) return true;
+    if (is_sooner(costs[b], costs[a])) return false;
     if (costs[a].messages != costs[b].messages) return costs[a].messages < costs[b].messages;
     return a < b;
   });
@@ -49,9 +44,13 @@ std::vector<std::size_t> all_positions(std::size_t count) {
 
 }  // namespace
 
+bool is_sooner(const Cost& a, const Cost& b) {
+  return a.completion != b.completion ? a.completion < b.completion : a.missing < b.missing;
+}
+
 bool dominates(const Cost& a, const Cost& b) {
-  return a.completion <= b.completion && a.messages <= b.messages &&
-         (a.completion < b.completion || a.messages < b.messages);
+  return !is_sooner(b, a) && a.messages <= b.messages &&
+         (is_sooner(a, b) || a.messages < b.messages);
 }
 
 std::vector<std::size_t> pareto_front(std::span<const Cost> costs) {

@@ -10,13 +10,19 @@
 
 namespace stormproof::tune {
 
-/// What a setting costs; less is better. Neither is NaN.
+/// What a setting costs; less is better. None is NaN.
 struct Cost {
-  double completion = 0;  ///< ns
+  double completion = 0;  ///< ns; infinite: mostly not reached
   double messages = 0;
+  /// Of a completion that is not reached: the share of the descriptors that is missing. It is no
+  /// time, but tells a search which of two such settings is nearer to one.
+  double missing = 0;
 
   bool operator==(const Cost&) const = default;
 };
+
+/// Whether `a` completes sooner, or misses less where neither does.
+[[nodiscard]] bool is_sooner(const Cost& a, const Cost& b);
 
 /// Whether `a` costs no more than `b` in either, and less in one.
 [[nodiscard]] bool dominates(const Cost& a, const Cost& b);

@@ -9,13 +9,9 @@ namespace stormproof::tune {
 
 namespace {
 
-double completion_of(const Outcome& outcome, model::Nanoseconds limit) {
-  return static_cast<double>(outcome.completion.value_or(limit).count());
-}
-
 double messages_of(const Outcome& outcome) { return static_cast<double>(outcome.counts.total()); }
 
-/// Nothing takes less than 1 ns, or one message.
+/// Nothing takes less than 1 ns, or one message. NaN if both are unreached.
 double logarithm_of_ratio(double candidate, double reference) {
   return std::log(std::max(candidate, 1.0) / std::max(reference, 1.0));
 }
@@ -105,15 +101,15 @@ class Reducer {
   void go_on(Journey& journey) const {
     const bool moves_back = journey.stage == Journey::Stage::moving_back;
     const Step* best = nullptr;
-    double least_cost = 0;
+    Cost least_cost;
     const std::vector<Step> steps = steps_of(problem_.space, journey);
     for (const Step& step : steps) {
       if (!is_valid(step.to) || !is_as_good(step.to, journey.original)) {
         if (moves_back) ++journey.failures[step.dimension];
         continue;
       }
-      const double cost = archive_.cost(step.to, seeds_).completion;
-      if (best != nullptr && cost >= least_cost) continue;
+      const Cost cost = archive_.cost(step.to, seeds_);
+      if (best != nullptr && !is_sooner(cost, least_cost)) continue;
       best = &step;
       least_cost = cost;
     }
@@ -129,8 +125,8 @@ class Reducer {
 
   [[nodiscard]] bool is_as_good(const Point& candidate, const Point& original) const {
     if (!archive_.keeps(candidate, seeds_) && archive_.keeps(original, seeds_)) return false;
-    const Difference change = difference(archive_.outcomes(candidate, seeds_),
-                                         archive_.outcomes(original, seeds_), archive_.limit());
+    const Difference change =
+        difference(archive_.outcomes(candidate, seeds_), archive_.outcomes(original, seeds_));
     return !is_clearly_more(change.completion, least_) && !is_clearly_more(change.messages, least_);
   }
 
@@ -142,18 +138,17 @@ class Reducer {
 
 }  // namespace
 
-Difference difference(const std::vector<Outcome>& candidate, const std::vector<Outcome>& reference,
-                      model::Nanoseconds limit) {
-  std::vector<double> completion;
-  std::vector<double> messages;
+Difference difference(const std::vector<Outcome>& candidate,
+                      const std::vector<Outcome>& reference) {
+  statistics::PairedDifferences completion;
+  statistics::PairedDifferences messages;
   for (std::size_t k = 0; k < std::min(candidate.size(), reference.size()); ++k) {
-    completion.push_back(
-        logarithm_of_ratio(completion_of(candidate[k], limit), completion_of(reference[k], limit)));
-    messages.push_back(logarithm_of_ratio(messages_of(candidate[k]), messages_of(reference[k])));
+    completion.add(logarithm_of_ratio(statistics::completion_ns(candidate[k].completion),
+                                      statistics::completion_ns(reference[k].completion)));
+    messages.add(logarithm_of_ratio(messages_of(candidate[k]), messages_of(reference[k])));
   }
-  Difference found{shift_of(std::move(completion)), shift_of(std::move(messages))};
-  found.completion.exact = found.messages.exact = candidate.size() == 1;
-  return found;
+  if (candidate.size() == 1) return {completion.fact(), messages.fact()};
+  return {completion.shift(), messages.shift()};
 }
 
 bool is_clearly_more(const Shift& shift, double least) {

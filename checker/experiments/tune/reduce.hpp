@@ -4,13 +4,15 @@
 // back, as long as the result is not clearly worse than what the search found.
 #pragma once
 
+#include "checker/experiments/statistics/paired.hpp"
 #include "checker/experiments/tune/outcome.hpp"
-#include "checker/experiments/tune/shift.hpp"
 
 namespace stormproof::tune {
 
+using statistics::Shift;
+
 /// The costs of two settings compared seed by seed: shifts of ln(candidate / reference), because
-/// settings change costs by factors. An incomplete run counts with the limit.
+/// settings change costs by factors.
 struct Difference {
   Shift completion;
   Shift messages;
@@ -18,8 +20,7 @@ struct Difference {
 
 /// Both must have been run under the same seeds.
 [[nodiscard]] Difference difference(const std::vector<Outcome>& candidate,
-                                    const std::vector<Outcome>& reference,
-                                    model::Nanoseconds limit);
+                                    const std::vector<Outcome>& reference);
 
 /// Whether the candidate costs more: beyond chance, and by more than the share `least`.
 [[nodiscard]] bool is_clearly_more(const Shift& shift, double least);

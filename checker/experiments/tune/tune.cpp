@@ -2,14 +2,12 @@
 #include "checker/experiments/tune/tune.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "checker/experiments/trials/parallel.hpp"
+#include "checker/experiments/trials/under_seed.hpp"
 #include "checker/experiments/tune/comparison.hpp"
 #include "checker/experiments/tune/model_runs.hpp"
 #include "model/config/tree/suggestion.hpp"
@@ -44,7 +42,13 @@ std::vector<std::string_view> known_ids(const Scenario& scenario) {
 
 class Study {
  public:
-  Study(const Subject& subject, const Options& options) : subject_{subject}, options_{options} {
+  Study(const Subject& subject, const Options& options)
+      : subject_{subject},
+        options_{options},
+        runner_{options.threads, [this](std::size_t runs, std::size_t) {
+                  return !options_.on_progress ||
+                         options_.on_progress(doing_, runs, std::max(runs, about_));
+                }} {
     const bool sampled = scenario().deployment.schedule || options.start_jitter.count() > 0;
     const std::size_t samples = sampled ? options.samples : 1;
     report_.is_sampled = sampled;
@@ -90,16 +94,8 @@ class Study {
   }
 
   std::optional<Outcome> run_under(const Scenario& changed, std::uint64_t seed, Nanoseconds limit) {
-    const Scenario drawn = scenario_under(changed, seed, {options_.start_jitter});
-    return run_once(drawn, watched_, limit, [this] { return !stopped_; });
-  }
-
-  /// Counts finished runs of all stages.
-  bool goes_on(const char* doing, std::size_t runs) {
-    const bool wanted =
-        !options_.on_progress || options_.on_progress(doing, runs, std::max(runs, about_));
-    if (!wanted) stopped_ = true;
-    return wanted;
+    const Scenario drawn = trials::under_seed(changed, seed, options_.start_jitter);
+    return run_once(drawn, watched_, limit, [this] { return runner_.goes_on(); });
   }
 
   /// What holds without a change, and how long it takes.
@@ -112,10 +108,8 @@ class Study {
       }
     }
     about_ = options_.budget + 20 * most_shown * report_.chosen.count / 2;
-    Archive archive{problem_, scenario().time_limit, options_.threads,
-                    [this](std::size_t runs) { return goes_on("unchanged", runs); }};
+    Archive archive{problem_, scenario().time_limit, runner_};
     if (!archive.extend({report_.space.unchanged()}, report_.searched)) return false;
-    report_.runs = archive.runs();
     const auto outcomes = archive.outcomes(report_.space.unchanged(), report_.searched);
     if (options_.keep.empty()) {
       for (const std::string_view id : broken_in(outcomes)) {
@@ -124,21 +118,18 @@ class Study {
       }
     }
     for (const std::string_view id : watched_) report_.kept.emplace_back(id);
-    const double median = cost_of(outcomes, scenario().time_limit).completion;
+    const double median = cost_of(outcomes).completion;
     const double limit = static_cast<double>(scenario().time_limit.count());
     report_.search_limit = Nanoseconds{std::llround(std::clamp(patience * median, 1.0, limit))};
     return true;
   }
 
   bool search_and_choose() {
-    const std::size_t before = report_.runs;
-    const char* doing = "search";
-    Archive archive{problem_, report_.search_limit, options_.threads,
-                    [&](std::size_t runs) { return goes_on(doing, before + runs); }};
+    doing_ = "search";
+    Archive archive{problem_, report_.search_limit, runner_};
     report_.found = search(problem_, archive, {options_.budget, report_.searched, options_.seed});
     const auto keep_what_is_known = [&](const std::vector<Point>& front, Seeds basis) {
       report_.settings = archive.settings();
-      report_.runs = before + archive.runs();
       report_.basis = basis;
       front_ = front;
       for (const Point& point : with_unchanged(front)) {
@@ -150,14 +141,11 @@ class Study {
     choice_ = front_.empty() ? problem_.space.unchanged() : front_.front();
     if (!report_.found.finished) return false;
 
-    doing = "reduction";
+    doing_ = "reduction";
     const std::vector<Point> spread = spread_front(archive, report_.found.front, report_.searched);
     const auto reduced =
         tune::reduced(with_unchanged(spread), problem_, archive, report_.chosen, options_.least);
-    if (!reduced) {
-      report_.runs = before + archive.runs();
-      return false;
-    }
+    if (!reduced) return false;
     count_undone(spread, *reduced);
     const std::vector<Point> front = kept_front(archive, *reduced, report_.chosen);
     keep_what_is_known(front, report_.chosen);
@@ -219,8 +207,7 @@ class Study {
     Point best = front.front();
     for (const Point& point : with_unchanged(front)) {
       if (!archive.keeps(point, report_.chosen)) continue;
-      const Difference longer =
-          difference(archive.outcomes(point, report_.chosen), shortest, archive.limit());
+      const Difference longer = difference(archive.outcomes(point, report_.chosen), shortest);
       if (is_clearly_more(longer.completion, options_.least)) continue;
       if (problem_.space.changes(point).size() < problem_.space.changes(best).size()) best = point;
     }
@@ -229,21 +216,15 @@ class Study {
 
   /// All rows under seeds that nothing was chosen by.
   void compare() {
-    const std::size_t before = report_.runs;
+    doing_ = "comparison";
     std::vector<Row> rows = rows_of(subject_, report_.space, front_, choice_);
-    about_ = before + rows.size() * report_.compared.count;
+    about_ = runner_.finished() + rows.size() * report_.compared.count;
     const std::size_t samples = report_.compared.count;
-    std::vector<std::optional<Outcome>> outcomes(rows.size() * samples);
-    std::mutex mutex;
-    std::size_t runs = before;
-    const bool complete = checker::parallel_for(outcomes.size(), options_.threads, [&](auto k) {
-      outcomes[k] = run_under(rows[k / samples].scenario, report_.compared.first + k % samples,
-                              scenario().time_limit);
-      const std::lock_guard lock{mutex};
-      return outcomes[k] && goes_on("comparison", ++runs);
+    auto outcomes = runner_.run(rows.size() * samples, [&](std::size_t k) {
+      return run_under(rows[k / samples].scenario, report_.compared.first + k % samples,
+                       scenario().time_limit);
     });
-    report_.runs = runs;
-    if (!complete) return;
+    if (runner_.stopped()) return;
     std::vector<std::vector<Outcome>> by_row(rows.size());
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       by_row[k / samples].push_back(*std::move(outcomes[k]));
@@ -254,6 +235,7 @@ class Study {
   }
 
   void conclude() {
+    report_.runs = runner_.finished();
     if (!finished_) {
       report_.answer = Answer::interrupted;
       describe_interrupted(rows_of(subject_, report_.space, front_, choice_), known_, report_);
@@ -267,8 +249,9 @@ class Study {
   std::vector<Point> front_;
   Point choice_;
   std::map<Point, std::vector<Outcome>> known_;
-  std::atomic<bool> stopped_ = false;
+  const char* doing_ = "unchanged";
   std::size_t about_ = 0;
+  trials::Runner runner_;
   bool finished_ = false;
   Report report_;
 };

@@ -42,7 +42,7 @@ struct Change {
 /// Order statistics over the runs of one setting.
 struct Summary {
   std::size_t runs = 0, completed = 0;
-  sampling::Quantiles completion_ns, messages, heartbeat, repair_data, acknack, spdp;
+  statistics::Quantiles completion_ns, messages, heartbeat, repair_data, acknack, spdp;
 };
 
 /// One line of the comparison.

@@ -50,6 +50,7 @@ std::string element(const Change& change) {
 std::string percentage(double logarithm) {
   const double percent = 100 * std::expm1(logarithm);
   if (percent == 0) return "±0 %";
+  if (std::isinf(percent)) return "+∞";
   return fmt::format("{}{:.1f} %", percent < 0 ? "−" : "+", std::abs(percent));
 }
 
@@ -62,7 +63,7 @@ std::string shift_text(const Shift& shift) {
 
 /// "[2.483 s – 7.798 s]": the 10 to 90 % range.
 template <class Print>
-std::string range_text(const sampling::Quantiles& q, Print print) {
+std::string range_text(const statistics::Quantiles& q, Print print) {
   return fmt::format("[{} – {}]", print(q.p10), print(q.p90));
 }
 
@@ -245,7 +246,7 @@ class Builder {
       facts.rows.emplace_back(
           "numbers",
           fmt::format("medians of {} runs under seeds {} to {}, which nothing was chosen by. "
-                      "Percentages are Hodges–Lehmann estimates of the ratio seed by seed, with "
+                      "Percentages are medians of the ratio seed by seed, with "
                       "95 % intervals.",
                       report_.basis.count, report_.basis.first,
                       report_.basis.first + report_.basis.count - 1));

@@ -33,20 +33,21 @@ static const char* name_of(Answer answer) {
   return "";
 }
 
-template <class V>
-void describe(V& v, const Shift& shift) {
+static Json ratio_json(const Shift& shift) {
+  report::JsonObject v;
   v("ratio", std::exp(shift.estimate));
   v("low", std::exp(shift.low));
   v("high", std::exp(shift.high));
   v("confidence", shift.confidence);
   v("exact", shift.exact);
   v("clear", shift.is_less() || shift.is_more());
+  return std::move(v).take();
 }
 
 template <class V>
 void describe(V& v, const Difference& difference) {
-  v("t_disc_ns", difference.completion);
-  v("messages", difference.messages);
+  v("t_disc_ns", ratio_json(difference.completion));
+  v("messages", ratio_json(difference.messages));
 }
 
 template <class V>

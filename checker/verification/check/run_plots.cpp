@@ -90,12 +90,10 @@ std::string packets_plot(const std::vector<Sample>& samples) {
   chart.description = "Packets that participants have generated, by class, over time.";
   chart.x = {.label = "time", .unit = "s"};
   chart.y = {.label = "packets", .min = 0.0};
-  constexpr std::array names{"SPDP",      "initial DATA", "repair DATA",
-                             "HEARTBEAT", "ACKNACK",      "user topics"};
-  for (std::size_t k = 0; k < names.size(); ++k) {
+  for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
     if (samples.back().packets[k] == 0) continue;
-    chart.series.push_back(
-        series(names[k], samples, k, [k](const Sample& s) { return s.packets[k]; }));
+    chart.series.push_back(series(words_of(static_cast<model::TrafficClass>(k)), samples, k,
+                                  [k](const Sample& s) { return s.packets[k]; }));
   }
   return to_svg(chart);
 }

@@ -84,16 +84,16 @@ TEST(Summary, TheTimelineHasEveryMessageOnce) {
   }
   const Timeline halves = timeline(conversation, counting, conversation.last_ns, 2);
   ASSERT_EQ(halves.steps.size(), 2U);
-  EXPECT_EQ(halves.steps[0][static_cast<std::size_t>(Class::initial_data)], 2U);
-  EXPECT_EQ(halves.steps[1][static_cast<std::size_t>(Class::heartbeat)], 1U);
+  EXPECT_EQ(halves.steps[0][static_cast<std::size_t>(MessageClass::initial_data)], 2U);
+  EXPECT_EQ(halves.steps[1][static_cast<std::size_t>(MessageClass::heartbeat)], 1U);
 }
 
 TEST(Summary, ThePlotHasALineForEachClass) {
   const Conversation conversation = a_conversation();
   const Counting counting = count(conversation, always);
   const std::string svg = to_svg({conversation, counting});
-  for (std::size_t one = 0; one < class_count; ++one) {
-    EXPECT_NE(svg.find(class_label(static_cast<Class>(one))), std::string::npos);
+  for (std::size_t one = 0; one < message_class_count; ++one) {
+    EXPECT_NE(svg.find(words_of(static_cast<MessageClass>(one))), std::string::npos);
   }
   EXPECT_NE(svg.find("every descriptor sent"), std::string::npos);
 }

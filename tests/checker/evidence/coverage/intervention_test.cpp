@@ -42,11 +42,12 @@ TEST(Interventions, LinearAccountingRemovesHeartbeats) {
 }
 
 TEST(Interventions, AnsweringOnlyTheNewParticipantMakesTheStormWorse) {
-  EXPECT_GT(median_of(Measure::total, {"dds.spdp.resend=new_only"}), median_of(Measure::total, {}));
+  EXPECT_GT(median_of(Measure::messages, {"dds.spdp.resend=new_only"}),
+            median_of(Measure::messages, {}));
 }
 
 TEST(Interventions, LongerTimersShortenDiscovery) {
-  EXPECT_LT(median_of(Measure::total, {"dds=fastdds-2.14.5"}), median_of(Measure::total, {}));
+  EXPECT_LT(median_of(Measure::messages, {"dds=fastdds-2.14.5"}), median_of(Measure::messages, {}));
 }
 
 TEST(Interventions, TheLiveRunsConfirmLinearAccounting) {

@@ -22,7 +22,7 @@ TEST(Observations, FourFieldsAreEnough) {
   EXPECT_TRUE(run.completed);
   EXPECT_EQ(run.participants_per_host, 3U);
   EXPECT_EQ(value(run, Measure::completion), 12.5);
-  EXPECT_FALSE(value(run, Measure::total));
+  EXPECT_FALSE(value(run, Measure::messages));
 }
 
 TEST(Observations, TotalIsTheSumOfAllClasses) {
@@ -30,7 +30,7 @@ TEST(Observations, TotalIsTheSumOfAllClasses) {
       R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"counts":{"spdp_m":1,"spdp_unicast":2,"init":3,)"
       R"("repair":4,"heartbeat":5,"ack":6}})");
   ASSERT_TRUE(read);
-  EXPECT_EQ(value(read->rows[0], Measure::total), 21);
+  EXPECT_EQ(value(read->rows[0], Measure::messages), 21);
   EXPECT_EQ(value(read->rows[0], Measure::spdp_unicast), 2);
 }
 

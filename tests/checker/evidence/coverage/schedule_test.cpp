@@ -85,13 +85,5 @@ TEST(Channel, ARowCanBringItsOwn) {
   EXPECT_EQ(wired->wireless.kind, model::ServiceKind::constant_delay);
 }
 
-TEST(Losses, AreDrawnWithTheirProbabilityAndFromTheirSeed) {
-  const auto lost = draw_losses(0.05, 3);
-  EXPECT_NEAR(static_cast<double>(lost.size()), 100'000, 2'000);
-  EXPECT_TRUE(std::is_sorted(lost.begin(), lost.end()));
-  EXPECT_NE(lost, draw_losses(0.05, 4));
-  EXPECT_TRUE(draw_losses(0, 3).empty());
-}
-
 }  // namespace schedule_test
 }  // namespace stormproof::prediction

@@ -2,14 +2,17 @@
 #include <gtest/gtest.h>
 
 #include "checker/evidence/validate/validate.hpp"
+#include "checker/experiments/statistics/completion.hpp"
 
 namespace stormproof::validate::testing {
 namespace comparison_test {
 
+using statistics::unreached;
+
 const std::vector<double> hundred_to_hundred_twenty{100, 105, 110, 115, 120};
 
 TEST(Row, RatioAndRange) {
-  const Row one = row(Figure::total, 55.0, hundred_to_hundred_twenty, 0, true);
+  const Row one = row(Figure::total, 55.0, hundred_to_hundred_twenty, true);
   EXPECT_DOUBLE_EQ(*one.median, 110);
   EXPECT_DOUBLE_EQ(*one.ratio, 2);
   EXPECT_DOUBLE_EQ(*one.low, 101);
@@ -18,7 +21,7 @@ TEST(Row, RatioAndRange) {
 
 TEST(Row, SaysWhereTheObservationLies) {
   const auto position = [](double observed) {
-    return row(Figure::total, observed, hundred_to_hundred_twenty, 0, true).position;
+    return row(Figure::total, observed, hundred_to_hundred_twenty, true).position;
   };
   EXPECT_EQ(position(110), Position::inside);
   EXPECT_EQ(position(101), Position::inside);
@@ -27,24 +30,25 @@ TEST(Row, SaysWhereTheObservationLies) {
 }
 
 TEST(Row, OneRunHasNoRange) {
-  EXPECT_EQ(row(Figure::total, 100.0, {100}, 0, false).position, Position::unknown);
-  EXPECT_DOUBLE_EQ(*row(Figure::total, 100.0, {100}, 0, false).ratio, 1);
+  EXPECT_EQ(row(Figure::total, 100.0, {100}, false).position, Position::unknown);
+  EXPECT_DOUBLE_EQ(*row(Figure::total, 100.0, {100}, false).ratio, 1);
 }
 
 TEST(Row, IncompleteRunsLieAboveAllOthers) {
-  const Row some = row(Figure::total, 500.0, {100, 105, 110}, 2, true);
+  const Row some = row(Figure::total, 500.0, {100, 105, 110, unreached, unreached}, true);
   EXPECT_DOUBLE_EQ(*some.median, 110);
   EXPECT_FALSE(some.high);
   EXPECT_EQ(some.position, Position::inside);
-  const Row most = row(Figure::total, 50.0, {100}, 4, true);
+  const Row most =
+      row(Figure::total, 50.0, {100, unreached, unreached, unreached, unreached}, true);
   EXPECT_FALSE(most.median);
   EXPECT_FALSE(most.ratio);
 }
 
 TEST(Row, WhatIsNotObservedHasNoRatio) {
-  EXPECT_FALSE(row(Figure::repair_data, 0.0, {5}, 0, true).ratio);
-  EXPECT_FALSE(row(Figure::user_control, {}, {5}, 0, true).ratio);
-  EXPECT_FALSE(row(Figure::total, 5.0, {}, 0, true).median);
+  EXPECT_FALSE(row(Figure::repair_data, 0.0, {5}, true).ratio);
+  EXPECT_FALSE(row(Figure::user_control, {}, {5}, true).ratio);
+  EXPECT_FALSE(row(Figure::total, 5.0, {}, true).median);
 }
 
 std::vector<Row> rows(std::optional<double> completion, std::optional<double> total) {

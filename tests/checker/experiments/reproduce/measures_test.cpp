@@ -62,17 +62,21 @@ TEST_F(MeasuresTest, SpreadsAreOverTheThreeOrders) {
   EXPECT_EQ(measures_.largest_message_spread(0, Class::repair_data), 3.0 / 8);
 }
 
-TEST_F(MeasuresTest, IncompleteRunsAreInNoMean) {
+TEST_F(MeasuresTest, MeanWithAnIncompleteRunDoesNotExist) {
   Outcome outcome;
   model::Counts counts;
   counts.heartbeat = 7;
   outcome.runs = {finished_run(2, counts), reproduce::Run{model::RunEnd::time_limit, {}, {}}};
   EXPECT_EQ(outcome.completed(), 1U);
-  EXPECT_EQ(outcome.completion_s(), 2);
-  EXPECT_EQ(outcome.messages(Class::total), 7);
-  outcome.runs.erase(outcome.runs.begin());
+  EXPECT_EQ(outcome.fastest_s(), 2);
+  EXPECT_FALSE(outcome.slowest_s().has_value());
   EXPECT_FALSE(outcome.completion_s().has_value());
   EXPECT_FALSE(outcome.messages(Class::total).has_value());
+  outcome.runs.pop_back();
+  EXPECT_EQ(outcome.completion_s(), 2);
+  EXPECT_EQ(outcome.messages(Class::total), 7);
+  outcome.runs.clear();
+  EXPECT_FALSE(outcome.completion_s().has_value());
 }
 
 TEST(Quartiles, AreInterpolated) {

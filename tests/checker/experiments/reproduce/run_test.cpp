@@ -97,7 +97,7 @@ TEST(Interruption, KeepsWhatIsFinished) {
   const Plan plan = plan_of(figures_with_grid("[1]", "[2, 4]"), {{"paper"}, 1});
   RunLimits limits;
   limits.threads = 1;
-  limits.on_progress = [](std::size_t finished) { return finished < 3; };
+  limits.on_progress = [](std::size_t finished, std::size_t) { return finished < 3; };
   const Results results = run(plan, limits);
   EXPECT_FALSE(results.complete);
   EXPECT_EQ(results.outcomes.size(), 3U);

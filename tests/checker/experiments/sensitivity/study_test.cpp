@@ -1,6 +1,7 @@
 // Whole studies whose effects are known by hand, and their reports.
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -142,6 +143,26 @@ TEST(SensitivityStudy, ParticipantsAndEndpointsMultiply) {
   ASSERT_EQ(report.pairs.size(), 1U);
   EXPECT_EQ(report.pairs[0].keys[0], "deployment.participants");
   EXPECT_GT(of(report.pairs[0].interaction, Measure::messages).median, 0);
+}
+
+TEST(SensitivityStudy, ChangeThatKeepsDiscoveryFromCompletingIsInfinite) {
+  model::Scenario scenario = wired();
+  scenario.time_limit = model::Nanoseconds{210'000};
+  const Report report = analyse(scenario, {});
+  const Effect later = effect(report, "wireless.one_way", Direction::up);
+  EXPECT_EQ(later.median, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(later.is_clear());
+  const auto& level = knob_in(report, "wireless.one_way").levels[1];
+  ASSERT_TRUE(level);
+  EXPECT_EQ(level->incomplete, 1U);
+  EXPECT_EQ(effect(report, "wireless.one_way", Direction::down).median, -40'000);
+  // It is no time, so JSON has none, and text says so.
+  const auto json = nlohmann::ordered_json::parse(to_json(report, description_of({})).dump());
+  for (const auto& knob : json["knobs"]) {
+    if (knob["key"] != "wireless.one_way") continue;
+    EXPECT_TRUE(knob["levels"][1]["completion"]["median_ns"].is_null());
+  }
+  EXPECT_NE(report::to_text(document_of(report, description_of({}))).find("+∞"), std::string::npos);
 }
 
 TEST(SensitivityStudy, StoppedStudiesSaySo) {

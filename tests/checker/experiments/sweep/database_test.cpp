@@ -11,6 +11,8 @@
 namespace stormproof::sweep {
 namespace database_test {
 
+using grids::digest_of;
+
 namespace fs = std::filesystem;
 
 class DatabaseTest : public testing::Test {

@@ -2,6 +2,7 @@
 #include "checker/experiments/tune/pareto.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -125,6 +126,16 @@ RC_GTEST_PROP(Pareto, PromiseOrdersEverythingByRank, ()) {
   const std::vector<std::size_t> ranks = pareto_ranks(costs);
   RC_ASSERT(std::set<std::size_t>(order.begin(), order.end()).size() == costs.size());
   RC_ASSERT(std::ranges::is_sorted(order, {}, [&](std::size_t k) { return ranks[k]; }));
+}
+
+TEST(Pareto, OfTwoThatAreNotReachedThatWhichMissesLess) {
+  const double never = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(dominates({1e9, 5}, {never, 5, 0.1}));
+  EXPECT_TRUE(dominates({never, 5, 0.1}, {never, 5, 0.2}));
+  EXPECT_FALSE(dominates({never, 6, 0.1}, {never, 5, 0.2}));
+  const std::vector<Cost> costs{{never, 5, 0.2}, {never, 9, 0.1}, {1e9, 10}, {never, 9, 0.3}};
+  EXPECT_EQ(pareto_front(costs), (std::vector<std::size_t>{2, 1, 0}));
+  EXPECT_EQ(by_promise(costs).back(), 3U);
 }
 
 TEST(Pareto, EndsOfTheFrontComeFirst) {

@@ -27,7 +27,8 @@ using Changed = std::vector<std::size_t>;
 
 std::vector<Point> reduce_with(const Problem& problem, std::vector<Point> points,
                                double least = 0.02, Seeds under = seeds) {
-  Archive archive{problem, stand_in_limit, 1, {}};
+  trials::Runner runner{1};
+  Archive archive{problem, stand_in_limit, runner};
   auto result = reduced(std::move(points), problem, archive, under, least);
   EXPECT_TRUE(result);
   return result.value_or(std::vector<Point>{});
@@ -111,6 +112,31 @@ TEST(TuneReduce, GoesNoFurtherThanItHelps) {
   EXPECT_GE(value, 100);
   EXPECT_LT(value, 300);
   EXPECT_EQ(reduce_with(problem, {{90}}).front()[0], 90) << "every step back costs something";
+}
+
+Outcome incomplete(double missing) {
+  Outcome outcome;
+  outcome.missing = missing;
+  return outcome;
+}
+
+TEST(TuneDifference, OfRunsThatDoNotComplete) {
+  const std::vector<Outcome> all(6, outcome_of(1e9, 100));
+  const std::vector<Outcome> none(6, incomplete(0.5));
+  EXPECT_TRUE(is_clearly_more(difference(none, all).completion, 0.02));
+  EXPECT_TRUE(is_clearly_less(difference(all, none).completion, 0.02));
+  // Of two runs that both do not complete nothing is known, whatever they miss.
+  const std::vector<Outcome> neither(6, incomplete(0.1));
+  EXPECT_FALSE(is_clearly_more(difference(none, neither).completion, 0.02));
+  EXPECT_FALSE(is_clearly_less(difference(neither, none).completion, 0.02));
+}
+
+TEST(TuneCost, OfRunsThatDoNotCompleteIsWhatTheyMiss) {
+  const std::vector<Outcome> mostly{outcome_of(1e9, 10), outcome_of(3e9, 10), incomplete(0.5)};
+  EXPECT_EQ(cost_of(mostly), (Cost{3e9, 10, 0}));
+  const std::vector<Outcome> rarely{outcome_of(1e9, 10), incomplete(0.2), incomplete(0.5)};
+  EXPECT_EQ(cost_of(rarely).completion, statistics::unreached);
+  EXPECT_EQ(cost_of(rarely).missing, 0.2);
 }
 
 }  // namespace reduce_test

@@ -21,7 +21,8 @@ Cost planted(const Point& point) {
 }
 
 SearchResult search_in(const Problem& problem, std::size_t threads, SearchOptions options) {
-  Archive archive{problem, stand_in_limit, threads, {}};
+  trials::Runner runner{threads};
+  Archive archive{problem, stand_in_limit, runner};
   return search(problem, archive, options);
 }
 
@@ -84,7 +85,8 @@ TEST(TuneSearch, DoesNotDependOnThreads) {
 
 TEST(TuneSearch, KeepsToItsBudget) {
   const Problem problem = problem_of(space_of_knobs(4, 0), planted, 0.2);
-  Archive archive{problem, stand_in_limit, 1, {}};
+  trials::Runner runner{1};
+  Archive archive{problem, stand_in_limit, runner};
   const SearchResult result = search(problem, archive, {1'000, {0, 12}, 5});
   EXPECT_GE(archive.runs(), 1'000U);
   EXPECT_LE(archive.runs(), 1'000U + 16 * 12);
@@ -101,7 +103,8 @@ TEST(TuneSearch, RunsNothingTwice) {
     ++asked[{point, seed}];
     return run(point, seed, limit);
   };
-  Archive archive{problem, stand_in_limit, 2, {}};
+  trials::Runner runner{2};
+  Archive archive{problem, stand_in_limit, runner};
   static_cast<void>(search(problem, archive, {600, {0, 8}, 2}));
   for (const auto& [what, times] : asked) EXPECT_EQ(times, 1);
   EXPECT_EQ(asked.size(), archive.runs());
@@ -157,7 +160,8 @@ TEST(TuneSearch, InvalidSettingsAreNeverRun) {
 
 TEST(TuneSearch, InterruptedItTellsWhatItKnows) {
   const Problem problem = problem_of(space_of_knobs(3, 0), planted, 0);
-  Archive archive{problem, stand_in_limit, 1, [](std::size_t runs) { return runs < 500; }};
+  trials::Runner runner{1, [](std::size_t runs, std::size_t) { return runs < 500; }};
+  Archive archive{problem, stand_in_limit, runner};
   const SearchResult result = search(problem, archive, {5'000, {0, 12}, 1});
   EXPECT_FALSE(result.finished);
   EXPECT_LE(archive.runs(), 500U);

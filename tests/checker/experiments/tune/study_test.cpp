@@ -94,15 +94,15 @@ TEST(TuneStudy, TheFileGivesTheNumbersAgain) {
   model::Scenario scenario = subject.scenario;
   scenario.dds = *profile;
   const auto samples =
-      sampling::sample_runs(scenario, {report.basis.count, report.basis.first, 1, {}});
+      trials::sample_runs(scenario, {report.basis.count, report.basis.first, 1, {}});
   std::vector<double> completion, messages;
-  for (const sampling::Sample& sample : samples) {
+  for (const trials::Sample& sample : samples) {
     ASSERT_TRUE(sample.discovery_time);
     completion.push_back(static_cast<double>(sample.discovery_time->count()));
     messages.push_back(static_cast<double>(sample.counts.total()));
   }
-  EXPECT_EQ(sampling::quantiles(completion).median, best.summary.completion_ns.median);
-  EXPECT_EQ(sampling::quantiles(messages).median, best.summary.messages.median);
+  EXPECT_EQ(statistics::quantiles(completion).median, best.summary.completion_ns.median);
+  EXPECT_EQ(statistics::quantiles(messages).median, best.summary.messages.median);
 }
 
 TEST(TuneStudy, TheFrontOfTheReportIsOne) {
@@ -211,21 +211,6 @@ TEST(TuneComparison, TheQueueGrowsOnlyInARowOfItsOwn) {
       EXPECT_EQ(row.scenario.wireless.source_queue_bytes, model::Bytes{4'000'000});
     }
     EXPECT_EQ(grown, subject == &queued ? 1U : 0U);
-  }
-}
-
-TEST(TuneRuns, JitterDependsOnTheSeedAlone) {
-  const Subject subject = small_storm();
-  const Circumstances late{model::Nanoseconds{1'000'000}};
-  const model::Scenario one = scenario_under(subject.scenario, 3, late);
-  EXPECT_EQ(one, scenario_under(subject.scenario, 3, late));
-  EXPECT_NE(one.deployment, scenario_under(subject.scenario, 4, late).deployment);
-  const model::Scenario prompt = scenario_under(subject.scenario, 3, {});
-  for (std::size_t k = 0; k < one.deployment.participants.size(); ++k) {
-    const auto later =
-        one.deployment.participants[k].start - prompt.deployment.participants[k].start;
-    EXPECT_GE(later.count(), 0);
-    EXPECT_LE(later.count(), 1'000'000);
   }
 }
 

@@ -37,8 +37,8 @@ model::config::Place place(const std::string& file, int line, int column) {
   return {std::make_shared<const std::string>(file), line, column};
 }
 
-sampling::Quantiles around(double median) {
-  return sampling::quantiles({median * 0.8, median, median * 1.3});
+statistics::Quantiles around(double median) {
+  return statistics::quantiles({median * 0.8, median, median * 1.3});
 }
 
 diff::Configuration configuration(const std::string& endpoints, std::uint64_t descriptors,

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "checker/experiments/sweep/grid.hpp"
+#include "checker/experiments/grids/grid.hpp"
 #include "model/config/knobs/knob_reader.hpp"
 #include "model/config/named_file.hpp"
 #include "model/config/profile_files.hpp"
 #include "model/config/tree/yaml_text.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 
 namespace fs = std::filesystem;
 namespace config = model::config;
@@ -219,4 +219,4 @@ Result<Grid> read_grid(const std::string& reference, const SpecPath& specs) {
   return GridReader{*root, *file, specs}.read();
 }
 
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

@@ -12,7 +12,7 @@
 #include "model/deployment.hpp"
 #include "model/wireless_profile.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 
 using Digest = std::array<std::uint8_t, 20>;
 
@@ -29,4 +29,4 @@ using Digest = std::array<std::uint8_t, 20>;
 [[nodiscard]] Digest digest_of(const model::DdsProfile& dds);
 [[nodiscard]] Digest digest_of(const model::WirelessProfile& wireless);
 
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

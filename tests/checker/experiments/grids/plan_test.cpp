@@ -1,6 +1,6 @@
 // The jobs of a grid are the scenarios that the same overrides give on the command line, and their
 // digests tell different runs apart and equal ones not.
-#include "checker/experiments/sweep/plan.hpp"
+#include "checker/experiments/grids/plan.hpp"
 
 #include <set>
 
@@ -8,7 +8,7 @@
 
 #include "model/config/scenario_file.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 namespace plan_test {
 
 using model::config::SpecPath;
@@ -161,4 +161,4 @@ TEST(Plan, WhatIsWrongWhereverItOccursIsRefused) {
 }
 
 }  // namespace plan_test
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

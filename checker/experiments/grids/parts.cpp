@@ -1,13 +1,13 @@
 // Overrides count as `--set` has it: those that choose a profile (or its base) before the profile
 // is resolved, those of its single keys after it, each group in the order of the file.
-#include "checker/experiments/sweep/parts.hpp"
+#include "checker/experiments/grids/parts.hpp"
 
 #include <fmt/format.h>
 
 #include "model/config/knobs/knob_reader.hpp"
 #include "model/config/profile_files.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 
 namespace config = model::config;
 using config::error_at;
@@ -265,4 +265,4 @@ std::optional<config::InputError> PartReader::error(const Choice& choice,
   return failure;
 }
 
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

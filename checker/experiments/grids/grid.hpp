@@ -13,7 +13,7 @@
 #include "model/config/tree/result.hpp"
 #include "model/config/tree/tree.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 
 /// Most jobs of one grid. A larger one is refused: it is rather a mistake than an evaluation.
 inline constexpr std::size_t max_jobs = 1'000'000;
@@ -71,4 +71,4 @@ struct Grid {
 /// `node` on one line, in YAML's flow notation.
 [[nodiscard]] std::string flow_text(const model::config::Node& node);
 
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

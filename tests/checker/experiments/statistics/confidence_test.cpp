@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stormproof::fuzz {
+namespace stormproof::statistics {
 namespace confidence_test {
 
 TEST(ClopperPearson, known_values) {
@@ -54,4 +54,4 @@ TEST(ClopperPearson, bounds_have_the_tails_of_the_definition) {
 }
 
 }  // namespace confidence_test
-}  // namespace stormproof::fuzz
+}  // namespace stormproof::statistics

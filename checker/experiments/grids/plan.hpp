@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "checker/experiments/sweep/parts.hpp"
+#include "checker/experiments/grids/parts.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 
 class Plan {
  public:
@@ -77,4 +77,4 @@ class Plan {
 [[nodiscard]] model::config::Result<Plan> make_plan(Grid grid,
                                                     const model::config::SpecPath& specs);
 
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

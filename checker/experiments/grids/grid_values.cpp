@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "checker/experiments/sweep/grid.hpp"
+#include "checker/experiments/grids/grid.hpp"
 #include "model/config/knobs/knob_reader.hpp"
 #include "model/config/tree/quantities.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 
 namespace config = model::config;
 using config::error_at;
@@ -135,4 +135,4 @@ Result<std::vector<Axis::Value>> read_values(const Node& node, const std::string
   return values;
 }
 
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "checker/experiments/sweep/digest.hpp"
-#include "checker/experiments/sweep/grid.hpp"
+#include "checker/experiments/grids/digest.hpp"
+#include "checker/experiments/grids/grid.hpp"
 #include "model/scenario.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 
 /// One part of a scenario, or what is wrong with it.
 template <class T>
@@ -103,4 +103,4 @@ class PartReader {
   std::map<Kind, Memory> memory_;
 };
 
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

@@ -1,5 +1,5 @@
 // Counts through the combinations like an odometer and reads each through the memory of parts.
-#include "checker/experiments/sweep/plan.hpp"
+#include "checker/experiments/grids/plan.hpp"
 
 #include <algorithm>
 #include <unordered_map>
@@ -10,7 +10,7 @@
 
 #include "model/config/tree/quantities.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 
 namespace config = model::config;
 using config::InputError;
@@ -225,4 +225,4 @@ config::Result<Plan> make_plan(Grid grid, const config::SpecPath& specs) {
   return plan;
 }
 
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

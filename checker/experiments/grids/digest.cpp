@@ -1,5 +1,5 @@
 // Writes the inputs as text, by the tables of their knobs, and digests that.
-#include "checker/experiments/sweep/digest.hpp"
+#include "checker/experiments/grids/digest.hpp"
 
 #include <boost/uuid/detail/sha1.hpp>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include "model/config/knobs/dds_knobs.hpp"
 #include "model/config/knobs/wireless_knobs.hpp"
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 
 namespace {
 
@@ -128,4 +128,4 @@ Digest digest_of(const model::Deployment& deployment) {
 Digest digest_of(const model::DdsProfile& dds) { return digest_of_knobs(dds); }
 Digest digest_of(const model::WirelessProfile& wireless) { return digest_of_knobs(wireless); }
 
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

@@ -1,12 +1,12 @@
 // Reading of grid files: what is accepted, what is refused, and where the mistake is shown.
-#include "checker/experiments/sweep/grid.hpp"
+#include "checker/experiments/grids/grid.hpp"
 
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-namespace stormproof::sweep {
+namespace stormproof::grids {
 namespace grid_test {
 
 using model::config::SpecPath;
@@ -111,4 +111,4 @@ TEST(Grid, AGridThatDoesNotExist) {
 }
 
 }  // namespace grid_test
-}  // namespace stormproof::sweep
+}  // namespace stormproof::grids

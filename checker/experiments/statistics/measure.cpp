@@ -1,0 +1,33 @@
+// The classes have the words of the model; the others have theirs here.
+#include "checker/experiments/statistics/measure.hpp"
+
+namespace stormproof::statistics {
+
+namespace {
+
+constexpr std::array<const char*, 2> first_names{"completion", "messages"};
+constexpr std::array<const char*, 3> last_names{"user_control", "amplification", "backlog"};
+constexpr std::array<const char*, 3> last_words{"user control", "amplification", "highest backlog"};
+
+bool is_class(Measure measure) {
+  return index_of(measure) >= 2 && index_of(measure) < discovery_measure_count;
+}
+model::MessageClass class_of(Measure measure) {
+  return model::message_classes[index_of(measure) - 2];
+}
+
+}  // namespace
+
+const char* name_of(Measure measure) {
+  if (is_class(measure)) return model::name_of(class_of(measure));
+  return index_of(measure) < 2 ? first_names[index_of(measure)]
+                               : last_names[index_of(measure) - discovery_measure_count];
+}
+
+const char* words_of(Measure measure) {
+  if (is_class(measure)) return model::words_of(class_of(measure));
+  return index_of(measure) < 2 ? first_names[index_of(measure)]
+                               : last_words[index_of(measure) - discovery_measure_count];
+}
+
+}  // namespace stormproof::statistics

@@ -1,0 +1,16 @@
+// What a seed means: the circumstances of one run, which depend on the seed and the deployment
+// alone, so that two settings under the same seed start alike and can be compared pair by pair.
+#pragma once
+
+#include <cstdint>
+
+#include "model/scenario.hpp"
+
+namespace stormproof::trials {
+
+/// `scenario` with start times drawn from its deployment's schedule, if it has one, and each
+/// participant started up to `start_jitter` later. The same on every machine.
+[[nodiscard]] model::Scenario under_seed(model::Scenario scenario, std::uint64_t seed,
+                                         model::Nanoseconds start_jitter = {});
+
+}  // namespace stormproof::trials
