@@ -16,7 +16,7 @@ struct ShowArguments {
   std::vector<std::string> overrides;  ///< key.path=value, without "dds."
 };
 
-Outcome run(ShowArguments& arguments, Session& session) {
+Outcome run(ShowArguments& arguments, Session& /*session*/) {
   const SpecPath specs = SpecPath::standard();
   const auto traced = model::config::trace_dds_profile(arguments.reference, arguments.overrides,
                                                        specs, model::config::Outside::admitted);
@@ -29,7 +29,7 @@ struct LintArguments {
   std::vector<std::string> references;
 };
 
-Outcome run(LintArguments& arguments, Session& session) {
+Outcome run(LintArguments& arguments, Session& /*session*/) {
   const SpecPath specs = SpecPath::standard();
   std::vector<report::LintedFile> files;
   for (const std::string& reference : arguments.references) {
