@@ -171,7 +171,7 @@ int Frame::Command::execute() {
   std::set<Format> wanted{format};
   for (const ReportFile& report : reports) wanted.insert(report.format);
   Outcome outcome = [&] {
-    Session session{given, wanted, verbose, progress.value_or(isatty(STDERR_FILENO) != 0)};
+    Session session{given, wanted, progress.value_or(isatty(STDERR_FILENO) != 0)};
     return run(session);
   }();
   if (const auto* complaint = std::get_if<Complaint>(&outcome)) return complain(complaint->message);

@@ -24,12 +24,8 @@ namespace stormproof::cli {
 
 class Session {
  public:
-  Session(std::vector<Given> given, std::set<report::Format> wanted, bool verbose,
-          bool shows_progress)
-      : given_{std::move(given)},
-        wanted_{std::move(wanted)},
-        verbose_{verbose},
-        line_{shows_progress} {}
+  Session(std::vector<Given> given, std::set<report::Format> wanted, bool shows_progress)
+      : given_{std::move(given)}, wanted_{std::move(wanted)}, line_{shows_progress} {}
 
   /// Gives the same answer again. `without`: options that are left out.
   [[nodiscard]] std::string command(std::initializer_list<std::string_view> without = {}) const {
@@ -38,10 +34,6 @@ class Session {
 
   /// The formats that the answer will be shown in.
   [[nodiscard]] const std::set<report::Format>& wanted() const { return wanted_; }
-  /// Whether somebody will see drawings, so that it is worth while to make them.
-  [[nodiscard]] bool wants_pages() const { return wanted_.contains(report::Format::html); }
-
-  [[nodiscard]] bool verbose() const { return verbose_; }
 
   [[nodiscard]] static bool interrupted() { return InterruptGuard::interrupted(); }
 
@@ -66,7 +58,6 @@ class Session {
  private:
   std::vector<Given> given_;
   std::set<report::Format> wanted_;
-  bool verbose_;
   InterruptGuard guard_;
   StatusLine line_;
 };

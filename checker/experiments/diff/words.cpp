@@ -65,8 +65,4 @@ const char* matters_text(const KnobChange& change) {
 
 std::string share_text(double share) { return fmt::format("{:.4g} %", 100 * share); }
 
-std::string plural(std::size_t count, const char* noun) {
-  return fmt::format("{} {}{}", report::grouped(count), noun, count == 1 ? "" : "s");
-}
-
 }  // namespace stormproof::diff

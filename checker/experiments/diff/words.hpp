@@ -5,6 +5,7 @@
 #include <string>
 
 #include "checker/experiments/diff/diff.hpp"
+#include "checker/presentation/text/plain_text.hpp"
 
 namespace stormproof::diff {
 
@@ -26,7 +27,6 @@ namespace stormproof::diff {
 /// 0.05 → "5 %", 0.9973 → "99.73 %".
 [[nodiscard]] std::string share_text(double share);
 
-/// "1 run", "1,200 runs".
-[[nodiscard]] std::string plural(std::size_t count, const char* noun);
+using report::plural;
 
 }  // namespace stormproof::diff

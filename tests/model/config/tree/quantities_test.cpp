@@ -116,5 +116,22 @@ TEST(Quantities, printing_is_short) {
   EXPECT_EQ(print_rate(BitsPerSecond{1}), "1bps");
 }
 
+TEST(Quantities, SharesHaveThreeSpellings) {
+  for (const char* text : {"2%", "2 %", "0.02", "1/50", "2.0%"}) {
+    const auto share = parse_share(text);
+    ASSERT_TRUE(share) << text;
+    EXPECT_EQ(*share, (Fraction{1, 50})) << text;
+  }
+  for (const char* text : {"0", "0%"}) {
+    const auto none = parse_share(text);
+    ASSERT_TRUE(none) << text;
+    EXPECT_EQ(none->value(), 0);
+  }
+  EXPECT_EQ(*parse_share("150%"), (Fraction{3, 2}));
+  for (const char* text : {"", "%", "-1%", "2%%", "two", "1/0", "0.5 ", "0.00000000000000001%"}) {
+    EXPECT_FALSE(parse_share(text)) << text;
+  }
+}
+
 }  // namespace quantities_test
 }  // namespace stormproof::model::config
