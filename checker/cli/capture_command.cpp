@@ -16,6 +16,8 @@
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/capture/summary.hpp"
+#include "checker/presentation/document/render.hpp"
+#include "checker/presentation/json/dumped.hpp"
 #include "checker/presentation/text/numbers.hpp"
 
 namespace stormproof::cli {
@@ -47,7 +49,8 @@ int summarize(const CaptureArguments& arguments) {
   const capture::Counting counting = capture::count(*conversation, *until);
   const capture::Summary summary{*conversation, counting};
   const bool is_interrupted = InterruptGuard::interrupted();
-  fmt::print("{}", arguments.json ? to_json(summary).dump(2) + "\n" : to_text(summary));
+  fmt::print("{}",
+             arguments.json ? report::dumped(to_json(summary)) : to_text(document_of(summary)));
   if (is_interrupted) {
     fmt::print(stderr, "stormproof: interrupted; this is what was read until then\n");
   }

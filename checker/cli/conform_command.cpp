@@ -15,6 +15,8 @@
 #include "checker/cli/run_monitor.hpp"
 #include "checker/cli/until_instant.hpp"
 #include "checker/evidence/conform/report/report.hpp"
+#include "checker/presentation/document/render.hpp"
+#include "checker/presentation/json/dumped.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/config/scenario_file.hpp"
@@ -133,26 +135,23 @@ int exit_code(conform::Verdict verdict) {
   return inconclusive;
 }
 
-std::string render(report::Format format, const conform::Report& report) {
-  using Json = nlohmann::ordered_json;
-  const auto dumped = [](const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  };
+std::string render(report::Format format, const conform::Report& report,
+                   const report::Document& document) {
   switch (format) {
     case report::Format::json:
-      return dumped(to_json(report));
+      return report::dumped(to_json(report));
     case report::Format::markdown:
-      return to_markdown(report);
+      return to_markdown(document);
     case report::Format::html:
-      return to_html(report);
+      return to_html(document);
     case report::Format::junit:
-      return to_junit(report);
+      return to_junit(document);
     case report::Format::sarif:
-      return dumped(to_sarif(report));
+      return report::dumped(to_sarif(document));
     case report::Format::text:
       break;
   }
-  return to_text(report);
+  return to_text(document);
 }
 
 Result<capture::Conversation> read(const ConformArguments& arguments) {
@@ -209,12 +208,14 @@ int run_conform(const ConformArguments& arguments) {
   }();
   if (!result) return complain(to_string(result.error()));
   const int code = exit_code(result->verdict);
-  const conform::Report report{
-      *conversation, *result, *dds, profile_name(arguments), *until, command_line(arguments), code};
-  fmt::print("{}", render(arguments.format, report));
+  const conform::Report report{*conversation, *result, *dds, profile_name(arguments), *until};
+  report::Document document = document_of(report);
+  document.command = command_line(arguments);
+  document.exit_code = code;
+  fmt::print("{}", render(arguments.format, report, document));
   if (const auto error = write_files(arguments, report, svg, assignment)) return complain(*error);
   const auto failure = write_report_files(
-      *reports, [&report](report::Format format) { return render(format, report); });
+      *reports, [&](report::Format format) { return render(format, report, document); });
   if (failure) return complain(*failure);
   return code;
 }

@@ -15,6 +15,8 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/run_monitor.hpp"
 #include "checker/evidence/coverage/report.hpp"
+#include "checker/presentation/document/render.hpp"
+#include "checker/presentation/json/dumped.hpp"
 
 namespace stormproof::cli {
 
@@ -80,8 +82,10 @@ std::optional<std::string> write_charts(const std::string& folder,
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return folder + ": " + error.message();
-  std::vector<prediction::ChartFile> files = prediction::charts(study);
-  files.push_back({"coverage.html", prediction::to_html(heading, study)});
+  std::vector<prediction::ChartFile> files{{"coverage.html", to_html(document_of(heading, study))}};
+  for (const prediction::ProfileStudy& profile : study.profiles) {
+    for (auto& chart : prediction::charts(profile)) files.push_back(std::move(chart));
+  }
   for (const prediction::ChartFile& chart : files) {
     OutputFile file{(std::filesystem::path{folder} / chart.name).string()};
     if (auto failed = file.open_error()) return failed;
@@ -125,8 +129,8 @@ int coverage(const CoverageArguments& arguments) {
                                     arguments.request.wireless,
                                     arguments.request.predict.samples,
                                     arguments.request.predict.first_seed};
-  fmt::print("{}",
-             arguments.json ? to_json(heading, *study).dump(2) + "\n" : to_text(heading, *study));
+  fmt::print("{}", arguments.json ? report::dumped(to_json(heading, *study))
+                                  : to_text(document_of(heading, *study)));
   if (!arguments.output.empty()) {
     if (const auto error = write_charts(arguments.output, heading, *study)) return complain(*error);
   }

@@ -17,6 +17,8 @@
 #include "checker/cli/until_instant.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/validate/validate.hpp"
+#include "checker/presentation/document/render.hpp"
+#include "checker/presentation/json/dumped.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/config/knobs/effective.hpp"
@@ -112,8 +114,8 @@ int exit_code(const validate::Report& report) {
 int print(const ValidateArguments& arguments, const validate::Report& report, OutputFile& svg,
           OutputFile& scenario) {
   const validate::Heading heading{arguments.files, command_line(arguments)};
-  fmt::print("{}",
-             arguments.json ? to_json(report, heading).dump(2) + "\n" : to_text(report, heading));
+  fmt::print("{}", arguments.json ? report::dumped(to_json(report, heading))
+                                  : to_text(document_of(report, heading)));
   if (svg.wanted()) svg.stream() << to_svg(report);
   if (const auto error = svg.commit()) return complain(*error);
   if (scenario.wanted()) scenario.stream() << model::config::effective_yaml(report.scenario);

@@ -10,7 +10,6 @@
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/presentation/text/plain_text.hpp"
-#include "checker/presentation/text/time_text.hpp"
 
 namespace stormproof::report {
 
@@ -156,22 +155,14 @@ class TextPage {
 
   void add(const Drawing& /*block*/, std::size_t /*indent*/) {}
 
-  /// A story has its own layout, as wide as a report.
+  /// Stories and charts have a layout of their own, as wide as a report.
   void add(const Sequence& block, std::size_t indent) {
     if (!block.story.empty()) {
       lines_of(0, valid_text(block.story));
       return;
     }
     if (!block.caption.empty()) running(indent, "", block.caption);
-    for (const sequence::Chart::Row& row : block.chart.rows) {
-      if (row.kind == sequence::Chart::Row::Kind::service) continue;
-      if (!row.text.empty()) running(indent, std::string(16, ' ') + "… ", row.text);
-      std::string time = right(milliseconds(row.time) + " ms", 16) + "  ";
-      for (const sequence::Chart::Line& one : row.lines) {
-        running(indent, time, block.chart.lanes[one.lane].title + ": " + one.text);
-        time = std::string(time.size(), ' ');
-      }
-    }
+    lines_of(0, valid_text(sequence::text_chart(block.chart)));
   }
 
   void add(const Section& block, std::size_t indent) {
