@@ -1,7 +1,6 @@
 // What a command hands to the frame when it is done: an answer to be shown, or why there is none.
 #pragma once
 
-#include <map>
 #include <string>
 #include <utility>
 #include <variant>
@@ -25,7 +24,6 @@ struct Answer {
   std::vector<std::string> notes = {};  ///< lines on standard error, after the answer
   std::vector<std::pair<std::string, report::Format>> files = {};  ///< written by the frame: paths
   std::string complaint = {};  ///< what failed after the work; the exit code is bad_input
-  std::map<report::Format, std::string> rendered = {};  ///< of a report that is no document yet
 };
 
 /// Bad input: what is wrong, with its place and what was expected. One line on standard error.

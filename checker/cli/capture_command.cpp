@@ -4,7 +4,6 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/capture/summary.hpp"
@@ -27,8 +26,8 @@ Outcome run(CaptureArguments& arguments, Session& session) {
   const capture::Counting counting = capture::count(*conversation, *until);
   const capture::Summary summary{*conversation, counting};
   Answer answer;
+  answer.document = document_of(summary);
   answer.json = to_json(summary);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(summary); });
   if (Session::interrupted()) {
     answer.notes.emplace_back("stormproof: interrupted; this is what was read until then");
   }
@@ -54,7 +53,7 @@ void declare_capture(Frame& frame) {
        "Count the discovery messages, by class and over time, and recover the topology",
        "Exit code: 0 every required descriptor is in the capture, 3 some are missing,\n"
        "or interrupted; 2 bad input.",
-       Formats::plain},
+       Formats::pages},
       declare, run);
 }
 

@@ -6,7 +6,6 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/evidence/conform/report/report.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
@@ -78,21 +77,6 @@ ExitCode exit_code(conform::Verdict verdict) {
   return inconclusive;
 }
 
-std::string render(report::Format format, const conform::Report& report) {
-  switch (format) {
-    case report::Format::markdown:
-      return to_markdown(report);
-    case report::Format::html:
-      return to_html(report);
-    case report::Format::junit:
-      return to_junit(report);
-    case report::Format::sarif:
-      return to_sarif(report).dump(2) + "\n";
-    default:
-      return to_text(report);
-  }
-}
-
 /// The files beside the report.
 void write_beside(ConformArguments& arguments, const conform::Report& report, Answer& answer) {
   if (arguments.assignment.wanted()) {
@@ -124,19 +108,10 @@ Outcome run(ConformArguments& arguments, Session& session) {
   };
   const auto result = conform::conform({*conversation, *until, *dds, *bounds, on_progress});
   if (!result) return result.error();
-  Answer answer;
-  answer.document.complete = !Session::interrupted();
+  const conform::Report report{*conversation, *result, *dds, profile_name(arguments), *until};
+  Answer answer{document_of(report), to_json(report)};
   answer.document.exit_code = exit_code(result->verdict);
-  const conform::Report report{*conversation,
-                               *result,
-                               *dds,
-                               profile_name(arguments),
-                               *until,
-                               session.command(),
-                               answer.document.exit_code};
-  answer.json = to_json(report);
-  answer.rendered =
-      rendered(session, [&](report::Format format) { return render(format, report); });
+  answer.document.complete = !Session::interrupted();
   write_beside(arguments, report, answer);
   return answer;
 }

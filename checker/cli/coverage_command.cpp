@@ -8,7 +8,6 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/evidence/coverage/report.hpp"
 
 namespace stormproof::cli {
@@ -36,22 +35,23 @@ model::config::Result<Observations> read(const std::string& path,
   return prediction::read_observations(file, path, options);
 }
 
-/// Charts and page; what could not be written, or nothing.
-std::optional<std::string> write_charts(const std::string& folder,
-                                        const prediction::Heading& heading,
-                                        const prediction::Study& study) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return folder + ": " + error.message();
-  std::vector<prediction::ChartFile> files = prediction::charts(study);
-  files.push_back({"coverage.html", prediction::to_html(heading, study)});
-  for (const prediction::ChartFile& chart : files) {
-    OutputFile file{(std::filesystem::path{folder} / chart.name).string()};
-    if (auto failed = file.open_error()) return failed;
-    file.stream() << chart.svg;
-    if (auto failed = file.commit()) return failed;
+/// Charts, and the page that the frame writes; what could not be written, or nothing.
+std::string write_charts(const std::string& folder, const prediction::Study& study,
+                         Answer& answer) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return folder + ": " + failed.message();
+  answer.files.emplace_back((fs::path{folder} / "coverage.html").string(), report::Format::html);
+  for (const prediction::ProfileStudy& profile : study.profiles) {
+    for (const prediction::ChartFile& chart : prediction::charts(profile)) {
+      OutputFile file{(fs::path{folder} / chart.name).string()};
+      if (const auto error = file.open_error()) return *error;
+      file.stream() << chart.svg;
+      if (const auto error = file.commit()) return *error;
+    }
   }
-  return std::nullopt;
+  return {};
 }
 
 Outcome run(CoverageArguments& arguments, Session& session) {
@@ -69,17 +69,13 @@ Outcome run(CoverageArguments& arguments, Session& session) {
   request.predict.on_progress = session.on_runs();
   const auto study = prediction::study(measured->rows, baseline->rows, request);
   if (!study) return study.error();
-  const prediction::Heading heading{arguments.observations,    session.command(),
-                                    measured->rows.size(),     measured->not_selected,
-                                    request.wireless,          request.predict.samples,
-                                    request.predict.first_seed};
-  Answer answer;
-  answer.document.complete = !study->interrupted;
+  const prediction::Heading heading{arguments.observations,  measured->rows.size(),
+                                    measured->not_selected,  request.wireless,
+                                    request.predict.samples, request.predict.first_seed};
+  Answer answer{document_of(heading, *study), to_json(heading, *study)};
   answer.document.exit_code = study->interrupted ? inconclusive : established;
-  answer.json = to_json(heading, *study);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(heading, *study); });
   if (!arguments.output.empty()) {
-    answer.complaint = write_charts(arguments.output, heading, *study).value_or("");
+    answer.complaint = write_charts(arguments.output, *study, answer);
   }
   return answer;
 }
@@ -135,7 +131,7 @@ void declare(Options& options, CoverageArguments& arguments) {
 void declare_coverage(Frame& frame) {
   frame.add<CoverageArguments>(
       {"coverage", "How well predictions fit measured runs: coverage, ratios, calibration",
-       "Exit code: 0 everything was predicted, 3 interrupted, 2 bad input.", Formats::plain},
+       "Exit code: 0 everything was predicted, 3 interrupted, 2 bad input.", Formats::pages},
       declare, run);
 }
 

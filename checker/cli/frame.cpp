@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
-#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -25,9 +24,10 @@ using nlohmann::ordered_json;
 using report::Format;
 
 std::vector<NamedFormat> formats_of(Formats formats) {
-  std::vector<NamedFormat> all{{"text", Format::text}, {"json", Format::json}};
-  if (formats == Formats::plain) return all;
-  all.insert(all.end(), {{"markdown", Format::markdown}, {"html", Format::html}});
+  std::vector<NamedFormat> all{{"text", Format::text},
+                               {"json", Format::json},
+                               {"markdown", Format::markdown},
+                               {"html", Format::html}};
   if (formats == Formats::tables) all.emplace_back("csv", Format::csv);
   if (formats == Formats::findings) {
     all.insert(all.end(), {{"junit", Format::junit}, {"sarif", Format::sarif}});
@@ -50,9 +50,6 @@ void complete(Answer& answer, const std::string& command) {
 
 std::string render(const Answer& answer, Format format, const report::Terminal& terminal) {
   if (format == Format::json) return report::dumped(answer.json);
-  if (const auto old = answer.rendered.find(format); old != answer.rendered.end()) {
-    return old->second;
-  }
   switch (format) {
     case Format::json:
       break;
@@ -168,10 +165,8 @@ std::optional<std::string> Frame::Command::write_files(const Answer& answer) {
 int Frame::Command::execute() {
   if (const auto error = open_files()) return complain(*error);
   const std::vector<Given> given = given_to(*parsed, declared.not_repeated);
-  std::set<Format> wanted{format};
-  for (const ReportFile& report : reports) wanted.insert(report.format);
   Outcome outcome = [&] {
-    Session session{given, wanted, progress.value_or(isatty(STDERR_FILENO) != 0)};
+    Session session{given, progress.value_or(isatty(STDERR_FILENO) != 0)};
     return run(session);
   }();
   if (const auto* complaint = std::get_if<Complaint>(&outcome)) return complain(complaint->message);

@@ -19,8 +19,7 @@ inline constexpr int json_schema = 2;
 /// The formats that a command offers.
 enum class Formats : std::uint8_t {
   none,     ///< it makes no answer
-  plain,    ///< text and JSON
-  pages,    ///< these, Markdown and HTML
+  pages,    ///< text, JSON, Markdown and HTML
   tables,   ///< these and CSV
   findings  ///< as `pages`, JUnit and SARIF
 };

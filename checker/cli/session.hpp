@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,7 +13,6 @@
 
 #include "checker/cli/given.hpp"
 #include "checker/cli/run_monitor.hpp"
-#include "checker/presentation/document/format.hpp"
 
 namespace stormproof::model {
 struct Progress;
@@ -24,16 +22,13 @@ namespace stormproof::cli {
 
 class Session {
  public:
-  Session(std::vector<Given> given, std::set<report::Format> wanted, bool shows_progress)
-      : given_{std::move(given)}, wanted_{std::move(wanted)}, line_{shows_progress} {}
+  Session(std::vector<Given> given, bool shows_progress)
+      : given_{std::move(given)}, line_{shows_progress} {}
 
   /// Gives the same answer again. `without`: options that are left out.
   [[nodiscard]] std::string command(std::initializer_list<std::string_view> without = {}) const {
     return shell_line(given_, without);
   }
-
-  /// The formats that the answer will be shown in.
-  [[nodiscard]] const std::set<report::Format>& wanted() const { return wanted_; }
 
   [[nodiscard]] static bool interrupted() { return InterruptGuard::interrupted(); }
 
@@ -57,7 +52,6 @@ class Session {
 
  private:
   std::vector<Given> given_;
-  std::set<report::Format> wanted_;
   InterruptGuard guard_;
   StatusLine line_;
 };

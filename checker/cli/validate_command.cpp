@@ -5,7 +5,6 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/rendered.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/validate/validate.hpp"
 #include "model/config/knobs/effective.hpp"
@@ -70,12 +69,9 @@ Outcome run(ValidateArguments& arguments, Session& session) {
   request.sampling.on_progress = session.on_runs();
   const auto report = validate::validate(*conversation, request);
   if (!report) return report.error();
-  const validate::Heading heading{arguments.files, session.command()};
-  Answer answer;
-  answer.document.complete = !report->interrupted();
+  const validate::Heading heading{arguments.files};
+  Answer answer{document_of(*report, heading), to_json(*report, heading)};
   answer.document.exit_code = exit_code(*report);
-  answer.json = to_json(*report, heading);
-  answer.rendered = rendered(session, [&](report::Format) { return to_text(*report, heading); });
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(*report);
   if (arguments.scenario.wanted()) {
     arguments.scenario.stream() << model::config::effective_yaml(report->scenario);
@@ -123,7 +119,7 @@ void declare_validate(Frame& frame) {
        "Exit code: 0 the comparison was made, 1 it is beyond --within, 3 the capture is "
        "incomplete,\n"
        "or interrupted; 2 bad input.",
-       Formats::plain},
+       Formats::pages},
       declare, run);
 }
 

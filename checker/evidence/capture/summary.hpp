@@ -1,5 +1,5 @@
-// What `capture summarize` says about a conversation: text for people, JSON for scripts (with the
-// names of `simulate --format json`), and a plot of the counts over time.
+// What `capture summarize` says about a conversation: a document for people, JSON for scripts (with
+// the names of `simulate --format json`), and a plot of the counts over time.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
+#include "checker/presentation/document/document.hpp"
 
 namespace stormproof::capture {
 
@@ -22,8 +23,9 @@ struct Summary {
   }
 };
 
-[[nodiscard]] std::string to_text(const Summary& summary);
-[[nodiscard]] nlohmann::json to_json(const Summary& summary);
+/// Without command and exit code, which only the caller knows.
+[[nodiscard]] report::Document document_of(const Summary& summary);
+[[nodiscard]] nlohmann::ordered_json to_json(const Summary& summary);
 /// Cumulative counts by class over the time since the first packet.
 [[nodiscard]] std::string to_svg(const Summary& summary);
 

@@ -3,185 +3,209 @@
 
 #include <nlohmann/json.hpp>
 
+#include "checker/evidence/capture/describe_capture.hpp"
 #include "checker/evidence/capture/summary.hpp"
 #include "checker/evidence/capture/timeline.hpp"
+#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/describe_model.hpp"
 
 namespace stormproof::capture {
 
+template <class V>
+void describe(V& v, const HeartbeatFigures& figures) {
+  for (std::size_t k = 0; k < heartbeat_kinds; ++k) {
+    v(name_of(static_cast<HeartbeatKind>(k)), figures.by_kind[k]);
+  }
+  v("no_info_dst", figures.no_info_dst);
+  v("behind_data", figures.behind_data);
+  v("empty", figures.empty);
+  v("final", figures.final_flag);
+}
+
+template <class V>
+void describe(V& v, const AcknackFigures& figures) {
+  v("initial", figures.initial);
+  v("negative", figures.negative);
+  v("positive", figures.positive);
+  v("preemptive", figures.preemptive);
+  v("final", figures.final_flag);
+  v("requested", figures.requested);
+}
+
+template <class V>
+void describe(V& v, const TrafficFigures& figures) {
+  v("data", figures.data);
+  v("data_frag", figures.data_frag);
+  v("heartbeat", figures.heartbeat);
+  v("acknack", figures.acknack);
+  v("gap", figures.gap);
+  v("bytes", figures.bytes);
+}
+
+template <class V>
+void describe(V& v, const SizeFigures& figures) {
+  v("submessage_bytes", figures.submessage_bytes);
+  v("single_payload_bytes", figures.single);
+}
+
+template <class V>
+void describe(V& v, const Remark& remark) {
+  v("what", remark.what);
+  v("count", remark.count);
+  v("first", remark.first);
+}
+
 namespace {
 
-using Json = nlohmann::json;
+struct NamedEndpoint {
+  EntityId entity = 0;
+  const Endpoint& endpoint;
+};
 
-Json counts_json(const model::Counts& counts) {
-  Json json;
-  for (const auto& [name, value] : counts.entries()) json[name] = value;
-  json["total"] = counts.total();
-  return json;
+template <class V>
+void describe(V& v, const NamedEndpoint& one) {
+  v("entity", one.entity);
+  v("stream", stream_of(one.endpoint.announced_by));
+  v("sequence_number", one.endpoint.sequence_number);
+  v("topic", one.endpoint.topic);
+  v("type", one.endpoint.type);
+  v("reliable", one.endpoint.is_reliable);
+  v("gone", one.endpoint.is_gone);
+  v("first_ns", one.endpoint.first_ns);
 }
 
-Json heartbeats_json(const HeartbeatFigures& figures) {
-  Json json;
-  for (std::size_t k = 0; k < heartbeat_kinds; ++k) {
-    json[name_of(static_cast<HeartbeatKind>(k))] = figures.by_kind[k];
-  }
-  json["no_info_dst"] = figures.no_info_dst;
-  json["behind_data"] = figures.behind_data;
-  json["empty"] = figures.empty;
-  json["final"] = figures.final_flag;
-  return json;
+template <class Addresses>
+std::vector<std::string> texts(const Addresses& addresses) {
+  std::vector<std::string> list;
+  for (const auto& one : addresses) list.push_back(to_string(one));
+  return list;
 }
 
-Json acknacks_json(const AcknackFigures& figures) {
-  return {{"initial", figures.initial},   {"negative", figures.negative},
-          {"positive", figures.positive}, {"preemptive", figures.preemptive},
-          {"final", figures.final_flag},  {"requested", figures.requested}};
-}
+/// Missing keys, with GUID prefixes as indices in `topology.participants`.
+struct Missing {
+  const Topology& topology;
+  const Counting& counting;
+};
 
-Json traffic_json(const Counting& counting) {
-  Json json;
-  for (const Traffic traffic : all_traffic) {
-    const TrafficFigures& figures = counting.traffic[static_cast<std::size_t>(traffic)];
-    json[name_of(traffic)] = {{"data", figures.data},
-                              {"data_frag", figures.data_frag},
-                              {"heartbeat", figures.heartbeat},
-                              {"acknack", figures.acknack},
-                              {"gap", figures.gap},
-                              {"bytes", figures.bytes}};
-  }
-  return json;
-}
+struct NamedKey {
+  const Topology& topology;
+  const MissingKey& key;
+};
 
-Json sizes_json(const Counting& counting) {
-  Json json;
-  const auto names = model::Counts{}.entries();
-  for (std::size_t k = 0; k < message_class_count; ++k) {
-    const SizeFigures& figures = counting.sizes[k];
-    Json single = Json::object();
-    for (const auto& [size, datagrams] : figures.single) single[std::to_string(size)] = datagrams;
-    json[names[k].name] = {{"submessage_bytes", figures.submessage_bytes},
-                           {"single_payload_bytes", single}};
-  }
-  return json;
-}
-
-Json participant_json(const Participant& participant) {
-  Json addresses = Json::array();
-  Json locators = Json::array();
-  Json endpoints = Json::array();
-  for (const Address& address : participant.addresses) addresses.push_back(to_string(address));
-  for (const UdpEnd& locator : participant.locators) locators.push_back(to_string(locator));
-  for (const auto& [guid, endpoint] : participant.endpoints) {
-    Json reliable = nullptr;
-    if (endpoint.is_reliable) reliable = *endpoint.is_reliable;
-    endpoints.push_back({{"entity", guid.entity},
-                         {"stream", stream_of(endpoint.announced_by)},
-                         {"sequence_number", endpoint.sequence_number},
-                         {"topic", endpoint.topic},
-                         {"type", endpoint.type},
-                         {"reliable", reliable},
-                         {"gone", endpoint.is_gone},
-                         {"first_ns", endpoint.first_ns}});
-  }
-  return {{"guid_prefix", to_string(participant.prefix)},
-          {"host", participant.host},
-          {"vendor", vendor_name(participant.vendor)},
-          {"name", participant.name},
-          {"first_ns", participant.first_ns},
-          {"addresses", addresses},
-          {"locators", locators},
-          {"publications", participant.announced(entity::publications_writer)},
-          {"subscriptions", participant.announced(entity::subscriptions_writer)},
-          {"endpoints", endpoints}};
-}
-
-Json topology_json(const Topology& topology) {
-  Json participants = Json::array();
-  for (const Participant& one : topology.participants) {
-    participants.push_back(participant_json(one));
-  }
-  return {{"hosts", topology.hosts}, {"participants", participants}};
-}
-
-/// As `simulate` has it, with GUID prefixes as indices in `topology.participants`.
-Json missing_json(const Summary& summary) {
-  constexpr std::size_t most = 100;
-  const Topology& topology = summary.conversation.topology;
-  const auto& missing = summary.counting.missing;
-  const auto index = [&](const GuidPrefix& prefix) {
-    const Participant* found = topology.find(prefix);
-    return found == nullptr ? Json{} : Json(topology.index_of(*found));
+template <class V>
+void describe(V& v, const NamedKey& one) {
+  const auto index = [&](const GuidPrefix& prefix) -> std::optional<std::size_t> {
+    const Participant* found = one.topology.find(prefix);
+    if (found == nullptr) return std::nullopt;
+    return one.topology.index_of(*found);
   };
-  Json descriptors = Json::array();
-  for (std::size_t k = 0; k < std::min(missing.size(), most); ++k) {
-    descriptors.push_back({{"source", index(missing[k].source)},
-                           {"destination", index(missing[k].destination)},
-                           {"stream", stream_of(missing[k].writer)},
-                           {"sequence_number", missing[k].sequence_number}});
-  }
-  return {{"required", summary.counting.required},
-          {"count", summary.counting.missing_count},
-          {"descriptors", descriptors}};
+  v("source", index(one.key.source));
+  v("destination", index(one.key.destination));
+  v("stream", stream_of(one.key.writer));
+  v("sequence_number", one.key.sequence_number);
 }
 
-Json timeline_json(const Summary& summary) {
-  constexpr std::size_t steps = 100;
-  const Timeline line = timeline(summary.conversation, summary.counting, summary.end_ns(), steps);
-  const auto names = model::Counts{}.entries();
-  Json json = {{"step_ns", line.step_ns}};
-  for (std::size_t one = 0; one < message_class_count; ++one) {
-    Json values = Json::array();
-    for (const auto& step : line.steps) values.push_back(step[one]);
-    json[names[one].name] = std::move(values);
+template <class V>
+void describe(V& v, const Missing& missing) {
+  constexpr std::size_t most = 100;
+  v("required", missing.counting.required);
+  v("count", missing.counting.missing_count);
+  std::vector<NamedKey> keys;
+  for (const MissingKey& key : missing.counting.missing) {
+    if (keys.size() < most) keys.push_back({missing.topology, key});
   }
-  return json;
+  v("descriptors", keys);
+}
+
+/// Figures of all kinds of traffic, by name.
+struct AllTraffic {
+  const Counting& counting;
+};
+
+template <class V>
+void describe(V& v, const AllTraffic& all) {
+  for (const Traffic one : all_traffic) {
+    v(name_of(one), all.counting.traffic[static_cast<std::size_t>(one)]);
+  }
+}
+
+/// Sizes of all classes, by name.
+struct AllSizes {
+  const Counting& counting;
+};
+
+template <class V>
+void describe(V& v, const AllSizes& all) {
+  const auto names = model::Counts{}.entries();
+  for (std::size_t k = 0; k < message_class_count; ++k) v(names[k].name, all.counting.sizes[k]);
 }
 
 }  // namespace
 
-nlohmann::json to_json(const Summary& summary) {
+template <class V>
+void describe(V& v, const Participant& participant) {
+  v("guid_prefix", to_string(participant.prefix));
+  v("host", participant.host);
+  v("vendor", vendor_name(participant.vendor));
+  v("name", participant.name);
+  v("first_ns", participant.first_ns);
+  v("addresses", texts(participant.addresses));
+  v("locators", texts(participant.locators));
+  v("publications", participant.announced(entity::publications_writer));
+  v("subscriptions", participant.announced(entity::subscriptions_writer));
+  std::vector<NamedEndpoint> endpoints;
+  for (const auto& [guid, endpoint] : participant.endpoints) {
+    endpoints.push_back({guid.entity, endpoint});
+  }
+  v("endpoints", endpoints);
+}
+
+template <class V>
+void describe(V& v, const Topology& topology) {
+  v("hosts", topology.hosts);
+  v("participants", topology.participants);
+}
+
+template <class V>
+void describe(V& v, const Timeline& line) {
+  const auto names = model::Counts{}.entries();
+  v("step_ns", line.step_ns);
+  for (std::size_t one = 0; one < message_class_count; ++one) {
+    std::vector<std::uint64_t> values;
+    for (const auto& step : line.steps) values.push_back(step[one]);
+    v(names[one].name, values);
+  }
+}
+
+template <class V>
+void describe(V& v, const Summary& summary) {
+  constexpr std::size_t steps = 100;
   const Conversation& conversation = summary.conversation;
   const Counting& counting = summary.counting;
-  Json captures = Json::array();
-  for (const CaptureInfo& one : conversation.captures) {
-    captures.push_back({{"name", one.name},
-                        {"packets", one.packets},
-                        {"datagrams", one.datagrams},
-                        {"merged", one.merged}});
-  }
-  Json histogram = Json::object();
-  for (const auto& [data, datagrams] : counting.data_per_datagram) {
-    histogram[std::to_string(data)] = datagrams;
-  }
-  Json remarks = Json::array();
-  for (const Remark& one : conversation.remarks) {
-    remarks.push_back({{"what", one.what}, {"count", one.count}, {"first", one.first}});
-  }
-  Json last_initial = nullptr;
-  if (counting.last_initial_ns) last_initial = *counting.last_initial_ns;
-  const Json json = {{"captures", captures},
-                     {"first_ns", conversation.first_ns},
-                     {"last_ns", conversation.last_ns},
-                     {"until_ns", summary.end_ns()},
-                     {"last_initial_data_ns", last_initial},
-                     {"counts", counts_json(counting.counts)},
-                     {"same_host", counts_json(counting.same_host)},
-                     {"heartbeats", heartbeats_json(counting.heartbeats)},
-                     {"acknacks", acknacks_json(counting.acknacks)},
-                     {"multicast_sedp_data", counting.multicast_data},
-                     {"unknown_destination", counting.unknown_destination},
-                     {"traffic", traffic_json(counting)},
-                     {"sizes", sizes_json(counting)},
-                     {"data_per_datagram", histogram},
-                     {"datagrams", counting.datagrams},
-                     {"frames", counting.frames},
-                     {"wire_bytes", counting.wire_bytes},
-                     {"after_until_datagrams", counting.after_cut},
-                     {"missing", missing_json(summary)},
-                     {"topology", topology_json(conversation.topology)},
-                     {"timeline", timeline_json(summary)},
-                     {"remarks", remarks}};
-  // Names in a capture are any bytes; what is no UTF-8 is replaced here, not when it is printed.
-  return nlohmann::json::parse(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  v("captures", conversation.captures);
+  v("first_ns", conversation.first_ns);
+  v("last_ns", conversation.last_ns);
+  v("until_ns", summary.end_ns());
+  v("last_initial_data_ns", counting.last_initial_ns);
+  v("counts", counting.counts);
+  v("same_host", counting.same_host);
+  v("heartbeats", counting.heartbeats);
+  v("acknacks", counting.acknacks);
+  v("multicast_sedp_data", counting.multicast_data);
+  v("unknown_destination", counting.unknown_destination);
+  v("traffic", AllTraffic{counting});
+  v("sizes", AllSizes{counting});
+  v("data_per_datagram", counting.data_per_datagram);
+  v("datagrams", counting.datagrams);
+  v("frames", counting.frames);
+  v("wire_bytes", counting.wire_bytes);
+  v("after_until_datagrams", counting.after_cut);
+  v("missing", Missing{conversation.topology, counting});
+  v("topology", conversation.topology);
+  v("timeline", timeline(conversation, counting, summary.end_ns(), steps));
+  v("remarks", conversation.remarks);
 }
+
+nlohmann::ordered_json to_json(const Summary& summary) { return report::json_of(summary); }
 
 }  // namespace stormproof::capture

@@ -112,6 +112,7 @@ struct Hidden {
   Place place{};
   std::string_view machine{};  ///< whose timer
 };
+[[nodiscard]] std::string_view name_of(Hidden::Kind kind);
 
 struct RowUse {
   std::string_view machine{};

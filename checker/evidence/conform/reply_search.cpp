@@ -15,13 +15,25 @@ namespace {
 /// Submessages that may be looked at before the search is given up.
 constexpr std::size_t effort_limit = 200'000'000;
 
+/// What is supposed to be lost beyond what the ACKNACK says, in the two ways that matter later.
+struct Supposed {
+  bool cut = false;             ///< the part before `end` of the datagram that `end` cuts
+  std::size_t unmentioned = 0;  ///< so many of the last descriptors that nothing has announced
+
+  [[nodiscard]] bool nothing() const { return !cut && unmentioned == 0; }
+  /// What to suppose after this; `may_cut`: there is a datagram that `end` cuts.
+  [[nodiscard]] Supposed following(bool may_cut) const {
+    return may_cut && !cut ? Supposed{true, unmentioned} : Supposed{false, unmentioned + 1};
+  }
+};
+
 /// The state before one reply, and the choice for it that is being tried.
 struct Level {
   std::size_t consumed = 0;
   Knowledge knowledge{};
   bool has_spare = false;  ///< a HEARTBEAT arrived while the last reply was being generated
   std::size_t next_end = 0;
-  std::size_t next_variant = 0;  ///< of `next_end`
+  Supposed next_supposed{};  ///< with `next_end`
 };
 
 class Search {
@@ -63,8 +75,11 @@ class Search {
   /// The state after a reply. Generating it takes time, if threads are ever delayed at all.
   [[nodiscard]] Level after(const Choice& choice) const {
     const std::size_t used = choice.heartbeat_ns ? 1 : 0;
-    return {choice.end, choice.arrivals.after,
-            bounds_.most_send_lag_ns > 0 && choice.arrivals.heartbeats > used, 0, 0};
+    return {choice.end,
+            choice.arrivals.after,
+            bounds_.most_send_lag_ns > 0 && choice.arrivals.heartbeats > used,
+            0,
+            {}};
   }
 
   void remember(std::size_t reply) {
@@ -84,13 +99,14 @@ class Search {
     while (level.next_end <= sent && effort_ <= effort_limit) {
       Choice choice;
       choice.end = level.next_end;
-      const std::size_t variant = level.next_variant++;
-      const auto lost = lost_in_variant(level, answer, choice.end, variant);
+      const Supposed supposed = level.next_supposed;
+      level.next_supposed = supposed.following(cuts_datagram(level, choice.end));
+      const auto lost = lost_if(supposed, level, answer, choice.end);
       const bool explains = lost && explain(level, reply, *lost, choice);
       // What cannot be explained with as much as possible cannot with less.
-      if (!lost || (variant == 0 && !explains)) {
+      if (!lost || (supposed.nothing() && !explains)) {
         ++level.next_end;
-        level.next_variant = 0;
+        level.next_supposed = {};
       }
       if (!explains || dead_.count(key(reply + 1, after(choice))) > 0) continue;
       return choice;
@@ -98,34 +114,43 @@ class Search {
     return std::nullopt;
   }
 
-  /// What is lost for sure in a variant of the window until `end`; nothing: there is no such
-  /// variant. 0: as little as the ACKNACK admits. Otherwise more, in two ways that matter later:
-  /// the datagram that `end` cuts, of which nothing else has come, and descriptors that the ACKNACK
-  /// need not mention, because nothing has announced them.
-  [[nodiscard]] std::optional<std::vector<bool>> lost_in_variant(const Level& level,
-                                                                 const Answer& answer,
-                                                                 std::size_t end,
-                                                                 std::size_t variant) const {
-    std::vector<bool> lost(end - level.consumed);
-    if (variant == 0) return lost;
-    if (!bounds_.may_lose || lost.empty()) return std::nullopt;
+  /// Whether `end` cuts a datagram, so that one may be lost of which nothing else has come.
+  [[nodiscard]] bool cuts_datagram(const Level& level, std::size_t end) const {
     const auto& sent = relation_.sent;
-    const bool cuts = end < sent.size() && sent[end].datagram == sent[end - 1].datagram;
-    std::set<std::uint32_t> unmentioned;
+    return end > level.consumed && end < sent.size() &&
+           sent[end].datagram == sent[end - 1].datagram;
+  }
+
+  /// Descriptors in the window until `end` that the ACKNACK need not mention, because nothing has
+  /// announced them.
+  [[nodiscard]] std::set<std::uint32_t> unmentioned(const Level& level, const Answer& answer,
+                                                    std::size_t end) const {
+    std::set<std::uint32_t> found;
     for (std::size_t k = level.consumed; k < end; ++k) {
-      const auto d = sent[k].descriptor;
+      const auto d = relation_.sent[k].descriptor;
       if (d && *d >= answer.base && !answer.asks_for(*d) && !level.knowledge.knows(*d)) {
-        unmentioned.insert(*d);
+        found.insert(*d);
       }
     }
-    const std::size_t ways = cuts ? 2 : 1;
-    if (variant >= ways * (unmentioned.size() + 1)) return std::nullopt;
-    if (cuts && variant % 2 == 1) lost.back() = true;
-    if (variant / ways == 0) return lost;
+    return found;
+  }
+
+  /// Submessages of the window until `end` that are lost for sure if this is supposed; nothing: it
+  /// cannot be.
+  [[nodiscard]] std::optional<std::vector<bool>> lost_if(const Supposed& supposed,
+                                                         const Level& level, const Answer& answer,
+                                                         std::size_t end) const {
+    std::vector<bool> lost(end - level.consumed);
+    if (supposed.nothing()) return lost;
+    if (!bounds_.may_lose || lost.empty()) return std::nullopt;
+    const std::set<std::uint32_t> silent = unmentioned(level, answer, end);
+    if (supposed.unmentioned > silent.size()) return std::nullopt;
+    if (supposed.cut) lost.back() = true;
+    if (supposed.unmentioned == 0) return lost;
     const std::uint32_t limit =
-        *std::prev(unmentioned.end(), static_cast<std::ptrdiff_t>(variant / ways));
+        *std::prev(silent.end(), static_cast<std::ptrdiff_t>(supposed.unmentioned));
     for (std::size_t k = 0; k < lost.size(); ++k) {
-      const Submessage& one = sent[level.consumed + k];
+      const Submessage& one = relation_.sent[level.consumed + k];
       if ((one.descriptor && *one.descriptor >= limit) ||
           (one.heartbeat && one.heartbeat->announced > limit)) {
         lost[k] = true;

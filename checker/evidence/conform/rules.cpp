@@ -41,6 +41,8 @@ constexpr std::array<std::string_view, fault_count> faults{
     "initial_early",    "initial_late",    "initial_after_heartbeat",
     "unanswered",       "no_such_rule"};
 
+constexpr std::array<std::string_view, 6> kinds{"received",        "lost",       "dropped",
+                                                "still_under_way", "recognised", "timer"};
 constexpr std::array<std::string_view, 3> verdicts{"conforms", "does not conform", "inconclusive"};
 
 }  // namespace
@@ -48,6 +50,7 @@ constexpr std::array<std::string_view, 3> verdicts{"conforms", "does not conform
 std::string_view name_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].name; }
 std::string_view statement_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].statement; }
 std::string_view name_of(Fault fault) { return faults[static_cast<std::size_t>(fault)]; }
+std::string_view name_of(Hidden::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 std::string_view name_of(Verdict verdict) { return verdicts[static_cast<std::size_t>(verdict)]; }
 
 }  // namespace stormproof::conform

@@ -232,43 +232,60 @@ class WriterSide {
 
   Unexplained unexplained(const Demand& failure) {
     const Transmission& one = transmissions_[failure.transmission];
-    const std::string what = fmt::format("{} transmission of descriptor {}",
-                                         one.is_first ? "first" : "repeated", one.descriptor);
-    const Answer* latest = nullptr;  // the last ACKNACK before it that asks for it
+    const Answer* latest = latest_request(one);
+    if (latest == nullptr) return not_asked_for(one);
+    const std::int64_t earliest = latest->time_ns + context_.bounds.least_delay_ns;
+    if (earliest > failure.to_ns) return too_early(one, *latest, earliest - failure.to_ns);
+    return used_up(one, *latest, failure);
+  }
+
+  /// The last ACKNACK before the transmission that asks for it.
+  [[nodiscard]] const Answer* latest_request(const Transmission& one) const {
+    const Answer* latest = nullptr;
     for (const Answer& answer : relation_.answers) {
       if (answer.time_ns > one.time_ns + context_.bounds.clock_error_ns) break;
       if (answer.asks_for(one.descriptor)) latest = &answer;
     }
-    if (latest == nullptr) {
-      return fault(one.event, Fault::data_cause, what + ", and no ACKNACK asks for it before",
-                   one.is_first
-                       ? "the descriptor existed when the relation opened, so it waits for "
-                         "an ACKNACK that asks for it"
-                       : "a descriptor is sent again only when an ACKNACK asks for it",
-                   {{"an ACKNACK of this reader before it that asks for the descriptor", {}, {}}});
-    }
-    const std::int64_t earliest = latest->time_ns + context_.bounds.least_delay_ns;
-    if (earliest > failure.to_ns) {
-      const std::int64_t by = earliest - failure.to_ns;
-      return fault(
-          one.event, Fault::data_early,
-          fmt::format("{}, {} after the ACKNACK that asks for it", what,
-                      duration(one.time_ns - latest->time_ns)),
-          fmt::format("the writer waits {} after a request: it is sent at the earliest {} "
-                      "later",
-                      duration(context_.sedp.nack_response_delay.count()), duration(by)),
-          {{"clock error", context_.bounds.clock_error_ns + by, context_.bounds.clock_error_ns},
-           {"a nack response delay of at most", one.time_ns - latest->time_ns,
-            context_.sedp.nack_response_delay.count()}},
-          latest->event);
-    }
+    return latest;
+  }
+
+  static std::string transmission_text(const Transmission& one) {
+    return fmt::format("{} transmission of descriptor {}", one.is_first ? "first" : "repeated",
+                       one.descriptor);
+  }
+
+  Unexplained not_asked_for(const Transmission& one) {
+    return fault(one.event, Fault::data_cause,
+                 transmission_text(one) + ", and no ACKNACK asks for it before",
+                 one.is_first ? "the descriptor existed when the relation opened, so it waits for "
+                                "an ACKNACK that asks for it"
+                              : "a descriptor is sent again only when an ACKNACK asks for it",
+                 {{"an ACKNACK of this reader before it that asks for the descriptor", {}, {}}});
+  }
+
+  Unexplained too_early(const Transmission& one, const Answer& request, std::int64_t by_ns) {
+    const std::int64_t waited = one.time_ns - request.time_ns;
+    const std::int64_t delay = context_.sedp.nack_response_delay.count();
     return fault(
         one.event, Fault::data_early,
-        what + ", and every ACKNACK that asks for it is used up by an earlier transmission",
+        fmt::format("{}, {} after the ACKNACK that asks for it", transmission_text(one),
+                    duration(waited)),
+        fmt::format("the writer waits {} after a request: it is sent at the earliest {} later",
+                    duration(delay), duration(by_ns)),
+        {{"clock error", context_.bounds.clock_error_ns + by_ns, context_.bounds.clock_error_ns},
+         {"a nack response delay of at most", waited, delay}},
+        request.event);
+  }
+
+  Unexplained used_up(const Transmission& one, const Answer& request, const Demand& failure) {
+    return fault(
+        one.event, Fault::data_early,
+        transmission_text(one) +
+            ", and every ACKNACK that asks for it is used up by an earlier transmission",
         fmt::format("one that asks for it arrives between {} and {} before",
                     duration(one.time_ns - failure.to_ns), duration(one.time_ns - failure.from_ns)),
         {{"one more ACKNACK of this reader that asks for it and arrives then", {}, {}}},
-        latest->event);
+        request.event);
   }
 
   Unexplained fault(std::size_t event, Fault kind, std::string what, std::string nearest,

@@ -1,4 +1,4 @@
-// The answer of `stormproof coverage`: text, JSON, and charts.
+// The answer of `stormproof coverage`: a document, JSON, and charts.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/evidence/coverage/study.hpp"
+#include "checker/presentation/document/document.hpp"
 
 namespace stormproof::prediction {
 
 /// What was asked, for the head of a report.
 struct Heading {
   std::string observations;  ///< file
-  std::string command;       ///< reproduces the report
   std::size_t rows = 0;
   std::size_t not_selected = 0;
   std::string wireless;
@@ -21,9 +21,10 @@ struct Heading {
   std::uint64_t first_seed = 0;
 };
 
-[[nodiscard]] std::string to_text(const Heading& heading, const Study& study);
+/// Without exit code, which only the caller knows.
+[[nodiscard]] report::Document document_of(const Heading& heading, const Study& study);
 
-/// Keys: observations, command, samples, seed, profiles (name, skipped runs, configurations with
+/// Keys: observations, samples, seed, profiles (name, skipped runs, configurations with
 /// their measured and predicted medians), rows, effects. specs/guide/coverage.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Heading& heading, const Study& study);
 
@@ -31,10 +32,7 @@ struct ChartFile {
   std::string name;  ///< of the file, without folder
   std::string svg;
 };
-/// For each profile: model against measurement for completion and all messages, and calibration.
-[[nodiscard]] std::vector<ChartFile> charts(const Study& study);
-
-/// One self-contained page: the text report and all charts.
-[[nodiscard]] std::string to_html(const Heading& heading, const Study& study);
+/// Model against measurement for completion and all messages, and calibration.
+[[nodiscard]] std::vector<ChartFile> charts(const ProfileStudy& profile);
 
 }  // namespace stormproof::prediction

@@ -14,6 +14,7 @@
 #include "checker/evidence/validate/differences.hpp"
 #include "checker/evidence/validate/observation.hpp"
 #include "checker/evidence/validate/predicted_runs.hpp"
+#include "checker/presentation/document/document.hpp"
 #include "model/config/tree/result.hpp"
 #include "model/scenario.hpp"
 
@@ -98,9 +99,9 @@ struct Report {
 /// What the caller knows beside the report.
 struct Heading {
   std::vector<std::string> captures{};
-  std::string command{};  ///< reproduces the report
 };
-[[nodiscard]] std::string to_text(const Report& report, const Heading& heading);
+/// Without exit code, which only the caller knows.
+[[nodiscard]] report::Document document_of(const Report& report, const Heading& heading);
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Heading& heading);
 /// Cumulative messages over time, a panel for each class.
 [[nodiscard]] std::string to_svg(const Report& report);

@@ -162,7 +162,7 @@ class TextPage {
 
   void add(const Drawing& /*block*/, std::size_t /*indent*/) {}
 
-  /// A story has its own layout, as wide as a report.
+  /// Stories and charts have a layout of their own, as wide as a report.
   void add(const Sequence& block, std::size_t indent) {
     if (!block.story.empty()) {
       lines_of(0, valid_text(block.story));

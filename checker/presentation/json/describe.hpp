@@ -25,6 +25,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/presentation/json/dumped.hpp"
+#include "checker/presentation/text/plain_text.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::report {
@@ -106,9 +107,9 @@ std::string key_text(const T& key) {
 
 }  // namespace json_detail
 
-/// The JSON of numbers (null if they are none), texts, enums by `name_of`, nanoseconds as integers,
-/// what may be absent (null), maps as objects, pairs as arrays of two, other ranges as arrays, and
-/// structs by their description.
+/// The JSON of numbers (null if they are none), texts (what is no text becomes U+FFFD), enums by
+/// `name_of`, nanoseconds as integers, what may be absent (null), maps as objects, pairs as arrays
+/// of two, other ranges as arrays, and structs by their description.
 template <class T>
 nlohmann::ordered_json json_of(const T& value) {
   using Json = nlohmann::ordered_json;
@@ -127,7 +128,7 @@ nlohmann::ordered_json json_of(const T& value) {
   } else if constexpr (std::is_enum_v<T>) {
     return std::string{name_of(value)};
   } else if constexpr (std::convertible_to<const T&, std::string_view>) {
-    return std::string{std::string_view{value}};
+    return valid_text(std::string_view{value});
   } else if constexpr (json_detail::Absent<T>) {
     return value ? json_of(*value) : Json();
   } else if constexpr (json_detail::Map<T>) {

@@ -105,10 +105,7 @@ class Planner {
   [[nodiscard]] Chart::Row row_at(const capture::Event& event, std::int64_t time_ns) const {
     Chart::Row row;
     row.time = model::Nanoseconds{time_ns - report_.conversation.first_ns};
-    const capture::DatagramRecord& datagram = names_.datagram(event);
-    row.packet = report_.conversation.captures.size() > 1
-                     ? fmt::format("{}:{}", datagram.capture + 1, datagram.packet)
-                     : std::to_string(datagram.packet);
+    row.packet = names_.packet_number(event);
     return row;
   }
 

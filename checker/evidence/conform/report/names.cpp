@@ -210,6 +210,12 @@ std::string Names::packet(const capture::Event& event) const {
                      report::one_line(capture_name(event)));
 }
 
+std::string Names::packet_number(const capture::Event& event) const {
+  const capture::DatagramRecord& one = datagram(event);
+  return conversation_.captures.size() > 1 ? fmt::format("{}:{}", one.capture + 1, one.packet)
+                                           : std::to_string(one.packet);
+}
+
 std::string Names::elapsed(std::int64_t time_ns) const {
   return milliseconds(time_ns - conversation_.first_ns);
 }

@@ -54,6 +54,8 @@ class Names {
   [[nodiscard]] std::string place(const Place& place) const;
   /// "packet 713 of a.pcap".
   [[nodiscard]] std::string packet(const capture::Event& event) const;
+  /// "713"; "2:713", in the second capture, if there are several.
+  [[nodiscard]] std::string packet_number(const capture::Event& event) const;
   /// "13.653072 ms": since the first packet of all captures.
   [[nodiscard]] std::string elapsed(std::int64_t time_ns) const;
   /// Shell command that shows the packet in full.

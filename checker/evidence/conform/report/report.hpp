@@ -1,5 +1,5 @@
-// What `conform` says about a capture: text for people, JSON for scripts, forms for CI systems and
-// reviews, the chart of the first event that nothing explains, and the assignment of hidden events.
+// What `conform` says about a capture: a document for people, CI systems and reviews, JSON for
+// scripts, the chart of the first event that nothing explains, and the assignment of hidden events.
 //
 // Every form says the same: the verdict with the bounds that it is relative to, what is not
 // explained and what the nearest assignment would need, what was checked and what was not, and how
@@ -13,6 +13,7 @@
 
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/conform/conform.hpp"
+#include "checker/presentation/document/document.hpp"
 #include "model/dds_profile.hpp"
 
 namespace stormproof::conform {
@@ -24,16 +25,11 @@ struct Report {
   const model::DdsProfile& dds;
   std::string profile{};              ///< as the user named it
   std::int64_t until_ns = INT64_MAX;  ///< as in the request
-  std::string command{};              ///< command line that gives this report; may be empty
-  int exit_code = 0;
 };
 
-[[nodiscard]] std::string to_text(const Report& report);
+/// Without command and exit code, which only the caller knows.
+[[nodiscard]] report::Document document_of(const Report& report);
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report);
-[[nodiscard]] std::string to_markdown(const Report& report);
-[[nodiscard]] std::string to_html(const Report& report);
-[[nodiscard]] std::string to_junit(const Report& report);
-[[nodiscard]] nlohmann::ordered_json to_sarif(const Report& report);
 
 /// The context of the first unexplained event as a message sequence chart; empty if there is none.
 [[nodiscard]] std::string to_svg(const Report& report);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/evidence/capture/timeline.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "tests/checker/evidence/capture/packets.hpp"
 
 namespace stormproof::capture {
@@ -52,20 +53,21 @@ TEST(Summary, JsonReplacesNamesThatAreNoUtf8) {
   const Counting counting = count(conversation, always);
   const auto json = to_json({conversation, counting});
   EXPECT_EQ(json.at("topology").at("participants")[0].at("name"), "\uFFFD\uFFFD");
-  const std::string text = to_text({conversation, counting});
+  const std::string text = to_text(document_of({conversation, counting}));
   EXPECT_EQ(text.find('\xff'), std::string::npos);
 }
 
 TEST(Summary, TextSaysWhetherEveryDescriptorIsThere) {
   const Conversation conversation = a_conversation();
   const Counting whole = count(conversation, always);
-  EXPECT_NE(to_text({conversation, whole}).find("Every required descriptor key is there"),
-            std::string::npos);
+  EXPECT_NE(
+      to_text(document_of({conversation, whole})).find("Every required descriptor key is there"),
+      std::string::npos);
   Counting lacking = whole;
   lacking.missing.push_back({prefix(1), prefix(2), pub, 3});
   lacking.missing_count = 1;
   lacking.last_initial_ns.reset();
-  const std::string text = to_text({conversation, lacking});
+  const std::string text = to_text(document_of({conversation, lacking}));
   EXPECT_NE(text.find("MISSING: 1 of 2"), std::string::npos);
   EXPECT_NE(text.find("pub 3 of participant 0 to participant 1"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/evidence/coverage/report.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "examples.hpp"
 
 namespace stormproof::prediction {
@@ -63,7 +64,7 @@ TEST(Study, AnInterruptedOneSaysSo) {
   ASSERT_TRUE(result);
   EXPECT_TRUE(result->interrupted);
   EXPECT_EQ(result->profiles[0].pairings().size(), 1U);
-  EXPECT_NE(to_text({}, *result).find("interrupted"), std::string::npos);
+  EXPECT_NE(to_text(document_of({}, *result)).find("interrupted"), std::string::npos);
 }
 
 TEST(Study, AnUnknownProfileIsAnError) {
@@ -87,11 +88,13 @@ TEST(Study, JsonHasTheKeysThatScriptsUse) {
 
 TEST(Study, ChartsAndPageForEachProfile) {
   const auto result = study(some_rows(), {}, request_of({"fastdds-2.6.11", "paper"}));
-  const auto files = charts(*result);
+  std::vector<ChartFile> files = charts(result->profiles[0]);
+  ASSERT_EQ(files.size(), 3U);
+  for (const ChartFile& file : charts(result->profiles[1])) files.push_back(file);
   ASSERT_EQ(files.size(), 5U);  // the paper's single runs have no calibration
   EXPECT_EQ(files[2].name, "fastdds-2.6.11-calibration.svg");
   for (const ChartFile& file : files) EXPECT_NE(file.svg.find("<svg"), std::string::npos);
-  EXPECT_NE(to_html({}, *result).find("</html>"), std::string::npos);
+  EXPECT_NE(to_html(document_of({}, *result)).find("</html>"), std::string::npos);
 }
 
 }  // namespace study_test

@@ -12,6 +12,7 @@
 #include "checker/evidence/conform/report/chart.hpp"
 #include "checker/evidence/conform/report/findings.hpp"
 #include "checker/evidence/conform/report/names.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "model/config/tree/quantities.hpp"
 #include "tests/checker/evidence/conform/report/results.hpp"
@@ -22,6 +23,12 @@ namespace report_test {
 
 using namespace testing;
 using Json = nlohmann::ordered_json;
+using report::to_html;
+using report::to_junit;
+using report::to_markdown;
+using report::to_sarif;
+
+std::string text_of(const Report& report) { return report::to_text(document_of(report)); }
 
 TEST_F(Reports, TheConversationIsTheOneThatResultsAreAbout) {
   ASSERT_EQ(conversation.events.size(), 7U);
@@ -32,26 +39,28 @@ TEST_F(Reports, TheConversationIsTheOneThatResultsAreAbout) {
 }
 
 TEST_F(Reports, TheFirstLineHasVerdictProfileAndBounds) {
-  const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
   const std::string bounds =
       " fastdds-2.6.11 within these bounds: delay 0 to 60s, send lag up to 20ms, timers up to "
       "500ms late, clocks equal, losses allowed";
-  EXPECT_EQ(first_line(to_text(report_of(good))), "CONFORMS to" + bounds);
-  EXPECT_EQ(first_line(to_text(report_of(bad))), "DOES NOT CONFORM to" + bounds);
-  EXPECT_EQ(first_line(to_text(report_of(open))), "INCONCLUSIVE for" + bounds);
+  const auto answer = [&](const Conformance& result) {
+    return document_of(report_of(result)).answer.plain();
+  };
+  EXPECT_EQ(answer(good), "CONFORMS to" + bounds);
+  EXPECT_EQ(answer(bad), "DOES NOT CONFORM to" + bounds);
+  EXPECT_EQ(answer(open), "INCONCLUSIVE for" + bounds);
   good.bounds = {1'000, 2'000, 3'000, 4'000, 5'000, false};
-  EXPECT_TRUE(has(first_line(to_text(report_of(good))),
+  EXPECT_TRUE(has(answer(good),
                   "delay 1us to 2us, send lag up to 3us, timers up to 4us late, clocks up to 5us "
                   "apart, no losses"));
 }
 
 TEST_F(Reports, ConformanceIsNotCalledAProof) {
-  const std::string text = to_text(report_of(good));
+  const std::string text = text_of(report_of(good));
   EXPECT_TRUE(has(text, "it is no proof"));
   EXPECT_FALSE(has(text, "no assignment explains"));
   EXPECT_FALSE(has(text, "tshark"));
   EXPECT_TRUE(has(text, "datagrams taken as lost"));
-  EXPECT_TRUE(has(text, "1.500000 ms  of 20.000000 ms"));
+  EXPECT_TRUE(has(text, "1.500000 ms  20.000000 ms"));
   EXPECT_TRUE(has(text, "(an assumption)"));
   EXPECT_TRUE(has(text, "caused on their own host"));
 }
@@ -59,16 +68,16 @@ TEST_F(Reports, ConformanceIsNotCalledAProof) {
 TEST_F(Reports, AnInconclusiveResultSaysWhy) {
   open.undecided = 3;
   open.not_replayed = 4;
-  const std::string text = to_text(report_of(open));
+  const std::string text = text_of(report_of(open));
   EXPECT_TRUE(has(text, "Interrupted. No event"));
   EXPECT_FALSE(has(text, "it is no proof"));
   EXPECT_TRUE(has(text, "relations given up "));
   EXPECT_TRUE(has(text, "explanations not confirmed by the machines "));
-  EXPECT_FALSE(has(to_text(report_of(good)), "given up"));
+  EXPECT_FALSE(has(text_of(report_of(good)), "given up"));
 }
 
 TEST_F(Reports, TheFirstUnexplainedEventIsNamedCompletely) {
-  const std::string text = to_text(report_of(bad));
+  const std::string text = text_of(report_of(bad));
   EXPECT_TRUE(has(text, "relation 0 → 1 (publications)"));
   EXPECT_TRUE(has(text, "2.500000 ms after the first packet, datagram 3, packet 4 of 0.pcap"));
   EXPECT_TRUE(has(text, "from     participant 1 (host 1"));
@@ -82,14 +91,13 @@ TEST_F(Reports, TheFirstUnexplainedEventIsNamedCompletely) {
 
 TEST_F(Reports, LinesFitATerminal) {
   for (const Conformance* result : {&good, &bad, &open}) {
-    std::istringstream lines{to_text(report_of(*result))};
+    std::istringstream lines{text_of(report_of(*result))};
     std::string line;
-    std::getline(lines, line);  // the verdict is one line, however long
     while (std::getline(lines, line)) EXPECT_LE(report::columns(line), 100U) << line;
   }
 }
 
-TEST_F(Reports, FaultsAreGroupedAndAtMostTen) {
+TEST_F(Reports, FaultsAreGrouped) {
   const auto groups = by_fault(bad);
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].fault, Fault::acknack_early);
@@ -100,44 +108,47 @@ TEST_F(Reports, FaultsAreGroupedAndAtMostTen) {
     bad.unexplained.push_back(bad.unexplained[0]);
     bad.unexplained.back().fault = static_cast<Fault>(k);
   }
-  EXPECT_TRUE(has(to_text(report_of(bad)), "and 10 other faults"));
+  EXPECT_EQ(by_fault(bad).size(), fault_count);
+  for (const FaultGroup& group : by_fault(bad)) {
+    EXPECT_TRUE(has(text_of(report_of(bad)), name_of(group.fault)));
+  }
 }
 
 TEST_F(Reports, CompressedCapturesAreUnpackedForTshark) {
   conversation.captures[0].name = "my run.pcap.xz";
-  EXPECT_TRUE(has(to_text(report_of(bad)), "xz -dc 'my run.pcap.xz' | tshark -r - "));
+  EXPECT_TRUE(has(text_of(report_of(bad)), "xz -dc 'my run.pcap.xz' | tshark -r - "));
 }
 
 TEST_F(Reports, PagesEscapeWhatTheCaptureSays) {
   conversation.topology.participants[0].name = "<b>@all|";
   bad.unexplained[0].what = "<b>@all|";
-  const std::string html = to_html(report_of(bad));
+  const std::string html = to_html(document_of(report_of(bad)));
   EXPECT_FALSE(has(html, "<b>@all"));
   EXPECT_TRUE(has(html, "DOES NOT CONFORM"));
   EXPECT_TRUE(has(html, "<svg"));
-  const std::string markdown = to_markdown(report_of(bad));
+  const std::string markdown = to_markdown(document_of(report_of(bad)));
   EXPECT_TRUE(has(markdown, "DOES NOT CONFORM"));
   const std::string table = markdown.substr(0, markdown.find("```"));
   EXPECT_FALSE(has(table, "<b>"));
 }
 
 TEST_F(Reports, JUnitHasACaseForEachPlace) {
-  const std::string failed = to_junit(report_of(bad));
+  const std::string failed = to_junit(document_of(report_of(bad)));
   EXPECT_EQ(times(failed, "<testcase"), 2U);
   EXPECT_EQ(times(failed, "<failure"), 2U);
   EXPECT_TRUE(has(failed, "type=\"acknack_early\""));
-  const std::string passed = to_junit(report_of(good));
+  const std::string passed = to_junit(document_of(report_of(good)));
   EXPECT_EQ(times(passed, "<testcase"), 2U);
   EXPECT_EQ(times(passed, "<failure"), 0U);
-  EXPECT_EQ(times(to_junit(report_of(open)), "<error"), 1U);
+  EXPECT_EQ(times(to_junit(document_of(report_of(open))), "<error"), 1U);
 }
 
 TEST_F(Reports, SarifHasAResultForEachUnexplainedEvent) {
-  const Json run = to_sarif(report_of(bad)).at("runs")[0];
+  const Json run = to_sarif(document_of(report_of(bad))).at("runs")[0];
   ASSERT_EQ(run.at("results").size(), 2U);
   EXPECT_EQ(run.at("results")[0].at("ruleId"), "conform.acknack_early");
-  EXPECT_EQ(to_sarif(report_of(good)).at("runs")[0].at("results").size(), 0U);
-  const Json unknown = to_sarif(report_of(open)).at("runs")[0].at("results");
+  EXPECT_EQ(to_sarif(document_of(report_of(good))).at("runs")[0].at("results").size(), 0U);
+  const Json unknown = to_sarif(document_of(report_of(open))).at("runs")[0].at("results");
   ASSERT_EQ(unknown.size(), 1U);
   EXPECT_EQ(unknown[0].at("ruleId"), "conform.inconclusive");
 }
@@ -169,7 +180,7 @@ TEST_F(Reports, JsonTakesNamesThatAreNoUtf8) {
   conversation.topology.participants[0].name = "\xff";
   conversation.captures[0].name = "\xfe.pcap";
   EXPECT_NO_THROW((void)to_json(report_of(bad)).dump());
-  EXPECT_FALSE(has(to_text(report_of(bad)), "\xff"));
+  EXPECT_FALSE(has(text_of(report_of(bad)), "\xff"));
 }
 
 TEST_F(Reports, TheAssignmentHasALineForEachHiddenEvent) {

@@ -111,7 +111,7 @@ inline const Place publications{0, 1, capture::entity::publications_writer};
 class Reports : public ::testing::Test {
  protected:
   [[nodiscard]] Report report_of(const Conformance& result) const {
-    return {conversation, result, dds, "fastdds-2.6.11", INT64_MAX, "stormproof conform 0.pcap", 4};
+    return {conversation, result, dds, "fastdds-2.6.11", INT64_MAX};
   }
 
   capture::Conversation conversation = small_conversation();

@@ -1,4 +1,4 @@
-// Model against measurement, and calibration, as charts and as one page.
+// Model against measurement, and calibration, as charts.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -81,47 +81,16 @@ plot::Chart calibration(const ProfileStudy& profile) {
   return chart;
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
-std::vector<ChartFile> charts(const Study& study) {
-  std::vector<ChartFile> files;
-  for (const ProfileStudy& profile : study.profiles) {
-    if (profile.rows.empty()) continue;
-    const std::string name = short_name(profile.name);
-    files.push_back({name + "-completion.svg", to_svg(scatter(profile, Measure::completion))});
-    files.push_back({name + "-messages.svg", to_svg(scatter(profile, Measure::messages))});
-    if (profile.sampled) {
-      files.push_back({name + "-calibration.svg", to_svg(calibration(profile))});
-    }
-  }
+std::vector<ChartFile> charts(const ProfileStudy& profile) {
+  if (profile.rows.empty()) return {};
+  const std::string name = short_name(profile.name);
+  std::vector<ChartFile> files{
+      {name + "-completion.svg", to_svg(scatter(profile, Measure::completion))},
+      {name + "-messages.svg", to_svg(scatter(profile, Measure::messages))}};
+  if (profile.sampled) files.push_back({name + "-calibration.svg", to_svg(calibration(profile))});
   return files;
-}
-
-std::string to_html(const Heading& heading, const Study& study) {
-  std::string page =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<title>Predicted and measured discovery</title>\n"
-      "<style>:root{color-scheme:light dark}body{font-family:sans-serif;margin:2em;"
-      "max-width:90em}pre{overflow-x:auto}figure{display:inline-block;margin:0 1em 1em 0}"
-      "</style></head>\n<body>\n<h1>Predicted and measured discovery</h1>\n";
-  for (const ChartFile& chart : charts(study)) {
-    page += "<figure>" + chart.svg + "</figure>\n";
-  }
-  return page + "<pre>" + escaped(to_text(heading, study)) + "</pre>\n</body></html>\n";
 }
 
 }  // namespace stormproof::prediction

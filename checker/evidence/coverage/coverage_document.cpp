@@ -1,0 +1,165 @@
+// The comparison for people: a section for each profile, in it a table for each scope and the
+// charts.
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "checker/evidence/coverage/report.hpp"
+#include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+
+namespace stormproof::prediction {
+
+namespace {
+
+using report::Column;
+using report::Paragraph;
+using report::Section;
+using report::Table;
+
+constexpr auto to_the_right = Column::Align::right;
+
+std::string plain(const std::optional<double>& value, int decimals = 2) {
+  if (!value) return "–";
+  return std::isfinite(*value) ? fmt::format("{:.{}f}", *value, decimals) : "∞";
+}
+
+std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+
+std::string label(Measure measure) {
+  return measure == Measure::messages ? "all messages" : words_of(measure);
+}
+
+Table fit_table(const FitRow& first) {
+  const Fit& fit = first.fit;
+  return {{{""},
+           {"O ≤ M", to_the_right},
+           {"covered M/O [IQR]", to_the_right},
+           {"M/O", to_the_right},
+           {"|ln M/O|", to_the_right},
+           {"MAPE", to_the_right},
+           {"in range", to_the_right},
+           {"10/50/90 %", to_the_right}},
+          {},
+          fmt::format("{}: {}, {}, {}", first.scope,
+                      report::plural(fit.configurations, "configuration"),
+                      report::plural(fit.runs, "measured run"),
+                      report::plural(fit.model_runs, "model run"))};
+}
+
+Table::Row fit_row(const FitRow& row) {
+  const Fit& f = row.fit;
+  return {{label(row.measure), percent(f.coverage),
+           f.covered_median ? fmt::format("{} [{}, {}]", plain(f.covered_median),
+                                          plain(f.covered_q1), plain(f.covered_q3))
+                            : "–",
+           plain(f.median_ratio, 3), plain(f.median_abs_ln_ratio, 3),
+           f.mean_absolute_percent ? plain(f.mean_absolute_percent, 0) + " %" : "–",
+           percent(f.in_range),
+           fmt::format("{:.0f}/{:.0f}/{:.0f} %", 100 * f.calibration[0], 100 * f.calibration[4],
+                       100 * f.calibration[8])}};
+}
+
+void add_fits(report::Blocks& blocks, const ProfileStudy& profile) {
+  for (std::size_t k = 0; k < profile.rows.size();) {
+    const FitRow& first = profile.rows[k];
+    Table table = fit_table(first);
+    std::size_t incomplete = 0;
+    std::size_t incomplete_model = 0;
+    for (; k < profile.rows.size() && profile.rows[k].scope == first.scope; ++k) {
+      const FitRow& row = profile.rows[k];
+      table.rows.push_back(fit_row(row));
+      if (row.measure != Measure::spdp_unicast) continue;
+      incomplete = row.fit.incomplete_runs;
+      incomplete_model = row.fit.incomplete_model_runs;
+    }
+    blocks.emplace_back(std::move(table));
+    if (incomplete + incomplete_model == 0) continue;
+    blocks.emplace_back(Paragraph{fmt::format("{} measured and {} model runs did not complete",
+                                              incomplete, incomplete_model)});
+  }
+}
+
+std::string estimate(const RatioEstimate& ratio) {
+  return fmt::format("{} [{}, {}]", plain(ratio.median), plain(ratio.low), plain(ratio.high));
+}
+
+void add_effects(report::Blocks& blocks, const ProfileStudy& profile, const std::string& baseline) {
+  for (std::size_t k = 0; k < profile.effects.size();) {
+    const Effect& first = profile.effects[k];
+    Table table{
+        {{""}, {"predicted", to_the_right}, {"measured", to_the_right}, {"verdict"}},
+        {},
+        fmt::format("{}, relative to {}: median over {} [90 % interval]", first.scope, baseline,
+                    report::plural(first.predicted.configurations, "configuration"))};
+    for (; k < profile.effects.size() && profile.effects[k].scope == first.scope; ++k) {
+      const Effect& effect = profile.effects[k];
+      table.rows.push_back(
+          {{label(effect.measure), estimate(effect.predicted),
+            effect.observed ? estimate(*effect.observed) : "–", name_of(effect.verdict)}});
+    }
+    blocks.emplace_back(std::move(table));
+  }
+}
+
+constexpr const char* fit_words =
+    "O: measured, M: predicted (median of the model runs). Covered: M/O among measured runs with "
+    "O ≤ M, median and quartiles. M/O, |ln M/O|: medians over configurations of the ratio of "
+    "medians. In range: measured runs between the least and the greatest model run. 10/50/90 %: "
+    "share of measured runs up to these quantiles of the model runs.";
+constexpr const char* effect_words =
+    "Confirmed: both intervals are on the same side of 1, or both contain it, and they overlap. "
+    "Direction only: they do not overlap. Open: they overlap, but only one of them contains 1. "
+    "Refuted: neither. How well each system fits by itself is in the JSON form.";
+
+Section section_of(const ProfileStudy& profile, const Heading& heading,
+                   const std::string& baseline) {
+  Section section{fmt::format(
+      "{}{} on {}: {}", profile.name, profile.is_baseline ? " (baseline)" : "", heading.wireless,
+      profile.sampled
+          ? fmt::format("{} schedules each, from seed {}", heading.samples, heading.first_seed)
+          : "one run each")};
+  report::Bullets skipped;
+  for (const auto& [difference, runs] : profile.skipped) {
+    skipped.items.emplace_back(fmt::format("skipped: {} with {}, which is not of this profile",
+                                           report::plural(runs, "run"), difference));
+  }
+  if (!skipped.items.empty()) section.blocks.emplace_back(std::move(skipped));
+  if (profile.configurations.empty()) section.blocks.emplace_back(Paragraph{"nothing to predict"});
+  for (ChartFile& chart : charts(profile)) {
+    section.blocks.emplace_back(report::Drawing{std::move(chart.svg), ""}, report::Audience::page);
+  }
+  if (baseline.empty()) {
+    add_fits(section.blocks, profile);
+  } else {
+    add_effects(section.blocks, profile, baseline);
+  }
+  return section;
+}
+
+}  // namespace
+
+report::Document document_of(const Heading& heading, const Study& study) {
+  const ProfileStudy& last = study.profiles.back();
+  const std::string baseline = last.is_baseline ? last.name : "";
+  report::Document document;
+  document.title = "stormproof coverage " + heading.observations;
+  document.answer = fmt::format(
+      "{}: {}{}", heading.observations, report::plural(heading.rows, "measured run"),
+      heading.not_selected > 0 ? fmt::format(", {} not selected", heading.not_selected) : "");
+  if (study.interrupted) {
+    document.elaboration = "interrupted: only the runs that finished are evaluated";
+    document.tone = report::Tone::warn;
+  }
+  for (const ProfileStudy& profile : study.profiles) {
+    document.blocks.emplace_back(section_of(profile, heading, baseline));
+  }
+  document.blocks.emplace_back(Paragraph{baseline.empty() ? fit_words : effect_words});
+  for (const ProfileStudy& profile : study.profiles) {
+    report::add_unmodelled(document, profile.dds, {profile.name});
+  }
+  document.complete = !study.interrupted;
+  return document;
+}
+
+}  // namespace stormproof::prediction

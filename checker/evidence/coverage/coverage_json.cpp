@@ -1,0 +1,118 @@
+// The comparison as JSON; specs/guide/coverage.md explains the keys.
+#include <nlohmann/json.hpp>
+
+#include "checker/evidence/coverage/report.hpp"
+#include "checker/presentation/json/describe.hpp"
+
+namespace stormproof::prediction {
+
+template <class V>
+void describe(V& v, const RatioEstimate& estimate) {
+  v("configurations", estimate.configurations);
+  v("median", estimate.median);
+  v("low", estimate.low);
+  v("high", estimate.high);
+}
+
+namespace {
+
+/// What stands in one list for all profiles.
+template <class Row>
+struct OfProfile {
+  const ProfileStudy& profile;
+  const Row& row;
+};
+
+template <class V>
+void describe(V& v, const OfProfile<FitRow>& one) {
+  const Fit& fit = one.row.fit;
+  nlohmann::ordered_json calibration = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < calibration_points; ++k) {
+    calibration["0." + std::to_string(k + 1)] = fit.calibration[k];
+  }
+  v("profile", one.profile.name);
+  v("scope", one.row.scope);
+  v("class", one.row.measure);
+  v("configurations", fit.configurations);
+  v("runs", fit.runs);
+  v("incomplete_runs", fit.incomplete_runs);
+  v("undecided_runs", fit.undecided_runs);
+  v("model_runs", fit.model_runs);
+  v("incomplete_model_runs", fit.incomplete_model_runs);
+  v("undecided_configurations", fit.undecided_configurations);
+  v("coverage", fit.coverage);
+  v("covered_ratio_q1", fit.covered_q1);
+  v("covered_ratio_median", fit.covered_median);
+  v("covered_ratio_q3", fit.covered_q3);
+  v("median_ratio", fit.median_ratio);
+  v("median_abs_ln_ratio", fit.median_abs_ln_ratio);
+  v("mape", fit.mean_absolute_percent);
+  v("mape_configurations", fit.percent_configurations);
+  v("in_range", fit.in_range);
+  v("calibration", calibration);
+}
+
+template <class V>
+void describe(V& v, const OfProfile<Effect>& one) {
+  v("profile", one.profile.name);
+  v("scope", one.row.scope);
+  v("class", one.row.measure);
+  v("predicted", one.row.predicted);
+  v("observed", one.row.observed);
+  v("verdict", one.row.verdict);
+}
+
+}  // namespace
+
+template <class V>
+void describe(V& v, const Pairing& pairing) {
+  const Configuration& measured = *pairing.observed;
+  std::map<std::string, double> observed;
+  std::map<std::string, double> predicted;
+  for (std::size_t m = 0; m < measure_count; ++m) {
+    const auto measure = static_cast<Measure>(m);
+    const std::vector<double> runs = observed_values(measured, measure);
+    if (!runs.empty()) observed[name_of(measure)] = quantile(runs, 0.5);
+    predicted[name_of(measure)] = quantile(pairing.predicted->values[m], 0.5);
+  }
+  v("set", measured.set);
+  v("N_H", measured.hosts);
+  v("N_P", measured.participants_per_host);
+  v("N_E", measured.endpoints);
+  v("runs", measured.runs.size());
+  v("model_runs", pairing.predicted->values[0].size());
+  v("observed_median", observed);
+  v("predicted_median", predicted);
+}
+
+template <class V>
+void describe(V& v, const ProfileStudy& profile) {
+  v("name", profile.name);
+  v("baseline", profile.is_baseline);
+  v("sampled", profile.sampled);
+  v("skipped_runs", profile.skipped);
+  v("configurations", profile.pairings());
+  v.unless_empty("unmodelled", profile.dds.unmodelled);
+}
+
+nlohmann::ordered_json to_json(const Heading& heading, const Study& study) {
+  report::JsonObject v;
+  std::vector<OfProfile<FitRow>> rows;
+  std::vector<OfProfile<Effect>> effects;
+  for (const ProfileStudy& profile : study.profiles) {
+    for (const FitRow& row : profile.rows) rows.push_back({profile, row});
+    for (const Effect& effect : profile.effects) effects.push_back({profile, effect});
+  }
+  v("observations", heading.observations);
+  v("wireless", heading.wireless);
+  v("samples", heading.samples);
+  v("seed", heading.first_seed);
+  v("read", heading.rows);
+  v("not_selected", heading.not_selected);
+  v("profiles", study.profiles);
+  v("rows", rows);
+  v("effects", effects);
+  return std::move(v).take();
+}
+
+}  // namespace stormproof::prediction

@@ -1,0 +1,139 @@
+// The report for scripts; specs/guide/validating.md explains the keys.
+#include <nlohmann/json.hpp>
+
+#include "checker/evidence/validate/validate.hpp"
+#include "checker/presentation/json/describe.hpp"
+#include "model/config/knobs/effective.hpp"
+
+namespace stormproof::validate {
+
+template <class V>
+void describe(V& v, const CapturedParticipant& one) {
+  v("host", one.host);
+  v("publications", one.publications);
+  v("subscriptions", one.subscriptions);
+  v("start_ns", one.start);
+  v("announced", one.announced);
+  v("last_creation_ns", std::pair{one.created_earliest, one.created_latest});
+  v("unevenness_ns", one.unevenness);
+  v("creations_seen", one.creations_seen);
+}
+
+template <class V>
+void describe(V& v, const Difference& difference) {
+  v("id", difference.id);
+  v("count", difference.count);
+  v("text", difference.text);
+}
+
+namespace {
+
+/// Median and range of the model's runs.
+struct Range {
+  const Row& row;
+};
+
+template <class V>
+void describe(V& v, const Range& range) {
+  v("median", range.row.median);
+  v("low", range.row.low);
+  v("high", range.row.high);
+}
+
+/// How many runs there were, and how they were drawn.
+struct Runs {
+  const Report& report;
+};
+
+template <class V>
+void describe(V& v, const Runs& runs) {
+  const Sampling& sampling = runs.report.request.sampling;
+  v("wanted", runs.report.wanted);
+  v("finished", runs.report.runs);
+  v("completed", runs.report.complete);
+  v("seed", sampling.first_seed);
+  v("loss", sampling.loss);
+  v("drawn", runs.report.is_drawn);
+}
+
+struct Missing {
+  const capture::Counting& counting;
+};
+
+template <class V>
+void describe(V& v, const Missing& missing) {
+  v("required", missing.counting.required);
+  v("count", missing.counting.missing_count);
+}
+
+/// One curve of the growth, observed and predicted.
+struct Curve {
+  const Report& report;
+  std::size_t number = 0;
+};
+
+template <class V>
+void describe(V& v, const Curve& curve) {
+  std::vector<std::uint64_t> observed;
+  for (const GrowthPoint& point : curve.report.observation.growth.points) {
+    observed.push_back(point[curve.number]);
+  }
+  v("observed", observed);
+  const auto bands = [&](const char* key, double Band::*value) {
+    std::vector<double> values;
+    for (const auto& band : curve.report.bands) values.push_back(band[curve.number].*value);
+    v(key, values);
+  };
+  bands("median", &Band::median);
+  bands("low", &Band::low);
+  bands("high", &Band::high);
+}
+
+struct OverTime {
+  const Report& report;
+};
+
+template <class V>
+void describe(V& v, const OverTime& all) {
+  v("step_ns", all.report.observation.growth.step_ns);
+  for (std::size_t curve = 0; curve < growth_curves; ++curve) {
+    v(name_of(figure_of_curve(curve)), Curve{all.report, curve});
+  }
+}
+
+}  // namespace
+
+template <class V>
+void describe(V& v, const Row& row) {
+  // What is observed are counts and nanoseconds: whole numbers.
+  const auto whole = [](double value) { return static_cast<std::uint64_t>(value); };
+  v("observed", row.observed ? std::optional{whole(*row.observed)} : std::nullopt);
+  v("model", Range{row});
+  v("ratio", row.ratio);
+  v("observation", row.position);
+}
+
+nlohmann::ordered_json to_json(const Report& report, const Heading& heading) {
+  const Observation& observation = report.observation;
+  nlohmann::ordered_json figures;
+  for (const Row& row : report.rows) figures[name_of(row.figure)] = report::json_of(row);
+  report::JsonObject v;
+  v("captures", heading.captures);
+  v("cut", observation.cut == Cut::given ? "given" : "last_initial");
+  v("first_announcement_ns", observation.deployment.zero_ns);
+  v("cut_ns", observation.cut_ns);
+  v("completed", observation.complete);
+  v("missing", Missing{observation.counting});
+  v("participants", observation.deployment.participants);
+  v("runs", Runs{report});
+  v("figures", figures);
+  v("within", report.request.within);
+  v("agreement", report.agreement);
+  v("over_time", OverTime{report});
+  v("differences", report.differences);
+  v.unless_empty("unmodelled", report.scenario.dds.unmodelled);
+  v("scenario", model::config::effective_json(report.scenario));
+  return std::move(v).take();
+}
+
+}  // namespace stormproof::validate
