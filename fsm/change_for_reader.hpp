@@ -47,24 +47,15 @@ struct Requests : Guard<Requests> {
     return in.listed && !in.below_base;
   }
 };
-struct BelowBase : Guard<BelowBase> {
-  template <class D>
-  static constexpr typename D::Bool test(const ChangeForReaderIo::Input<D>& in) {
-    return in.below_base;
-  }
+struct BelowBase : Holds<BelowBase> {
+  static constexpr auto& flag(auto& in) { return in.below_base; }
 };
 
-struct Request : Action<Request> {
-  template <class D>
-  static constexpr void act(const ChangeForReaderIo::Input<D>&, ChangeForReaderIo::Output<D>& out) {
-    out.requested = true;
-  }
+struct Request : Sets<Request> {
+  static constexpr auto& flag(auto& out) { return out.requested; }
 };
-struct Enqueue : Action<Enqueue> {
-  template <class D>
-  static constexpr void act(const ChangeForReaderIo::Input<D>&, ChangeForReaderIo::Output<D>& out) {
-    out.enqueue = true;
-  }
+struct Enqueue : Sets<Enqueue> {
+  static constexpr auto& flag(auto& out) { return out.enqueue; }
 };
 
 using Transitions = Table<Row<Absent, ReaderMatched, U>,                  //

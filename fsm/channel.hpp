@@ -32,30 +32,18 @@ struct ServiceFinished : Event<ChannelIo> {};  ///< the fragment in service is d
 struct EffectsDone : Event<ChannelIo> {
 };  ///< all that followed from the end of service has been done
 
-struct Waiting : Guard<Waiting> {
-  template <class D>
-  static constexpr typename D::Bool test(const ChannelIo::Input<D>& in) {
-    return in.waiting;
-  }
+struct Waiting : Holds<Waiting> {
+  static constexpr auto& flag(auto& in) { return in.waiting; }
 };
-struct DispatchPending : Guard<DispatchPending> {
-  template <class D>
-  static constexpr typename D::Bool test(const ChannelIo::Input<D>& in) {
-    return in.dispatch_pending;
-  }
+struct DispatchPending : Holds<DispatchPending> {
+  static constexpr auto& flag(auto& in) { return in.dispatch_pending; }
 };
 
-struct ScheduleDispatch : Action<ScheduleDispatch> {
-  template <class D>
-  static constexpr void act(const ChannelIo::Input<D>&, ChannelIo::Output<D>& out) {
-    out.schedule_dispatch = true;
-  }
+struct ScheduleDispatch : Sets<ScheduleDispatch> {
+  static constexpr auto& flag(auto& out) { return out.schedule_dispatch; }
 };
-struct Serve : Action<Serve> {
-  template <class D>
-  static constexpr void act(const ChannelIo::Input<D>&, ChannelIo::Output<D>& out) {
-    out.serve = true;
-  }
+struct Serve : Sets<Serve> {
+  static constexpr auto& flag(auto& out) { return out.serve; }
 };
 
 using Transitions =

@@ -27,23 +27,14 @@ struct Opened : Event<ControlRelationIo> {};
 struct InitialAckNackReceived : Event<ControlRelationIo> {};
 struct HeartbeatReceived : Event<ControlRelationIo> {};
 
-struct SendHeartbeat : Action<SendHeartbeat> {
-  template <class D>
-  static constexpr void act(const ControlRelationIo::Input<D>&, ControlRelationIo::Output<D>& out) {
-    out.send_heartbeat = true;
-  }
+struct SendHeartbeat : Sets<SendHeartbeat> {
+  static constexpr auto& flag(auto& out) { return out.send_heartbeat; }
 };
-struct StartInitial : Action<StartInitial> {
-  template <class D>
-  static constexpr void act(const ControlRelationIo::Input<D>&, ControlRelationIo::Output<D>& out) {
-    out.start_initial = true;
-  }
+struct StartInitial : Sets<StartInitial> {
+  static constexpr auto& flag(auto& out) { return out.start_initial; }
 };
-struct Reply : Action<Reply> {
-  template <class D>
-  static constexpr void act(const ControlRelationIo::Input<D>&, ControlRelationIo::Output<D>& out) {
-    out.reply = true;
-  }
+struct Reply : Sets<Reply> {
+  static constexpr auto& flag(auto& out) { return out.reply; }
 };
 
 using WriterTransitions = Table<Row<Closed, Opened, Open, SendHeartbeat>,

@@ -40,11 +40,8 @@ struct RepairDue : Event<DescriptorRepairIo> {};
 struct RepairSent : Event<DescriptorRepairIo> {};
 struct SuppressionEnded : Event<DescriptorRepairIo> {};
 
-struct Listed : Guard<Listed> {
-  template <class D>
-  static constexpr typename D::Bool test(const DescriptorRepairIo::Input<D>& in) {
-    return in.listed;
-  }
+struct Listed : Holds<Listed> {
+  static constexpr auto& flag(auto& in) { return in.listed; }
 };
 /// Outside the bitmap; with the prefix rule only below the first missing descriptor.
 struct Confirmed : Guard<Confirmed> {
@@ -54,33 +51,17 @@ struct Confirmed : Guard<Confirmed> {
   }
 };
 
-struct Request : Action<Request> {
-  template <class D>
-  static constexpr void act(const DescriptorRepairIo::Input<D>&,
-                            DescriptorRepairIo::Output<D>& out) {
-    out.requested = true;
-  }
+struct Request : Sets<Request> {
+  static constexpr auto& flag(auto& out) { return out.requested; }
 };
-struct Generate : Action<Generate> {
-  template <class D>
-  static constexpr void act(const DescriptorRepairIo::Input<D>&,
-                            DescriptorRepairIo::Output<D>& out) {
-    out.generate = true;
-  }
+struct Generate : Sets<Generate> {
+  static constexpr auto& flag(auto& out) { return out.generate; }
 };
-struct Acknowledge : Action<Acknowledge> {
-  template <class D>
-  static constexpr void act(const DescriptorRepairIo::Input<D>&,
-                            DescriptorRepairIo::Output<D>& out) {
-    out.acknowledged = true;
-  }
+struct Acknowledge : Sets<Acknowledge> {
+  static constexpr auto& flag(auto& out) { return out.acknowledged; }
 };
-struct Return : Action<Return> {
-  template <class D>
-  static constexpr void act(const DescriptorRepairIo::Input<D>&,
-                            DescriptorRepairIo::Output<D>& out) {
-    out.returned = true;
-  }
+struct Return : Sets<Return> {
+  static constexpr auto& flag(auto& out) { return out.returned; }
 };
 
 using Transitions = Table<Row<U, AckNackReceived, R, Request, Listed>,         //

@@ -41,11 +41,8 @@ struct HeartbeatReceived : Event<DiscoveryReaderIo> {};
 struct AckNackDue : Event<DiscoveryReaderIo> {};
 struct InitialAckNackDue : Event<DiscoveryReaderIo> {};
 
-struct AcceptsUnmatched : Guard<AcceptsUnmatched> {
-  template <class D>
-  static constexpr typename D::Bool test(const DiscoveryReaderIo::Input<D>& in) {
-    return in.accepts_unmatched;
-  }
+struct AcceptsUnmatched : Holds<AcceptsUnmatched> {
+  static constexpr auto& flag(auto& in) { return in.accepts_unmatched; }
 };
 struct NothingMissing : Guard<NothingMissing> {
   template <class D>
@@ -54,35 +51,20 @@ struct NothingMissing : Guard<NothingMissing> {
   }
 };
 
-struct Open : Action<Open> {
-  template <class D>
-  static constexpr void act(const DiscoveryReaderIo::Input<D>&, DiscoveryReaderIo::Output<D>& out) {
-    out.opened = true;
-  }
+struct Open : Sets<Open> {
+  static constexpr auto& flag(auto& out) { return out.opened; }
 };
-struct TakeData : Action<TakeData> {
-  template <class D>
-  static constexpr void act(const DiscoveryReaderIo::Input<D>&, DiscoveryReaderIo::Output<D>& out) {
-    out.take_data = true;
-  }
+struct TakeData : Sets<TakeData> {
+  static constexpr auto& flag(auto& out) { return out.take_data; }
 };
-struct ScheduleAckNack : Action<ScheduleAckNack> {
-  template <class D>
-  static constexpr void act(const DiscoveryReaderIo::Input<D>&, DiscoveryReaderIo::Output<D>& out) {
-    out.schedule_acknack = true;
-  }
+struct ScheduleAckNack : Sets<ScheduleAckNack> {
+  static constexpr auto& flag(auto& out) { return out.schedule_acknack; }
 };
-struct SendAckNack : Action<SendAckNack> {
-  template <class D>
-  static constexpr void act(const DiscoveryReaderIo::Input<D>&, DiscoveryReaderIo::Output<D>& out) {
-    out.send_acknack = true;
-  }
+struct SendAckNack : Sets<SendAckNack> {
+  static constexpr auto& flag(auto& out) { return out.send_acknack; }
 };
-struct SendInitial : Action<SendInitial> {
-  template <class D>
-  static constexpr void act(const DiscoveryReaderIo::Input<D>&, DiscoveryReaderIo::Output<D>& out) {
-    out.send_initial = true;
-  }
+struct SendInitial : Sets<SendInitial> {
+  static constexpr auto& flag(auto& out) { return out.send_initial; }
 };
 
 using StillMissing = Not<NothingMissing>;

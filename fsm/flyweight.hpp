@@ -20,14 +20,21 @@ class Flyweight {
   static constexpr StateId initial = Reflect<Machine>::template id<typename Machine::initial_state>;
 
   /// Processes `Event` in state `state`; returns the state after it. `output` receives what the
-  /// actions ask for.
+  /// actions ask for, `row` which row fired: `no_row` if none did.
   template <class Event>
-  StateId step(StateId state, const Input& input, Output& output) {
+  StateId step(StateId state, const Input& input, Output& output, RowId& row) {
     // MSM offers the current state for reading only; the object itself is ours and not const.
     int* current = const_cast<int*>(machine_.current_state());
     *current = state;
-    machine_.process_event(Event{{input, output}});
+    const Event event{{input, output}};
+    machine_.process_event(event);
+    row = event.row;
     return static_cast<StateId>(*current);
+  }
+  template <class Event>
+  StateId step(StateId state, const Input& input, Output& output) {
+    RowId row = no_row;
+    return step<Event>(state, input, output, row);
   }
 
  private:

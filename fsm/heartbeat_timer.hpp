@@ -53,23 +53,14 @@ struct CycleEnded : Event<HeartbeatTimerIo> {};
 struct BatchDue : Event<HeartbeatTimerIo> {};
 struct ResponseReceived : Event<HeartbeatTimerIo> {};
 
-struct Adaptive : Guard<Adaptive> {
-  template <class D>
-  static constexpr typename D::Bool test(const HeartbeatTimerIo::Input<D>& in) {
-    return in.adaptive;
-  }
+struct Adaptive : Holds<Adaptive> {
+  static constexpr auto& flag(auto& in) { return in.adaptive; }
 };
-struct Additive : Guard<Additive> {
-  template <class D>
-  static constexpr typename D::Bool test(const HeartbeatTimerIo::Input<D>& in) {
-    return in.additive;
-  }
+struct Additive : Holds<Additive> {
+  static constexpr auto& flag(auto& in) { return in.additive; }
 };
-struct Unacknowledged : Guard<Unacknowledged> {
-  template <class D>
-  static constexpr typename D::Bool test(const HeartbeatTimerIo::Input<D>& in) {
-    return in.unacknowledged;
-  }
+struct Unacknowledged : Holds<Unacknowledged> {
+  static constexpr auto& flag(auto& in) { return in.unacknowledged; }
 };
 struct LastPending : Guard<LastPending> {
   template <class D>
@@ -142,17 +133,11 @@ struct EndCycle : Action<EndCycle> {
     out.next_at = in.now + max<D>(rest, 1);
   }
 };
-struct SendBatch : Action<SendBatch> {
-  template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>&, HeartbeatTimerIo::Output<D>& out) {
-    out.send_batch = true;
-  }
+struct SendBatch : Sets<SendBatch> {
+  static constexpr auto& flag(auto& out) { return out.send_batch; }
 };
-struct CountResponse : Action<CountResponse> {
-  template <class D>
-  static constexpr void act(const HeartbeatTimerIo::Input<D>&, HeartbeatTimerIo::Output<D>& out) {
-    out.count_response = true;
-  }
+struct CountResponse : Sets<CountResponse> {
+  static constexpr auto& flag(auto& out) { return out.count_response; }
 };
 struct EndEarly : Action<EndEarly> {
   template <class D>

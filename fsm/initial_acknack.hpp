@@ -40,11 +40,8 @@ struct Enabled : Guard<Enabled> {
     return in.first_delay > 0;
   }
 };
-struct HeartbeatSeen : Guard<HeartbeatSeen> {
-  template <class D>
-  static constexpr typename D::Bool test(const InitialAckNackIo::Input<D>& in) {
-    return in.heartbeat_seen;
-  }
+struct HeartbeatSeen : Holds<HeartbeatSeen> {
+  static constexpr auto& flag(auto& in) { return in.heartbeat_seen; }
 };
 
 struct Start : Action<Start> {

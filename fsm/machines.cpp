@@ -9,6 +9,7 @@
 #include "fsm/discovery_reader.hpp"
 #include "fsm/heartbeat_timer.hpp"
 #include "fsm/initial_acknack.hpp"
+#include "fsm/reflect.hpp"
 #include "fsm/single_shot.hpp"
 
 namespace stormproof::fsm {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fsm/reflect.hpp"
+#include "fsm/machine_info.hpp"
 
 namespace stormproof::fsm {
 

@@ -16,11 +16,9 @@
 #include <boost/msm/back/state_machine.hpp>
 
 #include "fsm/front_end.hpp"
+#include "fsm/machine_info.hpp"
 
 namespace stormproof::fsm {
-
-/// Number of a state in its machine; equals MSM's `get_state_id`.
-using StateId = std::uint8_t;
 
 template <class... Ts>
 struct TypeList {
@@ -36,8 +34,8 @@ struct PushBack<TypeList<Ts...>, T> {
   using type = TypeList<Ts..., T>;
 };
 struct PushBackFn {
-  template <class List, class T>
-  struct apply : PushBack<List, T> {};
+  template <class List, class Numbered>
+  struct apply : PushBack<List, typename Numbered::AsWritten> {};
 };
 
 template <class List, class T>
@@ -109,24 +107,6 @@ struct GuardName<All<First, Rest...>> {
   }
 };
 }  // namespace detail
-
-/// One row of a table as data.
-struct RowInfo {
-  StateId source;
-  std::uint8_t event;
-  StateId target;
-  std::string guard;        ///< the guard in words, "none" if there is none
-  std::string_view action;  ///< name of the action, "none" if there is none
-};
-
-/// A whole machine as data: what diagrams, proofs and tests iterate over.
-struct MachineInfo {
-  std::string_view name;
-  StateId initial;
-  std::vector<std::string_view> states;  ///< by state number
-  std::vector<std::string_view> events;  ///< by event number
-  std::vector<RowInfo> rows;             ///< in table order
-};
 
 /// Compile-time view of the front end `Machine`.
 template <class Machine>

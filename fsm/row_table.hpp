@@ -27,6 +27,7 @@ class RowTable {
     Bool (*guard)(const Input&) = nullptr;            ///< null: no guard
     void (*action)(const Input&, Output&) = nullptr;  ///< null: no action
     bool negated = false;
+    RowId number = 0;  ///< in the table as written
 
     [[nodiscard]] Bool enabled(const Input& input) const {
       if (guard == nullptr) return Bool(!negated);
@@ -58,6 +59,7 @@ class RowTable {
   void add_row() {
     using Info = Reflect<Machine>;
     Row row;
+    row.number = static_cast<RowId>(rows_.size());
     row.source = Info::template id<typename R::Source>;
     row.event = Info::template event_id<typename R::Evt>;
     row.target = Info::template id<typename R::Target>;
@@ -104,7 +106,9 @@ class RowTable {
 /// What one event did to one machine.
 struct StepResult {
   StateId state = 0;
-  bool fired = false;  ///< a row was enabled
+  RowId row = no_row;  ///< the row that fired, or the one that it is a copy of
+
+  [[nodiscard]] bool fired() const { return row != no_row; }
 };
 
 /// Executes a table over plain values, in place of MSM, so that it can be a mutated one. Of two
@@ -122,9 +126,9 @@ class TableInterpreter {
     for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
       if (row->source != state || row->event != event || !row->enabled(input)) continue;
       if (row->action != nullptr) row->action(input, output);
-      return {row->target, true};
+      return {row->target, row->number};
     }
-    return {state, false};
+    return {state, no_row};
   }
 
  private:

@@ -37,11 +37,8 @@ struct Schedule : Action<Schedule> {
     out.next_at = in.now + in.delay;
   }
 };
-struct Fire : Action<Fire> {
-  template <class D>
-  static constexpr void act(const SingleShotIo::Input<D>&, SingleShotIo::Output<D>& out) {
-    out.fire = true;
-  }
+struct Fire : Sets<Fire> {
+  static constexpr auto& flag(auto& out) { return out.fire; }
 };
 
 using Transitions = Table<Row<Idle, Requested, Pending, Schedule>, Row<Pending, Due, Idle, Fire>>;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fsm/table_mutation.hpp"
-#include "model/engine/event_queue.hpp"
+#include "model/event.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model {

@@ -7,12 +7,13 @@
 #include <span>
 #include <string_view>
 
-#include "model/engine/event_queue.hpp"
-#include "model/engine/packet.hpp"
-#include "model/engine/topology.hpp"
+#include "model/event.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model {
+
+struct Packet;   // model/engine/packet.hpp
+class Topology;  // model/engine/topology.hpp
 
 /// Which machine has moved. `subject` is a relation, writer (2·participant + stream), participant
 /// or channel, as `kind` says.

@@ -144,7 +144,7 @@ Counts failure_free_reference(const Scenario& scenario) {
   counts.initial_data = topology.required_deliveries();
   counts.heartbeat = topology.relation_count();
   counts.acknack = topology.relation_count();
-  const bool fastdds = scenario.dds.implementation == ImplementationKind::fastdds;
+  const bool fastdds = is_fastdds(scenario.dds);
   for (std::uint32_t i = 0; i < topology.participant_count(); ++i) {
     const std::uint64_t peers = topology.peer_count(i);
     add_spdp(counts, scenario.dds.spdp.resend, fastdds ? topology.participant_count() - 1 : peers,
@@ -157,7 +157,7 @@ std::optional<Nanoseconds> open_loop_airtime(const Scenario& scenario) {
   if (scenario.wireless.kind == ServiceKind::constant_delay) return std::nullopt;
   const Topology topology{scenario.deployment, scenario.dds.descriptors};
   const RouteAirtime route{scenario.wireless};
-  if (scenario.dds.implementation == ImplementationKind::fastdds) {
+  if (is_fastdds(scenario.dds)) {
     const FastddsSizes sizes{scenario.dds.sedp.grouping_limit_bytes};
     return Nanoseconds{everything_once_ns(topology, route, sizes)};
   }

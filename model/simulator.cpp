@@ -18,23 +18,33 @@ bool concerns_network(EventKind kind) {
   return class_of(kind) != EventClass::protocol || kind == EventKind::source_completion;
 }
 
-std::unique_ptr<Implementation> make_implementation(RunState& run, Network& network) {
-  switch (run.scenario.dds.implementation) {
-    case ImplementationKind::paper:
-      return std::make_unique<paper::Protocol>(run, network);
-    case ImplementationKind::fastdds:
-      return std::make_unique<fastdds::Protocol>(run, network);
-  }
-  return nullptr;
+/// What has to be known of an implementation before there is one.
+struct Maker {
+  SameHostPairs same_host;
+  std::unique_ptr<Implementation> (*make)(RunState& run, Network& network);
+};
+
+template <class Protocol>
+Maker maker_of() {
+  return {Protocol::same_host_pairs, [](RunState& run, Network& network) {
+            return std::unique_ptr<Implementation>{std::make_unique<Protocol>(run, network)};
+          }};
+}
+
+/// The one place that tells implementations apart.
+Maker maker_of(ImplementationKind kind) {
+  return kind == ImplementationKind::fastdds ? maker_of<fastdds::Protocol>()
+                                             : maker_of<paper::Protocol>();
 }
 
 class Simulator {
  public:
   Simulator(const Scenario& scenario, const RunOptions& options)
       : options_{options},
-        run_{scenario, options.probe, options.mutation},
+        maker_{maker_of(scenario.dds.implementation)},
+        run_{scenario, options.probe, options.mutation, maker_.same_host},
         network_{run_},
-        implementation_{make_implementation(run_, network_)} {
+        implementation_{maker_.make(run_, network_)} {
     network_.attach(*implementation_);
   }
 
@@ -98,6 +108,7 @@ class Simulator {
   }
 
   const RunOptions& options_;
+  const Maker maker_;
   RunState run_;
   Network network_;
   std::unique_ptr<Implementation> implementation_;

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 
 namespace stormproof::model {
 

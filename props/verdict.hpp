@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "model/mutation.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::props {

@@ -8,16 +8,12 @@
 #include <string>
 #include <string_view>
 
+#include "model/config/knobs/knobs.hpp"
 #include "model/config/spec_path.hpp"
 #include "model/config/tree/tree.hpp"
 #include "model/config/vendor/vendor_profile.hpp"
 
 namespace stormproof::model::config {
-
-/// Keys that every profile may have and that are gone once it is resolved.
-inline constexpr std::string_view base_key = "base";
-inline constexpr std::string_view description_key =
-    "description";  ///< free text; scenarios have it, too
 
 /// Longest chain of profiles that build on each other.
 inline constexpr std::size_t max_base_chain = 32;

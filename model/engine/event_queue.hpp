@@ -14,57 +14,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/engine/event_order.hpp"
 #include "model/engine/ring_buffer.hpp"
+#include "model/event.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model {
-
-enum class EventClass : std::uint8_t { service = 0, protocol = 1, dispatch = 2 };
-
-enum class EventKind : std::uint8_t {
-  service_finished,     ///< subject: channel
-  delayed_reception,    ///< subject: packet slot (constant delay)
-  reception,            ///< subject: packet slot, detail: receiving participant
-  announcement_due,     ///< subject: participant
-  heartbeat_expiry,     ///< subject: writer
-  acknack_generation,   ///< subject: relation
-  initial_acknack_due,  ///< subject: relation
-  repair_generation,    ///< subject: relation
-  suppression_end,      ///< subject: relation
-  source_completion,    ///< subject: packet slot (constant delay)
-  cycle_start,          ///< subject: writer, detail: cycle token
-  cycle_end,            ///< subject: writer, detail: cycle token
-  batch_due,            ///< subject: writer, detail: cycle token
-  endpoint_creation,    ///< subject: participant, detail: which of its endpoints
-  nack_response,        ///< subject: writer
-  async_run,            ///< subject: participant
-  control_initial_due,  ///< subject: control-only relation
-  control_reply_due,    ///< subject: control-only relation
-  dispatch,             ///< subject: channel
-};
-inline constexpr std::size_t event_kind_count = static_cast<std::size_t>(EventKind::dispatch) + 1;
-
-[[nodiscard]] constexpr EventClass class_of(EventKind kind) {
-  if (kind <= EventKind::reception) return EventClass::service;
-  return kind == EventKind::dispatch ? EventClass::dispatch : EventClass::protocol;
-}
-[[nodiscard]] const char* name_of(EventKind kind);
-[[nodiscard]] const char* name_of(EventClass event_class);
-
-struct Event {
-  Nanoseconds time;
-  std::uint64_t order = 0;  ///< class in the top two bits, insertion number below
-  std::uint32_t subject = 0;
-  std::uint32_t detail = 0;
-  EventKind kind{};
-
-  [[nodiscard]] std::uint64_t insertion() const { return order & ((std::uint64_t{1} << 62) - 1); }
-  [[nodiscard]] EventClass event_class() const { return static_cast<EventClass>(order >> 62); }
-  [[nodiscard]] bool before(const Event& other) const {
-    return is_before(time, order, other.time, other.order);
-  }
-};
 
 class EventQueue {
  public:

@@ -9,12 +9,11 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "fsm/flyweight.hpp"
+#include "fsm/stepper.hpp"
 #include "model/engine/descriptor_set.hpp"
-#include "model/engine/mutated_table.hpp"
+#include "model/engine/driver.hpp"
 #include "model/engine/run_state.hpp"
 
 namespace stormproof::model {
@@ -22,12 +21,11 @@ namespace stormproof::model {
 template <class Machine>
 class RelationBits {
  public:
-  using Input = typename fsm::Flyweight<Machine>::Input;
-  using Output = typename fsm::Flyweight<Machine>::Output;
+  using Input = typename fsm::Stepper<Machine>::Input;
+  using Output = typename fsm::Stepper<Machine>::Output;
 
-  explicit RelationBits(RunState& run) : run_{run}, mutated_{mutated_table<Machine>(run.mutation)} {
-    static_assert(fsm::Flyweight<Machine>::initial == 0,
-                  "zeroed planes must mean the initial state");
+  explicit RelationBits(RunState& run) : run_{run}, machines_{table_mutations(run)} {
+    static_assert(fsm::Stepper<Machine>::initial == 0, "zeroed planes must mean the initial state");
     std::uint32_t next = 0;
     first_word_.reserve(run.topology.relation_count());
     for (std::uint32_t relation = 0; relation < run.topology.relation_count(); ++relation) {
@@ -159,18 +157,7 @@ class RelationBits {
     return words_[first_word_[relation] + k];
   }
 
-  /// One step of one machine.
-  template <class Event>
-  fsm::StateId next_state(fsm::StateId before, const Input& input, Output& output) {
-    if (mutated_ != nullptr) [[unlikely]] {
-      return mutated_->step(before, fsm::Reflect<Machine>::template event_id<Event>, input, output)
-          .state;
-    }
-    return machine_.template step<Event>(before, input, output);
-  }
-
-  fsm::Flyweight<Machine> machine_;
-  std::unique_ptr<const fsm::TableInterpreter<Machine>> mutated_;  // in place of MSM, if any
+  fsm::Stepper<Machine> machines_;
   std::vector<Word> words_;
   std::vector<std::uint32_t> first_word_;  // by relation
 };
@@ -188,16 +175,17 @@ void RelationBits<Machine>::step(std::uint32_t relation, std::uint32_t k, std::u
   Word& planes = word(relation, k);
   for (std::size_t s = 0; s < states; ++s) {
     if (classes[s] == 0) continue;
-    Output output{};
     const auto before = static_cast<fsm::StateId>(s);
-    const fsm::StateId after = next_state<Event>(before, input, output);
+    fsm::StateId after = before;
+    fsm::RowId row = fsm::no_row;
+    const Output output = machines_.template step<Event>(after, input, row);
     for (std::size_t b = 0; b < state_bits; ++b) {
       if ((after >> b & 1) != 0)
         planes.state[b] |= classes[s];
       else
         planes.state[b] &= ~classes[s];
     }
-    if (run_.probe != nullptr && after != before) {
+    if (run_.probe != nullptr && row != fsm::no_row) {
       const auto& names = fsm::Reflect<Machine>::state_names;
       run_.probe->transition({fsm::name_of<Machine>(), MachineRef::Kind::relation, relation},
                              fsm::name_of<Event>(), names[before], names[after], k, classes[s]);

@@ -14,12 +14,11 @@
 namespace stormproof::model {
 
 struct RunState {
-  RunState(const Scenario& scenario_, Probe* probe_, const Mutation* mutation_ = nullptr)
+  /// `same_host`: which pairs of participants the implementation has.
+  RunState(const Scenario& scenario_, Probe* probe_, const Mutation* mutation_ = nullptr,
+           SameHostPairs same_host = SameHostPairs::left_out)
       : scenario{scenario_},
-        topology{scenario_.deployment, scenario_.dds.descriptors,
-                 scenario_.dds.implementation == ImplementationKind::fastdds
-                     ? SameHostPairs::included
-                     : SameHostPairs::left_out},
+        topology{scenario_.deployment, scenario_.dds.descriptors, same_host},
         probe{probe_},
         mutation{mutation_},
         ends_when_complete{scenario_.run_until == RunUntil::completion},

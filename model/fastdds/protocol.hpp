@@ -30,6 +30,9 @@ namespace stormproof::model::fastdds {
 
 class Protocol final : public Implementation, private HeartbeatSender, private Discovered {
  public:
+  static constexpr SameHostPairs same_host_pairs =
+      SameHostPairs::included;  ///< a writer treats all readers alike
+
   Protocol(RunState& run, Network& network);
 
   void start() override;

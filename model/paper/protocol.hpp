@@ -28,6 +28,9 @@ inline constexpr std::uint32_t no_rank = UINT32_MAX;
 
 class Protocol final : public Implementation, private HeartbeatSender {
  public:
+  static constexpr SameHostPairs same_host_pairs =
+      SameHostPairs::left_out;  ///< same-host traffic never touches the channel
+
   Protocol(RunState& run, Network& network);
 
   void start() override;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/airtime.hpp"
+#include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 #include "model/scenario.hpp"
 #include "model/trace/perfetto_events.hpp"

@@ -1,6 +1,7 @@
 // Numbers and names of the rows.
 #include "model/trace/perfetto_tracks.hpp"
 
+#include "model/engine/topology.hpp"
 #include "model/trace/event_subject.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/scenario_names.hpp"
@@ -131,7 +132,7 @@ void name_tracks(PerfettoEvents& events, const Scenario& scenario) {
   for (std::uint32_t c = 0; c < channels.size(); ++c) {
     events.thread_name(channel_track(c), "channel " + channels[c]);
   }
-  const bool user_topics = scenario.dds.implementation == ImplementationKind::fastdds;
+  const bool user_topics = is_fastdds(scenario.dds);
   const auto& participants = scenario.deployment.participants;
   for (std::uint32_t i = 0; i < participants.size(); ++i) {
     std::string name;

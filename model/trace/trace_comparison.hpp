@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "model/trace/line_reader.hpp"
 #include "model/trace/replay.hpp"
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"

@@ -88,7 +88,7 @@ void draw_rules_and_sizes(Dice& dice, Scenario& scenario) {
   scenario.dds.spdp.resend = dice.choice<model::SpdpResend>(4);
   if (dice.chance(40)) scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
   draw_piggyback(dice, scenario.dds.sedp);
-  if (scenario.dds.implementation == model::ImplementationKind::fastdds) {
+  if (model::is_fastdds(scenario.dds)) {
     draw_message_limit(dice, scenario.dds.sedp);
     return;
   }

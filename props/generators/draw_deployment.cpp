@@ -21,9 +21,7 @@ std::uint32_t draw_endpoints(Dice& dice, std::uint32_t most) {
   return dice.pick<std::uint32_t>({0, dice.count(0, few), dice.count(0, std::min(most, 20U))});
 }
 
-bool is_fastdds(const Scenario& scenario) {
-  return scenario.dds.implementation == model::ImplementationKind::fastdds;
-}
+bool is_fastdds(const Scenario& scenario) { return model::is_fastdds(scenario.dds); }
 
 // How long a participant takes to create its endpoints: nothing, one step for each, or any time.
 std::int64_t draw_creation(Dice& dice, const Clock& clock, const Participant& p) {

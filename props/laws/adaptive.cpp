@@ -156,7 +156,7 @@ Broken life(const Scenario& scenario, const Simulate& simulate) {
 }
 
 bool is_adaptive_paper(const Scenario& scenario) {
-  return is_adaptive(scenario) && scenario.dds.implementation == model::ImplementationKind::paper;
+  return is_adaptive(scenario) && !model::is_fastdds(scenario.dds);
 }
 
 Broken recipients(const Scenario& scenario, const Simulate& simulate) {

@@ -20,9 +20,7 @@ using Broken = std::optional<std::string>;
 
 constexpr std::int64_t size_factor = 3;
 
-bool of_paper(const Scenario& scenario) {
-  return scenario.dds.implementation == model::ImplementationKind::paper;
-}
+bool of_paper(const Scenario& scenario) { return !model::is_fastdds(scenario.dds); }
 
 /// The scenario with values that scale exactly.
 Scenario with_scalable_bytes(Scenario scenario) {

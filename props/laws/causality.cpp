@@ -179,8 +179,7 @@ Broken receptions(const Scenario& scenario, const Simulate& simulate) {
 class KnowledgeWatch final : public Observer {
  public:
   explicit KnowledgeWatch(const Scenario& scenario)
-      : Observer{"law.knowledge"},
-        fastdds_{scenario.dds.implementation == model::ImplementationKind::fastdds} {}
+      : Observer{"law.knowledge"}, fastdds_{model::is_fastdds(scenario.dds)} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);

@@ -29,7 +29,7 @@ quiet_laws();  ///< a network without delays or losses to speak of
 /// Of laws that say something about every scenario.
 [[nodiscard]] inline bool always(const model::Scenario&) { return true; }
 [[nodiscard]] inline bool is_fastdds(const model::Scenario& scenario) {
-  return scenario.dds.implementation == model::ImplementationKind::fastdds;
+  return model::is_fastdds(scenario.dds);
 }
 
 }  // namespace stormproof::props

@@ -52,9 +52,7 @@ class ReaderWatch : public Observer {
   virtual void opened(std::uint32_t /*relation*/) {}
   virtual void heartbeat_taken(std::uint32_t /*relation*/) {}
   [[nodiscard]] const Scenario& scenario() const { return scenario_; }
-  [[nodiscard]] bool fastdds() const {
-    return scenario_.dds.implementation == model::ImplementationKind::fastdds;
-  }
+  [[nodiscard]] bool fastdds() const { return model::is_fastdds(scenario_.dds); }
 
  private:
   [[nodiscard]] bool has_started(std::uint32_t pair) const {

@@ -91,7 +91,7 @@ Broken unused_values(const Scenario& scenario, const Simulate& simulate) {
   if (sedp.relation_opening == model::RelationOpening::receiver) {
     sedp.unmatched = model::Unmatched::accept;
   }
-  if (other.dds.implementation == model::ImplementationKind::paper) {
+  if (!model::is_fastdds(other.dds)) {
     other.deployment.loopback_delay = model::Nanoseconds{1};
   }
   return run_difference(scenario, other, simulate);

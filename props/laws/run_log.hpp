@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "model/engine/packet.hpp"
+#include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 #include "model/run_result.hpp"
 #include "props/laws/law.hpp"

@@ -71,7 +71,7 @@ void for_each_rate(Scenario& scenario, Change&& change) {
 Scenario with_scalable_times(Scenario scenario) {
   for_each_rate(scenario, [](BitsPerSecond& rate) { rate = whole(rate); });
   scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
-  if (scenario.dds.implementation == ImplementationKind::paper) return scenario;
+  if (!model::is_fastdds(scenario.dds)) return scenario;
   scenario.wireless.lost_packets.clear();
   scenario.wireless.packet_delays.clear();
   const model::DescriptorProfile& defaults = scenario.dds.descriptors;
@@ -116,7 +116,7 @@ void for_each_duration(Scenario& scenario, Change&& change) {
 }
 
 bool has_one_unit(const Scenario& scenario) {
-  return scenario.dds.implementation == ImplementationKind::paper ||
+  return !model::is_fastdds(scenario.dds) ||
          scenario.wireless.kind == model::ServiceKind::constant_delay;
 }
 
@@ -133,7 +133,7 @@ Broken time_scaling(const Scenario& scenario, const Simulate& simulate) {
   const model::RunResult a = simulate(one, &first);
   const model::RunResult b = simulate(other, &second);
   // The control-only relations keep their 5 ms, so the events as a whole do not scale.
-  if (one.dds.implementation == ImplementationKind::paper) {
+  if (!model::is_fastdds(one.dds)) {
     if (Broken difference = first_difference(first, second)) return difference;
   }
   if (was_cut_off(a) || was_cut_off(b)) return std::nullopt;

@@ -48,7 +48,7 @@ class Completion final : public Observer {
   Completion(const model::Scenario& scenario, std::optional<model::Nanoseconds> bound)
       : Observer{"live.completion"}, dds_{scenario.dds}, delays_{scenario}, bound_{bound} {
     for (const model::Participant& participant : scenario.deployment.participants) {
-      const bool created_later = dds_.implementation == model::ImplementationKind::fastdds;
+      const bool created_later = model::is_fastdds(dds_);
       ready_.push_back(created_later ? participant.endpoints_done : participant.start);
     }
   }

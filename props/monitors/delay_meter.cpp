@@ -2,11 +2,14 @@
 // way are a queue from which numbers drop out.
 #include "props/monitors/delay_meter.hpp"
 
+#include "model/engine/packet.hpp"
+#include "model/engine/topology.hpp"
+
 namespace stormproof::props {
 
 DelayMeter::DelayMeter(const model::Scenario& scenario)
     : lost_packets_{scenario.wireless.lost_packets},
-      silent_loss_{scenario.dds.implementation == model::ImplementationKind::fastdds &&
+      silent_loss_{model::is_fastdds(scenario.dds) &&
                    scenario.wireless.kind == model::ServiceKind::constant_delay} {}
 
 void DelayMeter::emitted(const model::Packet& packet, model::Nanoseconds now) {

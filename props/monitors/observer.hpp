@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "model/engine/packet.hpp"
+#include "model/engine/topology.hpp"
 #include "props/monitor.hpp"
 
 namespace stormproof::props {

@@ -32,7 +32,7 @@ void add(Count& count, std::uint32_t change) {
 }  // namespace
 
 Prospects::Prospects(const model::Scenario& scenario)
-    : fastdds_{scenario.dds.implementation == model::ImplementationKind::fastdds},
+    : fastdds_{model::is_fastdds(scenario.dds)},
       constant_delay_{scenario.wireless.kind == model::ServiceKind::constant_delay},
       each_side_{fastdds_ ||
                  scenario.dds.sedp.relation_opening == model::RelationOpening::each_side},

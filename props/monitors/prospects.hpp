@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "model/engine/packet.hpp"
 #include "model/scenario.hpp"
 #include "props/monitors/pending_heartbeats.hpp"
 #include "props/monitors/received_descriptors.hpp"

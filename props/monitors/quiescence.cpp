@@ -47,7 +47,7 @@ namespace stormproof::props {
 
 model::Nanoseconds quiescence_bound(const model::DdsProfile& dds, model::Nanoseconds delay) {
   const model::SedpProfile& sedp = dds.sedp;
-  const bool fastdds = dds.implementation == model::ImplementationKind::fastdds;
+  const bool fastdds = model::is_fastdds(dds);
   const std::int64_t d = delay.count();
   const std::int64_t tau_h = sedp.heartbeat_period.count();
   const std::int64_t tau_a = sedp.heartbeat_response_delay.count();
@@ -85,9 +85,8 @@ class Quiescence final : public QuiescenceMonitor {
       : QuiescenceMonitor{"live.quiescence"},
         dds_{scenario.dds},
         delays_{scenario},
-        loopback_{scenario.dds.implementation == model::ImplementationKind::fastdds
-                      ? scenario.deployment.loopback_delay
-                      : model::Nanoseconds{}} {}
+        loopback_{model::is_fastdds(scenario.dds) ? scenario.deployment.loopback_delay
+                                                  : model::Nanoseconds{}} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);

@@ -5,6 +5,7 @@
 
 #include <string_view>
 
+#include "model/engine/packet.hpp"
 #include "model/probe.hpp"
 #include "props/monitors/relation_words.hpp"
 

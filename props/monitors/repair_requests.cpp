@@ -16,7 +16,7 @@ class RepairRequests final : public Observer {
  public:
   explicit RepairRequests(const model::Scenario& scenario)
       : Observer{"safety.repair-only-if-asked"},
-        fastdds_{scenario.dds.implementation == model::ImplementationKind::fastdds},
+        fastdds_{model::is_fastdds(scenario.dds)},
         initial_asks_{!fastdds_ &&
                       scenario.dds.sedp.initial_acknack == model::InitialAckNackReply::bitmap} {}
 

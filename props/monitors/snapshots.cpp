@@ -25,8 +25,7 @@ struct Snapshot {
 class Snapshots final : public Observer {
  public:
   explicit Snapshots(const model::Scenario& scenario)
-      : Observer{"safety.snapshot"},
-        fastdds_{scenario.dds.implementation == model::ImplementationKind::fastdds} {}
+      : Observer{"safety.snapshot"}, fastdds_{model::is_fastdds(scenario.dds)} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);

@@ -21,7 +21,7 @@ class Suppression final : public Observer {
  public:
   explicit Suppression(const model::Scenario& scenario)
       : Observer{"timer.suppression-honoured"},
-        fastdds_{scenario.dds.implementation == model::ImplementationKind::fastdds},
+        fastdds_{model::is_fastdds(scenario.dds)},
         duration_{scenario.dds.sedp.nack_suppression_duration.count()} {}
 
   void run_started(const model::Topology& topology) override {

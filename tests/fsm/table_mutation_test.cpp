@@ -80,7 +80,7 @@ TEST(TableMutations, DropRow) {
   Output output{};
   const StepResult result = mutant.step<R, RepairDue>({}, output);
   EXPECT_EQ(result.state, Info::id<R>);
-  EXPECT_FALSE(result.fired);
+  EXPECT_FALSE(result.fired());
   EXPECT_FALSE(output.generate);
   EXPECT_EQ(mutant.changed(), Pairs{"R RepairDue"});
 }
@@ -96,7 +96,7 @@ TEST(TableMutations, Retarget) {
 TEST(TableMutations, NegateGuard) {
   const Mutant mutant{{"DescriptorRepair", u_listed, Kind::negate_guard, 0, 0}};
   Output output{};
-  EXPECT_FALSE((mutant.step<U, AckNackReceived>(listed, output).fired));
+  EXPECT_FALSE((mutant.step<U, AckNackReceived>(listed, output).fired()));
   // Both rows are enabled: the later one, which confirms, wins.
   EXPECT_EQ((mutant.step<U, AckNackReceived>(confirmed, output).state), Info::id<A>);
   EXPECT_EQ((mutant.step<U, AckNackReceived>({false, false, true}, output).state), Info::id<R>);
@@ -106,7 +106,7 @@ TEST(TableMutations, NegateGuard) {
 TEST(TableMutations, NegateTheGuardOfARowWithoutOne) {
   const Mutant mutant{{"DescriptorRepair", r_due, Kind::negate_guard, 0, 0}};
   Output output{};
-  EXPECT_FALSE((mutant.step<R, RepairDue>({}, output).fired));
+  EXPECT_FALSE((mutant.step<R, RepairDue>({}, output).fired()));
 }
 
 TEST(TableMutations, IgnoreGuard) {
@@ -124,7 +124,7 @@ TEST(TableMutations, DropAction) {
   Output output{};
   const StepResult result = mutant.step<U, AckNackReceived>(listed, output);
   EXPECT_EQ(result.state, Info::id<R>);
-  EXPECT_TRUE(result.fired);
+  EXPECT_TRUE(result.fired());
   EXPECT_FALSE(output.requested);
   EXPECT_EQ(mutant.changed(), Pairs{"U AckNackReceived"});
 }
@@ -134,7 +134,7 @@ TEST(TableMutations, CopyRow) {
   Output output{};
   EXPECT_EQ((mutant.step<A, AckNackReceived>(listed, output).state), Info::id<R>);
   EXPECT_TRUE(output.requested);
-  EXPECT_FALSE((mutant.step<A, AckNackReceived>(confirmed, output).fired));
+  EXPECT_FALSE((mutant.step<A, AckNackReceived>(confirmed, output).fired()));
   EXPECT_EQ(mutant.changed(), Pairs{"A AckNackReceived"});
 }
 

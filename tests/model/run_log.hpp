@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "model/engine/packet.hpp"
 #include "model/simulator.hpp"
 
 namespace stormproof::model {

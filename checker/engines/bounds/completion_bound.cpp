@@ -89,7 +89,7 @@ std::optional<CompletionBound> completion_bound(const model::DdsProfile& dds,
   CompletionBound bound;
   bound.exchange =
       circumstances.delta * 3 + sedp.heartbeat_response_delay + sedp.nack_response_delay;
-  if (dds.implementation == model::ImplementationKind::fastdds)
+  if (model::is_fastdds(dds))
     fastdds_bound(bound, sedp, circumstances);
   else
     paper_bound(bound, sedp, circumstances);

@@ -1,6 +1,8 @@
 // One run with a probe that measures delays.
 #include "checker/engines/bounds/measure.hpp"
 
+#include "model/engine/packet.hpp"
+#include "model/engine/topology.hpp"
 #include "model/simulator.hpp"
 #include "props/monitors/delay_meter.hpp"
 

@@ -80,7 +80,7 @@ class Exploration {
       const auto share = (end - Clock::now()) / static_cast<std::ptrdiff_t>(list.size() - k);
       deadline_ = Clock::now() + std::max(share, Clock::duration::zero());
       const Scope& scope = list[k];
-      if (running_.dds.implementation == model::ImplementationKind::fastdds) {
+      if (model::is_fastdds(running_.dds)) {
         explore<FastDdsWorld>(scope);
       } else {
         explore<PaperWorld>(scope);
@@ -195,7 +195,7 @@ Finding Exploration::finding(Claim claim) const {
   finding.assumptions = {
       "One relation; every packet of it has a delay of its own, whatever other relations do.",
       delay_.origin};
-  if (running_.dds.implementation == model::ImplementationKind::fastdds) {
+  if (model::is_fastdds(running_.dds)) {
     finding.assumptions.emplace_back("No HEARTBEATs ride in DATA packets.");
   }
   const model::SedpProfile& sedp = running_.dds.sedp;

@@ -147,7 +147,7 @@ void FastDdsWorld::check_descriptors(const State& before, const State& state, Fr
   }
 }
 
-Stepper<fsm::DiscoveryReader>::Input FastDdsWorld::reader_input(std::uint16_t missing) const {
+fsm::Stepper<fsm::DiscoveryReader>::Input FastDdsWorld::reader_input(std::uint16_t missing) const {
   return {.accepts_unmatched = false, .missing_after = std::popcount(missing)};
 }
 

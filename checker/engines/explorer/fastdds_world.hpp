@@ -9,7 +9,6 @@
 #include <string>
 
 #include "checker/engines/explorer/frame.hpp"
-#include "checker/engines/explorer/machine.hpp"
 #include "fsm/change_for_reader.hpp"
 #include "fsm/discovery_reader.hpp"
 #include "fsm/heartbeat_timer.hpp"
@@ -96,7 +95,7 @@ class FastDdsWorld {
   void check_descriptors(const State& before, const State& state, Frame& frame);
 
   [[nodiscard]] bool needs_heartbeat(const State& state) const;
-  [[nodiscard]] Stepper<fsm::DiscoveryReader>::Input reader_input(std::uint16_t missing) const;
+  [[nodiscard]] fsm::Stepper<fsm::DiscoveryReader>::Input reader_input(std::uint16_t missing) const;
   [[nodiscard]] static std::uint16_t missing(const State& state) {
     return static_cast<std::uint16_t>(all & ~state.received);
   }
@@ -107,11 +106,11 @@ class FastDdsWorld {
   const EventRules rules_;
   const bool live_bitmaps_;
   const model::Nanoseconds creation_distance_;
-  Stepper<fsm::ChangeForReader> changes_;
-  Stepper<fsm::DiscoveryReader> reader_;
-  Stepper<fsm::HeartbeatTimer> timer_;
-  Stepper<fsm::InitialAckNack> initial_;
-  Stepper<fsm::SingleShot> shots_;
+  fsm::Stepper<fsm::ChangeForReader> changes_;
+  fsm::Stepper<fsm::DiscoveryReader> reader_;
+  fsm::Stepper<fsm::HeartbeatTimer> timer_;
+  fsm::Stepper<fsm::InitialAckNack> initial_;
+  fsm::Stepper<fsm::SingleShot> shots_;
 };
 
 }  // namespace stormproof::explorer

@@ -18,7 +18,7 @@ using Changes = fsm::Reflect<fsm::ChangeForReader>;
 
 template <class Event>
 void FastDdsWorld::step_heartbeat(State& state, Frame& frame) {
-  Stepper<fsm::HeartbeatTimer>::Input input;
+  fsm::Stepper<fsm::HeartbeatTimer>::Input input;
   input.heartbeat_period = sedp_.heartbeat_period.count();
   input.pending = state.expiries;
   input.unacknowledged = needs_heartbeat(state);

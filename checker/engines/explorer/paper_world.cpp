@@ -132,7 +132,7 @@ void PaperWorld::check_descriptors(const State& before, const State& state, Fram
   }
 }
 
-Stepper<fsm::DiscoveryReader>::Input PaperWorld::reader_input(std::uint16_t missing) const {
+fsm::Stepper<fsm::DiscoveryReader>::Input PaperWorld::reader_input(std::uint16_t missing) const {
   return {.accepts_unmatched = accepts_unmatched_, .missing_after = std::popcount(missing)};
 }
 

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "checker/engines/explorer/frame.hpp"
-#include "checker/engines/explorer/machine.hpp"
 #include "fsm/descriptor_repair.hpp"
 #include "fsm/discovery_reader.hpp"
 #include "fsm/heartbeat_timer.hpp"
@@ -85,7 +84,7 @@ class PaperWorld {
   void step_initial(State& state, Frame& frame);
   void check_descriptors(const State& before, const State& state, Frame& frame);
 
-  [[nodiscard]] Stepper<fsm::DiscoveryReader>::Input reader_input(std::uint16_t missing) const;
+  [[nodiscard]] fsm::Stepper<fsm::DiscoveryReader>::Input reader_input(std::uint16_t missing) const;
   [[nodiscard]] std::uint16_t missing(const State& state) const {
     return static_cast<std::uint16_t>(all_ & ~state.received);
   }
@@ -99,10 +98,10 @@ class PaperWorld {
   const unsigned count_;
   const std::uint16_t all_;
   const model::DescriptorSizes sizes_;
-  Stepper<fsm::DescriptorRepair> descriptors_;
-  Stepper<fsm::DiscoveryReader> reader_;
-  Stepper<fsm::HeartbeatTimer> timer_;
-  Stepper<fsm::InitialAckNack> initial_;
+  fsm::Stepper<fsm::DescriptorRepair> descriptors_;
+  fsm::Stepper<fsm::DiscoveryReader> reader_;
+  fsm::Stepper<fsm::HeartbeatTimer> timer_;
+  fsm::Stepper<fsm::InitialAckNack> initial_;
 };
 
 }  // namespace stormproof::explorer

@@ -13,7 +13,7 @@ namespace {}  // namespace
 
 template <class Event>
 void PaperWorld::step_heartbeat(State& state, Frame& frame) {
-  Stepper<fsm::HeartbeatTimer>::Input input;
+  fsm::Stepper<fsm::HeartbeatTimer>::Input input;
   input.heartbeat_period = sedp_.heartbeat_period.count();
   input.additive = sedp_.heartbeat_timer == model::HeartbeatTimerKind::additive;
   input.pending = state.expiries;

@@ -81,7 +81,7 @@ std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
     scope.side_by_side = scenario.dds.sedp.relation_opening == model::RelationOpening::each_side;
     list.push_back(scope);
   };
-  if (scenario.dds.implementation == model::ImplementationKind::fastdds) {
+  if (model::is_fastdds(scenario.dds)) {
     constexpr unsigned all = 9;  // the publications of a default participant
     add(all, 0, 0);
     add(all, 0, 1);
@@ -104,8 +104,8 @@ std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
 std::optional<Nanoseconds> completion_bound(const model::DdsProfile& dds, const Scope& scope) {
   // The bound counts from the opening of the relation, or the creation of a descriptor; the
   // explorer from the start of its world.
-  const bool apart = dds.sedp.relation_opening == model::RelationOpening::each_side &&
-                     dds.implementation == model::ImplementationKind::paper;
+  const bool apart =
+      dds.sedp.relation_opening == model::RelationOpening::each_side && !model::is_fastdds(dds);
   if (apart || scope.side_by_side || scope.pushed > 0) return std::nullopt;
   timeline::Circumstances circumstances;
   circumstances.delta = scope.largest_delay;

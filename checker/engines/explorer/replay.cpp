@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "checker/engines/explorer/fastdds_world.hpp"
+#include "model/engine/packet.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/replay.hpp"
 #include "props/monitors/monitors.hpp"
@@ -52,9 +53,7 @@ class PacketList final : public model::Probe {
   }
 };
 
-bool is_fastdds(const ReplayRequest& request) {
-  return request.running.dds.implementation == model::ImplementationKind::fastdds;
-}
+bool is_fastdds(const ReplayRequest& request) { return model::is_fastdds(request.running.dds); }
 
 /// When the world starts, in the time of the run.
 Nanoseconds start_of_world(const ReplayRequest& request, const ConcretePath& path) {

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "checker/engines/smt/deadline.hpp"
+#include "checker/engines/smt/decision.hpp"
 #include "checker/engines/smt/second_solver.hpp"
 
 namespace stormproof::smt {

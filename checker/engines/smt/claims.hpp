@@ -8,7 +8,11 @@
 #include <string>
 #include <string_view>
 
-#include <z3++.h>
+namespace z3 {
+class expr;
+template <class T>
+class ast_vector_tpl;
+}  // namespace z3
 
 namespace stormproof::smt {
 
@@ -21,12 +25,7 @@ struct Options {
   bool second_solver = true;  ///< ask cvc5, too, if it is installed
 };
 
-struct Decision {
-  Answer answer = Answer::unknown;
-  std::string why;  ///< of `unknown`: time-out, disagreement, …
-  double seconds = 0;
-  std::optional<z3::model> model;  ///< of `sat`
-};
+struct Decision;  // checker/engines/smt/decision.hpp
 
 /// The outcome of the second opinion on all queries of one property.
 struct SecondOpinion {
@@ -56,7 +55,7 @@ class Claims {
   /// query is remembered for `second_opinion`. Plain conditions only: no fixed points, no
   /// optimisation. Never throws because of Z3: its errors are `unknown` with the reason.
   Decision decide(std::string_view property, std::string_view query,
-                  const z3::expr_vector& assertions);
+                  const z3::ast_vector_tpl<z3::expr>& assertions);
 
   /// Puts all queries of the property to the second solver and compares. Writes the export file.
   SecondOpinion second_opinion(std::string_view property);

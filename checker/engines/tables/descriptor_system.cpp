@@ -10,7 +10,7 @@ DescriptorSystem descriptor_system(Proof& proof) {
   proof.assume(
       "The number of descriptors is arbitrary: one is looked at, and what its rows read of the "
       "others ranges freely.");
-  const bool fastdds = proof.scenario().dds.implementation == model::ImplementationKind::fastdds;
+  const bool fastdds = model::is_fastdds(proof.scenario().dds);
   return fastdds ? fastdds_descriptor_system(proof) : paper_descriptor_system(proof);
 }
 

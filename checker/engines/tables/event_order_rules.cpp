@@ -1,7 +1,7 @@
 // The product's order and the mistaken ones.
 #include "checker/engines/tables/event_order_rules.hpp"
 
-#include "model/engine/event_order.hpp"
+#include "model/event_order.hpp"
 
 namespace stormproof::tables {
 

@@ -1,5 +1,5 @@
 // Events as solver expressions and the rule that orders them: the product's own
-// (model/engine/event_order.hpp), or a mistaken one.
+// (model/event_order.hpp), or a mistaken one.
 #pragma once
 
 #include <string>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "checker/engines/tables/proof.hpp"
-#include "fsm/reflect.hpp"
+#include "fsm/machine_info.hpp"
 #include "fsm/table_mutation.hpp"
 
 namespace stormproof::tables {

@@ -87,7 +87,7 @@ void compare(Proof& proof, const RelationModel& relation, const std::vector<Pair
 
 Finding order_commutation(const CheckRequest& request) {
   Proof proof{"order.commutation", request};
-  const bool fastdds = proof.scenario().dds.implementation == model::ImplementationKind::fastdds;
+  const bool fastdds = model::is_fastdds(proof.scenario().dds);
   const RelationModel relation = fastdds ? fastdds_relation(proof) : paper_relation(proof);
   proof.assume("Any number of descriptors: one is looked at, the others enter by free inputs.");
   proof.assume(

@@ -84,7 +84,7 @@ struct KindedEvent {
 /// can.
 std::optional<std::string> instant_service(const model::Scenario& scenario) {
   const model::WirelessProfile& wireless = scenario.wireless;
-  const bool loops_back = scenario.dds.implementation == model::ImplementationKind::fastdds;
+  const bool loops_back = model::is_fastdds(scenario.dds);
   if (loops_back && scenario.deployment.loopback_delay.count() < 1) {
     return "loopback_delay is 0 ns";
   }

@@ -18,7 +18,7 @@ Finding safety_repair_only_if_asked(const CheckRequest& request) {
   Proof proof{"safety.repair-only-if-asked", request};
   DescriptorSystem descriptor = descriptor_system(proof);
   descriptor.system.bad = descriptor.unasked_repair;
-  if (proof.scenario().dds.implementation == model::ImplementationKind::fastdds) {
+  if (model::is_fastdds(proof.scenario().dds)) {
     proof.assume("DATA that is pushed when its descriptor is created is no repair.");
   }
   return proof.finish(prove_unreachable(proof, descriptor.system,

@@ -87,7 +87,7 @@ class Recorder final : public model::Probe {
 model::Scenario stage(const Setting& setting) {
   model::Scenario scenario;
   scenario.dds = setting.dds;
-  if (scenario.dds.implementation == model::ImplementationKind::paper) {
+  if (!model::is_fastdds(scenario.dds)) {
     scenario.dds.descriptors.default_publications = 0;
     scenario.dds.descriptors.default_subscriptions = 0;
   } else {

@@ -13,9 +13,7 @@ struct Question {
 
   [[nodiscard]] const model::DdsProfile& dds() const { return request.scenario.dds; }
   [[nodiscard]] const model::SedpProfile& sedp() const { return request.scenario.dds.sedp; }
-  [[nodiscard]] bool is_fastdds() const {
-    return dds().implementation == model::ImplementationKind::fastdds;
-  }
+  [[nodiscard]] bool is_fastdds() const { return model::is_fastdds(dds()); }
   [[nodiscard]] bool is_adaptive() const {
     return sedp().heartbeat_policy == model::HeartbeatPolicy::adaptive;
   }

@@ -125,7 +125,7 @@ std::optional<props::Counterexample> needless_repair(const model::Scenario& scen
   std::vector<Director> candidates;
   if (same_for_all) {
     candidates.push_back(constant(delta));
-  } else if (scenario.dds.implementation == model::ImplementationKind::fastdds) {
+  } else if (model::is_fastdds(scenario.dds)) {
     add_fastdds(sedp, delta, setting, candidates);
   } else if (sedp.initial_data == model::InitialData::pull) {
     add_pulled(sedp, delta, candidates);

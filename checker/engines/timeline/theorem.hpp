@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "checker/engines/bounds/check_request.hpp"
-#include "checker/engines/smt/claims.hpp"
+#include "checker/engines/smt/decision.hpp"
 #include "checker/engines/smt/symbolic.hpp"
 #include "checker/engines/timeline/exchange.hpp"
 

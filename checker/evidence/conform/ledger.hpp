@@ -4,34 +4,28 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "checker/evidence/conform/conform.hpp"
 #include "checker/evidence/conform/dialogue.hpp"
-#include "fsm/flyweight.hpp"
-#include "fsm/row_table.hpp"
+#include "fsm/stepper.hpp"
 
 namespace stormproof::conform {
 
-/// Steps machines of one kind and counts their rows. MSM decides; the row is looked up beside it.
+/// Steps machines of one kind and counts the rows that fire.
 template <class Machine>
 class Tally {
  public:
-  using Fly = fsm::Flyweight<Machine>;
+  using Fly = fsm::Stepper<Machine>;
 
   template <class Event>
   typename Fly::Output step(fsm::StateId& state, const typename Fly::Input& input) {
-    const auto& rows = table_.rows();
-    constexpr std::uint8_t event = fsm::Reflect<Machine>::template event_id<Event>;
-    for (std::size_t k = rows.size(); k-- > 0;) {
-      if (rows[k].source != state || rows[k].event != event || !rows[k].enabled(input)) continue;
-      ++uses_[k];
-      break;
-    }
-    typename Fly::Output output;
-    state = machine_.template step<Event>(state, input, output);
+    fsm::RowId row = fsm::no_row;
+    const auto output = machine_.template step<Event>(state, input, row);
+    if (row != fsm::no_row) ++uses_[row];
     return output;
   }
 
@@ -51,8 +45,7 @@ class Tally {
 
  private:
   Fly machine_;
-  fsm::RowTable<Machine> table_;
-  std::vector<std::uint64_t> uses_ = std::vector<std::uint64_t>(table_.rows().size());
+  std::array<std::uint64_t, fsm::Reflect<Machine>::Rows::size> uses_{};
 };
 
 /// Written by one place after the other.

@@ -7,6 +7,7 @@
 
 #include "checker/evidence/validate/figures.hpp"
 #include "model/dds_profile.hpp"
+#include "model/engine/packet.hpp"
 #include "model/probe.hpp"
 #include "props/monitors/relation_words.hpp"
 

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "model/engine/packet.hpp"
+#include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 
 namespace stormproof::diff {

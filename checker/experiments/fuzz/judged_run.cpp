@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "checker/engines/exact/observed_run.hpp"
+#include "model/engine/packet.hpp"
 #include "model/reference.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/probe_list.hpp"

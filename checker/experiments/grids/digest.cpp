@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/config/knobs/dds_knobs.hpp"
+#include "model/config/knobs/value_json.hpp"
 #include "model/config/knobs/wireless_knobs.hpp"
 
 namespace stormproof::grids {
@@ -64,7 +65,7 @@ class KnobText {
       } else if constexpr (std::is_integral_v<Member>) {
         append(member);
       } else {
-        text += type.write(member).dump();
+        text += json_of(type, member).dump();
       }
       text += '\n';
     }

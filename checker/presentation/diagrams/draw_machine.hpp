@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "fsm/reflect.hpp"
+#include "fsm/machine_info.hpp"
 
 namespace stormproof::draw {
 

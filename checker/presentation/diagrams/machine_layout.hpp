@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/reflect.hpp"
+#include "fsm/machine_info.hpp"
 
 namespace stormproof::draw {
 

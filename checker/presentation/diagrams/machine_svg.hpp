@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fsm/reflect.hpp"
+#include "fsm/machine_info.hpp"
 
 namespace stormproof::draw {
 

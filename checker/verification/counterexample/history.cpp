@@ -231,7 +231,7 @@ class Recorder final : public model::Probe {
 
 History record(const props::Counterexample& counterexample) {
   const model::Scenario& scenario = counterexample.scenario;
-  const bool fastdds = scenario.dds.implementation == model::ImplementationKind::fastdds;
+  const bool fastdds = model::is_fastdds(scenario.dds);
   History history{
       scenario,
       model::Topology{scenario.deployment, scenario.dds.descriptors,

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "model/engine/descriptor_set.hpp"
 #include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 #include "model/scenario.hpp"

@@ -100,7 +100,7 @@ std::string deployment_text(const model::Scenario& scenario) {
     }
     if (participants.size() > listed) text += "; …";
   }
-  const bool fastdds = scenario.dds.implementation == model::ImplementationKind::fastdds;
+  const bool fastdds = model::is_fastdds(scenario.dds);
   return text + (fastdds ? "; Fast DDS's writer" : "; the paper's writer") + "; " +
          network_text(scenario.wireless);
 }

@@ -272,7 +272,13 @@ void add_fastdds(std::vector<CatalogueEntry>& list) {
                "Pending"),
        entry("control-reader-silent", "a control-only reader does not answer HEARTBEATs",
              RowName{"ControlReader", "Open", "HeartbeatReceived", "Open"}, Kind::drop_row,
-             fastdds)});
+             fastdds),
+       entry("control-writer-silent", "a control-only writer does not answer initial ACKNACKs",
+             RowName{"ControlWriter", "Open", "InitialAckNackReceived", "Open"}, Kind::drop_row,
+             fastdds),
+       lead_to(entry("control-writer-closed", "a control-only writer that opens stays closed",
+                     RowName{"ControlWriter", "Closed", "Opened", "Open"}, Kind::retarget, fastdds),
+               "Closed")});
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include "model/config/knobs/knob_writer.hpp"
 #include "model/config/knobs/scenario_knobs.hpp"
-#include "model/config/profile_files.hpp"
 
 namespace stormproof::model::config {
 namespace {
@@ -24,8 +23,7 @@ class SchemaVisitor {
   void knob(std::string_view key, auto&&, const auto& type, std::string_view doc,
             Presence presence = Presence::required) {
     if (exclude(key, presence)) return;
-    const TypeInfo info = type.info();
-    add(key, fmt::format("{}; {}", doc, info.expected), info.schema, presence);
+    add(key, fmt::format("{}; {}", doc, type.info().expected), schema_of(type), presence);
   }
   template <class Section>
   void section(std::string_view key, const Section& member, std::string_view doc,

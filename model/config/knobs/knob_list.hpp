@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/config/knobs/knobs.hpp"
-#include "model/config/knobs/value_types.hpp"
+#include "model/config/knobs/value_json.hpp"
 #include "model/dds_profile.hpp"
 
 namespace stormproof::model::config {
@@ -14,7 +14,7 @@ namespace stormproof::model::config {
 struct KnobInfo {
   std::string
       key;  ///< as `--set` takes it: "dds.sedp.heartbeat_period"; "*" for an element of a list
-  TypeInfo type;       ///< kind, range or choices, schema
+  TypeInfo type;       ///< kind, range or choices
   Json default_value;  ///< the value of the paper's evaluation, in the syntax of the file; null if
                        ///< absent
   std::string doc;     ///< one line

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "model/config/knobs/knobs.hpp"
-#include "model/config/knobs/value_types.hpp"
+#include "model/config/knobs/value_json.hpp"
 
 namespace stormproof::model::config {
 
 /// The JSON of one value; null for an optional that is absent.
 Json write_value(const auto& type, const auto& member) {
   if constexpr (requires { member.has_value(); }) {
-    return member.has_value() ? type.write(*member) : Json();
+    return member.has_value() ? json_of(type, *member) : Json();
   } else {
-    return type.write(member);
+    return json_of(type, member);
   }
 }
 

@@ -14,9 +14,16 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
+#include <string_view>
 #include <type_traits>
 
 namespace stormproof::model::config {
+
+/// Keys that every profile may have and that are gone once it is resolved.
+inline constexpr std::string_view base_key = "base";
+inline constexpr std::string_view description_key =
+    "description";  ///< free text; scenarios have it, too
 
 /// `T` or `const T`: tables are visited for reading and for writing.
 template <class A, class T>

@@ -41,7 +41,7 @@ LargestPacket largest_paper_packet(const Scenario& scenario) {
 }  // namespace
 
 LargestPacket largest_packet(const Scenario& scenario) {
-  if (scenario.dds.implementation == ImplementationKind::paper) {
+  if (!is_fastdds(scenario.dds)) {
     return largest_paper_packet(scenario);
   }
   const std::int64_t alone = fastdds::message_header_bytes + fastdds::destination_bytes +

@@ -110,6 +110,17 @@ std::vector<NumericKnob> numeric_knobs(const Scenario& scenario) {
   return knobs;
 }
 
+std::optional<std::int64_t> numeric_knob(const DdsProfile& dds, std::string_view key) {
+  std::optional<std::int64_t> value;
+  auto use = [&](const std::string& candidate, const auto& member, const NumberType&,
+                 std::string_view) {
+    if (candidate == key) value = count(member);
+  };
+  NumericVisitor visitor{"", use};
+  visit_knobs(visitor, dds);
+  return value;
+}
+
 bool set_numeric_knob(Scenario& scenario, std::string_view key, std::int64_t value) {
   bool done = false;
   visit_numbers(scenario, [&](const std::string& candidate, auto& member, const NumberType& type,

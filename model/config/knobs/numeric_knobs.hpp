@@ -29,6 +29,10 @@ struct NumericKnob {
 /// are left out; so are words that stand for a number (`source_queue_bytes: unlimited`).
 [[nodiscard]] std::vector<NumericKnob> numeric_knobs(const Scenario& scenario);
 
+/// The value of the numeric knob `key` of a DDS profile ("spdp.period"), in ns, bytes or things;
+/// nothing if the profile has no such knob, or it is not numeric.
+[[nodiscard]] std::optional<std::int64_t> numeric_knob(const DdsProfile& dds, std::string_view key);
+
 /// Sets the knob `key` of `numeric_knobs(scenario)`; false if there is none or `value` is out of
 /// its range. Rules between knobs are not checked; see `is_valid`.
 [[nodiscard]] bool set_numeric_knob(Scenario& scenario, std::string_view key, std::int64_t value);

@@ -1,4 +1,4 @@
-// Reading, writing and describing of the kinds of value that do not depend on a template parameter.
+// Reading and describing of the kinds of value that do not depend on a template parameter.
 #include "model/config/knobs/value_types.hpp"
 
 #include <algorithm>
@@ -23,8 +23,6 @@ Parsed<std::int64_t> plain(const Parsed<Quantity>& parsed) {
 Fault fault(const Node& node, std::string_view reason) {
   return {node.place, node.shown() + std::string{reason}};
 }
-
-constexpr const char* decimal_pattern = "(0|[1-9][0-9]*)([.][0-9]+)?";
 
 }  // namespace
 
@@ -55,40 +53,27 @@ Complaint NumberType::read_count(const Node& node, std::int64_t& count) const {
   return std::nullopt;
 }
 
-Json NumberType::write_count(std::int64_t count) const {
-  if (unit_ == Unit::nanoseconds || unit_ == Unit::bits_per_second) return print(count);
-  return count;
-}
-
 TypeInfo NumberType::info() const {
   TypeInfo info;
   info.minimum = print(minimum_);
   info.maximum = print(maximum_);
   const std::string range = fmt::format("from {} to {}", info.minimum, info.maximum);
-  const Json integer = {{"type", "integer"}, {"minimum", minimum_}, {"maximum", maximum_}};
   switch (unit_) {
     case Unit::nanoseconds:
       info.name = "duration";
       info.expected = fmt::format("a duration {}", range);
-      info.schema = {{"type", "string"},
-                     {"pattern", fmt::format("^{}(ns|us|ms|s)$", decimal_pattern)}};
-      if (minimum_ == 0) info.schema = {{"anyOf", {info.schema, {{"const", 0}}}}};
       break;
     case Unit::bits_per_second:
       info.name = "rate";
       info.expected = fmt::format("a rate {}", range);
-      info.schema = {{"type", "string"},
-                     {"pattern", fmt::format("^{}(bps|kbps|Mbps|Gbps)$", decimal_pattern)}};
       break;
     case Unit::bytes:
       info.name = "bytes";
       info.expected = fmt::format("a number of bytes {}", range);
-      info.schema = integer;
       break;
     case Unit::things:
       info.name = "integer";
       info.expected = fmt::format("an integer {}", range);
-      info.schema = integer;
       break;
   }
   return info;
@@ -115,8 +100,7 @@ TypeInfo SeedType::info() const {
   return {.name = "integer",
           .expected = fmt::format("an integer from 0 to {}", most),
           .minimum = "0",
-          .maximum = fmt::format("{}", most),
-          .schema = {{"type", "integer"}, {"minimum", 0}, {"maximum", most}}};
+          .maximum = fmt::format("{}", most)};
 }
 
 Complaint BytesOrWordType::read(const Node& node, Bytes& value) const {
@@ -127,15 +111,10 @@ Complaint BytesOrWordType::read(const Node& node, Bytes& value) const {
   return number.read(node, value);
 }
 
-Json BytesOrWordType::write(Bytes value) const {
-  return value == meaning ? Json(word) : number.write(value);
-}
-
 TypeInfo BytesOrWordType::info() const {
   TypeInfo info = number.info();
   info.expected += fmt::format(", or {}", word);
   info.choices = {std::string{word}};
-  info.schema = {{"anyOf", {info.schema, {{"const", word}}}}};
   return info;
 }
 
@@ -148,7 +127,6 @@ Parsed<std::size_t> read_choice(const Node& node, const std::vector<std::string>
 
 TypeInfo choice_info(std::vector<std::string> names) {
   TypeInfo info{.name = "choice", .expected = fmt::format("one of {}", fmt::join(names, ", "))};
-  info.schema = {{"enum", names}};
   info.choices = std::move(names);
   return info;
 }
@@ -163,9 +141,7 @@ Complaint TextType::read(const Node& node, std::string& value) const {
 }
 
 TypeInfo TextType::info() const {
-  return {.name = "text",
-          .expected = "text that is not empty, on one line",
-          .schema = {{"type", "string"}, {"minLength", 1}}};
+  return {.name = "text", .expected = "text that is not empty, on one line"};
 }
 
 Complaint TextMapType::read(const Node& node, std::map<std::string, std::string>& value) const {
@@ -177,15 +153,7 @@ Complaint TextMapType::read(const Node& node, std::map<std::string, std::string>
   return std::nullopt;
 }
 
-Json TextMapType::write(const std::map<std::string, std::string>& value) const {
-  return value.empty() ? Json() : Json(value);
-}
-
-TypeInfo TextMapType::info() const {
-  return {.name = "texts",
-          .expected = "a map of texts",
-          .schema = {{"type", "object"}, {"additionalProperties", TextType{}.info().schema}}};
-}
+TypeInfo TextMapType::info() const { return {.name = "texts", .expected = "a map of texts"}; }
 
 Complaint RatioType::read(const Node& node, Ratio& value) const {
   if (!node.is_scalar()) return fault(node, " is not a number");
@@ -200,21 +168,14 @@ Complaint RatioType::read(const Node& node, Ratio& value) const {
   return std::nullopt;
 }
 
-Json RatioType::write(const Ratio& value) const {
-  return print_fraction({value.numerator, value.denominator});
-}
-
 TypeInfo RatioType::info() const {
-  const Json number = {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", maximum}};
-  const Json text = {{"type", "string"}, {"pattern", "^([0-9]+/[0-9]+|[0-9]+([.][0-9]+)?)$"}};
   return {.name = "fraction",
           .expected = fmt::format(
               "a decimal or a fraction greater than 0 and at most {}, such as 0.05 or 1/20, "
               "with a reduced denominator of at most {}",
               maximum, max_denominator),
           .minimum = fmt::format("1/{}", max_denominator),
-          .maximum = fmt::to_string(maximum),
-          .schema = {{"anyOf", {number, text}}}};
+          .maximum = fmt::format("{}", maximum)};
 }
 
 Complaint FractionType::read(const Node& node, FractionParts<std::int64_t> value) const {
@@ -224,10 +185,6 @@ Complaint FractionType::read(const Node& node, FractionParts<std::int64_t> value
   return complaint;
 }
 
-Json FractionType::write(FractionParts<const std::int64_t> value) const {
-  return print_fraction({value.numerator, value.denominator});
-}
-
 Complaint BytesPairType::read(const Node& node, std::array<Bytes, 2>& value) const {
   if (!node.is_sequence()) return fault(node, " is not a list");
   if (node.items.size() != 2) return fault(node, fmt::format(" of {}", node.items.size()));
@@ -235,15 +192,10 @@ Complaint BytesPairType::read(const Node& node, std::array<Bytes, 2>& value) con
   return number.read(node.items[1], value[1]);
 }
 
-Json BytesPairType::write(const std::array<Bytes, 2>& value) const {
-  return {value[0].count(), value[1].count()};
-}
-
 TypeInfo BytesPairType::info() const {
   TypeInfo info = number.info();
   info.name = "bytes pair";
   info.expected = fmt::format("[first, last], each {}", info.expected);
-  info.schema = {{"type", "array"}, {"items", info.schema}, {"minItems", 2}, {"maxItems", 2}};
   return info;
 }
 
@@ -259,15 +211,10 @@ Complaint DurationRangeType::read(const Node& node, RangeParts<Nanoseconds> valu
   return std::nullopt;
 }
 
-Json DurationRangeType::write(RangeParts<const Nanoseconds> value) const {
-  return {number.write(value.low), number.write(value.high)};
-}
-
 TypeInfo DurationRangeType::info() const {
   TypeInfo info = number.info();
   info.name = "duration range";
   info.expected = fmt::format("[low, high], each {}, the first at most the second", info.expected);
-  info.schema = {{"type", "array"}, {"items", info.schema}, {"minItems", 2}, {"maxItems", 2}};
   return info;
 }
 
@@ -287,7 +234,6 @@ TypeInfo NumberSetType::info() const {
   TypeInfo info = number.info();
   info.name = "integer set";
   info.expected = fmt::format("a list of numbers, each {}", info.expected);
-  info.schema = {{"type", "array"}, {"items", info.schema}};
   return info;
 }
 

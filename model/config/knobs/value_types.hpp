@@ -1,11 +1,11 @@
 // The kinds of value a knob can have: number with a range, choice, text, fraction, and a few lists.
-// Each kind knows how to read itself from a tree, write itself as JSON, and describe itself in an
-// error, a schema and a list of knobs; the knob tables combine them with keys and ranges.
+// Each kind knows how to read itself from a tree and how to describe itself in an error and a list
+// of knobs; the knob tables combine them with keys and ranges.
 //
 // Every kind has
 //   read(node, value)  fills `value`, or returns what is wrong with the node
-//   write(value)       the JSON that `read` turns back into `value`
-//   info()             range, expectation and schema
+//   info()             range and expectation
+// and, in model/config/knobs/value_json.hpp, the way back to JSON and its schema.
 #pragma once
 
 #include <array>
@@ -18,17 +18,12 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/tree.hpp"
 #include "model/limits.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model::config {
-
-/// JSON whose keys stay in the order of the tables.
-using Json = nlohmann::ordered_json;
 
 /// What is wrong with a value ("'5' has no unit"), and where.
 struct Fault {
@@ -43,7 +38,6 @@ struct TypeInfo {
   std::string expected;                    ///< completes "expected …"
   std::string minimum = {}, maximum = {};  ///< of a number, as a file would say it
   std::vector<std::string> choices = {};   ///< of a choice
-  Json schema = Json::object();            ///< JSON Schema of one value
 };
 
 /// An integer amount in a range: of nanoseconds, bit/s, bytes, or things.
@@ -68,15 +62,9 @@ class NumberType {
     if (!complaint) value = static_cast<Integer>(count);
     return complaint;
   }
-  template <class Tag>
-  Json write(const Quantity<Tag>& value) const {
-    return write_count(value.count());
-  }
-  template <std::integral Integer>
-  Json write(const Integer& value) const {
-    return write_count(static_cast<std::int64_t>(value));
-  }
   TypeInfo info() const;
+  /// `count` as a file would say it.
+  std::string print(std::int64_t count) const;
 
   constexpr Unit unit() const { return unit_; }
   constexpr std::int64_t minimum() const { return minimum_; }
@@ -87,8 +75,6 @@ class NumberType {
 
  private:
   Complaint read_count(const Node& node, std::int64_t& count) const;
-  Json write_count(std::int64_t count) const;
-  std::string print(std::int64_t count) const;
 
   Unit unit_;
   std::int64_t minimum_, maximum_;
@@ -115,7 +101,6 @@ constexpr NumberType count_range(std::int64_t minimum, std::int64_t maximum) {
 /// Any unsigned 64-bit integer.
 struct SeedType {
   Complaint read(const Node& node, std::uint64_t& value) const;
-  Json write(std::uint64_t value) const { return value; }
   TypeInfo info() const;
 };
 
@@ -126,7 +111,6 @@ struct BytesOrWordType {
   Bytes meaning;
 
   Complaint read(const Node& node, Bytes& value) const;
-  Json write(Bytes value) const;
   TypeInfo info() const;
 };
 
@@ -157,7 +141,6 @@ struct ChoiceType {
     value = static_cast<Enum>(*chosen);
     return std::nullopt;
   }
-  Json write(const Enum& value) const { return name_of(value); }
   TypeInfo info() const { return choice_info(names()); }
 };
 
@@ -165,23 +148,17 @@ struct ChoiceType {
 template <class Enum>
 struct UsualChoiceType : ChoiceType<Enum> {
   Enum usual{};
-
-  Json write(const Enum& value) const {
-    return value == usual ? Json() : ChoiceType<Enum>::write(value);
-  }
 };
 
 /// Text that is not empty.
 struct TextType {
   Complaint read(const Node& node, std::string& value) const;
-  Json write(const std::string& value) const { return value; }
   TypeInfo info() const;
 };
 
 /// A map of texts with free keys; written only if it is not empty.
 struct TextMapType {
   Complaint read(const Node& node, std::map<std::string, std::string>& value) const;
-  Json write(const std::map<std::string, std::string>& value) const;
   TypeInfo info() const;
 };
 
@@ -192,7 +169,6 @@ struct RatioType {
   std::int64_t max_denominator = 1'000'000;
 
   Complaint read(const Node& node, Ratio& value) const;
-  Json write(const Ratio& value) const;
   TypeInfo info() const;
 };
 
@@ -212,7 +188,6 @@ struct FractionType {
   std::int64_t max_denominator;
 
   Complaint read(const Node& node, FractionParts<std::int64_t> value) const;
-  Json write(FractionParts<const std::int64_t> value) const;
   TypeInfo info() const { return RatioType{1, max_denominator}.info(); }
 };
 
@@ -221,7 +196,6 @@ struct BytesPairType {
   NumberType number;
 
   Complaint read(const Node& node, std::array<Bytes, 2>& value) const;
-  Json write(const std::array<Bytes, 2>& value) const;
   TypeInfo info() const;
 };
 
@@ -239,7 +213,6 @@ struct DurationRangeType {
   NumberType number;
 
   Complaint read(const Node& node, RangeParts<Nanoseconds> value) const;
-  Json write(RangeParts<const Nanoseconds> value) const;
   TypeInfo info() const;
 };
 
@@ -248,7 +221,6 @@ struct NumberSetType {
   NumberType number;
 
   Complaint read(const Node& node, std::vector<std::uint64_t>& value) const;
-  Json write(const std::vector<std::uint64_t>& value) const { return value; }
   TypeInfo info() const;
 };
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "model/config/profile_files.hpp"
+#include "model/config/knobs/knobs.hpp"
 #include "model/config/vendor/fastdds_discovery.hpp"
 
 namespace stormproof::model::config::vendor {

@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include "model/config/knobs/effective.hpp"
-#include "model/config/knobs/value_types.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
+#include "model/config/knobs/value_json.hpp"
 #include "model/config/tree/tree.hpp"
 #include "model/config/vendor/cyclonedds_values.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
@@ -35,20 +36,6 @@ Values values_of(DdsProfile profile) {
   return values;
 }
 
-/// The number behind a knob that some vendor's user can change.
-std::int64_t number_of(const DdsProfile& profile, std::string_view key) {
-  const SpdpProfile& spdp = profile.spdp;
-  const SedpProfile& sedp = profile.sedp;
-  if (key == "spdp.period") return spdp.period.count();
-  if (key == "spdp.startup_announcements") return spdp.startup_announcements;
-  if (key == "spdp.startup_period") return spdp.startup_period.count();
-  if (key == "sedp.heartbeat_period") return sedp.heartbeat_period.count();
-  if (key == "sedp.nack_suppression_duration") return sedp.nack_suppression_duration.count();
-  if (key == "sedp.initial_acknack_delay") return sedp.initial_acknack_delay.count();
-  if (key == "sedp.grouping_limit_bytes") return sedp.grouping_limit_bytes.count();
-  return sedp.piggyback_threshold_bytes.count();
-}
-
 std::string shown(const Values& values, std::string_view key) {
   const auto found = values.find(key);
   return found == values.end() ? "nothing" : found->second;
@@ -74,7 +61,7 @@ class Changes {
                          "preset has it",
                          value, old_value));
       }
-      add(vendor, preset, knob, number_of(profile, knob.key), value);
+      add(vendor, preset, knob, numeric_knob(profile, knob.key), value);
     }
   }
 
@@ -96,17 +83,19 @@ class Changes {
     }
   }
 
-  void add(Vendor vendor, std::string_view preset, const VendorKnob& knob, std::int64_t number,
-           const std::string& value) {
+  void add(Vendor vendor, std::string_view preset, const VendorKnob& knob,
+           std::optional<std::int64_t> number, const std::string& value) {
     if (knob.setting.empty()) {
       fail(preset, knob.key,
            fmt::format("{}: no user of {} can set it ({})", value, name_of(vendor), knob.why));
-    } else if (number < knob.minimum || number > knob.maximum) {
+    } else if (!number) {
+      fail(preset, knob.key, fmt::format("{}: is no number; expected a numeric knob", value));
+    } else if (*number < knob.minimum || *number > knob.maximum) {
       fail(preset, knob.key,
            fmt::format("{}: expected {} to {} (ns or B), which {} can set", value, knob.minimum,
                        knob.maximum, knob.setting));
     }
-    numbers_.emplace(knob.key, number);
+    if (number) numbers_.emplace(knob.key, *number);
   }
 
   std::map<std::string_view, std::int64_t> numbers_;

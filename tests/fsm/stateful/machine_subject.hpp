@@ -5,8 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "fsm/flyweight.hpp"
-#include "fsm/row_table.hpp"
+#include "fsm/stepper.hpp"
 #include "tests/fsm/stateful/reactor.hpp"
 
 namespace stormproof::fsm::stateful {
@@ -30,37 +29,14 @@ struct MachineSubject : Subject {
           std::move(under_test)};
 }
 
-/// Executes a machine: with Boost.MSM, or with the interpreted table if there is a mistake in it.
+/// Executes a machine, and names its states.
 template <class Machine>
-class Stepper {
- public:
-  using Input = typename Flyweight<Machine>::Input;
-  using Output = typename Flyweight<Machine>::Output;
+struct Stepper : fsm::Stepper<Machine> {
+  using fsm::Stepper<Machine>::Stepper;
 
-  explicit Stepper(Mutations mutations) {
-    if (!mutations.empty()) mutated_ = std::make_unique<TableInterpreter<Machine>>(mutations);
-  }
-
-  template <class Event>
-  Output step(StateId& state, const Input& input = {}) {
-    Output output{};
-    if (mutated_ != nullptr) {
-      state =
-          mutated_->step(state, Reflect<Machine>::template event_id<Event>, input, output).state;
-    } else {
-      state = engine_.template step<Event>(state, input, output);
-    }
-    return output;
-  }
-
-  static constexpr StateId initial = Flyweight<Machine>::initial;
   static std::string name(StateId state) {
     return std::string{Reflect<Machine>::state_names[state]};
   }
-
- private:
-  Flyweight<Machine> engine_;
-  std::unique_ptr<TableInterpreter<Machine>> mutated_;
 };
 
 /// The subjects, each list from the file that has the machines.

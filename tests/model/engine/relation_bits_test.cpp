@@ -69,6 +69,41 @@ TEST(RelationBits, FirstGenerationIsTold) {
   EXPECT_TRUE(bits.mark_generated(0, 1));
 }
 
+/// Lets the writer's machines step, and what a probe is told of it be counted.
+struct Stepped : Bits {
+  using Bits::Bits;
+  using Bits::step;
+};
+
+struct Told : Probe {
+  void transition(const MachineRef&, std::string_view event, std::string_view before,
+                  std::string_view after, std::uint32_t, std::uint64_t descriptors) override {
+    lines.push_back(std::string{event} + ": " + std::string{before} + " → " + std::string{after} +
+                    " " + std::to_string(descriptors));
+  }
+  std::vector<std::string> lines;
+};
+
+/// No row of a correct table keeps its state, so a mistake makes one.
+TEST(RelationBits, ARowThatKeepsItsStateIsTold) {
+  using Repair = fsm::Reflect<fsm::DescriptorRepair>;
+  const auto rows = Repair::info().rows;
+  fsm::TableMutation keep;
+  keep.machine = Repair::info().name;
+  keep.kind = fsm::TableMutation::Kind::retarget;
+  keep.target = Repair::id<fsm::descriptor_repair::U>;
+  while (rows[keep.row].target != Repair::id<fsm::descriptor_repair::R>) ++keep.row;
+  const Mutation mutation{.tables = {keep}, .events = {}};
+  const Scenario scenario = by_hand({{0, 3}, {1, 0}});
+  Told told;
+  RunState run{scenario, &told, &mutation};
+  Stepped bits{run};
+  bits.step<fsm::descriptor_repair::AckNackReceived>(0, 0, 5, {.listed = true});
+  EXPECT_EQ(told.lines, std::vector<std::string>{"AckNackReceived: U → U 5"});
+  bits.step<fsm::descriptor_repair::RepairDue>(0, 0, 7);  // no row
+  EXPECT_EQ(told.lines.size(), 1U);
+}
+
 TEST(RelationBits, ARelationWithoutDescriptorsIsEmpty) {
   const Scenario scenario = by_hand({{0, 3}, {1, 0}});
   RunState run{scenario, nullptr};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "model/engine/topology.hpp"
+
 namespace stormproof::model::fastdds {
 
 namespace {

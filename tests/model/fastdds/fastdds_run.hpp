@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "model/engine/packet.hpp"
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model::fastdds {

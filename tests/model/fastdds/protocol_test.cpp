@@ -16,7 +16,10 @@ constexpr std::uint32_t descriptors = 9;
 /// Participant 0 has all its endpoints and has recognised 1; nothing else has happened.
 class FastddsProtocol : public testing::Test, private Probe {
  protected:
-  FastddsProtocol() : run_{scenario_, this}, network_{run_}, protocol_{run_, network_} {
+  FastddsProtocol()
+      : run_{scenario_, this, nullptr, Protocol::same_host_pairs},
+        network_{run_},
+        protocol_{run_, network_} {
     network_.attach(protocol_);
     for (std::uint32_t k = 0; k < 17; ++k) handle(EventKind::endpoint_creation, 0, k);
     Packet announcement;

@@ -2,6 +2,7 @@
 #include "model/trace/trace_json.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace stormproof::model::trace {
 namespace trace_json_test {

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "model/engine/packet.hpp"
 #include "props/laws/law.hpp"
 #include "tests/props/laws/law_check.hpp"
 

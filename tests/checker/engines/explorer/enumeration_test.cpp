@@ -11,6 +11,7 @@
 
 #include "checker/engines/explorer/paper_world.hpp"
 #include "checker/engines/explorer/search.hpp"
+#include "model/engine/packet.hpp"
 #include "model/simulator.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
 

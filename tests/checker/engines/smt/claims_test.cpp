@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "checker/engines/smt/decision.hpp"
+
 namespace stormproof::smt {
 namespace claims_test {
 

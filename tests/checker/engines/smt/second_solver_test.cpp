@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "checker/engines/smt/decision.hpp"
 #include "tests/checker/engines/smt/solver_on_path.hpp"
 
 namespace stormproof::smt {

@@ -51,7 +51,7 @@ void compare(const std::vector<TableMutation>& mutations) {
       for (std::size_t k = 0; k < Step::states; ++k) {
         EXPECT_EQ(effect.next[k].simplify().is_true(), k == expected.state);
       }
-      EXPECT_EQ(effect.fires().simplify().is_true(), expected.fired);
+      EXPECT_EQ(effect.fires().simplify().is_true(), expected.fired());
       EXPECT_EQ(effect.asks(&Step::Output::requested).is_true(), output.requested);
       EXPECT_EQ(effect.asks(&Step::Output::acknowledged).is_true(), output.acknowledged);
       EXPECT_EQ(effect.asks(&Step::Output::generate).is_true(), output.generate);

@@ -1,6 +1,6 @@
 // The order of events: a strict total order, receptions first, and the pairs for which it matters.
-#include "model/engine/event_order.hpp"
 #include "model/engine/event_queue.hpp"
+#include "model/event_order.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
 
 namespace stormproof::tables {

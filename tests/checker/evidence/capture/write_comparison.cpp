@@ -13,6 +13,8 @@
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/write/capture_probe.hpp"
 #include "checker/evidence/capture/write/identities.hpp"
+#include "model/engine/packet.hpp"
+#include "model/engine/topology.hpp"
 
 namespace stormproof::capture::testing {
 

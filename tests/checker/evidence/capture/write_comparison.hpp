@@ -8,6 +8,7 @@
 
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/capture/write/simulated_capture.hpp"
+#include "model/engine/packet.hpp"
 #include "model/probe.hpp"
 
 namespace stormproof::capture::testing {

@@ -12,6 +12,7 @@
 #include "checker/experiments/diff/normal_form.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/engine/packet.hpp"
 #include "model/simulator.hpp"
 #include "props/generators/knob_access.hpp"
 

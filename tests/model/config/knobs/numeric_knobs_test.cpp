@@ -59,6 +59,15 @@ TEST(NumericKnobs, leave_out_what_nothing_depends_on) {
   EXPECT_EQ(find(delay, "wireless.rate_unicast"), nullptr);
 }
 
+TEST(NumericKnobs, one_of_a_profile_by_its_key) {
+  const DdsProfile dds = shipped("wifi-5x20").dds;
+  EXPECT_EQ(numeric_knob(dds, "sedp.piggyback_threshold_bytes"), 106'496);
+  EXPECT_EQ(numeric_knob(dds, "spdp.startup_announcements"), 5);
+  EXPECT_EQ(numeric_knob(dds, "sedp.no_such_key"), std::nullopt);
+  EXPECT_EQ(numeric_knob(dds, "sedp.acknowledge"), std::nullopt);
+  EXPECT_EQ(numeric_knob(dds, "sedp"), std::nullopt);
+}
+
 TEST(NumericKnobs, leave_out_words_and_absent_overrides) {
   const auto unlimited =
       numeric_knobs(shipped("wifi-5x20", {"wireless.source_queue_bytes=unlimited"}));

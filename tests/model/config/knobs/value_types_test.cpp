@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "model/config/knobs/dds_knobs.hpp"
+#include "model/config/knobs/value_json.hpp"
 #include "model/config/knobs/wireless_knobs.hpp"
 #include "model/config/tree/yaml_text.hpp"
 
@@ -89,8 +90,8 @@ TEST(ValueTypes, bytes_or_a_word) {
   const BytesOrWordType type{byte_range(1, 1000), "unlimited", WirelessProfile::unlimited};
   EXPECT_EQ(complaint(type, "unlimited", value), "");
   EXPECT_EQ(value, WirelessProfile::unlimited);
-  EXPECT_EQ(type.write(value), Json("unlimited"));
-  EXPECT_EQ(type.write(Bytes{7}), Json(7));
+  EXPECT_EQ(json_of(type, value), Json("unlimited"));
+  EXPECT_EQ(json_of(type, Bytes{7}), Json(7));
   EXPECT_EQ(complaint(type, "unlimted", value),
             "f:1:1: 'unlimted' is not an integer in plain decimal digits");
 }
@@ -112,7 +113,7 @@ TEST(ValueTypes, pairs_have_two_elements) {
   std::array<Bytes, 2> value;
   const BytesPairType type{packet_bytes};
   EXPECT_EQ(complaint(type, "[532, 452]", value), "");
-  EXPECT_EQ(type.write(value).dump(), "[532,452]");
+  EXPECT_EQ(json_of(type, value).dump(), "[532,452]");
   EXPECT_EQ(complaint(type, "[1, 2, 3]", value), "f:1:1: a list of 3");
   EXPECT_EQ(complaint(type, "[1, x]", value),
             "f:1:5: 'x' is not an integer in plain decimal digits");
@@ -122,7 +123,7 @@ TEST(ValueTypes, seeds_have_64_bits) {
   std::uint64_t value = 0;
   EXPECT_EQ(complaint(SeedType{}, "18446744073709551615", value), "");
   EXPECT_EQ(value, 18'446'744'073'709'551'615ULL);
-  EXPECT_EQ(SeedType{}.write(value).dump(), "18446744073709551615");
+  EXPECT_EQ(json_of(SeedType{}, value).dump(), "18446744073709551615");
   EXPECT_EQ(complaint(SeedType{}, "0", value), "");
   EXPECT_EQ(value, 0U);
   EXPECT_EQ(complaint(SeedType{}, "18446744073709551616", value),
@@ -141,7 +142,7 @@ TEST(ValueTypes, ranges_do_not_run_backwards) {
   RangeParts parts{low, high};
   const DurationRangeType type{delay_range};
   EXPECT_FALSE(type.read(node("[1ms, 1ms]"), parts));
-  EXPECT_EQ(type.write({low, high}).dump(), R"(["1ms","1ms"])");
+  EXPECT_EQ(json_of(type, {low, high}).dump(), R"(["1ms","1ms"])");
   EXPECT_EQ(complaint(type, "[2ms, 1ms]", parts), "f:1:1: '2ms' is more than '1ms'");
   EXPECT_EQ(complaint(type, "[1ms]", parts), "f:1:1: a list of 1");
   EXPECT_EQ(complaint(type, "1ms", parts), "f:1:1: '1ms' is not a list");

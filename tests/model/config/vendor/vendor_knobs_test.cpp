@@ -55,6 +55,17 @@ TEST(VendorKnobs, hold_every_key_of_the_presets_once) {
   }
 }
 
+/// What is written into XML is the number behind the key; no key stands for another one.
+TEST(VendorKnobs, settable_ones_are_numbers) {
+  for (const Vendor vendor : {Vendor::fastdds, Vendor::cyclonedds}) {
+    const DdsProfile profile = preset(presets(vendor).front());
+    for (const VendorKnob& knob : vendor_knobs(vendor)) {
+      if (knob.setting.empty()) continue;
+      EXPECT_NE(numeric_knob(profile, knob.key), std::nullopt) << knob.key;
+    }
+  }
+}
+
 TEST(VendorKnobs, are_in_the_order_of_the_profile) {
   const Json json = effective_json(preset("paper"));
   std::vector<std::string> order;

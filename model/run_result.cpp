@@ -1,28 +1,7 @@
-// Names of packet kinds, traffic classes and ends of runs, as reports and traces show them.
-#include "model/engine/packet.hpp"
+// Names of traffic classes and ends of runs, as reports and traces show them.
 #include "model/run_result.hpp"
 
 namespace stormproof::model {
-
-const char* name_of(PacketKind kind) {
-  switch (kind) {
-    case PacketKind::spdp_multicast:
-      return "spdp_multicast";
-    case PacketKind::spdp_unicast:
-      return "spdp_unicast";
-    case PacketKind::data:
-      return "data";
-    case PacketKind::heartbeat:
-      return "heartbeat";
-    case PacketKind::acknack:
-      return "acknack";
-    case PacketKind::user_heartbeat:
-      return "user_heartbeat";
-    case PacketKind::user_acknack:
-      return "user_acknack";
-  }
-  return "";
-}
 
 const char* name_of(TrafficClass traffic) {
   switch (traffic) {

@@ -1,5 +1,7 @@
 // Names of event kinds and classes, as traces show them.
-#include "model/engine/event_queue.hpp"
+#include "model/event.hpp"
+
+#include <array>
 
 namespace stormproof::model {
 

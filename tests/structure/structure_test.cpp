@@ -1,0 +1,113 @@
+// The includes of fsm, model, props and checker obey the rules; and the rules can fail, which
+// invented trees show.
+#include <gtest/gtest.h>
+
+#include "tests/structure/includes.hpp"
+#include "tests/structure/rules.hpp"
+
+namespace stormproof::structure {
+namespace structure_test {
+
+using Complaints = std::vector<std::string>;
+
+std::string lines(const Complaints& complaints) {
+  std::string text;
+  for (const std::string& complaint : complaints) text += complaint + "\n";
+  return text;
+}
+
+const Includes& sources() {
+  static const Includes includes =
+      read_includes(STORMPROOF_SOURCE_DIR, {"fsm", "model", "props", "checker"});
+  return includes;
+}
+
+std::string data_file(const std::string& name) {
+  return std::string{STORMPROOF_STRUCTURE_DIR} + "/" + name;
+}
+
+TEST(Structure, IncludesGoDownwards) {
+  EXPECT_EQ(lines(check_folders(sources(), read_words(data_file("folders.txt")))), "");
+}
+
+TEST(Structure, HeadersDoNotDragInWhatTheyDoNotNeed) {
+  std::map<std::string, HeavyHeaders> rules;
+  for (const std::vector<std::string>& words : read_words(data_file("heavy_headers.txt"))) {
+    ASSERT_EQ(words.size(), 2U) << "expected: library header # reason";
+    HeavyHeaders& rule = rules[words[0]];
+    rule.library = words[0];
+    rule.allowed.push_back(words[1]);
+  }
+  for (const char* library : {"boost/", "z3++.h", "nlohmann/json.hpp", "CLI/"}) {
+    ASSERT_TRUE(rules.contains(library)) << library;
+    EXPECT_EQ(lines(check_heavy_headers(sources(), rules[library])), "");
+  }
+}
+
+TEST(Structure, ReadsIncludes) {
+  EXPECT_EQ(includes_of("// a\n#include <z3++.h>\n  #  include \"a/b.hpp\"  // why\n"
+                        "const char* text = \"#include <no>\";\n#define X\n"),
+            (Complaints{"z3++.h", "a/b.hpp"}));
+  EXPECT_GT(sources().size(), 400U);
+  EXPECT_TRUE(sources().contains("model/probe.hpp"));
+}
+
+/// Three layers; `wing` and `tail` stand side by side, and so does a file of `body`.
+const Layers layers{{"body"}, {"wing", "tail", "body/engine"}, {"wing/tip"}};
+
+TEST(Folders, ArrowsDownAndInsideAreAllowed) {
+  const Includes tree{{"body/a.hpp", {"vector", "body/b.hpp"}},
+                      {"body/b.hpp", {}},
+                      {"body/engine.cpp", {"body/a.hpp"}},
+                      {"tail/a.cpp", {"body/a.hpp", "z3++.h"}},
+                      {"wing/a.hpp", {"wing/b.hpp"}},
+                      {"wing/b.hpp", {"wing/a.hpp"}},
+                      {"wing/tip/a.cpp", {"tail/a.cpp", "body/engine.cpp"}}};
+  EXPECT_EQ(check_folders(tree, layers), Complaints{});
+}
+
+TEST(Folders, ArrowsUpAndSidewaysAreNot) {
+  const Includes tree{{"body/a.hpp", {"wing/a.hpp"}},
+                      {"body/engine.hpp", {}},
+                      {"tail/a.cpp", {"wing/a.hpp"}},
+                      {"wing/a.hpp", {"body/engine.hpp"}},
+                      {"wing/tip/a.hpp", {}}};
+  EXPECT_EQ(check_folders(tree, layers),
+            (Complaints{"body/a.hpp includes wing/a.hpp: wing is above body",
+                        "tail/a.cpp includes wing/a.hpp: wing is beside tail",
+                        "wing/a.hpp includes body/engine.hpp: body/engine is beside wing"}));
+}
+
+TEST(Folders, ACycleHasAnArrowUp) {
+  const Includes tree{{"a/x.hpp", {"b/x.hpp"}}, {"b/y.hpp", {"a/x.hpp"}}, {"b/x.hpp", {}}};
+  EXPECT_EQ(check_folders(tree, {{"a"}, {"b"}}).size(), 1U);
+  EXPECT_EQ(check_folders(tree, {{"b"}, {"a"}}).size(), 1U);
+  EXPECT_EQ(check_folders(tree, {{"a", "b"}}).size(), 2U);
+}
+
+TEST(Folders, TheListIsComplete) {
+  const Includes tree{{"body/a.hpp", {}}, {"fin/a.hpp", {}}};
+  EXPECT_EQ(check_folders(tree, {{"body"}, {"wing", "body"}}),
+            (Complaints{"body stands in the list twice", "fin/a.hpp is in no folder of the list",
+                        "wing has no file"}));
+}
+
+TEST(HeavyHeaders, AreFoundOverOtherHeaders) {
+  const Includes tree{{"a.hpp", {"z3++.h"}},
+                      {"b.hpp", {"vector", "a.hpp"}},
+                      {"b.cpp", {"b.hpp"}},
+                      {"c.hpp", {"c.hpp", "string"}}};
+  EXPECT_EQ(check_heavy_headers(tree, {"z3++.h", {"a.hpp"}}),
+            Complaints{"b.hpp is not to reach z3++.h: b.hpp → a.hpp → z3++.h"});
+  EXPECT_EQ(check_heavy_headers(tree, {"z3++.h", {"a.hpp", "b.hpp"}}), Complaints{});
+  EXPECT_EQ(check_heavy_headers(tree, {"boost/", {}}), Complaints{});
+}
+
+TEST(HeavyHeaders, PermissionsThatNobodyNeedsAreNoticed) {
+  const Includes tree{{"a/x.hpp", {"boost/msm/row.hpp"}}, {"b/x.hpp", {}}};
+  EXPECT_EQ(check_heavy_headers(tree, {"boost/", {"a/", "b/"}}),
+            Complaints{"b/ does not reach boost/, and need not be allowed to"});
+}
+
+}  // namespace structure_test
+}  // namespace stormproof::structure
