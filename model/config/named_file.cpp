@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/tree/suggestion.hpp"
 

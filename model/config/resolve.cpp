@@ -2,7 +2,7 @@
 // with their bases, overrides of single keys.
 #include "model/config/resolve.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/knobs/dds_knobs.hpp"
 #include "model/config/knobs/scenario_knobs.hpp"

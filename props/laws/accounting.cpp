@@ -2,7 +2,7 @@
 #include <array>
 #include <map>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/laws/families.hpp"
 #include "props/monitors/describe.hpp"

@@ -2,7 +2,7 @@
 // there is nobody left to ask.
 #include <map>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/laws/families.hpp"
 #include "props/monitors/describe.hpp"

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <map>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/airtime.hpp"
 #include "model/descriptor_sizes.hpp"

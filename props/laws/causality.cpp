@@ -2,7 +2,7 @@
 // reader that claims to know what it has not received.
 #include <set>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/airtime.hpp"
 #include "props/laws/families.hpp"

@@ -13,7 +13,7 @@
 #include <numeric>
 #include <set>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/engine/topology.hpp"
 #include "props/laws/families.hpp"

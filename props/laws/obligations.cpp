@@ -3,7 +3,7 @@
 // no channel idles while a fragment waits for it.
 #include <deque>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/laws/families.hpp"
 #include "props/monitors/describe.hpp"

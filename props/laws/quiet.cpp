@@ -8,7 +8,7 @@
 //   * if the repair is lost, too, the next periodic HEARTBEAT, τ_H after the first, brings another.
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/reference.hpp"
 #include "props/laws/families.hpp"

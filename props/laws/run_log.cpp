@@ -5,7 +5,7 @@
 #include <bit>
 #include <functional>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
 

@@ -2,7 +2,7 @@
 // homogeneous deployments (eq. 2), and the closed forms of the failure-free reference (eq. 4).
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/airtime.hpp"
 #include "model/descriptor_sizes.hpp"

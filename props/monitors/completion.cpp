@@ -17,7 +17,7 @@
 
 #include <optional>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"

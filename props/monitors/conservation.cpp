@@ -10,7 +10,7 @@
 #include <deque>
 #include <unordered_map>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/airtime.hpp"
 #include "props/monitors/describe.hpp"

@@ -1,7 +1,7 @@
 // Names and times in the reasons of violations.
 #include "props/monitors/describe.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace stormproof::props {
 

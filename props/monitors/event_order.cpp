@@ -5,7 +5,7 @@
 // Both say that processed events ascend in (time, class, insertion number), where the class is that
 // of the event's kind and not what the queue was told. A link without any delay breaks it: what a
 // decision of t emits arrives at t, after that decision and perhaps after others.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"

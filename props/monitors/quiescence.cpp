@@ -35,7 +35,7 @@
 #include <limits>
 #include <optional>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"

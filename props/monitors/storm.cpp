@@ -4,7 +4,7 @@
 // storm.free-threshold: no descriptor is generated a second time for a receiver. Under push the
 // first generation is the initial DATA; under pull, and with Fast DDS, it may answer an ACKNACK.
 // From the first loss on, neither claims anything. Only cross-host relations count.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"

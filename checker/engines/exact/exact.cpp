@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/engines/exact/observed_run.hpp"
 #include "checker/engines/exact/smallest_violation.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <chrono>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/engines/explorer/explorer.hpp"
 #include "checker/engines/explorer/fastdds_world.hpp"

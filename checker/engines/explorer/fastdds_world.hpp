@@ -14,6 +14,7 @@
 #include "fsm/heartbeat_timer.hpp"
 #include "fsm/initial_acknack.hpp"
 #include "fsm/single_shot.hpp"
+#include "fsm/stepper.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::explorer {

@@ -5,7 +5,7 @@
 #include <bit>
 #include <type_traits>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace stormproof::explorer {
 

@@ -13,6 +13,7 @@
 #include "fsm/discovery_reader.hpp"
 #include "fsm/heartbeat_timer.hpp"
 #include "fsm/initial_acknack.hpp"
+#include "fsm/stepper.hpp"
 #include "model/descriptor_sizes.hpp"
 #include "model/scenario.hpp"
 

@@ -1,7 +1,7 @@
 // Difference constraints, solved by relaxation.
 #include "checker/engines/explorer/path.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
 

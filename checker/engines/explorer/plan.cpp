@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/engines/bounds/completion_bound.hpp"
 #include "model/descriptor_sizes.hpp"

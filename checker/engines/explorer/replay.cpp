@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/engines/explorer/fastdds_world.hpp"
 #include "model/engine/packet.hpp"

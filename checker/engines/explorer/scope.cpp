@@ -1,7 +1,7 @@
 // Scopes in words.
 #include "checker/engines/explorer/scope.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
 

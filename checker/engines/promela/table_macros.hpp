@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <boost/pfr.hpp>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include "fsm/row_table.hpp"

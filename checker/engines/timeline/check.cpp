@@ -2,7 +2,7 @@
 #include <array>
 #include <exception>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <z3++.h>
 
 #include "checker/engines/timeline/findings.hpp"

@@ -2,7 +2,7 @@
 // run says about the theorem's assumptions.
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/engines/timeline/completion_theorem.hpp"
 #include "checker/engines/timeline/completion_witness.hpp"

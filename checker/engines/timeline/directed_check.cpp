@@ -1,7 +1,7 @@
 // Comparison of runs with the encoding, and confirmation of counterexamples.
 #include "checker/engines/timeline/directed_check.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/simulator.hpp"
 #include "props/monitor.hpp"

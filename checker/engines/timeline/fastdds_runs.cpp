@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/engines/bounds/completion_bound.hpp"
 #include "checker/engines/timeline/directed_run.hpp"

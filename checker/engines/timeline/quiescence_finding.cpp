@@ -2,7 +2,7 @@
 // ACKNACKs never end.
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/engines/timeline/directed_check.hpp"
 #include "checker/engines/timeline/findings.hpp"

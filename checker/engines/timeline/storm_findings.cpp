@@ -2,7 +2,7 @@
 // margin, and if there is none a schedule with a needless repair that the machines run.
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/engines/timeline/directed_check.hpp"
 #include "checker/engines/timeline/findings.hpp"

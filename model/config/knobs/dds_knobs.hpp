@@ -3,7 +3,7 @@
 // all sizes are keys of the paper's model alone, because they are constants of the other one.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/value_types.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/knobs/knob_writer.hpp"
 #include "model/config/knobs/scenario_knobs.hpp"

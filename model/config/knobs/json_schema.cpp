@@ -2,7 +2,7 @@
 // over several keys and the exact ranges of durations and rates are left to the program.
 #include "model/config/knobs/json_schema.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/knobs/knob_writer.hpp"
 #include "model/config/knobs/scenario_knobs.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/scenario_knobs.hpp"

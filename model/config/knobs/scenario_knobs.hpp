@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/knobs/dds_knobs.hpp"
 #include "model/config/knobs/knobs.hpp"

@@ -1,7 +1,7 @@
 // An override is parsed like a file of its own; then every node of it is placed at the argument.
 #include "model/config/tree/overrides.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/tree/yaml_text.hpp"
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <span>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/tree/tree.hpp"
 

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <unordered_map>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace stormproof::model::config {
 

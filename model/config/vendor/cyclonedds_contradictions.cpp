@@ -1,5 +1,5 @@
 // Settings of one file that contradict each other or do nothing beside each other.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/vendor/cyclonedds_settings.hpp"
 

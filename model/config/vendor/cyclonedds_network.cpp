@@ -1,6 +1,6 @@
 // Multicast, transport and interfaces: what several settings of Cyclone DDS decide together about
 // the ways that announcements and descriptors take.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/vendor/cyclonedds_settings.hpp"
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <system_error>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/tree/tree.hpp"
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <span>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include "model/config/vendor/cyclonedds_domain.hpp"

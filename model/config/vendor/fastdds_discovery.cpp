@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/knobs/value_types.hpp"
 #include "model/config/tree/quantities.hpp"

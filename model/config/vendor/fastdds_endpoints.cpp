@@ -2,7 +2,7 @@
 // writers and readers have constants instead (EDPSimple.cpp:54-57), so each gets a remark.
 #include <array>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/vendor/fastdds_discovery.hpp"
 

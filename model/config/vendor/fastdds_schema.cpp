@@ -8,7 +8,7 @@
 #include <cctype>
 #include <charconv>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace stormproof::model::config::vendor::fastdds {
 namespace {

@@ -4,7 +4,7 @@
 // and of a property (RTPSParticipantImpl.cpp:443-457).
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/vendor/fastdds_discovery.hpp"
 #include "model/fastdds/endpoints.hpp"

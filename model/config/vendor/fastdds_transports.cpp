@@ -3,7 +3,7 @@
 // otherwise; discovery does not go through shared memory (NetworkFactory.cpp:43-67,266-339).
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/vendor/fastdds_discovery.hpp"
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/vendor/fastdds_discovery.hpp"

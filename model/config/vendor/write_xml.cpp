@@ -3,7 +3,7 @@
 // on top of the same preset gives the profile back.
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "model/config/knobs/effective.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include <expat.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace stormproof::model::config::vendor {
 namespace {

@@ -1,7 +1,7 @@
 // One bad input a line: the text, the line and column of the error, and what its message has to
 // say. `good` is a complete scenario with complete profiles in it; most inputs are that scenario
 // with one piece replaced.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "model/config/knobs/effective.hpp"
