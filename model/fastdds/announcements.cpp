@@ -15,38 +15,27 @@ void Protocol::create_endpoint(std::uint32_t i, std::uint32_t k) {
   control_.created(i, stream, d);
 }
 
-void Protocol::send_spdp(std::uint32_t i) {
+void Protocol::send_spdp_to_known(std::uint32_t i) {
   for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
        ++pair) {
     if (known_[pair]) send_spdp_copy(pair);
   }
-  send_spdp_multicast(i);
 }
 
 void Protocol::send_spdp_multicast(std::uint32_t i) {
   ++run_.counts.spdp_multicast;
-  const auto multicast = [&] {
-    Packet packet;
-    packet.kind = PacketKind::spdp_multicast;
-    packet.payload_bytes = static_cast<std::uint32_t>(spdp_bytes);
-    packet.pair = i;
-    return packet;
-  };
   for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
        ++pair) {
     const Pair& p = run_.topology.pair(pair);
-    if (!p.cross_host) network_.loop_back(multicast(), p.destination);
+    if (p.cross_host) continue;
+    network_.loop_back(packet_of(PacketKind::spdp_multicast, i, spdp_bytes), p.destination);
   }
-  network_.emit(i, multicast());
+  network_.emit(i, packet_of(PacketKind::spdp_multicast, i, spdp_bytes));
 }
 
 void Protocol::send_spdp_copy(std::uint32_t pair) {
   if (run_.topology.pair(pair).cross_host) ++run_.counts.spdp_unicast;
-  Packet packet;
-  packet.kind = PacketKind::spdp_unicast;
-  packet.payload_bytes = static_cast<std::uint32_t>(spdp_bytes);
-  packet.pair = pair;
-  send(std::move(packet));
+  send(packet_of(PacketKind::spdp_unicast, pair, spdp_bytes));
 }
 
 /// `pair` is (i, j): j has received i's announcement.
@@ -60,32 +49,6 @@ void Protocol::spdp_received(std::uint32_t pair) {
     match_reader(2 * reverse + static_cast<std::uint32_t>(s));
   }
   if (run_.topology.pair(pair).cross_host) control_.recognised(pair);
-}
-
-/// What j sends when it recognises i; `reverse_pair` is (j, i).
-void Protocol::resend(std::uint32_t reverse_pair) {
-  const std::uint32_t j = run_.topology.pair(reverse_pair).source;
-  switch (spdp_.resend) {
-    case SpdpResend::all_known:
-      send_spdp(j);
-      break;
-    case SpdpResend::new_and_multicast:
-      send_spdp_copy(reverse_pair);
-      send_spdp_multicast(j);
-      break;
-    case SpdpResend::new_only:
-      send_spdp_copy(reverse_pair);
-      break;
-    case SpdpResend::none:
-      break;
-  }
-}
-
-void Protocol::open_reader(std::uint32_t relation) {
-  Relation& r = relations_[relation];
-  const auto output = reader_driver_.step<fsm::discovery_reader::AnnouncementReceived>(
-      run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
-  if (output.opened) initial_attempts_.open(r.initial, relation);
 }
 
 /// The writer side opens: existing descriptors wait until the reader asks for them.

@@ -4,14 +4,8 @@
 namespace stormproof::model::fastdds {
 
 Protocol::Protocol(RunState& run, Network& network)
-    : run_{run},
-      network_{network},
-      spdp_{run.scenario.dds.spdp},
-      sedp_{run.scenario.dds.sedp},
+    : DiscoveryBase{run, network, Multicast::last, false},
       changes_{run},
-      heartbeats_{run, *this},
-      announcements_{run},
-      initial_attempts_{run, MachineRef::Kind::relation, EventKind::initial_acknack_due},
       control_{run, network, *this},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
@@ -44,17 +38,8 @@ void Protocol::start() {
 void Protocol::handle(const Event& event) {
   const std::uint32_t subject = event.subject;
   switch (event.kind) {
-    case EventKind::announcement_due:
-      announcements_.due(subject, [&] { send_spdp(subject); });
-      break;
     case EventKind::endpoint_creation:
       create_endpoint(subject, event.detail);
-      break;
-    case EventKind::acknack_generation:
-      acknack_generation(subject);
-      break;
-    case EventKind::initial_acknack_due:
-      initial_acknack_due(subject);
       break;
     case EventKind::nack_response:
       nack_response(subject);
@@ -70,7 +55,7 @@ void Protocol::handle(const Event& event) {
       control_.handle(event);
       break;
     default:
-      heartbeats_.handle(event);
+      DiscoveryBase::handle(event);
       break;
   }
 }

@@ -8,27 +8,22 @@
 //   reader.cpp         DATA, HEARTBEATs, ACKNACKs at the reader
 //   control.cpp        relations of which only the control traffic is modelled
 //   (fastdds::ControlTraffic)
+// What the paper's implementation does alike is in model/engine/discovery_base.hpp.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <vector>
 
-#include "fsm/discovery_reader.hpp"
 #include "fsm/single_shot.hpp"
-#include "model/engine/announcement_schedule.hpp"
-#include "model/engine/driver.hpp"
-#include "model/engine/heartbeat_schedule.hpp"
-#include "model/engine/implementation.hpp"
-#include "model/engine/initial_attempts.hpp"
-#include "model/engine/network.hpp"
+#include "model/engine/discovery_base.hpp"
 #include "model/fastdds/change_states.hpp"
 #include "model/fastdds/control.hpp"
 #include "model/fastdds/message.hpp"
 
 namespace stormproof::model::fastdds {
 
-class Protocol final : public Implementation, private HeartbeatSender, private Discovered {
+class Protocol final : public DiscoveryBase, private Discovered {
  public:
   static constexpr SameHostPairs same_host_pairs =
       SameHostPairs::included;  ///< a writer treats all readers alike
@@ -48,17 +43,13 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
 
  private:
-  struct Relation {
+  struct Relation : ReaderSide {
     // Writer side.
     bool matched = false;
     std::uint32_t low = 0;  ///< every descriptor below it is acknowledged
     fsm::StateId suppression = fsm::Flyweight<fsm::SingleShot>::initial;
     // Reader side.
-    fsm::StateId reader = fsm::Flyweight<fsm::DiscoveryReader>::initial;
-    InitialTimer initial;
     fsm::StateId reply = fsm::Flyweight<fsm::SingleShot>::initial;
-    bool heartbeat_seen = false;
-    std::uint32_t missing = 0;    ///< descriptors with X = 0
     std::uint32_t announced = 0;  ///< descriptors that the reader knows to exist
     std::uint32_t notified = 0;   ///< descriptors received without a gap
   };
@@ -77,12 +68,10 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
 
   // announcements.cpp
   void create_endpoint(std::uint32_t i, std::uint32_t k);
-  void send_spdp(std::uint32_t i);
-  void send_spdp_multicast(std::uint32_t i);
-  void send_spdp_copy(std::uint32_t pair);
+  void send_spdp_to_known(std::uint32_t i) override;
+  void send_spdp_multicast(std::uint32_t i) override;
+  void send_spdp_copy(std::uint32_t pair) override;
   void spdp_received(std::uint32_t pair);
-  void resend(std::uint32_t reverse_pair);
-  void open_reader(std::uint32_t relation);
   void match_reader(std::uint32_t relation);
 
   // writer.cpp
@@ -114,9 +103,8 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   // reader.cpp
   void data_received(const Packet& packet);
   void heartbeat_received(std::uint32_t relation, std::uint32_t announced);
-  void acknack_generation(std::uint32_t relation);
-  void initial_acknack_due(std::uint32_t relation);
-  void emit_acknack(std::uint32_t relation, bool initial);
+  void acknack_generation(std::uint32_t relation) override;
+  void emit_acknack(std::uint32_t relation, bool initial) override;
   void ask(Packet& acknack);
   void take(std::uint32_t relation, const DescriptorSet& descriptors, std::uint32_t fresh);
 
@@ -137,25 +125,12 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   /// A single-shot timer is due: it is idle again. Returns whether what was asked for happens now.
   bool expire(SingleShots& driver, fsm::StateId& timer, std::uint32_t subject);
 
-  [[nodiscard]] const Pair& ends(std::uint32_t relation) const {
-    return run_.topology.pair(relation / 2);
-  }
-  [[nodiscard]] std::uint32_t writer_of(std::uint32_t relation) const {
-    return 2 * ends(relation).source + relation % 2;
-  }
-  [[nodiscard]] static Stream stream_of(std::uint32_t relation_or_writer) {
-    return relation_or_writer % 2 == 0 ? Stream::pub : Stream::sub;
+  [[nodiscard]] ReaderSide& reader_side(std::uint32_t relation) override {
+    return relations_[relation];
   }
   [[nodiscard]] bool crosses(std::uint32_t relation) const { return ends(relation).cross_host; }
 
-  RunState& run_;
-  Network& network_;
-  const SpdpProfile& spdp_;
-  const SedpProfile& sedp_;
   ChangeStates changes_;
-  HeartbeatSchedule heartbeats_;
-  AnnouncementSchedule announcements_;
-  InitialAttempts initial_attempts_;
   ControlTraffic control_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
@@ -165,7 +140,6 @@ class Protocol final : public Implementation, private HeartbeatSender, private D
   Message async_message_;
   std::vector<std::uint32_t> targets_;
 
-  Driver<fsm::DiscoveryReader> reader_driver_{run_, MachineRef::Kind::relation};
   SingleShots participant_shots_{run_, MachineRef::Kind::participant};
   SingleShots writer_shots_{run_, MachineRef::Kind::writer};
   SingleShots relation_shots_{run_, MachineRef::Kind::relation};

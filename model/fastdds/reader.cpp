@@ -6,29 +6,23 @@
 
 namespace stormproof::model::fastdds {
 
-namespace reader = fsm::discovery_reader;
-
 void Protocol::data_received(const Packet& packet) {
   const std::uint32_t relation = packet.relation();
-  Relation& r = relations_[relation];
   const std::uint32_t fresh = changes_.count_missing(relation, packet.descriptors);
-  const auto output = reader_driver_.step<reader::DataReceived>(
-      run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing - fresh}, relation);
+  const bool taken = takes_data(relation, relations_[relation].missing - fresh);
   if (crosses(relation)) {
     run_.duplicate_deliveries += packet.descriptors.count() - fresh;
-    if (output.take_data) run_.useful_deliveries += fresh;
+    if (taken) run_.useful_deliveries += fresh;
   }
-  if (output.take_data) take(relation, packet.descriptors, fresh);
+  if (taken) take(relation, packet.descriptors, fresh);
   if (run_.ends_now()) return;  // T_disc is now; the rest of the packet is not processed
   if (packet.carries_heartbeat) heartbeat_received(relation, packet.detail);
 }
 
 void Protocol::take(std::uint32_t relation, const DescriptorSet& descriptors, std::uint32_t fresh) {
   Relation& r = relations_[relation];
-  if (crosses(relation) && fresh == run_.missing && fresh > 0) {
-    run_.last_delivered = {ParticipantId{ends(relation).source},
-                           ParticipantId{ends(relation).destination}, stream_of(relation),
-                           DescriptorId{changes_.missing(relation).lowest()}};
+  if (crosses(relation) && completes(fresh)) {
+    note_last_delivery(relation, changes_.missing(relation).lowest());
   }
   changes_.receive(relation, descriptors);
   r.missing -= fresh;
@@ -44,43 +38,24 @@ void Protocol::take(std::uint32_t relation, const DescriptorSet& descriptors, st
 }
 
 void Protocol::heartbeat_received(std::uint32_t relation, std::uint32_t announced) {
+  if (!sees_heartbeat(relation)) return;
   Relation& r = relations_[relation];
-  const auto output = reader_driver_.step<reader::HeartbeatReceived>(
-      run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
-  if (!output.schedule_acknack) return;
-  r.heartbeat_seen = true;
   r.announced = std::max(r.announced, announced);
   request(relation_shots_, r.reply, sedp_.heartbeat_response_delay, EventKind::acknack_generation,
           relation);
 }
 
 void Protocol::acknack_generation(std::uint32_t relation) {
-  Relation& r = relations_[relation];
-  if (!expire(relation_shots_, r.reply, relation)) return;
-  const auto output = reader_driver_.step<reader::AckNackDue>(
-      run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
-  if (output.send_acknack) emit_acknack(relation, false);
-}
-
-void Protocol::initial_acknack_due(std::uint32_t relation) {
-  Relation& r = relations_[relation];
-  initial_attempts_.attempt(r.initial, r.heartbeat_seen, relation, [&] {
-    const auto output = reader_driver_.step<reader::InitialAckNackDue>(
-        run_, r.reader, {.accepts_unmatched = false, .missing_after = r.missing}, relation);
-    if (output.send_initial) emit_acknack(relation, true);
-  });
+  if (!expire(relation_shots_, relations_[relation].reply, relation)) return;
+  DiscoveryBase::acknack_generation(relation);
 }
 
 /// The base is the first missing descriptor; the bitmap lists what is missing of what was
 /// announced. An initial ACKNACK claims nothing: base 0, empty bitmap.
 void Protocol::emit_acknack(std::uint32_t relation, bool initial) {
   if (crosses(relation)) ++run_.counts.acknack;
-  Packet packet;
-  packet.kind = PacketKind::acknack;
-  packet.pair = relation / 2;
-  packet.stream = stream_of(relation);
+  Packet packet = packet_on(PacketKind::acknack, relation, acknack_bytes);
   packet.initial_acknack = initial;
-  packet.payload_bytes = static_cast<std::uint32_t>(acknack_bytes);
   if (!initial) {
     ask(packet);
     if (!packet.descriptors.empty()) {

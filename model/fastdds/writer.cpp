@@ -7,11 +7,7 @@ namespace stormproof::model::fastdds {
 
 void Protocol::emit_heartbeat(std::uint32_t relation, std::int64_t bytes) {
   if (crosses(relation)) ++run_.counts.heartbeat;
-  Packet packet;
-  packet.kind = PacketKind::heartbeat;
-  packet.pair = relation / 2;
-  packet.stream = stream_of(relation);
-  packet.payload_bytes = static_cast<std::uint32_t>(bytes);
+  Packet packet = packet_on(PacketKind::heartbeat, relation, bytes);
   packet.detail = writers_[writer_of(relation)].created;
   send(std::move(packet));
 }

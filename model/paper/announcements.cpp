@@ -6,37 +6,27 @@
 
 namespace stormproof::model::paper {
 
-/// One multicast packet, then a unicast copy to every cross-host participant that i knows.
-void Protocol::send_spdp(std::uint32_t i) {
-  send_spdp_multicast(i);
+/// To every cross-host participant that i knows: one record that stands for all copies.
+void Protocol::send_spdp_to_known(std::uint32_t i) {
   const Participant& participant = participants_[i];
   if (participant.known == 0) return;
   run_.counts.spdp_unicast += participant.known;
-  Packet packet;
-  packet.kind = PacketKind::spdp_unicast;
-  packet.payload_bytes = static_cast<std::uint32_t>(spdp_.payload_bytes.count());
+  Packet packet = packet_of(PacketKind::spdp_unicast, participant.first_known_pair,
+                            spdp_.payload_bytes.count());
   packet.copies = participant.known;
   packet.rank_limit = participant.known;
-  packet.pair = participant.first_known_pair;
   network_.emit(i, std::move(packet));
 }
 
 void Protocol::send_spdp_multicast(std::uint32_t i) {
   ++run_.counts.spdp_multicast;
-  Packet packet;
-  packet.kind = PacketKind::spdp_multicast;
-  packet.payload_bytes = static_cast<std::uint32_t>(spdp_.payload_bytes.count());
-  packet.pair = i;
-  network_.emit(i, std::move(packet));
+  network_.emit(i, packet_of(PacketKind::spdp_multicast, i, spdp_.payload_bytes.count()));
 }
 
 void Protocol::send_spdp_copy(std::uint32_t pair) {
   ++run_.counts.spdp_unicast;
-  Packet packet;
-  packet.kind = PacketKind::spdp_unicast;
-  packet.payload_bytes = static_cast<std::uint32_t>(spdp_.payload_bytes.count());
-  packet.pair = pair;
-  network_.emit(run_.topology.pair(pair).source, std::move(packet));
+  network_.emit(run_.topology.pair(pair).source,
+                packet_of(PacketKind::spdp_unicast, pair, spdp_.payload_bytes.count()));
 }
 
 /// `pair` is (i, j): j has received i's announcement.
@@ -54,33 +44,6 @@ void Protocol::spdp_received(std::uint32_t pair) {
   for (const Stream s : streams) {
     open_writer(2 * (by_receiver ? pair : reverse) + static_cast<std::uint32_t>(s));
   }
-}
-
-/// What j sends when it recognises i; `reverse_pair` is (j, i).
-void Protocol::resend(std::uint32_t reverse_pair) {
-  const std::uint32_t j = run_.topology.pair(reverse_pair).source;
-  switch (spdp_.resend) {
-    case SpdpResend::all_known:
-      send_spdp(j);
-      break;
-    case SpdpResend::new_and_multicast:
-      send_spdp_multicast(j);
-      send_spdp_copy(reverse_pair);
-      break;
-    case SpdpResend::new_only:
-      send_spdp_copy(reverse_pair);
-      break;
-    case SpdpResend::none:
-      break;
-  }
-}
-
-void Protocol::open_reader(std::uint32_t relation) {
-  Relation& r = relations_[relation];
-  const auto output = reader_driver_.step<fsm::discovery_reader::AnnouncementReceived>(
-      run_, r.reader, {.accepts_unmatched = accepts_unmatched_, .missing_after = r.missing},
-      relation);
-  if (output.opened) initial_attempts_.open(r.initial, relation);
 }
 
 void Protocol::open_writer(std::uint32_t relation) {

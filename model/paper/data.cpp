@@ -68,12 +68,8 @@ void Protocol::charge(Message& message, std::int64_t added_bytes) {
 
 /// Emits the packet and starts a new one.
 void Protocol::flush(Message& message) {
-  Packet packet;
-  packet.kind = PacketKind::data;
+  Packet packet = packet_on(PacketKind::data, message.relation, message.payload_bytes);
   packet.descriptors = DescriptorSet{message.words};
-  packet.pair = message.relation / 2;
-  packet.stream = stream_of(message.relation);
-  packet.payload_bytes = static_cast<std::uint32_t>(message.payload_bytes);
   packet.from_repair = message.repair;
   packet.carries_initial = message.carries_initial;
   packet.carries_heartbeat = message.heartbeats > 0;
@@ -90,12 +86,8 @@ void Protocol::flush(Message& message) {
 void Protocol::send_heartbeat(std::uint32_t relation) {
   ++run_.counts.heartbeat;
   writers_[writer_of(relation)].budget = sedp_.piggyback_threshold_bytes.count();
-  Packet packet;
-  packet.kind = PacketKind::heartbeat;
-  packet.pair = relation / 2;
-  packet.stream = stream_of(relation);
-  packet.payload_bytes = static_cast<std::uint32_t>(sedp_.heartbeat_bytes.count());
-  network_.emit(ends(relation).source, std::move(packet));
+  network_.emit(ends(relation).source,
+                packet_on(PacketKind::heartbeat, relation, sedp_.heartbeat_bytes.count()));
 }
 
 /// The same to every open relation of the writer, ascending: one record that stands for all of
@@ -105,11 +97,8 @@ void Protocol::send_heartbeat_to_open(std::uint32_t w) {
   if (writer.open == 0) return;
   run_.counts.heartbeat += writer.open;
   writer.budget = sedp_.piggyback_threshold_bytes.count();
-  Packet packet;
-  packet.kind = PacketKind::heartbeat;
-  packet.pair = writer.first_open_pair;
-  packet.stream = stream_of(w);
-  packet.payload_bytes = static_cast<std::uint32_t>(sedp_.heartbeat_bytes.count());
+  Packet packet = packet_on(PacketKind::heartbeat, 2 * writer.first_open_pair + w % 2,
+                            sedp_.heartbeat_bytes.count());
   packet.copies = writer.open;
   packet.rank_limit = writer.open;
   network_.emit(w / 2, std::move(packet));

@@ -6,16 +6,10 @@ namespace stormproof::model::paper {
 namespace reader = fsm::discovery_reader;
 
 Protocol::Protocol(RunState& run, Network& network)
-    : run_{run},
-      network_{network},
-      spdp_{run.scenario.dds.spdp},
-      sedp_{run.scenario.dds.sedp},
-      accepts_unmatched_{run.scenario.dds.sedp.unmatched == Unmatched::accept ||
-                         run.scenario.dds.sedp.relation_opening != RelationOpening::each_side},
+    : DiscoveryBase{run, network, Multicast::first,
+                    run.scenario.dds.sedp.unmatched == Unmatched::accept ||
+                        run.scenario.dds.sedp.relation_opening != RelationOpening::each_side},
       descriptors_{run},
-      heartbeats_{run, *this},
-      announcements_{run},
-      initial_attempts_{run, MachineRef::Kind::relation, EventKind::initial_acknack_due},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
@@ -43,15 +37,6 @@ void Protocol::start() {
 
 void Protocol::handle(const Event& event) {
   switch (event.kind) {
-    case EventKind::announcement_due:
-      announcements_.due(event.subject, [&] { send_spdp(event.subject); });
-      break;
-    case EventKind::acknack_generation:
-      acknack_generation(event.subject);
-      break;
-    case EventKind::initial_acknack_due:
-      initial_acknack_due(event.subject);
-      break;
     case EventKind::repair_generation:
       repair_generation(event.subject);
       break;
@@ -59,7 +44,7 @@ void Protocol::handle(const Event& event) {
       suppression_end(event.subject);
       break;
     default:
-      heartbeats_.handle(event);
+      DiscoveryBase::handle(event);
       break;
   }
 }

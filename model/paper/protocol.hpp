@@ -5,20 +5,14 @@
 //   reader.cpp         reception of DATA and HEARTBEAT, ACKNACKs
 //   writer.cpp         reception of ACKNACKs, repair, suppression
 //   data.cpp           generation of DATA and HEARTBEATs, grouping, piggyback
-// The HEARTBEAT timer with both policies is in model/engine/heartbeat_schedule.hpp.
+// What Fast DDS does alike is in model/engine/discovery_base.hpp.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "fsm/discovery_reader.hpp"
 #include "model/descriptor_sizes.hpp"
-#include "model/engine/announcement_schedule.hpp"
-#include "model/engine/driver.hpp"
-#include "model/engine/heartbeat_schedule.hpp"
-#include "model/engine/implementation.hpp"
-#include "model/engine/initial_attempts.hpp"
-#include "model/engine/network.hpp"
+#include "model/engine/discovery_base.hpp"
 #include "model/paper/descriptor_states.hpp"
 
 namespace stormproof::model::paper {
@@ -26,7 +20,7 @@ namespace stormproof::model::paper {
 /// A rank that no recipient has: the relation is not open, the participant is not known.
 inline constexpr std::uint32_t no_rank = UINT32_MAX;
 
-class Protocol final : public Implementation, private HeartbeatSender {
+class Protocol final : public DiscoveryBase {
  public:
   static constexpr SameHostPairs same_host_pairs =
       SameHostPairs::left_out;  ///< same-host traffic never touches the channel
@@ -45,14 +39,10 @@ class Protocol final : public Implementation, private HeartbeatSender {
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
 
  private:
-  struct Relation {
-    std::uint32_t missing = 0;         ///< descriptors with X = 0
+  struct Relation : ReaderSide {
     std::uint32_t unacknowledged = 0;  ///< descriptors not in A
     std::uint32_t open_rank =
         no_rank;  ///< writer side: how many relations of the writer opened before
-    fsm::StateId reader = 0;
-    InitialTimer initial;
-    bool heartbeat_seen = false;
   };
 
   struct Writer {
@@ -70,20 +60,16 @@ class Protocol final : public Implementation, private HeartbeatSender {
   };
 
   // announcements.cpp
-  void send_spdp(std::uint32_t i);
-  void send_spdp_multicast(std::uint32_t i);
-  void send_spdp_copy(std::uint32_t pair);
+  void send_spdp_to_known(std::uint32_t i) override;
+  void send_spdp_multicast(std::uint32_t i) override;
+  void send_spdp_copy(std::uint32_t pair) override;
   void spdp_received(std::uint32_t pair);
-  void resend(std::uint32_t reverse_pair);
-  void open_reader(std::uint32_t relation);
   void open_writer(std::uint32_t relation);
 
   // reader.cpp
   void data_received(const Packet& packet);
   void heartbeat_received(std::uint32_t relation);
-  void acknack_generation(std::uint32_t relation);
-  void initial_acknack_due(std::uint32_t relation);
-  void emit_acknack(std::uint32_t relation, bool initial);
+  void emit_acknack(std::uint32_t relation, bool initial) override;
   [[nodiscard]] bool has_started(std::uint32_t participant) const;
 
   // writer.cpp
@@ -106,32 +92,16 @@ class Protocol final : public Implementation, private HeartbeatSender {
   void send_periodic(std::uint32_t writer) override;
   void send_heartbeat(std::uint32_t relation) override;
 
-  [[nodiscard]] const Pair& ends(std::uint32_t relation) const {
-    return run_.topology.pair(relation / 2);
-  }
-  [[nodiscard]] std::uint32_t writer_of(std::uint32_t relation) const {
-    return 2 * ends(relation).source + relation % 2;
-  }
-  [[nodiscard]] static Stream stream_of(std::uint32_t relation_or_writer) {
-    return relation_or_writer % 2 == 0 ? Stream::pub : Stream::sub;
+  [[nodiscard]] ReaderSide& reader_side(std::uint32_t relation) override {
+    return relations_[relation];
   }
 
-  RunState& run_;
-  Network& network_;
-  const SpdpProfile& spdp_;
-  const SedpProfile& sedp_;
-  const bool accepts_unmatched_;
   DescriptorStates descriptors_;
-  HeartbeatSchedule heartbeats_;
-  AnnouncementSchedule announcements_;
-  InitialAttempts initial_attempts_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
   std::vector<Relation> relations_;
   std::vector<std::uint32_t> known_rank_;  // by pair (i, j): when i recognised j
   const DescriptorSizes sizes_;
-
-  Driver<fsm::DiscoveryReader> reader_driver_{run_, MachineRef::Kind::relation};
 };
 
 }  // namespace stormproof::model::paper

@@ -5,21 +5,12 @@
 
 namespace stormproof::model::paper {
 
-namespace reader = fsm::discovery_reader;
-
 void Protocol::data_received(const Packet& packet) {
   const std::uint32_t relation = packet.relation();
   Relation& r = relations_[relation];
   const std::uint32_t fresh = descriptors_.count_missing(relation, packet.descriptors);
-  const auto output = reader_driver_.step<reader::DataReceived>(
-      run_, r.reader, {.accepts_unmatched = accepts_unmatched_, .missing_after = r.missing - fresh},
-      relation);
-  if (output.take_data) {
-    if (fresh == run_.missing && fresh > 0) {
-      run_.last_delivered = {ParticipantId{ends(relation).source},
-                             ParticipantId{ends(relation).destination}, stream_of(relation),
-                             DescriptorId{descriptors_.missing(relation).lowest()}};
-    }
+  if (takes_data(relation, r.missing - fresh)) {
+    if (completes(fresh)) note_last_delivery(relation, descriptors_.missing(relation).lowest());
     descriptors_.receive(relation, packet.descriptors);
     r.missing -= fresh;
     run_.missing -= fresh;
@@ -31,42 +22,15 @@ void Protocol::data_received(const Packet& packet) {
 }
 
 void Protocol::heartbeat_received(std::uint32_t relation) {
-  Relation& r = relations_[relation];
-  const auto output = reader_driver_.step<reader::HeartbeatReceived>(
-      run_, r.reader, {.accepts_unmatched = accepts_unmatched_, .missing_after = r.missing},
-      relation);
-  if (!output.schedule_acknack) return;
-  r.heartbeat_seen = true;
+  if (!sees_heartbeat(relation)) return;
   run_.schedule(run_.now + sedp_.heartbeat_response_delay, EventKind::acknack_generation, relation);
-}
-
-void Protocol::acknack_generation(std::uint32_t relation) {
-  Relation& r = relations_[relation];
-  const auto output = reader_driver_.step<reader::AckNackDue>(
-      run_, r.reader, {.accepts_unmatched = accepts_unmatched_, .missing_after = r.missing},
-      relation);
-  if (output.send_acknack) emit_acknack(relation, false);
-}
-
-void Protocol::initial_acknack_due(std::uint32_t relation) {
-  Relation& r = relations_[relation];
-  initial_attempts_.attempt(r.initial, r.heartbeat_seen, relation, [&] {
-    const auto output = reader_driver_.step<reader::InitialAckNackDue>(
-        run_, r.reader, {.accepts_unmatched = accepts_unmatched_, .missing_after = r.missing},
-        relation);
-    if (output.send_initial) emit_acknack(relation, true);
-  });
 }
 
 void Protocol::emit_acknack(std::uint32_t relation, bool initial) {
   ++run_.counts.acknack;
-  Packet packet;
-  packet.kind = PacketKind::acknack;
+  Packet packet = packet_on(PacketKind::acknack, relation, sedp_.acknack_bytes.count());
   packet.descriptors = descriptors_.missing(relation);
-  packet.pair = relation / 2;
-  packet.stream = stream_of(relation);
   packet.initial_acknack = initial;
-  packet.payload_bytes = static_cast<std::uint32_t>(sedp_.acknack_bytes.count());
   if (!initial && !packet.descriptors.empty()) {
     // The bitmap takes four bytes for every 32 descriptors of the stream.
     packet.payload_bytes += 4 * ((run_.topology.descriptor_count(relation) + 31) / 32);
