@@ -36,29 +36,19 @@ Result<TracedProfile> trace_dds_profile(const std::string& reference,
   ProfileOrigin origin;
   const Result<Node> root =
       resolve_profile(reference, SpecKind::dds, overrides, specs, &origin, outside);
-  if (!root) return root.error();
-  TracedProfile traced;
-  std::optional<InputError> failure;
-  read_knobs(*root, "", traced.profile, failure);
-  if (failure) return *std::move(failure);
-  traced.reference = reference;
-  traced.places = places_of(*root);
-  traced.preset = std::move(origin.preset);
-  traced.vendor = std::move(origin.vendor);
-  return traced;
+  auto profile = checked<DdsProfile>(root);
+  if (!profile) return profile.error();
+  return TracedProfile{reference, *std::move(profile), places_of(*root), std::move(origin.preset),
+                       std::move(origin.vendor)};
 }
 
 Result<TracedScenario> trace_scenario(const std::string& reference,
                                       std::span<const std::string> overrides,
                                       const SpecPath& specs) {
   const Result<Node> root = resolve_scenario(reference, overrides, specs);
-  if (!root) return root.error();
-  TracedScenario traced;
-  std::optional<InputError> failure;
-  read_knobs(*root, "", traced.scenario, failure);
-  if (failure) return *std::move(failure);
-  traced.places = places_of(*root);
-  return traced;
+  auto scenario = checked<Scenario>(root);
+  if (!scenario) return scenario.error();
+  return TracedScenario{*std::move(scenario), places_of(*root)};
 }
 
 }  // namespace stormproof::model::config

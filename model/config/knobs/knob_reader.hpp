@@ -172,4 +172,15 @@ void read_knobs(const Node& map, const std::string& path, T& value,
   read_table(map, path, value, error, context...);
 }
 
+/// The last step of reading: the tables take the values of a resolved tree, within their ranges.
+template <class Value>
+[[nodiscard]] Result<Value> checked(const Result<Node>& resolved) {
+  if (!resolved) return resolved.error();
+  Value value;
+  std::optional<InputError> error;
+  read_knobs(*resolved, "", value, error);
+  if (error) return *std::move(error);
+  return value;
+}
+
 }  // namespace stormproof::model::config
