@@ -4,7 +4,8 @@
 
 #include <ostream>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "checker/verification/counterexample/observe.hpp"
 #include "model/trace/trace_writer.hpp"
