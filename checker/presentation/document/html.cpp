@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/presentation/document/drawings.hpp"
 #include "checker/presentation/document/html_page.hpp"

@@ -2,7 +2,7 @@
 // asked for it.
 #include "checker/presentation/document/html_page.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/presentation/diagrams/svg.hpp"
 #include "checker/presentation/text/plain_text.hpp"

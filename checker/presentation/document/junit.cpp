@@ -1,7 +1,7 @@
 // JUnit XML, as CI systems read it: what does not hold is a failure, what nobody knows an error.
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/presentation/diagrams/svg.hpp"
 #include "checker/presentation/document/render.hpp"

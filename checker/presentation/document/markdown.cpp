@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/presentation/document/render.hpp"
 #include "checker/presentation/text/plain_text.hpp"

@@ -2,7 +2,7 @@
 // (#) are made later, from the rendered text, so an empty comment is put behind those.
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/presentation/document/markdown.hpp"
 #include "checker/presentation/text/plain_text.hpp"

@@ -4,19 +4,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "checker/presentation/text/paragraph.hpp"
-
 namespace stormproof::report {
-
-std::string unmodelled_text(const model::DdsProfile& dds, std::string_view whose) {
-  if (dds.unmodelled.empty()) return "";
-  std::string text = whose.empty() ? fmt::format("\n{}:\n", unmodelled_heading)
-                                   : fmt::format("\n{} ({}):\n", unmodelled_heading, whose);
-  for (const auto& [setting, effect] : dds.unmodelled) {
-    text += paragraph("  - ", fmt::format("{}: {}", setting, effect));
-  }
-  return text;
-}
 
 std::string unmodelled_line(const model::DdsProfile& dds) {
   constexpr std::size_t named = 3;

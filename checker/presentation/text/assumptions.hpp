@@ -15,12 +15,6 @@ namespace stormproof::report {
 /// What an entry of `DdsProfile::unmodelled` means for a result, for a heading.
 inline constexpr const char* unmodelled_heading = "Not in the model, assumed to make no difference";
 
-/// The heading and one paragraph for each setting, at most 100 columns wide, after an empty line;
-/// empty if the model has everything that the profile sets. `whose` names the profile if there are
-/// several.
-[[nodiscard]] std::string unmodelled_text(const model::DdsProfile& dds,
-                                          std::string_view whose = {});
-
 /// One line without a line feed, "not in the model: A, B and 3 more", for a terminal beside a
 /// machine-readable output; empty if there is nothing.
 [[nodiscard]] std::string unmodelled_line(const model::DdsProfile& dds);

@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "checker/presentation/document/unmodelled.hpp"

@@ -1,7 +1,7 @@
 // The steps are the rows of the chart at which something happens, and its gaps.
 #include "checker/verification/counterexample/stepper.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/presentation/diagrams/machine_svg.hpp"
 #include "checker/presentation/document/html_page.hpp"

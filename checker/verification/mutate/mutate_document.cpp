@@ -1,5 +1,4 @@
 // Mutants first, then what each property and each law is good for.
-#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include "checker/presentation/text/numbers.hpp"

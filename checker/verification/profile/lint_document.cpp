@@ -1,6 +1,6 @@
 // Remarks as compilers write them, one listing for all: editors and people read the places. Each is
 // a finding, too, so that a review shows it beside the line.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/presentation/text/plain_text.hpp"

@@ -1,7 +1,7 @@
 // `profile show` as a document: a row for each knob, its sources below it.
 #include <algorithm>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/verification/profile/profile_report.hpp"

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/presentation/document/render.hpp"
+#include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/assumptions.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/presentation/text/source_line.hpp"
@@ -223,14 +224,18 @@ TEST(LintReport, as_many_remarks_as_elements_are_no_trouble) {
 
 TEST(Assumptions, are_named_in_every_form_or_not_at_all) {
   model::DdsProfile dds;
-  EXPECT_EQ(unmodelled_text(dds), "");
+  Document document;
+  add_unmodelled(document, dds);
+  EXPECT_TRUE(document.assumptions.empty() && document.findings.empty());
   EXPECT_EQ(unmodelled_line(dds), "");
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   add_unmodelled(json, dds);
   EXPECT_TRUE(json.empty());
   dds.unmodelled = {{"a", "one"}, {"b", std::string(300, 'w') + " two"}, {"c", "x"}, {"d", "y"}};
-  EXPECT_NE(unmodelled_text(dds).find("\n  - a: one\n"), std::string::npos);
-  EXPECT_NE(unmodelled_text(dds, "robots.xml").find("(robots.xml):\n"), std::string::npos);
+  add_unmodelled(document, dds, "robots.xml");
+  EXPECT_EQ(document.findings.size(), 4U);
+  EXPECT_NE(to_text(document).find("\n  - a (not in the model, of robots.xml): one\n"),
+            std::string::npos);
   EXPECT_EQ(unmodelled_line(dds), "not in the model: a, b, c and 1 more");
   add_unmodelled(json, dds);
   EXPECT_EQ(json["unmodelled"]["a"], "one");
