@@ -266,7 +266,11 @@ Document document_of(const Simulation& s) {
   Document document;
   document.title = "stormproof simulate " + s.name;
   document.exit_code = exceeded ? 1 : s.result.completed() ? 0 : 3;
-  document.tone = exceeded ? Tone::bad : s.result.completed() ? Tone::good : Tone::warn;
+  // That discovery completes is good or bad only beside a limit.
+  document.tone = exceeded                ? Tone::bad
+                  : !s.result.completed() ? Tone::warn
+                  : s.limits.empty()      ? Tone::plain
+                                          : Tone::good;
   document.complete = s.result.end != model::RunEnd::interrupted;
   document.subject = fmt::format("{}: {}, {}, {} to be delivered across hosts", s.name,
                                  plural(s.scenario.deployment.host_count(), "host"),
