@@ -67,15 +67,18 @@ class PolicyReader {
     if (node != nullptr && !node->is_scalar()) fail(*node, config::description_key, "text");
   }
 
+  static std::optional<double> share_of(const Node& node) {
+    const auto parsed = config::parse_share(node.is_scalar() && !node.quoted ? node.text : "");
+    return parsed ? std::optional{parsed->value()} : std::nullopt;
+  }
+
   void share(std::string_view key, double& value, double least, double most,
              std::string_view expected) {
     const Node* node = find(key);
     if (node == nullptr) return;
-    const auto parsed = config::parse_share(node->is_scalar() && !node->quoted ? node->text : "");
-    if (!parsed || parsed->value() < least || parsed->value() > most) {
-      return fail(*node, key, expected);
-    }
-    value = parsed->value();
+    const std::optional<double> parsed = share_of(*node);
+    if (!parsed || *parsed < least || *parsed > most) return fail(*node, key, expected);
+    value = *parsed;
   }
 
   void flag(std::string_view key, bool& value) {
@@ -119,7 +122,7 @@ class PolicyReader {
                                  config::suggestion(member.key, known), fmt::join(known, ", ")));
         return;
       }
-      const std::optional<double> increase = parse_share(member.value);
+      const std::optional<double> increase = share_of(member.value);
       if (!increase || *increase > largest_increase) {
         return fail(member.value, "tolerances." + member.key,
                     "a share from 0 to 1000, such as 25 % or 0.25");
