@@ -238,7 +238,8 @@ Section participants(const Conversation& conversation) {
                {"vendor"},
                {"pub", to_the_right},
                {"sub", to_the_right},
-               {"name"}}};
+               {"name"}},
+              {}};
   const auto& list = conversation.topology.participants;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Participant& one = list[k];
@@ -253,7 +254,6 @@ Section participants(const Conversation& conversation) {
           std::to_string(one.announced(entity::subscriptions_writer)), printable(one.name)}});
   }
   return {"Participants", "participants", {std::move(table)}};
-  , {}
 }
 
 Section remarks(const Conversation& conversation) {
