@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
-#include <fmt/format.h>
+#include <Eigen/Core>
+#include <fmt/core.h>
 
 namespace stormproof::prediction {
 
@@ -18,6 +18,10 @@ using statistics::unreached;
 std::vector<double> sorted(std::vector<double> values) {
   std::ranges::sort(values);
   return values;
+}
+
+Eigen::Map<const Eigen::ArrayXd> array(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
 std::optional<double> if_finite(double value) {
@@ -68,14 +72,10 @@ class Collection {
     fit_.covered_median = finite_quantile(covered_, 0.5);
     fit_.covered_q3 = finite_quantile(covered_, 0.75);
     fit_.median_ratio = finite_quantile(ratios_, 0.5);
-    std::vector<double> distances;
-    for (const double ratio : ratios_) distances.push_back(std::abs(std::log(ratio)));
-    fit_.median_abs_ln_ratio = finite_quantile(distances, 0.5);
+    const Eigen::ArrayXd distances = array(ratios_).log().abs();
+    fit_.median_abs_ln_ratio = finite_quantile({distances.begin(), distances.end()}, 0.5);
     fit_.percent_configurations = percents_.size();
-    if (!percents_.empty()) {
-      fit_.mean_absolute_percent =
-          share(std::accumulate(percents_.begin(), percents_.end(), 0.0), percents_.size());
-    }
+    if (!percents_.empty()) fit_.mean_absolute_percent = array(percents_).mean();
     return fit_;
   }
 
