@@ -40,7 +40,7 @@ std::string keys_text(const Configuration& configuration) {
   for (const auto& [key, value] : configuration.values) {
     text += (text.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1);
   }
-  return text.empty() ? "configuration" : text;
+  return text;
 }
 
 std::string median_text(const MeasuredChange& change, const std::optional<double>& median) {
@@ -65,9 +65,9 @@ double rank_of(const Configuration& configuration) {
 /// Those of [from, to) as rows; pages have more columns.
 Table table_of(const Order& order, std::size_t from, std::size_t to, const Policy& policy) {
   const auto of_documents = [](const char* head, Column::Align align = Column::Align::left) {
-    return Column{head, align, false, Audience::documents};
+    return Column{head, align, align == Column::Align::left, Audience::documents};
   };
-  Table table{{{keys_text(*order.front())},
+  Table table{{{"configuration"},
                {"judgment"},
                {"completion", to_right},
                {"after", to_right},
@@ -78,6 +78,7 @@ Table table_of(const Order& order, std::size_t from, std::size_t to, const Polic
                of_documents("highest backlog"),
                of_documents("storms")},
               {}};
+  table.caption = keys_text(*order.front());
   for (std::size_t k = from; k < to; ++k) {
     const Configuration& one = *order[k];
     const MeasuredChange& completion = one[Measure::completion];

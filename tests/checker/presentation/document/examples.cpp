@@ -143,6 +143,7 @@ diff::DiffReport regression() {
   report.margin.judgment = diff::Judgment::unclear;
   report.margin.reason = "it may be smaller";
   report.telling_apart.found = true;
+  report.telling_apart.scenario = counterexample::scenario_named("smallest");
   report.telling_apart.how = "searched from two participants upward";
   report.telling_apart.difference = "one sends what the other does not: " + hostile;
   report.telling_apart.base_run = counterexample::lossy();
