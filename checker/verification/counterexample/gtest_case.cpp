@@ -37,7 +37,7 @@ std::string raw_string(const std::string& text) {
 }
 
 /// `text` as the contents of an ordinary string literal.
-std::string quoted(std::string_view text) {
+std::string c_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -102,7 +102,7 @@ std::string gtest_case(const props::Counterexample& counterexample, std::string_
       fmt::arg("event", counterexample.event),
       fmt::arg("scenario", raw_string(model::config::effective_yaml(counterexample.scenario))),
       fmt::arg("property", counterexample.property),
-      fmt::arg("id", quoted(counterexample.property)));
+      fmt::arg("id", c_string(counterexample.property)));
   return text;
 }
 
