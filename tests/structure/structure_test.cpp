@@ -33,10 +33,10 @@ TEST(Structure, IncludesGoDownwards) {
 TEST(Structure, HeadersDoNotDragInWhatTheyDoNotNeed) {
   std::map<std::string, HeavyHeaders> rules;
   for (const std::vector<std::string>& words : read_words(data_file("heavy_headers.txt"))) {
-    ASSERT_EQ(words.size(), 2U) << "expected: library header # reason";
+    ASSERT_TRUE(words.size() == 1 || words.size() == 2) << "expected: library [header] # reason";
     HeavyHeaders& rule = rules[words[0]];
     rule.library = words[0];
-    rule.allowed.push_back(words[1]);
+    if (words.size() == 2) rule.allowed.push_back(words[1]);
   }
   for (const char* library : {"boost/", "z3++.h", "nlohmann/json.hpp", "CLI/"}) {
     ASSERT_TRUE(rules.contains(library)) << library;
