@@ -10,6 +10,7 @@ void add_unmodelled(Document& document, const model::DdsProfile& dds, std::strin
   const std::string of = whose.empty() ? std::string{} : ", of " + std::string{whose};
   for (const auto& [setting, effect] : dds.unmodelled) {
     document.assumptions.push_back(code(setting) + (" (not in the model" + of + "): " + effect));
+    if (places == nullptr) continue;
     Finding& note = document.findings.emplace_back();
     note.id = "stormproof.unmodelled";
     note.statement = unmodelled_heading;
@@ -18,7 +19,6 @@ void add_unmodelled(Document& document, const model::DdsProfile& dds, std::strin
     note.shown = Finding::Shown::code;
     note.message = setting + ": " + effect;
     note.identity = {document.title, std::string{whose}, setting};
-    if (places == nullptr) continue;
     const auto place = places->find("dds.unmodelled." + setting);
     if (place != places->end()) note.locations.emplace_back(place->second);
   }

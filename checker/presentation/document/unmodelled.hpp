@@ -10,8 +10,8 @@
 
 namespace stormproof::report {
 
-/// One assumption for each setting, and a note at the line that names it. `whose` names the profile
-/// if there are several; `places` are those of the scenario, if they are known.
+/// One assumption for each setting. `whose` names the profile if there are several. With the places
+/// of the scenario, each is a note among the findings, too, at the line that names it.
 void add_unmodelled(Document& document, const model::DdsProfile& dds, std::string_view whose = {},
                     const model::config::Places* places = nullptr);
 

@@ -173,8 +173,12 @@ Section violation(const PropertyResult& result, const CheckContext& context, std
                               story.empty() ? Audience::terminal : Audience::explained);
   const auto file = context.counterexamples.find(id);
   if (file != context.counterexamples.end()) {
-    section.blocks.emplace_back(Paragraph{"Replay it through the state machines:"});
-    section.blocks.emplace_back(report::Command{"stormproof replay " + file->second});
+    const std::string command = "stormproof replay " + file->second;
+    section.blocks.emplace_back(Paragraph{"replay it: " + report::code(command)},
+                                Audience::terminal);
+    section.blocks.emplace_back(Paragraph{"Replay it through the state machines:"},
+                                Audience::documents);
+    section.blocks.emplace_back(report::Command{command}, Audience::documents);
   }
   return section;
 }

@@ -233,7 +233,7 @@ TEST(Assumptions, are_named_in_every_form_or_not_at_all) {
   EXPECT_TRUE(json.empty());
   dds.unmodelled = {{"a", "one"}, {"b", std::string(300, 'w') + " two"}, {"c", "x"}, {"d", "y"}};
   add_unmodelled(document, dds, "robots.xml");
-  EXPECT_EQ(document.findings.size(), 4U);
+  EXPECT_TRUE(document.findings.empty()) << "nobody knows the lines";
   EXPECT_NE(to_text(document).find("\n  - a (not in the model, of robots.xml): one\n"),
             std::string::npos);
   EXPECT_EQ(unmodelled_line(dds), "not in the model: a, b, c and 1 more");

@@ -5,6 +5,7 @@
 
 #include "checker/verification/counterexample/observe.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/engine/packet.hpp"
 
 namespace stormproof::counterexample {
 
