@@ -92,8 +92,8 @@ std::string to_md(const Facts& block, std::size_t /*level*/) {
   return text;
 }
 
-/// The details of rows, under their first two cells.
-std::string row_details(const Table& block, std::size_t level) {
+/// The details of rows, folded, under their first two cells.
+std::string row_details(const Table& block, const std::string& summary, std::size_t level) {
   std::string text;
   for (const Table::Row& row : block.rows) {
     const std::string details = to_md(row.details, level);
@@ -104,10 +104,11 @@ std::string row_details(const Table& block, std::size_t level) {
     }
     text += (text.empty() ? "" : "\n") + name + "\n\n" + details;
   }
-  return text.empty() ? text : "\n" + md_details("Details", text);
+  return text.empty() ? text : md_details(summary, text);
 }
 
-std::string to_md(const Table& block, std::size_t level) {
+/// Without the details of its rows, which are a part of their own.
+std::string to_md(const Table& block, std::size_t /*level*/) {
   std::vector<std::size_t> shown;
   std::vector<std::string> head;
   std::string align;
@@ -124,7 +125,7 @@ std::string to_md(const Table& block, std::size_t level) {
     for (const std::size_t k : shown) cells.push_back(k < row.cells.size() ? md(row.cells[k]) : "");
   }
   const std::string caption = block.caption.empty() ? "" : md_text(block.caption) + "\n\n";
-  return caption + md_table(head, align, rows) + row_details(block, level);
+  return caption + md_table(head, align, rows);
 }
 
 std::string to_md(const Listing& block, std::size_t /*level*/) {
@@ -208,6 +209,7 @@ class Parts {
       document_.add(name.empty() ? "details" : name, md_details("Details", to_md(block, level)));
     } else {
       document_.add(name.empty() ? name_of(block) : name, to_md(block, level));
+      add_details(block, name.empty() ? "Rows" : name, level);
     }
   }
 
@@ -218,10 +220,19 @@ class Parts {
       add(section.blocks, name, level);
     } else if (verbose || is_folded(section)) {
       document_.add(section.title, md_details(section.title, to_md(section.blocks, level + 1)));
+      for (const Block& inner : section.blocks) add_details(inner, section.title, level);
     } else {
       document_.add(section.title, heading(section, level));
       add(section.blocks, section.title, level + 1);
     }
+  }
+
+  /// The details of a table's rows: left out before the table is.
+  void add_details(const Block& block, const std::string& of, std::size_t level) {
+    const auto* table = std::get_if<Table>(&block.content);
+    if (table == nullptr || !md_shown(block)) return;
+    const std::string name = of + ": details";
+    document_.add(name, row_details(*table, name, level));
   }
 
   /// Of what may be left out; short blocks outside of sections always stay.

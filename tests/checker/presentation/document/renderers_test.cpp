@@ -165,6 +165,18 @@ TEST(MarkdownRenderer, LeavesOutWhatACommentHasNoRoomFor) {
   EXPECT_TRUE(has(text, "Left out to fit into a comment: Long. The HTML report")) << text;
 }
 
+TEST(MarkdownRenderer, LeavesOutDetailsBeforeTheirTable) {
+  Document document;
+  Table table;
+  table.columns = {{"name"}};
+  table.rows.push_back({{"the row"}, false, {Listing{std::string(70'000, 'x')}}});
+  document.blocks.emplace_back(Section{"Rows", "", {std::move(table)}, true});
+  const std::string text = to_markdown(document);
+  EXPECT_TRUE(has(text, "| the row |")) << text;
+  EXPECT_FALSE(has(text, "xxx"));
+  EXPECT_TRUE(has(text, "Left out to fit into a comment: Rows: details.")) << text;
+}
+
 TEST(HtmlRenderer, KeepsTextsOfUsersTexts) {
   const std::string page = to_html(example());
   EXPECT_EQ(html_fault(page), "");
