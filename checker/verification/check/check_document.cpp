@@ -254,6 +254,7 @@ void add_answer(report::Document& document, const CheckReport& report,
                                : report::Tone::good;
   document.answer = violated > 0 ? fmt::format("{} of {} properties are violated", violated, all)
                     : open > 0   ? fmt::format("{} of {} properties are inconclusive", open, all)
+                    : all == 1   ? "the property holds"
                                  : fmt::format("all {} properties hold", all);
   std::string counts;
   for (const VerdictKind kind : all_kinds) {
