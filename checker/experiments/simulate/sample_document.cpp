@@ -93,6 +93,7 @@ Table side_by_side(const Sampling& sampling) {
                number_column("total"),
                number_column("user")},
               {}};
+  table.wide = true;
   for (const SampledProfile& profile : sampling.profiles) {
     const SampleSummary s = summarize(profile.samples);
     const Quantiles& t = s.discovery_time_ns;

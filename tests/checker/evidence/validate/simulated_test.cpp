@@ -146,7 +146,7 @@ TEST(SimulatedCapture, StopsWhenAsked) {
   wanted.sampling.on_progress = [](std::size_t, std::size_t) { return false; };
   const Report report = report_of(wanted);
   EXPECT_TRUE(report.interrupted());
-  const report::Document document = document_of(report, {{"a.pcap"}, "command"});
+  const report::Document document = document_of(report, {{"a.pcap"}});
   EXPECT_FALSE(document.complete);
   EXPECT_NE(to_text(document).find("of 2 runs finished"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "checker/experiments/statistics/completion.hpp"
 #include "tests/checker/experiments/tune/stand_in.hpp"
 
 namespace stormproof::tune {

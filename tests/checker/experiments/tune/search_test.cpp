@@ -176,7 +176,8 @@ TEST(TuneSearch, IncompleteRunsAreWorseTheMoreIsMissing) {
   hardly.missing = 0.9;
   const Outcome complete = outcome_of(5e8, 10);
   const auto cost = [](const Outcome& outcome) {
-    return cost_of(std::vector{outcome}, stand_in_limit).completion;
+    const Cost one = cost_of(std::vector{outcome});
+    return std::pair{one.completion, one.missing};
   };
   EXPECT_LT(cost(complete), cost(almost));
   EXPECT_LT(cost(almost), cost(hardly));

@@ -55,7 +55,7 @@ const Report& usual_study() {
 }
 
 std::string json_of(const Report& report, const Subject& subject, const Options& options) {
-  return to_json(report, {"small", "again", subject, options, {}, {}, {}, {}}).dump();
+  return to_json(report, {"small", subject, options, {}, {}, {}, {}}).dump();
 }
 
 TEST(TuneStudy, FindsLessOfAStorm) {
@@ -74,10 +74,10 @@ TEST(TuneStudy, FindsLessOfAStorm) {
   EXPECT_FALSE(row_named(report, "adaptive HEARTBEATs")->note.empty());
 
   const std::string text =
-      report::to_text(document_of(report, {"small", "again", subject, options, {}, {}, {}, {}}));
+      report::to_text(document_of(report, {"small", subject, options, {}, {}, {}, {}}));
   EXPECT_TRUE(text.find("BETTER") != std::string::npos);
   EXPECT_TRUE(text.find("unchanged") != std::string::npos);
-  const std::string svg = to_svg(report, {"small", "again", subject, options, {}, {}, {}, {}});
+  const std::string svg = to_svg(report, {"small", subject, options, {}, {}, {}, {}});
   EXPECT_TRUE(svg.find("recommended") != std::string::npos);
 }
 
@@ -137,7 +137,7 @@ TEST(TuneStudy, SaysThatNothingIsBetter) {
   EXPECT_EQ(report.answer, Answer::nothing_better);
   EXPECT_EQ(report.recommended, std::optional<std::size_t>{0});
   const std::string text =
-      report::to_text(document_of(report, {"small", "again", subject, options, {}, {}, {}, {}}));
+      report::to_text(document_of(report, {"small", subject, options, {}, {}, {}, {}}));
   EXPECT_TRUE(text.find("NOTHING BETTER") != std::string::npos);
 }
 
@@ -174,7 +174,7 @@ TEST(TuneStudy, OneTrajectoryIsOneRun) {
   EXPECT_FALSE(report.is_sampled);
   EXPECT_EQ(report.basis.count, 1U);
   const std::string text =
-      report::to_text(document_of(report, {"small", "again", *subject, options, {}, {}, {}, {}}));
+      report::to_text(document_of(report, {"small", *subject, options, {}, {}, {}, {}}));
   EXPECT_TRUE(text.find("one trajectory") != std::string::npos);
 }
 
@@ -186,7 +186,7 @@ TEST(TuneStudy, InterruptedItTellsTheBestKnown) {
   EXPECT_EQ(report.answer, Answer::interrupted);
   ASSERT_FALSE(report.rows.empty());
   const std::string text =
-      report::to_text(document_of(report, {"small", "again", subject, options, {}, {}, {}, {}}));
+      report::to_text(document_of(report, {"small", subject, options, {}, {}, {}, {}}));
   EXPECT_TRUE(text.find("INTERRUPTED") != std::string::npos);
   options.on_progress = [](std::string_view, std::size_t, std::size_t) { return false; };
   EXPECT_EQ(study(subject, options).answer, Answer::interrupted);
