@@ -129,7 +129,8 @@ Option Options::svg(OutputFile& file, const std::string& help) {
 
 Option Options::jobs(std::size_t& threads) {
   return number("--jobs", threads, "Runs at the same time (default: all cores)", "N")
-      .within(1, 4'096);
+      .within(1, 4'096)
+      .not_repeated();  // any number of threads gives the same answer
 }
 
 Option Options::seed(std::uint64_t& seed, const std::string& help) {

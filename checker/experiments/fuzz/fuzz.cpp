@@ -55,6 +55,8 @@ class Fuzzer {
       if (judgment.broken > 0 && judgment.sampled && runner_.goes_on()) shrink_first(judgment);
     }
     report_.interrupted = runner_.stopped();
+    // As many as there was time for.
+    if (options_.seconds && !report_.interrupted) report_.wanted = report_.runs.size();
     return std::move(report_);
   }
 

@@ -166,7 +166,9 @@ TEST(ValidateReport, AllForms) {
   wanted.within = 1.001;
   const Report report = report_of(wanted);
   const Heading heading{{"a.pcap"}};
-  const std::string words = to_text(document_of(report, heading));
+  report::Document document = document_of(report, heading);
+  document.command = "stormproof validate a.pcap";
+  const std::string words = to_text(document);
   EXPECT_NE(words.find("WITHIN a factor of 1.001"), std::string::npos) << words;
   EXPECT_NE(words.find("  stormproof validate a.pcap"), std::string::npos);
   const auto json = to_json(report, heading);

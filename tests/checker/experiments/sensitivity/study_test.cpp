@@ -83,15 +83,6 @@ TEST(SensitivityStudy, RanksByTheMeasureThatIsAskedFor) {
             position(report, "deployment.endpoints"));
 }
 
-TEST(SensitivityStudy, ARunThatDoesNotCompleteCountsWithTheTimeLimit) {
-  const Report report = analyse(scenario_with({"wireless=wired", "time_limit=210us"}), {});
-  EXPECT_EQ(report.incomplete, 0U);
-  const auto& up = knob_in(report, "wireless.one_way").levels[1];
-  ASSERT_TRUE(up);
-  EXPECT_EQ(up->incomplete, 1U);
-  EXPECT_EQ(of(up->effects, Measure::completion).median, 10'000);
-}
-
 Options jittered() {
   Options options;
   options.samples = 7;
@@ -160,7 +151,7 @@ TEST(SensitivityStudy, ChangeThatKeepsDiscoveryFromCompletingIsInfinite) {
   const auto json = nlohmann::ordered_json::parse(to_json(report, description_of({})).dump());
   for (const auto& knob : json["knobs"]) {
     if (knob["key"] != "wireless.one_way") continue;
-    EXPECT_TRUE(knob["levels"][1]["completion"]["median_ns"].is_null());
+    EXPECT_TRUE(knob["levels"][1]["t_disc_ns"]["median"].is_null());
   }
   EXPECT_NE(report::to_text(document_of(report, description_of({}))).find("+∞"), std::string::npos);
 }

@@ -17,9 +17,22 @@ bool is_void(const std::string& name) {
   return names.contains(name);
 }
 
+/// Without the data of paths, which are longer than a regular expression takes.
+std::string without_paths(const std::string& page) {
+  std::string rest;
+  std::size_t from = 0;
+  for (std::size_t at = page.find(" d=\"M"); at != std::string::npos;
+       at = page.find(" d=\"M", from)) {
+    rest += page.substr(from, at - from) + " d=\"";
+    from = std::min(page.find_first_of("\"<>", at + 4), page.size());
+  }
+  return rest + page.substr(from);
+}
+
 }  // namespace
 
-std::string html_fault(const std::string& page) {
+std::string html_fault(const std::string& whole_page) {
+  const std::string page = without_paths(whole_page);
   static const std::regex tag{
       R"re(^<(/?)([a-zA-Z][a-zA-Z0-9]*)((?:\s+[a-zA-Z][a-zA-Z0-9:-]*(?:="[^"<]*")?)*)\s*(/?)>)re"};
   static const std::regex id{R"re(\sid="([^"]*)")re"};

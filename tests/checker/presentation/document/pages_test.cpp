@@ -24,8 +24,11 @@ const std::string& check_page() {
 }
 
 const std::string& diff_page() {
-  static const std::string page =
-      to_html(document_of(regression(), {{"telling-apart.base", "diff/base.jsonl"}}));
+  static const std::string page = [] {
+    Document document = document_of(regression(), {{"telling-apart.base", "diff/base.jsonl"}});
+    document.command = "stormproof diff old.xml new.xml";
+    return to_html(document);
+  }();
   return page;
 }
 

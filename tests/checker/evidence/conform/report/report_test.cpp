@@ -60,7 +60,7 @@ TEST_F(Reports, ConformanceIsNotCalledAProof) {
   EXPECT_FALSE(has(text, "no assignment explains"));
   EXPECT_FALSE(has(text, "tshark"));
   EXPECT_TRUE(has(text, "datagrams taken as lost"));
-  EXPECT_TRUE(has(text, "1.500000 ms  20.000000 ms"));
+  EXPECT_TRUE(has(text, "1.500000 ms   20.000000 ms"));
   EXPECT_TRUE(has(text, "(an assumption)"));
   EXPECT_TRUE(has(text, "caused on their own host"));
 }
