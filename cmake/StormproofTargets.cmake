@@ -20,8 +20,9 @@ function(stormproof_target target)
   endif()
 endfunction()
 
-# stormproof_sources(<variable> [FOLDERS <folders>] [EXCEPT <files>]): the sources in and below the
-# folders; "." is the current folder without those below it. Without FOLDERS: all of the current one.
+# stormproof_sources(<variable> [FOLDERS <folders>] [EXCEPT <paths>]): the sources in and below the
+# folders, without those files and folders; "." is the current folder without those below it. Without
+# FOLDERS: all of the current one.
 function(stormproof_sources variable)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;EXCEPT")
   if(NOT arg_FOLDERS)
@@ -35,8 +36,8 @@ function(stormproof_sources variable)
     endif()
     list(APPEND sources ${found})
   endforeach()
-  foreach(file IN LISTS arg_EXCEPT)
-    list(REMOVE_ITEM sources "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
+  foreach(path IN LISTS arg_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${path}(/|$)")
   endforeach()
   set(${variable} ${sources} PARENT_SCOPE)
 endfunction()
