@@ -19,8 +19,8 @@ target_compile_options(stormproof_flags INTERFACE
   -Wformat=2
   -Wimplicit-fallthrough
   -Wundef
-  # clang warns of names that another file of the same batch has, too.
-  $<$<CXX_COMPILER_ID:GNU>:-Wshadow>
+  # In a batch, names of one file would shadow those of another.
+  $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow>
   $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond>
   $<$<CXX_COMPILER_ID:GNU>:-Wlogical-op>
   # GCC 12 reports overlapping copies in std::string that cannot happen (GCC bug 105651).

@@ -14,7 +14,7 @@ using report::Column;
 using report::Section;
 using report::Table;
 
-constexpr auto numbers = Column::Align::right;
+constexpr auto number_cells = Column::Align::right;
 
 template <class Value>
 Section grid(const Report& report, std::string title, Value value) {
@@ -24,7 +24,7 @@ Section grid(const Report& report, std::string title, Value value) {
   }
   Table table{{{"N_P\\N_E"}}, {}};
   table.wide = true;
-  for (const std::uint32_t ne : columns) table.columns.push_back({std::to_string(ne), numbers});
+  for (const std::uint32_t ne : columns) table.columns.push_back({std::to_string(ne), number_cells});
   for (const std::uint32_t np : participant_counts(report.results.plan)) {
     Table::Row row{{std::to_string(np)}};
     for (const std::uint32_t ne : columns) row.cells.emplace_back(number_text(value({np, ne})));
@@ -58,7 +58,7 @@ Section configuration_table(const Report& report, std::size_t variant) {
   const Measures measures{report.results};
   Table table;
   const auto column = [&table](std::string head) {
-    table.columns.push_back({std::move(head), numbers});
+    table.columns.push_back({std::move(head), number_cells});
   };
   for (const char* head : {"N_P", "N_E", "completion s", "open loop s"}) column(head);
   for (const Class what : table_classes) column(name_of(what));

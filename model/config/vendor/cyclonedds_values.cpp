@@ -46,7 +46,7 @@ std::string in_lower_case(std::string_view text) {
   return word;
 }
 
-std::string names(std::span<const Unit> units) {
+std::string unit_names(std::span<const Unit> units) {
   std::string list;
   for (const Unit& unit : units) list += fmt::format("{}{}", list.empty() ? "" : ", ", unit.name);
   return list;
@@ -163,7 +163,7 @@ std::string expectation(const CycloneType& type) {
   const bool is_duration = type.kind == CycloneKind::duration;
   const bool is_bounded = type.maximum != cyclone_longest_ns;
   return fmt::format("{} with its unit ({}) from {}{}{}", is_duration ? "a duration" : "a size",
-                     names(units_of(type.kind)), print_amount(type.kind, type.minimum),
+                     unit_names(units_of(type.kind)), print_amount(type.kind, type.minimum),
                      is_bounded ? fmt::format(" to {}", print_amount(type.kind, type.maximum)) : "",
                      or_word);
 }

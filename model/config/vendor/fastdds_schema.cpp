@@ -197,8 +197,8 @@ const SchemaItem* find_item(std::span<const SchemaItem> schema, std::string_view
 }
 
 std::optional<std::string> home_of(std::string_view name) {
-  using Section = std::pair<std::string_view, std::span<const SchemaItem>>;
-  const std::array<Section, 4> sections{Section{"participant", participant_items},
+  using SchemaSection = std::pair<std::string_view, std::span<const SchemaItem>>;
+  const std::array<SchemaSection, 4> sections{SchemaSection{"participant", participant_items},
                                         {"transport_descriptor", transport_schema()},
                                         {"data_writer", writer_schema()},
                                         {"data_reader", reader_schema()}};
