@@ -21,6 +21,8 @@ target_compile_options(stormproof_flags INTERFACE
   -Wundef
   # In a batch, names of one file would shadow those of another.
   $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow>
+  # It takes the files of a batch for headers, in which no type may be of one file alone.
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>
   $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond>
   $<$<CXX_COMPILER_ID:GNU>:-Wlogical-op>
   # GCC 12 reports overlapping copies in std::string that cannot happen (GCC bug 105651).
