@@ -1,5 +1,5 @@
 // The DDS profile: every protocol knob of the paper's model, with the value of the paper's own
-// evaluation as the default. specs/guide/model.md explains each knob; `model/config/dds_knobs.hpp`
+// evaluation as the default. specs/guide/model.md explains each knob; `model/config/knobs/dds_knobs.hpp`
 // gives its key, unit and range.
 #pragma once
 

@@ -1,7 +1,7 @@
 // The wireless profile: how packets are served, from the source queue over the stages of the route
 // to the receiver (paper, "Shared Wireless Service"; specs/guide/model.md, "Packets, fragments,
 // queue, channel"). The defaults are infrastructure 802.11n as in the paper's evaluation.
-// `model/config/wireless_knobs.hpp` gives keys and ranges.
+// `model/config/knobs/wireless_knobs.hpp` gives keys and ranges.
 #pragma once
 
 #include <cstdint>

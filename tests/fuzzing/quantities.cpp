@@ -1,4 +1,4 @@
-// Fuzz target: numbers with units (model/config/quantities.hpp).
+// Fuzz target: numbers with units (model/config/tree/quantities.hpp).
 #include "model/config/tree/quantities.hpp"
 
 #include "tests/fuzzing/checks.hpp"
