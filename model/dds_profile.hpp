@@ -1,6 +1,6 @@
 // The DDS profile: every protocol knob of the paper's model, with the value of the paper's own
-// evaluation as the default. specs/guide/model.md explains each knob; `model/config/knobs/dds_knobs.hpp`
-// gives its key, unit and range.
+// evaluation as the default. specs/guide/model.md explains each knob;
+// `model/config/knobs/dds_knobs.hpp` gives its key, unit and range.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Fuzz target: `--set` arguments (model/config/tree/overrides.hpp), one a line, on a shipped scenario.
+// Fuzz target: `--set` arguments (model/config/tree/overrides.hpp), one a line, on a shipped
+// scenario.
 #include <string>
 #include <vector>
 

@@ -24,7 +24,8 @@ Section grid(const Report& report, std::string title, Value value) {
   }
   Table table{{{"N_P\\N_E"}}, {}};
   table.wide = true;
-  for (const std::uint32_t ne : columns) table.columns.push_back({std::to_string(ne), number_cells});
+  for (const std::uint32_t ne : columns)
+    table.columns.push_back({std::to_string(ne), number_cells});
   for (const std::uint32_t np : participant_counts(report.results.plan)) {
     Table::Row row{{std::to_string(np)}};
     for (const std::uint32_t ne : columns) row.cells.emplace_back(number_text(value({np, ne})));

@@ -199,9 +199,9 @@ const SchemaItem* find_item(std::span<const SchemaItem> schema, std::string_view
 std::optional<std::string> home_of(std::string_view name) {
   using SchemaSection = std::pair<std::string_view, std::span<const SchemaItem>>;
   const std::array<SchemaSection, 4> sections{SchemaSection{"participant", participant_items},
-                                        {"transport_descriptor", transport_schema()},
-                                        {"data_writer", writer_schema()},
-                                        {"data_reader", reader_schema()}};
+                                              {"transport_descriptor", transport_schema()},
+                                              {"data_writer", writer_schema()},
+                                              {"data_reader", reader_schema()}};
   for (const auto& [section, schema] : sections) {
     for (const SchemaItem& item : schema) {
       if (same_in_any_case(item.name(), name)) return fmt::format("{}/{}", section, item.path);
