@@ -70,7 +70,9 @@ TEST_P(TrialRunner, InterruptionKeepsWhatIsFinished) {
   EXPECT_LT(runner.finished(), 10U + GetParam());
   EXPECT_EQ(present(results).size(), runner.finished());
   for (std::size_t k = 0; k < results.size(); ++k) {
-    if (results[k]) EXPECT_EQ(results[k], k * k);
+    if (results[k]) {
+      EXPECT_EQ(results[k], k * k);
+    }
   }
   // Nothing starts any more.
   EXPECT_FALSE(runner.each(3, [](std::size_t) {
