@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "checker/experiments/diff/blame.hpp"
 #include "checker/experiments/diff/diff_report.hpp"
@@ -21,8 +22,9 @@ namespace diff_test {
 namespace config = model::config;
 const config::SpecPath specs{{STORMPROOF_SPECS_DIR}};
 
+/// A file of this process alone: tests run side by side.
 std::string written(const std::string& name, const std::string& text) {
-  const auto file = std::filesystem::path{testing::TempDir()} / name;
+  const auto file = std::filesystem::path{testing::TempDir()} / (std::to_string(getpid()) + name);
   std::ofstream{file} << text;
   return file.string();
 }
