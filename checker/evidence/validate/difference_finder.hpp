@@ -26,9 +26,7 @@ class Finder {
   void add(const char* id, std::uint64_t count, std::string text) {
     if (count > 0) found_.push_back({id, std::move(text), count});
   }
-  [[nodiscard]] bool is_fastdds() const {
-    return scenario_.dds.implementation == model::ImplementationKind::fastdds;
-  }
+  [[nodiscard]] bool is_fastdds() const { return model::is_fastdds(scenario_.dds); }
   [[nodiscard]] const capture::Participant& captured(const CapturedParticipant& one) const {
     return conversation_.topology.participants[one.number];
   }

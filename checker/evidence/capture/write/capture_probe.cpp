@@ -17,13 +17,11 @@ namespace stormproof::capture {
 
 namespace {
 
-using model::ImplementationKind;
 using model::PacketKind;
 using model::Stream;
 
 VendorId vendor_of(const model::Scenario& scenario) {
-  return scenario.dds.implementation == ImplementationKind::fastdds ? fastdds_vendor
-                                                                    : simulated_vendor;
+  return model::is_fastdds(scenario.dds) ? fastdds_vendor : simulated_vendor;
 }
 
 }  // namespace
@@ -39,7 +37,7 @@ class CaptureProbe::Implementation {
 
   void start(const model::Topology& topology) {
     topology_ = &topology;
-    if (scenario_.dds.implementation == ImplementationKind::fastdds) control_.emplace(topology);
+    if (model::is_fastdds(scenario_.dds)) control_.emplace(topology);
   }
 
   void announce(const model::Packet& packet, std::uint32_t source) {
@@ -147,9 +145,8 @@ class CaptureProbe::Implementation {
 
   /// In the paper's model all descriptors exist from the start.
   [[nodiscard]] std::uint64_t announced(const model::Packet& packet) const {
-    return scenario_.dds.implementation == ImplementationKind::fastdds
-               ? packet.detail
-               : topology_->descriptor_count(packet.relation());
+    return model::is_fastdds(scenario_.dds) ? packet.detail
+                                            : topology_->descriptor_count(packet.relation());
   }
 
   /// Of the HEARTBEATs in a packet; the copies of one message have the same.
@@ -165,7 +162,7 @@ class CaptureProbe::Implementation {
     const std::uint32_t all = topology_->descriptor_count(packet.relation());
     SequenceNumberSet missing;
     if (!packet.initial_acknack) {
-      const bool is_fastdds = scenario_.dds.implementation == ImplementationKind::fastdds;
+      const bool is_fastdds = model::is_fastdds(scenario_.dds);
       missing.base =
           1 + std::int64_t{is_fastdds ? packet.detail : std::min(packet.descriptors.lowest(), all)};
       packet.descriptors.for_each([&](std::uint32_t d) { ask(missing, d); });

@@ -23,7 +23,7 @@ struct KnobGuard {
 
 /// The guards that ask for knobs only.
 std::array<KnobGuard, 4> knob_guards(const model::DdsProfile& dds) {
-  const bool is_fastdds = dds.implementation == model::ImplementationKind::fastdds;
+  const bool is_fastdds = model::is_fastdds(dds);
   const bool is_adaptive = dds.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive;
   const bool is_additive =
       !is_fastdds && dds.sedp.heartbeat_timer == model::HeartbeatTimerKind::additive;
