@@ -26,7 +26,7 @@ std::string content(const fs::path& file) {
 
 std::vector<fs::path> files_of(const Target& target) {
   std::vector<fs::path> files;
-  const fs::path folder = fs::path{STORMPROOF_CORPUS_DIR} / target.name;
+  const fs::path folder = fs::path{STORMPROOF_SOURCE_DIR "/tests/fuzzing/corpus"} / target.name;
   for (const auto& entry : fs::directory_iterator{folder}) files.push_back(entry.path());
   return files;
 }

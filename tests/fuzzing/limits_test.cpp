@@ -16,7 +16,8 @@ namespace limits_test {
 using model::Scenario;
 
 std::string corpus(const std::string& file) {
-  std::ifstream in{std::string{STORMPROOF_CORPUS_DIR} + "/" + file, std::ios::binary};
+  std::ifstream in{std::string{STORMPROOF_SOURCE_DIR "/tests/fuzzing/corpus"} + "/" + file,
+                   std::ios::binary};
   return {std::istreambuf_iterator<char>{in}, {}};
 }
 

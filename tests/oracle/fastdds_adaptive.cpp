@@ -10,8 +10,6 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-constexpr std::int64_t heartbeat_payload = 68;
-
 Time clamp_period(const World& w, Time period) {
   const model::AdaptiveProfile& a = w.sedp.adaptive;
   return std::clamp(period, a.min_period.count(), a.max_period.count());

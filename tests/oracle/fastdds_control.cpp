@@ -6,8 +6,6 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-constexpr std::int64_t heartbeat_payload = 68;
-constexpr std::int64_t acknack_payload = 64;
 constexpr model::Nanoseconds reply_delay{5'000'000};
 
 Control& control(World& w, Id i, Id j, int topic) { return w.controls[{i, j, topic}]; }

@@ -8,7 +8,6 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-constexpr std::int64_t acknack_payload = 64;
 constexpr std::int64_t bitmap_payload = 4;
 
 void take_data(World& w, Relation& r, const Packet& packet, Id j) {

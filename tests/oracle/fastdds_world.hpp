@@ -25,6 +25,10 @@ using Time = std::int64_t;
 constexpr int pub = 0;
 constexpr int sub = 1;
 
+// Bytes of a HEARTBEAT to one participant and of an ACKNACK without bitmap.
+constexpr std::int64_t heartbeat_payload = 68;
+constexpr std::int64_t acknack_payload = 64;
+
 enum class EventClass { service = 0, protocol = 1, dispatch = 2 };
 
 enum class EventKind {

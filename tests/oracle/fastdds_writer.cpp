@@ -8,11 +8,10 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-constexpr std::int64_t heartbeat_to_one = 68;
 constexpr std::int64_t heartbeat_to_several = 52;
 
 // A HEARTBEAT of its own to j alone.
-void heartbeat_to(World& w, Id i, Id j, int s) { heartbeat(w, i, j, s, heartbeat_to_one); }
+void heartbeat_to(World& w, Id i, Id j, int s) { heartbeat(w, i, j, s, heartbeat_payload); }
 
 bool needs_heartbeat(World& w, Id i, Id j, int s) {
   const Relation& r = relation(w, i, j, s);
@@ -95,7 +94,7 @@ void heartbeat_expiry(World& w, Id i, int s) {
   for (const Id j : wr.readers) needed = needed || needs_heartbeat(w, i, j, s);
   if (!needed) return;
   const bool alone = wr.readers.size() == 1 || w.makes(Mistake::expiry_to_several_larger);
-  const std::int64_t payload = alone ? heartbeat_to_one : heartbeat_to_several;
+  const std::int64_t payload = alone ? heartbeat_payload : heartbeat_to_several;
   for (const Id j : wr.readers) heartbeat(w, i, j, s, payload);
   arm(w, i, s);
 }

@@ -62,8 +62,8 @@ TEST(AccessPointChannel, ServesAFrameTwice) {
   ASSERT_TRUE(bed.send(7, 0));
   const auto services = bed.until(long_time);
   ASSERT_EQ(ends(services), (Times{230'007, 460'007}));
-  EXPECT_EQ(services[0].outcome, Outcome::forwarded);
-  EXPECT_EQ(services[1].outcome, Outcome::delivered);
+  EXPECT_EQ(services[0].outcome, ServiceEnd::forwarded);
+  EXPECT_EQ(services[1].outcome, ServiceEnd::delivered);
   EXPECT_EQ(services[1].start, services[0].end);
 }
 
@@ -196,18 +196,18 @@ TEST(AccessPointChannel, AFullDownlinkQueueDropsAfterTheUplink) {
   const auto services = bed.until(long_time);
   // All three go up first; the second and the third find the first one waiting.
   EXPECT_EQ(ends(services), (Times{230'000, 460'000, 690'000, 920'000}));
-  EXPECT_EQ(services[0].outcome, Outcome::forwarded);
-  EXPECT_EQ(services[1].outcome, Outcome::dropped);
-  EXPECT_EQ(services[2].outcome, Outcome::dropped);
-  EXPECT_EQ(services[3].outcome, Outcome::delivered);
+  EXPECT_EQ(services[0].outcome, ServiceEnd::forwarded);
+  EXPECT_EQ(services[1].outcome, ServiceEnd::dropped);
+  EXPECT_EQ(services[2].outcome, ServiceEnd::dropped);
+  EXPECT_EQ(services[3].outcome, ServiceEnd::delivered);
   EXPECT_EQ(bed.channel.statistics().dropped_downlink, 2U);
   EXPECT_EQ(bed.channel.statistics().deepest_downlink_queue, 1U);
 }
 
-std::vector<Outcome> outcomes_of_downlinks(const Losses& losses, int frames) {
+std::vector<ServiceEnd> outcomes_of_downlinks(const Losses& losses, int frames) {
   Bed bed{{}, losses};
   for (int k = 0; k < frames; ++k) bed.send(k, 0);
-  std::vector<Outcome> outcomes;
+  std::vector<ServiceEnd> outcomes;
   for (const Service& service : bed.until(10 * long_time)) {
     if (service.direction == Direction::downlink) outcomes.push_back(service.outcome);
   }
@@ -219,20 +219,20 @@ TEST(AccessPointChannel, ALostFrameTakesItsAirtime) {
   bed.send(0, 0);
   const auto services = bed.until(long_time);
   ASSERT_EQ(ends(services), (Times{230'000, 460'000}));
-  EXPECT_EQ(services[1].outcome, Outcome::lost);
+  EXPECT_EQ(services[1].outcome, ServiceEnd::lost);
   EXPECT_EQ(bed.channel.statistics().lost, 1U);
   EXPECT_EQ(bed.channel.statistics().delivered, 0U);
 }
 
 TEST(AccessPointChannel, LosesTheGivenPartAndTheSameWithTheSameSeed) {
   const auto some = outcomes_of_downlinks({.probability = 0.05, .seed = 3}, 10'000);
-  const auto lost = std::count(some.begin(), some.end(), Outcome::lost);
+  const auto lost = std::count(some.begin(), some.end(), ServiceEnd::lost);
   EXPECT_EQ(some.size(), 10'000U);
   EXPECT_NEAR(static_cast<double>(lost), 500, 88);  // four standard deviations
   EXPECT_EQ(some, outcomes_of_downlinks({.probability = 0.05, .seed = 3}, 10'000));
   EXPECT_NE(some, outcomes_of_downlinks({.probability = 0.05, .seed = 4}, 10'000));
   const auto none = outcomes_of_downlinks({.probability = 0, .seed = 3}, 1'000);
-  EXPECT_EQ(std::count(none.begin(), none.end(), Outcome::lost), 0);
+  EXPECT_EQ(std::count(none.begin(), none.end(), ServiceEnd::lost), 0);
 }
 
 TEST(AccessPointChannel, AccountsForEveryFrameAndNanosecond) {

@@ -67,7 +67,7 @@ std::optional<Nanoseconds> HalfDuplexChannel::next_event() const {
 
 std::vector<Service> HalfDuplexChannel::take_services() {
   for (const Service& service : ended_) {
-    if (service.outcome != Outcome::forwarded) frames_.give_back(service.frame);
+    if (service.outcome != ServiceEnd::forwarded) frames_.give_back(service.frame);
   }
   return std::exchange(ended_, {});
 }
@@ -125,29 +125,29 @@ void HalfDuplexChannel::finish() {
   ++sum.frames;
   sum.bytes += frame.bytes;
   sum.busy += served.end - served.start;
-  const Outcome outcome =
+  const ServiceEnd outcome =
       served.direction == Direction::uplink ? after_uplink(name) : after_downlink();
   ended_.push_back({name, frame.station, served.direction, served.start, served.end, outcome});
   step<fsm::channel::EffectsDone>();
 }
 
-Outcome HalfDuplexChannel::after_uplink(std::uint32_t frame) {
+ServiceEnd HalfDuplexChannel::after_uplink(std::uint32_t frame) {
   if (limits_.downlink && downlink_queue_ >= *limits_.downlink) {
     ++statistics_.dropped_downlink;
-    return Outcome::dropped;
+    return ServiceEnd::dropped;
   }
   statistics_.deepest_downlink_queue =
       std::max(statistics_.deepest_downlink_queue, ++downlink_queue_);
   wait_for(Direction::downlink, frame);
-  return Outcome::forwarded;
+  return ServiceEnd::forwarded;
 }
 
-Outcome HalfDuplexChannel::after_downlink() {
+ServiceEnd HalfDuplexChannel::after_downlink() {
   // 53 random bits make a number from [0, 1) that is the same with every standard library.
   const bool lost = losses_.probability > 0 &&
                     static_cast<double>(random_() >> 11U) * 0x1p-53 < losses_.probability;
   ++(lost ? statistics_.lost : statistics_.delivered);
-  return lost ? Outcome::lost : Outcome::delivered;
+  return lost ? ServiceEnd::lost : ServiceEnd::delivered;
 }
 
 }  // namespace stormproof::live

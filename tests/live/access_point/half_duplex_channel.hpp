@@ -50,7 +50,7 @@ struct Frame {
 };
 
 /// What became of a frame at the end of a service.
-enum class Outcome : std::uint8_t {
+enum class ServiceEnd : std::uint8_t {
   forwarded,  ///< uplink: it waits for its downlink
   dropped,    ///< uplink: the queue of the downlink was full
   delivered,  ///< downlink
@@ -64,7 +64,7 @@ struct Service {
   Direction direction{};
   Nanoseconds start;
   Nanoseconds end;
-  Outcome outcome{};
+  ServiceEnd outcome{};
 };
 
 /// What the channel has done; indices are direction and cast.
@@ -130,8 +130,8 @@ class HalfDuplexChannel {
   void serve();
   void finish();
   void wait_for(Direction direction, std::uint32_t frame);
-  [[nodiscard]] Outcome after_uplink(std::uint32_t frame);
-  [[nodiscard]] Outcome after_downlink();
+  [[nodiscard]] ServiceEnd after_uplink(std::uint32_t frame);
+  [[nodiscard]] ServiceEnd after_downlink();
 
   std::int64_t link_overhead_bytes_;
   std::array<std::array<model::MemoizedRate, 2>, 2> rate_;  // by direction and cast

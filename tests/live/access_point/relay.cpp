@@ -99,7 +99,7 @@ bool Relay::read_frame(std::uint32_t station) {
 
 void Relay::deliver() {
   for (const Service& service : channel_.take_services()) {
-    if (service.outcome != Outcome::delivered) continue;
+    if (service.outcome != ServiceEnd::delivered) continue;
     const std::uint32_t receiver = 1 - service.station;
     statistics_.lateness.add(now() - service.end);
     if (!taps_[receiver].write(contents_[service.frame])) ++statistics_.refused[receiver];

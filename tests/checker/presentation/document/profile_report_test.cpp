@@ -24,7 +24,7 @@ namespace profile_report_test {
 namespace config = model::config;
 
 const config::SpecPath specs{{STORMPROOF_SPECS_DIR}};
-const std::string folder = STORMPROOF_PROFILES_DIR "/";
+const std::string folder = STORMPROOF_SOURCE_DIR "/tests/cli/profiles/";
 
 ProfileReport described(const std::string& reference,
                         const std::vector<std::string>& overrides = {}) {

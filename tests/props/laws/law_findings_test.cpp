@@ -6,10 +6,10 @@
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
-namespace findings_test {
+namespace law_findings_test {
 
 model::RunResult run_of(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  const std::string path = std::string{STORMPROOF_FINDINGS_DIR} + "/" + name + ".yaml";
+  const std::string path = std::string{STORMPROOF_SPECS_DIR "/findings"} + "/" + name + ".yaml";
   return correct(shipped(path, overrides), nullptr);
 }
 
@@ -71,5 +71,5 @@ TEST(Findings, TimeDoesNotScaleExactly) {
   EXPECT_EQ(scaled.counts, correct(shipped("smallest"), nullptr).counts);
 }
 
-}  // namespace findings_test
+}  // namespace law_findings_test
 }  // namespace stormproof::props
