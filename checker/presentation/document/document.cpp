@@ -1,7 +1,15 @@
-// The running text of documents.
+// The running text of documents, and their blocks.
 #include "checker/presentation/document/document.hpp"
 
 namespace stormproof::report {
+
+Blocks::Blocks() = default;
+Blocks::Blocks(std::initializer_list<Block> blocks) : vector{blocks} {}
+Blocks::Blocks(const Blocks& other) = default;
+Blocks::Blocks(Blocks&& other) noexcept = default;
+Blocks& Blocks::operator=(const Blocks& other) = default;
+Blocks& Blocks::operator=(Blocks&& other) noexcept = default;
+Blocks::~Blocks() = default;
 
 Text::Text(std::string plain) {
   if (!plain.empty()) spans_.push_back({Span::Kind::plain, std::move(plain)});

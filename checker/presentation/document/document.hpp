@@ -76,7 +76,17 @@ enum class Audience : std::uint8_t {
 };
 
 struct Block;
-using Blocks = std::vector<Block>;
+
+/// Blocks may contain blocks, so what needs to know what a block is comes after it.
+struct Blocks : std::vector<Block> {
+  Blocks();
+  Blocks(std::initializer_list<Block> blocks);
+  Blocks(const Blocks& other);
+  Blocks(Blocks&& other) noexcept;
+  Blocks& operator=(const Blocks& other);
+  Blocks& operator=(Blocks&& other) noexcept;
+  ~Blocks();
+};
 
 struct Paragraph {
   Text text;

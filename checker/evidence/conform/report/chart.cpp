@@ -29,8 +29,7 @@ class Planner {
     std::vector<std::size_t> events = unexplained_.context;
     events.push_back(unexplained_.event);
     std::ranges::sort(events);
-    const auto repeated = std::ranges::unique(events);
-    events.erase(repeated.begin(), repeated.end());
+    events.erase(std::unique(events.begin(), events.end()), events.end());
     while (!events.empty()) add_datagram(take_datagram(events));
     std::ranges::stable_sort(chart_.rows, {}, &Chart::Row::time);
     return std::move(chart_);
