@@ -9,11 +9,10 @@
 
 namespace stormproof::model::config {
 
-/// The file that `reference` means: a path (it has a '/' or ends in .yaml or .yml), or the name of
-/// a file in `folder` below one of the directories. An error lists a similar name; `noun` ("grid")
-/// says what is missing.
+/// The file that `reference` means: a path, or a name of this kind. An error lists a similar name;
+/// `noun` ("grid") says what is missing.
 [[nodiscard]] Result<std::string> find_named_file(const std::string& reference,
-                                                  std::string_view noun, std::string_view folder,
+                                                  std::string_view noun, SpecKind kind,
                                                   const SpecPath& specs);
 
 }  // namespace stormproof::model::config

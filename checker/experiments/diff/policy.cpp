@@ -166,7 +166,7 @@ class PolicyReader {
 }  // namespace
 
 Result<Policy> read_policy(const std::string& reference, const config::SpecPath& specs) {
-  const auto file = config::find_named_file(reference, "policy", "policies", specs);
+  const auto file = config::find_named_file(reference, "policy", config::SpecKind::policies, specs);
   if (!file) return file.error();
   const Result<Node> root = config::load_yaml(*file);
   if (!root) return root.error();

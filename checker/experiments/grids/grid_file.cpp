@@ -212,7 +212,7 @@ Result<Grid> parse_grid(std::string_view text, const std::string& source, const 
 }
 
 Result<Grid> read_grid(const std::string& reference, const SpecPath& specs) {
-  const auto file = model::config::find_named_file(reference, "grid", "grids", specs);
+  const auto file = config::find_named_file(reference, "grid", config::SpecKind::grids, specs);
   if (!file) return file.error();
   const Result<Node> root = config::load_yaml(*file);
   if (!root) return root.error();

@@ -1,11 +1,11 @@
-// Overrides count as `--set` has it: those that choose a profile (or its base) before the profile
-// is resolved, those of its single keys after it, each group in the order of the file.
+// An override concerns one part, so a part is resolved like a scenario that has no other. Profiles
+// are remembered before overrides of their keys, for all parts that are built on them.
 #include "checker/experiments/grids/parts.hpp"
 
 #include <fmt/format.h>
 
 #include "model/config/knobs/knob_reader.hpp"
-#include "model/config/profile_files.hpp"
+#include "model/config/resolve.hpp"
 
 namespace stormproof::grids {
 
@@ -87,7 +87,7 @@ PartReader::PartReader(const Grid& grid, const config::SpecPath& specs)
     const std::string& path = grid.axes[k].key;
     const Kind kind = kind_of(path);
     memory_[kind].axes.push_back(k);
-    if (chooses(path, kind)) memory_[kind].choosing.push_back(k);
+    if (!config::is_profile_key(path)) memory_[kind].choosing.push_back(k);
   }
 }
 
@@ -99,28 +99,22 @@ PartReader::Kind PartReader::kind_of(std::string_view path) {
   return Kind::rest;
 }
 
-bool PartReader::chooses(std::string_view path, Kind kind) {
-  if (kind != Kind::dds && kind != Kind::wireless) return false;
-  const std::size_t dot = path.find('.');
-  return dot == std::string_view::npos || path.substr(dot + 1) == config::base_key;
-}
-
 PartReader::Key PartReader::key_of(const Choice& choice, const std::vector<std::size_t>& axes) {
   Key key{choice.variant};
   for (const std::size_t axis : axes) key.push_back(choice.values[axis]);
   return key;
 }
 
-std::vector<PartReader::Change> PartReader::changes(const Choice& choice, Kind kind) const {
-  std::vector<Change> list;
+std::vector<config::Override> PartReader::changes(const Choice& choice, Kind kind) const {
+  std::vector<config::Override> list;
   for (const config::Override& change : grid_.variants[choice.variant].overrides) {
-    if (kind_of(change.path) == kind) list.push_back({&change.path, &change.value});
+    if (kind_of(change.path) == kind) list.push_back(change);
   }
   const auto memory = memory_.find(kind);
   if (memory == memory_.end()) return list;
   for (const std::size_t axis : memory->second.axes) {
     const Axis& changed = grid_.axes[axis];
-    list.push_back({&changed.key, &changed.values[choice.values[axis]].node});
+    list.push_back({changed.key, changed.values[choice.values[axis]].node});
   }
   return list;
 }
@@ -136,64 +130,17 @@ Node PartReader::part_root(std::size_t variant, Kind kind) const {
   return root;
 }
 
-const PartReader::ResolvedProfile& PartReader::profile(const Choice& choice, Kind kind) {
+PartReader::Tree PartReader::tree(const Choice& choice, Kind kind) {
+  const std::vector<config::Override> overrides = changes(choice, kind);
+  const auto chosen = [&] {
+    return config::with_profiles(part_root(choice.variant, kind), overrides, specs_);
+  };
+  if (kind != Kind::dds && kind != Kind::wireless) return chosen();
   Memory& memory = memory_[kind];
-  const auto [entry, is_new] =
-      memory.profiles.try_emplace(key_of(choice, memory.choosing), ResolvedProfile{});
-  ResolvedProfile& resolved = entry->second;
-  if (!is_new) return resolved;
-  const bool is_dds = kind == Kind::dds;
-  const std::string_view key = is_dds ? config::dds_key : config::wireless_key;
-  resolved.root = part_root(choice.variant, kind);
-  for (const Change& change : changes(choice, kind)) {
-    if (resolved.failure || !chooses(*change.path, kind)) continue;
-    Node* named = resolved.root.find(key);
-    if (named != nullptr && named->is_scalar() && *change.path != key) {
-      // `base` replaces the name, which is the same as a map with that base.
-      Node map;
-      map.kind = Node::Kind::map;
-      map.place = named->place;
-      *named = std::move(map);
-    }
-    const auto complaint = config::set_path(resolved.root, *change.path, *change.value);
-    if (complaint) resolved.failure = error_at(change.value->place, *complaint);
-  }
-  Node* named = resolved.root.find(key);
-  if (resolved.failure || named == nullptr) return resolved;
-  auto tree = config::resolve_profile(
-      std::move(*named), is_dds ? config::SpecKind::dds : config::SpecKind::wireless, specs_);
-  if (tree) {
-    *named = *std::move(tree);
-  } else {
-    resolved.failure = tree.error();
-  }
-  return resolved;
-}
-
-Node PartReader::tree(const Choice& choice, Kind kind, Failure& failure) {
-  const bool is_profile = kind == Kind::dds || kind == Kind::wireless;
-  Node root;
-  if (is_profile) {
-    const ResolvedProfile& resolved = profile(choice, kind);
-    failure = resolved.failure;
-    root = resolved.root;
-  } else {
-    root = part_root(choice.variant, kind);
-    if (kind == Kind::rest) failure = config::drop_description(root);
-  }
-  const std::string implementation =
-      fmt::format("{}.{}", config::dds_key, config::implementation_key);
-  for (const Change& change : changes(choice, kind)) {
-    if (failure || (is_profile && chooses(*change.path, kind))) continue;
-    const Node* named = root.find(config::dds_key);
-    if (*change.path == implementation && named != nullptr) {
-      failure = config::check_implementation(*named, change.value);
-      if (failure) break;
-    }
-    const auto complaint = config::set_path(root, *change.path, *change.value);
-    if (complaint) failure = error_at(change.value->place, *complaint);
-  }
-  return root;
+  const Key key = key_of(choice, memory.choosing);
+  auto profile = memory.profiles.find(key);
+  if (profile == memory.profiles.end()) profile = memory.profiles.emplace(key, chosen()).first;
+  return config::with_profile_keys(profile->second, overrides);
 }
 
 template <class T, class Read>
@@ -204,8 +151,12 @@ std::uint32_t PartReader::part_number(const Choice& choice, Kind kind, std::vect
                                                           static_cast<std::uint32_t>(parts.size()));
   if (!is_new) return entry->second;
   Part<T>& part = parts.emplace_back();
-  const Node root = tree(choice, kind, part.error);
-  if (!part.error) read(root, part);
+  const Tree root = tree(choice, kind);
+  if (root) {
+    read(root->tree, part);
+  } else {
+    part.error = root.error();
+  }
   return entry->second;
 }
 
@@ -238,8 +189,8 @@ bool PartReader::parts_are_right(const PartNumbers& numbers) const {
 std::optional<config::InputError> PartReader::error(const Choice& choice,
                                                     const PartNumbers& numbers) {
   // Unknown keys of the scenario come first, as they do when a scenario is read.
-  for (const Failure* failure : {&rests[numbers.rest].error, &deployments[numbers.deployment].error,
-                                 &dds[numbers.dds].error, &wireless[numbers.wireless].error}) {
+  for (const auto* failure : {&rests[numbers.rest].error, &deployments[numbers.deployment].error,
+                              &dds[numbers.dds].error, &wireless[numbers.wireless].error}) {
     if (*failure) return *failure;
   }
   Scenario scenario;
@@ -253,12 +204,11 @@ std::optional<config::InputError> PartReader::error(const Choice& choice,
   Node root;
   root.kind = Node::Kind::map;
   root.place = grid_.variants[choice.variant].root.place;
-  Failure failure;
   for (const Kind kind : {Kind::deployment, Kind::dds, Kind::wireless}) {
-    for (config::Member& member : tree(choice, kind, failure).members) {
-      root.members.push_back(std::move(member));
-    }
+    const Tree part = tree(choice, kind);
+    for (const config::Member& member : part->tree.members) root.members.push_back(member);
   }
+  std::optional<config::InputError> failure;
   config::KnobReader reader{root, at_top, failure};
   RuleVisitor blaming{&reader};
   config::visit_knobs(blaming, scenario);

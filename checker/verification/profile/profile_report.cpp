@@ -79,10 +79,10 @@ class Describer {
       report_.remarks =
           static_cast<std::size_t>(std::ranges::count_if(traced_.vendor->remarks, counts));
     }
-    Json effective = config::effective_json(traced_.profile);
+    Json effective = config::effective_json(traced_.value);
     effective.erase("unmodelled");
     add_knobs(effective, "");
-    for (const auto& [setting, effect] : traced_.profile.unmodelled) {
+    for (const auto& [setting, effect] : traced_.value.unmodelled) {
       report_.unmodelled.push_back({setting, effect, origin_of("unmodelled." + setting)});
     }
     return std::move(report_);

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <unordered_map>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 namespace stormproof::model::config {
 
@@ -45,6 +45,33 @@ std::string Node::shown() const {
       return "a map";
   }
   return {};
+}
+
+std::string join_path(std::string_view path, std::string_view key) {
+  return path.empty() ? std::string{key} : fmt::format("{}.{}", path, key);
+}
+
+namespace {
+
+void collect(const Node& node, const std::string& path, Places& places) {
+  for (const auto& [key, key_place, value] : node.members) {
+    const std::string name = join_path(path, key);
+    places.emplace(name, value.is_map() ? key_place : value.place);
+    collect(value, name, places);
+  }
+  for (std::size_t k = 0; k < node.items.size(); ++k) {
+    const std::string name = join_path(path, fmt::to_string(k));
+    places.emplace(name, node.items[k].place);
+    collect(node.items[k], name, places);
+  }
+}
+
+}  // namespace
+
+Places places_of(const Node& tree) {
+  Places places;
+  collect(tree, "", places);
+  return places;
 }
 
 std::string quote(std::string_view text) {

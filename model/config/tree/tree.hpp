@@ -3,6 +3,7 @@
 // error can point at the right line of the right file.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +60,14 @@ struct Member {
   Place key_place;
   Node value;
 };
+
+/// `path`.`key`, or `key` alone at the top.
+[[nodiscard]] std::string join_path(std::string_view path, std::string_view key);
+
+/// Where everything in a tree was written, by dotted key: "spdp.period"; elements of lists go by
+/// number. A map is where its key is.
+using Places = std::map<std::string, Place, std::less<>>;
+[[nodiscard]] Places places_of(const Node& tree);
 
 /// `text` between quotes, control characters escaped, cut after 60 bytes; for error messages.
 [[nodiscard]] std::string quote(std::string_view text);

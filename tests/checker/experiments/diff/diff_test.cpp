@@ -135,8 +135,8 @@ TEST(Diff, TheLeastScenario) {
   const TellingApart apart = compared(asked).telling_apart;
   ASSERT_TRUE(apart.found);
   EXPECT_EQ(apart.scenario.deployment.size(), 2U);
-  EXPECT_EQ(apart.scenario.dds, asked.base.profile);
-  EXPECT_EQ(apart.candidate, asked.candidate.profile);
+  EXPECT_EQ(apart.scenario.dds, asked.base.value);
+  EXPECT_EQ(apart.candidate, asked.candidate.value);
 }
 
 TEST(Diff, Verdicts) {
