@@ -78,9 +78,12 @@ Outcome run(CheckArguments& arguments, Session& session) {
     if (error) return Complaint{*error};
   }
   const checker::CheckReport report = run_check(arguments, traced->value, session);
-  checker::CheckContext context{arguments.scenario, traced->value, {}, {}};
-  context.places = traced->places;
-  context.exit_code = exit_code(report, arguments.require);
+  checker::CheckContext context{traced->reference,
+                                traced->value,
+                                {},
+                                {},
+                                traced->places,
+                                exit_code(report, arguments.require)};
   Answer answer;
   if (const auto error = write_counterexamples(arguments.counterexamples, report, context)) {
     answer.complaint = *error;
