@@ -1,6 +1,6 @@
 // Reading is one pass in one direction, and each step takes what the one before it gives:
 //
-//   text      a file, by name or path            spec_path, vendor/reference
+//   text      a file, by name or path            spec_path, vendor/reference, tree/file_text
 //   tree      its values, each with its place    tree
 //   resolved  overrides and profiles put in      resolve, profile_files, vendor
 //   checked   the knob tables took the values    knobs
@@ -49,10 +49,8 @@ Result<Traced<Profile>> profile_of(const std::string& reference, SpecKind kind,
                                    Outside outside = Outside::refused) {
   const auto overrides = parse_overrides(arguments);
   if (!overrides) return overrides.error();
-  Node name;
-  name.kind = Node::Kind::scalar;
-  name.text = reference;
-  name.place.source = std::make_shared<const std::string>(reference);
+  const Place place{std::make_shared<const std::string>(reference)};
+  Node name{Node::Kind::scalar, place, reference};
   return traced<Profile>(
       reference,
       with_keys(resolve_profile(std::move(name), kind, specs, outside), kind, *overrides));

@@ -74,6 +74,13 @@ Places places_of(const Node& tree) {
   return places;
 }
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string quote(std::string_view text) {
   std::size_t length = std::min<std::size_t>(text.size(), 60);
   while (length < text.size() && length > 0 &&

@@ -35,10 +35,10 @@ struct Node {
 
   Kind kind = Kind::null;
   Place place;
-  std::string text;             ///< of a scalar
-  bool quoted = false;          ///< a scalar written in quotes is text, never a number
-  std::vector<Node> items;      ///< of a sequence
-  std::vector<Member> members;  ///< of a map, in the order of the file; keys are unique
+  std::string text = {};             ///< of a scalar
+  bool quoted = false;               ///< a scalar written in quotes is text, never a number
+  std::vector<Node> items = {};      ///< of a sequence
+  std::vector<Member> members = {};  ///< of a map, in the order of the file; keys are unique
 
   [[nodiscard]] bool is_map() const { return kind == Kind::map; }
   [[nodiscard]] bool is_sequence() const { return kind == Kind::sequence; }
@@ -68,6 +68,9 @@ struct Member {
 /// number. A map is where its key is.
 using Places = std::map<std::string, Place, std::less<>>;
 [[nodiscard]] Places places_of(const Node& tree);
+
+/// `text` without blanks at its ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
 
 /// `text` between quotes, control characters escaped, cut after 60 bytes; for error messages.
 [[nodiscard]] std::string quote(std::string_view text);
