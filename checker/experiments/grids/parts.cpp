@@ -10,7 +10,6 @@
 namespace stormproof::grids {
 
 namespace config = model::config;
-using config::error_at;
 using config::Node;
 using model::Scenario;
 
@@ -19,23 +18,24 @@ namespace {
 constexpr std::string_view deployment_key = "deployment";
 const std::string at_top;  ///< the path of a scenario's own keys
 
-bool is_large_part(std::string_view key) {
-  return key == deployment_key || key == config::dds_key || key == config::wireless_key;
-}
-
-/// Reads what a scenario has beside its large parts.
-class RestVisitor {
+/// Reads those keys of a scenario that belong to a part.
+template <class IsPart>
+class PartVisitor {
  public:
-  explicit RestVisitor(config::KnobReader& reader) : reader_{reader} {}
+  PartVisitor(config::KnobReader& reader, const IsPart& is_part)
+      : reader_{reader}, is_part_{is_part} {}
 
-  void knob(auto&&... arguments) { reader_.knob(std::forward<decltype(arguments)>(arguments)...); }
+  void knob(std::string_view key, auto&&... arguments) {
+    if (is_part_(key)) reader_.knob(key, std::forward<decltype(arguments)>(arguments)...);
+  }
   void section(std::string_view key, auto& member, auto&&... arguments) {
-    if (!is_large_part(key)) reader_.section(key, member, arguments...);
+    if (is_part_(key)) reader_.section(key, member, arguments...);
   }
   void rule(bool, std::string_view, std::string_view) {}
 
  private:
   config::KnobReader& reader_;
+  const IsPart& is_part_;
 };
 
 /// Looks at nothing but the rules between the parts. Without a reader it only says whether all
@@ -57,26 +57,20 @@ class RuleVisitor {
   config::KnobReader* reader_;
 };
 
-template <class T>
-void read_section(const Node& root, std::string_view key, T& value,
-                  std::optional<config::InputError>& failure) {
-  if (failure) return;
-  const Node* node = root.find(key);
-  if (node == nullptr) {
-    failure = error_at(root.place, fmt::format("missing key '{}'; expected a map", key));
-  } else {
-    read_knobs(*node, std::string{key}, value, failure);
-  }
+template <class IsPart>
+Scenario read_part(const Node& root, const IsPart& is_part,
+                   std::optional<config::InputError>& failure) {
+  Scenario scenario;
+  failure = config::check_keys(root, at_top, config::keys_of(scenario));
+  config::KnobReader reader{root, at_top, failure};
+  PartVisitor visitor{reader, is_part};
+  config::visit_knobs(visitor, scenario);
+  return scenario;
 }
 
-void read_rest(const Node& root, Rest& rest, std::optional<config::InputError>& failure) {
-  Scenario scenario;
-  config::KnownKeys keys = config::keys_of(scenario);
-  if (!failure) failure = config::check_keys(root, "", keys);
-  config::KnobReader reader{root, at_top, failure};
-  RestVisitor visitor{reader};
-  config::visit_knobs(visitor, scenario);
-  rest = {scenario.time_limit, scenario.run_until};
+Digest digest_of(const Rest& rest) {
+  return grids::digest_of(fmt::format("time_limit {}\nrun_until {}\n", rest.time_limit.count(),
+                                      static_cast<int>(rest.run_until)));
 }
 
 }  // namespace
@@ -141,40 +135,36 @@ PartReader::Tree PartReader::tree(const Choice& choice, Kind kind) {
   return config::with_profile_keys(profile->second, overrides);
 }
 
-template <class T, class Read>
+template <class T, class ValueOf>
 std::uint32_t PartReader::part_number(const Choice& choice, Kind kind, std::vector<Part<T>>& parts,
-                                      const Read& read) {
+                                      const ValueOf& value_of) {
   Memory& memory = memory_[kind];
   const auto [entry, is_new] = memory.numbers.try_emplace(key_of(choice, memory.axes),
                                                           static_cast<std::uint32_t>(parts.size()));
   if (!is_new) return entry->second;
   Part<T>& part = parts.emplace_back();
   const Tree root = tree(choice, kind);
-  if (root) {
-    read(root->tree, part);
-  } else {
+  if (!root) {
     part.error = root.error();
+    return entry->second;
   }
+  const auto is_part = [kind](std::string_view key) { return kind_of(key) == kind; };
+  const Scenario scenario = read_part(root->tree, is_part, part.error);
+  if (part.error) return entry->second;
+  part.value = value_of(scenario);
+  part.digest = digest_of(part.value);
   return entry->second;
 }
 
 PartNumbers PartReader::read(const Choice& choice) {
-  const auto section = [](std::string_view key) {
-    return [key](const Node& root, auto& part) {
-      read_section(root, key, part.value, part.error);
-      if (!part.error) part.digest = digest_of(part.value);
-    };
-  };
   PartNumbers numbers;
-  numbers.deployment = part_number(choice, Kind::deployment, deployments, section(deployment_key));
-  numbers.dds = part_number(choice, Kind::dds, dds, section(config::dds_key));
-  numbers.wireless = part_number(choice, Kind::wireless, wireless, section(config::wireless_key));
-  numbers.rest = part_number(choice, Kind::rest, rests, [](const Node& root, Part<Rest>& part) {
-    read_rest(root, part.value, part.error);
-    if (part.error) return;
-    const Rest& rest = part.value;
-    part.digest = digest_of(fmt::format("time_limit {}\nrun_until {}\n", rest.time_limit.count(),
-                                        static_cast<int>(rest.run_until)));
+  numbers.deployment = part_number(choice, Kind::deployment, deployments,
+                                   [](const Scenario& s) { return s.deployment; });
+  numbers.dds = part_number(choice, Kind::dds, dds, [](const Scenario& s) { return s.dds; });
+  numbers.wireless =
+      part_number(choice, Kind::wireless, wireless, [](const Scenario& s) { return s.wireless; });
+  numbers.rest = part_number(choice, Kind::rest, rests, [](const Scenario& s) {
+    return Rest{s.time_limit, s.run_until};
   });
   return numbers;
 }

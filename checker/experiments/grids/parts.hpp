@@ -85,9 +85,9 @@ class PartReader {
   /// The same with all that is put into it.
   [[nodiscard]] Tree tree(const Choice& choice, Kind kind);
 
-  template <class T, class Read>
+  template <class T, class ValueOf>
   std::uint32_t part_number(const Choice& choice, Kind kind, std::vector<Part<T>>& parts,
-                            const Read& read);
+                            const ValueOf& value_of);
 
   const Grid& grid_;
   const model::config::SpecPath& specs_;
