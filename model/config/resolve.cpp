@@ -26,7 +26,7 @@ std::optional<std::string_view> path_below(const ProfileSlot& slot, std::string_
 /// it.
 void make_map(Node& profile) {
   if (!profile.is_scalar()) return;
-  Node map{Node::Kind::map, profile.place};
+  Node map = Node::map(profile.place);
   map.members.push_back({std::string{base_key}, profile.place, std::move(profile)});
   profile = std::move(map);
 }

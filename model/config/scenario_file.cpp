@@ -50,7 +50,7 @@ Result<Traced<Profile>> profile_of(const std::string& reference, SpecKind kind,
   const auto overrides = parse_overrides(arguments);
   if (!overrides) return overrides.error();
   const Place place{std::make_shared<const std::string>(reference)};
-  Node name{Node::Kind::scalar, place, reference};
+  Node name = Node::scalar(place, reference);
   return traced<Profile>(
       reference,
       with_keys(resolve_profile(std::move(name), kind, specs, outside), kind, *overrides));

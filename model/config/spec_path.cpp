@@ -119,4 +119,14 @@ Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
                          quote(reference), suggestion(reference, known), fmt::join(known, ", "))};
 }
 
+Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
+                                   std::string_view noun) const {
+  if (is_path(reference)) return reference;
+  if (const auto file = named(kind, reference)) return *file;
+  return InputError{reference,
+                    fmt::format("no {} of this name{}; expected a file, or a name in "
+                                "specs/{}",
+                                noun, suggestion(reference, names(kind)), folder_name(kind))};
+}
+
 }  // namespace stormproof::model::config

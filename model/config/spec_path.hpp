@@ -40,6 +40,11 @@ struct SpecPath {
   [[nodiscard]] Result<std::string> find(SpecKind kind, const std::string& reference,
                                          const std::string& from_directory,
                                          const std::string& where) const;
+
+  /// The same for what is read apart from scenarios and profiles: `noun` ("grid") names it. Paths
+  /// are relative to the current directory.
+  [[nodiscard]] Result<std::string> find(SpecKind kind, const std::string& reference,
+                                         std::string_view noun) const;
 };
 
 }  // namespace stormproof::model::config

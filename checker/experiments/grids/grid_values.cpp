@@ -76,7 +76,7 @@ std::optional<InputError> append_range(const Node& range, const std::string& key
     }
     for (std::int64_t value = *from;; value += *step) {
       const std::string text = unit.write(value);
-      values.push_back({text, Node{Node::Kind::scalar, range.place, text}});
+      values.push_back({text, Node::scalar(range.place, text)});
       if (value > *to - *step) return std::nullopt;
     }
   }

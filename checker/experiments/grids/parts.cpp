@@ -115,7 +115,7 @@ std::vector<config::Override> PartReader::changes(const Choice& choice, Kind kin
 
 Node PartReader::part_root(std::size_t variant, Kind kind) const {
   const Node& whole = grid_.variants[variant].root;
-  Node root{Node::Kind::map, whole.place};
+  Node root = Node::map(whole.place);
   for (const config::Member& member : whole.members) {
     if (kind_of(member.key) == kind) root.members.push_back(member);
   }
@@ -189,7 +189,7 @@ std::optional<config::InputError> PartReader::error(const Choice& choice,
   config::visit_knobs(rules, scenario);
   if (rules.all_hold) return std::nullopt;
 
-  Node root{Node::Kind::map, grid_.variants[choice.variant].root.place};
+  Node root = Node::map(grid_.variants[choice.variant].root.place);
   for (const Kind kind : {Kind::deployment, Kind::dds, Kind::wireless}) {
     const Tree part = tree(choice, kind);
     for (const config::Member& member : part->tree.members) root.members.push_back(member);

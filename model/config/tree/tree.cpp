@@ -15,6 +15,22 @@ std::string Place::to_string() const {
   return line == 0 ? name : fmt::format("{}:{}:{}", name, line, column);
 }
 
+Node Node::scalar(const Place& place, std::string text, bool quoted) {
+  Node node;
+  node.kind = Kind::scalar;
+  node.place = place;
+  node.text = std::move(text);
+  node.quoted = quoted;
+  return node;
+}
+
+Node Node::map(const Place& place) {
+  Node node;
+  node.kind = Kind::map;
+  node.place = place;
+  return node;
+}
+
 Node* Node::find(std::string_view key) {
   const auto member = std::ranges::find(members, key, &Member::key);
   return member == members.end() ? nullptr : &member->value;

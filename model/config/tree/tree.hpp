@@ -35,10 +35,14 @@ struct Node {
 
   Kind kind = Kind::null;
   Place place;
-  std::string text = {};             ///< of a scalar
-  bool quoted = false;               ///< a scalar written in quotes is text, never a number
-  std::vector<Node> items = {};      ///< of a sequence
-  std::vector<Member> members = {};  ///< of a map, in the order of the file; keys are unique
+  std::string text;             ///< of a scalar
+  bool quoted = false;          ///< a scalar written in quotes is text, never a number
+  std::vector<Node> items;      ///< of a sequence
+  std::vector<Member> members;  ///< of a map, in the order of the file; keys are unique
+
+  [[nodiscard]] static Node scalar(const Place& place, std::string text, bool quoted = false);
+  /// Without members.
+  [[nodiscard]] static Node map(const Place& place);
 
   [[nodiscard]] bool is_map() const { return kind == Kind::map; }
   [[nodiscard]] bool is_sequence() const { return kind == Kind::sequence; }

@@ -57,7 +57,7 @@ class Effects {
 
   /// `value` of a knob in the syntax of profiles.
   void change(const std::string& key, const Place& place, std::string value) {
-    (void)set_path(profile_.changes, key, Node{Node::Kind::scalar, place, std::move(value)});
+    (void)set_path(profile_.changes, key, Node::scalar(place, std::move(value)));
   }
 
   void change_duration(const std::string& key, const CycloneReading& reading, std::int64_t ns,
@@ -196,7 +196,7 @@ void assume(VendorProfile& profile, std::string_view setting, const Place& place
     map->kind = Node::Kind::map;
     map->place = place;
   }
-  Node value{Node::Kind::scalar, place, std::move(text)};
+  Node value = Node::scalar(place, std::move(text));
   if (Node* old = map->find(setting)) {
     *old = std::move(value);
   } else {

@@ -196,7 +196,7 @@ void set_knob(Reading& reading, const Found& found, std::string_view section, st
   if (setting.note == "the library's default") setting.note = found.item->note;
   // The path has no empty part and only maps on its way, so this cannot fail.
   (void)set_path(reading.profile.changes, setting.knob,
-                 Node{Node::Kind::scalar, found.value.place, std::move(value)});
+                 Node::scalar(found.value.place, std::move(value)));
 }
 
 void set_inert(Reading& reading, const Found& found, std::string note) {

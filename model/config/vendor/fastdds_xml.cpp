@@ -131,7 +131,7 @@ std::string short_key(std::string_view path) {
 void collect_unmodelled(VendorProfile& profile) {
   constexpr std::size_t longest_value = 200;
   constexpr std::size_t longest_text = 2'000;  ///< of several transports
-  Node texts{Node::Kind::map, {}};
+  Node texts = Node::map({});
   std::map<std::string, std::size_t> index;  // in `texts`
   for (const Setting& setting : profile.settings) {
     if (setting.effect != Effect::unmodelled) continue;
@@ -146,8 +146,7 @@ void collect_unmodelled(VendorProfile& profile) {
       continue;
     }
     texts.place = setting.place;
-    texts.members.push_back(
-        {key, setting.place, Node{Node::Kind::scalar, setting.place, text, true}});
+    texts.members.push_back({key, setting.place, Node::scalar(setting.place, text, true)});
   }
   if (texts.members.empty()) return;
   profile.changes.members.push_back({"unmodelled", texts.place, std::move(texts)});
@@ -168,8 +167,8 @@ void start(const XmlElement& root, const Selection& selection, Reading& reading)
       selection.base.empty() ? std::string{default_base(Vendor::fastdds)} : selection.base;
   reading.root = &root;
   reading.version = version_of(profile.version_base);
-  profile.changes = {Node::Kind::map, root.place};
-  Node base{Node::Kind::scalar, root.place, profile.version_base};
+  profile.changes = Node::map(root.place);
+  Node base = Node::scalar(root.place, profile.version_base);
   profile.changes.members.push_back({std::string{base_key}, root.place, std::move(base)});
 }
 
