@@ -1,6 +1,5 @@
 // `stormproof check SCENARIO`: reads the scenario, checks it, writes the counterexamples.
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/core.h>
 
@@ -12,7 +11,7 @@
 #include "checker/verification/check/check.hpp"
 #include "checker/verification/check/check_report.hpp"
 #include "checker/verification/counterexample/gtest_case.hpp"
-#include "model/config/provenance.hpp"
+#include "model/config/scenario_file.hpp"
 #include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::cli {
@@ -75,17 +74,16 @@ Outcome run(CheckArguments& arguments, Session& session) {
   if (!traced) return traced.error();
   if (const auto error = unknown_property(arguments.properties)) return Complaint{*error};
   if (!arguments.export_directory.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(arguments.export_directory, error);
-    if (error) {
-      return Complaint{fmt::format("--export {}: cannot be created: {}", arguments.export_directory,
-                                   error.message())};
-    }
+    const auto error = make_folder("--export", arguments.export_directory);
+    if (error) return Complaint{*error};
   }
-  const checker::CheckReport report = run_check(arguments, traced->scenario, session);
-  checker::CheckContext context{arguments.scenario, traced->scenario, {}, {}};
-  context.places = traced->places;
-  context.exit_code = exit_code(report, arguments.require);
+  const checker::CheckReport report = run_check(arguments, traced->value, session);
+  checker::CheckContext context{traced->reference,
+                                traced->value,
+                                {},
+                                {},
+                                traced->places,
+                                exit_code(report, arguments.require)};
   Answer answer;
   if (const auto error = write_counterexamples(arguments.counterexamples, report, context)) {
     answer.complaint = *error;

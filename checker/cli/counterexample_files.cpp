@@ -3,8 +3,6 @@
 
 #include <filesystem>
 
-#include <fmt/core.h>
-
 #include "checker/cli/output_file.hpp"
 #include "checker/verification/counterexample/chart.hpp"
 #include "checker/verification/counterexample/story.hpp"
@@ -51,11 +49,7 @@ std::optional<std::string> write_counterexamples(const std::string& directory,
   for (const checker::PropertyResult& result : report.results) {
     const props::Counterexample* found = result.counterexample();
     if (found == nullptr) continue;
-    std::error_code error;
-    std::filesystem::create_directories(directory, error);
-    if (error) {
-      return fmt::format("--counterexamples {}: cannot be created: {}", directory, error.message());
-    }
+    if (auto failure = make_folder("--counterexamples", directory)) return failure;
     const std::string id{result.property->id};
     const std::string stem = (std::filesystem::path{directory} / id).string();
     if (auto failure = write_counterexample(*found, stem)) return failure;

@@ -84,9 +84,7 @@ Error write_diff_files(const std::string& directory, const diff::DiffReport& rep
     any = any || change.counterexample;
   }
   if (!any) return std::nullopt;
-  std::error_code failed;
-  fs::create_directories(directory, failed);
-  if (failed) return fmt::format("-o {}: cannot be created: {}", directory, failed.message());
+  if (auto error = make_folder("-o", directory)) return error;
   DiffFiles writer{directory, files};
   if (report.telling_apart.found) {
     if (auto error = writer.telling_apart(report)) return error;

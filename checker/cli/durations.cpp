@@ -39,7 +39,10 @@ Result<std::pair<Nanoseconds, Nanoseconds>, std::string> parse_duration_range(
   return std::pair{*low, *high};
 }
 
-Result<Nanoseconds, std::string> parse_start_jitter(const std::string& text) {
+Result<Nanoseconds, std::string> parse_start_jitter(const std::string& text,
+                                                    const model::Scenario& scenario) {
+  if (text.empty() && scenario.vary) return scenario.vary->start_jitter.value_or(Nanoseconds{});
+  if (text.empty()) return Nanoseconds{};
   constexpr Nanoseconds longest{1'000'000'000'000};
   return parse_duration("--start-jitter", text, longest);
 }

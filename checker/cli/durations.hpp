@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/config/tree/result.hpp"
+#include "model/scenario.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::cli {
@@ -18,9 +19,9 @@ namespace stormproof::cli {
 [[nodiscard]] model::config::Result<std::pair<model::Nanoseconds, model::Nanoseconds>, std::string>
 parse_duration_range(const std::string& option, const std::string& text, model::Nanoseconds most);
 
-/// `--start-jitter`: up to 1000 s.
+/// `--start-jitter`: up to 1000 s; if `text` is empty, that of the scenario's `vary`, or none.
 [[nodiscard]] model::config::Result<model::Nanoseconds, std::string> parse_start_jitter(
-    const std::string& text);
+    const std::string& text, const model::Scenario& scenario);
 
 /// `--until INSTANT`, where a capture is cut, in ns since 1970: INT64_MAX if `text` is empty.
 /// `text` is such a number, or a duration after the first packet; otherwise the error says what was

@@ -8,6 +8,7 @@
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/fuzz_input.hpp"
+#include "checker/cli/output_file.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/verification/counterexample/story.hpp"
 #include "model/config/knobs/effective.hpp"
@@ -25,12 +26,7 @@ std::optional<std::string> write_shrunk(const FuzzArguments& arguments,
                                         fuzz::FuzzContext& context) {
   for (const fuzz::Judgment& judgment : report.judgments) {
     if (!judgment.shrunk) continue;
-    std::error_code error;
-    std::filesystem::create_directories(arguments.output_directory, error);
-    if (error) {
-      return fmt::format("--counterexamples {}: cannot be created: {}", arguments.output_directory,
-                         error.message());
-    }
+    if (auto failure = make_folder("--counterexamples", arguments.output_directory)) return failure;
     const std::string stem =
         (std::filesystem::path{arguments.output_directory} / std::string{judgment.id}).string();
     const props::Counterexample& found = judgment.shrunk->counterexample;

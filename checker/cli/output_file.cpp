@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include <fmt/core.h>
+
 namespace stormproof::cli {
 
 void OutputFile::open(const std::string& path) {
@@ -42,6 +44,13 @@ void OutputFile::discard() {
   stream_.close();
   std::error_code ignored;
   if (temporary_ != path_) std::filesystem::remove(temporary_, ignored);
+}
+
+std::optional<std::string> make_folder(const char* option, const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error) return std::nullopt;
+  return fmt::format("{} {}: cannot be created: {}", option, folder, error.message());
 }
 
 }  // namespace stormproof::cli

@@ -37,4 +37,7 @@ class OutputFile {
   bool done_ = true;
 };
 
+/// Makes the folder that was given to `option`, with those above it; the reason if that fails.
+[[nodiscard]] std::optional<std::string> make_folder(const char* option, const std::string& folder);
+
 }  // namespace stormproof::cli

@@ -1,7 +1,5 @@
 // `stormproof reproduce paper`: reads the published figures, runs the plan, and puts the paper's
 // evaluation beside them.
-#include <filesystem>
-
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
@@ -71,12 +69,7 @@ Outcome run(ReproduceArguments& arguments, Session& session) {
   const auto plan = reproduce::make_plan(*published, arguments.plan, specs);
   if (!plan) return plan.error();
   if (!arguments.directory.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(arguments.directory, error);
-    if (error) {
-      return Complaint{
-          fmt::format("-o {}: cannot be created: {}", arguments.directory, error.message())};
-    }
+    if (const auto error = make_folder("-o", arguments.directory)) return Complaint{*error};
   }
   Report report;
   report.version = STORMPROOF_VERSION;

@@ -47,13 +47,9 @@ model::config::Result<Description, std::string> describe(const SensitivityArgume
         arguments.range);
   }
   options.range = range->value();
-  if (!arguments.start_jitter.empty()) {
-    const auto jitter = parse_start_jitter(arguments.start_jitter);
-    if (!jitter) return jitter.error();
-    options.start_jitter = *jitter;
-  } else if (scenario.vary && scenario.vary->start_jitter) {
-    options.start_jitter = *scenario.vary->start_jitter;
-  }
+  const auto jitter = parse_start_jitter(arguments.start_jitter, scenario);
+  if (!jitter) return jitter.error();
+  options.start_jitter = *jitter;
   description.scenario = arguments.scenario;
   description.dds = scenario.dds;
   description.has_schedule = scenario.deployment.schedule.has_value();

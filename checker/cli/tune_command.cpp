@@ -43,13 +43,9 @@ std::optional<std::string> complete(TuneArguments& arguments, const model::Scena
         arguments.least);
   }
   arguments.options.least = least->value();
-  if (!arguments.start_jitter.empty()) {
-    const auto jitter = parse_start_jitter(arguments.start_jitter);
-    if (!jitter) return jitter.error();
-    arguments.options.start_jitter = *jitter;
-  } else if (scenario.vary && scenario.vary->start_jitter) {
-    arguments.options.start_jitter = *scenario.vary->start_jitter;
-  }
+  const auto jitter = parse_start_jitter(arguments.start_jitter, scenario);
+  if (!jitter) return jitter.error();
+  arguments.options.start_jitter = *jitter;
   return std::nullopt;
 }
 

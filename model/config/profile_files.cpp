@@ -1,6 +1,6 @@
-// A profile is resolved from the outside in: read the file, resolve its base, merge. The chain of
-// files on the way is kept to notice a profile that is based on itself. A vendor's XML file is read
-// into the map that a YAML file with the same meaning would have.
+// Profiles are read from the outside in, each naming the next, and merged from the inside out. The
+// files on the way are kept to notice a profile that is based on itself. A vendor's XML file is
+// read into the map that a YAML file with the same meaning would have.
 #include "model/config/profile_files.hpp"
 
 #include <algorithm>
@@ -40,13 +40,15 @@ std::optional<InputError> check_vendor(const vendor::VendorProfile& profile, con
                               base.shown(), name_of(*of_base), name_of(profile.vendor)));
 }
 
-class Resolver {
+/// Reads one profile after the other, from the outside in.
+class Chain {
  public:
-  Resolver(SpecKind kind, const SpecPath& specs, ProfileOrigin& origin, Outside outside)
-      : kind_{kind}, specs_{specs}, origin_{origin}, outside_{outside} {}
+  Chain(SpecKind kind, const SpecPath& specs, Outside outside)
+      : kind_{kind}, specs_{specs}, outside_{outside} {}
 
-  Result<Node> resolve(Node reference) {
-    if (reference.is_map()) return resolve_map(std::move(reference));
+  /// The map that `reference` means: the keys of one profile, and its base, if it has one.
+  Result<Node> read(Node reference) {
+    if (reference.is_map()) return reference;
     if (!reference.is_scalar()) {
       return error_at(reference.place, fmt::format("{} as a profile; expected a name, a path or a "
                                                    "map",
@@ -54,46 +56,29 @@ class Resolver {
     }
     if (kind_ == SpecKind::dds) {
       if (const auto parts = vendor::parse_reference(reference.text)) {
-        return resolve_xml(reference, *parts);
+        return read_xml(reference, *parts);
       }
     }
-    return resolve_yaml(reference);
+    return read_yaml(reference);
   }
+
+  std::string preset;                           ///< of the first profile that has a name
+  std::optional<vendor::VendorProfile> vendor;  ///< the first one
 
  private:
-  Result<Node> resolve_map(Node map) {
-    if (auto error = drop_description(map)) return *std::move(error);
-    std::optional<Node> base = map.take(base_key);
-    if (!base) return map;
-    Result<Node> resolved = resolve(*std::move(base));
-    if (!resolved) return resolved;
-    if (kind_ == SpecKind::dds) {
-      const Node* implementation = map.find(implementation_key);
-      if (auto error = check_implementation(*resolved, implementation)) return *std::move(error);
-    }
-    return merge(*std::move(resolved), std::move(map));
-  }
-
-  Result<Node> resolve_yaml(const Node& reference) {
-    const auto file = find(reference, reference.text);
+  Result<Node> read_yaml(const Node& reference) {
+    const auto file = enter(reference, reference.text, "");
     if (!file) return file.error();
-    if (auto error = enter(reference, *file, "")) return *std::move(error);
-    if (origin_.preset.empty()) {
-      origin_.preset = specs_.name_of(kind_, *file).value_or(std::string{});
-    }
+    if (preset.empty()) preset = specs_.name_of(kind_, *file).value_or(std::string{});
     Result<Node> tree = load_yaml(*file);
-    if (!tree) return tree;
-    if (!tree->is_map()) {
-      return error_at(tree->place,
-                      fmt::format("{} as a profile file; expected a map", tree->shown()));
-    }
-    return resolve_map(*std::move(tree));
+    if (!tree || tree->is_map()) return tree;
+    return error_at(tree->place,
+                    fmt::format("{} as a profile file; expected a map", tree->shown()));
   }
 
-  Result<Node> resolve_xml(const Node& reference, const vendor::FileReference& parts) {
-    const auto file = find(reference, parts.file);
+  Result<Node> read_xml(const Node& reference, const vendor::FileReference& parts) {
+    const auto file = enter(reference, parts.file, parts.selection.profile);
     if (!file) return file.error();
-    if (auto error = enter(reference, *file, parts.selection.profile)) return *std::move(error);
     const Result<vendor::XmlElement> root = vendor::load_xml(*file);
     if (!root) return root.error();
     Result<vendor::VendorProfile> profile = vendor::read_vendor_profile(*root, parts.selection);
@@ -106,50 +91,63 @@ class Resolver {
       base->place = reference.place;  // where the preset was chosen, or could have been
       if (auto error = check_vendor(*profile, *base)) return *std::move(error);
     }
-    if (!origin_.vendor) origin_.vendor = *std::move(profile);
-    return resolve_map(std::move(changes));
+    if (!vendor) vendor = *std::move(profile);
+    return changes;
   }
 
-  /// The file that stands in `reference`.
-  Result<std::string> find(const Node& reference, const std::string& file) const {
+  /// The file that stands in `reference`; it, or the part of it with this name, is in the chain
+  /// from now on.
+  Result<std::string> enter(const Node& reference, const std::string& name,
+                            const std::string& part) {
     const Place& place = reference.place;
     const bool in_file = place.line > 0 && place.source != nullptr;
     const std::string directory =
         in_file ? fs::path{*place.source}.parent_path().string() : std::string{};
-    return specs_.find(kind_, file, directory, place.to_string());
-  }
-
-  /// Notes that `file`, or the part of it with this name, is being resolved.
-  std::optional<InputError> enter(const Node& reference, const std::string& file,
-                                  const std::string& part) {
+    auto file = specs_.find(kind_, name, directory, place.to_string());
+    if (!file) return file;
     std::error_code failed;
-    std::string identity = fs::weakly_canonical(file, failed).string();
+    std::string identity = fs::weakly_canonical(*file, failed).string();
     if (!part.empty()) identity += "#" + part;
-    const bool is_repeated = std::ranges::find(chain_, identity) != chain_.end();
-    chain_.push_back(std::move(identity));
+    const bool is_repeated = std::ranges::find(files_, identity) != files_.end();
+    files_.push_back(std::move(identity));
     if (is_repeated) {
-      return error_at(reference.place, fmt::format("{} is based on itself: {}", reference.shown(),
-                                                   fmt::join(chain_, " → ")));
+      return error_at(place, fmt::format("{} is based on itself: {}", reference.shown(),
+                                         fmt::join(files_, " → ")));
     }
-    if (chain_.size() <= max_base_chain) return std::nullopt;
-    return error_at(reference.place,
+    if (files_.size() <= max_base_chain) return file;
+    return error_at(place,
                     fmt::format("more than {} profiles based on each other", max_base_chain));
   }
 
   SpecKind kind_;
   const SpecPath& specs_;
-  ProfileOrigin& origin_;
   Outside outside_;
-  std::vector<std::string> chain_;  ///< files that are being resolved, outermost first
+  std::vector<std::string> files_;  ///< outermost first
 };
 
 }  // namespace
 
-Result<Node> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs,
-                             ProfileOrigin* origin, Outside outside) {
-  ProfileOrigin unwanted;
-  Resolver resolver{kind, specs, origin != nullptr ? *origin : unwanted, outside};
-  return resolver.resolve(std::move(reference));
+Result<Resolved> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs,
+                                 Outside outside) {
+  Chain chain{kind, specs, outside};
+  std::vector<Node> profiles;  // outermost first
+  for (std::optional<Node> next = std::move(reference); next;) {
+    Result<Node> profile = chain.read(*std::move(next));
+    if (!profile) return profile.error();
+    if (auto error = drop_description(*profile)) return *std::move(error);
+    next = profile->take(base_key);
+    profiles.push_back(*std::move(profile));
+  }
+  Node tree = std::move(profiles.back());
+  for (profiles.pop_back(); !profiles.empty(); profiles.pop_back()) {
+    Node& changes = profiles.back();
+    if (kind == SpecKind::dds) {
+      const Node* implementation = changes.find(implementation_key);
+      if (auto error = check_implementation(tree, implementation)) return *std::move(error);
+    }
+    tree = merge(std::move(tree), std::move(changes));
+  }
+  return Resolved{std::move(tree), std::move(chain.preset), std::move(chain.vendor)};
 }
 
 std::optional<InputError> check_implementation(const Node& profile, const Node* replacement) {

@@ -6,9 +6,7 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
-#include "model/config/knobs/knobs.hpp"
 #include "model/config/spec_path.hpp"
 #include "model/config/tree/tree.hpp"
 #include "model/config/vendor/vendor_profile.hpp"
@@ -18,10 +16,11 @@ namespace stormproof::model::config {
 /// Longest chain of profiles that build on each other.
 inline constexpr std::size_t max_base_chain = 32;
 
-/// What a chain of profiles was made of.
-struct ProfileOrigin {
-  std::string preset;  ///< the outermost file that has a name in `specs`; empty if there is none
-  std::optional<vendor::VendorProfile> vendor;  ///< the outermost vendor XML
+/// A tree that needs no other file any more, and what its DDS profile was made of.
+struct Resolved {
+  Node tree;
+  std::string preset{};  ///< the outermost file that has a name in `specs`; empty if there is none
+  std::optional<vendor::VendorProfile> vendor{};  ///< the outermost vendor XML
 };
 
 /// Whether a vendor's file may say what the model cannot describe or the vendor's library refuses
@@ -32,10 +31,9 @@ enum class Outside : std::uint8_t { refused, admitted };
 /// `reference` is a name, a path (relative to the file in which it stands), a map, or, of a DDS
 /// profile, a vendor's XML file as `vendor::parse_reference` takes it. Errors: no such profile, a
 /// file that cannot be read, a profile that is based on itself, on one with another implementation
-/// or on a preset of another vendor, and what `outside` refuses. Fills `origin`, if there is one.
-[[nodiscard]] Result<Node> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs,
-                                           ProfileOrigin* origin = nullptr,
-                                           Outside outside = Outside::refused);
+/// or on a preset of another vendor, and what `outside` refuses.
+[[nodiscard]] Result<Resolved> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs,
+                                               Outside outside = Outside::refused);
 
 /// An error if `replacement` is another implementation than that of `profile`, a resolved DDS
 /// profile: implementations have different keys, so one cannot be changed into the other. A profile

@@ -1,32 +1,33 @@
-// Everything of reading a scenario or a profile that comes before its values are looked at: the
-// text as a tree, profiles with their bases, overrides. What comes out is the tree that the knob
-// tables read, in which every value still knows where it was written.
+// The middle of reading a scenario or a profile: overrides and profiles with their bases are put
+// into the tree of its text. What comes out is the tree that the knob tables read, in which every
+// value still knows where it was written.
 #pragma once
 
 #include <span>
-#include <string>
-#include <string_view>
 
 #include "model/config/profile_files.hpp"
 #include "model/config/spec_path.hpp"
-#include "model/config/tree/tree.hpp"
+#include "model/config/tree/overrides.hpp"
 
 namespace stormproof::model::config {
 
-/// The scenario in `text`; `source` is its name in errors.
-[[nodiscard]] Result<Node> resolve_scenario_text(std::string_view text, const std::string& source,
-                                                 std::span<const std::string> overrides,
-                                                 const SpecPath& specs);
+using Overrides = std::span<const Override>;
 
-/// The scenario that `reference` names.
-[[nodiscard]] Result<Node> resolve_scenario(const std::string& reference,
-                                            std::span<const std::string> overrides,
-                                            const SpecPath& specs);
+/// Whether `path`, of a scenario, is a key of a resolved profile: an override of it has to wait
+/// until the profile, or its base, has been chosen.
+[[nodiscard]] bool is_profile_key(std::string_view path);
 
-/// The profile that `reference` names; overrides without "dds." or "wireless." in front.
-[[nodiscard]] Result<Node> resolve_profile(const std::string& reference, SpecKind kind,
-                                           std::span<const std::string> overrides,
-                                           const SpecPath& specs, ProfileOrigin* origin = nullptr,
-                                           Outside outside = Outside::refused);
+/// First the overrides that choose profiles (and those outside of profiles), then the profiles that
+/// are chosen. `scenario` may be a part of one.
+[[nodiscard]] Result<Resolved> with_profiles(Node scenario, Overrides overrides,
+                                             const SpecPath& specs);
+
+/// Then the overrides of profile keys.
+[[nodiscard]] Result<Resolved> with_profile_keys(Result<Resolved> scenario, Overrides overrides);
+
+/// The same for a profile alone, in which every override is of one of its keys, without "dds." or
+/// "wireless." in front.
+[[nodiscard]] Result<Resolved> with_keys(Result<Resolved> profile, SpecKind kind,
+                                         Overrides overrides);
 
 }  // namespace stormproof::model::config

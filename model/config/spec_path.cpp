@@ -25,11 +25,6 @@ bool file_exists(const fs::path& path) {
   return fs::exists(path, failed);
 }
 
-bool is_path(const std::string& reference) {
-  return reference.find('/') != std::string::npos || reference.ends_with(".yaml") ||
-         reference.ends_with(".yml") || vendor::parse_reference(reference).has_value();
-}
-
 }  // namespace
 
 std::string folder_name(SpecKind kind) {
@@ -40,8 +35,17 @@ std::string folder_name(SpecKind kind) {
       return "dds";
     case SpecKind::wireless:
       return "wireless";
+    case SpecKind::grids:
+      return "grids";
+    case SpecKind::policies:
+      return "policies";
   }
   return {};
+}
+
+bool is_path(std::string_view reference) {
+  return reference.find('/') != std::string_view::npos || reference.ends_with(".yaml") ||
+         reference.ends_with(".yml");
 }
 
 SpecPath SpecPath::standard() {
@@ -75,6 +79,14 @@ std::vector<std::string> SpecPath::names(SpecKind kind) const {
   return names;
 }
 
+std::optional<std::string> SpecPath::named(SpecKind kind, const std::string& name) const {
+  for (const std::string& directory : directories) {
+    const fs::path file = fs::path{directory} / folder_name(kind) / (name + file_ending);
+    if (!name.empty() && file_exists(file)) return file.string();
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> SpecPath::name_of(SpecKind kind, const std::string& file) const {
   const fs::path path{file};
   if (path.extension() != file_ending) return std::nullopt;
@@ -91,7 +103,7 @@ std::optional<std::string> SpecPath::name_of(SpecKind kind, const std::string& f
 Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
                                    const std::string& from_directory,
                                    const std::string& where) const {
-  if (is_path(reference)) {
+  if (is_path(reference) || vendor::parse_reference(reference)) {
     const fs::path beside =
         fs::path{from_directory} / reference;  // `reference` itself if it is absolute
     if (file_exists(beside)) return beside.lexically_normal().string();
@@ -100,14 +112,21 @@ Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
         beside == reference ? reference : fmt::format("{}, {}", beside.string(), reference);
     return InputError{where, fmt::format("no file {}; looked for {}", quote(reference), places)};
   }
-  for (const std::string& directory : directories) {
-    const fs::path file = fs::path{directory} / folder_name(kind) / (reference + file_ending);
-    if (!reference.empty() && file_exists(file)) return file.string();
-  }
+  if (const auto file = named(kind, reference)) return *file;
   const std::vector<std::string> known = names(kind);
   return InputError{
       where, fmt::format("no {} file named {}{}; expected one of {}, or a path", folder_name(kind),
                          quote(reference), suggestion(reference, known), fmt::join(known, ", "))};
+}
+
+Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
+                                   std::string_view noun) const {
+  if (is_path(reference)) return reference;
+  if (const auto file = named(kind, reference)) return *file;
+  return InputError{reference,
+                    fmt::format("no {} of this name{}; expected a file, or a name in "
+                                "specs/{}",
+                                noun, suggestion(reference, names(kind)), folder_name(kind))};
 }
 
 }  // namespace stormproof::model::config

@@ -3,16 +3,20 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/config/tree/result.hpp"
 
 namespace stormproof::model::config {
 
-/// What a file below `specs` describes; the folder there has the same name.
-enum class SpecKind { scenarios, dds, wireless };
+/// What a file below `specs` is; the folder there has the same name.
+enum class SpecKind { scenarios, dds, wireless, grids, policies };
 
 [[nodiscard]] std::string folder_name(SpecKind kind);
+
+/// Whether `reference` is that of a YAML file, not a name: it has a '/' or ends in .yaml or .yml.
+[[nodiscard]] bool is_path(std::string_view reference);
 
 struct SpecPath {
   std::vector<std::string> directories;  ///< the first one that has the file wins
@@ -24,6 +28,9 @@ struct SpecPath {
   /// All names of a kind, sorted.
   [[nodiscard]] std::vector<std::string> names(SpecKind kind) const;
 
+  /// The file of this name.
+  [[nodiscard]] std::optional<std::string> named(SpecKind kind, const std::string& name) const;
+
   /// The name of `file` if it is one of those that `find` can find by name.
   [[nodiscard]] std::optional<std::string> name_of(SpecKind kind, const std::string& file) const;
 
@@ -33,6 +40,11 @@ struct SpecPath {
   [[nodiscard]] Result<std::string> find(SpecKind kind, const std::string& reference,
                                          const std::string& from_directory,
                                          const std::string& where) const;
+
+  /// The same for what is read apart from scenarios and profiles: `noun` ("grid") names it. Paths
+  /// are relative to the current directory.
+  [[nodiscard]] Result<std::string> find(SpecKind kind, const std::string& reference,
+                                         std::string_view noun) const;
 };
 
 }  // namespace stormproof::model::config

@@ -34,6 +34,12 @@ const Case cases[] = {
      "storm.single-copy --set 'vary={start_jitter: 1s}' -v --counterexamples \"it's\""},
     {"fuzz", "fuzz \"$S\" --set 'vary={start_jitter: 1s}' --runs 5 --limit 'completion=1ms'"},
     {"fuzz_for_a_time", "fuzz \"$S\" --loss 2% --seconds 0.2 --first 3 --property safety.snapshot"},
+    {"fuzz_without_a_draw",
+     "fuzz \"$S\" --vary dds.sedp.shared_header_bytes=2000..3000 --seed 2 --first 3 --property "
+     "safety.snapshot"},
+    {"fuzz_for_a_time_without_a_draw",
+     "fuzz \"$S\" --vary dds.sedp.shared_header_bytes=2000..3000 --seconds 5 --property "
+     "safety.snapshot"},
     {"sensitivity", "sensitivity \"$S\" --set 'time_limit=3s' --pairs --range 1/10 --jobs 2"},
     {"tune", "tune \"$S\" --preset fastdds-2.6.11 --budget 50 --set 'time_limit=3s'"},
     {"diff",

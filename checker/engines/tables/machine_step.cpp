@@ -13,10 +13,4 @@ Expr exactly_one(const OneHot& state) {
   return all_of(conditions);
 }
 
-std::size_t state_in(const z3::model& model, const OneHot& state) {
-  std::size_t k = 0;
-  while (k + 1 < state.size() && !is_true_in(model, state[k])) ++k;
-  return k;
-}
-
 }  // namespace stormproof::tables

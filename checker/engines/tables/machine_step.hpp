@@ -18,8 +18,6 @@ using OneHot = Exprs;
 
 /// Exactly one of the values holds.
 [[nodiscard]] Expr exactly_one(const OneHot& state);
-/// The state that a model has.
-[[nodiscard]] std::size_t state_in(const z3::model& model, const OneHot& state);
 
 template <class Machine>
 class MachineStep {

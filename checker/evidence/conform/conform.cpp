@@ -193,7 +193,7 @@ model::config::Result<Conformance> conform(const Request& request) {
                       "discovery between hosts was expected, but all participants are on "
                       "one host"};
   }
-  if (request.dds.implementation != model::ImplementationKind::fastdds) {
+  if (!model::is_fastdds(request.dds)) {
     return InputError{"--dds",
                       "a capture can be held against a profile with `implementation: "
                       "fastdds`; this one describes the paper's writer, which no "

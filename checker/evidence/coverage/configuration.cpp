@@ -139,7 +139,7 @@ model::config::Result<model::Scenario> scenario_of(const Configuration& configur
   const bool schedule_wanted = std::ranges::any_of(options.overrides, [](const std::string& set) {
     return set.starts_with("deployment.schedule");
   });
-  if (scenario->dds.implementation == model::ImplementationKind::paper && !schedule_wanted) {
+  if (!model::is_fastdds(scenario->dds) && !schedule_wanted) {
     scenario = read(false);
     if (!scenario) return scenario.error();
   }

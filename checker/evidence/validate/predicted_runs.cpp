@@ -12,7 +12,7 @@ namespace stormproof::validate {
 
 bool is_drawn(const model::Scenario& scenario, const CapturedDeployment& deployment, double loss) {
   if (loss > 0) return true;
-  if (scenario.dds.implementation == model::ImplementationKind::paper) return false;
+  if (!model::is_fastdds(scenario.dds)) return false;
   return std::ranges::any_of(deployment.participants, [](const CapturedParticipant& one) {
     return one.done_earliest() < one.done_latest();
   });

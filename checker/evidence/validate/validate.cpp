@@ -188,7 +188,7 @@ Result<Report> validate(const capture::Conversation& conversation, const Request
   report.runs = predicted.runs.size();
   report.complete =
       static_cast<std::size_t>(std::ranges::count_if(predicted.runs, &PredictedRun::complete));
-  const bool has_control = scenario->dds.implementation == model::ImplementationKind::fastdds;
+  const bool has_control = model::is_fastdds(scenario->dds);
   report.rows = rows_of(*observation, predicted, has_control, report.is_drawn);
   report.bands = bands_of(predicted.runs);
   report.differences = differences(conversation, *observation, *scenario, predicted.sizes);

@@ -229,7 +229,7 @@ report::Section compared(const Report& report) {
        "messages count when they are sent: at the interface in the capture, at generation in the "
        "model",
        "the model's participants start at their first captured announcement"}};
-  if (report.scenario.dds.implementation == model::ImplementationKind::fastdds) {
+  if (model::is_fastdds(report.scenario.dds)) {
     list.items.emplace_back(
         fmt::format("endpoints are created at equal intervals until the last one, {}; packets to "
                     "the same host take {}",

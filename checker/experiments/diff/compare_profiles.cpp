@@ -121,14 +121,14 @@ std::string proof_of(Relation relation) {
 
 Comparison compare_profiles(const model::config::TracedProfile& base,
                             const model::config::TracedProfile& candidate) {
-  const model::DdsProfile one = with_reduced_fractions(base.profile);
-  const model::DdsProfile other = with_reduced_fractions(candidate.profile);
+  const model::DdsProfile one = with_reduced_fractions(base.value);
+  const model::DdsProfile other = with_reduced_fractions(candidate.value);
   const bool same_runs = normal_form(one) == normal_form(other);
   const Values before = values_of(one);
   const Values after = values_of(other);
 
   // Only the paper's writer has every knob.
-  const bool base_is_fuller = one.implementation == model::ImplementationKind::paper;
+  const bool base_is_fuller = !model::is_fastdds(one);
   Comparison comparison;
   for (const std::string& key : base_is_fuller ? keys_of(before, after) : keys_of(after, before)) {
     KnobChange change{key, value_in(before, key), value_in(after, key), {}, {}, true, true, {}};

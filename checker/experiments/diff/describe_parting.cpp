@@ -225,7 +225,7 @@ Side inner_side(const Logged& run, const Scenario& scenario) {
             fmt::format("the run has ended at {}", time_text(run.result.end_time)),
             {}};
   }
-  const bool fastdds = scenario.dds.implementation == model::ImplementationKind::fastdds;
+  const bool fastdds = model::is_fastdds(scenario.dds);
   const model::Topology topology{
       scenario.deployment, scenario.dds.descriptors,
       fastdds ? model::SameHostPairs::included : model::SameHostPairs::left_out};

@@ -68,8 +68,8 @@ class DiffStudy {
     const bool constant_delay = std::ranges::all_of(grid_.points, [](const ReviewedPoint& point) {
       return point.base.wireless.kind == model::ServiceKind::constant_delay;
     });
-    report_.margin = compare_margins(request_.base.profile, request_.candidate.profile,
-                                     constant_delay, report_.costs, request_.policy);
+    report_.margin = compare_margins(request_.base.value, request_.candidate.value, constant_delay,
+                                     report_.costs, request_.policy);
     report_.blame = blame(report_.profiles.changes, request, answer);
     report_.interrupted = !progress("costs");
   }
@@ -102,7 +102,7 @@ class DiffStudy {
       start = &*std::ranges::find(grid_.points, least->name, &ReviewedPoint::name);
     }
     report_.telling_apart =
-        tell_apart(start->base, request_.base.profile, request_.candidate.profile, [this] {
+        tell_apart(start->base, request_.base.value, request_.candidate.value, [this] {
           report_.interrupted = !progress("least scenario that tells them apart");
           return goes_on();
         });
@@ -117,8 +117,8 @@ class DiffStudy {
 }  // namespace
 
 config::Result<DiffReport> diff(const DiffRequest& request, const config::SpecPath& specs) {
-  const model::DdsProfile& base = request.base.profile;
-  const model::DdsProfile& candidate = request.candidate.profile;
+  const model::DdsProfile& base = request.base.value;
+  const model::DdsProfile& candidate = request.candidate.value;
   const auto grid =
       read_reviewed_grid(request.grid.empty() ? "review" : request.grid, base, candidate, specs);
   if (!grid) return grid.error();

@@ -16,7 +16,7 @@
 #include "checker/experiments/statistics/measure.hpp"
 #include "checker/experiments/statistics/paired.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
-#include "model/config/provenance.hpp"
+#include "model/config/scenario_file.hpp"
 #include "model/config/spec_path.hpp"
 #include "model/scenario.hpp"
 #include "props/verdict.hpp"

@@ -240,9 +240,9 @@ Document document_of(const DiffReport& report, const Files& files) {
   add_blame(blocks, report);
   add_apart(blocks, report, files);
   add_findings(document, report, files);
-  add_unmodelled(document, report.base.profile, report.base.reference);
-  if (report.candidate.profile.unmodelled != report.base.profile.unmodelled) {
-    add_unmodelled(document, report.candidate.profile, report.candidate.reference);
+  add_unmodelled(document, report.base.value, report.base.reference);
+  if (report.candidate.value.unmodelled != report.base.value.unmodelled) {
+    add_unmodelled(document, report.candidate.value, report.candidate.reference);
   }
   return document;
 }

@@ -44,7 +44,7 @@ Json profile_json(const model::config::TracedProfile& profile) {
   report::JsonObject v;
   v("name", profile.reference);
   v.or_null("preset", profile.preset);
-  v("profile", model::config::effective_json(profile.profile));
+  v("profile", model::config::effective_json(profile.value));
   return std::move(v).take();
 }
 

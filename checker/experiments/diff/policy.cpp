@@ -7,8 +7,7 @@
 
 #include "checker/experiments/diff/diff.hpp"
 #include "model/config/knobs/knob_reader.hpp"
-#include "model/config/named_file.hpp"
-#include "model/config/profile_files.hpp"
+#include "model/config/spec_path.hpp"
 #include "model/config/tree/suggestion.hpp"
 #include "model/config/tree/yaml_text.hpp"
 
@@ -166,7 +165,7 @@ class PolicyReader {
 }  // namespace
 
 Result<Policy> read_policy(const std::string& reference, const config::SpecPath& specs) {
-  const auto file = config::find_named_file(reference, "policy", "policies", specs);
+  const auto file = specs.find(config::SpecKind::policies, reference, "policy");
   if (!file) return file.error();
   const Result<Node> root = config::load_yaml(*file);
   if (!root) return root.error();

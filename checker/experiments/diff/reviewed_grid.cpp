@@ -2,8 +2,6 @@
 // means the same here as there.
 #include "checker/experiments/diff/reviewed_grid.hpp"
 
-#include <filesystem>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +14,6 @@
 
 namespace stormproof::diff {
 
-namespace fs = std::filesystem;
 namespace config = model::config;
 using config::error_at;
 using config::InputError;
@@ -27,31 +24,6 @@ using config::SpecPath;
 namespace {
 
 using Failure = std::optional<InputError>;
-
-bool is_path(const std::string& reference) {
-  return reference.find('/') != std::string::npos || reference.ends_with(".yaml") ||
-         reference.ends_with(".yml");
-}
-
-bool is_grid_name(const std::string& name, const SpecPath& specs) {
-  for (const std::string& directory : specs.directories) {
-    std::error_code failed;
-    if (fs::exists(fs::path{directory} / "grids" / (name + ".yaml"), failed)) return true;
-  }
-  return false;
-}
-
-std::vector<std::string> names_in(const SpecPath& specs, const std::string& folder) {
-  std::vector<std::string> names;
-  for (const std::string& directory : specs.directories) {
-    std::error_code failed;
-    for (fs::directory_iterator files{fs::path{directory} / folder, failed};
-         !failed && files != fs::directory_iterator{}; files.increment(failed)) {
-      if (files->path().extension() == ".yaml") names.push_back(files->path().stem().string());
-    }
-  }
-  return names;
-}
 
 /// One scenario as a grid.
 Result<grids::Grid> read_scenario_grid(const std::string& reference, const SpecPath& specs) {
@@ -66,17 +38,17 @@ Result<grids::Grid> read_scenario_grid(const std::string& reference, const SpecP
 }
 
 Result<grids::Grid> read_any_grid(const std::string& reference, const SpecPath& specs) {
-  if (is_path(reference)) {
+  if (config::is_path(reference)) {
     const Result<Node> root = config::load_yaml(reference);
     if (!root) return root.error();
     const bool is_scenario = root->is_map() && root->find("deployment") != nullptr;
     return is_scenario ? read_scenario_grid(reference, specs) : grids::read_grid(reference, specs);
   }
-  if (is_grid_name(reference, specs)) return grids::read_grid(reference, specs);
-  for (const std::string& name : specs.names(config::SpecKind::scenarios)) {
-    if (name == reference) return read_scenario_grid(reference, specs);
+  if (specs.named(config::SpecKind::grids, reference)) return grids::read_grid(reference, specs);
+  if (specs.named(config::SpecKind::scenarios, reference)) {
+    return read_scenario_grid(reference, specs);
   }
-  std::vector<std::string> known = names_in(specs, "grids");
+  std::vector<std::string> known = specs.names(config::SpecKind::grids);
   for (std::string& name : specs.names(config::SpecKind::scenarios)) known.push_back(name);
   return InputError{reference, fmt::format("no grid or scenario of this name{}; expected a file, "
                                            "or a name in specs/grids or specs/scenarios",

@@ -56,10 +56,7 @@ SmallScenarios parts_of(const Scenario& start, const DdsProfile& base,
     parts.shared = start.wireless;
     parts.shared.lost_packets.clear();
   }
-  const auto is_fastdds = [](const DdsProfile& dds) {
-    return dds.implementation == model::ImplementationKind::fastdds;
-  };
-  parts.creates_over_time = is_fastdds(base) || is_fastdds(candidate);
+  parts.creates_over_time = model::is_fastdds(base) || model::is_fastdds(candidate);
   return parts;
 }
 

@@ -55,8 +55,10 @@ class Fuzzer {
       if (judgment.broken > 0 && judgment.sampled && runner_.goes_on()) shrink_first(judgment);
     }
     report_.interrupted = runner_.stopped();
-    // As many as there was time for.
-    if (options_.seconds && !report_.interrupted) report_.wanted = report_.runs.size();
+    // As many as there was time for; the first one is always tried.
+    if (options_.seconds && !report_.interrupted) {
+      report_.wanted = std::max<std::size_t>(report_.runs.size(), 1);
+    }
     return std::move(report_);
   }
 

@@ -225,8 +225,9 @@ void add_reservations(Document& document, const FuzzReport& report) {
 }  // namespace
 
 std::string FuzzContext::whole(const FuzzReport& report) const {
-  std::string text =
-      fmt::format("{} --runs {} --seed {}", command, report.runs.size(), report.seed);
+  // The ranges may have had no run to draw, which is then the answer to as many as were wanted.
+  const std::size_t runs = report.runs.empty() ? report.wanted : report.runs.size();
+  std::string text = fmt::format("{} --runs {} --seed {}", command, runs, report.seed);
   if (report.first > 0) text += fmt::format(" --first {}", report.first);
   return text;
 }
@@ -237,7 +238,7 @@ std::string FuzzContext::single(const FuzzReport& report, std::uint64_t number) 
 
 Document document_of(const FuzzReport& report, const FuzzContext& context) {
   const model::Scenario& scenario = context.scenario;
-  const bool fastdds = scenario.dds.implementation == model::ImplementationKind::fastdds;
+  const bool fastdds = model::is_fastdds(scenario.dds);
   const bool open = report.interrupted || report.runs.empty();
   Document document;
   document.title = "stormproof fuzz " + context.name;

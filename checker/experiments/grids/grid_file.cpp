@@ -5,8 +5,7 @@
 
 #include "checker/experiments/grids/grid.hpp"
 #include "model/config/knobs/knob_reader.hpp"
-#include "model/config/named_file.hpp"
-#include "model/config/profile_files.hpp"
+#include "model/config/spec_path.hpp"
 #include "model/config/tree/yaml_text.hpp"
 
 namespace stormproof::grids {
@@ -212,7 +211,7 @@ Result<Grid> parse_grid(std::string_view text, const std::string& source, const 
 }
 
 Result<Grid> read_grid(const std::string& reference, const SpecPath& specs) {
-  const auto file = model::config::find_named_file(reference, "grid", "grids", specs);
+  const auto file = specs.find(config::SpecKind::grids, reference, "grid");
   if (!file) return file.error();
   const Result<Node> root = config::load_yaml(*file);
   if (!root) return root.error();

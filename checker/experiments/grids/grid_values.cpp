@@ -75,11 +75,8 @@ std::optional<InputError> append_range(const Node& range, const std::string& key
                                                (*to - *from) / *step + 1, max_jobs));
     }
     for (std::int64_t value = *from;; value += *step) {
-      Node node;
-      node.kind = Node::Kind::scalar;
-      node.place = range.place;
-      node.text = unit.write(value);
-      values.push_back({node.text, node});
+      const std::string text = unit.write(value);
+      values.push_back({text, Node::scalar(range.place, text)});
       if (value > *to - *step) return std::nullopt;
     }
   }

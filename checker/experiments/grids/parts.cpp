@@ -1,16 +1,15 @@
-// Overrides count as `--set` has it: those that choose a profile (or its base) before the profile
-// is resolved, those of its single keys after it, each group in the order of the file.
+// An override concerns one part, so a part is resolved like a scenario that has no other. Profiles
+// are remembered before overrides of their keys, for all parts that are built on them.
 #include "checker/experiments/grids/parts.hpp"
 
 #include <fmt/format.h>
 
 #include "model/config/knobs/knob_reader.hpp"
-#include "model/config/profile_files.hpp"
+#include "model/config/resolve.hpp"
 
 namespace stormproof::grids {
 
 namespace config = model::config;
-using config::error_at;
 using config::Node;
 using model::Scenario;
 
@@ -19,23 +18,24 @@ namespace {
 constexpr std::string_view deployment_key = "deployment";
 const std::string at_top;  ///< the path of a scenario's own keys
 
-bool is_large_part(std::string_view key) {
-  return key == deployment_key || key == config::dds_key || key == config::wireless_key;
-}
-
-/// Reads what a scenario has beside its large parts.
-class RestVisitor {
+/// Reads those keys of a scenario that belong to a part.
+template <class IsPart>
+class PartVisitor {
  public:
-  explicit RestVisitor(config::KnobReader& reader) : reader_{reader} {}
+  PartVisitor(config::KnobReader& reader, const IsPart& is_part)
+      : reader_{reader}, is_part_{is_part} {}
 
-  void knob(auto&&... arguments) { reader_.knob(std::forward<decltype(arguments)>(arguments)...); }
+  void knob(std::string_view key, auto&&... arguments) {
+    if (is_part_(key)) reader_.knob(key, std::forward<decltype(arguments)>(arguments)...);
+  }
   void section(std::string_view key, auto& member, auto&&... arguments) {
-    if (!is_large_part(key)) reader_.section(key, member, arguments...);
+    if (is_part_(key)) reader_.section(key, member, arguments...);
   }
   void rule(bool, std::string_view, std::string_view) {}
 
  private:
   config::KnobReader& reader_;
+  const IsPart& is_part_;
 };
 
 /// Looks at nothing but the rules between the parts. Without a reader it only says whether all
@@ -57,26 +57,20 @@ class RuleVisitor {
   config::KnobReader* reader_;
 };
 
-template <class T>
-void read_section(const Node& root, std::string_view key, T& value,
-                  std::optional<config::InputError>& failure) {
-  if (failure) return;
-  const Node* node = root.find(key);
-  if (node == nullptr) {
-    failure = error_at(root.place, fmt::format("missing key '{}'; expected a map", key));
-  } else {
-    read_knobs(*node, std::string{key}, value, failure);
-  }
+template <class IsPart>
+Scenario read_part(const Node& root, const IsPart& is_part,
+                   std::optional<config::InputError>& failure) {
+  Scenario scenario;
+  failure = config::check_keys(root, at_top, config::keys_of(scenario));
+  config::KnobReader reader{root, at_top, failure};
+  PartVisitor visitor{reader, is_part};
+  config::visit_knobs(visitor, scenario);
+  return scenario;
 }
 
-void read_rest(const Node& root, Rest& rest, std::optional<config::InputError>& failure) {
-  Scenario scenario;
-  config::KnownKeys keys = config::keys_of(scenario);
-  if (!failure) failure = config::check_keys(root, "", keys);
-  config::KnobReader reader{root, at_top, failure};
-  RestVisitor visitor{reader};
-  config::visit_knobs(visitor, scenario);
-  rest = {scenario.time_limit, scenario.run_until};
+Digest digest_of(const Rest& rest) {
+  return grids::digest_of(fmt::format("time_limit {}\nrun_until {}\n", rest.time_limit.count(),
+                                      static_cast<int>(rest.run_until)));
 }
 
 }  // namespace
@@ -87,7 +81,7 @@ PartReader::PartReader(const Grid& grid, const config::SpecPath& specs)
     const std::string& path = grid.axes[k].key;
     const Kind kind = kind_of(path);
     memory_[kind].axes.push_back(k);
-    if (chooses(path, kind)) memory_[kind].choosing.push_back(k);
+    if (!config::is_profile_key(path)) memory_[kind].choosing.push_back(k);
   }
 }
 
@@ -99,133 +93,78 @@ PartReader::Kind PartReader::kind_of(std::string_view path) {
   return Kind::rest;
 }
 
-bool PartReader::chooses(std::string_view path, Kind kind) {
-  if (kind != Kind::dds && kind != Kind::wireless) return false;
-  const std::size_t dot = path.find('.');
-  return dot == std::string_view::npos || path.substr(dot + 1) == config::base_key;
-}
-
 PartReader::Key PartReader::key_of(const Choice& choice, const std::vector<std::size_t>& axes) {
   Key key{choice.variant};
   for (const std::size_t axis : axes) key.push_back(choice.values[axis]);
   return key;
 }
 
-std::vector<PartReader::Change> PartReader::changes(const Choice& choice, Kind kind) const {
-  std::vector<Change> list;
+std::vector<config::Override> PartReader::changes(const Choice& choice, Kind kind) const {
+  std::vector<config::Override> list;
   for (const config::Override& change : grid_.variants[choice.variant].overrides) {
-    if (kind_of(change.path) == kind) list.push_back({&change.path, &change.value});
+    if (kind_of(change.path) == kind) list.push_back(change);
   }
   const auto memory = memory_.find(kind);
   if (memory == memory_.end()) return list;
   for (const std::size_t axis : memory->second.axes) {
     const Axis& changed = grid_.axes[axis];
-    list.push_back({&changed.key, &changed.values[choice.values[axis]].node});
+    list.push_back({changed.key, changed.values[choice.values[axis]].node});
   }
   return list;
 }
 
 Node PartReader::part_root(std::size_t variant, Kind kind) const {
   const Node& whole = grid_.variants[variant].root;
-  Node root;
-  root.kind = Node::Kind::map;
-  root.place = whole.place;
+  Node root = Node::map(whole.place);
   for (const config::Member& member : whole.members) {
     if (kind_of(member.key) == kind) root.members.push_back(member);
   }
   return root;
 }
 
-const PartReader::ResolvedProfile& PartReader::profile(const Choice& choice, Kind kind) {
+PartReader::Tree PartReader::tree(const Choice& choice, Kind kind) {
+  const std::vector<config::Override> overrides = changes(choice, kind);
+  const auto chosen = [&] {
+    return config::with_profiles(part_root(choice.variant, kind), overrides, specs_);
+  };
+  if (kind != Kind::dds && kind != Kind::wireless) return chosen();
   Memory& memory = memory_[kind];
-  const auto [entry, is_new] =
-      memory.profiles.try_emplace(key_of(choice, memory.choosing), ResolvedProfile{});
-  ResolvedProfile& resolved = entry->second;
-  if (!is_new) return resolved;
-  const bool is_dds = kind == Kind::dds;
-  const std::string_view key = is_dds ? config::dds_key : config::wireless_key;
-  resolved.root = part_root(choice.variant, kind);
-  for (const Change& change : changes(choice, kind)) {
-    if (resolved.failure || !chooses(*change.path, kind)) continue;
-    Node* named = resolved.root.find(key);
-    if (named != nullptr && named->is_scalar() && *change.path != key) {
-      // `base` replaces the name, which is the same as a map with that base.
-      Node map;
-      map.kind = Node::Kind::map;
-      map.place = named->place;
-      *named = std::move(map);
-    }
-    const auto complaint = config::set_path(resolved.root, *change.path, *change.value);
-    if (complaint) resolved.failure = error_at(change.value->place, *complaint);
-  }
-  Node* named = resolved.root.find(key);
-  if (resolved.failure || named == nullptr) return resolved;
-  auto tree = config::resolve_profile(
-      std::move(*named), is_dds ? config::SpecKind::dds : config::SpecKind::wireless, specs_);
-  if (tree) {
-    *named = *std::move(tree);
-  } else {
-    resolved.failure = tree.error();
-  }
-  return resolved;
+  const Key key = key_of(choice, memory.choosing);
+  auto profile = memory.profiles.find(key);
+  if (profile == memory.profiles.end()) profile = memory.profiles.emplace(key, chosen()).first;
+  return config::with_profile_keys(profile->second, overrides);
 }
 
-Node PartReader::tree(const Choice& choice, Kind kind, Failure& failure) {
-  const bool is_profile = kind == Kind::dds || kind == Kind::wireless;
-  Node root;
-  if (is_profile) {
-    const ResolvedProfile& resolved = profile(choice, kind);
-    failure = resolved.failure;
-    root = resolved.root;
-  } else {
-    root = part_root(choice.variant, kind);
-    if (kind == Kind::rest) failure = config::drop_description(root);
-  }
-  const std::string implementation =
-      fmt::format("{}.{}", config::dds_key, config::implementation_key);
-  for (const Change& change : changes(choice, kind)) {
-    if (failure || (is_profile && chooses(*change.path, kind))) continue;
-    const Node* named = root.find(config::dds_key);
-    if (*change.path == implementation && named != nullptr) {
-      failure = config::check_implementation(*named, change.value);
-      if (failure) break;
-    }
-    const auto complaint = config::set_path(root, *change.path, *change.value);
-    if (complaint) failure = error_at(change.value->place, *complaint);
-  }
-  return root;
-}
-
-template <class T, class Read>
+template <class T, class ValueOf>
 std::uint32_t PartReader::part_number(const Choice& choice, Kind kind, std::vector<Part<T>>& parts,
-                                      const Read& read) {
+                                      const ValueOf& value_of) {
   Memory& memory = memory_[kind];
   const auto [entry, is_new] = memory.numbers.try_emplace(key_of(choice, memory.axes),
                                                           static_cast<std::uint32_t>(parts.size()));
   if (!is_new) return entry->second;
   Part<T>& part = parts.emplace_back();
-  const Node root = tree(choice, kind, part.error);
-  if (!part.error) read(root, part);
+  const Tree root = tree(choice, kind);
+  if (!root) {
+    part.error = root.error();
+    return entry->second;
+  }
+  const auto is_part = [kind](std::string_view key) { return kind_of(key) == kind; };
+  const Scenario scenario = read_part(root->tree, is_part, part.error);
+  if (part.error) return entry->second;
+  part.value = value_of(scenario);
+  part.digest = digest_of(part.value);
   return entry->second;
 }
 
 PartNumbers PartReader::read(const Choice& choice) {
-  const auto section = [](std::string_view key) {
-    return [key](const Node& root, auto& part) {
-      read_section(root, key, part.value, part.error);
-      if (!part.error) part.digest = digest_of(part.value);
-    };
-  };
   PartNumbers numbers;
-  numbers.deployment = part_number(choice, Kind::deployment, deployments, section(deployment_key));
-  numbers.dds = part_number(choice, Kind::dds, dds, section(config::dds_key));
-  numbers.wireless = part_number(choice, Kind::wireless, wireless, section(config::wireless_key));
-  numbers.rest = part_number(choice, Kind::rest, rests, [](const Node& root, Part<Rest>& part) {
-    read_rest(root, part.value, part.error);
-    if (part.error) return;
-    const Rest& rest = part.value;
-    part.digest = digest_of(fmt::format("time_limit {}\nrun_until {}\n", rest.time_limit.count(),
-                                        static_cast<int>(rest.run_until)));
+  numbers.deployment = part_number(choice, Kind::deployment, deployments,
+                                   [](const Scenario& s) { return s.deployment; });
+  numbers.dds = part_number(choice, Kind::dds, dds, [](const Scenario& s) { return s.dds; });
+  numbers.wireless =
+      part_number(choice, Kind::wireless, wireless, [](const Scenario& s) { return s.wireless; });
+  numbers.rest = part_number(choice, Kind::rest, rests, [](const Scenario& s) {
+    return Rest{s.time_limit, s.run_until};
   });
   return numbers;
 }
@@ -238,8 +177,8 @@ bool PartReader::parts_are_right(const PartNumbers& numbers) const {
 std::optional<config::InputError> PartReader::error(const Choice& choice,
                                                     const PartNumbers& numbers) {
   // Unknown keys of the scenario come first, as they do when a scenario is read.
-  for (const Failure* failure : {&rests[numbers.rest].error, &deployments[numbers.deployment].error,
-                                 &dds[numbers.dds].error, &wireless[numbers.wireless].error}) {
+  for (const auto* failure : {&rests[numbers.rest].error, &deployments[numbers.deployment].error,
+                              &dds[numbers.dds].error, &wireless[numbers.wireless].error}) {
     if (*failure) return *failure;
   }
   Scenario scenario;
@@ -250,15 +189,12 @@ std::optional<config::InputError> PartReader::error(const Choice& choice,
   config::visit_knobs(rules, scenario);
   if (rules.all_hold) return std::nullopt;
 
-  Node root;
-  root.kind = Node::Kind::map;
-  root.place = grid_.variants[choice.variant].root.place;
-  Failure failure;
+  Node root = Node::map(grid_.variants[choice.variant].root.place);
   for (const Kind kind : {Kind::deployment, Kind::dds, Kind::wireless}) {
-    for (config::Member& member : tree(choice, kind, failure).members) {
-      root.members.push_back(std::move(member));
-    }
+    const Tree part = tree(choice, kind);
+    for (const config::Member& member : part->tree.members) root.members.push_back(member);
   }
+  std::optional<config::InputError> failure;
   config::KnobReader reader{root, at_top, failure};
   RuleVisitor blaming{&reader};
   config::visit_knobs(blaming, scenario);

@@ -1,6 +1,6 @@
-// Reads the scenarios of a grid part by part. Thousands of jobs share a few deployments and
-// profiles, and reading a profile takes as long as simulating a small system, so each different
-// part is read, checked and digested once.
+// Reads the scenarios of a grid as any scenario is read, but part by part. Thousands of jobs share
+// a few deployments and profiles, and reading a profile takes as long as simulating a small system,
+// so each different part is read, checked and digested once.
 #pragma once
 
 #include <map>
@@ -10,6 +10,7 @@
 
 #include "checker/experiments/grids/digest.hpp"
 #include "checker/experiments/grids/grid.hpp"
+#include "model/config/profile_files.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::grids {
@@ -66,37 +67,27 @@ class PartReader {
  private:
   enum class Kind { deployment, dds, wireless, rest };
   using Key = std::vector<std::size_t>;
-  using Failure = std::optional<model::config::InputError>;
-  /// An override that concerns the part.
-  struct Change {
-    const std::string* path;
-    const model::config::Node* value;
-  };
-  /// A profile as it is before overrides of single keys.
-  struct ResolvedProfile {
-    model::config::Node root;  ///< a map with the profile as its only member
-    Failure failure;
-  };
+  using Tree = model::config::Result<model::config::Resolved>;
   /// What is remembered of one kind of part.
   struct Memory {
     std::vector<std::size_t> axes;      ///< that concern it
     std::vector<std::size_t> choosing;  ///< those of them that choose a profile
     std::map<Key, std::uint32_t> numbers;
-    std::map<Key, ResolvedProfile> profiles;
+    std::map<Key, Tree> profiles;  ///< before overrides of their keys
   };
 
   [[nodiscard]] static Kind kind_of(std::string_view path);
-  [[nodiscard]] static bool chooses(std::string_view path, Kind kind);
   [[nodiscard]] static Key key_of(const Choice& choice, const std::vector<std::size_t>& axes);
-  [[nodiscard]] std::vector<Change> changes(const Choice& choice, Kind kind) const;
+  /// The overrides that concern the part.
+  [[nodiscard]] std::vector<model::config::Override> changes(const Choice& choice, Kind kind) const;
+  /// The scenario of a variant, with no other part than this one.
   [[nodiscard]] model::config::Node part_root(std::size_t variant, Kind kind) const;
-  /// The tree of a part with all its overrides.
-  [[nodiscard]] model::config::Node tree(const Choice& choice, Kind kind, Failure& failure);
-  [[nodiscard]] const ResolvedProfile& profile(const Choice& choice, Kind kind);
+  /// The same with all that is put into it.
+  [[nodiscard]] Tree tree(const Choice& choice, Kind kind);
 
-  template <class T, class Read>
+  template <class T, class ValueOf>
   std::uint32_t part_number(const Choice& choice, Kind kind, std::vector<Part<T>>& parts,
-                            const Read& read);
+                            const ValueOf& value_of);
 
   const Grid& grid_;
   const model::config::SpecPath& specs_;

@@ -118,6 +118,12 @@ void add_band(const Report& report, std::size_t variant, plot::Series& series) {
   series.spread = plot::Spread::band;
 }
 
+void add_reference(plot::Chart& chart, plot::Series series) {
+  series.mark = plot::Mark::dashed_line;
+  series.color = reference_color;
+  chart.series.push_back(std::move(series));
+}
+
 }  // namespace
 
 std::string environments_plot(const Report& report, std::size_t variant, Class what) {
@@ -147,9 +153,7 @@ std::string environments_plot(const Report& report, std::size_t variant, Class w
   plot::Series reference = over_workload(plan, "failure-free", [&](const Configuration& one) {
     return std::optional{measures.reference_messages(variant, what, one)};
   });
-  reference.mark = plot::Mark::dashed_line;
-  reference.color = reference_color;
-  chart.series.push_back(std::move(reference));
+  add_reference(chart, std::move(reference));
   return to_svg(chart);
 }
 
@@ -176,9 +180,7 @@ std::string completion_plot(const Report& report) {
     plot::Series open = over_workload(plan, "open loop", [&](const Configuration& one) {
       return std::optional{measures.open_loop_s(0, one)};
     });
-    open.mark = plot::Mark::dashed_line;
-    open.color = reference_color;
-    chart.series.push_back(std::move(open));
+    add_reference(chart, std::move(open));
   }
   return to_svg(chart);
 }
@@ -204,9 +206,7 @@ std::string messages_plot(const Report& report) {
     plot::Series reference = over_workload(plan, "failure-free", [&](const Configuration& one) {
       return std::optional{measures.reference_messages(0, Class::total, one)};
     });
-    reference.mark = plot::Mark::dashed_line;
-    reference.color = reference_color;
-    chart.series.push_back(std::move(reference));
+    add_reference(chart, std::move(reference));
   }
   return to_svg(chart);
 }

@@ -4,16 +4,14 @@
 #include "checker/experiments/simulate/sample_report.hpp"
 #include "checker/experiments/simulate/simulate_report.hpp"
 #include "checker/experiments/statistics/quantiles_json.hpp"
-#include "checker/presentation/text/assumptions.hpp"
+#include "checker/presentation/json/describe_model.hpp"
 #include "model/config/knobs/effective.hpp"
 
 namespace stormproof::trials {
 
 template <class V>
 void describe(V& v, const Sample& sample) {
-  nlohmann::ordered_json counts;
-  for (const auto& [name, value] : sample.counts.entries()) counts[name] = value;
-  counts["total"] = sample.counts.total();
+  nlohmann::ordered_json counts = report::json_of(sample.counts);
   counts["user_control"] = sample.user_control;
   v("seed", sample.seed);
   v("completed", sample.discovery_time.has_value());

@@ -246,7 +246,7 @@ Section reading(const RunResult& result) {
 }
 
 void add_footer(Blocks& blocks, const Simulation& s) {
-  const bool fastdds = s.scenario.dds.implementation == model::ImplementationKind::fastdds;
+  const bool fastdds = model::is_fastdds(s.scenario.dds);
   blocks.emplace_back(Paragraph{fmt::format(
       "{} events. This is the one trajectory of the model for these inputs, exact to the ns; {} "
       "states its rules and assumptions.",

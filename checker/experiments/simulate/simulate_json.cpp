@@ -1,11 +1,39 @@
 // The JSON form of a simulation. Times are integers in ns, sizes in bytes; what does not exist is
 // null.
-#include <nlohmann/json.hpp>
-
 #include "checker/experiments/simulate/simulate_report.hpp"
-#include "checker/presentation/text/assumptions.hpp"
+#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/describe_model.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/reference.hpp"
+
+namespace stormproof::model {
+
+template <class V>
+void describe(V& v, const MissingDescriptor& missing) {
+  v("source", missing.source.value);
+  v("destination", missing.destination.value);
+  v("stream", missing.stream);
+  v("descriptor", missing.descriptor.value);
+}
+
+template <class V>
+void describe(V& v, const LastDelivery& last) {
+  describe(v, last.descriptor);
+  v("repair", last.repair);
+  v("emitted_ns", last.emitted);
+  v("admitted_ns", last.admitted);
+  v("received_ns", last.received);
+}
+
+template <class V>
+void describe(V& v, const Latency& latency) {
+  v("received_packets", latency.packets);
+  v("backlog_sum_ns", latency.backlog_sum);
+  v("service_sum_ns", latency.service_sum);
+  v("longest_ns", latency.longest);
+}
+
+}  // namespace stormproof::model
 
 namespace stormproof::report {
 
@@ -15,80 +43,58 @@ using Json = nlohmann::ordered_json;
 using model::Counts;
 using model::RunResult;
 
-Json counts_json(const Counts& counts) {
-  Json json;
-  for (const auto& [name, value] : counts.entries()) json[name] = value;
-  json["total"] = counts.total();
-  return json;
+std::optional<double> quotient(std::uint64_t value, std::uint64_t base) {
+  if (base == 0) return std::nullopt;
+  return static_cast<double>(value) / static_cast<double>(base);
+}
+
+/// An object with a value for each class of traffic.
+template <class Values>
+Json by_class(const Values& values) {
+  JsonObject v;
+  for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
+    v(name_of(static_cast<model::TrafficClass>(k)), values[k]);
+  }
+  return std::move(v).take();
 }
 
 Json amplification_json(const Counts& counts, const Counts& reference) {
-  Json json;
-  const auto quotient = [](std::uint64_t value, std::uint64_t base) {
-    return base == 0 ? Json(nullptr) : Json(static_cast<double>(value) / static_cast<double>(base));
-  };
+  JsonObject v;
   const auto values = counts.entries();
   const auto bases = reference.entries();
   for (std::size_t k = 0; k < values.size(); ++k) {
-    json[values[k].name] = quotient(values[k].value, bases[k].value);
+    v(values[k].name, quotient(values[k].value, bases[k].value));
   }
-  json["total"] = quotient(counts.total(), reference.total());
-  return json;
-}
-
-Json descriptor_json(const model::MissingDescriptor& missing) {
-  return {{"source", missing.source.value},
-          {"destination", missing.destination.value},
-          {"stream", name_of(missing.stream)},
-          {"descriptor", missing.descriptor.value}};
-}
-
-Json missing_json(const RunResult& result) {
-  Json list = Json::array();
-  for (const auto& missing : result.missing) list.push_back(descriptor_json(missing));
-  return {{"count", result.missing_count}, {"descriptors", list}};
+  v("total", quotient(counts.total(), reference.total()));
+  return std::move(v).take();
 }
 
 Json channels_json(const RunResult& result) {
   Json list = Json::array();
   for (const model::ChannelUse& channel : result.channels) {
-    Json classes;
-    for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
-      classes[name_of(static_cast<model::TrafficClass>(k))] = channel.busy[k].count();
-    }
-    const auto end = static_cast<double>(result.end_time.count());
-    const auto busy = static_cast<double>(channel.total_busy().count());
-    list.push_back({{"name", channel.name},
-                    {"busy_ns", channel.total_busy().count()},
-                    {"busy_share", end > 0 ? Json(busy / end) : Json(nullptr)},
-                    {"busy_ns_by_class", classes}});
+    const std::int64_t busy = channel.total_busy().count();
+    JsonObject v;
+    v("name", channel.name);
+    v("busy_ns", busy);
+    v("busy_share", quotient(static_cast<std::uint64_t>(busy),
+                             static_cast<std::uint64_t>(result.end_time.count())));
+    v("busy_ns_by_class", by_class(channel.busy));
+    list.push_back(std::move(v).take());
   }
   return list;
 }
 
 Json backlog_json(const RunResult& result) {
   Json list = Json::array();
-  for (std::size_t i = 0; i < result.backlog.size(); ++i) {
-    const model::BacklogPeak& peak = result.backlog[i];
-    list.push_back({{"participant", i},
-                    {"peak_packets", peak.packets},
-                    {"peak_at_ns", peak.at.count()},
-                    {"packets_at_end", peak.packets_at_end}});
+  for (const model::BacklogPeak& peak : result.backlog) {
+    JsonObject v;
+    v("participant", list.size());
+    v("peak_packets", peak.packets);
+    v("peak_at_ns", peak.at);
+    v("packets_at_end", peak.packets_at_end);
+    list.push_back(std::move(v).take());
   }
   return list;
-}
-
-Json latency_json(const RunResult& result) {
-  Json json;
-  for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
-    const model::Latency& latency = result.latency[k];
-    json[name_of(static_cast<model::TrafficClass>(k))] = {
-        {"received_packets", latency.packets},
-        {"backlog_sum_ns", latency.backlog_sum.count()},
-        {"service_sum_ns", latency.service_sum.count()},
-        {"longest_ns", latency.longest.count()}};
-  }
-  return json;
 }
 
 /// In ns, messages, a ratio, packets.
@@ -107,17 +113,6 @@ Json limits_json(const std::vector<props::LimitReading>& limits) {
   return json;
 }
 
-Json last_delivery_json(const RunResult& result) {
-  if (!result.last_delivery) return nullptr;
-  const model::LastDelivery& last = *result.last_delivery;
-  Json json = descriptor_json(last.descriptor);
-  json["repair"] = last.repair;
-  json["emitted_ns"] = last.emitted.count();
-  json["admitted_ns"] = last.admitted.count();
-  json["received_ns"] = last.received.count();
-  return json;
-}
-
 }  // namespace
 
 Simulation describe(std::string name, const model::Scenario& scenario, model::RunResult result) {
@@ -127,34 +122,37 @@ Simulation describe(std::string name, const model::Scenario& scenario, model::Ru
 
 Json to_json(const Simulation& s) {
   const RunResult& result = s.result;
-  Json json;
-  json["scenario"] = s.name;
-  json["completed"] = result.completed();
-  json["end"] = name_of(result.end);
-  json["t_disc_ns"] = result.discovery_time ? Json(result.discovery_time->count()) : Json(nullptr);
-  json["end_ns"] = result.end_time.count();
-  json["counts"] = counts_json(result.counts);
-  json["counts"]["user_control"] = result.user_control;
-  json["failure_free"] = counts_json(s.failure_free);
-  json["amplification"] = amplification_json(result.counts, s.failure_free);
-  json["user_control"] = result.user_control;
-  json["events"] = result.events;
-  json["open_loop_ns"] = s.open_loop ? Json(s.open_loop->count()) : Json(nullptr);
-  json["closed_to_open_loop"] = s.open_loop && result.discovery_time
-                                    ? Json(static_cast<double>(result.discovery_time->count()) /
-                                           static_cast<double>(s.open_loop->count()))
-                                    : Json(nullptr);
-  if (!s.limits.empty()) json["limits"] = limits_json(s.limits);
-  json["missing"] = missing_json(result);
-  json["channels"] = channels_json(result);
-  json["backlog"] = backlog_json(result);
-  json["latency"] = latency_json(result);
-  json["deliveries"] = {{"useful", result.useful_deliveries},
-                        {"duplicate", result.duplicate_deliveries}};
-  json["last_delivery"] = last_delivery_json(result);
-  add_unmodelled(json, s.scenario.dds);
-  json["profile"] = model::config::effective_json(s.scenario);
-  return json;
+  Json counts = json_of(result.counts);
+  counts["user_control"] = result.user_control;
+  std::optional<double> closed_to_open_loop;
+  if (s.open_loop && result.discovery_time) {
+    closed_to_open_loop = static_cast<double>(result.discovery_time->count()) /
+                          static_cast<double>(s.open_loop->count());
+  }
+  JsonObject v;
+  v("scenario", s.name);
+  v("completed", result.completed());
+  v("end", result.end);
+  v("t_disc_ns", result.discovery_time);
+  v("end_ns", result.end_time);
+  v("counts", counts);
+  v("failure_free", s.failure_free);
+  v("amplification", amplification_json(result.counts, s.failure_free));
+  v("user_control", result.user_control);
+  v("events", result.events);
+  v("open_loop_ns", s.open_loop);
+  v("closed_to_open_loop", closed_to_open_loop);
+  if (!s.limits.empty()) v("limits", limits_json(s.limits));
+  v("missing", Json{{"count", result.missing_count}, {"descriptors", json_of(result.missing)}});
+  v("channels", channels_json(result));
+  v("backlog", backlog_json(result));
+  v("latency", by_class(result.latency));
+  v("deliveries",
+    Json{{"useful", result.useful_deliveries}, {"duplicate", result.duplicate_deliveries}});
+  v("last_delivery", result.last_delivery);
+  v.unless_empty("unmodelled", s.scenario.dds.unmodelled);
+  v("profile", model::config::effective_json(s.scenario));
+  return std::move(v).take();
 }
 
 }  // namespace stormproof::report

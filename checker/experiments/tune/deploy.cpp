@@ -35,14 +35,10 @@ Result<DdsProfile> read_back(const std::string& xml, const std::string& preset,
   if (!root) return root.error();
   const auto read = vendor::read_vendor_profile(*root, {"", preset});
   if (!read) return read.error();
-  const auto tree =
+  const auto resolved =
       model::config::resolve_profile(read->changes, model::config::SpecKind::dds, specs);
-  if (!tree) return tree.error();
-  DdsProfile profile;
-  std::optional<InputError> failure;
-  model::config::read_knobs(*tree, "", profile, failure);
-  if (failure) return *std::move(failure);
-  return profile;
+  if (!resolved) return resolved.error();
+  return model::config::checked<DdsProfile>(resolved->tree);
 }
 
 Result<std::string> deployable(const Subject& subject, const DdsProfile& profile,

@@ -14,8 +14,6 @@ namespace stormproof::draw {
 
 namespace {
 
-constexpr Format formats[] = {Format::mermaid, Format::dot, Format::svg};
-
 std::string mermaid(const fsm::MachineInfo& machine) {
   std::string text = fmt::format("stateDiagram-v2\n  %% {}\n  [*] --> {}\n", machine.name,
                                  machine.states[machine.initial]);
@@ -51,27 +49,16 @@ std::string dot(const fsm::MachineInfo& machine) {
 
 }  // namespace
 
-const char* name_of(Format format) {
+const char* file_ending(Format format) {
   switch (format) {
     case Format::mermaid:
-      return "mermaid";
+      return "mmd";
     case Format::dot:
       return "dot";
     case Format::svg:
       return "svg";
   }
   return "";
-}
-
-const char* file_ending(Format format) {
-  return format == Format::mermaid ? "mmd" : name_of(format);
-}
-
-std::optional<Format> format_named(std::string_view name) {
-  for (const Format format : formats) {
-    if (name == name_of(format)) return format;
-  }
-  return std::nullopt;
 }
 
 std::string row_text(const fsm::MachineInfo& machine, const fsm::RowInfo& row) {

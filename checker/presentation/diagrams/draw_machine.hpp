@@ -3,9 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 
 #include "fsm/machine_info.hpp"
 
@@ -17,11 +15,8 @@ enum class Format : std::uint8_t {
   svg       ///< self-contained, for light and dark
 };
 
-/// "mermaid", "dot", "svg".
-[[nodiscard]] const char* name_of(Format format);
 /// The ending of files in this format: "mmd", "dot", "svg".
 [[nodiscard]] const char* file_ending(Format format);
-[[nodiscard]] std::optional<Format> format_named(std::string_view name);
 
 /// The diagram of a machine: its states, and each row of its table as "event [guard] / action".
 [[nodiscard]] std::string draw_machine(const fsm::MachineInfo& machine, Format format);

@@ -8,7 +8,7 @@
 
 #include "checker/presentation/diagrams/draw_machine.hpp"
 #include "checker/presentation/diagrams/svg.hpp"
-#include "checker/presentation/diagrams/wrapped_text.hpp"
+#include "checker/presentation/text/paragraph.hpp"
 
 namespace stormproof::draw {
 
@@ -92,7 +92,7 @@ class Planner {
       state.name = machine_.states[order_[k]];
       for (const fsm::RowInfo& row : machine_.rows) {
         if (row.source != order_[k] || row.target != order_[k]) continue;
-        const auto lines = wrapped("↻ " + row_text(machine_, row), own_row_columns, 4);
+        const auto lines = report::wrapped("↻ " + row_text(machine_, row), own_row_columns, 4);
         state.own_rows.insert(state.own_rows.end(), lines.begin(), lines.end());
       }
       layout_.box_width = std::max({layout_.box_width, 120, width_of(state.name) + 4 * padding,
@@ -107,7 +107,7 @@ class Planner {
     for (const fsm::RowInfo& row : machine_.rows) {
       if (row.source == row.target) continue;
       auto& label = labels[{position_[row.source], position_[row.target]}];
-      const auto lines = wrapped(row_text(machine_, row), label_columns, 2);
+      const auto lines = report::wrapped(row_text(machine_, row), label_columns, 2);
       label.insert(label.end(), lines.begin(), lines.end());
     }
     for (const auto& entry : labels) {

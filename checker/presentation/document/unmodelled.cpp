@@ -1,8 +1,6 @@
 // Says what the model leaves out: to people as assumptions, to code scanning as notes.
 #include "checker/presentation/document/unmodelled.hpp"
 
-#include "checker/presentation/text/assumptions.hpp"
-
 namespace stormproof::report {
 
 void add_unmodelled(Document& document, const model::DdsProfile& dds, std::string_view whose,

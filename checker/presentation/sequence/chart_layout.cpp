@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "checker/presentation/diagrams/svg.hpp"
-#include "checker/presentation/diagrams/wrapped_text.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/paragraph.hpp"
 #include "checker/presentation/text/time_text.hpp"
 
 namespace stormproof::sequence {
@@ -47,7 +47,7 @@ class Planner {
         const bool network = chart_.lanes[row.lines[k].lane].network;
         placed.texts.push_back(
             {k, 0,
-             draw::wrapped(row.lines[k].text, network ? channel_text_columns : text_columns, 2)});
+             report::wrapped(row.lines[k].text, network ? channel_text_columns : text_columns, 2)});
       }
     }
   }
@@ -149,7 +149,7 @@ class Planner {
                          static_cast<std::size_t>(width_of("m"));
     const auto add = [&](const std::string& text) {
       if (text.empty()) return;
-      for (std::string& line : draw::wrapped(text, columns, 2)) {
+      for (std::string& line : report::wrapped(text, columns, 2)) {
         layout_.header.push_back(std::move(line));
       }
     };
@@ -188,7 +188,7 @@ class Planner {
           row.height = ChartLayout::line_height;
           break;
         case Kind::gap:
-          row.gap = draw::wrapped("⋮ " + chart_.rows[r].text, gap_columns(), 2);
+          row.gap = report::wrapped("⋮ " + chart_.rows[r].text, gap_columns(), 2);
           row.height = ChartLayout::line_height * (static_cast<int>(row.gap.size()) + 1);
           break;
       }

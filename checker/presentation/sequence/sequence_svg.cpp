@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "checker/presentation/diagrams/svg.hpp"
-#include "checker/presentation/diagrams/wrapped_text.hpp"
 #include "checker/presentation/sequence/chart.hpp"
 #include "checker/presentation/sequence/chart_layout.hpp"
+#include "checker/presentation/text/paragraph.hpp"
 #include "checker/presentation/text/time_text.hpp"
 
 namespace stormproof::sequence {
@@ -277,7 +277,7 @@ class Painter {
     const int width = layout_.width - 2 * ChartLayout::margin;
     const auto columns = static_cast<std::size_t>(width - 32) /
                          static_cast<std::size_t>(draw::text_width("m", ChartLayout::font_size));
-    const auto lines = draw::wrapped(chart_.reason, columns);
+    const auto lines = report::wrapped(chart_.reason, columns);
     const int top = layout_.bottom + 16;
     const int height = 40 + ChartLayout::line_height * static_cast<int>(lines.size());
     svg_.rect(ChartLayout::margin, top, width, height, "verdict", 6);

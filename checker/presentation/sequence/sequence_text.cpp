@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "checker/presentation/diagrams/wrapped_text.hpp"
 #include "checker/presentation/sequence/chart.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
@@ -175,7 +174,7 @@ class TextPainter {
   void write_note(const std::string& text, std::size_t lane) {
     const bool to_the_right = lane < area / 2;
     const std::size_t room = (to_the_right ? area - lane : lane) - 2;
-    for (const std::string& part : draw::wrapped(text, room, 2)) {
+    for (const std::string& part : report::wrapped(text, room, 2)) {
       std::vector<std::string> cells = lifelines();
       const std::vector<std::string> characters = glyphs(cut(part, room));
       put(cells, to_the_right ? lane + 2 : lane - 1 - characters.size(), characters);

@@ -261,7 +261,7 @@ void add_answer(report::Document& document, const CheckReport& report,
     if (report.count(kind) == 0) continue;
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", report.count(kind), name_of(kind));
   }
-  const bool fastdds = context.scenario.dds.implementation == model::ImplementationKind::fastdds;
+  const bool fastdds = model::is_fastdds(context.scenario.dds);
   document.elaboration = fmt::format("{} ({:.1f} s)", counts, report.seconds);
   document.subject =
       report::code(context.name) +

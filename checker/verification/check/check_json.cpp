@@ -71,8 +71,7 @@ template <class V>
 void describe(V& v, const ReportInContext& shown) {
   const model::DdsProfile& dds = shown.context.scenario.dds;
   v("scenario", shown.context.name);
-  v("implementation",
-    dds.implementation == model::ImplementationKind::fastdds ? "fastdds" : "paper");
+  v("implementation", model::is_fastdds(dds) ? "fastdds" : "paper");
   v("seconds", shown.report.seconds);
   v("summary", Summary{shown.report});
   v.unless_empty("unmodelled", dds.unmodelled);

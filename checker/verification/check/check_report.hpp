@@ -8,7 +8,7 @@
 
 #include "checker/presentation/document/document.hpp"
 #include "checker/verification/check/check.hpp"
-#include "model/config/provenance.hpp"
+#include "model/config/tree/tree.hpp"
 
 namespace stormproof::checker {
 

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "model/config/spec_path.hpp"
-#include "model/config/tree/yaml_text.hpp"
 
 namespace stormproof::checker {
 
@@ -62,17 +61,6 @@ bool is_below(const fs::path& path, const fs::path& folder) {
   return !inside.empty() && *inside.begin() != "..";
 }
 
-/// Where the scenario names its DDS profile. The values of the profile have the places of its own
-/// files, so the scenario is read once more.
-std::optional<Place> profile_in(const std::string& file) {
-  const auto scenario = model::config::load_yaml(file);
-  if (!scenario) return std::nullopt;
-  for (const model::config::Member& member : scenario->members) {
-    if (member.key == "dds") return member.key_place;
-  }
-  return std::nullopt;
-}
-
 bool in_file(const Place& place) { return place.source != nullptr && place.line > 0; }
 
 }  // namespace
@@ -112,8 +100,9 @@ report::Location location_of(std::string_view property, const Places& places,
       return report::Location{found->second, std::string{key}};
     }
   }
-  if (const auto profile = profile_in(file)) {
-    return report::Location{*profile, "the DDS profile"};
+  const auto profile = places.find("dds");
+  if (profile != places.end() && in_file(profile->second)) {
+    return report::Location{profile->second, "the DDS profile"};
   }
   report::Location whole;
   whole.file = file;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "checker/presentation/document/document.hpp"
-#include "model/config/provenance.hpp"
+#include "model/config/tree/tree.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::checker {

@@ -16,26 +16,9 @@ namespace {
 /// `text` in lines of the report's width. The first is as a compiler's warning begins; the others
 /// are indented, so that a program that looks for places finds each remark once.
 std::string folded(std::string_view text) {
-  constexpr std::string_view indent = "    ";
   std::string out;
-  std::size_t used = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const bool breaks = used > indent.size() && used + 1 + columns(word) > report_width;
-    if (breaks) {
-      out += '\n';
-      out += indent;
-      used = indent.size();
-    } else if (!out.empty()) {
-      out += ' ';
-      ++used;
-    }
-    out += word;
-    used += columns(word);
-  }
-  return out + "\n";
+  for (const std::string& line : wrapped(text, report_width, 4)) out += line + "\n";
+  return out;
 }
 
 std::string remark_text(const vendor::Remark& remark, SourceLines& sources) {

@@ -36,7 +36,7 @@ bool is_as_in_the_model(const config::TracedProfile& traced, const std::string& 
 /// at its place.
 void add_unmodelled(const config::TracedProfile& traced, const config::SpecPath& specs,
                     LintedFile& linted) {
-  for (const auto& [setting, effect] : traced.profile.unmodelled) {
+  for (const auto& [setting, effect] : traced.value.unmodelled) {
     const auto place = traced.places.find("unmodelled." + setting);
     if (place == traced.places.end()) continue;
     const std::string file = source_of(place->second);

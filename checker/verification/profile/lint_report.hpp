@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
-#include "model/config/provenance.hpp"
+#include "model/config/scenario_file.hpp"
 
 namespace stormproof::report {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "checker/presentation/text/assumptions.hpp"
+#include "checker/presentation/document/unmodelled.hpp"
 #include "checker/verification/profile/profile_report.hpp"
 
 namespace stormproof::report {

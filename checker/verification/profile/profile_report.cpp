@@ -28,22 +28,17 @@ class Comments {
     auto here = static_cast<std::size_t>(line) - 1;
     const std::size_t hash = lines[here].find(" #");
     if (hash == std::string::npos) return "";
-    std::string comment = trimmed(lines[here].substr(hash + 2));
+    std::string comment{config::trimmed(std::string_view{lines[here]}.substr(hash + 2))};
     for (++here; here < lines.size(); ++here) {
       const std::size_t first = lines[here].find_first_not_of(' ');
       if (first == std::string::npos || first == 0 || lines[here][first] != '#') break;
-      comment += " " + trimmed(lines[here].substr(first + 1));
+      comment += " ";
+      comment += config::trimmed(std::string_view{lines[here]}.substr(first + 1));
     }
     return comment;
   }
 
  private:
-  static std::string trimmed(const std::string& text) {
-    const std::size_t first = text.find_first_not_of(" \t\r");
-    if (first == std::string::npos) return "";
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-  }
-
   const std::vector<std::string>& lines_of(const std::string& file) {
     const auto [entry, is_new] = files_.try_emplace(file);
     if (is_new) {
@@ -79,10 +74,10 @@ class Describer {
       report_.remarks =
           static_cast<std::size_t>(std::ranges::count_if(traced_.vendor->remarks, counts));
     }
-    Json effective = config::effective_json(traced_.profile);
+    Json effective = config::effective_json(traced_.value);
     effective.erase("unmodelled");
     add_knobs(effective, "");
-    for (const auto& [setting, effect] : traced_.profile.unmodelled) {
+    for (const auto& [setting, effect] : traced_.value.unmodelled) {
       report_.unmodelled.push_back({setting, effect, origin_of("unmodelled." + setting)});
     }
     return std::move(report_);

@@ -23,7 +23,7 @@ class SchemaVisitor {
   void knob(std::string_view key, auto&&, const auto& type, std::string_view doc,
             Presence presence = Presence::required) {
     if (exclude(key, presence)) return;
-    add(key, fmt::format("{}; {}", doc, type.info().expected), schema_of(type), presence);
+    add(key, fmt::format("{}; {}", doc, type.expected()), schema_of(type), presence);
   }
   template <class Section>
   void section(std::string_view key, const Section& member, std::string_view doc,

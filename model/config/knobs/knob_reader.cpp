@@ -28,10 +28,6 @@ std::string shown(ImplementationKind implementation) {
 
 }  // namespace
 
-std::string join_path(std::string_view path, std::string_view key) {
-  return path.empty() ? std::string{key} : fmt::format("{}.{}", path, key);
-}
-
 std::optional<InputError> check_keys(const Node& map, std::string_view path,
                                      const KnownKeys& keys) {
   if (!map.is_map()) {

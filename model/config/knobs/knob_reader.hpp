@@ -56,9 +56,6 @@ KnownKeys keys_of(const T& sample, const Context&... context) {
 /// An error if `map` is no map or has a key that it may not have. `path` names the map in messages.
 std::optional<InputError> check_keys(const Node& map, std::string_view path, const KnownKeys& keys);
 
-/// `path`.`key`, or `key` alone at the top.
-std::string join_path(std::string_view path, std::string_view key);
-
 template <class T, class... Context>
 void read_knobs(const Node& map, const std::string& path, T& value,
                 std::optional<InputError>& error, const Context&... context);
@@ -89,7 +86,7 @@ class KnobReader {
   void knob(std::string_view key, T&& member, const auto& type, std::string_view,
             Presence presence = Presence::required) {
     if (presence == Presence::of_paper) return;
-    const Node* node = find(key, presence, [&type] { return type.info().expected; });
+    const Node* node = find(key, presence, [&type] { return type.expected(); });
     if (node == nullptr) return;
     Complaint complaint;
     if constexpr (requires { member.has_value(); }) {  // an optional value: present from now on
@@ -99,7 +96,7 @@ class KnobReader {
     }
     if (complaint) {
       fail(complaint->place, fmt::format("{}: {}; expected {}", join_path(path_, key),
-                                         complaint->reason, type.info().expected));
+                                         complaint->reason, type.expected()));
     }
   }
 
@@ -174,11 +171,10 @@ void read_knobs(const Node& map, const std::string& path, T& value,
 
 /// The last step of reading: the tables take the values of a resolved tree, within their ranges.
 template <class Value>
-[[nodiscard]] Result<Value> checked(const Result<Node>& resolved) {
-  if (!resolved) return resolved.error();
+[[nodiscard]] Result<Value> checked(const Node& resolved) {
   Value value;
   std::optional<InputError> error;
-  read_knobs(*resolved, "", value, error);
+  read_knobs(resolved, "", value, error);
   if (error) return *std::move(error);
   return value;
 }

@@ -53,30 +53,19 @@ Complaint NumberType::read_count(const Node& node, std::int64_t& count) const {
   return std::nullopt;
 }
 
-TypeInfo NumberType::info() const {
-  TypeInfo info;
-  info.minimum = print(minimum_);
-  info.maximum = print(maximum_);
-  const std::string range = fmt::format("from {} to {}", info.minimum, info.maximum);
+std::string NumberType::expected() const {
+  const std::string range = fmt::format("from {} to {}", print(minimum_), print(maximum_));
   switch (unit_) {
     case Unit::nanoseconds:
-      info.name = "duration";
-      info.expected = fmt::format("a duration {}", range);
-      break;
+      return "a duration " + range;
     case Unit::bits_per_second:
-      info.name = "rate";
-      info.expected = fmt::format("a rate {}", range);
-      break;
+      return "a rate " + range;
     case Unit::bytes:
-      info.name = "bytes";
-      info.expected = fmt::format("a number of bytes {}", range);
-      break;
+      return "a number of bytes " + range;
     case Unit::things:
-      info.name = "integer";
-      info.expected = fmt::format("an integer {}", range);
-      break;
+      return "an integer " + range;
   }
-  return info;
+  return {};
 }
 
 Complaint SeedType::read(const Node& node, std::uint64_t& value) const {
@@ -95,12 +84,8 @@ Complaint SeedType::read(const Node& node, std::uint64_t& value) const {
   return std::nullopt;
 }
 
-TypeInfo SeedType::info() const {
-  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-  return {.name = "integer",
-          .expected = fmt::format("an integer from 0 to {}", most),
-          .minimum = "0",
-          .maximum = fmt::format("{}", most)};
+std::string SeedType::expected() const {
+  return fmt::format("an integer from 0 to {}", std::numeric_limits<std::uint64_t>::max());
 }
 
 Complaint BytesOrWordType::read(const Node& node, Bytes& value) const {
@@ -111,11 +96,8 @@ Complaint BytesOrWordType::read(const Node& node, Bytes& value) const {
   return number.read(node, value);
 }
 
-TypeInfo BytesOrWordType::info() const {
-  TypeInfo info = number.info();
-  info.expected += fmt::format(", or {}", word);
-  info.choices = {std::string{word}};
-  return info;
+std::string BytesOrWordType::expected() const {
+  return fmt::format("{}, or {}", number.expected(), word);
 }
 
 Parsed<std::size_t> read_choice(const Node& node, const std::vector<std::string>& names) {
@@ -125,10 +107,8 @@ Parsed<std::size_t> read_choice(const Node& node, const std::vector<std::string>
   return fmt::format("{} is not known{}", node.shown(), suggestion(node.text, names));
 }
 
-TypeInfo choice_info(std::vector<std::string> names) {
-  TypeInfo info{.name = "choice", .expected = fmt::format("one of {}", fmt::join(names, ", "))};
-  info.choices = std::move(names);
-  return info;
+std::string one_of(const std::vector<std::string>& names) {
+  return fmt::format("one of {}", fmt::join(names, ", "));
 }
 
 Complaint TextType::read(const Node& node, std::string& value) const {
@@ -140,9 +120,7 @@ Complaint TextType::read(const Node& node, std::string& value) const {
   return std::nullopt;
 }
 
-TypeInfo TextType::info() const {
-  return {.name = "text", .expected = "text that is not empty, on one line"};
-}
+std::string TextType::expected() const { return "text that is not empty, on one line"; }
 
 Complaint TextMapType::read(const Node& node, std::map<std::string, std::string>& value) const {
   if (!node.is_map()) return fault(node, " is not a map");
@@ -153,7 +131,7 @@ Complaint TextMapType::read(const Node& node, std::map<std::string, std::string>
   return std::nullopt;
 }
 
-TypeInfo TextMapType::info() const { return {.name = "texts", .expected = "a map of texts"}; }
+std::string TextMapType::expected() const { return "a map of texts"; }
 
 Complaint RatioType::read(const Node& node, Ratio& value) const {
   if (!node.is_scalar()) return fault(node, " is not a number");
@@ -168,14 +146,11 @@ Complaint RatioType::read(const Node& node, Ratio& value) const {
   return std::nullopt;
 }
 
-TypeInfo RatioType::info() const {
-  return {.name = "fraction",
-          .expected = fmt::format(
-              "a decimal or a fraction greater than 0 and at most {}, such as 0.05 or 1/20, "
-              "with a reduced denominator of at most {}",
-              maximum, max_denominator),
-          .minimum = fmt::format("1/{}", max_denominator),
-          .maximum = fmt::format("{}", maximum)};
+std::string RatioType::expected() const {
+  return fmt::format(
+      "a decimal or a fraction greater than 0 and at most {}, such as 0.05 or 1/20, with a reduced "
+      "denominator of at most {}",
+      maximum, max_denominator);
 }
 
 Complaint FractionType::read(const Node& node, FractionParts<std::int64_t> value) const {
@@ -192,11 +167,8 @@ Complaint BytesPairType::read(const Node& node, std::array<Bytes, 2>& value) con
   return number.read(node.items[1], value[1]);
 }
 
-TypeInfo BytesPairType::info() const {
-  TypeInfo info = number.info();
-  info.name = "bytes pair";
-  info.expected = fmt::format("[first, last], each {}", info.expected);
-  return info;
+std::string BytesPairType::expected() const {
+  return fmt::format("[first, last], each {}", number.expected());
 }
 
 Complaint DurationRangeType::read(const Node& node, RangeParts<Nanoseconds> value) const {
@@ -211,11 +183,8 @@ Complaint DurationRangeType::read(const Node& node, RangeParts<Nanoseconds> valu
   return std::nullopt;
 }
 
-TypeInfo DurationRangeType::info() const {
-  TypeInfo info = number.info();
-  info.name = "duration range";
-  info.expected = fmt::format("[low, high], each {}, the first at most the second", info.expected);
-  return info;
+std::string DurationRangeType::expected() const {
+  return fmt::format("[low, high], each {}, the first at most the second", number.expected());
 }
 
 Complaint NumberSetType::read(const Node& node, std::vector<std::uint64_t>& value) const {
@@ -230,11 +199,8 @@ Complaint NumberSetType::read(const Node& node, std::vector<std::uint64_t>& valu
   return std::nullopt;
 }
 
-TypeInfo NumberSetType::info() const {
-  TypeInfo info = number.info();
-  info.name = "integer set";
-  info.expected = fmt::format("a list of numbers, each {}", info.expected);
-  return info;
+std::string NumberSetType::expected() const {
+  return fmt::format("a list of numbers, each {}", number.expected());
 }
 
 }  // namespace stormproof::model::config

@@ -1,10 +1,10 @@
 // The kinds of value a knob can have: number with a range, choice, text, fraction, and a few lists.
-// Each kind knows how to read itself from a tree and how to describe itself in an error and a list
-// of knobs; the knob tables combine them with keys and ranges.
+// Each kind knows how to read itself from a tree and how to describe itself in an error; the knob
+// tables combine them with keys and ranges.
 //
 // Every kind has
 //   read(node, value)  fills `value`, or returns what is wrong with the node
-//   info()             range and expectation
+//   expected()         completes "expected …"
 // and, in model/config/knobs/value_json.hpp, the way back to JSON and its schema.
 #pragma once
 
@@ -32,14 +32,6 @@ struct Fault {
 };
 using Complaint = std::optional<Fault>;
 
-/// How a kind of value describes itself.
-struct TypeInfo {
-  std::string name;                        ///< "duration", "choice", …
-  std::string expected;                    ///< completes "expected …"
-  std::string minimum = {}, maximum = {};  ///< of a number, as a file would say it
-  std::vector<std::string> choices = {};   ///< of a choice
-};
-
 /// An integer amount in a range: of nanoseconds, bit/s, bytes, or things.
 class NumberType {
  public:
@@ -62,7 +54,7 @@ class NumberType {
     if (!complaint) value = static_cast<Integer>(count);
     return complaint;
   }
-  TypeInfo info() const;
+  std::string expected() const;
   /// `count` as a file would say it.
   std::string print(std::int64_t count) const;
 
@@ -101,7 +93,7 @@ constexpr NumberType count_range(std::int64_t minimum, std::int64_t maximum) {
 /// Any unsigned 64-bit integer.
 struct SeedType {
   Complaint read(const Node& node, std::uint64_t& value) const;
-  TypeInfo info() const;
+  std::string expected() const;
 };
 
 /// Bytes, or a word that stands for one special value.
@@ -111,7 +103,7 @@ struct BytesOrWordType {
   Bytes meaning;
 
   Complaint read(const Node& node, Bytes& value) const;
-  TypeInfo info() const;
+  std::string expected() const;
 };
 
 /// The enumerators' names in a file, in the order of their values. Specialised beside the table
@@ -128,7 +120,7 @@ requires std::is_enum_v<Enum>
 
 /// Number of the name in `names` that `node` holds.
 Parsed<std::size_t> read_choice(const Node& node, const std::vector<std::string>& names);
-TypeInfo choice_info(std::vector<std::string> names);
+std::string one_of(const std::vector<std::string>& names);
 
 template <class Enum>
 struct ChoiceType {
@@ -141,7 +133,7 @@ struct ChoiceType {
     value = static_cast<Enum>(*chosen);
     return std::nullopt;
   }
-  TypeInfo info() const { return choice_info(names()); }
+  std::string expected() const { return one_of(names()); }
 };
 
 /// A choice that is written only if it is not the usual one.
@@ -153,13 +145,13 @@ struct UsualChoiceType : ChoiceType<Enum> {
 /// Text that is not empty.
 struct TextType {
   Complaint read(const Node& node, std::string& value) const;
-  TypeInfo info() const;
+  std::string expected() const;
 };
 
 /// A map of texts with free keys; written only if it is not empty.
 struct TextMapType {
   Complaint read(const Node& node, std::map<std::string, std::string>& value) const;
-  TypeInfo info() const;
+  std::string expected() const;
 };
 
 /// A decimal or fraction, greater than 0 and at most `maximum`, whose reduced denominator is at
@@ -169,7 +161,7 @@ struct RatioType {
   std::int64_t max_denominator = 1'000'000;
 
   Complaint read(const Node& node, Ratio& value) const;
-  TypeInfo info() const;
+  std::string expected() const;
 };
 
 /// The two members of a profile that hold one fraction.
@@ -188,7 +180,7 @@ struct FractionType {
   std::int64_t max_denominator;
 
   Complaint read(const Node& node, FractionParts<std::int64_t> value) const;
-  TypeInfo info() const { return RatioType{1, max_denominator}.info(); }
+  std::string expected() const { return RatioType{1, max_denominator}.expected(); }
 };
 
 /// `[first, last]`, two byte counts.
@@ -196,7 +188,7 @@ struct BytesPairType {
   NumberType number;
 
   Complaint read(const Node& node, std::array<Bytes, 2>& value) const;
-  TypeInfo info() const;
+  std::string expected() const;
 };
 
 /// The two members of a struct that hold one range.
@@ -213,7 +205,7 @@ struct DurationRangeType {
   NumberType number;
 
   Complaint read(const Node& node, RangeParts<Nanoseconds> value) const;
-  TypeInfo info() const;
+  std::string expected() const;
 };
 
 /// A list of integers, sorted and without duplicates once it is read.
@@ -221,7 +213,7 @@ struct NumberSetType {
   NumberType number;
 
   Complaint read(const Node& node, std::vector<std::uint64_t>& value) const;
-  TypeInfo info() const;
+  std::string expected() const;
 };
 
 }  // namespace stormproof::model::config

@@ -109,7 +109,7 @@ std::string print_quantity(std::int64_t value, std::span<const Unit> units) {
     if (digits.size() <= static_cast<std::size_t>(unit.power_of_ten)) continue;  // less than 1
     const std::size_t point = digits.size() - static_cast<std::size_t>(unit.power_of_ten);
     while (digits.size() > point && digits.ends_with('0')) digits.pop_back();
-    if (digits.size() > point) digits.insert(point, ".");
+    if (digits.size() > point) digits.insert(point, 1, '.');
     digits += unit.name;
     if (shortest.empty() || digits.size() < shortest.size()) shortest = digits;
   }

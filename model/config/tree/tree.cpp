@@ -6,13 +6,29 @@
 #include <charconv>
 #include <unordered_map>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 namespace stormproof::model::config {
 
 std::string Place::to_string() const {
   const std::string name = source ? *source : std::string{};
   return line == 0 ? name : fmt::format("{}:{}:{}", name, line, column);
+}
+
+Node Node::scalar(const Place& place, std::string text, bool quoted) {
+  Node node;
+  node.kind = Kind::scalar;
+  node.place = place;
+  node.text = std::move(text);
+  node.quoted = quoted;
+  return node;
+}
+
+Node Node::map(const Place& place) {
+  Node node;
+  node.kind = Kind::map;
+  node.place = place;
+  return node;
 }
 
 Node* Node::find(std::string_view key) {
@@ -45,6 +61,40 @@ std::string Node::shown() const {
       return "a map";
   }
   return {};
+}
+
+std::string join_path(std::string_view path, std::string_view key) {
+  return path.empty() ? std::string{key} : fmt::format("{}.{}", path, key);
+}
+
+namespace {
+
+void collect(const Node& node, const std::string& path, Places& places) {
+  for (const auto& [key, key_place, value] : node.members) {
+    const std::string name = join_path(path, key);
+    places.emplace(name, value.is_map() ? key_place : value.place);
+    collect(value, name, places);
+  }
+  for (std::size_t k = 0; k < node.items.size(); ++k) {
+    const std::string name = join_path(path, fmt::to_string(k));
+    places.emplace(name, node.items[k].place);
+    collect(node.items[k], name, places);
+  }
+}
+
+}  // namespace
+
+Places places_of(const Node& tree) {
+  Places places;
+  collect(tree, "", places);
+  return places;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 std::string quote(std::string_view text) {

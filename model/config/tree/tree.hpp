@@ -3,6 +3,7 @@
 // error can point at the right line of the right file.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,10 @@ struct Node {
   std::vector<Node> items;      ///< of a sequence
   std::vector<Member> members;  ///< of a map, in the order of the file; keys are unique
 
+  [[nodiscard]] static Node scalar(const Place& place, std::string text, bool quoted = false);
+  /// Without members.
+  [[nodiscard]] static Node map(const Place& place);
+
   [[nodiscard]] bool is_map() const { return kind == Kind::map; }
   [[nodiscard]] bool is_sequence() const { return kind == Kind::sequence; }
   [[nodiscard]] bool is_scalar() const { return kind == Kind::scalar; }
@@ -59,6 +64,17 @@ struct Member {
   Place key_place;
   Node value;
 };
+
+/// `path`.`key`, or `key` alone at the top.
+[[nodiscard]] std::string join_path(std::string_view path, std::string_view key);
+
+/// Where everything in a tree was written, by dotted key: "spdp.period"; elements of lists go by
+/// number. A map is where its key is.
+using Places = std::map<std::string, Place, std::less<>>;
+[[nodiscard]] Places places_of(const Node& tree);
+
+/// `text` without blanks at its ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
 
 /// `text` between quotes, control characters escaped, cut after 60 bytes; for error messages.
 [[nodiscard]] std::string quote(std::string_view text);

@@ -3,9 +3,6 @@
 // has grown in memory.
 #include "model/config/tree/yaml_text.hpp"
 
-#include <array>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <unordered_map>
 #include <unordered_set>
@@ -15,6 +12,8 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
+
+#include "model/config/tree/file_text.hpp"
 
 namespace stormproof::model::config {
 namespace {
@@ -234,20 +233,9 @@ Result<Node> parse_yaml(std::string_view text, const std::string& source) {
 }
 
 Result<Node> load_yaml(const std::string& path) {
-  std::error_code failed;
-  if (std::filesystem::is_directory(path, failed))
-    return InputError{path, "is a directory; expected a file"};
-  std::ifstream file{path, std::ios::binary};
-  std::string text;
-  std::array<char, 65'536> chunk{};
-  while (file && text.size() <= max_file_bytes) {
-    file.read(chunk.data(), chunk.size());
-    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  // The end of a file that was read completely sets eofbit; a file that could not be opened does
-  // not.
-  if (!file.eof() && text.size() <= max_file_bytes) return InputError{path, "cannot be read"};
-  return parse_yaml(text, path);
+  const auto text = file_text(path, max_file_bytes);
+  if (!text) return text.error();
+  return parse_yaml(*text, path);
 }
 
 }  // namespace stormproof::model::config

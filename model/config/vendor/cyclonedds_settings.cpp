@@ -57,7 +57,7 @@ class Effects {
 
   /// `value` of a knob in the syntax of profiles.
   void change(const std::string& key, const Place& place, std::string value) {
-    (void)set_path(profile_.changes, key, scalar_node(place, std::move(value)));
+    (void)set_path(profile_.changes, key, Node::scalar(place, std::move(value)));
   }
 
   void change_duration(const std::string& key, const CycloneReading& reading, std::int64_t ns,
@@ -187,14 +187,6 @@ class Effects {
 
 }  // namespace
 
-Node scalar_node(const Place& place, std::string text) {
-  Node node;
-  node.kind = Node::Kind::scalar;
-  node.place = place;
-  node.text = std::move(text);
-  return node;
-}
-
 void assume(VendorProfile& profile, std::string_view setting, const Place& place,
             std::string text) {
   Node* map = profile.changes.find("unmodelled");
@@ -204,7 +196,7 @@ void assume(VendorProfile& profile, std::string_view setting, const Place& place
     map->kind = Node::Kind::map;
     map->place = place;
   }
-  Node value = scalar_node(place, std::move(text));
+  Node value = Node::scalar(place, std::move(text));
   if (Node* old = map->find(setting)) {
     *old = std::move(value);
   } else {

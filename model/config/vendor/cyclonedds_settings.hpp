@@ -44,8 +44,6 @@ class CycloneSettings {
 [[nodiscard]] std::string print_cyclone(const CycloneType& type, const CycloneValue& value);
 [[nodiscard]] bool is_usual(const CycloneOption& option, const CycloneValue& value);
 
-[[nodiscard]] Node scalar_node(const Place& place, std::string text);
-
 /// Puts `setting` into the `unmodelled` of `profile.changes`.
 void assume(VendorProfile& profile, std::string_view setting, const Place& place, std::string text);
 

@@ -182,10 +182,7 @@ Result<VendorProfile> read_cyclonedds_profile(const XmlElement& root, const Sele
     if (setting.effect != Effect::knob) setting.knob.clear();
   }
   profile.changes.place = root.place;
-  Node base;
-  base.kind = Node::Kind::scalar;
-  base.place = root.place;
-  base.text = profile.version_base;
+  Node base = Node::scalar(root.place, profile.version_base);
   profile.changes.members.insert(profile.changes.members.begin(),
                                  {"base", root.place, std::move(base)});
   std::ranges::stable_sort(profile.remarks, {}, [](const Remark& remark) {

@@ -21,15 +21,6 @@ const Found* find_discovery(const Reading& reading, std::string_view name) {
   return reading.section.find(std::string{discovery} + std::string{name});
 }
 
-Node text_node(const Place& place, std::string text, bool is_quoted) {
-  Node node;
-  node.kind = Node::Kind::scalar;
-  node.place = place;
-  node.text = std::move(text);
-  node.quoted = is_quoted;
-  return node;
-}
-
 /// A period as a profile has it; what is longer than the longest one outlasts every run as well.
 std::string period_of(const Value& value) {
   return print_duration(Nanoseconds{std::min(value.number, max_duration_ns)});
@@ -205,7 +196,7 @@ void set_knob(Reading& reading, const Found& found, std::string_view section, st
   if (setting.note == "the library's default") setting.note = found.item->note;
   // The path has no empty part and only maps on its way, so this cannot fail.
   (void)set_path(reading.profile.changes, setting.knob,
-                 text_node(found.value.place, std::move(value), false));
+                 Node::scalar(found.value.place, std::move(value)));
 }
 
 void set_inert(Reading& reading, const Found& found, std::string note) {

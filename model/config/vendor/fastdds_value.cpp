@@ -17,14 +17,7 @@
 namespace stormproof::model::config::vendor::fastdds {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
 constexpr std::int64_t second = 1'000'000'000;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts;

@@ -131,8 +131,7 @@ std::string short_key(std::string_view path) {
 void collect_unmodelled(VendorProfile& profile) {
   constexpr std::size_t longest_value = 200;
   constexpr std::size_t longest_text = 2'000;  ///< of several transports
-  Node texts;
-  texts.kind = Node::Kind::map;
+  Node texts = Node::map({});
   std::map<std::string, std::size_t> index;  // in `texts`
   for (const Setting& setting : profile.settings) {
     if (setting.effect != Effect::unmodelled) continue;
@@ -146,13 +145,8 @@ void collect_unmodelled(VendorProfile& profile) {
       if (is_new && known->text.size() < longest_text) known->text += "; " + text;
       continue;
     }
-    Node node;
-    node.kind = Node::Kind::scalar;
-    node.place = setting.place;
-    node.text = text;
-    node.quoted = true;
     texts.place = setting.place;
-    texts.members.push_back({key, setting.place, std::move(node)});
+    texts.members.push_back({key, setting.place, Node::scalar(setting.place, text, true)});
   }
   if (texts.members.empty()) return;
   profile.changes.members.push_back({"unmodelled", texts.place, std::move(texts)});
@@ -173,12 +167,8 @@ void start(const XmlElement& root, const Selection& selection, Reading& reading)
       selection.base.empty() ? std::string{default_base(Vendor::fastdds)} : selection.base;
   reading.root = &root;
   reading.version = version_of(profile.version_base);
-  profile.changes.kind = Node::Kind::map;
-  profile.changes.place = root.place;
-  Node base;
-  base.kind = Node::Kind::scalar;
-  base.place = root.place;
-  base.text = profile.version_base;
+  profile.changes = Node::map(root.place);
+  Node base = Node::scalar(root.place, profile.version_base);
   profile.changes.members.push_back({std::string{base_key}, root.place, std::move(base)});
 }
 

@@ -5,9 +5,6 @@
 #include "model/config/vendor/xml_text.hpp"
 
 #include <algorithm>
-#include <array>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -16,17 +13,13 @@
 #include <expat.h>
 #include <fmt/core.h>
 
+#include "model/config/tree/file_text.hpp"
+
 namespace stormproof::model::config::vendor {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 std::string_view local_name(std::string_view name) {
   if (name.ends_with(':')) return name;     // no prefix, though expat takes it for a name
@@ -238,21 +231,9 @@ Result<XmlElement> parse_xml(std::string_view text, const std::string& source) {
 }
 
 Result<XmlElement> load_xml(const std::string& path) {
-  std::error_code failed;
-  if (std::filesystem::is_directory(path, failed)) {
-    return InputError{path, "is a directory; expected a file"};
-  }
-  std::ifstream file{path, std::ios::binary};
-  std::string text;
-  std::array<char, 65'536> chunk{};
-  while (file && text.size() <= max_xml_bytes) {
-    file.read(chunk.data(), chunk.size());
-    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  // The end of a file that was read completely sets eofbit; a file that could not be opened does
-  // not.
-  if (!file.eof() && text.size() <= max_xml_bytes) return InputError{path, "cannot be read"};
-  return parse_xml(text, path);
+  const auto text = file_text(path, max_xml_bytes);
+  if (!text) return text.error();
+  return parse_xml(*text, path);
 }
 
 }  // namespace stormproof::model::config::vendor

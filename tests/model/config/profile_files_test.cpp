@@ -14,7 +14,9 @@ class ProfileFiles : public testing::Test {
   Result<Node> resolve(const std::string& text) const {
     auto reference = parse_yaml(text, files.path("scenario.yaml"));
     if (!reference) return reference.error();
-    return resolve_profile(*std::move(reference), SpecKind::dds, SpecPath{{files.root()}});
+    auto resolved = resolve_profile(*std::move(reference), SpecKind::dds, SpecPath{{files.root()}});
+    if (!resolved) return resolved.error();
+    return std::move(resolved->tree);
   }
   std::string refusal(const std::string& text) const {
     const auto resolved = resolve(text);

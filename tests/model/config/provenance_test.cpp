@@ -1,9 +1,8 @@
 // Every value of a profile or scenario knows who wrote it: a file with line and column, a preset,
 // or an argument. Vendors' XML stands wherever a profile may stand.
-#include "model/config/provenance.hpp"
-
 #include <gtest/gtest.h>
 
+#include "model/config/scenario_file.hpp"
 #include "model/config/tree/yaml_text.hpp"
 #include "tests/model/config/test_files.hpp"
 
@@ -63,14 +62,13 @@ class Provenance : public testing::Test {
 
 TEST_F(Provenance, every_node_of_a_tree_has_its_place) {
   const auto tree = parse_yaml("a: 1\nb:\n  c: [x, {d: y}]\n", "f");
-  const Places places = places_of(*tree, "dds.");
-  EXPECT_EQ(places.size(), 7U);
-  EXPECT_EQ(place(places, "dds"), "f:1:1");
-  EXPECT_EQ(place(places, "dds.a"), "f:1:4");
-  EXPECT_EQ(place(places, "dds.b.c.0"), "f:3:7");
-  EXPECT_EQ(place(places, "dds.b.c.1.d"), "f:3:14");
-  EXPECT_EQ(place(places_of(*tree), "b.c"), "f:3:6");
-  EXPECT_EQ(places_of(*tree).count(""), 0U);
+  const Places places = places_of(*tree);
+  EXPECT_EQ(places.size(), 6U);
+  EXPECT_EQ(place(places, "a"), "f:1:4");
+  EXPECT_EQ(place(places, "b"), "f:2:1");
+  EXPECT_EQ(place(places, "b.c"), "f:3:6");
+  EXPECT_EQ(place(places, "b.c.0"), "f:3:7");
+  EXPECT_EQ(place(places, "b.c.1.d"), "f:3:14");
 }
 
 TEST_F(Provenance, a_preset_is_its_own_origin) {
@@ -80,7 +78,7 @@ TEST_F(Provenance, a_preset_is_its_own_origin) {
   const std::string folder = std::string{STORMPROOF_SPECS_DIR} + "/dds/";
   EXPECT_TRUE(place(profile.places, "spdp.resend").starts_with(folder + "fastdds-2.14.5.yaml:"));
   EXPECT_TRUE(place(profile.places, "spdp.period").starts_with(folder + "fastdds-2.6.11.yaml:"));
-  EXPECT_EQ(profile.profile, *read_dds_profile("fastdds-2.14.5", {}, source_specs()));
+  EXPECT_EQ(profile.value, *read_dds_profile("fastdds-2.14.5", {}, source_specs()));
 }
 
 TEST_F(Provenance, a_users_file_and_arguments_are_told_from_the_preset) {
@@ -90,8 +88,8 @@ TEST_F(Provenance, a_users_file_and_arguments_are_told_from_the_preset) {
   EXPECT_EQ(profile.preset, "fastdds-3.4");
   EXPECT_EQ(place(profile.places, "spdp.period"), mine + ":3:11");
   EXPECT_EQ(place(profile.places, "sedp.heartbeat_period"), "--set sedp.heartbeat_period=2s");
-  EXPECT_EQ(profile.profile.spdp.period.count(), 9'000'000'000);
-  EXPECT_EQ(profile.profile.sedp.heartbeat_period.count(), 2'000'000'000);
+  EXPECT_EQ(profile.value.spdp.period.count(), 9'000'000'000);
+  EXPECT_EQ(profile.value.sedp.heartbeat_period.count(), 2'000'000'000);
 }
 
 TEST_F(Provenance, a_profile_on_no_preset_has_none) {
@@ -110,28 +108,30 @@ TEST_F(Provenance, a_scenario_has_the_places_of_all_its_parts) {
   EXPECT_NE(place(traced->places, "dds.sedp.heartbeat_period").find("/dds/paper.yaml:"),
             std::string::npos);
   EXPECT_NE(place(traced->places, "wireless.order").find("/wireless/"), std::string::npos);
-  EXPECT_EQ(traced->scenario,
+  const std::string file = std::string{STORMPROOF_SPECS_DIR} + "/scenarios/wifi-5x20.yaml";
+  EXPECT_TRUE(place(traced->places, "dds").starts_with(file + ":"));
+  EXPECT_EQ(traced->value,
             *read_scenario("wifi-5x20", std::vector<std::string>{"time_limit=9s"}, source_specs()));
 }
 
 TEST_F(Provenance, vendor_xml_is_a_profile) {
   const std::string robots = files.write("robots.xml", robots_xml);
   const TracedProfile profile = traced(robots);
-  EXPECT_EQ(profile.profile.spdp.period.count(), 7'000'000'000);
+  EXPECT_EQ(profile.value.spdp.period.count(), 7'000'000'000);
   EXPECT_EQ(profile.preset, "fastdds-2.6.11");
   ASSERT_TRUE(profile.vendor);
   EXPECT_EQ(profile.vendor->name, "arm");
   EXPECT_TRUE(place(profile.places, "spdp.period").starts_with(robots + ":6:"))
       << place(profile.places, "spdp.period");
-  EXPECT_EQ(profile.profile, *read_dds_profile(robots, {}, source_specs()));
+  EXPECT_EQ(profile.value, *read_dds_profile(robots, {}, source_specs()));
 }
 
 TEST_F(Provenance, vendor_xml_takes_profile_preset_and_overrides) {
   const std::string robots = files.write("team#1@home/robots.xml", robots_xml);
   const TracedProfile profile = traced(robots + "#lidar@fastdds-2.14.5", {"sedp.piggyback=off"});
-  EXPECT_EQ(profile.profile.spdp.period.count(), 2'000'000'000);
-  EXPECT_EQ(profile.profile.spdp.resend, SpdpResend::new_only);
-  EXPECT_EQ(profile.profile.sedp.piggyback, Piggyback::off);
+  EXPECT_EQ(profile.value.spdp.period.count(), 2'000'000'000);
+  EXPECT_EQ(profile.value.spdp.resend, SpdpResend::new_only);
+  EXPECT_EQ(profile.value.sedp.piggyback, Piggyback::off);
   EXPECT_EQ(profile.preset, "fastdds-2.14.5");
 }
 
@@ -141,8 +141,8 @@ TEST_F(Provenance, yaml_stands_on_vendor_xml_beside_it) {
       files.write("near.yaml", "base: xml/robots.xml#lidar\nsedp: {heartbeat_period: 4s}\n");
   const std::string top = files.write("above/top.yaml", "base: ../near.yaml\n");
   const TracedProfile profile = traced(top);
-  EXPECT_EQ(profile.profile.spdp.period.count(), 2'000'000'000);
-  EXPECT_EQ(profile.profile.sedp.heartbeat_period.count(), 4'000'000'000);
+  EXPECT_EQ(profile.value.spdp.period.count(), 2'000'000'000);
+  EXPECT_EQ(profile.value.sedp.heartbeat_period.count(), 4'000'000'000);
   ASSERT_TRUE(profile.vendor);
   EXPECT_EQ(profile.vendor->name, "lidar");
   EXPECT_EQ(place(profile.places, "sedp.heartbeat_period"), near + ":2:26");
@@ -210,8 +210,8 @@ TEST_F(Provenance, what_the_model_has_not_got_adds_up) {
   const std::string above =
       files.write("above.yaml", "base: ./below.yaml\nunmodelled: {b: three}\n");
   const TracedProfile profile = traced(above);
-  EXPECT_EQ(profile.profile.unmodelled.at("a"), "one");
-  EXPECT_EQ(profile.profile.unmodelled.at("b"), "three");
+  EXPECT_EQ(profile.value.unmodelled.at("a"), "one");
+  EXPECT_EQ(profile.value.unmodelled.at("b"), "three");
   EXPECT_EQ(place(profile.places, "unmodelled.a"), below + ":2:17");
   EXPECT_EQ(place(profile.places, "unmodelled.b"), above + ":2:17");
 }

@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "model/config/knobs/effective.hpp"
-#include "model/config/knobs/knob_list.hpp"
 #include "model/simulator.hpp"
 #include "props/generators/scenarios.hpp"
+#include "tests/model/config/knobs/knob_list.hpp"
 
 namespace stormproof::props {
 namespace variety_test {
@@ -64,13 +64,12 @@ TEST(Variety, EveryKnobVaries) {
   for (const model::config::KnobInfo& knob : model::config::scenario_knob_list()) {
     if (is_left_out(knob.key)) continue;
     const auto& values = seen[knob.key];
-    EXPECT_GT(values.size(), knob.type.choices.empty() || knob.key == "run_until" ? 0U : 1U)
-        << knob.key;
-    for (const std::string& choice : knob.type.choices) {
+    EXPECT_GT(values.size(), knob.choices.empty() || knob.key == "run_until" ? 0U : 1U) << knob.key;
+    for (const std::string& choice : knob.choices) {
       if (knob.key == "run_until" && choice == "completion") continue;  // not written
       EXPECT_GE(values.contains(choice) ? values.at(choice) : 0, 25) << knob.key << ": " << choice;
     }
-    if (knob.type.choices.empty() && !knob.key.ends_with(".name")) {
+    if (knob.choices.empty() && !knob.key.ends_with(".name")) {
       EXPECT_GE(values.size(), 3U) << knob.key;
     }
   }

@@ -17,7 +17,7 @@ namespace stormproof::capture::write {
 class PacketLayout {
  public:
   explicit PacketLayout(const model::DdsProfile& dds)
-      : is_fastdds_{dds.implementation == model::ImplementationKind::fastdds},
+      : is_fastdds_{model::is_fastdds(dds)},
         paper_{dds.descriptors},
         shared_bytes_{dds.sedp.shared_header_bytes.count()} {}
 

@@ -15,7 +15,7 @@ using model::config::TracedProfile;
 
 TracedProfile traced(const DdsProfile& dds) {
   TracedProfile profile;
-  profile.profile = dds;
+  profile.value = dds;
   return profile;
 }
 

@@ -135,8 +135,8 @@ TEST(Diff, TheLeastScenario) {
   const TellingApart apart = compared(asked).telling_apart;
   ASSERT_TRUE(apart.found);
   EXPECT_EQ(apart.scenario.deployment.size(), 2U);
-  EXPECT_EQ(apart.scenario.dds, asked.base.profile);
-  EXPECT_EQ(apart.candidate, asked.candidate.profile);
+  EXPECT_EQ(apart.scenario.dds, asked.base.value);
+  EXPECT_EQ(apart.candidate, asked.candidate.value);
 }
 
 TEST(Diff, Verdicts) {
@@ -174,8 +174,8 @@ TEST(DiffText, FitsInAHundredColumns) {
 }
 
 TEST(Blame, SetsSingleKnobsBack) {
-  const model::DdsProfile base = profile("fastdds-2.6.11").profile;
-  const model::DdsProfile candidate = profile("fastdds-2.14.5").profile;
+  const model::DdsProfile base = profile("fastdds-2.6.11").value;
+  const model::DdsProfile candidate = profile("fastdds-2.14.5").value;
   const auto one = with_reverted(candidate, base, {"spdp.resend"});
   ASSERT_TRUE(one);
   EXPECT_EQ(one->spdp.resend, base.spdp.resend);
@@ -185,13 +185,13 @@ TEST(Blame, SetsSingleKnobsBack) {
                                   "sedp.nack_response_delay", "sedp.nack_suppression_duration"});
   ASSERT_TRUE(all);
   EXPECT_EQ(all->sedp, base.sedp);
-  EXPECT_FALSE(with_reverted(candidate, profile("paper").profile, {"spdp.resend"}));
+  EXPECT_FALSE(with_reverted(candidate, profile("paper").value, {"spdp.resend"}));
   EXPECT_FALSE(with_reverted(candidate, base, {"sedp.no_such_key"}));
 }
 
 /// The error of a grid; "accepted" if there is none.
 std::string grid_error(const std::string& text) {
-  const model::DdsProfile dds = profile("fastdds-2.6.11").profile;
+  const model::DdsProfile dds = profile("fastdds-2.6.11").value;
   const std::string file = written("diff-grid.yaml", text);
   const auto grid = read_reviewed_grid(file, dds, dds, specs);
   if (grid) return "accepted";
@@ -215,8 +215,8 @@ TEST(ReviewedGrid, MayNotSweepTheProfile) {
 }
 
 TEST(ReviewedGrid, OneScenarioIsAGrid) {
-  const model::DdsProfile base = profile("paper").profile;
-  const model::DdsProfile candidate = profile("fastdds-2.6.11").profile;
+  const model::DdsProfile base = profile("paper").value;
+  const model::DdsProfile candidate = profile("fastdds-2.6.11").value;
   const auto grid = read_reviewed_grid("three-hosts", base, candidate, specs);
   ASSERT_TRUE(grid) << to_string(grid.error());
   ASSERT_EQ(grid->points.size(), 1U);
@@ -231,7 +231,7 @@ TEST(ReviewedGrid, OneScenarioIsAGrid) {
 
 TEST(ReviewedGrid, TheShippedOneFitsEveryPreset) {
   for (const std::string& name : specs.names(config::SpecKind::dds)) {
-    const model::DdsProfile dds = profile(name).profile;
+    const model::DdsProfile dds = profile(name).value;
     const auto grid = read_reviewed_grid("review", dds, dds, specs);
     ASSERT_TRUE(grid) << name << ": " << to_string(grid.error());
     EXPECT_EQ(grid->points.size(), 9U);

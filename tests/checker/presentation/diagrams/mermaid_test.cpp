@@ -44,12 +44,5 @@ TEST(Mermaid, TextsCannotBecomeSyntax) {
   EXPECT_EQ(mermaid_text("a; b #1 <c>\n100 %"), "a#59; b #35;1 #lt;c#gt; 100 #37;");
 }
 
-TEST(Formats, HaveNames) {
-  for (const Format format : {Format::mermaid, Format::dot, Format::svg}) {
-    EXPECT_EQ(format_named(name_of(format)), format);
-  }
-  EXPECT_FALSE(format_named("png"));
-}
-
 }  // namespace mermaid_test
 }  // namespace stormproof::draw

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/presentation/diagrams/wrapped_text.hpp"
+#include "checker/presentation/text/paragraph.hpp"
 #include "tests/checker/presentation/diagrams/svg_texts.hpp"
 
 namespace stormproof::draw {
@@ -46,11 +46,11 @@ TEST(Svg, TheReaderFindsFaults) {
 
 TEST(WrappedText, BreaksAtSpacesAndIndents) {
   using Lines = std::vector<std::string>;
-  EXPECT_EQ(wrapped("one two three", 7, 0), (Lines{"one two", "three"}));
-  EXPECT_EQ(wrapped("one two three", 7, 2), (Lines{"one two", "  three"}));
-  EXPECT_EQ(wrapped("a verylongword b", 5, 2), (Lines{"a", "  verylongword", "  b"}));
-  EXPECT_EQ(wrapped("", 7, 2), (Lines{""}));
-  EXPECT_EQ(wrapped("τ_H τ_A", 7, 0), (Lines{"τ_H τ_A"}));
+  EXPECT_EQ(report::wrapped("one two three", 7, 0), (Lines{"one two", "three"}));
+  EXPECT_EQ(report::wrapped("one two three", 7, 2), (Lines{"one two", "  three"}));
+  EXPECT_EQ(report::wrapped("a verylongword b", 5, 2), (Lines{"a", "  verylongword", "  b"}));
+  EXPECT_EQ(report::wrapped("", 7, 2), (Lines{""}));
+  EXPECT_EQ(report::wrapped("τ_H τ_A", 7, 0), (Lines{"τ_H τ_A"}));
 }
 
 }  // namespace svg_test

@@ -101,7 +101,7 @@ diff::DiffReport regression() {
   diff::DiffReport report;
   report.base.reference = "fastdds-2.6.11";
   report.candidate.reference = "new " + hostile + ".xml";
-  report.candidate.profile.unmodelled.emplace("transport", "shared memory " + hostile);
+  report.candidate.value.unmodelled.emplace("transport", "shared memory " + hostile);
   report.policy.name = "default";
   report.policy.tolerances = {{diff::Measure::completion, 0.25}};
   report.profiles.changes = {{"sedp.acknack_bytes",

@@ -55,7 +55,7 @@ TEST(ValueTypes, numbers_have_ranges) {
   EXPECT_EQ(complaint(type, "'5'", value), "f:1:1: '5' in quotes is text");
   EXPECT_EQ(complaint(type, "[5]", value), "f:1:1: a list is not a number");
   EXPECT_EQ(value, 10U);
-  EXPECT_EQ(type.info().expected, "an integer from 2 to 10");
+  EXPECT_EQ(type.expected(), "an integer from 2 to 10");
 }
 
 TEST(ValueTypes, zero_is_no_period) {

@@ -254,11 +254,11 @@ TEST(FastddsXml, changes_merge_like_a_profile_file) {
                transport("t", "UDPv4", four_megabytes + "<maxMessageSize>1472</maxMessageSize>")));
   const auto resolved = resolve_profile(profile.changes, SpecKind::dds, source_specs());
   ASSERT_TRUE(resolved) << to_string(resolved.error());
-  EXPECT_EQ(resolved->find("spdp")->find("period")->text, "1s");
-  EXPECT_EQ(resolved->find("spdp")->find("startup_period")->text, "100ms");
-  EXPECT_EQ(resolved->find("sedp")->find("piggyback_threshold_bytes")->text, "4000000");
-  EXPECT_EQ(resolved->find("sedp")->find("grouping_limit_bytes")->text, "1472");
-  EXPECT_EQ(resolved->find("unmodelled")->members.size(), 1U);
+  EXPECT_EQ(resolved->tree.find("spdp")->find("period")->text, "1s");
+  EXPECT_EQ(resolved->tree.find("spdp")->find("startup_period")->text, "100ms");
+  EXPECT_EQ(resolved->tree.find("sedp")->find("piggyback_threshold_bytes")->text, "4000000");
+  EXPECT_EQ(resolved->tree.find("sedp")->find("grouping_limit_bytes")->text, "1472");
+  EXPECT_EQ(resolved->tree.find("unmodelled")->members.size(), 1U);
 }
 
 TEST(FastddsXml, the_shipped_examples_are_what_they_say) {

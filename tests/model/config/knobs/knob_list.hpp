@@ -1,11 +1,24 @@
-// The visitor that turns the tables into a list.
-#include "model/config/knobs/knob_list.hpp"
+// All knobs of a scenario as a flat list, for tests that try every value of every knob.
+#pragma once
+
+#include <string>
+#include <vector>
 
 #include "model/config/knobs/knob_writer.hpp"
 #include "model/config/knobs/scenario_knobs.hpp"
 
 namespace stormproof::model::config {
-namespace {
+
+struct KnobInfo {
+  std::string
+      key;  ///< as `--set` takes it: "dds.sedp.heartbeat_period"; "*" for an element of a list
+  std::string expected;              ///< kind and range
+  std::vector<std::string> choices;  ///< words that it takes
+  Json default_value;  ///< the value of the paper's evaluation, in the syntax of the file; null if
+                       ///< absent
+  std::string doc;     ///< one line
+  Presence presence;   ///< whether a file without `base:` has to give it, or may not
+};
 
 class KnobLister {
  public:
@@ -14,8 +27,11 @@ class KnobLister {
 
   void knob(std::string_view key, auto&& member, const auto& type, std::string_view doc,
             Presence presence = Presence::required) {
-    out_.push_back({prefix_ + std::string{key}, type.info(), write_value(type, member),
-                    std::string{doc}, presence});
+    std::vector<std::string> choices;
+    if constexpr (requires { type.names(); }) choices = type.names();
+    if constexpr (requires { type.word; }) choices.emplace_back(type.word);
+    out_.push_back({prefix_ + std::string{key}, type.expected(), std::move(choices),
+                    write_value(type, member), std::string{doc}, presence});
   }
   template <class Section>
   void section(std::string_view key, const Section& member, std::string_view,
@@ -49,9 +65,11 @@ class KnobLister {
   std::string prefix_;
 };
 
-}  // namespace
-
-std::vector<KnobInfo> scenario_knob_list(ImplementationKind implementation) {
+/// Every knob of deployment (both forms), DDS profile, wireless profile and scenario. Whatever the
+/// implementation, the keys are the same; those that only the paper's model has are then marked
+/// `of_paper`.
+inline std::vector<KnobInfo> scenario_knob_list(
+    ImplementationKind implementation = ImplementationKind::paper) {
   std::vector<KnobInfo> knobs;
   KnobLister lister{knobs};
   Scenario sample;

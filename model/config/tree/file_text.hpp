@@ -1,0 +1,13 @@
+// The text of a file that a user named: the first step of reading.
+#pragma once
+
+#include <string>
+
+#include "model/config/tree/result.hpp"
+
+namespace stormproof::model::config {
+
+/// Up to `most` bytes of a file, and one more if it is longer. Errors: not readable, a directory.
+[[nodiscard]] Result<std::string> file_text(const std::string& path, std::size_t most);
+
+}  // namespace stormproof::model::config
