@@ -115,9 +115,10 @@ std::vector<std::string> check_heavy_headers(const Includes& includes, const Hea
     if (!file.ends_with(".hpp")) continue;
     const std::vector<std::string> way = way_to(rule.library, file, includes);
     if (way.empty()) continue;
-    const auto allowed = std::ranges::find_if(rule.allowed, [&file = file](const std::string& entry) {
-      return entry == file || (entry.ends_with('/') && file.starts_with(entry));
-    });
+    const auto allowed =
+        std::ranges::find_if(rule.allowed, [&file = file](const std::string& entry) {
+          return entry == file || (entry.ends_with('/') && file.starts_with(entry));
+        });
     if (allowed != rule.allowed.end()) {
       used.insert(*allowed);
     } else {

@@ -10,7 +10,6 @@
 namespace stormproof::reproduce {
 
 inline constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-inline constexpr int half = 570;  ///< pixels, of a plot beside another one
 inline constexpr std::size_t published_color = 4;
 
 /// A colour for each variant, apart from those of published values and references.

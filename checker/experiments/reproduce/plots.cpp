@@ -25,7 +25,6 @@ std::string counts_plot(const Report& report, Network network) {
   chart.description = "Published means and the model, on a logarithmic scale.";
   chart.value.label = "messages";
   chart.value.scale = plot::Scale::log;
-  chart.width = half;
   plot::BarChart::Group published{"published", {}};
   for (const Class what : table_classes) {
     chart.categories.emplace_back(name_of(what));
@@ -54,7 +53,7 @@ std::string surface_plot(const Report& report, std::size_t variant) {
   map.y_label = "N_P, participants per host";
   map.value_label = "ratio";
   map.scale = plot::Scale::log;
-  map.width = half;
+  map.width = plot::beside;
   std::set<std::uint32_t> columns;
   for (const Configuration& one : report.results.plan.configurations) {
     columns.insert(one.endpoints_per_participant);
@@ -82,7 +81,6 @@ std::string ratio_plot(const Report& report, const std::string& quantity) {
   chart.x.label = "N_P, participants per host";
   chart.y.label = "model / observed";
   chart.y.scale = plot::Scale::log;
-  chart.width = half;
   chart.height = 360;
   chart.references.push_back({plot::Reference::Kind::horizontal, 1, "equal"});
   const std::set<std::uint32_t> counts = participant_counts(plan);

@@ -133,7 +133,7 @@ std::string environments_plot(const Report& report, std::size_t variant, Class w
       fmt::format("{}, {}", what == Class::total ? "Total messages" : "ACKNACKs",
                   variant_name(report, variant)),
       "Loopback (normalised), wired and Wi-Fi over the workload, with the failure-free reference.");
-  chart.width = half;
+  chart.width = plot::beside;
   chart.height = 340;
   chart.x.label = "N_P; in each block N_E grows";
   const auto on = [&](Network network) {
@@ -215,7 +215,7 @@ std::string policies_plot(const Report& report, std::size_t variant) {
   plot::Chart chart = workload_chart(
       report, fmt::format("HEARTBEAT policies: completion, {}", variant_name(report, variant)),
       "The periodic and the adaptive policy on Wi-Fi, and the published means of both.");
-  chart.width = half;
+  chart.width = plot::beside;
   chart.height = 360;
   chart.x.label = "N_P; in each block N_E grows";
   chart.y.label = "completion";
@@ -245,6 +245,7 @@ std::string spreads_plot(const Report& report) {
       "(largest - least) / largest, in percent; the published median and maximum as lines.");
   chart.y.scale = plot::Scale::linear;
   chart.y.label = "spread in %";
+  chart.width = plot::beside;
   chart.height = 360;
   for (std::size_t v = 0; v < report.results.plan.variants.size(); ++v) {
     if (report.results.plan.variants[v].staggered) continue;

@@ -59,6 +59,9 @@ struct Annotation {
   std::string text{};
 };
 
+/// Pixels: two charts of this width stand side by side on a page.
+inline constexpr int beside = 570;
+
 struct Chart {
   std::string title{};
   std::string description{};  ///< for those who cannot see the chart
@@ -67,8 +70,8 @@ struct Chart {
   std::vector<Series> series{};
   std::vector<Reference> references{};
   std::vector<Annotation> annotations{};
-  int width = 640;   ///< pixels, 240 … 4000
-  int height = 420;  ///< pixels, 160 … 4000, with the legend below it on top of that
+  int width = beside;  ///< pixels, 240 … 4000
+  int height = 420;    ///< pixels, 160 … 4000, with the legend below it on top of that
 };
 [[nodiscard]] std::string to_svg(const Chart& chart);
 
@@ -83,7 +86,7 @@ struct BarChart {
   Axis value{};
   std::vector<std::string> categories{};
   std::vector<Group> groups{};
-  int width = 640;  ///< pixels; the height follows
+  int width = beside;  ///< pixels; the height follows
 };
 [[nodiscard]] std::string to_svg(const BarChart& chart);
 

@@ -146,7 +146,11 @@ TEST(Replay, AnInterruptedTraceWithAWrongNumberOfEventsDiffers) {
 
 TEST(Replay, TheCallerCanStopIt) {
   const config::TestFiles files;
-  const std::string file = files.write("run.jsonl", record(long_scenario()).text);
+  // Twice as long as what the replay does before it asks.
+  const auto enough = [](const Progress& progress) {
+    return progress.events < 2 * RunOptions::progress_interval;
+  };
+  const std::string file = files.write("run.jsonl", record(long_scenario(), enough).text);
   const auto result = replay(file, config::source_specs(), [](const Progress&) { return false; });
   ASSERT_TRUE(result);
   EXPECT_EQ(result->verdict, Verdict::stopped);
