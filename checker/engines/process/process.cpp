@@ -41,9 +41,10 @@ int start(const Program& program, int write_end, pid_t& child) {
   return error;
 }
 
-/// Reads until the end or the deadline. Returns false at the deadline.
+constexpr std::size_t largest_output = 1 << 24;
+
+/// Reads until the end. Returns false if the deadline or the largest output comes first.
 bool read_until(int read_end, Clock::time_point deadline, std::string& text) {
-  constexpr std::size_t largest_output = 1 << 24;
   char buffer[4096];
   while (text.size() < largest_output) {
     const auto left =
@@ -84,7 +85,8 @@ Run run(const Program& program) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!ended) {
-    result.failure = "was stopped after its time-out";
+    result.failure = result.output.size() < largest_output ? "was stopped after its time-out"
+                                                           : "printed more than 16 MB";
   } else if (WIFSIGNALED(status)) {
     result.failure = "ended by signal " + std::to_string(WTERMSIG(status));
   } else {
