@@ -1,0 +1,85 @@
+// A composition as plain data: what there is, and every effect of every rule. Diagrams, pages and
+// checks of completeness read this, and need nothing of Boost.MSM for it;
+// fsm/composition/recorder.hpp makes it by running each rule once.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace stormproof::fsm::composition {
+
+/// A machine in its place.
+struct PartInfo {
+  std::string_view name;
+  std::string_view machine;
+  std::string_view owner;
+  std::vector<std::string_view> events;  ///< of the machine
+  std::vector<std::string_view> outbox;  ///< field names
+};
+
+/// A timer, a flag or number, or a packet.
+struct ThingInfo {
+  std::string_view name;
+  std::string_view owner;
+};
+
+/// A condition or loop around an effect. Effects of one block stand in the same place.
+struct BlockInfo {
+  std::string text;
+  unsigned number = 0;  ///< within the rule
+};
+
+struct EffectInfo {
+  std::string id;  ///< "AckNackArrives.3"
+  std::string_view
+      kind;  ///< feed, feed each, set, set each, after, at, cancel, emit, raise, call, perform
+  std::string_view target;        ///< the part, flag, timer, packet, occasion, procedure or step
+  std::string_view owner;         ///< of the target
+  std::string detail;             ///< the event, value, delay or contents
+  std::vector<BlockInfo> blocks;  ///< outermost first
+  std::string_view file;          ///< where it is written
+  unsigned line = 0;
+};
+
+struct RuleInfo {
+  std::string id;            ///< the rule's name; of a procedure with its argument
+  std::string_view trigger;  ///< received, left, due, happens
+  std::string_view cause;    ///< the packet, timer or occasion
+  std::string_view owner;
+  std::vector<EffectInfo> effects;
+};
+
+/// An outbox field or event that has no use, and why.
+struct UnusedInfo {
+  std::string_view part;
+  std::string_view name;
+  std::string_view reason;
+};
+
+struct CompositionInfo {
+  std::string_view name;
+  std::vector<PartInfo> parts;
+  std::vector<ThingInfo> timers;
+  std::vector<ThingInfo> state;
+  std::vector<ThingInfo> packets;
+  std::vector<ThingInfo> occasions;
+  std::vector<RuleInfo> rules;
+  std::vector<RuleInfo> procedures;  ///< without triggers
+  std::vector<RuleInfo> steps;       ///< contracts of the opaque steps, without triggers
+  std::vector<std::pair<std::string_view, std::string>> facts;  ///< and their definitions
+  std::vector<std::string> consumed;  ///< outbox fields that something reads, "Reader.opened"
+  std::vector<UnusedInfo> unused;
+};
+
+/// The composition as a page of text, to be read from the top to the bottom.
+[[nodiscard]] std::string page(const CompositionInfo& composition);
+
+/// What is forgotten: an outbox field that nothing reads, an event that nothing feeds, a timer that
+/// is never started or that no rule handles, a packet that nobody emits or receives, an occasion
+/// without a rule or a cause, state that nothing sets; and reasons that are not needed. One
+/// sentence each.
+[[nodiscard]] std::vector<std::string> what_is_forgotten(const CompositionInfo& composition);
+
+}  // namespace stormproof::fsm::composition

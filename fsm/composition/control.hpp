@@ -1,0 +1,102 @@
+// Relations of which only HEARTBEATs and ACKNACKs are modelled: liveliness, and user topics. Which
+// of them open when, the host knows, because it knows the topics; see `OpenTopics`.
+// Source: specs/guide/fastdds.md, "Control-only relations".
+#pragma once
+
+#include "fsm/composition/reader.hpp"
+#include "fsm/composition/single_shots.hpp"
+#include "fsm/control_relation.hpp"
+
+namespace stormproof::fsm::composition::control {
+
+struct ControlWriterSide : Part<ControlWriter, owner::control_relation> {};
+struct ControlReaderSide : Part<ControlReader, owner::control_relation> {};
+struct ControlInitialTimer : Part<InitialAckNack, owner::control_relation> {};
+struct ControlReply : Part<SingleShot, owner::control_relation> {};
+
+struct ControlInitialAttempt : Timer<owner::control_relation> {};
+struct ControlReplyDue : Timer<owner::control_relation> {};
+
+struct ControlHeartbeatSeen : Flag<owner::control_relation> {};
+struct ControlLastDelay : Number<owner::control_relation> {};
+
+struct ControlReplyDelay : Delay {};  ///< heartbeatResponseDelay of ordinary readers, 5 ms
+
+struct UserHeartbeat : Packet<owner::control_relation> {};
+struct UserAckNack : Packet<owner::control_relation, IsInitial> {};
+
+struct ControlWriterOpens : Occasion<owner::control_relation> {};
+struct ControlReaderOpens : Occasion<owner::control_relation> {};
+
+using Attempts = InitialAttempts<ControlInitialTimer, ControlHeartbeatSeen, ControlLastDelay,
+                                 ControlInitialAttempt>;
+
+struct ControlWriterOpened : Rule<Happens<ControlWriterOpens>> {
+  template <class W>
+  static void run(W& w) {
+    const auto writer = w.feed(ControlWriterSide{}, on<control_relation::Opened>);
+    w.when(writer.send_heartbeat, [&] { w.emit(UserHeartbeat{}, says()); });
+  }
+};
+struct ControlReaderOpened : Rule<Happens<ControlReaderOpens>> {
+  template <class W>
+  static void run(W& w) {
+    const auto reader = w.feed(ControlReaderSide{}, on<control_relation::Opened>);
+    w.when(reader.start_initial, [&] { Attempts::open(w); });
+  }
+};
+struct ControlHeartbeatArrives : Rule<Received<UserHeartbeat>> {
+  template <class W>
+  static void run(W& w) {
+    const auto reader = w.feed(ControlReaderSide{}, on<control_relation::HeartbeatReceived>);
+    w.when(reader.reply, [&] {
+      w.set(ControlHeartbeatSeen{}, typename W::Bool(true));
+      request<ControlReply, ControlReplyDelay, ControlReplyDue>(w);
+    });
+  }
+};
+/// Any other than an initial one acknowledges data that are not modelled.
+struct ControlAckNackArrives : Rule<Received<UserAckNack>> {
+  template <class W>
+  static void run(W& w) {
+    w.when(w(IsInitial{}), [&] {
+      const auto writer = w.feed(ControlWriterSide{}, on<control_relation::InitialAckNackReceived>);
+      w.when(writer.send_heartbeat, [&] { w.emit(UserHeartbeat{}, says()); });
+    });
+  }
+};
+struct ControlInitialAckNackDue : Rule<Due<ControlInitialAttempt>> {
+  template <class W>
+  static void run(W& w) {
+    Attempts::attempt(w, [&] {
+      w.emit(UserAckNack{}, says(Says{IsInitial{}, typename W::Bool(true)}));
+    });
+  }
+};
+struct ControlReplyIsDue : Rule<Due<ControlReplyDue>> {
+  template <class W>
+  static void run(W& w) {
+    expire<ControlReply>(w, [&] { w.emit(UserAckNack{}, says()); });
+  }
+};
+
+/// After a recognition, a creation or a notification: each side of a control-only relation opens
+/// that now has what it needs. Liveliness needs the recognition; a topic needs that this side has
+/// created its endpoint and has been notified of the other's.
+struct OpenTopics : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.when(w.choice("a reader side can open"), [&] { w.raise(ControlReaderOpens{}); });
+    w.when(w.choice("a writer side can open"), [&] { w.raise(ControlWriterOpens{}); });
+  }
+};
+
+using Parts = TypeList<ControlWriterSide, ControlReaderSide, ControlInitialTimer, ControlReply>;
+using Timers = TypeList<ControlInitialAttempt, ControlReplyDue>;
+using State = TypeList<ControlHeartbeatSeen, ControlLastDelay>;
+using Packets = TypeList<UserHeartbeat, UserAckNack>;
+using Occasions = TypeList<ControlWriterOpens, ControlReaderOpens>;
+using Rules = TypeList<ControlWriterOpened, ControlReaderOpened, ControlHeartbeatArrives,
+                       ControlAckNackArrives, ControlInitialAckNackDue, ControlReplyIsDue>;
+
+}  // namespace stormproof::fsm::composition::control

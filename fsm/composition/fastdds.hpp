@@ -1,0 +1,385 @@
+// Fast DDS 2.6.11 (specs/guide/fastdds.md, executed by model/fastdds): a writer serves all its
+// readers, every delay is pending at most once, and what is repaired goes through one asynchronous
+// queue per participant. Who owns which single-shot timer is what distinguishes it: the nack
+// response is the writer's, the async run the participant's. `FastDds` is the whole composition.
+#pragma once
+
+#include <array>
+
+#include "fsm/change_for_reader.hpp"
+#include "fsm/composition/announcements.hpp"
+#include "fsm/composition/control.hpp"
+#include "fsm/composition/heartbeat_clock.hpp"
+#include "fsm/composition/reader.hpp"
+#include "fsm/composition/single_shots.hpp"
+
+namespace stormproof::fsm::composition::fastdds {
+
+/// The writer's view of a descriptor, in the paper's letters.
+struct C : Part<ChangeForReader, owner::descriptor> {};
+struct Reply : Part<SingleShot, owner::relation> {};
+struct Suppression : Part<SingleShot, owner::relation> {};
+struct NackResponse : Part<SingleShot, owner::writer> {};
+struct AsyncRun : Part<SingleShot, owner::participant> {};
+
+struct SuppressionEnd : Timer<owner::relation> {};
+struct NackResponseDue : Timer<owner::writer> {};
+struct AsyncRunDue : Timer<owner::participant> {};
+
+struct WriterOpen : Flag<owner::relation> {};  ///< the reader is matched
+/// Created, that is among the first H of the writer.
+struct Exists : Flag<owner::entry> {};
+/// In the participant's asynchronous queue, which is first in, first out.
+struct Enqueued : Flag<owner::entry> {};
+/// The low mark is above 0: an ACKNACK has acknowledged something for good.
+struct SomeConfirmed : Flag<owner::relation> {};
+struct Known : Flag<owner::descriptor> {};     ///< the reader knows that it exists
+struct Notified : Flag<owner::descriptor> {};  ///< the reader's application knows
+
+struct NackResponseDelay : Delay {};    ///< τ_N
+struct SuppressionDuration : Delay {};  ///< τ_S
+/// The relation crosses hosts, so discovery needs it.
+struct CrossHost : Answer {};
+
+struct Data : Packet<owner::relation, Carries, Announces, CarriesHeartbeat> {};
+struct Heartbeat : Packet<owner::relation, Announces> {};
+struct AckNack : Packet<owner::relation, Listed, BelowBase, IsInitial> {};
+
+struct WriterOpens : Occasion<owner::relation> {};
+struct Created : Occasion<owner::entry> {};
+
+/// The writer has readers.
+struct HasReaders : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return w.some_reader([](auto&) { return typename W::Bool(true); });
+  }
+};
+/// Some descriptor of the writer exists.
+struct HasDescriptors : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return w.some([](auto& d) { return d(Exists{}); });
+  }
+};
+/// As the adaptive policy sees it: something that exists is not in A.
+struct Waits : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return (w(HasDescriptors{}) && !w(SomeConfirmed{})) ||
+           w.some([](auto& d) { return d(Exists{}) && !d.in(C{}, is<change_for_reader::A>); });
+  }
+};
+/// As the periodic policy sees it: something is in U.
+struct WaitsForExpiry : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return (w(HasDescriptors{}) && !w(SomeConfirmed{})) ||
+           w.some([](auto& d) { return d.in(C{}, is<change_for_reader::U>); });
+  }
+};
+struct NeedsHeartbeat : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return w.some_reader([](auto& r) {
+      return (r(Adaptive{}) && r(Waits{})) || (!r(Adaptive{}) && r(WaitsForExpiry{}));
+    });
+  }
+};
+struct QueueNotEmpty : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return w.some_entry([](auto& e) { return e(Enqueued{}); });
+  }
+};
+
+template <class W>
+void emit_heartbeat(W& w) {
+  w.emit(Heartbeat{}, says(Says{Announces{}, [](auto& d) { return d(Exists{}); }}));
+}
+
+struct RefillBudget : Opaque {
+  template <class W>
+  static void contract(W&) {}
+};
+/// What is requested joins the queue, ascending, unless it is in it.
+struct Enqueue : Opaque {
+  template <class W>
+  static void contract(W& w, const typename W::Set& set) {
+    w.set_each(Enqueued{}, [&](auto& d) { return d(Enqueued{}) || d.is_in(set); });
+  }
+};
+/// The one who is served by a descriptor that is sent: at creation every reader of the writer, from
+/// the queue those for which it is in Q.
+struct ToAll {
+  template <class R>
+  static auto serves(R&) {
+    return typename R::Bool(true);
+  }
+};
+struct ToRequesters {
+  template <class R>
+  static auto serves(R& r) {
+    return r.in(C{}, is<change_for_reader::Q>);
+  }
+};
+/// The descriptor joins the message that is open, if that goes to the same readers, has room and
+/// does not carry it yet; otherwise that is flushed, and another one opened. What a message says is
+/// stated when it joins, as if it went alone: to a descriptor, a packet that carries others as well
+/// is one that carries it.
+struct Pack : Opaque {
+  template <class W, class To>
+  static void contract(W& w, To) {
+    const auto rides = w.choice("a HEARTBEAT rides in it");
+    w.for_readers([&](auto& r) {
+      r.when(To::serves(r), [&] {
+        r.emit(Data{}, says(Says{Carries{}, [](auto& d) { return d.is_subject(); }},
+                            Says{Announces{}, [](auto& d) { return d(Exists{}); }},
+                            Says{CarriesHeartbeat{}, rides}));
+      });
+    });
+  }
+};
+/// The descriptor is charged against the piggyback budget of its writer; if that is used up, a
+/// HEARTBEAT to every reader joins the open message, which is flushed first if it goes to others.
+struct Charge : Opaque {
+  template <class W, class To>
+  static void contract(W& w, To) {
+    w.when(w.choice("the budget is used up"),
+           [&] { w.for_readers([](auto& r) { emit_heartbeat(r); }); });
+  }
+};
+/// The open message is emitted, one packet for each of its readers.
+struct Flush : Opaque {
+  template <class W, class To>
+  static void contract(W&, To) {}
+};
+
+struct Implementation {
+  using Data = fastdds::Data;
+  using Heartbeat = fastdds::Heartbeat;
+  using Waits = fastdds::Waits;
+  using NeedsHeartbeat = fastdds::NeedsHeartbeat;
+  using Exists = fastdds::Exists;
+  static constexpr bool multicast_first = false;
+
+  // The reader.
+  /// DATA tells of every descriptor up to its highest. The application is told about descriptors in
+  /// order.
+  template <class W>
+  static void learn_from_data(W& w) {
+    w.set_each(Known{}, [](auto& d) {
+      return d(Known{}) || d.some_from_here([](auto& e) { return e(Carries{}); });
+    });
+    w.when(w(CrossHost{}) && !w(RunEnds{}), [&] {
+      w.for_descriptors(
+          [](auto& d) { return !d(Notified{}) && d.all_up_to([](auto& e) { return e(X{}); }); },
+          [](auto& d) {
+            d.set(Notified{}, typename W::Bool(true));
+            d.perform(control::OpenTopics{});
+          });
+    });
+  }
+  template <class W>
+  static void learn_from_heartbeat(W& w) {
+    w.set_each(Known{}, [](auto& d) { return d(Known{}) || d(Announces{}); });
+  }
+  template <class W>
+  static void answer_later(W& w) {
+    request<Reply, ResponseDelay, AckNackGeneration>(w);
+  }
+  template <class W, class Body>
+  static void acknack_due(W& w, Body&& body) {
+    expire<Reply>(w, body);
+  }
+  /// The base is the first missing descriptor; the bitmap lists what is missing of what is known.
+  template <class W>
+  static void emit_acknack(W& w) {
+    w.emit(AckNack{}, says(Says{Listed{}, [](auto& d) { return d(Known{}) && !d(X{}); }},
+                           Says{BelowBase{}, is_confirmed}));
+  }
+  /// It claims nothing.
+  template <class W>
+  static void emit_initial(W& w) {
+    w.emit(AckNack{}, says(Says{IsInitial{}, typename W::Bool(true)}));
+  }
+
+  // The writer.
+  template <class W>
+  static void heartbeat(W& w) {
+    emit_heartbeat(w);
+    w.perform(RefillBudget{});
+  }
+  /// One message to every reader.
+  template <class W>
+  static void periodic(W& w) {
+    w.for_readers([](auto& r) { emit_heartbeat(r); });
+    w.perform(RefillBudget{});
+  }
+  template <class W>
+  static void open_sides(W& w) {
+    w.for_streams([](auto& r) {
+      r.raise(ReaderOpens{});
+      r.reverse([](auto& back) { back.raise(WriterOpens{}); });
+    });
+    w.when(w(CrossHost{}), [&] { w.perform(control::OpenTopics{}); });
+  }
+};
+
+using Clock = ClockRules<Implementation>;
+
+/// A descriptor of the writer is put into a message for those whom it serves.
+struct Deliver : Procedure {
+  template <class W, class To>
+  static void body(W& w, To to) {
+    w.perform(Pack{}, to);
+    w.for_readers([](auto& r) {
+      r.when(To::serves(r), [&] {
+        r.feed(C{}, on<change_for_reader::Serialized>);
+        request<Suppression, SuppressionDuration, SuppressionEnd>(r);
+      });
+    });
+    Clock::arm(w);
+    w.perform(Charge{}, to);
+  }
+};
+
+/// Descriptors that exist wait until the reader asks for them.
+struct ReaderIsMatched : Rule<Happens<WriterOpens>> {
+  template <class W>
+  static void run(W& w) {
+    w.when(!w(WriterOpen{}), [&] {
+      w.set(WriterOpen{}, typename W::Bool(true));
+      w.feed_each(C{}, on<change_for_reader::ReaderMatched>, no_input,
+                  [](auto& d) { return d(Exists{}); });
+      w.when(w(HasDescriptors{}), [&] { Clock::arm(w); });
+      Implementation::heartbeat(w);
+    });
+  }
+};
+
+/// What is created after the match is pushed, in a message of its own.
+struct DescriptorIsCreated : Rule<Happens<Created>> {
+  template <class W>
+  static void run(W& w) {
+    w.set(Exists{}, typename W::Bool(true));
+    w.when(w(HasReaders{}), [&] {
+      w.for_readers([](auto& r) { r.feed(C{}, on<change_for_reader::Created>); });
+      w.call(Deliver{}, ToAll{});
+      w.perform(Flush{}, ToAll{});
+    });
+    w.perform(control::OpenTopics{});
+  }
+};
+
+struct AckNackArrives : Rule<Received<AckNack>> {
+  template <class W>
+  static void run(W& w) {
+    const auto open = w(WriterOpen{});
+    w.when(open && w(IsInitial{}), [&] { initial(w); });
+    w.when(open && !w(IsInitial{}), [&] { ordinary(w); });
+  }
+
+ private:
+  /// The reader has seen no HEARTBEAT: the writer forgets what it took as acknowledged.
+  template <class W>
+  static void initial(W& w) {
+    w.feed_each(C{}, on<change_for_reader::InitialAckNackReceived>);
+    w.set(SomeConfirmed{}, typename W::Bool(false));
+    Implementation::heartbeat(w);
+    Clock::arm(w);
+  }
+  template <class W>
+  static void ordinary(W& w) {
+    const auto changes = w.feed_each(
+        C{}, on<change_for_reader::AckNackReceived>,
+        [](auto& d) {
+          using D = typename std::remove_cvref_t<decltype(d)>::D;
+          return ChangeForReaderIo::Input<D>{.listed = d(Listed{}) && !d(BelowBase{}),
+                                             .below_base = d(BelowBase{})};
+        },
+        [](auto& d) { return d(Listed{}) || d(BelowBase{}); });
+    const auto confirms = w.some([](auto& d) { return d(BelowBase{}); });
+    w.set(SomeConfirmed{}, w(SomeConfirmed{}) || confirms);
+    const auto requested = w.any(changes.requested);
+    const auto asks = w.some([](auto& d) { return d(Listed{}); });
+    w.when(requested, [&] { request<NackResponse, NackResponseDelay, NackResponseDue>(w); });
+    w.when(!requested && asks, [&] { Clock::arm(w); });
+    w.when(!asks, [&] { Clock::response(w); });
+  }
+};
+
+struct NackResponds : Rule<Due<NackResponseDue>> {
+  template <class W>
+  static void run(W& w) {
+    expire<NackResponse>(w, [&] {
+      w.for_readers([](auto& r) {
+        const auto changes = r.feed_each(C{}, on<change_for_reader::NackResponseDue>);
+        r.perform(Enqueue{}, changes.enqueue);
+      });
+      w.when(w(QueueNotEmpty{}), [&] { request<AsyncRun, Immediately, AsyncRunDue>(w); });
+    });
+  }
+};
+
+struct QueueIsSent : Rule<Due<AsyncRunDue>> {
+  template <class W>
+  static void run(W& w) {
+    expire<AsyncRun>(w, [&] {
+      w.for_queue([](auto& entry) {
+        entry.set(Enqueued{}, typename W::Bool(false));
+        const auto wanted = entry.some_reader([](auto& r) { return ToRequesters::serves(r); });
+        entry.when(wanted, [&] { entry.call(Deliver{}, ToRequesters{}); });
+      });
+      w.perform(Flush{}, ToRequesters{});
+    });
+  }
+};
+
+struct SuppressionEnds : Rule<Due<SuppressionEnd>> {
+  template <class W>
+  static void run(W& w) {
+    expire<Suppression>(w, [&] {
+      w.feed_each(C{}, on<change_for_reader::SuppressionEnded>);
+      Clock::arm(w);
+    });
+  }
+};
+
+/// The whole composition.
+struct FastDds {
+  static constexpr std::string_view name = "fastdds";
+  using Writer = C;  ///< the part that has the paper's states U, R, Q, S, A
+  using Parts = Joined<TypeList<AnnouncementTimer, Reader, InitialTimer, Reply, C, Suppression,
+                                NackResponse, AsyncRun, HeartbeatClock>,
+                       control::Parts>;
+  using Timers = Joined<
+      TypeList<Announcement, AckNackGeneration, InitialAttempt, SuppressionEnd, NackResponseDue,
+               AsyncRunDue, HeartbeatExpiry, CycleStart, CycleEnd, BatchDue>,
+      control::Timers>;
+  using State = Joined<TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay, Known,
+                                Notified, WriterOpen, Exists, Enqueued, SomeConfirmed, CycleBegan,
+                                CyclePeriod, Contacted, Responded, AnnouncedAtStart>,
+                       control::State>;
+  using Packets =
+      Joined<TypeList<SpdpMulticast, SpdpUnicast, Data, Heartbeat, AckNack>, control::Packets>;
+  using Occasions = Joined<TypeList<ReaderOpens, WriterOpens, Created>, control::Occasions>;
+  /// Rules that only make the occasions happen, those of relations and writers, and those of the
+  /// control-only relations, which share nothing with the former.
+  using Announcing = AnnouncementRules<Implementation>::Rules;
+  using Exchange = Joined<ReaderRules<Implementation>::Rules,
+                          TypeList<ReaderIsMatched, DescriptorIsCreated, AckNackArrives,
+                                   NackResponds, QueueIsSent, SuppressionEnds>,
+                          Clock::Rules>;
+  using Rules = Joined<Announcing, Exchange, control::Rules>;
+  using IsOpen = WriterOpen;
+  static constexpr std::array unused{
+      Unused{"HeartbeatClock", "SuppressionEnded",
+             "the end of a suppression arms as all else does"},
+      Unused{"ControlWriterSide", "start_initial", "the reader side's, in the same outbox"},
+      Unused{"ControlWriterSide", "reply", "the reader side's, in the same outbox"},
+      Unused{"ControlReaderSide", "send_heartbeat", "the writer side's, in the same outbox"},
+  };
+};
+
+}  // namespace stormproof::fsm::composition::fastdds

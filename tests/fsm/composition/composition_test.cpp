@@ -1,0 +1,133 @@
+// Every composition as a page that was read, and nothing in it forgotten. What the check of
+// completeness notices is shown on compositions from which something was taken away.
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "fsm/composition/compositions.hpp"
+
+namespace stormproof::fsm::composition {
+namespace composition_test {
+
+std::string lines(const std::vector<std::string>& complaints) {
+  std::string text;
+  for (const std::string& complaint : complaints) text += complaint + "\n";
+  return text;
+}
+
+const std::vector<CompositionInfo>& all() {
+  static const std::vector<CompositionInfo> compositions = composition::compositions();
+  return compositions;
+}
+CompositionInfo paper() { return all()[0]; }
+CompositionInfo fastdds() { return all()[1]; }
+
+RuleInfo& rule(CompositionInfo& composition, std::string_view id) {
+  return *std::ranges::find(composition.rules, id, &RuleInfo::id);
+}
+void drop(RuleInfo& rule, std::string_view kind, std::string_view target) {
+  std::erase_if(rule.effects, [&](const EffectInfo& effect) {
+    return effect.kind == kind && effect.target == target;
+  });
+}
+
+TEST(Page, IsTheOneThatWasRead) {
+  for (const CompositionInfo& composition : all()) {
+    const std::string name = std::string{composition.name} + ".txt";
+    std::ostringstream expected;
+    expected << std::ifstream{STORMPROOF_SOURCE_DIR "/tests/fsm/composition/" + name}.rdbuf();
+    EXPECT_EQ(page(composition), expected.str()) << name << " is what was read";
+  }
+}
+
+TEST(Composition, ForgetsNothing) {
+  for (const CompositionInfo& composition : all()) {
+    EXPECT_EQ(lines(what_is_forgotten(composition)), "") << composition.name;
+  }
+}
+
+TEST(Composition, HasADifferentIdForEachEffect) {
+  for (const CompositionInfo& composition : all()) {
+    std::set<std::string> ids;
+    for (const auto* rules : {&composition.rules, &composition.procedures, &composition.steps}) {
+      for (const RuleInfo& rule : *rules) {
+        for (const EffectInfo& effect : rule.effects) {
+          EXPECT_TRUE(ids.insert(effect.id).second) << effect.id;
+          EXPECT_TRUE(effect.file.find("fsm/composition/") != std::string_view::npos) << effect.id;
+          EXPECT_GT(effect.line, 0U) << effect.id;
+        }
+      }
+    }
+    EXPECT_GT(ids.size(), 50U);
+  }
+}
+
+TEST(Completeness, NoticesAnOutboxFieldThatNothingReads) {
+  CompositionInfo composition = paper();
+  std::erase(composition.consumed, "C.requested");
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "nothing reads C.requested\n");
+  composition = paper();
+  composition.unused.clear();
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "nothing reads C.acknowledged\n");
+}
+
+TEST(Completeness, NoticesAnEventThatNothingFeeds) {
+  CompositionInfo composition = fastdds();
+  drop(rule(composition, "NackResponds"), "feed each", "C");
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "nothing feeds C.NackResponseDue\n");
+}
+
+TEST(Completeness, NoticesATimerWithoutBeginningOrEnd) {
+  CompositionInfo composition = paper();
+  drop(rule(composition, "AckNackArrives"), "after", "RepairGeneration");
+  EXPECT_EQ(lines(what_is_forgotten(composition)),
+            "timer RepairGeneration is started by nothing\n");
+  composition = paper();
+  rule(composition, "SuppressionEnds").cause = "RepairGeneration";
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "timer SuppressionEnd is handled by no rule\n");
+  composition = paper();
+  std::erase_if(composition.timers, [](const ThingInfo& t) { return t.name == "SuppressionEnd"; });
+  EXPECT_EQ(lines(what_is_forgotten(composition)),
+            "SuppressionEnd is no timer of the composition\n");
+}
+
+TEST(Completeness, NoticesAPacketWithoutSenderOrReceiver) {
+  CompositionInfo composition = fastdds();
+  rule(composition, "ControlHeartbeatArrives").cause = "UserAckNack";
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "packet UserHeartbeat is received by nobody\n");
+  composition = fastdds();
+  drop(*std::ranges::find(composition.steps, "Pack", &RuleInfo::id), "emit", "Data");
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "packet Data is emitted by nobody\n");
+}
+
+TEST(Completeness, NoticesAnOccasionWithoutRuleAndStateThatStaysAsItIs) {
+  CompositionInfo composition = fastdds();
+  rule(composition, "DescriptorIsCreated").cause = "WriterOpens";
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "occasion Created has no rule\n");
+  composition = paper();
+  drop(rule(composition, "DataArrives"), "set each", "X");
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "state X is set by nothing\n");
+}
+
+TEST(Completeness, NoticesAReasonThatIsNotNeededOrIsNone) {
+  CompositionInfo composition = paper();
+  composition.unused.push_back({"Reader", "opened", "it is read"});
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "Reader.opened is used, and needs no reason\n");
+  composition = paper();
+  composition.unused.front().reason = "";
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "nothing reads C.acknowledged\n");
+}
+
+TEST(Completeness, NoticesAPartThatIsNotListed) {
+  CompositionInfo composition = paper();
+  std::erase_if(composition.parts, [](const PartInfo& part) { return part.name == "Reader"; });
+  EXPECT_NE(
+      lines(what_is_forgotten(composition)).find("ReaderOpened.1 feeds Reader, which is no part\n"),
+      std::string::npos);
+}
+
+}  // namespace composition_test
+}  // namespace stormproof::fsm::composition
