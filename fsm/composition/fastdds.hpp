@@ -112,12 +112,14 @@ struct Enqueue : Opaque {
 /// The one who is served by a descriptor that is sent: at creation every reader of the writer, from
 /// the queue those for which it is in Q.
 struct ToAll {
+  static constexpr bool repairs = false;
   template <class R>
   static auto serves(R&) {
     return typename R::Bool(true);
   }
 };
 struct ToRequesters {
+  static constexpr bool repairs = true;
   template <class R>
   static auto serves(R& r) {
     return r.in(C{}, is<change_for_reader::Q>);
@@ -134,6 +136,7 @@ struct Pack : Opaque {
     w.for_readers([&](auto& r) {
       r.when(To::serves(r), [&] {
         r.emit(Data{}, says(Says{Carries{}, [](auto& d) { return d.is_subject(); }},
+                            Says{IsRepair{}, typename W::Bool(To::repairs)},
                             Says{Announces{}, [](auto& d) { return d(Exists{}); }},
                             Says{CarriesHeartbeat{}, rides}));
       });
@@ -193,10 +196,13 @@ struct Implementation {
     expire<Reply>(w, body);
   }
   /// The base is the first missing descriptor; the bitmap lists what is missing of what is known.
+  static auto bitmap() {
+    return says(Says{Listed{}, [](auto& d) { return d(Known{}) && !d(X{}); }},
+                Says{BelowBase{}, is_confirmed});
+  }
   template <class W>
   static void emit_acknack(W& w) {
-    w.emit(AckNack{}, says(Says{Listed{}, [](auto& d) { return d(Known{}) && !d(X{}); }},
-                           Says{BelowBase{}, is_confirmed}));
+    w.emit(AckNack{}, bitmap());
   }
   /// It claims nothing.
   template <class W>
@@ -347,9 +353,9 @@ struct SuppressionEnds : Rule<Due<SuppressionEnd>> {
 };
 
 /// The whole composition.
-struct FastDds {
+struct FastDds : Implementation {
   static constexpr std::string_view name = "fastdds";
-  using Writer = C;  ///< the part that has the paper's states U, R, Q, S, A
+  using AckNack = fastdds::AckNack;
   using Parts = Joined<TypeList<AnnouncementTimer, Reader, InitialTimer, Reply, C, Suppression,
                                 NackResponse, AsyncRun, HeartbeatClock>,
                        control::Parts>;
@@ -373,6 +379,7 @@ struct FastDds {
                           Clock::Rules>;
   using Rules = Joined<Announcing, Exchange, control::Rules>;
   using IsOpen = WriterOpen;
+  using IsQueued = Enqueued;
   static constexpr std::array unused{
       Unused{"HeartbeatClock", "SuppressionEnded",
              "the end of a suppression arms as all else does"},

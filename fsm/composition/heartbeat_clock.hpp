@@ -31,8 +31,8 @@ struct CyclePeriod : Number<owner::writer> {};  ///< T, ns
 struct Contacted : Flag<owner::relation> {};    ///< the cycle has asked this reader
 struct Responded : Flag<owner::relation> {};    ///< it has answered
 struct AnnouncedAtStart : Flag<owner::entry> {};
-struct ContactedCount : Answer {};  ///< H, readers of the writer that the cycle has contacted
-struct RespondedCount : Answer {};  ///< A, those of them that have responded
+struct ContactedCount : Amount {};  ///< H, readers of the writer that the cycle has contacted
+struct RespondedCount : Amount {};  ///< A, those of them that have responded
 struct MinPeriod : Delay {};
 struct MaxPeriod : Delay {};
 struct EpsilonNumerator : Delay {};

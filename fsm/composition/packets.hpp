@@ -6,7 +6,7 @@
 namespace stormproof::fsm::composition {
 
 /// The time, ns. Untimed worlds say 0.
-struct Now : Answer {};
+struct Now : Amount {};
 
 // DATA.
 struct Carries : DescriptorField {};  ///< the descriptor is in it

@@ -97,7 +97,8 @@ struct Implementation {
   static void acknack_due(W&, Body&& body) {
     body();
   }
-  /// The bitmap of this instant; it never changes after.
+  /// The bitmap of the instant at which it is emitted; it never changes after.
+  static auto bitmap() { return says(Says{Listed{}, is_missing}, Says{BelowBase{}, is_confirmed}); }
   template <class W>
   static void emit_acknack(W& w) {
     emit_bitmap(w, typename W::Bool(false));
@@ -131,8 +132,7 @@ struct Implementation {
  private:
   template <class W>
   static void emit_bitmap(W& w, const typename W::Bool& initial) {
-    w.emit(AckNack{}, says(Says{Listed{}, is_missing}, Says{BelowBase{}, is_confirmed},
-                           Says{IsInitial{}, initial}));
+    w.emit(AckNack{}, std::tuple_cat(bitmap(), says(Says{IsInitial{}, initial})));
   }
 };
 
@@ -200,9 +200,9 @@ struct SuppressionEnds : Rule<Due<SuppressionEnd>> {
 };
 
 /// The whole composition.
-struct Paper {
+struct Paper : Implementation {
   static constexpr std::string_view name = "paper";
-  using Writer = C;  ///< the part that has the paper's states U, R, Q, S, A
+  using AckNack = paper::AckNack;
   using Parts = TypeList<AnnouncementTimer, Reader, InitialTimer, C, HeartbeatClock>;
   using Timers = TypeList<Announcement, AckNackGeneration, InitialAttempt, RepairGeneration,
                           SuppressionEnd, HeartbeatExpiry, CycleStart, CycleEnd, BatchDue>;

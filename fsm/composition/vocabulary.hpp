@@ -112,10 +112,13 @@ struct Fact {};
 /// A knob of the profile: a truth value, or a delay in ns.
 struct Switch {};
 struct Delay {};
-/// What only the host knows: `w(tag)` asks it.
+/// What only the host knows, a truth value or a number: `w(tag)` asks it.
 struct Answer {};
+struct Amount {};
 
-/// What a packet says of each descriptor of its stream, and of itself. What is not said is false.
+/// What a packet says of each descriptor of its stream, and of itself: the fields that a receiver
+/// reads. What is not said is false. A packet may be said to be more than that, which only
+/// observers hear.
 struct DescriptorField {};
 struct PacketField {};
 template <Owner owner_, class... Fields_>

@@ -1,17 +1,61 @@
-// Which of the two systems, and what both assume.
+// Which of the compositions, what is watched, and what every proof about it assumes.
 #include "checker/engines/tables/descriptor_system.hpp"
+
+#include "checker/engines/tables/derived_world.hpp"
 
 namespace stormproof::tables {
 
+DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mutation& mistakes,
+                                   Unsound unsound)
+    : derivation_{unsound} {
+  Derivation& system = derivation_;
+  for (const char* bit : {watched::asked, watched::unasked_repair, watched::generated,
+                          watched::lists, watched::listed_at_first}) {
+    system.declare(bit, false);
+  }
+  const Expr yes = smt::SymbolicContext::current().bool_val(true);
+  Derived derived{dds, mistakes, system, {}, {}, {}};
+  derived.received = [&](std::string_view packet, const auto& says) {
+    if (packet == "AckNack") system.assign(watched::asked, says.at("Listed"), yes);
+  };
+  derived.emitted = [&](std::string_view packet, const Expr& when, const auto& says) {
+    if (packet == "Data") {
+      const Expr repaired = when && says.at("Carries") && says.at("IsRepair");
+      system.assign(watched::unasked_repair, repaired && !system.now(watched::asked), yes);
+    } else if (packet == "AckNack" && says.contains("Listed")) {
+      const Expr taken = (when && !system.now(watched::generated)).simplify();
+      for (const char* bit : {watched::lists, watched::listed_at_first}) {
+        system.assign(bit, taken, says.at("Listed"));
+      }
+      system.assign(watched::generated, taken, yes);
+    }
+  };
+  if (mistakes.live_bitmaps) {
+    derived.ended = [&](const Expr& listed_now) {
+      system.assign(watched::lists, system.now(watched::generated), listed_now);
+    };
+  }
+  if (model::is_fastdds(dds)) {
+    derive_fastdds(derived);
+  } else {
+    derive_paper(derived);
+  }
+}
+
+TransitionSystem DescriptorSystem::with_bad(const Expr& bad) const {
+  TransitionSystem system = derivation_.system();
+  system.bad = bad;
+  return what_matters(system);
+}
+
 DescriptorSystem descriptor_system(Proof& proof) {
   proof.assume(
-      "ACKNACKs may be delayed, lost, duplicated and reordered without bound; DATA may arrive at "
-      "any time, even if it was never sent; timers may fire at any time.");
+      "ACKNACKs, HEARTBEATs and DATA may be delayed, lost, duplicated and reordered without bound; "
+      "a timer that was started may be due at any time, any number of times.");
   proof.assume(
-      "The number of descriptors is arbitrary: one is looked at, and what its rows read of the "
-      "others ranges freely.");
-  const bool fastdds = model::is_fastdds(proof.scenario().dds);
-  return fastdds ? fastdds_descriptor_system(proof) : paper_descriptor_system(proof);
+      "The numbers of descriptors and readers are arbitrary: one is looked at, and what the rules "
+      "read of the others ranges freely.");
+  return {proof.scenario().dds, proof.mistakes()};
 }
 
 }  // namespace stormproof::tables

@@ -1,28 +1,49 @@
-// One generic descriptor of one relation as a transition system: the writer's state C of it, the
-// receiver's bit X, and the contents of all ACKNACKs that were ever generated. Each of these may
-// arrive any number of times, arbitrarily late, in any order, or never; so whatever the network
-// does is one of its runs. All other descriptors enter only through unknowns. That is why a proof
-// about it holds for any number of descriptors.
+// One generic descriptor of one generic relation as a transition system, derived from the rules of
+// the composition (checker/engines/tables/derivation.hpp), and what the properties about it watch:
+// whether an ACKNACK has asked for the descriptor, and what one ACKNACK on its way says of it. All
+// other descriptors, readers and streams enter only through unknowns. That is why a proof about it
+// holds for any number of them.
 #pragma once
 
-#include "checker/engines/tables/transition_system.hpp"
+#include "checker/engines/tables/derivation.hpp"
 
 namespace stormproof::tables {
 
-struct DescriptorSystem {
-  TransitionSystem system;  ///< `bad` is left to the property
-  Expr acknowledged;        ///< C = A
-  Expr received;            ///< X = 1
-  Expr unasked_repair;      ///< repair DATA carried it though no ACKNACK that listed it had arrived
+/// What is watched besides the state of the composition.
+namespace watched {
+inline constexpr const char* asked = "asked";  ///< an ACKNACK that lists it has arrived
+/// Repair DATA has carried it though no ACKNACK that lists it had arrived.
+inline constexpr const char* unasked_repair = "unasked repair";
+inline constexpr const char* generated = "ACKNACK generated";  ///< the one that is looked at
+inline constexpr const char* lists = "it lists the descriptor";
+inline constexpr const char* listed_at_first = "it listed the descriptor at its generation";
+}  // namespace watched
+
+class DescriptorSystem {
+ public:
+  DescriptorSystem(const model::DdsProfile& dds, const model::Mutation& mistakes,
+                   Unsound unsound = Unsound::none);
+
+  /// A variable: "C=A" (the writer's state of the descriptor), "X", "pending HeartbeatExpiry", …
+  [[nodiscard]] const Expr& operator[](const std::string& name) const {
+    return derivation_.variable(name);
+  }
+  /// The whole system; `bad` is left to the property.
+  [[nodiscard]] TransitionSystem whole() const { return derivation_.system(); }
+  /// As much of it as matters to whether `bad` can be reached.
+  [[nodiscard]] TransitionSystem with_bad(const Expr& bad) const;
+
+ private:
+  Derivation derivation_;
 };
+
+struct Derived;
+/// Derive all steps of one composition, each in a source file of its own.
+void derive_paper(Derived& derived);
+void derive_fastdds(Derived& derived);
 
 /// The system of the implementation that the scenario of `proof` names, with the mutant's mistakes.
 /// States its assumptions in the finding.
 [[nodiscard]] DescriptorSystem descriptor_system(Proof& proof);
-
-/// The paper's writer (fsm/descriptor_repair.hpp).
-[[nodiscard]] DescriptorSystem paper_descriptor_system(Proof& proof);
-/// Fast DDS's writer (fsm/change_for_reader.hpp).
-[[nodiscard]] DescriptorSystem fastdds_descriptor_system(Proof& proof);
 
 }  // namespace stormproof::tables

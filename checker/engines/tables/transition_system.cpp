@@ -35,8 +35,28 @@ void add_rule(z3::fixedpoint& engine, const Exprs& bound, const Expr& body, cons
   engine.add_rule(rule, rule.ctx().str_symbol(name.c_str()));
 }
 
-SpacerAnswer ask_spacer(const TransitionSystem& system, const smt::Options& options) {
-  z3::context& context = smt::SymbolicContext::current();
+Expr moved(const Expr& expr, z3::context& to) { return {to, Z3_translate(expr.ctx(), expr, to)}; }
+Exprs moved(const Exprs& list, z3::context& to) {
+  Exprs result;
+  for (const Expr& expr : list) result.push_back(moved(expr, to));
+  return result;
+}
+TransitionSystem moved(const TransitionSystem& system, z3::context& to) {
+  TransitionSystem result{
+      moved(system.variables, to), moved(system.initial, to), {}, moved(system.bad, to)};
+  for (const SystemStep& step : system.steps) {
+    result.steps.push_back(
+        {step.name, moved(step.inputs, to), moved(step.guard, to), moved(step.next, to)});
+  }
+  return result;
+}
+
+/// In a context of its own: one in which a search was interrupted is not trusted any more.
+SpacerAnswer ask_spacer(const TransitionSystem& original, const smt::Options& options) {
+  z3::context& asking = smt::SymbolicContext::current();
+  z3::context context;
+  const smt::SymbolicContext current{context};
+  const TransitionSystem system = moved(original, context);
   z3::fixedpoint engine{context};
   z3::params params{context};
   params.set("engine", context.str_symbol("spacer"));
@@ -63,15 +83,23 @@ SpacerAnswer ask_spacer(const TransitionSystem& system, const smt::Options& opti
   SpacerAnswer answer;
   z3::func_decl_vector queries{context};
   queries.push_back(broken);
-  smt::Deadline deadline{context, options.timeout};
-  switch (engine.query(queries)) {
+  smt::Deadline deadline{context, options.timeout / 2};  // what is left is for unrolling
+  z3::check_result result = z3::unknown;
+  try {
+    result = engine.query(queries);
+  } catch (const z3::exception& error) {
+    if (!deadline.expired()) throw;
+    answer.why = "time-out";
+    return answer;
+  }
+  switch (result) {
     case z3::sat:
       answer.reachable = smt::Answer::sat;
       break;
     case z3::unsat: {
       answer.reachable = smt::Answer::unsat;
       Expr found = engine.get_cover_delta(-1, reached);
-      answer.invariant = found.substitute(as_vector(system.variables)).simplify();
+      answer.invariant = moved(found.substitute(as_vector(system.variables)).simplify(), asking);
       break;
     }
     case z3::unknown:
@@ -158,7 +186,8 @@ class Unrolling {
     std::string text;
     for (std::size_t k = 0; k < step.inputs.size(); ++k) {
       const std::string value = value_text(model, copies_of_inputs[k]);
-      if (value == "false" || value == "0") continue;
+      const bool hidden = step.inputs[k].decl().name().str().front() == hidden_input;
+      if (hidden || value == "false" || value == "0") continue;
       text += text.empty() ? "" : ", ";
       text += step.inputs[k].decl().name().str() + (value == "true" ? "" : " = " + value);
     }
@@ -194,20 +223,20 @@ class Unrolling {
   Exprs conditions_;
 };
 
-void show_trace(Proof& proof, const TransitionSystem& system, const std::string& breaks) {
+/// Looks for the shortest sequence of steps to a bad state. Returns whether there is one.
+bool find_trace(Proof& proof, const TransitionSystem& system, const std::string& breaks) {
   Unrolling unrolling{system};
   for (std::size_t length = 0; length <= longest_trace; ++length) {
     if (length > 0) unrolling.extend();
     const auto decision =
         proof.ask("a bad state after " + number(length) + " steps", unrolling.ends_badly());
-    if (decision.answer == smt::Answer::unknown) return;
+    if (decision.answer == smt::Answer::unknown) return false;
     if (decision.answer == smt::Answer::unsat) continue;
     proof.violate(breaks + ", after " + number(length) + " steps:");
     for (std::string& line : unrolling.lines(*decision.model)) proof.detail(std::move(line));
-    return;
+    return true;
   }
-  proof.give_up("Spacer reaches a bad state, but no trace of up to " + number(longest_trace) +
-                " steps does");
+  return false;
 }
 
 }  // namespace
@@ -215,13 +244,15 @@ void show_trace(Proof& proof, const TransitionSystem& system, const std::string&
 std::string prove_unreachable(Proof& proof, const TransitionSystem& system,
                               const std::string& breaks) {
   const SpacerAnswer answer = ask_spacer(system, proof.request().claims.options());
-  if (answer.reachable == smt::Answer::unknown) {
-    proof.give_up("Spacer has no answer (" + answer.why + ")");
-    return "Spacer";
-  }
-  if (answer.reachable == smt::Answer::sat) {
-    show_trace(proof, system, breaks);
-    return "Spacer; shortest sequence of steps by unrolling";
+  if (answer.reachable != smt::Answer::unsat) {
+    const bool found = find_trace(proof, system, breaks);
+    if (!found && answer.reachable == smt::Answer::unknown) {
+      proof.give_up("Spacer has no answer (" + answer.why + ")");
+    } else if (!found) {
+      proof.give_up("Spacer reaches a bad state, but no trace of up to " + number(longest_trace) +
+                    " steps does");
+    }
+    return found ? "Spacer; shortest sequence of steps by unrolling" : "Spacer";
   }
   proof.detail("invariant:");
   for (const std::string& line : invariant_lines(*answer.invariant)) proof.detail("  " + line);

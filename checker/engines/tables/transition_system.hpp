@@ -2,7 +2,8 @@
 // a bad state can be reached in any number of steps. Spacer (Z3's fixed-point engine) looks for an
 // invariant; what it finds is not believed but checked again with three kinds of plain conditions,
 // by both solvers: it holds initially, every step keeps it, and it excludes the bad states. If
-// there is no invariant, the shortest sequence of steps is found by unrolling.
+// there is no invariant, or Spacer has none in half of the time, the shortest sequence of steps is
+// looked for by unrolling.
 #pragma once
 
 #include <string>
@@ -11,6 +12,9 @@
 #include "checker/engines/tables/proof.hpp"
 
 namespace stormproof::tables {
+
+/// How the names of inputs begin that traces do not show.
+inline constexpr char hidden_input = '?';
 
 struct SystemStep {
   std::string name;

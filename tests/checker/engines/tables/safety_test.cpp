@@ -38,7 +38,7 @@ TEST(Safety, IsProvedWithAnInvariant) {
 }
 
 TEST(AckImpliesReceived, TheInvariantIsTheOneThatOneExpects) {
-  EXPECT_TRUE(mentions(decide("safety.ack-implies-received", paper()), "C=A implies received"));
+  EXPECT_TRUE(mentions(decide("safety.ack-implies-received", paper()), "C=A implies X"));
 }
 
 TEST(AckImpliesReceived, AcknowledgingWhatIsListedIsFound) {
@@ -46,9 +46,10 @@ TEST(AckImpliesReceived, AcknowledgingWhatIsListedIsFound) {
   const auto mutant = with_row("DescriptorRepair", row, Kind::ignore_guard);
   const Finding finding = decide("safety.ack-implies-received", paper(), &mutant);
   EXPECT_EQ(finding.kind, VerdictKind::violated);
-  EXPECT_TRUE(mentions(finding, "after 2 steps"));
-  EXPECT_TRUE(mentions(finding, "1. ACKNACK generated"));
-  EXPECT_TRUE(mentions(finding, "2. ACKNACK received (listed): C=A"));
+  EXPECT_TRUE(mentions(finding, "after 4 steps"));
+  EXPECT_TRUE(mentions(finding, "sent AckNack Listed"));
+  EXPECT_TRUE(mentions(finding, "4. AckNackArrives (Listed"));
+  EXPECT_TRUE(mentions(finding, ": C=A"));
   EXPECT_FALSE(finding.counterexample);
 }
 
@@ -77,7 +78,7 @@ TEST(RepairOnlyIfAsked, ARequestForWhatIsNotListedIsFound) {
   expect_violated(
       "safety.repair-only-if-asked", fastdds(),
       with_row("ChangeForReader", real, Kind::retarget, 0, state_of("ChangeForReader", "R")),
-      "nack response");
+      "QueueIsSent");
 }
 
 TEST(Snapshot, ALiveBitmapIsFound) {
@@ -94,7 +95,7 @@ TEST(SingleHeartbeat, TheAdditiveTimerIsFound) {
   const Finding finding = decide("timer.single-heartbeat", scenario);
   EXPECT_EQ(finding.kind, VerdictKind::violated);
   EXPECT_TRUE(mentions(finding, "after 2 steps"));
-  EXPECT_TRUE(mentions(finding, "2. a suppression ends"));
+  EXPECT_TRUE(mentions(finding, "2. another reader: SuppressionEnds"));
 }
 
 TEST(SingleHeartbeat, AKnobOfTheMutantCounts) {
@@ -120,7 +121,7 @@ TEST(SingleHeartbeat, AnArmingInTheWrongStateIsFound) {
   expect_violated("timer.single-heartbeat", paper(),
                   with_row(machine, row, Kind::copy_row, state_of(machine, "Armed"),
                            state_of(machine, "Armed")),
-                  "a relation opens");
+                  "WriterSideOpens");
 }
 
 TEST(SecondOpinion, BothSolversSeeEveryPropertyAndItsExport) {

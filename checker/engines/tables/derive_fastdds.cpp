@@ -1,0 +1,9 @@
+// Fast DDS's rules over solver expressions: one instantiation of the tables per source file.
+#include "checker/engines/tables/derived_world.hpp"
+#include "checker/engines/tables/descriptor_system.hpp"
+
+namespace stormproof::tables {
+
+void derive_fastdds(Derived& derived) { derive<composition::fastdds::FastDds>(derived); }
+
+}  // namespace stormproof::tables

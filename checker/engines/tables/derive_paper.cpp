@@ -1,0 +1,9 @@
+// The paper's rules over solver expressions: one instantiation of the tables per source file.
+#include "checker/engines/tables/derived_world.hpp"
+#include "checker/engines/tables/descriptor_system.hpp"
+
+namespace stormproof::tables {
+
+void derive_paper(Derived& derived) { derive<composition::paper::Paper>(derived); }
+
+}  // namespace stormproof::tables

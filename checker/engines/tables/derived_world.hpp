@@ -1,0 +1,525 @@
+// The world that derives: it runs the rules of a composition over solver expressions, for one
+// generic descriptor, once for us and once for every kind of other, and makes each a step of a
+// transition system (checker/engines/tables/derivation.hpp says by which rules). See
+// fsm/composition/vocabulary.hpp for what a world is. Delays play no part; numbers and what only a
+// host knows are unknowns.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <type_traits>
+
+#include <boost/pfr.hpp>
+
+#include "checker/engines/tables/derivation.hpp"
+#include "checker/engines/tables/machine_step.hpp"
+#include "model/engine/composition_knobs.hpp"
+
+namespace stormproof::tables {
+
+namespace composition = fsm::composition;
+
+/// What is derived: rules with the mistakes of a mutant, under the knobs of a profile.
+struct Derived {
+  const model::DdsProfile& dds;
+  const model::Mutation& mistakes;
+  Derivation& derivation;
+  /// Called when our relation's writer or reader emits a packet: its name, when, and what it says
+  /// of our descriptor and of itself.
+  std::function<void(std::string_view, const Expr&, const std::map<std::string, Expr>&)> emitted;
+  /// Called when a packet arrives at our relation.
+  std::function<void(std::string_view, const std::map<std::string, Expr>&)> received;
+  /// Called at the end of each step, with whether an ACKNACK would list our descriptor now.
+  std::function<void(const Expr&)> ended;
+};
+
+template <class T>
+std::string tag_name() {
+  return std::string{fsm::name_of<T>()};
+}
+
+template <class Composition>
+class DerivedWorld {
+ public:
+  using D = smt::Symbolic;
+  using Bool = smt::SymbolicBool;
+  using Int = smt::SymbolicInt;
+  using Set = Bool;  ///< whether our descriptor is in it
+
+  DerivedWorld(Derived& derived, Foreign foreign)
+      : derived_{&derived},
+        foreign_{foreign},
+        subject_is_ours_{(foreign & composition::owner::descriptor_index) == 0} {}
+
+  // Values.
+  // -----------------------------------------------------------------------------------------
+  template <class Tag>
+  auto operator()(Tag tag) {
+    using namespace composition;
+    if constexpr (std::derived_from<Tag, Switch>) {
+      return Bool{model::knob_value(tag, derived_->dds)};
+    } else if constexpr (std::derived_from<Tag, Delay>) {
+      return Int{model::knob_value(tag, derived_->dds)};
+    } else if constexpr (std::derived_from<Tag, Fact>) {
+      return Bool{Tag::of(*this)};
+    } else if constexpr (requires { typename Tag::IsFlag; }) {
+      return is_foreign(Tag::owner) ? unknown() : Bool{derivation().now(tag_name<Tag>())};
+    } else if constexpr (requires { typename Tag::IsNumber; }) {
+      return Int{derivation().unknown_count()};
+    } else if constexpr (std::derived_from<Tag, DescriptorField> ||
+                         std::derived_from<Tag, PacketField>) {
+      return Bool{packet_->at(tag_name<Tag>())};
+    } else if constexpr (std::derived_from<Tag, Amount>) {
+      return Int{derivation().unknown_count()};
+    } else {
+      static_assert(std::derived_from<Tag, Answer>);
+      return unknown();
+    }
+  }
+  template <class T>
+  Int operator()(composition::Pending<T>) {
+    if (is_foreign(T::owner)) return Int{derivation().unknown_count()};
+    return Int{derivation().now(counter<T>())};
+  }
+  template <class P, class S>
+  Bool in(P, composition::Is<S>) {
+    constexpr auto state = fsm::Reflect<typename P::Machine>::template id<S>;
+    return is_foreign(P::owner) ? unknown() : Bool{derivation().now(state_name<P>(state))};
+  }
+  static Bool is_in(const Set& set) { return set; }
+  [[nodiscard]] Bool is_subject() const { return Bool{subject_is_ours_}; }
+  Bool choice(const char*) { return unknown(); }
+
+  // Quantifiers: ours, or an unknown.
+  Bool any(const Set& set) { return or_others(set); }
+  template <class Term>
+  Set set_of(Term&& term) {
+    DerivedWorld d = ours(composition::owner::descriptor_index);
+    return Set{term(d)};
+  }
+  template <class Term>
+  Bool some(Term&& term) {
+    return or_others(set_of(term));
+  }
+  template <class Term>
+  Bool all(Term&& term) {
+    return !or_others(!set_of(term));
+  }
+  template <class Term>
+  Int count(Term&& term) {
+    const Expr own = number_of(set_of(term).expr());
+    if (derivation().is(Unsound::others_never_ask)) return Int{own};
+    return Int{own + derivation().unknown_count()};
+  }
+  template <class Term>
+  Bool some_reader(Term&& term) {
+    DerivedWorld r = ours(composition::owner::peer_index);
+    return or_others(r(typename Composition::IsOpen{}) && Bool{term(r)});
+  }
+  template <class Term>
+  Bool some_entry(Term&& term) {
+    DerivedWorld e = ours(composition::owner::stream_index | composition::owner::descriptor_index);
+    return or_others(Bool{term(e)});
+  }
+  /// Of our descriptor, and all below it.
+  template <class Term>
+  Bool all_up_to(Term&& term) {
+    return Bool{term(*this)} && unknown();
+  }
+  template <class Term>
+  Bool some_from_here(Term&& term) {
+    return or_others(Bool{term(*this)});
+  }
+
+  // Conditions and loops.
+  // ---------------------------------------------------------------------------
+  template <class Body>
+  void when(const Bool& condition, Body&& body) {
+    const Expr outer = path_;
+    path_ = (path_ && condition.expr()).simplify();
+    if (!path_.is_false()) body();
+    path_ = outer;
+  }
+  template <class Body>
+  void for_readers(Body&& body) {
+    around(composition::owner::peer_index,
+           [&](DerivedWorld& r) { r.when(r(typename Composition::IsOpen{}), [&] { body(r); }); });
+  }
+  template <class Body>
+  void for_queue(Body&& body) {
+    around(composition::owner::stream_index | composition::owner::descriptor_index,
+           [&](DerivedWorld& entry) {
+             entry.when(entry(typename Composition::IsQueued{}), [&] { body(entry); });
+           });
+  }
+  template <class Term, class Body>
+  void for_descriptors(Term&& term, Body&& body) {
+    around(composition::owner::descriptor_index,
+           [&](DerivedWorld& d) { d.when(Bool{term(d)}, [&] { body(d); }); });
+  }
+  /// The part that has our descriptor, if the set has it, and one that does not.
+  template <class Body>
+  void partition(const Set& set, Body&& body) {
+    when(unknown(), [&] { body(Set{false}); });
+    body(set);
+  }
+
+  // Effects.
+  // ----------------------------------------------------------------------------------------
+  template <class P, class E>
+  auto feed(P, composition::On<E>, const typename P::Machine::Io::template Input<D>& input = {}) {
+    return step<P, E>(path_, input);
+  }
+  template <class P, class E, class Input = decltype(composition::no_input),
+            class Who = decltype(composition::everyone)>
+  auto feed_each(P, composition::On<E>, Input input = {}, Who who = {}) {
+    DerivedWorld d = ours(composition::owner::descriptor_index);
+    const typename P::Machine::Io::template Input<D> in = input(d);
+    const Expr when = (path_ && Bool{who(d)}.expr()).simplify();
+    return d.template step<P, E>(when, in);
+  }
+  template <class V, class Value>
+  void set(V, const Value& value) {
+    if constexpr (requires { typename V::IsFlag; }) {
+      if (!is_foreign(V::owner)) derivation().assign(tag_name<V>(), path_, Bool{value}.expr());
+    }
+  }
+  template <class V, class Term>
+  void set_each(V flag, Term&& term) {
+    DerivedWorld d = ours(composition::owner::descriptor_index);
+    d.set(flag, Bool{term(d)});
+  }
+  template <class Wait, class T>
+  void after(Wait, T) {
+    start<T>();
+  }
+  template <class T>
+  void at(const Int&, T) {
+    start<T>();
+  }
+  template <class T>
+  void cancel(T) {
+    if (is_foreign(T::owner)) return;
+    const Expr none = Int{0}.expr();
+    derivation().assign("pending " + tag_name<T>(), path_, none);
+    derivation().assign(counter<T>(), path_, none);
+  }
+  template <class P, class... Sayings>
+  void emit(P, const std::tuple<Sayings...>& sayings) {
+    if (is_foreign(P::owner)) return;
+    const std::map<std::string, Expr> says = contents<P>(sayings);
+    if (derived_->emitted) derived_->emitted(tag_name<P>(), path_, says);
+    for (const auto& [name, content] : all_contents<P>()) {
+      Expr is = path_;
+      for (const auto& [field, value] : content) {
+        const Expr said = says.contains(field) ? says.at(field) : Bool{}.expr();
+        is = is && (value ? said : !said);
+      }
+      derivation().assign(name, is.simplify(), Bool{true}.expr());
+    }
+  }
+  /// What the packet would say now; fields that it says nothing of are missing.
+  template <class P, class... Sayings>
+  std::map<std::string, Expr> contents(const std::tuple<Sayings...>& sayings) {
+    std::map<std::string, Expr> says;
+    DerivedWorld d = ours(composition::owner::descriptor_index);
+    std::apply([&](const auto&... each) { (d.say(says, each), ...); }, sayings);
+    return says;
+  }
+  /// The rules of control-only relations and occasions share nothing with ours.
+  template <class O>
+  void raise(O) {}
+  template <class P, class... Args>
+  void call(P, const Args&... args) {
+    P::body(*this, args...);
+  }
+  template <class Step, class... Args>
+  void perform(Step, const Args&... args) {
+    Step::contract(*this, args...);
+  }
+
+  // Triggers: what makes the rule possible for us.
+  // --------------------------------------------------
+  template <class Trigger>
+  void trigger() {
+    trigger_of(Trigger{});
+  }
+
+  // Names of variables.
+  // -----------------------------------------------------------------------------
+  template <class P>
+  static std::string state_name(std::size_t state) {
+    return tag_name<P>() + "=" + std::string{fsm::Reflect<typename P::Machine>::state_names[state]};
+  }
+  using Content = std::vector<std::pair<std::string, bool>>;
+  /// "sent AckNack Listed" and what that packet says, for each content that P can have.
+  template <class P>
+  static std::vector<std::pair<std::string, Content>> all_contents() {
+    std::vector<std::pair<std::string, Content>> all{{"sent " + tag_name<P>(), {}}};
+    composition::for_each_type(typename P::Fields{}, [&]<class F>() {
+      const std::size_t count = all.size();
+      for (std::size_t k = 0; k < count; ++k) {
+        all.push_back(all[k]);
+        all.back().first += " " + tag_name<F>();
+        all.back().second.emplace_back(tag_name<F>(), true);
+        all[k].second.emplace_back(tag_name<F>(), false);
+      }
+    });
+    return all;
+  }
+
+ private:
+  Derivation& derivation() { return derived_->derivation; }
+  [[nodiscard]] bool is_foreign(composition::Owner owner) const {
+    return (owner.indices & foreign_) != 0;
+  }
+  Bool unknown() { return Bool{derivation().unknown()}; }
+  Bool or_others(const Bool& own) {
+    return derivation().is(Unsound::others_never_ask) ? own : own || unknown();
+  }
+  static Expr number_of(const Expr& condition) {
+    return z3::ite(condition, Int{1}.expr(), Int{0}.expr());
+  }
+
+  /// The same place, but with our own of these indices.
+  DerivedWorld ours(Foreign indices) const {
+    DerivedWorld world = *this;
+    world.foreign_ = static_cast<Foreign>(foreign_ & ~indices);
+    return world;
+  }
+  /// The body for others of each index, for us, and for others again.
+  template <class Body>
+  void around(Foreign indices, Body&& body) {
+    const auto run = [&](Foreign foreign) {
+      DerivedWorld world = *this;
+      world.foreign_ = foreign;
+      if ((indices & composition::owner::descriptor_index) != 0) {
+        world.subject_is_ours_ = (foreign & indices) == 0;
+      }
+      if (foreign != (foreign_ & ~indices)) {
+        world.when(unknown(), [&] { body(world); });
+      } else {
+        body(world);
+      }
+    };
+    const auto us = static_cast<Foreign>(foreign_ & ~indices);
+    const auto others = [&] {
+      if (derivation().is(Unsound::loops_for_us_only)) return;
+      for (Foreign index = 1; index != 0 && index <= indices;
+           index = static_cast<Foreign>(index << 1)) {
+        if ((indices & index) != 0) run(static_cast<Foreign>(us | index));
+      }
+    };
+    others();
+    run(us);
+    others();
+  }
+
+  template <class P, class E>
+  auto step(const Expr& when, const typename P::Machine::Io::template Input<D>& input) {
+    using Step = MachineStep<typename P::Machine>;
+    const Step machine{derived_->mistakes.tables};
+    OneHot before;
+    for (std::size_t k = 0; k < Step::states; ++k) {
+      before.push_back(is_foreign(P::owner) ? derivation().unknown()
+                                            : derivation().now(state_name<P>(k)));
+    }
+    const auto effect = machine.template step<E>(before, input, when);
+    if (!is_foreign(P::owner)) {
+      for (std::size_t k = 0; k < Step::states; ++k) {
+        derivation().now(state_name<P>(k)) = effect.next[k];
+      }
+    }
+    typename Step::Output outbox;
+    for (const auto& [fires, asked] : effect.fired) {
+      [&, &fired = fires, &one = asked ]<std::size_t... I>(std::index_sequence<I...>) {
+        (merge(boost::pfr::get<I>(outbox), boost::pfr::get<I>(one), fired), ...);
+      }
+      (std::make_index_sequence<boost::pfr::tuple_size_v<typename Step::Output>>{});
+    }
+    return outbox;
+  }
+  static void merge(Bool& total, const Bool& one, const Expr& fires) {
+    total = Bool{(total.expr() || (fires && one.expr())).simplify()};
+  }
+  static void merge(Int& total, const Int& one, const Expr& fires) {
+    total = Int{z3::ite(fires, one.expr(), total.expr()).simplify()};
+  }
+
+  /// How often T is scheduled, as the rules count: a variable of its own only if a mistake makes
+  /// that differ from how often it is in the queue.
+  template <class T>
+  [[nodiscard]] std::string counter() const {
+    return (copies<T>() == 1 ? "pending " : "counted ") + tag_name<T>();
+  }
+  /// How many events get into the queue when one is scheduled: 1 without a mistake.
+  template <class T>
+  [[nodiscard]] int copies() const {
+    int copies = 1;
+    for (const model::EventMutation& mistake : derived_->mistakes.events) {
+      if (mistake.kind != model::event_kind_of<T>) continue;
+      if (mistake.change == model::EventMutation::Change::forget) copies = 0;
+      if (mistake.change == model::EventMutation::Change::duplicate) copies = 2;
+    }
+    return copies;
+  }
+  template <class T>
+  void start() {
+    if (is_foreign(T::owner)) return;
+    const std::string pending = "pending " + tag_name<T>();
+    if constexpr (T::counted) {
+      derivation().assign(pending, path_, derivation().now(pending) + copies<T>());
+      if (counter<T>() != pending) {
+        derivation().assign(counter<T>(), path_, derivation().now(counter<T>()) + 1);
+      }
+    } else if (copies<T>() > 0) {
+      derivation().assign(pending, path_, Bool{true}.expr());
+      derivation().assign("started " + tag_name<T>(), path_, Bool{true}.expr());
+    }
+  }
+
+  template <class F, class Value>
+  void say(std::map<std::string, Expr>& says, const composition::Says<F, Value>& saying) {
+    if constexpr (std::is_same_v<Value, Bool>) {
+      says.insert_or_assign(tag_name<F>(), saying.value.expr());
+    } else {
+      says.insert_or_assign(tag_name<F>(), Bool{saying.value(*this)}.expr());
+    }
+  }
+
+  template <class P>
+  void arrives() {
+    std::map<std::string, Expr> says;
+    composition::for_each_type(typename P::Fields{}, [&]<class F>() {
+      says.emplace(tag_name<F>(), derivation().input(tag_name<F>()));
+    });
+    if (!is_foreign(P::owner)) {
+      Exprs cases;
+      for (const auto& [name, content] : all_contents<P>()) {
+        Expr is = derivation().now(name);
+        for (const auto& [field, value] : content) {
+          is = is && (value ? says.at(field) : !says.at(field));
+        }
+        cases.push_back(is);
+      }
+      if (derived_->mistakes.live_bitmaps && std::is_same_v<P, typename Composition::AckNack>) {
+        read_live(says);
+      } else {
+        derivation().require(any_of(cases));
+      }
+      if (derivation().is(Unsound::packets_arrive_once)) {
+        for (const auto& content : all_contents<P>()) {
+          derivation().now(content.first) = Bool{false}.expr();
+        }
+      }
+      if (derived_->received) derived_->received(tag_name<P>(), says);
+    }
+    packet_ = says;
+  }
+  /// The mistake of a bitmap that is read when it arrives: some ACKNACK has been sent, and says
+  /// what
+  /// it would say now.
+  void read_live(const std::map<std::string, Expr>& says) {
+    using AckNack = typename Composition::AckNack;
+    const std::string initial = tag_name<composition::IsInitial>();
+    Exprs cases;
+    for (const auto& [name, content] : all_contents<AckNack>()) {
+      const bool is_initial = std::ranges::find(content, std::pair{initial, true}) != content.end();
+      cases.push_back(derivation().now(name) &&
+                      (is_initial ? says.at(initial) : !says.at(initial)));
+    }
+    derivation().require(any_of(cases));
+    for (const auto& [field, value] : contents<AckNack>(Composition::bitmap())) {
+      if (field != initial) derivation().require(says.at(field) == value);
+    }
+  }
+  template <class P>
+  void trigger_of(composition::Received<P>) {
+    arrives<P>();
+  }
+  template <class P>
+  void trigger_of(composition::LeftSource<P>) {
+    arrives<P>();
+  }
+  template <class T>
+  void trigger_of(composition::Due<T>) {
+    if (is_foreign(T::owner)) return;
+    const std::string pending = "pending " + tag_name<T>();
+    if constexpr (T::counted) {
+      derivation().require(derivation().now(pending) >= 1);
+      derivation().now(pending) = derivation().now(pending) - 1;
+      if (counter<T>() != pending) {
+        Expr& counted = derivation().now(counter<T>());
+        counted = z3::ite(counted > 0, counted - 1, counted);
+      }
+    } else {
+      derivation().require(derivation().now("started " + tag_name<T>()));
+      derivation().now(pending) = Bool{false}.expr();  // nothing is surely pending any more
+    }
+  }
+  template <class O>
+  void trigger_of(composition::Happens<O>) {}
+
+ private:
+  Derived* derived_;
+  Foreign foreign_;
+  bool subject_is_ours_;  ///< of a place that is about one descriptor
+  Expr path_ = Bool{true}.expr();
+  std::optional<std::map<std::string, Expr>> packet_;
+};
+
+/// Declares the variables of the composition and derives a step from each of its rules about
+/// relations and writers: one for us, and one for another of each index of its owner.
+template <class Composition>
+void derive(Derived& derived) {
+  using World = DerivedWorld<Composition>;
+  Derivation& derivation = derived.derivation;
+  composition::for_each_type(typename Composition::Parts{}, [&]<class P>() {
+    using Info = fsm::Reflect<typename P::Machine>;
+    for (std::size_t k = 0; k < Info::state_count; ++k) {
+      const bool start = k == Info::template id<typename P::Machine::initial_state>;
+      derivation.declare(World::template state_name<P>(k), start);
+    }
+  });
+  composition::for_each_type(typename Composition::State{}, [&]<class V>() {
+    if constexpr (requires { typename V::IsFlag; }) derivation.declare(tag_name<V>(), false);
+  });
+  composition::for_each_type(typename Composition::Timers{}, [&]<class T>() {
+    if constexpr (T::counted) {
+      derivation.declare_count("pending " + tag_name<T>());
+      derivation.declare_count("counted " + tag_name<T>());
+    } else {
+      derivation.declare("pending " + tag_name<T>(), false);
+      derivation.declare("started " + tag_name<T>(), false);
+    }
+  });
+  composition::for_each_type(typename Composition::Packets{}, [&]<class P>() {
+    for (const auto& content : World::template all_contents<P>()) {
+      derivation.declare(content.first, false);
+    }
+  });
+  composition::for_each_type(typename Composition::Exchange{}, [&]<class R>() {
+    const auto derive_for = [&](Foreign foreign, const std::string& prefix) {
+      derivation.begin();
+      World world{derived, foreign};
+      world.template trigger<typename R::Trigger>();
+      R::run(world);
+      if (derived.ended) {
+        World us{derived, 0};
+        derived.ended(us.template contents<typename Composition::AckNack>(Composition::bitmap())
+                          .at(tag_name<composition::Listed>()));
+      }
+      derivation.end(prefix + tag_name<R>());
+    };
+    derive_for(0, "");
+    if (derivation.is(Unsound::rules_for_us_only)) return;
+    const auto other = [&](Foreign index, const char* prefix) {
+      if ((R::owner.indices & index) != 0) derive_for(index, prefix);
+    };
+    other(composition::owner::peer_index, "another reader: ");
+    other(composition::owner::stream_index, "another stream: ");
+    other(composition::owner::descriptor_index, "another descriptor: ");
+  });
+}
+
+}  // namespace stormproof::tables

@@ -1,0 +1,154 @@
+// What the knobs of a composition (fsm/composition) are in a profile, and what its timers are in
+// the event queue. Every world that runs scenarios reads them here.
+#pragma once
+
+#include "fsm/composition/fastdds.hpp"
+#include "fsm/composition/paper.hpp"
+#include "model/dds_profile.hpp"
+#include "model/event.hpp"
+
+namespace stormproof::model {
+
+namespace knobs_of_composition {
+namespace comp = fsm::composition;
+
+// Truth values.
+inline bool value(comp::AcceptsUnmatched, const DdsProfile& dds) {
+  if (is_fastdds(dds)) return false;
+  return dds.sedp.unmatched == Unmatched::accept ||
+         dds.sedp.relation_opening != RelationOpening::each_side;
+}
+inline bool value(comp::ConstantInterval, const DdsProfile& dds) {
+  return dds.sedp.initial_acknack_interval == InitialAckNackInterval::constant;
+}
+inline bool value(comp::Additive, const DdsProfile& dds) {
+  return dds.sedp.heartbeat_timer == HeartbeatTimerKind::additive;
+}
+inline bool value(comp::Adaptive, const DdsProfile& dds) {
+  return dds.sedp.heartbeat_policy == HeartbeatPolicy::adaptive;
+}
+inline bool value(comp::ResendsToAll, const DdsProfile& dds) {
+  return dds.spdp.resend == SpdpResend::all_known;
+}
+inline bool value(comp::ResendsCopyAndMulticast, const DdsProfile& dds) {
+  return dds.spdp.resend == SpdpResend::new_and_multicast;
+}
+inline bool value(comp::ResendsCopy, const DdsProfile& dds) {
+  return dds.spdp.resend == SpdpResend::new_only;
+}
+inline bool value(comp::paper::PushesInitialData, const DdsProfile& dds) {
+  return dds.sedp.initial_data == InitialData::push;
+}
+inline bool value(comp::paper::PrefixOnly, const DdsProfile& dds) {
+  return dds.sedp.acknowledge == Acknowledge::prefix;
+}
+inline bool value(comp::paper::InitialCountsAsAckNack, const DdsProfile& dds) {
+  return dds.sedp.initial_acknack == InitialAckNackReply::bitmap;
+}
+inline bool value(comp::paper::InitialIsAnsweredByHeartbeat, const DdsProfile& dds) {
+  return dds.sedp.initial_acknack == InitialAckNackReply::heartbeat;
+}
+inline bool value(comp::paper::HeartbeatToMatched, const DdsProfile& dds) {
+  return dds.sedp.heartbeat_recipients == HeartbeatRecipients::matched;
+}
+inline bool value(comp::paper::ReceiverOpensBothSides, const DdsProfile& dds) {
+  return dds.sedp.relation_opening == RelationOpening::receiver;
+}
+
+// Delays in ns, and the two numbers of ε.
+inline std::int64_t value(comp::InitialDelay, const DdsProfile& dds) {
+  return dds.sedp.initial_acknack_delay.count();
+}
+inline std::int64_t value(comp::ResponseDelay, const DdsProfile& dds) {
+  return dds.sedp.heartbeat_response_delay.count();
+}
+inline std::int64_t value(comp::HeartbeatPeriod, const DdsProfile& dds) {
+  return dds.sedp.heartbeat_period.count();
+}
+inline std::int64_t value(comp::MinPeriod, const DdsProfile& dds) {
+  return dds.sedp.adaptive.min_period.count();
+}
+inline std::int64_t value(comp::MaxPeriod, const DdsProfile& dds) {
+  return dds.sedp.adaptive.max_period.count();
+}
+inline std::int64_t value(comp::EpsilonNumerator, const DdsProfile& dds) {
+  return dds.sedp.adaptive.epsilon_numerator;
+}
+inline std::int64_t value(comp::EpsilonDenominator, const DdsProfile& dds) {
+  return dds.sedp.adaptive.epsilon_denominator;
+}
+inline std::int64_t value(comp::StartupAnnouncements, const DdsProfile& dds) {
+  return dds.spdp.startup_announcements;
+}
+inline std::int64_t value(comp::StartupPeriod, const DdsProfile& dds) {
+  return dds.spdp.startup_period.count();
+}
+inline std::int64_t value(comp::AnnouncementPeriod, const DdsProfile& dds) {
+  return dds.spdp.period.count();
+}
+inline std::int64_t value(comp::paper::NackResponseDelay, const DdsProfile& dds) {
+  return dds.sedp.nack_response_delay.count();
+}
+inline std::int64_t value(comp::paper::SuppressionDuration, const DdsProfile& dds) {
+  return dds.sedp.nack_suppression_duration.count();
+}
+inline std::int64_t value(comp::fastdds::NackResponseDelay, const DdsProfile& dds) {
+  return dds.sedp.nack_response_delay.count();
+}
+inline std::int64_t value(comp::fastdds::SuppressionDuration, const DdsProfile& dds) {
+  return dds.sedp.nack_suppression_duration.count();
+}
+inline std::int64_t value(comp::Immediately, const DdsProfile&) { return 0; }
+inline std::int64_t value(comp::control::ControlReplyDelay, const DdsProfile&) { return 5'000'000; }
+}  // namespace knobs_of_composition
+
+/// The value of a switch, or of a delay in ns.
+template <class Knob>
+[[nodiscard]] auto knob_value(Knob knob, const DdsProfile& dds) {
+  return knobs_of_composition::value(knob, dds);
+}
+
+/// The kind of the events that a timer is.
+template <class Timer>
+inline constexpr EventKind event_kind_of = EventKind::dispatch;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::Announcement> =
+    EventKind::announcement_due;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::AckNackGeneration> =
+    EventKind::acknack_generation;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::InitialAttempt> =
+    EventKind::initial_acknack_due;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::HeartbeatExpiry> =
+    EventKind::heartbeat_expiry;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::CycleStart> = EventKind::cycle_start;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::CycleEnd> = EventKind::cycle_end;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::BatchDue> = EventKind::batch_due;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::paper::RepairGeneration> =
+    EventKind::repair_generation;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::paper::SuppressionEnd> =
+    EventKind::suppression_end;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::fastdds::SuppressionEnd> =
+    EventKind::suppression_end;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::fastdds::NackResponseDue> =
+    EventKind::nack_response;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::fastdds::AsyncRunDue> =
+    EventKind::async_run;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::control::ControlInitialAttempt> =
+    EventKind::control_initial_due;
+template <>
+inline constexpr EventKind event_kind_of<fsm::composition::control::ControlReplyDue> =
+    EventKind::control_reply_due;
+
+}  // namespace stormproof::model
