@@ -157,11 +157,13 @@ class DerivedWorld {
     around(composition::owner::descriptor_index,
            [&](DerivedWorld& d) { d.when(Bool{term(d)}, [&] { body(d); }); });
   }
-  /// The part that has our descriptor, if the set has it, and one that does not.
+  /// The part that has our descriptor, if the set has it, and others before and after it.
   template <class Body>
   void partition(const Set& set, Body&& body) {
-    when(unknown(), [&] { body(Set{false}); });
+    const auto others = [&] { when(unknown(), [&] { body(Set{false}); }); };
+    others();
     body(set);
+    others();
   }
 
   // Effects.
