@@ -366,12 +366,22 @@ class Recorder {
   template <class Step, class... Args>
   void step(const std::string& arguments, Site site, const Args&... args) {
     effect<Step>("perform", arguments, site);
-    aside(into_.steps, std::string{label<Step>()}, [&] {
+    aside(into_.steps, std::string{label<Step>()} + tags<Args...>(), [&] {
       [&]<unsigned... numbers>(std::integer_sequence<unsigned, numbers...>) {
         Step::contract(*this, in_general(args, numbers + 1)...);
       }
       (std::make_integer_sequence<unsigned, sizeof...(Args)>{});
     });
+  }
+  /// The names of those arguments that are tags, each of which makes a contract of its own.
+  template <class... Args>
+  static std::string tags() {
+    std::string text;
+    [[maybe_unused]] const auto add = [&]<class Arg>() {
+      if constexpr (std::is_empty_v<Arg>) text += " " + std::string{label<Arg>()};
+    };
+    (add.template operator()<Args>(), ...);
+    return text;
   }
   /// An argument of a contract, whoever performs the step.
   static Said in_general(const Said&, unsigned number) {

@@ -1,7 +1,7 @@
 // timer.single-heartbeat: a writer never has two HEARTBEAT expiries pending; under the adaptive
-// policy, never two cycle events that are not void. The periodic policy is a question to the derived
-// system; the adaptive one to the table of the timer together with the number of events that are in
-// the queue for it, because the arithmetic of its periods would be in the way.
+// policy, never two cycle events that are not void. The periodic policy is a question to the
+// derived system; the adaptive one to the table of the timer together with the number of events
+// that are in the queue for it, because the arithmetic of its periods would be in the way.
 #include "checker/engines/tables/descriptor_system.hpp"
 #include "checker/engines/tables/machine_step.hpp"
 #include "checker/engines/tables/properties.hpp"

@@ -1,7 +1,7 @@
 // A world that executes: one participant with a few streams, readers and descriptors, for tests of
-// what is derived from the same rules. It has no clock: what is scheduled may happen at any time, and
-// what was sent may arrive at any time, any number of times. Choices and what only a host knows are
-// drawn at random.
+// what is derived from the same rules. It has no clock: what is scheduled may happen at any time,
+// and what was sent may arrive at any time, any number of times. Choices and what only a host knows
+// are drawn at random.
 #pragma once
 
 #include <map>
@@ -116,7 +116,9 @@ class SmallWorld {
   bool in(P, Is<S>) {
     return value<P>() == Reflect<typename P::Machine>::template id<S>;
   }
-  [[nodiscard]] bool is_in(const Set& set) const { return (set.bits >> place_.descriptor & 1) != 0; }
+  [[nodiscard]] bool is_in(const Set& set) const {
+    return (set.bits >> place_.descriptor & 1) != 0;
+  }
   [[nodiscard]] bool is_subject() const { return place_.descriptor == subject_; }
   bool choice(const char*) { return draw(2) == 1; }
   static bool any(const Set& set) { return set.bits != 0; }
@@ -225,7 +227,8 @@ class SmallWorld {
       const auto out = d.feed(part, event, in);
       [&]<std::size_t... I>(std::index_sequence<I...>) {
         (merge(boost::pfr::get<I>(total), boost::pfr::get<I>(out), d.place_.descriptor), ...);
-      }(std::make_index_sequence<boost::pfr::tuple_size_v<decltype(total)>>{});
+      }
+      (std::make_index_sequence<boost::pfr::tuple_size_v<decltype(total)>>{});
     });
     return total;
   }
