@@ -45,7 +45,7 @@ TEST(Mutants, CoverEveryMachine) {
 TEST(Mutate, EachKindOfMistakeIsNoticedByTheRightProperty) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"acknowledges-everything", "safety.ack-implies-received"},
-      {"repairs-unasked", "safety.repair-only-if-asked"},
+      {"requests-unlisted", "safety.repair-only-if-asked"},
       {"live-bitmap", "safety.snapshot"},
       {"expiry-doubled", "timer.single-heartbeat"},
       {"queue-twice-as-large", "safety.conservation"},
