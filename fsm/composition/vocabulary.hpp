@@ -11,11 +11,14 @@
 //
 // A world has a domain `W::D` (fsm/domain.hpp) and a place: the indices of what it is about. It
 // says
-//   w(tag)                     the value of a flag, number, fact, switch, delay, packet field,
-//   host's answer w.when(condition, body) w.feed(part, on<E>, input)           the part's outbox
+//   w(tag)                     the value of a flag, number, fact, switch, delay or packet field, or
+//                              what the host answers
+//   w.when(condition, body)    the body happens if the condition holds
+//   w.feed(part, on<E>, input) the part's outbox
 //   w.feed_each(part, on<E>, input, who) to each descriptor d for which who(d), with input(d); an
 //                                        outbox of sets
-//   w.any(set), w.some(term), w.all(term), w.count(term)   over the descriptors of the stream
+//   w.set_of(term), w.any(set), w.some(term), w.all(term), w.count(term)   over the descriptors of
+//                                        the stream
 //   w.some_reader(term), w.some_entry(term)   over the open relations of the writer, the entries of
 //                                             the participant
 //   w.set(flag or number, value), w.set_each(flag, term)
@@ -49,7 +52,6 @@ namespace stormproof::fsm::composition {
 struct Owner {
   std::uint8_t indices = 0;
 
-  [[nodiscard]] constexpr bool shares(Owner other) const { return (indices & other.indices) != 0; }
   bool operator==(const Owner&) const = default;
 };
 namespace owner {
