@@ -21,7 +21,7 @@ std::string time_text(model::Nanoseconds time) {
   };
   constexpr Unit units[] = {{1'000'000'000, 9, "s"}, {1'000'000, 6, "ms"}, {1'000, 3, "µs"}};
   const std::int64_t ns = time.count();
-  if (ns < 0) return "-" + time_text(model::Nanoseconds{-ns});
+  if (ns < 0) return fmt::format("-{}", time_text(model::Nanoseconds{-ns}));
   for (const Unit& unit : units) {
     if (ns < unit.size) continue;
     std::string text = fmt::format("{}.{:0{}}", ns / unit.size, ns % unit.size, unit.digits);

@@ -23,7 +23,7 @@ const Includes& sources() {
 }
 
 std::string data_file(const std::string& name) {
-  return std::string{STORMPROOF_SOURCE_DIR "/tests/structure"} + "/" + name;
+  return STORMPROOF_SOURCE_DIR "/tests/structure/" + name;
 }
 
 TEST(Structure, IncludesGoDownwards) {
