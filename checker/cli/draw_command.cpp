@@ -1,10 +1,13 @@
-// `stormproof draw [MACHINE]`: diagrams of the protocol machines, from their transition tables.
+// `stormproof draw [MACHINE]`: diagrams of the protocol machines, from their transition tables, and
+// of what happens between them.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
+#include "checker/cli/draw_composition.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/presentation/diagrams/draw_machine.hpp"
@@ -16,10 +19,10 @@ namespace stormproof::cli {
 namespace {
 
 struct DrawArguments {
-  std::string machine;  ///< name; empty: all machines
-  draw::Format format = draw::Format::mermaid;
-  OutputFile file;        ///< instead of stdout
-  std::string directory;  ///< for one file per machine; empty: none
+  std::string machine;             ///< name, or "composition"; empty: all machines
+  CompositionRequest composition;  ///< and the format of either
+  OutputFile file;                 ///< instead of stdout
+  std::string directory;           ///< for one file per machine; empty: none
 };
 
 using fsm::MachineInfo;
@@ -31,6 +34,8 @@ std::string unknown_machine(const std::string& name, const std::vector<MachineIn
     names.emplace_back(machine.name);
     list += (list.empty() ? "" : ", ") + names.back();
   }
+  names.emplace_back("composition");
+  list += ", or composition";
   return fmt::format("'{}' is not a machine{}; expected one of {}", name,
                      model::config::suggestion(name, names), list);
 }
@@ -69,34 +74,88 @@ Outcome write_each(const std::string& directory, const std::vector<MachineInfo>&
   return established;
 }
 
-Outcome run(DrawArguments& arguments, Session& /*session*/) {
+Outcome show(const std::string& drawn, OutputFile& file) {
+  if (!file.wanted()) {
+    fmt::print("{}", drawn);
+    return established;
+  }
+  file.stream() << drawn;
+  if (const auto error = file.commit()) return Complaint{*error};
+  return established;
+}
+
+Outcome run_composition(DrawArguments& arguments, const Session& session) {
+  if (!arguments.directory.empty()) {
+    return Complaint{"--directory is for machines; a composition is one page: -o FILE"};
+  }
+  arguments.composition.to_file = arguments.file.wanted();
+  const auto drawn = draw_composition(arguments.composition, session);
+  if (const auto* complaint = std::get_if<Complaint>(&drawn)) return *complaint;
+  return show(std::get<std::string>(drawn), arguments.file);
+}
+
+/// Nothing, if it is a format of machines.
+std::optional<draw::Format> machine_format(DrawFormat format) {
+  switch (format) {
+    case DrawFormat::usual:
+    case DrawFormat::mermaid:
+      return draw::Format::mermaid;
+    case DrawFormat::dot:
+      return draw::Format::dot;
+    case DrawFormat::svg:
+      return draw::Format::svg;
+    case DrawFormat::text:
+    case DrawFormat::json:
+      break;
+  }
+  return std::nullopt;
+}
+
+Outcome run(DrawArguments& arguments, Session& session) {
+  const CompositionRequest& composition = arguments.composition;
+  if (arguments.machine == "composition") return run_composition(arguments, session);
+  if (!composition.dds.empty() || composition.compare || !composition.profiles.empty()) {
+    return Complaint{"profiles, --dds and --compare are for `draw composition`"};
+  }
+  const std::optional<draw::Format> format = machine_format(composition.format);
+  if (!format) return Complaint{"a machine is drawn as mermaid, dot or svg"};
   std::vector<MachineInfo> machines = fsm::machines();
   if (!arguments.machine.empty()) {
     const auto wanted = std::ranges::find(machines, arguments.machine, &MachineInfo::name);
     if (wanted == machines.end()) return Complaint{unknown_machine(arguments.machine, machines)};
     machines = {MachineInfo{*wanted}};
   }
-  if (!arguments.directory.empty()) {
-    return write_each(arguments.directory, machines, arguments.format);
-  }
-  if (arguments.machine.empty() && arguments.format == draw::Format::svg) {
+  if (!arguments.directory.empty()) return write_each(arguments.directory, machines, *format);
+  if (arguments.machine.empty() && *format == draw::Format::svg) {
     return Complaint{"an SVG file holds one machine; name one, or a folder with --directory DIR"};
   }
-  const std::string drawn = arguments.machine.empty()
-                                ? draw_all(machines, arguments.format)
-                                : draw_machine(machines.front(), arguments.format);
-  if (!arguments.file.wanted()) fmt::print("{}", drawn);
-  if (arguments.file.wanted()) arguments.file.stream() << drawn;
-  return established;
+  return show(arguments.machine.empty() ? draw_all(machines, *format)
+                                        : draw_machine(machines.front(), *format),
+              arguments.file);
 }
 
 void declare(Options& options, DrawArguments& arguments) {
-  options.text("machine", arguments.machine, "Name of a machine; without it, all of them",
+  options.text("machine", arguments.machine,
+               "Name of a machine, or `composition`: what happens between them; without it, all "
+               "machines",
                "MACHINE");
-  options.choice(
-      "--format", arguments.format,
-      {{"mermaid", draw::Format::mermaid}, {"dot", draw::Format::dot}, {"svg", draw::Format::svg}},
-      "mermaid (default), dot or svg", "FORMAT");
+  options.texts("profiles", arguments.composition.profiles, "With --compare: two DDS profiles",
+                "PROFILE");
+  options
+      .choice("--format", arguments.composition.format,
+              {{"mermaid", DrawFormat::mermaid},
+               {"dot", DrawFormat::dot},
+               {"svg", DrawFormat::svg},
+               {"text", DrawFormat::text},
+               {"json", DrawFormat::json}},
+              "Of machines mermaid (default), dot or svg; of a composition text (default) or json",
+              "FORMAT")
+      .not_repeated();
+  options.text("--dds", arguments.composition.dds,
+               "Composition of this DDS profile's implementation (default: the paper's)",
+               "PROFILE");
+  options.flag("--compare", arguments.composition.compare,
+               "What the compositions of two DDS profiles share and where they differ");
   const Option file =
       options.output("-o,--output", arguments.file, "Write to a file instead of stdout");
   options.folder("--directory", arguments.directory, "Write one file for each machine")
@@ -108,7 +167,7 @@ void declare(Options& options, DrawArguments& arguments) {
 void declare_draw(Frame& frame) {
   frame.add<DrawArguments>(
       {.name = "draw",
-       .help = "Draw a state machine from its transition table, or all of them",
+       .help = "Draw a state machine from its transition table, all of them, or what connects them",
        .exit_codes = "Exit code: 0, or 2 bad input.",
        .formats = Formats::none},
       declare, run);

@@ -3,6 +3,7 @@
 // fsm/composition/recorder.hpp makes it by running each rule once.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -72,6 +73,17 @@ struct CompositionInfo {
   std::vector<std::string> consumed;  ///< outbox fields that something reads, "Reader.opened"
   std::vector<UnusedInfo> unused;
 };
+
+/// "C <- RepairDue", "RepairGeneration after NackResponseDelay": an effect without its condition.
+[[nodiscard]] std::string sentence(const EffectInfo& effect);
+
+/// A line of the program that a rule is: a condition that opens an indented block, or an effect.
+struct ProgramLine {
+  std::size_t depth = 0;               ///< how many blocks it stands in
+  std::string text;                    ///< "if Reader.opened:", or the sentence of the effect
+  const EffectInfo* effect = nullptr;  ///< none: a condition
+};
+[[nodiscard]] std::vector<ProgramLine> program(const std::vector<EffectInfo>& effects);
 
 /// The composition as a page of text, to be read from the top to the bottom.
 [[nodiscard]] std::string page(const CompositionInfo& composition);

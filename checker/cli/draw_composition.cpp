@@ -1,0 +1,89 @@
+// Which composition is drawn, and how.
+#include "checker/cli/draw_composition.hpp"
+
+#include <algorithm>
+
+#include "checker/cli/frame.hpp"
+#include "checker/cli/terminal.hpp"
+#include "checker/presentation/composition/composition_comparison.hpp"
+#include "checker/presentation/composition/composition_drawing.hpp"
+#include "checker/presentation/json/dumped.hpp"
+#include "fsm/composition/compositions.hpp"
+#include "model/config/scenario_file.hpp"
+
+namespace stormproof::cli {
+
+namespace {
+
+using fsm::composition::CompositionInfo;
+using model::config::Result;
+
+CompositionInfo composition_of(bool fastdds) {
+  const std::vector<CompositionInfo> all = fsm::composition::compositions();
+  return *std::ranges::find(all, fastdds ? "fastdds" : "paper", &CompositionInfo::name);
+}
+
+/// The composition of the profile's implementation.
+Result<CompositionInfo> composition_of(const std::string& profile) {
+  const auto dds =
+      model::config::read_dds_profile(profile, {}, model::config::SpecPath::standard());
+  if (!dds) return dds.error();
+  return composition_of(model::is_fastdds(*dds));
+}
+
+std::string json_text(const nlohmann::ordered_json& content, const Session& session) {
+  nlohmann::ordered_json json{{"schema", json_schema},
+                              {"command", session.command()},
+                              {"exit_code", 0},
+                              {"interrupted", false}};
+  json.update(content);
+  return report::dumped(json);
+}
+
+std::string page(const report::Document& document, const CompositionRequest& request) {
+  return to_text(document, request.to_file ? report::Terminal{} : standard_output());
+}
+
+std::variant<std::string, Complaint> compared(const CompositionRequest& request,
+                                              const Session& session) {
+  if (!request.dds.empty() || request.profiles.size() != 2) {
+    return Complaint{"--compare takes two DDS profiles: draw composition --compare A B"};
+  }
+  const auto first = composition_of(request.profiles[0]);
+  if (!first) return Complaint{first.error()};
+  const auto second = composition_of(request.profiles[1]);
+  if (!second) return Complaint{second.error()};
+  const draw::CompositionComparison comparison = draw::compare(*first, *second);
+  if (request.format == DrawFormat::json) {
+    return json_text(draw::comparison_json(comparison), session);
+  }
+  if (request.format == DrawFormat::usual || request.format == DrawFormat::text) {
+    return page(draw::comparison_document(comparison), request);
+  }
+  return Complaint{"a comparison is shown as text or json"};
+}
+
+}  // namespace
+
+std::variant<std::string, Complaint> draw_composition(const CompositionRequest& request,
+                                                      const Session& session) {
+  if (request.compare) return compared(request, session);
+  if (!request.profiles.empty()) return Complaint{"profiles are compared with --compare"};
+  const auto composition = request.dds.empty() ? Result<CompositionInfo>{composition_of(false)}
+                                               : composition_of(request.dds);
+  if (!composition) return Complaint{composition.error()};
+  switch (request.format) {
+    case DrawFormat::usual:
+    case DrawFormat::text:
+      return page(draw::composition_document(*composition), request);
+    case DrawFormat::json:
+      return json_text(draw::composition_json(*composition), session);
+    case DrawFormat::mermaid:
+    case DrawFormat::svg:
+    case DrawFormat::dot:
+      break;
+  }
+  return Complaint{"a composition is drawn as text or json"};
+}
+
+}  // namespace stormproof::cli

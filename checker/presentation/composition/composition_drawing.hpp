@@ -1,0 +1,23 @@
+// A composition for readers: what there is and every rule with all its effects, on one page, as
+// data, and as drawings. All of it comes from the rules that the simulator executes.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "checker/presentation/document/document.hpp"
+#include "fsm/composition/composition_info.hpp"
+
+namespace stormproof::draw {
+
+/// The page, to be read from the top to the bottom; the ids of effects stand at its right margin.
+[[nodiscard]] report::Document composition_document(
+    const fsm::composition::CompositionInfo& composition);
+
+/// `composition`, `machines`, `packets`, `timers`, `state`, `facts`, `rules`, `procedures`,
+/// `steps`.
+[[nodiscard]] nlohmann::ordered_json composition_json(
+    const fsm::composition::CompositionInfo& composition);
+
+}  // namespace stormproof::draw
