@@ -90,8 +90,8 @@ class TextPainter {
   void write(const Chart::Row& row) {
     if (row.kind == Chart::Row::Kind::service) return;
     if (row.kind == Chart::Row::Kind::gap) {
-      text_ +=
-          report::paragraph(std::string(time_columns + number_columns + 6, ' ') + "⋮ ", row.text);
+      text_ += report::paragraph(fmt::format("{:{}}⋮ ", "", time_columns + number_columns + 6),
+                                 row.text);
       return;
     }
     sign_ = row.violation ? chart_.sign : " ";
