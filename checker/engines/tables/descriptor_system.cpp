@@ -55,6 +55,9 @@ DescriptorSystem descriptor_system(Proof& proof) {
   proof.assume(
       "The numbers of descriptors and readers are arbitrary: one is looked at, and what the rules "
       "read of the others ranges freely.");
+  proof.assume(
+      "The simulator follows the rules that connect the machines (draw composition): it steps the "
+      "same tables, but has its own code for what is between them.");
   return {proof.scenario().dds, proof.mistakes()};
 }
 
