@@ -105,7 +105,7 @@ TEST_P(PackingOf, KeepsItsContractInRandomRuns) {
     Packing packing{scenario};
     RunOptions options;
     options.probe = &packing;
-    simulate(scenario, options);
+    static_cast<void>(simulate(scenario, options));
     EXPECT_EQ(packing.first_problem, "") << "seed " << seed;
     generations += packing.generations;
     several += packing.several;
