@@ -75,12 +75,11 @@ Outcome write_each(const std::string& directory, const std::vector<MachineInfo>&
 }
 
 Outcome show(const std::string& drawn, OutputFile& file) {
-  if (!file.wanted()) {
+  if (file.wanted()) {
+    file.stream() << drawn;
+  } else {
     fmt::print("{}", drawn);
-    return established;
   }
-  file.stream() << drawn;
-  if (const auto error = file.commit()) return Complaint{*error};
   return established;
 }
 

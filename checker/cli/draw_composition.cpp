@@ -31,13 +31,8 @@ Result<CompositionInfo> composition_of(const std::string& profile) {
   return composition_of(model::is_fastdds(*dds));
 }
 
-std::string json_text(const nlohmann::ordered_json& content, const Session& session) {
-  nlohmann::ordered_json json{{"schema", json_schema},
-                              {"command", session.command()},
-                              {"exit_code", 0},
-                              {"interrupted", false}};
-  json.update(content);
-  return report::dumped(json);
+std::string json_text(nlohmann::ordered_json content, const Session& session) {
+  return report::dumped(with_head(std::move(content), session.command(), established, false));
 }
 
 std::string page(const report::Document& document, const CompositionRequest& request) {

@@ -40,12 +40,8 @@ std::vector<NamedFormat> formats_of(Formats formats) {
 void complete(Answer& answer, const std::string& command) {
   report::Document& document = answer.document;
   if (document.command.empty()) document.command = command;
-  ordered_json json{{"schema", json_schema},
-                    {"command", document.command},
-                    {"exit_code", document.exit_code},
-                    {"interrupted", !document.complete}};
-  for (auto& [key, value] : answer.json.items()) json.emplace(key, std::move(value));
-  answer.json = std::move(json);
+  answer.json =
+      with_head(std::move(answer.json), document.command, document.exit_code, !document.complete);
 }
 
 std::string render(const Answer& answer, Format format, const report::Terminal& terminal) {
@@ -79,6 +75,16 @@ std::optional<std::string> refuse_folder(const std::string& option, const std::s
 
 }  // namespace
 
+ordered_json with_head(ordered_json content, const std::string& command, int exit_code,
+                       bool interrupted) {
+  ordered_json json{{"schema", json_schema},
+                    {"command", command},
+                    {"exit_code", exit_code},
+                    {"interrupted", interrupted}};
+  for (auto& [key, value] : content.items()) json.emplace(key, std::move(value));
+  return json;
+}
+
 /// A verb, with what its options were set to.
 struct Frame::Command {
   Verb verb;
@@ -97,6 +103,7 @@ struct Frame::Command {
  private:
   std::optional<std::string> open_files();
   std::optional<std::string> write_files(const Answer& answer);
+  std::optional<std::string> commit_declared();
 };
 
 void Frame::Command::declare_own(Options& options) {
@@ -156,8 +163,13 @@ std::optional<std::string> Frame::Command::write_files(const Answer& answer) {
     written.stream() << render(answer, in, file);
     if (auto error = written.commit()) return error;
   }
-  for (const auto& [declared_file, path] : declared.files) {
-    if (auto error = declared_file->commit()) return error;
+  return commit_declared();
+}
+
+/// The files that the command itself has written to.
+std::optional<std::string> Frame::Command::commit_declared() {
+  for (const auto& [file, path] : declared.files) {
+    if (auto error = file->commit()) return error;
   }
   return std::nullopt;
 }
@@ -170,7 +182,10 @@ int Frame::Command::execute() {
     return run(session);
   }();
   if (const auto* complaint = std::get_if<Complaint>(&outcome)) return complain(complaint->message);
-  if (const auto* code = std::get_if<ExitCode>(&outcome)) return *code;
+  if (const auto* code = std::get_if<ExitCode>(&outcome)) {
+    if (const auto error = commit_declared()) return complain(*error);
+    return *code;
+  }
   Answer& answer = std::get<Answer>(outcome);
   complete(answer, shell_line(given));
   report::Terminal terminal = standard_output();

@@ -16,6 +16,11 @@ namespace stormproof::cli {
 /// The version of what `--format json` prints. It grows when a key gets another name or meaning.
 inline constexpr int json_schema = 2;
 
+/// `content` behind what all JSON starts with: `schema`, `command`, `exit_code`, `interrupted`.
+[[nodiscard]] nlohmann::ordered_json with_head(nlohmann::ordered_json content,
+                                               const std::string& command, int exit_code,
+                                               bool interrupted);
+
 /// The formats that a command offers.
 enum class Formats : std::uint8_t {
   none,     ///< it makes no answer

@@ -9,15 +9,6 @@ namespace {
 
 z3::context& context_of_derivation() { return smt::SymbolicContext::current(); }
 
-Expr replaced(const Expr& expr, const Exprs& from, const Exprs& to) {
-  z3::expr_vector sources{context_of_derivation()};
-  z3::expr_vector targets{context_of_derivation()};
-  for (const Expr& e : from) sources.push_back(e);
-  for (const Expr& e : to) targets.push_back(e);
-  Expr copy = expr;
-  return copy.substitute(sources, targets).simplify();
-}
-
 /// The numbers (`z3::expr::id`) of the constants in an expression.
 class ConstantsOf {
  public:
@@ -93,7 +84,7 @@ Exprs with_values(const SystemStep& step, const Exprs& from, const Exprs& to) {
   }
   const z3::func_decl all =
       context_of_derivation().function("all of a step", sorts, context_of_derivation().bool_sort());
-  const Expr whole = replaced(all(parts), from, to);
+  const Expr whole = with(all(parts), from, to).simplify();
   Exprs result;
   for (unsigned k = 0; k < whole.num_args(); ++k) result.push_back(whole.arg(k));
   return result;
@@ -142,7 +133,7 @@ void fix_constants(TransitionSystem& system) {
     step.next.assign(after.begin() + 1, after.end());
   }
   std::erase_if(system.steps, [](const SystemStep& step) { return step.guard.is_false(); });
-  system.bad = replaced(system.bad, from, to);
+  system.bad = with(system.bad, from, to).simplify();
   const Expr initial = system.initial;
   system = restricted(system, keep);
   system.initial = restricted_initial(initial, system.variables);

@@ -52,7 +52,6 @@ class DerivedWorld {
         subject_is_ours_{(foreign & composition::owner::descriptor_index) == 0} {}
 
   // Values.
-  // -----------------------------------------------------------------------------------------
   template <class Tag>
   auto operator()(Tag tag) {
     using namespace composition;
@@ -132,7 +131,6 @@ class DerivedWorld {
   }
 
   // Conditions and loops.
-  // ---------------------------------------------------------------------------
   template <class Body>
   void when(const Bool& condition, Body&& body) {
     const Expr outer = path_;
@@ -167,7 +165,6 @@ class DerivedWorld {
   }
 
   // Effects.
-  // ----------------------------------------------------------------------------------------
   template <class P, class E>
   auto feed(P, composition::On<E>, const typename P::Machine::Io::template Input<D>& input = {}) {
     return step<P, E>(path_, input);
@@ -241,14 +238,12 @@ class DerivedWorld {
   }
 
   // Triggers: what makes the rule possible for us.
-  // --------------------------------------------------
   template <class Trigger>
   void trigger() {
     trigger_of(Trigger{});
   }
 
   // Names of variables.
-  // -----------------------------------------------------------------------------
   template <class P>
   static std::string state_name(std::size_t state) {
     return tag_name<P>() + "=" + std::string{fsm::Reflect<typename P::Machine>::state_names[state]};

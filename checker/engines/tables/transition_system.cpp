@@ -16,12 +16,6 @@ z3::expr_vector as_vector(const Exprs& list) {
   return vector;
 }
 
-/// `expr` with the variables replaced.
-Expr with(const Expr& expr, const Exprs& variables, const Exprs& values) {
-  Expr copy = expr;
-  return copy.substitute(as_vector(variables), as_vector(values));
-}
-
 struct SpacerAnswer {
   smt::Answer reachable = smt::Answer::unknown;
   std::optional<Expr> invariant;  ///< of unsat
@@ -240,6 +234,11 @@ bool find_trace(Proof& proof, const TransitionSystem& system, const std::string&
 }
 
 }  // namespace
+
+Expr with(const Expr& expr, const Exprs& variables, const Exprs& values) {
+  Expr copy = expr;
+  return copy.substitute(as_vector(variables), as_vector(values));
+}
 
 std::string prove_unreachable(Proof& proof, const TransitionSystem& system,
                               const std::string& breaks) {

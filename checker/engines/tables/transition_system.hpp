@@ -35,6 +35,8 @@ struct TransitionSystem {
 std::string prove_unreachable(Proof& proof, const TransitionSystem& system,
                               const std::string& breaks);
 
+/// `expr` with each variable replaced by its value.
+[[nodiscard]] Expr with(const Expr& expr, const Exprs& variables, const Exprs& values);
 /// An invariant as lines of text: one clause each, in the form "a and b imply c or d".
 [[nodiscard]] std::vector<std::string> invariant_lines(const Expr& invariant);
 

@@ -1,5 +1,5 @@
 // A comparison as a page: how much is the same, then what is not.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "checker/presentation/composition/composition_comparison.hpp"
 #include "checker/presentation/json/describe.hpp"
@@ -12,13 +12,7 @@ using Is = RuleComparison::Is;
 using report::Section;
 using report::Text;
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-Text title_of(const RuleComparison& rule) { return Text{rule.group + " " + rule.id}; }
+std::string title_of(const RuleComparison& rule) { return rule.group + " " + rule.id; }
 
 report::Blocks differences(const CompositionComparison& comparison, const RuleComparison& rule) {
   report::Facts facts;
@@ -47,7 +41,7 @@ Section different(const CompositionComparison& comparison) {
   Section section{"In both, but different"};
   for (const RuleComparison& rule : comparison.rules) {
     if (rule.is != Is::different) continue;
-    section.blocks.push_back(Section{title_of(rule).plain(), "", differences(comparison, rule)});
+    section.blocks.push_back(Section{title_of(rule), "", differences(comparison, rule)});
   }
   return section;
 }
@@ -55,7 +49,8 @@ Section different(const CompositionComparison& comparison) {
 Section relying(const CompositionComparison& comparison) {
   report::Facts facts;
   for (const RuleComparison& rule : comparison.rules) {
-    if (rule.is == Is::relies) facts.rows.emplace_back(rule.id, joined(rule.relies_on));
+    if (rule.is == Is::relies)
+      facts.rows.emplace_back(rule.id, fmt::format("{}", fmt::join(rule.relies_on, ", ")));
   }
   return {"The same words, but about what differs", "", {std::move(facts)}};
 }
@@ -64,7 +59,7 @@ Section listed(const CompositionComparison& comparison, Is is, const std::string
   report::Facts facts;
   for (const RuleComparison& rule : comparison.rules) {
     if (rule.is != is) continue;
-    facts.rows.emplace_back(title_of(rule).plain(),
+    facts.rows.emplace_back(title_of(rule),
                             is == Is::same ? "" : fmt::format("{} effects", rule.ids.size()));
   }
   return {title, "", {std::move(facts)}};

@@ -102,14 +102,6 @@ class Bridge {
 
  private:
   static z3::context& context() { return smt::SymbolicContext::current(); }
-  static Expr with(const Expr& expr, const Exprs& from, const Exprs& to) {
-    z3::expr_vector sources{context()};
-    z3::expr_vector targets{context()};
-    for (const Expr& e : from) sources.push_back(e);
-    for (const Expr& e : to) targets.push_back(e);
-    Expr copy = expr;
-    return copy.substitute(sources, targets);
-  }
   /// Nothing for what is watched besides.
   static std::optional<Expr> value_of(const Expr& variable, const Values& values) {
     const std::string name = variable.decl().name().str();
