@@ -33,6 +33,14 @@ struct ResendsCopy : Switch {};
 struct SpdpMulticast : Packet<owner::pair> {};
 struct SpdpUnicast : Packet<owner::pair> {};
 
+/// A unicast copy to each participant that is known. A host may keep the copies as one record.
+struct CopyToKnown : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.for_known_peers([](auto& peer) { peer.emit(SpdpUnicast{}, says()); });
+  }
+};
+
 template <class C>
 struct AnnouncementRules {
   struct AnnouncementIsDue : Rule<Due<Announcement>> {
@@ -46,7 +54,7 @@ struct AnnouncementRules {
                                  .period = w(AnnouncementPeriod{})});
       w.set(AnnouncementsSent{}, w(AnnouncementsSent{}) + 1);
       w.when(timer.announce, [&] {
-        announce(w, [&] { copy_to_known(w); });
+        announce(w, [&] { w.perform(CopyToKnown{}); });
         w.at(timer.next_at, Announcement{});
       });
     }
@@ -74,10 +82,6 @@ struct AnnouncementRules {
     copies();
     if constexpr (!C::multicast_first) w.emit(SpdpMulticast{}, says());
   }
-  template <class W>
-  static void copy_to_known(W& w) {
-    w.for_known_peers([](auto& peer) { peer.emit(SpdpUnicast{}, says()); });
-  }
 
   /// `w` is the pair of the one who announced itself and the one who hears it.
   struct Hear : Procedure {
@@ -92,7 +96,7 @@ struct AnnouncementRules {
   };
   template <class W>
   static void answer(W& back) {
-    back.when(back(ResendsToAll{}), [&] { announce(back, [&] { copy_to_known(back); }); });
+    back.when(back(ResendsToAll{}), [&] { announce(back, [&] { back.perform(CopyToKnown{}); }); });
     back.when(back(ResendsCopyAndMulticast{}),
               [&] { announce(back, [&] { back.emit(SpdpUnicast{}, says()); }); });
     back.when(back(ResendsCopy{}), [&] { back.emit(SpdpUnicast{}, says()); });

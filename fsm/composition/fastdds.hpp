@@ -73,10 +73,9 @@ struct Implementation {
     emit_heartbeat(w);
     w.perform(RefillBudget{});
   }
-  /// One message to every reader.
   template <class W>
   static void periodic(W& w) {
-    w.for_readers([](auto& r) { emit_heartbeat(r); });
+    w.perform(HeartbeatToAll{});
     w.perform(RefillBudget{});
   }
   template <class W>

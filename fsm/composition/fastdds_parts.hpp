@@ -94,6 +94,13 @@ void emit_heartbeat(W& w) {
   w.emit(Heartbeat{}, says(Says{Announces{}, [](auto& d) { return d(Exists{}); }}));
 }
 
+/// One message to every reader, which names its reader only if there is a single one.
+struct HeartbeatToAll : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.for_readers([](auto& r) { emit_heartbeat(r); });
+  }
+};
 struct RefillBudget : Opaque {
   template <class W>
   static void contract(W&) {}

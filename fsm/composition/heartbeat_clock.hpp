@@ -52,7 +52,7 @@ struct ClockRules {
   struct SendBatch : Opaque {
     template <class W>
     static void contract(W& w) {
-      w.for_readers([](auto& r) {
+      w.for_readers_by_number([](auto& r) {
         r.when(r.choice("in this batch") && r(typename C::Waits{}), [&] { C::heartbeat(r); });
       });
     }
@@ -72,11 +72,14 @@ struct ClockRules {
   /// the reader, if the reader has all that was announced when the cycle started.
   template <class W>
   static void response(W& w) {
-    const auto up_to_date = w.all([](auto& d) { return d(BelowBase{}) || !d(AnnouncedAtStart{}); });
-    w.when(w(Adaptive{}) && w(Contacted{}) && !w(Responded{}) && up_to_date, [&] {
-      const auto clock = feed<heartbeat_timer::ResponseReceived>(w);
-      w.when(clock.count_response, [&] { w.set(Responded{}, typename W::Bool(true)); });
-      w.call(CycleGoesOn{}, clock);
+    w.when(w(Adaptive{}) && w(Contacted{}) && !w(Responded{}), [&] {
+      const auto up_to_date =
+          w.all([](auto& d) { return d(BelowBase{}) || !d(AnnouncedAtStart{}); });
+      w.when(up_to_date, [&] {
+        const auto clock = feed<heartbeat_timer::ResponseReceived>(w);
+        w.when(clock.count_response, [&] { w.set(Responded{}, typename W::Bool(true)); });
+        w.call(CycleGoesOn{}, clock);
+      });
     });
   }
 
@@ -171,7 +174,7 @@ struct ClockRules {
       r.set(Responded{}, typename W::Bool(false));
       r.set(Contacted{}, r(typename C::Waits{}));
     });
-    w.for_readers([](auto& r) { r.when(r(Contacted{}), [&] { C::heartbeat(r); }); });
+    w.for_readers_by_number([](auto& r) { r.when(r(Contacted{}), [&] { C::heartbeat(r); }); });
   }
 };
 

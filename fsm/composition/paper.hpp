@@ -55,6 +55,19 @@ struct RefillBudget : Opaque {
   template <class W>
   static void contract(W&) {}
 };
+/// A HEARTBEAT to every open relation of the writer, or to those whose readers wait. A host may keep
+/// those to all as one record.
+struct HeartbeatToRecipients : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.for_readers([](auto& r) {
+      r.when(r(HeartbeatToMatched{}) || r(Waits{}), [&] {
+        r.perform(RefillBudget{});
+        r.emit(Heartbeat{}, says());
+      });
+    });
+  }
+};
 /// Descriptors are put into DATA packets, filled in ascending order up to the grouping limit and
 /// charged against the piggyback budget. A budget that is used up sends a HEARTBEAT to every open
 /// relation of the writer: in the packet if there is only one, otherwise after the packet as it is.
@@ -116,8 +129,7 @@ struct Implementation {
   }
   template <class W>
   static void periodic(W& w) {
-    w.for_readers(
-        [](auto& r) { r.when(r(HeartbeatToMatched{}) || r(Waits{}), [&] { heartbeat(r); }); });
+    w.perform(HeartbeatToRecipients{});
   }
   template <class W>
   static void open_sides(W& w) {

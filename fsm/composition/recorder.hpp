@@ -132,6 +132,10 @@ class Recorder {
   void for_readers(Body&& body) {
     within("for each open reader", [&] { body(*this); });
   }
+  template <class Body>
+  void for_readers_by_number(Body&& body) {
+    within("for each open reader by number", [&] { body(*this); });
+  }
   template <class Term, class Body>
   void for_descriptors(Term&& term, Body&& body) {
     within("for each d: " + term(*this).text(), [&] { body(*this); });

@@ -28,6 +28,7 @@
 //   w.call(procedure, …)       effects that several rules have, stated once, see `Procedure`
 //   w.perform(step, …)         a step that is stated by its contract only, see `Opaque`
 //   w.for_readers(body)        each open relation of the writer, in the order the host keeps
+//   w.for_readers_by_number(body)   the same, in ascending order of the peers
 //   w.for_descriptors(term, body)   ascending, those for which the term holds then
 //   w.for_queue(body)          the queue of the participant, until it is empty
 //   w.for_streams(body), w.for_known_peers(body), w.reverse(body)   announcements
@@ -172,6 +173,21 @@ struct Rule {
   using Trigger = Trigger_;
   static constexpr Owner owner = Trigger_::Cause::owner;
 };
+
+namespace detail {
+template <class Trigger, class Rules>
+struct RuleFor;
+template <class Trigger, class First, class... Rest>
+struct RuleFor<Trigger, TypeList<First, Rest...>> : RuleFor<Trigger, TypeList<Rest...>> {};
+template <class Trigger, class First, class... Rest>
+requires std::is_same_v<typename First::Trigger, Trigger>
+struct RuleFor<Trigger, TypeList<First, Rest...>> {
+  using type = First;
+};
+}  // namespace detail
+/// The rule of a composition for a trigger; each has one.
+template <class Composition, class Trigger>
+using RuleFor = typename detail::RuleFor<Trigger, typename Composition::Rules>::type;
 
 // How effects are written. ------------------------------------------------------------------------
 

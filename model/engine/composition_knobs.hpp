@@ -9,8 +9,9 @@
 
 namespace stormproof::model {
 
-namespace knobs_of_composition {
 namespace comp = fsm::composition;
+
+namespace knobs_of_composition {
 
 // Truth values.
 inline bool value(comp::AcceptsUnmatched, const DdsProfile& dds) {
@@ -112,43 +113,43 @@ template <class Knob>
 template <class Timer>
 inline constexpr EventKind event_kind_of = EventKind::dispatch;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::Announcement> =
+inline constexpr EventKind event_kind_of<comp::Announcement> =
     EventKind::announcement_due;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::AckNackGeneration> =
+inline constexpr EventKind event_kind_of<comp::AckNackGeneration> =
     EventKind::acknack_generation;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::InitialAttempt> =
+inline constexpr EventKind event_kind_of<comp::InitialAttempt> =
     EventKind::initial_acknack_due;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::HeartbeatExpiry> =
+inline constexpr EventKind event_kind_of<comp::HeartbeatExpiry> =
     EventKind::heartbeat_expiry;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::CycleStart> = EventKind::cycle_start;
+inline constexpr EventKind event_kind_of<comp::CycleStart> = EventKind::cycle_start;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::CycleEnd> = EventKind::cycle_end;
+inline constexpr EventKind event_kind_of<comp::CycleEnd> = EventKind::cycle_end;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::BatchDue> = EventKind::batch_due;
+inline constexpr EventKind event_kind_of<comp::BatchDue> = EventKind::batch_due;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::paper::RepairGeneration> =
+inline constexpr EventKind event_kind_of<comp::paper::RepairGeneration> =
     EventKind::repair_generation;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::paper::SuppressionEnd> =
+inline constexpr EventKind event_kind_of<comp::paper::SuppressionEnd> =
     EventKind::suppression_end;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::fastdds::SuppressionEnd> =
+inline constexpr EventKind event_kind_of<comp::fastdds::SuppressionEnd> =
     EventKind::suppression_end;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::fastdds::NackResponseDue> =
+inline constexpr EventKind event_kind_of<comp::fastdds::NackResponseDue> =
     EventKind::nack_response;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::fastdds::AsyncRunDue> =
+inline constexpr EventKind event_kind_of<comp::fastdds::AsyncRunDue> =
     EventKind::async_run;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::control::ControlInitialAttempt> =
+inline constexpr EventKind event_kind_of<comp::control::ControlInitialAttempt> =
     EventKind::control_initial_due;
 template <>
-inline constexpr EventKind event_kind_of<fsm::composition::control::ControlReplyDue> =
+inline constexpr EventKind event_kind_of<comp::control::ControlReplyDue> =
     EventKind::control_reply_due;
 
 }  // namespace stormproof::model

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 
 namespace stormproof::model {
 
@@ -17,6 +18,13 @@ using Words = std::span<const std::uint64_t>;
 
 [[nodiscard]] constexpr std::uint32_t words_for(std::uint32_t descriptors) {
   return (descriptors + 63) / 64;
+}
+
+/// Bits of word k that belong to descriptors below `limit`.
+[[nodiscard]] constexpr std::uint64_t bits_below(std::uint32_t limit, std::uint32_t k) {
+  if (limit <= 64 * k) return 0;
+  const std::uint32_t rest = limit - 64 * k;
+  return rest >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << rest) - 1;
 }
 
 class DescriptorSet {
@@ -35,6 +43,14 @@ class DescriptorSet {
       many_ = std::make_unique<std::uint64_t[]>(count_);
       std::ranges::copy(words.subspan(begin, count_), many_.get());
     }
+  }
+
+  /// Adds members of word k, which is the last one that has members, or a later one.
+  void add(std::uint32_t k, std::uint64_t members) {
+    if (members == 0) return;
+    if (count_ == 0) first_ = k;
+    if (k >= first_ + count_) grow(k + 1 - first_);
+    (count_ == 1 ? single_ : many_[k - first_]) |= members;
   }
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
@@ -82,6 +98,15 @@ class DescriptorSet {
   }
 
  private:
+  void grow(std::uint32_t count) {
+    if (count > 1) {
+      auto words = std::make_unique<std::uint64_t[]>(count);
+      for (std::uint32_t k = 0; k < count_; ++k) words[k] = word(first_ + k);
+      many_ = std::move(words);
+    }
+    count_ = count;
+  }
+
   std::uint32_t first_ = 0;
   std::uint32_t count_ = 0;
   std::uint64_t single_ = 0;

@@ -1,102 +1,62 @@
-// The rules that all implementations share, each as its machine decides it.
+// The cycle of the adaptive policy, and what packets have in common.
 #include "model/engine/discovery_base.hpp"
+
+#include "fsm/adaptive_period.hpp"
 
 namespace stormproof::model {
 
-namespace reader = fsm::discovery_reader;
-
-DiscoveryBase::DiscoveryBase(RunState& run, Network& network, Multicast multicast,
-                             bool accepts_unmatched)
+DiscoveryBase::DiscoveryBase(RunState& run, Network& network)
     : run_{run},
       network_{network},
       spdp_{run.scenario.dds.spdp},
       sedp_{run.scenario.dds.sedp},
-      heartbeats_{run, *this},
-      announcements_{run},
-      multicast_{multicast},
-      accepts_unmatched_{accepts_unmatched},
-      initial_attempts_{run, MachineRef::Kind::relation, EventKind::initial_acknack_due},
-      reader_driver_{run, MachineRef::Kind::relation} {}
+      readers_(run.topology.relation_count()),
+      announcers_(run.topology.participant_count()),
+      clocks_(2 * std::size_t{run.topology.participant_count()}),
+      asked_(run.topology.relation_count()) {}
 
-void DiscoveryBase::handle(const Event& event) {
-  switch (event.kind) {
-    case EventKind::announcement_due:
-      announcements_.due(event.subject, [&] { send_spdp(event.subject); });
-      break;
-    case EventKind::acknack_generation:
-      acknack_generation(event.subject);
-      break;
-    case EventKind::initial_acknack_due:
-      initial_acknack_due(event.subject);
-      break;
-    default:
-      heartbeats_.handle(event);
-      break;
+namespace {
+/// Sets a flag; `count` is how many of its kind are set.
+void count_flag(bool& flag, bool value, std::uint32_t& count) {
+  if (flag && !value) --count;
+  if (!flag && value) ++count;
+  flag = value;
+}
+}  // namespace
+
+void DiscoveryBase::assign(comp::Contacted, std::uint32_t relation, bool contacted) {
+  count_flag(asked_[relation].contacted, contacted, clocks_[writer_of(relation)].contacted);
+}
+
+void DiscoveryBase::assign(comp::Responded, std::uint32_t relation, bool responded) {
+  count_flag(asked_[relation].responded, responded, clocks_[writer_of(relation)].responded);
+}
+
+void DiscoveryBase::plan_batches(std::uint32_t w, std::int64_t stretched) {
+  Clock& clock = clocks_[w];
+  clock.batches.clear();
+  clock.next_batch = 0;
+  const fsm::AdaptiveCycle<fsm::Plain> cycle{.contacted = clock.contacted,
+                                             .responded = clock.responded,
+                                             .epsilon_num = sedp_.adaptive.epsilon_numerator,
+                                             .epsilon_den = sedp_.adaptive.epsilon_denominator};
+  const auto size = static_cast<std::size_t>(fsm::batch_size<fsm::Plain>(cycle));
+  for (const std::uint32_t relation : open_relations(w)) {
+    if (!asked_[relation].contacted || asked_[relation].responded) continue;
+    if (clock.batches.empty() || clock.batches.back().size() == size) clock.batches.emplace_back();
+    clock.batches.back().push_back(relation);
+  }
+  const std::int64_t rest = stretched - clock.period;
+  const auto count = static_cast<std::int64_t>(clock.batches.size());
+  for (std::int64_t k = 0; k < count; ++k) {
+    schedule(comp::BatchDue{}, w, now() + rest * k / count);
   }
 }
 
-void DiscoveryBase::send_spdp(std::uint32_t i) {
-  if (multicast_ == Multicast::first) send_spdp_multicast(i);
-  send_spdp_to_known(i);
-  if (multicast_ == Multicast::last) send_spdp_multicast(i);
-}
-
-void DiscoveryBase::resend(std::uint32_t reverse_pair) {
-  const std::uint32_t j = run_.topology.pair(reverse_pair).source;
-  switch (spdp_.resend) {
-    case SpdpResend::all_known:
-      send_spdp(j);
-      break;
-    case SpdpResend::new_and_multicast:
-      if (multicast_ == Multicast::first) send_spdp_multicast(j);
-      send_spdp_copy(reverse_pair);
-      if (multicast_ == Multicast::last) send_spdp_multicast(j);
-      break;
-    case SpdpResend::new_only:
-      send_spdp_copy(reverse_pair);
-      break;
-    case SpdpResend::none:
-      break;
-  }
-}
-
-template <class ReaderEvent>
-Driver<fsm::DiscoveryReader>::Output DiscoveryBase::step(std::uint32_t relation, ReaderSide& side,
-                                                         std::uint32_t missing_after) {
-  return reader_driver_.step<ReaderEvent>(
-      run_, side.reader, {.accepts_unmatched = accepts_unmatched_, .missing_after = missing_after},
-      relation);
-}
-
-void DiscoveryBase::open_reader(std::uint32_t relation) {
-  ReaderSide& side = reader_side(relation);
-  const auto output = step<reader::AnnouncementReceived>(relation, side, side.missing);
-  if (output.opened) initial_attempts_.open(side.initial, relation);
-}
-
-bool DiscoveryBase::takes_data(std::uint32_t relation, std::uint32_t missing_after) {
-  return step<reader::DataReceived>(relation, reader_side(relation), missing_after).take_data;
-}
-
-bool DiscoveryBase::sees_heartbeat(std::uint32_t relation) {
-  ReaderSide& side = reader_side(relation);
-  const auto output = step<reader::HeartbeatReceived>(relation, side, side.missing);
-  if (output.schedule_acknack) side.heartbeat_seen = true;
-  return output.schedule_acknack;
-}
-
-void DiscoveryBase::acknack_generation(std::uint32_t relation) {
-  ReaderSide& side = reader_side(relation);
-  const auto output = step<reader::AckNackDue>(relation, side, side.missing);
-  if (output.send_acknack) emit_acknack(relation, false);
-}
-
-void DiscoveryBase::initial_acknack_due(std::uint32_t relation) {
-  ReaderSide& side = reader_side(relation);
-  initial_attempts_.attempt(side.initial, side.heartbeat_seen, relation, [&] {
-    const auto output = step<reader::InitialAckNackDue>(relation, side, side.missing);
-    if (output.send_initial) emit_acknack(relation, true);
-  });
+std::vector<std::uint32_t> DiscoveryBase::next_batch(std::uint32_t w) {
+  Clock& clock = clocks_[w];
+  if (clock.next_batch == clock.batches.size()) return {};  // the event was scheduled twice
+  return clock.batches[clock.next_batch++];
 }
 
 void DiscoveryBase::note_last_delivery(std::uint32_t relation, std::uint32_t descriptor) {

@@ -2,21 +2,30 @@
 // writer's state, both as bit planes of one relation. Descriptors in the same state that meet the
 // same input cannot be told apart by the machine, so each such class takes ONE step of the
 // Boost.MSM machine and moves as a whole: an ACKNACK costs a few steps for 64 descriptors, and a
-// descriptor takes four bits (three of state, one of X). Which events there are is the
-// implementation's business: model/paper/descriptor_states.hpp and model/fastdds/change_states.hpp.
+// descriptor takes four bits (three of state, one of X). What happens to them, rules say
+// (fsm/composition).
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 #include <vector>
+
+#include <boost/pfr.hpp>
 
 #include "fsm/stepper.hpp"
 #include "model/engine/descriptor_set.hpp"
 #include "model/engine/driver.hpp"
+#include "model/engine/lanes.hpp"
 #include "model/engine/run_state.hpp"
 
 namespace stormproof::model {
+
+/// Which value of each field of an input comes first.
+template <class LaneInput>
+using LaneOrder = std::array<bool, boost::pfr::tuple_size_v<LaneInput>>;
 
 template <class Machine>
 class RelationBits {
@@ -42,6 +51,11 @@ class RelationBits {
     }
   }
 
+  /// X of the descriptors of word k.
+  [[nodiscard]] std::uint64_t received(std::uint32_t relation, std::uint32_t k) const {
+    return word(relation, k).received;
+  }
+
   /// How many of `descriptors` the reader lacks.
   [[nodiscard]] std::uint32_t count_missing(std::uint32_t relation,
                                             const DescriptorSet& descriptors) const {
@@ -53,17 +67,13 @@ class RelationBits {
     return missing;
   }
 
-  [[nodiscard]] bool has_received(std::uint32_t relation, std::uint32_t d) const {
-    return (word(relation, d / 64).received >> d % 64 & 1) != 0;
-  }
-
-  /// The bitmap {d < limit : X = 0} of this instant.
-  [[nodiscard]] DescriptorSet missing(std::uint32_t relation, std::uint32_t limit = UINT32_MAX) {
-    scratch_.clear();
+  /// The descriptors with X = 0.
+  [[nodiscard]] DescriptorSet missing(std::uint32_t relation) const {
+    DescriptorSet set;
     for (std::uint32_t k = 0; k < word_count(relation); ++k) {
-      scratch_.push_back(valid(relation, k) & below(limit, k) & ~word(relation, k).received);
+      set.add(k, valid(relation, k) & ~word(relation, k).received);
     }
-    return DescriptorSet{scratch_};
+    return set;
   }
 
   /// The first `limit` required descriptors that have not reached their readers, in ascending
@@ -83,13 +93,6 @@ class RelationBits {
     return list;
   }
 
-  /// All descriptors 0 … D-1 of the relation.
-  [[nodiscard]] DescriptorSet all(std::uint32_t relation) {
-    scratch_.clear();
-    for (std::uint32_t k = 0; k < word_count(relation); ++k) scratch_.push_back(valid(relation, k));
-    return DescriptorSet{scratch_};
-  }
-
   /// Marks descriptor d as generated; returns whether that happens for the first time.
   bool mark_generated(std::uint32_t relation, std::uint32_t d) {
     Word& target = word(relation, d / 64);
@@ -99,24 +102,18 @@ class RelationBits {
     return first;
   }
 
- protected:
-  static constexpr std::size_t state_bits = 3;
-  static_assert(fsm::Reflect<Machine>::state_count <= (1U << state_bits));
+  /// Steps the `members` (bits of word k), every class of equal state once; calls
+  /// `effect(class, output, before, after)` for each class, with the states.
+  template <class Event, class Effect>
+  void step(std::uint32_t relation, std::uint32_t k, std::uint64_t members, const Input& input,
+            Effect&& effect);
 
-  [[nodiscard]] std::uint32_t word_count(std::uint32_t relation) const {
-    return words_for(run_.topology.descriptor_count(relation));
-  }
-
-  /// Bits of word k that belong to descriptors of the relation.
-  [[nodiscard]] std::uint64_t valid(std::uint32_t relation, std::uint32_t k) const {
-    return below(run_.topology.descriptor_count(relation), k);
-  }
-
-  /// Bits of word k that belong to descriptors below `limit`.
-  [[nodiscard]] static std::uint64_t below(std::uint32_t limit, std::uint32_t k) {
-    if (limit <= 64 * k) return 0;
-    const std::uint32_t rest = limit - 64 * k;
-    return rest >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << rest) - 1;
+  /// The same where the input differs: every class of equal state and input steps once. Of a field,
+  /// those come first for which it has the value that `first` says.
+  template <class Event, class LaneInput, class Effect>
+  void step_each(std::uint32_t relation, std::uint32_t k, std::uint64_t members,
+                 const LaneInput& input, const LaneOrder<LaneInput>& first, Effect&& effect) {
+    step_classes<Event, 0>(relation, k, members, input, first, Input{}, effect);
   }
 
   /// Bits of word k whose descriptors are in the state with this number.
@@ -130,25 +127,42 @@ class RelationBits {
     return members;
   }
 
-  /// Steps every class of `members` (bits of word k) once; calls `effect(class, output)` for each.
-  template <class Event, class Effect>
-  void step(std::uint32_t relation, std::uint32_t k, std::uint64_t members, const Input& input,
-            Effect&& effect);
-  template <class Event>
-  void step(std::uint32_t relation, std::uint32_t k, std::uint64_t members,
-            const Input& input = {}) {
-    step<Event>(relation, k, members, input, [](std::uint64_t, const Output&) {});
+ private:
+  static constexpr std::size_t state_bits = 3;
+  static_assert(fsm::Reflect<Machine>::state_count <= (1U << state_bits));
+
+  [[nodiscard]] std::uint32_t word_count(std::uint32_t relation) const {
+    return words_for(run_.topology.descriptor_count(relation));
   }
 
-  RunState& run_;
-  std::vector<std::uint64_t> scratch_;
+  /// Bits of word k that belong to descriptors of the relation.
+  [[nodiscard]] std::uint64_t valid(std::uint32_t relation, std::uint32_t k) const {
+    return bits_below(run_.topology.descriptor_count(relation), k);
+  }
 
- private:
+
   struct Word {
     std::uint64_t received = 0;
     std::array<std::uint64_t, state_bits> state{};
     std::uint64_t generated = 0;
   };
+
+  template <class Event, std::size_t field, class LaneInput, class Effect>
+  void step_classes(std::uint32_t relation, std::uint32_t k, std::uint64_t members,
+                    const LaneInput& lanes, const LaneOrder<LaneInput>& first, Input input,
+                    Effect& effect) {
+    if constexpr (field == boost::pfr::tuple_size_v<LaneInput>) {
+      step<Event>(relation, k, members, input, effect);
+    } else {
+      const std::uint64_t holds = boost::pfr::get<field>(lanes).bits;
+      for (const bool value : {first[field], !first[field]}) {
+        const std::uint64_t same = members & (value ? holds : ~holds);
+        if (same == 0) continue;
+        boost::pfr::get<field>(input) = value;
+        step_classes<Event, field + 1>(relation, k, same, lanes, first, input, effect);
+      }
+    }
+  }
 
   [[nodiscard]] Word& word(std::uint32_t relation, std::uint32_t k) {
     return words_[first_word_[relation] + k];
@@ -157,6 +171,7 @@ class RelationBits {
     return words_[first_word_[relation] + k];
   }
 
+  RunState& run_;
   fsm::Stepper<Machine> machines_;
   std::vector<Word> words_;
   std::vector<std::uint32_t> first_word_;  // by relation
@@ -190,7 +205,7 @@ void RelationBits<Machine>::step(std::uint32_t relation, std::uint32_t k, std::u
       run_.probe->transition({fsm::name_of<Machine>(), MachineRef::Kind::relation, relation},
                              fsm::name_of<Event>(), names[before], names[after], k, classes[s]);
     }
-    effect(classes[s], output);
+    effect(classes[s], output, before, after);
   }
 }
 

@@ -1,12 +1,15 @@
-// Construction, the dispatch of events and packets to the rules, and what all of them use.
+// The state that the rules are about, the way from events and packets to rules, and what goes out on
+// the wire.
 #include "model/fastdds/protocol.hpp"
+
+#include <algorithm>
 
 namespace stormproof::model::fastdds {
 
 Protocol::Protocol(RunState& run, Network& network)
-    : DiscoveryBase{run, network, Multicast::last, false},
+    : DiscoveryBase{run, network},
       changes_{run},
-      control_{run, network, *this},
+      control_{run},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
@@ -15,7 +18,7 @@ Protocol::Protocol(RunState& run, Network& network)
     relations_[relation].missing = run.topology.descriptor_count(relation);
   }
   for (std::uint32_t w = 0; w < writers_.size(); ++w) {
-    writers_[w].budget = sedp_.piggyback_threshold_bytes.count();
+    refill(w);
     writers_[w].enqueued.resize(words_for(run.topology.descriptor_count(w / 2, stream_of(w))));
   }
 }
@@ -27,7 +30,7 @@ void Protocol::start() {
     const std::int64_t span = participant.endpoints_done.count() - start;
     const std::int64_t endpoints = run_.topology.descriptor_count(i, Stream::pub) +
                                    run_.topology.descriptor_count(i, Stream::sub);
-    announcements_.start(i);
+    start_announcing(i);
     for (std::int64_t k = 0; k < endpoints; ++k) {
       run_.schedule(Nanoseconds{start + span * (k + 1) / endpoints}, EventKind::endpoint_creation,
                     i, static_cast<std::uint32_t>(k));
@@ -36,28 +39,15 @@ void Protocol::start() {
 }
 
 void Protocol::handle(const Event& event) {
-  const std::uint32_t subject = event.subject;
-  switch (event.kind) {
-    case EventKind::endpoint_creation:
-      create_endpoint(subject, event.detail);
-      break;
-    case EventKind::nack_response:
-      nack_response(subject);
-      break;
-    case EventKind::suppression_end:
-      suppression_end(subject);
-      break;
-    case EventKind::async_run:
-      async_run(subject);
-      break;
-    case EventKind::control_initial_due:
-    case EventKind::control_reply_due:
-      control_.handle(event);
-      break;
-    default:
-      DiscoveryBase::handle(event);
-      break;
+  if (event.kind != EventKind::endpoint_creation) {
+    run_due(*this, event);
+    return;
   }
+  const std::uint32_t user_publications =
+      run_.topology.descriptor_count(event.subject, Stream::pub) - default_publications;
+  const auto [stream, d] = creation_order(event.detail, user_publications);
+  run_rule<comp::Happens<rules::Created>>(*this, 2 * event.subject + static_cast<std::uint32_t>(index_of(stream)), nullptr,
+                                         d);
 }
 
 std::vector<std::uint32_t> Protocol::receivers(const Packet& packet) const {
@@ -77,27 +67,120 @@ std::vector<std::uint32_t> Protocol::receivers(const Packet& packet) const {
 
 void Protocol::received(const Packet& packet, std::uint32_t receiver) {
   if (run_.now < run_.topology.start(receiver)) return;
+  const std::uint32_t relation = packet.relation();
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
-      spdp_received(run_.topology.pair_between(packet.pair, receiver));
+      run_rule<comp::Received<comp::SpdpMulticast>>(
+          *this, run_.topology.pair_between(packet.pair, receiver));
       break;
     case PacketKind::spdp_unicast:
-      spdp_received(packet.pair);
+      run_rule<comp::Received<comp::SpdpUnicast>>(*this, packet.pair);
       break;
     case PacketKind::data:
-      data_received(packet);
+      if (crosses(relation)) {
+        run_.duplicate_deliveries +=
+            packet.descriptors.count() - changes_.count_missing(relation, packet.descriptors);
+      }
+      run_rule<comp::Received<rules::Data>>(*this, relation, &packet);
       break;
     case PacketKind::heartbeat:
-      heartbeat_received(packet.relation(), packet.detail);
+      run_rule<comp::Received<rules::Heartbeat>>(*this, relation, &packet);
       break;
     case PacketKind::acknack:
-      acknack_received(packet);
+      run_rule<comp::Received<rules::AckNack>>(*this, relation, &packet);
       break;
     case PacketKind::user_heartbeat:
+      run_rule<comp::Received<control::UserHeartbeat>>(*this, packet.detail, &packet);
+      break;
     case PacketKind::user_acknack:
-      control_.received(packet);
+      run_rule<comp::Received<control::UserAckNack>>(*this, packet.detail, &packet);
       break;
   }
+}
+
+void Protocol::assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
+  Relation& r = relations_[relation];
+  const std::uint32_t missing = run_.topology.descriptor_count(relation) - received.count();
+  const std::uint32_t fresh = r.missing - missing;
+  if (crosses(relation)) {
+    if (fresh > 0 && fresh == run_.missing) {
+      note_last_delivery(relation, changes_.missing(relation).lowest());
+    }
+    run_.missing -= fresh;
+    run_.useful_deliveries += fresh;
+  }
+  changes_.receive(relation, received);
+  r.missing = missing;
+}
+
+std::vector<std::uint32_t> Protocol::open_relations(std::uint32_t w) const {
+  std::vector<std::uint32_t> relations = writers_[w].readers;
+  std::ranges::sort(relations);
+  return relations;
+}
+
+void Protocol::enqueue(std::uint32_t w, const DescriptorSet& requested) {
+  Writer& writer = writers_[w];
+  requested.for_each([&](std::uint32_t d) {
+    const std::uint64_t bit = std::uint64_t{1} << d % 64;
+    if ((writer.enqueued[d / 64] & bit) != 0) return;
+    writer.enqueued[d / 64] |= bit;
+    participants_[w / 2].queue.push_back({stream_of(w), d});
+  });
+}
+
+void Protocol::send_spdp_to_known(std::uint32_t i) {
+  for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
+       ++pair) {
+    if (known_[pair]) send_spdp_copy(pair);
+  }
+}
+
+void Protocol::send_spdp_multicast(std::uint32_t i) {
+  ++run_.counts.spdp_multicast;
+  for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
+       ++pair) {
+    const Pair& p = run_.topology.pair(pair);
+    if (p.cross_host) continue;
+    network_.loop_back(packet_of(PacketKind::spdp_multicast, i, spdp_bytes), p.destination);
+  }
+  network_.emit(i, packet_of(PacketKind::spdp_multicast, i, spdp_bytes));
+}
+
+void Protocol::send_spdp_copy(std::uint32_t pair) {
+  if (run_.topology.pair(pair).cross_host) ++run_.counts.spdp_unicast;
+  send(packet_of(PacketKind::spdp_unicast, pair, spdp_bytes));
+}
+
+void Protocol::send_heartbeat(std::uint32_t relation, std::uint32_t announced,
+                              std::int64_t bytes) {
+  if (crosses(relation)) ++run_.counts.heartbeat;
+  Packet packet = packet_on(PacketKind::heartbeat, relation, bytes);
+  packet.detail = announced;
+  send(std::move(packet));
+}
+
+void Protocol::send_heartbeat_to_all(std::uint32_t w) {
+  const Writer& writer = writers_[w];
+  const std::int64_t bytes =
+      writer.readers.size() == 1 ? heartbeat_to_one_bytes : heartbeat_to_many_bytes;
+  for (const std::uint32_t relation : writer.readers) {
+    send_heartbeat(relation, writer.created, bytes);
+  }
+}
+
+void Protocol::send_acknack(Packet&& packet) {
+  if (crosses(packet.relation())) ++run_.counts.acknack;
+  if (!packet.descriptors.empty()) {
+    packet.payload_bytes += static_cast<std::uint32_t>(acknack_bitmap_bytes);
+  }
+  send(std::move(packet));
+}
+
+void Protocol::renew_bitmap(Packet& acknack) {
+  if (acknack.initial_acknack) return;
+  RunningWorld<Protocol, comp::owner::relation> w{*this, acknack.relation()};
+  fill(acknack, w, rules::Implementation::bitmap());
 }
 
 void Protocol::send(Packet&& packet) {
@@ -108,19 +191,6 @@ void Protocol::send(Packet&& packet) {
     network_.emit(from, std::move(packet));
   else
     network_.loop_back(std::move(packet), to);
-}
-
-void Protocol::request(SingleShots& driver, fsm::StateId& timer, Nanoseconds delay, EventKind kind,
-                       std::uint32_t subject) {
-  const auto output = driver.step<fsm::single_shot::Requested>(
-      run_, timer, {.now = run_.now.count(), .delay = delay.count()}, subject);
-  if (output.schedule) run_.schedule(Nanoseconds{output.next_at}, kind, subject);
-}
-
-bool Protocol::expire(SingleShots& driver, fsm::StateId& timer, std::uint32_t subject) {
-  return driver
-      .step<fsm::single_shot::Due>(run_, timer, {.now = run_.now.count(), .delay = 0}, subject)
-      .fire;
 }
 
 std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {

@@ -1,13 +1,8 @@
-// Fast DDS 2.6.11 as its source code has it (specs/guide/fastdds.md): endpoints are created over
-// time, descriptors that exist at the match are pulled and later ones pushed, one writer serves all
-// its readers, and what is repaired goes through one asynchronous queue per participant. By rule
-// group:
-//   announcements.cpp  creation of endpoints, SPDP, matching
-//   writer.cpp         HEARTBEATs, ACKNACKs, nack response, suppression
-//   sender.cpp         creation and async run: messages, piggyback, flushing
-//   reader.cpp         DATA, HEARTBEATs, ACKNACKs at the reader
-//   control.cpp        relations of which only the control traffic is modelled
-//   (fastdds::ControlTraffic)
+// Fast DDS 2.6.11 as a host of its rules (fsm/composition/fastdds.hpp, specs/guide/fastdds.md): it
+// keeps what they are about, and does the steps that they leave to a host. By source file:
+//   protocol.cpp  state, events and packets to rules, what goes out on the wire
+//   sender.cpp    messages: packing, piggyback, flushing
+//   control.cpp   relations of which only the control traffic is modelled
 // What the paper's implementation does alike is in model/engine/discovery_base.hpp.
 #pragma once
 
@@ -15,16 +10,21 @@
 #include <deque>
 #include <vector>
 
-#include "fsm/single_shot.hpp"
+#include "fsm/composition/fastdds.hpp"
 #include "model/engine/discovery_base.hpp"
-#include "model/fastdds/change_states.hpp"
+#include "model/engine/relation_bits.hpp"
+#include "model/engine/running_world.hpp"
 #include "model/fastdds/control.hpp"
 #include "model/fastdds/message.hpp"
 
 namespace stormproof::model::fastdds {
 
-class Protocol final : public DiscoveryBase, private Discovered {
+namespace rules = fsm::composition::fastdds;
+namespace control = fsm::composition::control;
+
+class Protocol final : public DiscoveryBase {
  public:
+  using Composition = rules::FastDds;
   static constexpr SameHostPairs same_host_pairs =
       SameHostPairs::included;  ///< a writer treats all readers alike
 
@@ -42,96 +42,307 @@ class Protocol final : public DiscoveryBase, private Discovered {
   }
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
 
+  // The host of a RunningWorld: machines.
+  using DiscoveryBase::driver;
+  using DiscoveryBase::state;
+  auto& driver(rules::Reply) { return relation_shots_; }
+  auto& driver(rules::Suppression) { return relation_shots_; }
+  auto& driver(rules::NackResponse) { return writer_shots_; }
+  auto& driver(rules::AsyncRun) { return participant_shots_; }
+  auto& driver(control::ControlWriterSide) { return control_.writer_driver; }
+  auto& driver(control::ControlReaderSide) { return control_.reader_driver; }
+  auto& driver(control::ControlInitialTimer) { return control_.initial_driver; }
+  auto& driver(control::ControlReply) { return control_.reply_driver; }
+  auto& state(rules::Reply, std::uint32_t relation) { return relations_[relation].reply; }
+  auto& state(rules::Suppression, std::uint32_t relation) {
+    return relations_[relation].suppression;
+  }
+  auto& state(rules::NackResponse, std::uint32_t w) { return writers_[w].nack_response; }
+  auto& state(rules::AsyncRun, std::uint32_t i) { return participants_[i].async_run; }
+  auto& state(control::ControlWriterSide, std::uint32_t r) { return control_.of(r).writer; }
+  auto& state(control::ControlReaderSide, std::uint32_t r) { return control_.of(r).reader; }
+  auto& state(control::ControlInitialTimer, std::uint32_t r) { return control_.of(r).initial; }
+  auto& state(control::ControlReply, std::uint32_t r) { return control_.of(r).reply; }
+  auto& bits(rules::C) { return changes_; }
+  /// Of an ACKNACK: what is below its base, then what is listed.
+  static constexpr auto lane_order(rules::C) { return std::array{false, true}; }
+  void moved(rules::C, std::uint32_t, fsm::StateId, fsm::StateId, std::uint64_t) {}
+
+  // Flags.
+  using DiscoveryBase::answer;
+  using DiscoveryBase::assign;
+  using DiscoveryBase::assign_each;
+  using DiscoveryBase::value;
+  using DiscoveryBase::word;
+  template <class World>
+  [[nodiscard]] bool answer(rules::CrossHost, const World& w) const {
+    return run_.topology.pair(w.template number<comp::owner::pair>()).cross_host;
+  }
+  [[nodiscard]] bool value(comp::Recognised, std::uint32_t pair) const {
+    return known_[run_.topology.pair(pair).reverse];
+  }
+  void assign(comp::Recognised, std::uint32_t pair, bool recognised) {
+    known_[run_.topology.pair(pair).reverse] = recognised;
+  }
+  [[nodiscard]] bool value(rules::WriterOpen, std::uint32_t relation) const {
+    return relations_[relation].matched;
+  }
+  void assign(rules::WriterOpen, std::uint32_t relation, bool matched) {
+    relations_[relation].matched = matched;
+    writers_[writer_of(relation)].readers.push_back(relation);
+  }
+  [[nodiscard]] bool value(rules::SomeConfirmed, std::uint32_t relation) const {
+    return relations_[relation].some_confirmed;
+  }
+  void assign(rules::SomeConfirmed, std::uint32_t relation, bool confirmed) {
+    relations_[relation].some_confirmed = confirmed;
+  }
+  [[nodiscard]] std::uint64_t word(comp::X, std::uint32_t relation, std::uint32_t k) const {
+    return changes_.received(relation, k);
+  }
+  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received);
+  // The others hold for the first descriptors of a stream, up to some number.
+  [[nodiscard]] std::uint64_t word(rules::Exists, std::uint32_t w, std::uint32_t k) const {
+    return bits_below(writers_[w].created, k);
+  }
+  void assign(rules::Exists, std::uint32_t w, std::uint32_t d, bool) {
+    writers_[w].created = d + 1;
+  }
+  [[nodiscard]] std::uint64_t word(rules::Known, std::uint32_t relation, std::uint32_t k) const {
+    return bits_below(relations_[relation].known, k);
+  }
+  void assign_each(rules::Known, std::uint32_t relation, const DescriptorSet& known) {
+    relations_[relation].known = end_of(known);
+  }
+  [[nodiscard]] std::uint64_t word(rules::Notified, std::uint32_t relation, std::uint32_t k) const {
+    return bits_below(relations_[relation].notified, k);
+  }
+  void assign(rules::Notified, std::uint32_t relation, std::uint32_t d, bool) {
+    relations_[relation].notified = d + 1;
+  }
+  void assign(rules::Enqueued, std::uint32_t w, std::uint32_t d, bool) {
+    writers_[w].enqueued[d / 64] &= ~(std::uint64_t{1} << d % 64);
+  }
+  template <class World>
+  [[nodiscard]] bool fact(rules::QueueNotEmpty, const World& w) const {
+    return !participants_[w.template number<comp::owner::participant>()].queue.empty();
+  }
+  template <class World>
+  [[nodiscard]] bool fact(rules::HasReaders, const World& w) const {
+    return !writers_[w.template number<comp::owner::writer>()].readers.empty();
+  }
+  [[nodiscard]] bool value(control::ControlHeartbeatSeen, std::uint32_t r) const {
+    return control_.of(r).heartbeat_seen;
+  }
+  void assign(control::ControlHeartbeatSeen, std::uint32_t r, bool seen) {
+    control_.of(r).heartbeat_seen = seen;
+  }
+  [[nodiscard]] std::int64_t value(control::ControlLastDelay, std::uint32_t r) const {
+    return control_.of(r).last_delay;
+  }
+  void assign(control::ControlLastDelay, std::uint32_t r, std::int64_t delay) {
+    lengthen(control_.of(r).last_delay, delay);
+  }
+
+  // Packets.
+  [[nodiscard]] std::uint64_t word(comp::Announces, const Packet& packet, std::uint32_t k) const {
+    return bits_below(packet.detail, k);
+  }
+  [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
+    return bits_below(packet.detail, k);
+  }
+  template <class World, class Sayings>
+  void emit(comp::SpdpMulticast, World& w, const Sayings&) {
+    send_spdp_multicast(w.template number<comp::owner::participant>());
+  }
+  template <class World, class Sayings>
+  void emit(comp::SpdpUnicast, World& w, const Sayings&) {
+    send_spdp_copy(w.template number<comp::owner::pair>());
+  }
+  template <class World, class Sayings>
+  void emit(rules::Heartbeat, World& w, const Sayings& sayings) {
+    send_heartbeat(w.template number<comp::owner::relation>(),
+                   end_of(w.set_of(said_of<comp::Announces>(sayings))), heartbeat_to_one_bytes);
+  }
+  template <class World, class... Sayings>
+  void emit(rules::AckNack, World& w, const std::tuple<Sayings...>& sayings) {
+    constexpr bool initial = (std::is_same_v<typename Sayings::Field, comp::IsInitial> || ...);
+    const std::uint32_t relation = w.template number<comp::owner::relation>();
+    Packet packet = packet_on(PacketKind::acknack, relation, acknack_bytes);
+    packet.initial_acknack = initial;
+    if constexpr (!initial) fill(packet, w, sayings);
+    send_acknack(std::move(packet));
+  }
+  template <class World, class Sayings>
+  void emit(control::UserHeartbeat, World& w, const Sayings&) {
+    send_control(PacketKind::user_heartbeat, w.template number<comp::owner::control_relation>(),
+                 false);
+  }
+  template <class World, class... Sayings>
+  void emit(control::UserAckNack, World& w, const std::tuple<Sayings...>&) {
+    send_control(PacketKind::user_acknack, w.template number<comp::owner::control_relation>(),
+                 sizeof...(Sayings) > 0);
+  }
+
+  // Loops and opaque steps.
+  template <class Visit>
+  void for_readers(std::uint32_t w, Visit&& visit) const {
+    for (const std::uint32_t relation : writers_[w].readers) visit(relation);
+  }
+  template <class Visit>
+  void for_readers_by_number(std::uint32_t w, Visit&& visit) const {
+    for (const std::uint32_t relation : open_relations(w)) visit(relation);
+  }
+  template <class Visit>
+  void for_queue(std::uint32_t i, Visit&& visit) {
+    std::deque<Endpoint>& queue = participants_[i].queue;
+    while (!queue.empty()) {
+      const Endpoint entry = queue.front();
+      queue.pop_front();
+      visit(2 * i + static_cast<std::uint32_t>(entry.stream), entry.descriptor);
+    }
+  }
+  using DiscoveryBase::perform;
+  template <class World>
+  void perform(comp::CopyToKnown, World& w) {
+    send_spdp_to_known(w.template number<comp::owner::participant>());
+  }
+  template <class World>
+  void perform(rules::HeartbeatToAll, World& w) {
+    send_heartbeat_to_all(w.template number<comp::owner::writer>());
+  }
+  template <class World>
+  void perform(rules::RefillBudget, World& w) {
+    refill(w.template number<comp::owner::writer>());
+  }
+  template <class World>
+  void perform(rules::Clock::SendBatch, World& w) {
+    send_next_batch<rules::Implementation>(w);
+  }
+  template <class World>
+  void perform(rules::Enqueue, World& w, const DescriptorSet& requested) {
+    enqueue(w.template number<comp::owner::writer>(), requested);
+  }
+  template <class World>
+  void perform(rules::Pack, World& w, rules::ToAll) {
+    const std::uint32_t writer = w.template number<comp::owner::writer>();
+    pack(sync_message_, writer, w.descriptor(), writers_[writer].readers, SendMode::sync);
+  }
+  template <class World>
+  void perform(rules::Pack, World& w, rules::ToRequesters) {
+    targets_.clear();
+    w.for_readers([&](auto& r) {
+      if (!rules::ToRequesters::serves(r)) return;
+      targets_.push_back(r.template number<comp::owner::relation>());
+    });
+    pack(async_message_, w.template number<comp::owner::writer>(), w.descriptor(), targets_,
+         SendMode::async);
+  }
+  template <class World>
+  void perform(rules::Charge, World& w, rules::ToAll) {
+    charge(sync_message_, w.descriptor(), SendMode::sync);
+  }
+  template <class World>
+  void perform(rules::Charge, World& w, rules::ToRequesters) {
+    charge(async_message_, w.descriptor(), SendMode::async);
+  }
+  template <class World>
+  void perform(rules::Flush, World&, rules::ToAll) {
+    flush(sync_message_, SendMode::sync);
+  }
+  template <class World>
+  void perform(rules::Flush, World&, rules::ToRequesters) {
+    flush(async_message_, SendMode::async);
+  }
+  /// After a recognition, a notification or a creation, as the world's place says.
+  template <Owner place>
+  void perform(control::OpenTopics, RunningWorld<Protocol, place>& w) {
+    const std::uint32_t d = w.descriptor();
+    if constexpr (place == comp::owner::pair) {
+      open_liveliness(w.template number<comp::owner::pair>());
+    } else if constexpr (place == comp::owner::descriptor) {
+      const std::uint32_t relation = w.template number<comp::owner::relation>();
+      open_notified(relation / 2, stream_of(relation), d);
+    } else {
+      static_assert(place == comp::owner::entry);
+      const std::uint32_t writer = w.template number<comp::owner::writer>();
+      open_created(writer / 2, stream_of(writer), d);
+    }
+  }
+
  private:
-  struct Relation : ReaderSide {
+  struct Relation {
     // Writer side.
     bool matched = false;
-    std::uint32_t low = 0;  ///< every descriptor below it is acknowledged
-    fsm::StateId suppression = fsm::Flyweight<fsm::SingleShot>::initial;
+    bool some_confirmed = false;
+    fsm::StateId suppression = fsm::Stepper<fsm::SingleShot>::initial;
     // Reader side.
-    fsm::StateId reply = fsm::Flyweight<fsm::SingleShot>::initial;
-    std::uint32_t announced = 0;  ///< descriptors that the reader knows to exist
-    std::uint32_t notified = 0;   ///< descriptors received without a gap
+    fsm::StateId reply = fsm::Stepper<fsm::SingleShot>::initial;
+    std::uint32_t missing = 0;   ///< descriptors with X = 0
+    std::uint32_t known = 0;     ///< descriptors that the reader knows to exist
+    std::uint32_t notified = 0;  ///< descriptors received without a gap
   };
   struct Writer {
     std::uint32_t created = 0;           ///< H: descriptors created so far
     std::int64_t budget = 0;             ///< piggyback budget, bytes
     std::vector<std::uint32_t> readers;  ///< M: relations in match order
-    fsm::StateId nack_response = fsm::Flyweight<fsm::SingleShot>::initial;
+    fsm::StateId nack_response = fsm::Stepper<fsm::SingleShot>::initial;
     std::vector<std::uint64_t> enqueued;  ///< bit per descriptor: in the participant's async queue
   };
   struct Participant {
-    fsm::StateId async_run = fsm::Flyweight<fsm::SingleShot>::initial;
+    fsm::StateId async_run = fsm::Stepper<fsm::SingleShot>::initial;
     std::deque<Endpoint> queue;   ///< what the async run will send
     std::int64_t sent_bytes = 0;  ///< all bytes that the async sender has ever sent
   };
 
-  // announcements.cpp
-  void create_endpoint(std::uint32_t i, std::uint32_t k);
-  void send_spdp_to_known(std::uint32_t i) override;
-  void send_spdp_multicast(std::uint32_t i) override;
-  void send_spdp_copy(std::uint32_t pair) override;
-  void spdp_received(std::uint32_t pair);
-  void match_reader(std::uint32_t relation);
-
-  // writer.cpp
-  void acknack_received(const Packet& packet);
-  void initial_acknack_received(std::uint32_t relation);
-  void nack_response(std::uint32_t writer);
-  void suppression_end(std::uint32_t relation);
-  [[nodiscard]] bool is_behind(std::uint32_t relation) const;
-  void emit_heartbeat(std::uint32_t relation, std::int64_t bytes);
-
-  // HeartbeatSender, in writer.cpp
-  [[nodiscard]] bool needs_heartbeat(std::uint32_t writer) const override;
-  [[nodiscard]] std::vector<std::uint32_t> unacknowledged(std::uint32_t writer) const override;
-  [[nodiscard]] bool is_unacknowledged(std::uint32_t relation) const override;
-  [[nodiscard]] std::uint32_t announced(std::uint32_t writer) const override;
-  void send_periodic(std::uint32_t writer) override;
-  void send_heartbeat(std::uint32_t relation) override;
+  // protocol.cpp
+  [[nodiscard]] std::vector<std::uint32_t> open_relations(std::uint32_t writer) const override;
+  void enqueue(std::uint32_t writer, const DescriptorSet& requested);
+  void send_spdp_to_known(std::uint32_t i);
+  void send_spdp_multicast(std::uint32_t i);
+  void send_spdp_copy(std::uint32_t pair);
+  void send_heartbeat(std::uint32_t relation, std::uint32_t announced, std::int64_t bytes);
+  void send_heartbeat_to_all(std::uint32_t writer);
+  void send_acknack(Packet&& packet);
+  /// Sends a unicast packet by the channel, or by loopback if both ends are on one host.
+  void send(Packet&& packet);
+  /// Base and bitmap of an ACKNACK.
+  template <class World, class Sayings>
+  static void fill(Packet& acknack, World& w, const Sayings& sayings) {
+    acknack.detail = end_of(w.set_of(said_of<comp::BelowBase>(sayings)));
+    acknack.descriptors = w.set_of(said_of<comp::Listed>(sayings));
+  }
+  /// One more than the greatest member.
+  [[nodiscard]] static std::uint32_t end_of(const DescriptorSet& set) {
+    return set.empty() ? 0 : set.highest() + 1;
+  }
 
   // sender.cpp
   enum class SendMode : std::uint8_t { sync, async };
-  void push(std::uint32_t writer, std::uint32_t d);
-  void async_run(std::uint32_t i);
-  void deliver(Message& message, std::uint32_t writer, std::uint32_t d,
-               const std::vector<std::uint32_t>& readers, SendMode mode);
+  void refill(std::uint32_t writer);
+  void pack(Message& message, std::uint32_t writer, std::uint32_t d,
+            const std::vector<std::uint32_t>& readers, SendMode mode);
   void charge(Message& message, std::uint32_t d, SendMode mode);
   void piggyback(Message& message, std::uint32_t writer, SendMode mode);
   void flush(Message& message, SendMode mode);
 
-  // reader.cpp
-  void data_received(const Packet& packet);
-  void heartbeat_received(std::uint32_t relation, std::uint32_t announced);
-  void acknack_generation(std::uint32_t relation) override;
-  void emit_acknack(std::uint32_t relation, bool initial) override;
-  void ask(Packet& acknack);
-  void take(std::uint32_t relation, const DescriptorSet& descriptors, std::uint32_t fresh);
+  // control.cpp
+  void open(ControlSide side);
+  void open_liveliness(std::uint32_t pair);
+  void open_created(std::uint32_t i, Stream s, std::uint32_t d);
+  void open_notified(std::uint32_t pair, Stream s, std::uint32_t d);
+  void send_control(PacketKind kind, std::uint32_t relation, bool initial);
 
-  // Discovered, for the control traffic
-  [[nodiscard]] bool is_created(std::uint32_t i, Stream s, std::uint32_t d) const override {
+  [[nodiscard]] bool is_created(std::uint32_t i, Stream s, std::uint32_t d) const {
     return d < writers_[2 * i + index_of(s)].created;
   }
-  [[nodiscard]] bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const override {
+  [[nodiscard]] bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const {
     return d < relations_[2 * pair + index_of(s)].notified;
-  }
-
-  /// Sends a unicast packet by the channel, or by loopback if both ends are on one host.
-  void send(Packet&& packet);
-  using SingleShots = Driver<fsm::SingleShot>;
-  /// Asks a single-shot timer; schedules `kind` for `subject` if it was idle.
-  void request(SingleShots& driver, fsm::StateId& timer, Nanoseconds delay, EventKind kind,
-               std::uint32_t subject);
-  /// A single-shot timer is due: it is idle again. Returns whether what was asked for happens now.
-  bool expire(SingleShots& driver, fsm::StateId& timer, std::uint32_t subject);
-
-  [[nodiscard]] ReaderSide& reader_side(std::uint32_t relation) override {
-    return relations_[relation];
   }
   [[nodiscard]] bool crosses(std::uint32_t relation) const { return ends(relation).cross_host; }
 
-  ChangeStates changes_;
-  ControlTraffic control_;
+  RelationBits<fsm::ChangeForReader> changes_;
+  ControlRelations control_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
   std::vector<Relation> relations_;
@@ -140,6 +351,7 @@ class Protocol final : public DiscoveryBase, private Discovered {
   Message async_message_;
   std::vector<std::uint32_t> targets_;
 
+  using SingleShots = Driver<fsm::SingleShot>;
   SingleShots participant_shots_{run_, MachineRef::Kind::participant};
   SingleShots writer_shots_{run_, MachineRef::Kind::writer};
   SingleShots relation_shots_{run_, MachineRef::Kind::relation};

@@ -7,31 +7,12 @@
 
 namespace stormproof::model::fastdds {
 
-void Protocol::push(std::uint32_t w, std::uint32_t d) {
-  for (const std::uint32_t relation : writers_[w].readers) changes_.created(relation, d);
-  deliver(sync_message_, w, d, writers_[w].readers, SendMode::sync);
-  flush(sync_message_, SendMode::sync);
+void Protocol::refill(std::uint32_t w) {
+  writers_[w].budget = sedp_.piggyback_threshold_bytes.count();
 }
 
-void Protocol::async_run(std::uint32_t i) {
-  Participant& participant = participants_[i];
-  if (!expire(participant_shots_, participant.async_run, i)) return;
-  while (!participant.queue.empty()) {
-    const auto [stream, d] = participant.queue.front();
-    participant.queue.pop_front();
-    const std::uint32_t w = 2 * i + static_cast<std::uint32_t>(stream);
-    writers_[w].enqueued[d / 64] &= ~(std::uint64_t{1} << d % 64);
-    targets_.clear();
-    for (const std::uint32_t relation : writers_[w].readers) {
-      if (changes_.is_queued(relation, d)) targets_.push_back(relation);
-    }
-    if (!targets_.empty()) deliver(async_message_, w, d, targets_, SendMode::async);
-  }
-  flush(async_message_, SendMode::async);
-}
-
-void Protocol::deliver(Message& message, std::uint32_t w, std::uint32_t d,
-                       const std::vector<std::uint32_t>& readers, SendMode mode) {
+void Protocol::pack(Message& message, std::uint32_t w, std::uint32_t d,
+                    const std::vector<std::uint32_t>& readers, SendMode mode) {
   const std::int64_t bytes = timestamp_bytes + submessage_bytes(stream_of(w), d);
   if (message.open && (message.writer != w || message.readers != readers || message.carries(d) ||
                        message.bytes + bytes > sedp_.grouping_limit_bytes.count())) {
@@ -43,16 +24,11 @@ void Protocol::deliver(Message& message, std::uint32_t w, std::uint32_t d,
   message.add(d, bytes);
   for (std::size_t k = 0; k < readers.size(); ++k) {
     const std::uint32_t relation = readers[k];
-    changes_.serialized(relation, d);
-    request(relation_shots_, relations_[relation].suppression, sedp_.nack_suppression_duration,
-            EventKind::suppression_end, relation);
     if (!crosses(relation)) continue;
     const bool initial = changes_.mark_generated(relation, d);
     ++(initial ? run_.counts.initial_data : run_.counts.repair_data);
     if (initial) message.carries_initial[k] = true;
   }
-  heartbeats_.arm(w);
-  charge(message, d, mode);
 }
 
 /// Charges the descriptor just added against the piggyback budget of its writer.
@@ -79,7 +55,7 @@ void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
   for (const std::uint32_t relation : writer.readers) {
     if (crosses(relation)) ++run_.counts.heartbeat;
   }
-  writer.budget = sedp_.piggyback_threshold_bytes.count();
+  refill(w);
 }
 
 /// Emits the message, one packet for each of its readers.

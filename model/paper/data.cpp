@@ -52,7 +52,7 @@ void Protocol::charge(Message& message, std::int64_t added_bytes) {
   writer.budget -= cumulative ? sent : added_bytes;
   if (writer.budget >= 0) return;
 
-  writer.budget = sedp_.piggyback_threshold_bytes.count();
+  refill(w);
   if (writer.open == 1) {  // the HEARTBEAT rides in the packet
     ++run_.counts.heartbeat;
     const std::int64_t bytes = sedp_.piggyback_heartbeat_bytes.count();
@@ -83,11 +83,19 @@ void Protocol::flush(Message& message) {
   message.heartbeats = 0;
 }
 
+void Protocol::refill(std::uint32_t w) {
+  writers_[w].budget = sedp_.piggyback_threshold_bytes.count();
+}
+
 void Protocol::send_heartbeat(std::uint32_t relation) {
   ++run_.counts.heartbeat;
-  writers_[writer_of(relation)].budget = sedp_.piggyback_threshold_bytes.count();
   network_.emit(ends(relation).source,
                 packet_on(PacketKind::heartbeat, relation, sedp_.heartbeat_bytes.count()));
+}
+
+void Protocol::send_heartbeat_to(std::uint32_t relation) {
+  refill(writer_of(relation));
+  send_heartbeat(relation);
 }
 
 /// The same to every open relation of the writer, ascending: one record that stands for all of
@@ -96,7 +104,7 @@ void Protocol::send_heartbeat_to_open(std::uint32_t w) {
   Writer& writer = writers_[w];
   if (writer.open == 0) return;
   run_.counts.heartbeat += writer.open;
-  writer.budget = sedp_.piggyback_threshold_bytes.count();
+  refill(w);
   Packet packet = packet_on(PacketKind::heartbeat, 2 * writer.first_open_pair + w % 2,
                             sedp_.heartbeat_bytes.count());
   packet.copies = writer.open;
@@ -110,7 +118,7 @@ void Protocol::send_periodic(std::uint32_t w) {
   if (to_all) {
     send_heartbeat_to_open(w);
   } else {
-    for (const std::uint32_t relation : unacknowledged(w)) send_heartbeat(relation);
+    for (const std::uint32_t relation : waiting(w)) send_heartbeat_to(relation);
   }
 }
 

@@ -1,14 +1,16 @@
-// Construction, the dispatch of events and packets to the rules, and the list of what is missing.
+// The state that the rules are about, the way from events and packets to rules, and the list of
+// what is missing.
 #include "model/paper/protocol.hpp"
+
+#include <algorithm>
 
 namespace stormproof::model::paper {
 
 namespace reader = fsm::discovery_reader;
+namespace repair = fsm::descriptor_repair;
 
 Protocol::Protocol(RunState& run, Network& network)
-    : DiscoveryBase{run, network, Multicast::first,
-                    run.scenario.dds.sedp.unmatched == Unmatched::accept ||
-                        run.scenario.dds.sedp.relation_opening != RelationOpening::each_side},
+    : DiscoveryBase{run, network},
       descriptors_{run},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
@@ -20,33 +22,17 @@ Protocol::Protocol(RunState& run, Network& network)
     const std::uint32_t count = run.topology.descriptor_count(relation);
     relations_[relation].missing = count;
     relations_[relation].unacknowledged = count;
-    relations_[relation].reader =
+    readers_[relation].state =
         count > 0 ? ReaderStates::id<reader::Unknown> : ReaderStates::id<reader::EarlyComplete>;
   }
   for (std::uint32_t w = 0; w < writers_.size(); ++w) {
-    writers_[w].budget = sedp_.piggyback_threshold_bytes.count();
+    refill(w);
     writers_[w].waiting_readers.resize(words_for(run.topology.peer_count(w / 2)));
   }
 }
 
 void Protocol::start() {
-  for (std::uint32_t i = 0; i < run_.topology.participant_count(); ++i) {
-    announcements_.start(i);
-  }
-}
-
-void Protocol::handle(const Event& event) {
-  switch (event.kind) {
-    case EventKind::repair_generation:
-      repair_generation(event.subject);
-      break;
-    case EventKind::suppression_end:
-      suppression_end(event.subject);
-      break;
-    default:
-      DiscoveryBase::handle(event);
-      break;
-  }
+  for (std::uint32_t i = 0; i < run_.topology.participant_count(); ++i) start_announcing(i);
 }
 
 bool Protocol::has_started(std::uint32_t participant) const {
@@ -59,29 +45,86 @@ void Protocol::received(const Packet& packet, std::uint32_t) {
     // it.
     const std::uint32_t end = run_.topology.first_pair(packet.pair + 1);
     for (std::uint32_t pair = run_.topology.first_pair(packet.pair); pair < end; ++pair) {
-      if (has_started(run_.topology.pair(pair).destination)) spdp_received(pair);
+      if (!has_started(run_.topology.pair(pair).destination)) continue;
+      run_rule<comp::Received<comp::SpdpMulticast>>(*this, pair);
     }
     return;
   }
   const Pair& pair = run_.topology.pair(packet.pair);
-  const bool to_writer = packet.kind == PacketKind::acknack;
-  if (!has_started(to_writer ? pair.source : pair.destination)) return;
+  if (!has_started(packet.to_writer() ? pair.source : pair.destination)) return;
+  const std::uint32_t relation = packet.relation();
   switch (packet.kind) {
     case PacketKind::spdp_unicast:
-      spdp_received(packet.pair);
+      run_rule<comp::Received<comp::SpdpUnicast>>(*this, packet.pair);
       break;
     case PacketKind::data:
-      data_received(packet);
+      run_.duplicate_deliveries +=
+          packet.descriptors.count() - descriptors_.count_missing(relation, packet.descriptors);
+      run_rule<comp::Received<rules::Data>>(*this, relation, &packet);
       break;
     case PacketKind::heartbeat:
-      heartbeat_received(packet.relation());
+      run_rule<comp::Received<rules::Heartbeat>>(*this, relation, &packet);
       break;
     case PacketKind::acknack:
-      acknack_received(packet);
+      run_rule<comp::Received<rules::AckNack>>(*this, relation, &packet);
       break;
     default:
       break;
   }
+}
+
+void Protocol::source_completed(const Packet& packet) {
+  if (packet.kind != PacketKind::data) return;
+  run_rule<comp::LeftSource<rules::Data>>(*this, packet.relation(), &packet);
+}
+
+void Protocol::assign(comp::Recognised, std::uint32_t pair, bool) {
+  const std::uint32_t reverse = run_.topology.pair(pair).reverse;
+  Participant& participant = participants_[run_.topology.pair(pair).destination];
+  known_rank_[reverse] = participant.known++;
+  participant.first_known_pair = std::min(participant.first_known_pair, reverse);
+}
+
+void Protocol::assign(rules::WriterOpen, std::uint32_t relation, bool) {
+  Writer& writer = writers_[writer_of(relation)];
+  relations_[relation].open_rank = writer.open++;
+  writer.first_open_pair = std::min(writer.first_open_pair, relation / 2);
+  if (relations_[relation].unacknowledged > 0) note_waiting(relation);
+}
+
+/// The open relation's reader has begun to wait, or has acknowledged everything.
+void Protocol::note_waiting(std::uint32_t relation) {
+  const std::uint32_t w = writer_of(relation);
+  const std::uint32_t peer = relation / 2 - run_.topology.first_pair(w / 2);
+  writers_[w].waiting_readers[peer / 64] ^= std::uint64_t{1} << peer % 64;
+  if (relations_[relation].unacknowledged > 0)
+    ++writers_[w].unacknowledged;
+  else
+    --writers_[w].unacknowledged;
+}
+
+void Protocol::moved(rules::C, std::uint32_t relation, fsm::StateId before, fsm::StateId after,
+                     std::uint64_t members) {
+  constexpr fsm::StateId acknowledged = fsm::Reflect<fsm::DescriptorRepair>::id<repair::A>;
+  if ((before == acknowledged) == (after == acknowledged)) return;
+  Relation& r = relations_[relation];
+  const bool waited = r.unacknowledged > 0;
+  const auto count = static_cast<std::uint32_t>(std::popcount(members));
+  r.unacknowledged += after == acknowledged ? -count : count;
+  if (waited != (r.unacknowledged > 0) && r.open_rank != no_rank) note_waiting(relation);
+}
+
+void Protocol::assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
+  Relation& r = relations_[relation];
+  const std::uint32_t missing = run_.topology.descriptor_count(relation) - received.count();
+  const std::uint32_t fresh = r.missing - missing;
+  if (fresh > 0 && fresh == run_.missing) {
+    note_last_delivery(relation, descriptors_.missing(relation).lowest());
+  }
+  descriptors_.receive(relation, received);
+  r.missing = missing;
+  run_.missing -= fresh;
+  run_.useful_deliveries += fresh;
 }
 
 std::uint32_t Protocol::next_recipient(const Packet& packet, std::uint32_t pair) const {
@@ -94,9 +137,18 @@ std::uint32_t Protocol::next_recipient(const Packet& packet, std::uint32_t pair)
   return pair;
 }
 
-bool Protocol::needs_heartbeat(std::uint32_t w) const { return writers_[w].unacknowledged > 0; }
+std::vector<std::uint32_t> Protocol::open_relations(std::uint32_t w) const {
+  std::vector<std::uint32_t> relations;
+  for (std::uint32_t pair = run_.topology.first_pair(w / 2);
+       pair < run_.topology.first_pair(w / 2 + 1); ++pair) {
+    const std::uint32_t relation = 2 * pair + w % 2;
+    if (relations_[relation].open_rank != no_rank) relations.push_back(relation);
+  }
+  return relations;
+}
 
-std::vector<std::uint32_t> Protocol::unacknowledged(std::uint32_t w) const {
+/// The open relations whose readers have not acknowledged everything, ascending.
+std::vector<std::uint32_t> Protocol::waiting(std::uint32_t w) const {
   std::vector<std::uint32_t> relations;
   const std::vector<std::uint64_t>& words = writers_[w].waiting_readers;
   const std::uint32_t first_pair = run_.topology.first_pair(w / 2);
@@ -110,12 +162,21 @@ std::vector<std::uint32_t> Protocol::unacknowledged(std::uint32_t w) const {
   return relations;
 }
 
-bool Protocol::is_unacknowledged(std::uint32_t relation) const {
-  return relations_[relation].unacknowledged > 0;
+/// The bitmap takes four bytes for every 32 descriptors of the stream.
+void Protocol::send_acknack(std::uint32_t relation, DescriptorSet&& bitmap, bool initial) {
+  ++run_.counts.acknack;
+  Packet packet = packet_on(PacketKind::acknack, relation, sedp_.acknack_bytes.count());
+  packet.descriptors = std::move(bitmap);
+  packet.initial_acknack = initial;
+  if (!initial && !packet.descriptors.empty()) {
+    packet.payload_bytes += 4 * ((run_.topology.descriptor_count(relation) + 31) / 32);
+  }
+  network_.emit(ends(relation).destination, std::move(packet));
 }
 
-std::uint32_t Protocol::announced(std::uint32_t w) const {
-  return run_.topology.descriptor_count(w / 2, stream_of(w));
+void Protocol::renew_bitmap(Packet& acknack) {
+  RunningWorld<Protocol, comp::owner::relation> w{*this, acknack.relation()};
+  acknack.descriptors = w.set_of(said_of<comp::Listed>(rules::Implementation::bitmap()));
 }
 
 std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {

@@ -139,6 +139,10 @@ class DerivedWorld {
     path_ = outer;
   }
   template <class Body>
+  void for_readers_by_number(Body&& body) {
+    for_readers(body);
+  }
+  template <class Body>
   void for_readers(Body&& body) {
     around(composition::owner::peer_index,
            [&](DerivedWorld& r) { r.when(r(typename Composition::IsOpen{}), [&] { body(r); }); });

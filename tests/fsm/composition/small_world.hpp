@@ -174,6 +174,10 @@ class SmallWorld {
     if (condition) body();
   }
   template <class Body>
+  void for_readers_by_number(Body&& body) {
+    for_readers(body);
+  }
+  template <class Body>
   void for_readers(Body&& body) {
     for (int peer = 0; peer < small_peers; ++peer) {
       SmallWorld r = *this;

@@ -1,0 +1,434 @@
+// The world that executes rules (fsm/composition): each effect is done at once, by the host. It
+// knows where it is (`place`: the indices of what it is about) and what a rule can say; the host
+// has the state, the machines, the packets and the clock, by these names:
+//
+//   Composition                          whose rules these are
+//   topology()                           the numbers of pairs and relations
+//   knob(tag), answer(tag, world)        of a switch or delay; of what only a host knows
+//   value(tag, n[, d]), assign(tag, n[, d], value)   of a flag or number of owner n
+//   word(tag, n, k)                      64 descriptors of a flag; of a field of `packet`
+//   said(tag, packet)                    a field of a packet as a whole
+//   fact(tag, world)                     if it keeps a fact up to date instead of evaluating it
+//   driver(part), state(part, n)         of a machine
+//   bits(part), lane_order(part)         of the machines of descriptors, and which of those that
+//                                        meet different inputs come first; moved(part, …) tells
+//                                        of each class that has taken a step
+//   schedule(timer, n, time), pending(timer, n), cancel(timer, n)
+//   emit(packet, world, sayings)         sends it
+//   perform(step, world, …)              an opaque step
+//   for_readers(w, visit), for_readers_by_number(w, visit), for_queue(i, visit)
+//
+// The simulator's hosts are model/paper and model/fastdds.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include <boost/pfr.hpp>
+
+#include "fsm/composition/vocabulary.hpp"
+#include "fsm/domain.hpp"
+#include "model/engine/composition_knobs.hpp"
+#include "model/engine/descriptor_set.hpp"
+#include "model/engine/lanes.hpp"
+#include "model/engine/packet.hpp"
+#include "model/engine/topology.hpp"
+
+namespace stormproof::model {
+
+using comp::Owner;
+
+/// The outbox of many descriptors: who asks for what.
+struct SetDomain {
+  using Bool = DescriptorSet;
+};
+
+/// 64 descriptors of a stream, as terms see them.
+template <class World>
+class DescriptorLanes {
+ public:
+  using D = LaneDomain;
+  using Bool = Lanes;
+
+  DescriptorLanes(World& world, std::uint32_t k) : world_{world}, k_{k} {}
+
+  template <class Tag>
+  Lanes operator()(Tag tag) {
+    if constexpr (std::derived_from<Tag, comp::DescriptorField>) {
+      return Lanes{world_.host().word(tag, world_.packet(), k_)};
+    } else if constexpr (is_of_descriptors<Tag>()) {
+      return Lanes{world_.host().word(tag, world_.template number<Tag::owner>(), k_)};
+    } else {
+      return Lanes{static_cast<bool>(world_(tag))};
+    }
+  }
+  template <class P, class S>
+  Lanes in(P part, comp::Is<S>) {
+    return Lanes{world_.host().bits(part).in_state(
+        world_.template number<comp::owner::relation>(), k_,
+        fsm::Reflect<typename P::Machine>::template id<S>)};
+  }
+  [[nodiscard]] Lanes is_in(const DescriptorSet& set) const { return Lanes{set.word(k_)}; }
+  /// The term holds for the descriptor and for every lower one.
+  template <class Term>
+  Lanes all_up_to(Term&& term) {
+    for (std::uint32_t k = 0; k < k_; ++k) {
+      DescriptorLanes lower{world_, k};
+      if (~term(lower).bits != 0) return false;
+    }
+    const int first = std::countr_one(term(*this).bits);
+    return first == 64 ? Lanes{true} : Lanes{(std::uint64_t{1} << first) - 1};
+  }
+  /// The term holds for the descriptor or for some higher one.
+  template <class Term>
+  Lanes some_from_here(Term&& term) {
+    for (std::uint32_t k = world_.word_count() - 1; k > k_; --k) {
+      DescriptorLanes higher{world_, k};
+      if ((term(higher).bits & world_.valid(k)) != 0) return true;
+    }
+    const std::uint64_t bits = term(*this).bits & world_.valid(k_);
+    return bits == 0 ? Lanes{false} : Lanes{~std::uint64_t{0} >> std::countl_zero(bits)};
+  }
+
+ private:
+  template <class Tag>
+  static constexpr bool is_of_descriptors() {
+    if constexpr (requires { Tag::owner; }) {
+      return (Tag::owner.indices & comp::owner::descriptor_index) != 0;
+    } else {
+      return false;
+    }
+  }
+
+  World& world_;
+  std::uint32_t k_;
+};
+
+template <class Host_, Owner place>
+class RunningWorld {
+ public:
+  using Host = Host_;
+  using D = fsm::Plain;
+  using Bool = bool;
+  using Int = std::int64_t;
+  using Set = DescriptorSet;
+  using Composition = typename Host::Composition;
+
+  /// `subject` is the number of what the world is about; with a descriptor, the number of its
+  /// relation or writer.
+  RunningWorld(Host& host, std::uint32_t subject, const Packet* packet = nullptr,
+               std::uint32_t descriptor = 0)
+      : host_{host}, packet_{packet}, subject_{subject}, descriptor_{descriptor} {}
+
+  [[nodiscard]] Host& host() { return host_; }
+  [[nodiscard]] const Packet& packet() const { return *packet_; }
+  [[nodiscard]] std::uint32_t descriptor() const { return descriptor_; }
+  /// The number of the owner of something, seen from here; of a descriptor, that of its relation or
+  /// writer.
+  template <Owner owner>
+  [[nodiscard]] std::uint32_t number() const {
+    namespace own = comp::owner;
+    constexpr std::uint8_t wanted = owner.indices & ~own::descriptor_index;
+    constexpr std::uint8_t here = place.indices & ~own::descriptor_index;
+    static_assert((wanted & ~here) == 0, "this cannot be said from here");
+    if constexpr (wanted == here) {
+      return subject_;
+    } else if constexpr (here == own::relation.indices) {
+      const std::uint32_t source = host_.topology().pair(subject_ / 2).source;
+      if constexpr (wanted == own::pair.indices) return subject_ / 2;
+      if constexpr (wanted == own::writer.indices) return 2 * source + subject_ % 2;
+      if constexpr (wanted == own::participant.indices) return source;
+    } else if constexpr (here == own::writer.indices) {
+      return subject_ / 2;
+    } else {
+      static_assert(here == own::pair.indices);
+      return host_.topology().pair(subject_).source;
+    }
+  }
+
+  // Values.
+  template <class Tag>
+  auto operator()(Tag tag) {
+    if constexpr (std::derived_from<Tag, comp::Switch> ||
+                  std::derived_from<Tag, comp::Delay>) {
+      return host_.knob(tag);
+    } else if constexpr (std::derived_from<Tag, comp::Fact>) {
+      if constexpr (requires { host_.fact(tag, *this); }) {
+        return static_cast<bool>(host_.fact(tag, *this));
+      } else {
+        return static_cast<bool>(Tag::of(*this));
+      }
+    } else if constexpr (std::derived_from<Tag, comp::PacketField>) {
+      return static_cast<bool>(host_.said(tag, *packet_));
+    } else if constexpr (std::derived_from<Tag, comp::Answer>) {
+      return static_cast<bool>(host_.answer(tag, *this));
+    } else if constexpr (std::derived_from<Tag, comp::Amount>) {
+      return static_cast<Int>(host_.answer(tag, *this));
+    } else if constexpr (has_descriptor<Tag>()) {
+      return (host_.word(tag, number<Tag::owner>(), descriptor_ / 64) >> descriptor_ % 64 & 1) != 0;
+    } else {
+      return host_.value(tag, number<Tag::owner>());
+    }
+  }
+  template <class T>
+  Int operator()(comp::Pending<T>) {
+    return host_.pending(T{}, number<T::owner>());
+  }
+  template <class P, class S>
+  bool in(P part, comp::Is<S> state) {
+    DescriptorLanes lanes{*this, descriptor_ / 64};
+    return (lanes.in(part, state).bits >> descriptor_ % 64 & 1) != 0;
+  }
+  static bool any(const Set& set) { return !set.empty(); }
+  template <class Term>
+  Set set_of(Term&& term) {
+    Set set;
+    for_words(term, [&](std::uint32_t k, std::uint64_t members) { set.add(k, members); });
+    return set;
+  }
+  template <class Term>
+  bool some(Term&& term) {
+    for (std::uint32_t k = 0; k < word_count(); ++k) {
+      if (members(term, k) != 0) return true;
+    }
+    return false;
+  }
+  template <class Term>
+  bool all(Term&& term) {
+    return !some([&](auto& d) { return !term(d); });
+  }
+  template <class Term>
+  Int count(Term&& term) {
+    Int total = 0;
+    for_words(term, [&](std::uint32_t, std::uint64_t found) { total += std::popcount(found); });
+    return total;
+  }
+  template <class Term>
+  bool some_reader(Term&& term) {
+    bool found = false;
+    for_readers([&](auto& r) { found = found || term(r); });
+    return found;
+  }
+
+  // Conditions and loops.
+  template <class Body>
+  void when(bool condition, Body&& body) {
+    if (condition) body();
+  }
+  template <class Body>
+  void for_readers(Body&& body) {
+    host_.for_readers(number<comp::owner::writer>(), of_reader(body));
+  }
+  template <class Body>
+  void for_readers_by_number(Body&& body) {
+    host_.for_readers_by_number(number<comp::owner::writer>(), of_reader(body));
+  }
+  template <class Term, class Body>
+  void for_descriptors(Term&& term, Body&& body) {
+    for (std::uint32_t k = 0; k < word_count(); ++k) {
+      std::uint64_t from = ~std::uint64_t{0};
+      for (std::uint64_t left = members(term, k); left != 0; left = members(term, k) & from) {
+        const int lowest = std::countr_zero(left);
+        from = lowest == 63 ? 0 : ~std::uint64_t{0} << (lowest + 1);
+        auto d = with_descriptor(64 * k + static_cast<std::uint32_t>(lowest));
+        body(d);
+      }
+    }
+  }
+  template <class Body>
+  void for_queue(Body&& body) {
+    host_.for_queue(number<comp::owner::participant>(),
+                    [&](std::uint32_t writer, std::uint32_t d) {
+                      RunningWorld<Host, comp::owner::entry> entry{host_, writer, packet_, d};
+                      body(entry);
+                    });
+  }
+  template <class Body>
+  void for_streams(Body&& body) {
+    for (std::uint32_t s = 0; s < 2; ++s) {
+      RunningWorld<Host, comp::owner::relation> relation{host_, 2 * subject_ + s, packet_};
+      body(relation);
+    }
+  }
+  template <class Body>
+  void reverse(Body&& body) {
+    constexpr bool pair = place == comp::owner::pair;
+    const std::uint32_t back =
+        host_.topology().pair(number<comp::owner::pair>()).reverse;
+    RunningWorld world{host_, pair ? back : 2 * back + subject_ % 2, packet_};
+    body(world);
+  }
+
+  // Effects.
+  template <class P, class E>
+  auto feed(P part, comp::On<E>,
+            const typename P::Machine::Io::template Input<D>& input = {}) {
+    if constexpr (has_descriptor<P>()) {
+      const std::uint32_t relation = number<P::owner>();
+      typename P::Machine::Io::template Output<D> output{};
+      host_.bits(part).template step<E>(
+          relation, descriptor_ / 64, std::uint64_t{1} << descriptor_ % 64, input,
+          [&](std::uint64_t it, const auto& out, fsm::StateId before, fsm::StateId after) {
+            host_.moved(part, relation, before, after, it);
+            output = out;
+          });
+      return output;
+    } else {
+      const std::uint32_t n = number<P::owner>();
+      return host_.driver(part).template step<E>(host_.run(), host_.state(part, n), input, n);
+    }
+  }
+  template <class P, class E, class Input = decltype(comp::no_input),
+            class Who = decltype(comp::everyone)>
+  auto feed_each(P part, comp::On<E>, Input input = {}, Who who = {}) {
+    typename P::Machine::Io::template Output<SetDomain> total{};
+    auto& bits = host_.bits(part);
+    const std::uint32_t relation = number<comp::owner::relation>();
+    for (std::uint32_t k = 0; k < word_count(); ++k) {
+      DescriptorLanes d{*this, k};
+      const std::uint64_t members = who(d).bits & valid(k);
+      if (members == 0) continue;
+      const auto merge = [&](std::uint64_t same, const auto& output, fsm::StateId before,
+                             fsm::StateId after) {
+        host_.moved(part, relation, before, after, same);
+        merge_outbox(total, k, same, output);
+      };
+      if constexpr (std::is_same_v<Input, std::remove_const_t<decltype(comp::no_input)>>) {
+        bits.template step<E>(relation, k, members, {}, merge);
+      } else {
+        const typename P::Machine::Io::template Input<LaneDomain> lanes = input(d);
+        bits.template step_each<E>(relation, k, members, lanes, Host::lane_order(part), merge);
+      }
+    }
+    return total;
+  }
+  template <class V, class Value>
+  void set(V variable, Value to) {
+    if constexpr (has_descriptor<V>()) {
+      host_.assign(variable, number<V::owner>(), descriptor_, to);
+    } else {
+      host_.assign(variable, number<V::owner>(), to);
+    }
+  }
+  template <class V, class Term>
+  void set_each(V flag, Term&& term) {
+    host_.assign_each(flag, number<V::owner>(), set_of(term));
+  }
+  template <class Wait, class T>
+  void after(Wait wait, T timer) {
+    host_.schedule(timer, number<T::owner>(), host_.now() + host_.knob(wait));
+  }
+  template <class T>
+  void at(Int time, T timer) {
+    host_.schedule(timer, number<T::owner>(), time);
+  }
+  template <class T>
+  void cancel(T timer) {
+    host_.cancel(timer, number<T::owner>());
+  }
+  template <class P, class... Sayings>
+  void emit(P packet, const std::tuple<Sayings...>& sayings) {
+    host_.emit(packet, *this, sayings);
+  }
+  template <class O>
+  void raise(O) {
+    comp::RuleFor<Composition, comp::Happens<O>>::run(*this);
+  }
+  template <class P, class... Args>
+  void call(P, const Args&... args) {
+    P::body(*this, args...);
+  }
+  template <class Step, class... Args>
+  void perform(Step step, const Args&... args) {
+    host_.perform(step, *this, args...);
+  }
+
+  /// How many words the descriptors of the stream take, and which bits of word k mean one.
+  [[nodiscard]] std::uint32_t word_count() const { return words_for(descriptor_count()); }
+  [[nodiscard]] std::uint64_t valid(std::uint32_t k) const {
+    return bits_below(descriptor_count(), k);
+  }
+
+ private:
+  template <class Tag>
+  static constexpr bool has_descriptor() {
+    return (Tag::owner.indices & comp::owner::descriptor_index) != 0;
+  }
+  [[nodiscard]] std::uint32_t descriptor_count() const {
+    const std::uint32_t writer = number<comp::owner::writer>();
+    return host_.topology().descriptor_count(writer / 2, streams[writer % 2]);
+  }
+  template <class Term>
+  std::uint64_t members(Term&& term, std::uint32_t k) {
+    DescriptorLanes d{*this, k};
+    return Lanes{term(d)}.bits & valid(k);
+  }
+  template <class Term, class Visit>
+  void for_words(Term&& term, Visit&& visit) {
+    for (std::uint32_t k = 0; k < word_count(); ++k) visit(k, members(term, k));
+  }
+  auto with_descriptor(std::uint32_t d) const {
+    return RunningWorld<Host, Owner{static_cast<std::uint8_t>(
+                                  place.indices | comp::owner::descriptor_index)}>{
+        host_, subject_, packet_, d};
+  }
+  /// Calls `body` with the world of a reader, and of the descriptor if this is of one.
+  template <class Body>
+  auto of_reader(Body& body) {
+    constexpr Owner there{static_cast<std::uint8_t>(
+        place.indices | comp::owner::relation.indices)};
+    return [this, &body](std::uint32_t relation) {
+      RunningWorld<Host, there> r{host_, relation, packet_, descriptor_};
+      body(r);
+    };
+  }
+  template <class Outbox, class Output>
+  static void merge_outbox(Outbox& total, std::uint32_t k, std::uint64_t same,
+                           const Output& output) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      ((boost::pfr::get<I>(output) ? boost::pfr::get<I>(total).add(k, same) : void()), ...);
+    }
+    (std::make_index_sequence<boost::pfr::tuple_size_v<Outbox>>{});
+  }
+
+  Host& host_;
+  const Packet* packet_;
+  std::uint32_t subject_;
+  std::uint32_t descriptor_;
+};
+
+/// What a packet says of a field; each field is said once.
+template <class Field, class... Sayings>
+const auto& said_of(const std::tuple<Sayings...>& sayings) {
+  constexpr std::array<bool, sizeof...(Sayings)> same{
+      std::is_same_v<typename Sayings::Field, Field>...};
+  constexpr auto k = static_cast<std::size_t>(std::ranges::find(same, true) - same.begin());
+  return std::get<k>(sayings).value;
+}
+
+/// Runs the rule of a trigger for the owner `subject`.
+template <class Trigger, class Host>
+void run_rule(Host& host, std::uint32_t subject, const Packet* packet = nullptr,
+              std::uint32_t descriptor = 0) {
+  using Rule = comp::RuleFor<typename Host::Composition, Trigger>;
+  RunningWorld<Host, Rule::owner> world{host, subject, packet, descriptor};
+  Rule::run(world);
+}
+
+/// Runs the rule of the timer that the event is, if it is still wanted.
+template <class Host>
+void run_due(Host& host, const Event& event) {
+  comp::for_each_type(typename Host::Composition::Timers{}, [&]<class T>() {
+    if (event.kind == event_kind_of<T> && host.is_due(T{}, event)) {
+      run_rule<comp::Due<T>>(host, event.subject);
+    }
+  });
+}
+
+}  // namespace stormproof::model
