@@ -19,9 +19,8 @@ struct DescriptorRepairIo {
   };
   template <class D>
   struct Output {
-    typename D::Bool requested{};     ///< newly requested: repair generation is due after τ_N
-    typename D::Bool generate{};      ///< becomes part of the repair DATA generated now
-    typename D::Bool acknowledged{};  ///< newly acknowledged
+    typename D::Bool requested{};  ///< newly requested: repair generation is due after τ_N
+    typename D::Bool generate{};   ///< becomes part of the repair DATA generated now
     typename D::Bool
         returned{};  ///< open to requests again: its delivery must be checked after τ_H
   };
@@ -57,21 +56,18 @@ struct Request : Sets<Request> {
 struct Generate : Sets<Generate> {
   static constexpr auto& flag(auto& out) { return out.generate; }
 };
-struct Acknowledge : Sets<Acknowledge> {
-  static constexpr auto& flag(auto& out) { return out.acknowledged; }
-};
 struct Return : Sets<Return> {
   static constexpr auto& flag(auto& out) { return out.returned; }
 };
 
-using Transitions = Table<Row<U, AckNackReceived, R, Request, Listed>,         //
-                          Row<R, RepairDue, Q, Generate>,                      //
-                          Row<Q, RepairSent, S>,                               //
-                          Row<S, SuppressionEnded, U, Return>,                 //
-                          Row<U, AckNackReceived, A, Acknowledge, Confirmed>,  //
-                          Row<R, AckNackReceived, A, Acknowledge, Confirmed>,  //
-                          Row<Q, AckNackReceived, A, Acknowledge, Confirmed>,  //
-                          Row<S, AckNackReceived, A, Acknowledge, Confirmed>>;
+using Transitions = Table<Row<U, AckNackReceived, R, Request, Listed>,  //
+                          Row<R, RepairDue, Q, Generate>,               //
+                          Row<Q, RepairSent, S>,                        //
+                          Row<S, SuppressionEnded, U, Return>,          //
+                          Row<U, AckNackReceived, A, none, Confirmed>,  //
+                          Row<R, AckNackReceived, A, none, Confirmed>,  //
+                          Row<Q, AckNackReceived, A, none, Confirmed>,  //
+                          Row<S, AckNackReceived, A, none, Confirmed>>;
 
 }  // namespace descriptor_repair
 

@@ -61,12 +61,12 @@ struct ClockRules {
   /// Something must be checked after τ_H: arms the timer if it is idle.
   template <class W>
   static void arm(W& w) {
-    step<heartbeat_timer::ArmRequested>(w);
+    request<heartbeat_timer::ArmRequested>(w);
   }
   /// A suppression has ended with something unacknowledged.
   template <class W>
   static void suppression_ended(W& w) {
-    step<heartbeat_timer::SuppressionEnded>(w);
+    request<heartbeat_timer::SuppressionEnded>(w);
   }
   /// A clean ACKNACK of this relation's reader arrives. It counts once for the cycle that contacted
   /// the reader, if the reader has all that was announced when the cycle started.
@@ -112,13 +112,24 @@ struct ClockRules {
   using Rules = TypeList<HeartbeatExpires, CycleStarts, CycleEnds, BatchIsDue>;
 
  private:
-  template <class Event, class W>
-  static auto feed(W& w) {
+  /// What a request to arm needs: it looks neither at the readers nor at the cycle.
+  template <class W>
+  static HeartbeatTimerIo::Input<typename W::D> time_and_policy(W& w) {
     HeartbeatTimerIo::Input<typename W::D> in;
     in.now = w(Now{});
     in.heartbeat_period = w(HeartbeatPeriod{});
     in.adaptive = w(Adaptive{});
     in.additive = w(Additive{});
+    return in;
+  }
+  template <class Event, class W>
+  static void request(W& w) {
+    w.call(ClockGoesOn{}, w.feed(HeartbeatClock{}, on<Event>, time_and_policy(w)));
+  }
+
+  template <class Event, class W>
+  static auto feed(W& w) {
+    HeartbeatTimerIo::Input<typename W::D> in = time_and_policy(w);
     in.pending = w(Pending<HeartbeatExpiry>{});
     in.unacknowledged = w(typename C::NeedsHeartbeat{});
     in.cycle.start = w(CycleBegan{});

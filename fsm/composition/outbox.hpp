@@ -39,7 +39,7 @@ inline constexpr auto outbox_names<ControlRelationIo> =
     detail::all_fields<ControlRelationIo>("send_heartbeat", "start_initial", "reply");
 template <>
 inline constexpr auto outbox_names<DescriptorRepairIo> =
-    detail::all_fields<DescriptorRepairIo>("requested", "generate", "acknowledged", "returned");
+    detail::all_fields<DescriptorRepairIo>("requested", "generate", "returned");
 template <>
 inline constexpr auto outbox_names<DiscoveryReaderIo> = detail::all_fields<DiscoveryReaderIo>(
     "opened", "take_data", "schedule_acknack", "send_acknack", "send_initial");

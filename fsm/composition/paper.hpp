@@ -55,8 +55,8 @@ struct RefillBudget : Opaque {
   template <class W>
   static void contract(W&) {}
 };
-/// A HEARTBEAT to every open relation of the writer, or to those whose readers wait. A host may keep
-/// those to all as one record.
+/// A HEARTBEAT to every open relation of the writer, or to those whose readers wait. A host may
+/// keep those to all as one record.
 struct HeartbeatToRecipients : Opaque {
   template <class W>
   static void contract(W& w) {
@@ -230,9 +230,7 @@ struct Paper : Implementation {
              Clock::Rules>;
   using Rules = Joined<Announcing, Exchange>;
   using IsOpen = WriterOpen;
-  static constexpr std::array unused{
-      Unused{"C", "acknowledged", "who waits follows from the states"},
-  };
+  static constexpr std::array<Unused, 0> unused{};
 };
 
 }  // namespace stormproof::fsm::composition::paper

@@ -42,6 +42,14 @@ inline constexpr auto is_confirmed = [](auto& d) {
   return d.all_up_to([](auto& e) { return e(X{}); });
 };
 
+/// How many descriptors the reader lacks.
+struct Missing : Tally {
+  template <class W>
+  static auto of(W& w) {
+    return w.count(is_missing);
+  }
+};
+
 /// The initial ACKNACK timer of any kind of relation.
 template <class TimerPart, class Seen, class Last, class Attempt>
 struct InitialAttempts {
@@ -137,7 +145,7 @@ struct ReaderRules {
   }
   template <class Event, class W>
   static auto ask(W& w) {
-    return w.feed(Reader{}, on<Event>, input(w, w.count(is_missing)));
+    return w.feed(Reader{}, on<Event>, input(w, w(Missing{})));
   }
 
   struct TakeHeartbeat : Procedure {

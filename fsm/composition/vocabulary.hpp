@@ -111,6 +111,8 @@ struct Number {
 
 /// What follows from the state: `of(w)` is its definition. A world may keep it up to date instead.
 struct Fact {};
+/// The same of a number.
+struct Tally {};
 
 /// A knob of the profile: a truth value, or a delay in ns.
 struct Switch {};

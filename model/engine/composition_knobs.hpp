@@ -113,17 +113,13 @@ template <class Knob>
 template <class Timer>
 inline constexpr EventKind event_kind_of = EventKind::dispatch;
 template <>
-inline constexpr EventKind event_kind_of<comp::Announcement> =
-    EventKind::announcement_due;
+inline constexpr EventKind event_kind_of<comp::Announcement> = EventKind::announcement_due;
 template <>
-inline constexpr EventKind event_kind_of<comp::AckNackGeneration> =
-    EventKind::acknack_generation;
+inline constexpr EventKind event_kind_of<comp::AckNackGeneration> = EventKind::acknack_generation;
 template <>
-inline constexpr EventKind event_kind_of<comp::InitialAttempt> =
-    EventKind::initial_acknack_due;
+inline constexpr EventKind event_kind_of<comp::InitialAttempt> = EventKind::initial_acknack_due;
 template <>
-inline constexpr EventKind event_kind_of<comp::HeartbeatExpiry> =
-    EventKind::heartbeat_expiry;
+inline constexpr EventKind event_kind_of<comp::HeartbeatExpiry> = EventKind::heartbeat_expiry;
 template <>
 inline constexpr EventKind event_kind_of<comp::CycleStart> = EventKind::cycle_start;
 template <>
@@ -134,17 +130,14 @@ template <>
 inline constexpr EventKind event_kind_of<comp::paper::RepairGeneration> =
     EventKind::repair_generation;
 template <>
-inline constexpr EventKind event_kind_of<comp::paper::SuppressionEnd> =
-    EventKind::suppression_end;
+inline constexpr EventKind event_kind_of<comp::paper::SuppressionEnd> = EventKind::suppression_end;
 template <>
 inline constexpr EventKind event_kind_of<comp::fastdds::SuppressionEnd> =
     EventKind::suppression_end;
 template <>
-inline constexpr EventKind event_kind_of<comp::fastdds::NackResponseDue> =
-    EventKind::nack_response;
+inline constexpr EventKind event_kind_of<comp::fastdds::NackResponseDue> = EventKind::nack_response;
 template <>
-inline constexpr EventKind event_kind_of<comp::fastdds::AsyncRunDue> =
-    EventKind::async_run;
+inline constexpr EventKind event_kind_of<comp::fastdds::AsyncRunDue> = EventKind::async_run;
 template <>
 inline constexpr EventKind event_kind_of<comp::control::ControlInitialAttempt> =
     EventKind::control_initial_due;

@@ -24,8 +24,7 @@ namespace stormproof::model {
 /// A timer of the adaptive policy: what a later event of the cycle replaces is cancelled.
 template <class Timer>
 concept IsCycleTimer = std::is_same_v<Timer, comp::CycleStart> ||
-                       std::is_same_v<Timer, comp::CycleEnd> ||
-                       std::is_same_v<Timer, comp::BatchDue>;
+    std::is_same_v<Timer, comp::CycleEnd> || std::is_same_v<Timer, comp::BatchDue>;
 
 class DiscoveryBase : public Implementation {
  public:

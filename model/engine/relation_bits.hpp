@@ -116,6 +116,15 @@ class RelationBits {
     step_classes<Event, 0>(relation, k, members, input, first, Input{}, effect);
   }
 
+  /// The state of descriptor d.
+  [[nodiscard]] fsm::StateId state_of(std::uint32_t relation, std::uint32_t d) const {
+    unsigned state = 0;
+    for (std::size_t b = 0; b < state_bits; ++b) {
+      state |= static_cast<unsigned>(word(relation, d / 64).state[b] >> d % 64 & 1) << b;
+    }
+    return static_cast<fsm::StateId>(state);
+  }
+
   /// Bits of word k whose descriptors are in the state with this number.
   [[nodiscard]] std::uint64_t in_state(std::uint32_t relation, std::uint32_t k,
                                        fsm::StateId state) const {
@@ -139,7 +148,6 @@ class RelationBits {
   [[nodiscard]] std::uint64_t valid(std::uint32_t relation, std::uint32_t k) const {
     return bits_below(run_.topology.descriptor_count(relation), k);
   }
-
 
   struct Word {
     std::uint64_t received = 0;

@@ -25,8 +25,8 @@ struct RunState {
         missing{topology.required_deliveries()} {}
 
   /// Schedules an event. Returns how many were scheduled: one, unless the run has a mistake in it.
-  std::uint32_t schedule(Nanoseconds time, EventKind kind, std::uint32_t subject,
-                         std::uint32_t detail = 0) {
+  [[gnu::always_inline]] std::uint32_t schedule(Nanoseconds time, EventKind kind,
+                                                std::uint32_t subject, std::uint32_t detail = 0) {
     if (mutation != nullptr) [[unlikely]]
       return schedule_mutated(time, kind, subject, detail);
     const std::uint64_t insertion = queue.schedule(time, kind, subject, detail);

@@ -5,10 +5,11 @@
 //   Composition                          whose rules these are
 //   topology()                           the numbers of pairs and relations
 //   knob(tag), answer(tag, world)        of a switch or delay; of what only a host knows
-//   value(tag, n[, d]), assign(tag, n[, d], value)   of a flag or number of owner n
+//   value(tag, n), assign(tag, n[, d], value)        of a flag or number of owner n
+//   assign_each(tag, n, set), or assign_word(tag, n, k, bits) for each word, ascending
 //   word(tag, n, k)                      64 descriptors of a flag; of a field of `packet`
 //   said(tag, packet)                    a field of a packet as a whole
-//   fact(tag, world)                     if it keeps a fact up to date instead of evaluating it
+//   fact(tag, world), tally(tag, world)  if it keeps them up to date instead of evaluating them
 //   driver(part), state(part, n)         of a machine
 //   bits(part), lane_order(part)         of the machines of descriptors, and which of those that
 //                                        meet different inputs come first; moved(part, …) tells
@@ -16,7 +17,8 @@
 //   schedule(timer, n, time), pending(timer, n), cancel(timer, n)
 //   emit(packet, world, sayings)         sends it
 //   perform(step, world, …)              an opaque step
-//   for_readers(w, visit), for_readers_by_number(w, visit), for_queue(i, visit)
+//   readers(w), readers_by_number(w)     the open relations of a writer
+//   for_queue(i, visit)                  visit(writer, descriptor) until the queue is empty
 //
 // The simulator's hosts are model/paper and model/fastdds.
 #pragma once
@@ -70,9 +72,9 @@ class DescriptorLanes {
   }
   template <class P, class S>
   Lanes in(P part, comp::Is<S>) {
-    return Lanes{world_.host().bits(part).in_state(
-        world_.template number<comp::owner::relation>(), k_,
-        fsm::Reflect<typename P::Machine>::template id<S>)};
+    return Lanes{
+        world_.host().bits(part).in_state(world_.template number<comp::owner::relation>(), k_,
+                                          fsm::Reflect<typename P::Machine>::template id<S>)};
   }
   [[nodiscard]] Lanes is_in(const DescriptorSet& set) const { return Lanes{set.word(k_)}; }
   /// The term holds for the descriptor and for every lower one.
@@ -119,6 +121,10 @@ class RunningWorld {
   using Int = std::int64_t;
   using Set = DescriptorSet;
   using Composition = typename Host::Composition;
+  /// A reader of the writer; with a descriptor if this has one.
+  using Reader =
+      RunningWorld<Host,
+                   Owner{static_cast<std::uint8_t>(place.indices | comp::owner::relation.indices)}>;
 
   /// `subject` is the number of what the world is about; with a descriptor, the number of its
   /// relation or writer.
@@ -155,14 +161,19 @@ class RunningWorld {
   // Values.
   template <class Tag>
   auto operator()(Tag tag) {
-    if constexpr (std::derived_from<Tag, comp::Switch> ||
-                  std::derived_from<Tag, comp::Delay>) {
+    if constexpr (std::derived_from<Tag, comp::Switch> || std::derived_from<Tag, comp::Delay>) {
       return host_.knob(tag);
     } else if constexpr (std::derived_from<Tag, comp::Fact>) {
       if constexpr (requires { host_.fact(tag, *this); }) {
         return static_cast<bool>(host_.fact(tag, *this));
       } else {
         return static_cast<bool>(Tag::of(*this));
+      }
+    } else if constexpr (std::derived_from<Tag, comp::Tally>) {
+      if constexpr (requires { host_.tally(tag, *this); }) {
+        return static_cast<Int>(host_.tally(tag, *this));
+      } else {
+        return static_cast<Int>(Tag::of(*this));
       }
     } else if constexpr (std::derived_from<Tag, comp::PacketField>) {
       return static_cast<bool>(host_.said(tag, *packet_));
@@ -181,9 +192,9 @@ class RunningWorld {
     return host_.pending(T{}, number<T::owner>());
   }
   template <class P, class S>
-  bool in(P part, comp::Is<S> state) {
-    DescriptorLanes lanes{*this, descriptor_ / 64};
-    return (lanes.in(part, state).bits >> descriptor_ % 64 & 1) != 0;
+  bool in(P part, comp::Is<S>) {
+    return host_.bits(part).state_of(number<P::owner>(), descriptor_) ==
+           fsm::Reflect<typename P::Machine>::template id<S>;
   }
   static bool any(const Set& set) { return !set.empty(); }
   template <class Term>
@@ -194,8 +205,9 @@ class RunningWorld {
   }
   template <class Term>
   bool some(Term&& term) {
-    for (std::uint32_t k = 0; k < word_count(); ++k) {
-      if (members(term, k) != 0) return true;
+    const std::uint32_t count = descriptor_count();
+    for (std::uint32_t k = 0; 64 * k < count; ++k) {
+      if (members(term, k, count) != 0) return true;
     }
     return false;
   }
@@ -211,9 +223,11 @@ class RunningWorld {
   }
   template <class Term>
   bool some_reader(Term&& term) {
-    bool found = false;
-    for_readers([&](auto& r) { found = found || term(r); });
-    return found;
+    for (const std::uint32_t relation : host_.readers(number<comp::owner::writer>())) {
+      Reader r{host_, relation, packet_, descriptor_};
+      if (term(r)) return true;
+    }
+    return false;
   }
 
   // Conditions and loops.
@@ -223,17 +237,19 @@ class RunningWorld {
   }
   template <class Body>
   void for_readers(Body&& body) {
-    host_.for_readers(number<comp::owner::writer>(), of_reader(body));
+    each_reader(host_.readers(number<comp::owner::writer>()), body);
   }
   template <class Body>
   void for_readers_by_number(Body&& body) {
-    host_.for_readers_by_number(number<comp::owner::writer>(), of_reader(body));
+    each_reader(host_.readers_by_number(number<comp::owner::writer>()), body);
   }
   template <class Term, class Body>
   void for_descriptors(Term&& term, Body&& body) {
-    for (std::uint32_t k = 0; k < word_count(); ++k) {
+    const std::uint32_t count = descriptor_count();
+    for (std::uint32_t k = 0; 64 * k < count; ++k) {
       std::uint64_t from = ~std::uint64_t{0};
-      for (std::uint64_t left = members(term, k); left != 0; left = members(term, k) & from) {
+      for (std::uint64_t left = members(term, k, count); left != 0;
+           left = members(term, k, count) & from) {
         const int lowest = std::countr_zero(left);
         from = lowest == 63 ? 0 : ~std::uint64_t{0} << (lowest + 1);
         auto d = with_descriptor(64 * k + static_cast<std::uint32_t>(lowest));
@@ -243,11 +259,10 @@ class RunningWorld {
   }
   template <class Body>
   void for_queue(Body&& body) {
-    host_.for_queue(number<comp::owner::participant>(),
-                    [&](std::uint32_t writer, std::uint32_t d) {
-                      RunningWorld<Host, comp::owner::entry> entry{host_, writer, packet_, d};
-                      body(entry);
-                    });
+    host_.for_queue(number<comp::owner::participant>(), [&](std::uint32_t writer, std::uint32_t d) {
+      RunningWorld<Host, comp::owner::entry> entry{host_, writer, packet_, d};
+      body(entry);
+    });
   }
   template <class Body>
   void for_streams(Body&& body) {
@@ -259,16 +274,14 @@ class RunningWorld {
   template <class Body>
   void reverse(Body&& body) {
     constexpr bool pair = place == comp::owner::pair;
-    const std::uint32_t back =
-        host_.topology().pair(number<comp::owner::pair>()).reverse;
+    const std::uint32_t back = host_.topology().pair(number<comp::owner::pair>()).reverse;
     RunningWorld world{host_, pair ? back : 2 * back + subject_ % 2, packet_};
     body(world);
   }
 
   // Effects.
   template <class P, class E>
-  auto feed(P part, comp::On<E>,
-            const typename P::Machine::Io::template Input<D>& input = {}) {
+  auto feed(P part, comp::On<E>, const typename P::Machine::Io::template Input<D>& input = {}) {
     if constexpr (has_descriptor<P>()) {
       const std::uint32_t relation = number<P::owner>();
       typename P::Machine::Io::template Output<D> output{};
@@ -290,9 +303,10 @@ class RunningWorld {
     typename P::Machine::Io::template Output<SetDomain> total{};
     auto& bits = host_.bits(part);
     const std::uint32_t relation = number<comp::owner::relation>();
-    for (std::uint32_t k = 0; k < word_count(); ++k) {
+    const std::uint32_t count = descriptor_count();
+    for (std::uint32_t k = 0; 64 * k < count; ++k) {
       DescriptorLanes d{*this, k};
-      const std::uint64_t members = who(d).bits & valid(k);
+      const std::uint64_t members = who(d).bits & bits_below(count, k);
       if (members == 0) continue;
       const auto merge = [&](std::uint64_t same, const auto& output, fsm::StateId before,
                              fsm::StateId after) {
@@ -318,7 +332,14 @@ class RunningWorld {
   }
   template <class V, class Term>
   void set_each(V flag, Term&& term) {
-    host_.assign_each(flag, number<V::owner>(), set_of(term));
+    const std::uint32_t n = number<V::owner>();
+    if constexpr (requires { host_.assign_word(flag, n, std::uint32_t{}, std::uint64_t{}); }) {
+      for_words(term, [&](std::uint32_t k, std::uint64_t holds) {
+        host_.assign_word(flag, n, k, holds);
+      });
+    } else {
+      host_.assign_each(flag, n, set_of(term));
+    }
   }
   template <class Wait, class T>
   void after(Wait wait, T timer) {
@@ -364,29 +385,28 @@ class RunningWorld {
     const std::uint32_t writer = number<comp::owner::writer>();
     return host_.topology().descriptor_count(writer / 2, streams[writer % 2]);
   }
+  /// Those descriptors of word k, out of `count`, for which the term holds.
   template <class Term>
-  std::uint64_t members(Term&& term, std::uint32_t k) {
+  std::uint64_t members(Term&& term, std::uint32_t k, std::uint32_t count) {
     DescriptorLanes d{*this, k};
-    return Lanes{term(d)}.bits & valid(k);
+    return Lanes{term(d)}.bits & bits_below(count, k);
   }
   template <class Term, class Visit>
   void for_words(Term&& term, Visit&& visit) {
-    for (std::uint32_t k = 0; k < word_count(); ++k) visit(k, members(term, k));
+    const std::uint32_t count = descriptor_count();
+    for (std::uint32_t k = 0; 64 * k < count; ++k) visit(k, members(term, k, count));
   }
   auto with_descriptor(std::uint32_t d) const {
-    return RunningWorld<Host, Owner{static_cast<std::uint8_t>(
-                                  place.indices | comp::owner::descriptor_index)}>{
+    return RunningWorld<Host, Owner{static_cast<std::uint8_t>(place.indices |
+                                                              comp::owner::descriptor_index)}>{
         host_, subject_, packet_, d};
   }
-  /// Calls `body` with the world of a reader, and of the descriptor if this is of one.
-  template <class Body>
-  auto of_reader(Body& body) {
-    constexpr Owner there{static_cast<std::uint8_t>(
-        place.indices | comp::owner::relation.indices)};
-    return [this, &body](std::uint32_t relation) {
-      RunningWorld<Host, there> r{host_, relation, packet_, descriptor_};
+  template <class Relations, class Body>
+  void each_reader(const Relations& relations, Body& body) {
+    for (const std::uint32_t relation : relations) {
+      Reader r{host_, relation, packet_, descriptor_};
       body(r);
-    };
+    }
   }
   template <class Outbox, class Output>
   static void merge_outbox(Outbox& total, std::uint32_t k, std::uint64_t same,

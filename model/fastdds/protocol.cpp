@@ -1,5 +1,5 @@
-// The state that the rules are about, the way from events and packets to rules, and what goes out on
-// the wire.
+// The state that the rules are about, the way from events and packets to rules, and what goes out
+// on the wire.
 #include "model/fastdds/protocol.hpp"
 
 #include <algorithm>
@@ -46,8 +46,8 @@ void Protocol::handle(const Event& event) {
   const std::uint32_t user_publications =
       run_.topology.descriptor_count(event.subject, Stream::pub) - default_publications;
   const auto [stream, d] = creation_order(event.detail, user_publications);
-  run_rule<comp::Happens<rules::Created>>(*this, 2 * event.subject + static_cast<std::uint32_t>(index_of(stream)), nullptr,
-                                         d);
+  run_rule<comp::Happens<rules::Created>>(
+      *this, 2 * event.subject + static_cast<std::uint32_t>(index_of(stream)), nullptr, d);
 }
 
 std::vector<std::uint32_t> Protocol::receivers(const Packet& packet) const {
@@ -152,8 +152,7 @@ void Protocol::send_spdp_copy(std::uint32_t pair) {
   send(packet_of(PacketKind::spdp_unicast, pair, spdp_bytes));
 }
 
-void Protocol::send_heartbeat(std::uint32_t relation, std::uint32_t announced,
-                              std::int64_t bytes) {
+void Protocol::send_heartbeat(std::uint32_t relation, std::uint32_t announced, std::int64_t bytes) {
   if (crosses(relation)) ++run_.counts.heartbeat;
   Packet packet = packet_on(PacketKind::heartbeat, relation, bytes);
   packet.detail = announced;

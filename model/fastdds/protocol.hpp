@@ -6,6 +6,7 @@
 // What the paper's implementation does alike is in model/engine/discovery_base.hpp.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -111,8 +112,9 @@ class Protocol final : public DiscoveryBase {
   [[nodiscard]] std::uint64_t word(rules::Known, std::uint32_t relation, std::uint32_t k) const {
     return bits_below(relations_[relation].known, k);
   }
-  void assign_each(rules::Known, std::uint32_t relation, const DescriptorSet& known) {
-    relations_[relation].known = end_of(known);
+  void assign_word(rules::Known, std::uint32_t relation, std::uint32_t k, std::uint64_t known) {
+    if (known == 0) return;
+    relations_[relation].known = 64 * k + 64 - static_cast<std::uint32_t>(std::countl_zero(known));
   }
   [[nodiscard]] std::uint64_t word(rules::Notified, std::uint32_t relation, std::uint32_t k) const {
     return bits_below(relations_[relation].notified, k);
@@ -126,6 +128,14 @@ class Protocol final : public DiscoveryBase {
   template <class World>
   [[nodiscard]] bool fact(rules::QueueNotEmpty, const World& w) const {
     return !participants_[w.template number<comp::owner::participant>()].queue.empty();
+  }
+  template <class World>
+  [[nodiscard]] bool fact(rules::HasDescriptors, const World& w) const {
+    return writers_[w.template number<comp::owner::writer>()].created > 0;
+  }
+  template <class World>
+  [[nodiscard]] std::uint32_t tally(comp::Missing, const World& w) const {
+    return relations_[w.template number<comp::owner::relation>()].missing;
   }
   template <class World>
   [[nodiscard]] bool fact(rules::HasReaders, const World& w) const {
@@ -185,13 +195,11 @@ class Protocol final : public DiscoveryBase {
   }
 
   // Loops and opaque steps.
-  template <class Visit>
-  void for_readers(std::uint32_t w, Visit&& visit) const {
-    for (const std::uint32_t relation : writers_[w].readers) visit(relation);
+  [[nodiscard]] const std::vector<std::uint32_t>& readers(std::uint32_t w) const {
+    return writers_[w].readers;
   }
-  template <class Visit>
-  void for_readers_by_number(std::uint32_t w, Visit&& visit) const {
-    for (const std::uint32_t relation : open_relations(w)) visit(relation);
+  [[nodiscard]] std::vector<std::uint32_t> readers_by_number(std::uint32_t w) const {
+    return open_relations(w);
   }
   template <class Visit>
   void for_queue(std::uint32_t i, Visit&& visit) {

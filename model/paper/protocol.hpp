@@ -80,13 +80,16 @@ class Protocol final : public DiscoveryBase {
     return writers_[w.template number<comp::owner::writer>()].unacknowledged > 0;
   }
 
-  template <class Visit>
-  void for_readers(std::uint32_t w, Visit&& visit) const {
-    for (const std::uint32_t relation : open_relations(w)) visit(relation);
+  template <class World>
+  [[nodiscard]] std::uint32_t tally(comp::Missing, const World& w) const {
+    return relations_[w.template number<comp::owner::relation>()].missing;
   }
-  template <class Visit>
-  void for_readers_by_number(std::uint32_t w, Visit&& visit) const {
-    for_readers(w, visit);
+
+  [[nodiscard]] std::vector<std::uint32_t> readers(std::uint32_t w) const {
+    return open_relations(w);
+  }
+  [[nodiscard]] std::vector<std::uint32_t> readers_by_number(std::uint32_t w) const {
+    return open_relations(w);
   }
 
   template <class World, class Sayings>

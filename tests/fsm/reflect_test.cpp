@@ -85,7 +85,7 @@ TEST(Reflect, RowsSayWhatTheTableOfTheRepairStatesSays) {
   ASSERT_EQ(lines.size(), 8U);
   EXPECT_EQ(lines[0], "U + AckNackReceived -> R [Listed] / Request");
   EXPECT_EQ(lines[2], "Q + RepairSent -> S [none] / none");
-  EXPECT_EQ(lines[7], "S + AckNackReceived -> A [Confirmed] / Acknowledge");
+  EXPECT_EQ(lines[7], "S + AckNackReceived -> A [Confirmed] / none");
 }
 
 TEST(Reflect, NestedGuardsAreSpelledOut) {

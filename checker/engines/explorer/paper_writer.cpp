@@ -55,12 +55,14 @@ void PaperWorld::acknack_received(State& state, Frame& frame, const Slot& packet
   bool requested = false;
   for (unsigned d = 0; d < count_; ++d) {
     const bool listed = (bitmap & member(d)) != 0;
+    const fsm::StateId before = state.repair[d];
     const auto output = descriptors_.step<repair::AckNackReceived>(
         state.repair[d], {.listed = listed,
                           .below_first_missing = d < first_missing,
                           .prefix_only = sedp_.acknowledge == model::Acknowledge::prefix});
     requested = requested || output.requested;
-    if (output.acknowledged && state.unacknowledged > 0) --state.unacknowledged;
+    constexpr fsm::StateId acknowledged = fsm::Reflect<fsm::DescriptorRepair>::id<repair::A>;
+    if (before != acknowledged && state.repair[d] == acknowledged) --state.unacknowledged;
   }
   if (requested) {
     frame.schedule({What::repair_generation}, sedp_.nack_response_delay.count());

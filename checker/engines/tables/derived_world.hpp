@@ -61,6 +61,8 @@ class DerivedWorld {
       return Int{model::knob_value(tag, derived_->dds)};
     } else if constexpr (std::derived_from<Tag, Fact>) {
       return Bool{Tag::of(*this)};
+    } else if constexpr (std::derived_from<Tag, Tally>) {
+      return Int{Tag::of(*this)};
     } else if constexpr (requires { typename Tag::IsFlag; }) {
       return is_foreign(Tag::owner) ? unknown() : Bool{derivation().now(tag_name<Tag>())};
     } else if constexpr (requires { typename Tag::IsNumber; }) {

@@ -154,9 +154,7 @@ void add_descriptor_repair(std::vector<CatalogueEntry>& list) {
        entry("repair-not-scheduled", "a request does not schedule the repair generation", request,
              Kind::drop_action, paper),
        entry("repair-not-sent", "a due repair is queued without DATA", due, Kind::drop_action,
-             paper),
-       entry("acknowledgment-not-counted", "a confirmation is not counted", confirm,
-             Kind::drop_action, paper)});
+             paper)});
   CatalogueEntry rearm = entry("suppression-does-not-rearm",
                                "the end of a suppression does not arm the HEARTBEAT timer", ended,
                                Kind::drop_action, paper);

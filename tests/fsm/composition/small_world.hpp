@@ -94,6 +94,8 @@ class SmallWorld {
       return model::knob_value(knob, *dds_);
     } else if constexpr (std::derived_from<Tag, Fact>) {
       return static_cast<bool>(Tag::of(*this));
+    } else if constexpr (std::derived_from<Tag, Tally>) {
+      return Tag::of(*this);
     } else if constexpr (requires { typename Tag::IsFlag; }) {
       return value<Tag>() != 0;
     } else if constexpr (requires { typename Tag::IsNumber; }) {

@@ -30,12 +30,11 @@ struct Relation {
   int suppressions = 0;
   std::deque<std::int64_t> packets;
   int arms = 0;
-  int acknowledgments = 0;
 
   [[nodiscard]] std::string in_words_with(const std::string& states) const {
     return states + ", generations " + std::to_string(generations) + ", suppressions " +
            std::to_string(suppressions) + ", packets " + in_words(packets) + ", arms " +
-           std::to_string(arms) + ", acknowledged " + std::to_string(acknowledgments);
+           std::to_string(arms);
   }
 };
 
@@ -79,7 +78,6 @@ class PaperRules final : public PlainModel<PaperRules> {
         asked = asked || state == 'U';
         if (state == 'U') state = 'R';
       } else if (!prefix || d < lowest(bitmap)) {
-        if (state != 'A') ++relation_.acknowledgments;
         state = 'A';
       }
     }
@@ -115,7 +113,6 @@ class PaperMachines final : public Reactor {
                            .below_first_missing = d < lowest(call.payload[0]),
                            .prefix_only = call.payload[1] == 1});
           asked = asked || output.requested;
-          relation_.acknowledgments += output.acknowledged ? 1 : 0;
         }
         relation_.generations += asked ? 1 : 0;
         break;
