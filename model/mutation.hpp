@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "fsm/composition/effect_mutation.hpp"
 #include "fsm/table_mutation.hpp"
 #include "model/event.hpp"
 #include "model/units.hpp"
@@ -30,6 +31,8 @@ struct EventMutation {
 struct Mutation {
   std::vector<fsm::TableMutation> tables;
   std::vector<EventMutation> events;
+  /// What happens between the machines.
+  std::vector<fsm::composition::EffectMutation> effects;
   /// An ACKNACK that arrives asks for what is missing at its arrival, not at its generation.
   bool live_bitmaps = false;
 };

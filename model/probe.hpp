@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "fsm/composition/effect_mutation.hpp"
 #include "model/event.hpp"
 #include "model/units.hpp"
 
@@ -46,6 +47,10 @@ class Probe {
   virtual void transition(const MachineRef&, std::string_view /*event*/,
                           std::string_view /*before*/, std::string_view /*after*/,
                           std::uint32_t /*first_word*/, std::uint64_t /*descriptors*/) {}
+  /// Whether `effect` is wanted; it slows a run down.
+  [[nodiscard]] virtual bool wants_effects() const { return false; }
+  /// An effect of a rule is about to happen; `draw composition` names it.
+  virtual void effect(fsm::composition::EffectKey) {}
   virtual void scheduled(std::uint64_t /*insertion*/, Nanoseconds, EventKind,
                          std::uint32_t /*subject*/) {}
   /// `source` emitted the packet, or `packet.copies` packets of consecutive numbers to

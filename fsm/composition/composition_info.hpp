@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "fsm/composition/effect_mutation.hpp"
+
 namespace stormproof::fsm::composition {
 
 /// A machine in its place.
@@ -29,7 +31,9 @@ struct ThingInfo {
 /// A condition or loop around an effect. Effects of one block stand in the same place.
 struct BlockInfo {
   std::string text;
-  unsigned number = 0;  ///< within the rule
+  unsigned number = 0;    ///< within the rule
+  std::string_view kind;  ///< when, for
+  EffectKey key{};
 };
 
 struct EffectInfo {
@@ -42,6 +46,7 @@ struct EffectInfo {
   std::vector<BlockInfo> blocks;  ///< outermost first
   std::string_view file;          ///< where it is written
   unsigned line = 0;
+  EffectKey key{};
 };
 
 struct RuleInfo {

@@ -12,6 +12,7 @@
 #include "fsm/composition/composition_info.hpp"
 #include "fsm/composition/outbox.hpp"
 #include "fsm/composition/said.hpp"
+#include "fsm/composition/trail.hpp"
 #include "fsm/composition/vocabulary.hpp"
 
 namespace stormproof::fsm::composition {
@@ -61,6 +62,7 @@ class Recorder {
                   label(R::owner),
                   {}};
     rule_ = &rule;
+    trail_ = Trail{label<R>()};
     R::run(*this);
     into_.rules.push_back(std::move(rule));
   }
@@ -120,46 +122,48 @@ class Recorder {
 
   // Conditions and loops.
   template <class Body>
-  void when(const Said& condition, Body&& body) {
+  void when(const Said& condition, Body&& body, Site site = Site::here()) {
     use(condition);
     if (condition.text() == "true") {
+      const Trail outer = std::exchange(trail_, trail_.inside(site));
       body();
+      trail_ = outer;
     } else {
-      within("if " + condition.text(), body);
+      within("when", "if " + condition.text(), site, body);
     }
   }
   template <class Body>
-  void for_readers(Body&& body) {
-    within("for each open reader", [&] { body(*this); });
+  void for_readers(Body&& body, Site site = Site::here()) {
+    within("for", "for each open reader", site, [&] { body(*this); });
   }
   template <class Body>
-  void for_readers_by_number(Body&& body) {
-    within("for each open reader by number", [&] { body(*this); });
+  void for_readers_by_number(Body&& body, Site site = Site::here()) {
+    within("for", "for each open reader by number", site, [&] { body(*this); });
   }
   template <class Term, class Body>
-  void for_descriptors(Term&& term, Body&& body) {
-    within("for each d: " + term(*this).text(), [&] { body(*this); });
+  void for_descriptors(Term&& term, Body&& body, Site site = Site::here()) {
+    within("for", "for each d: " + term(*this).text(), site, [&] { body(*this); });
   }
   template <class Body>
-  void for_queue(Body&& body) {
-    within("for each entry of the queue", [&] { body(*this); });
+  void for_queue(Body&& body, Site site = Site::here()) {
+    within("for", "for each entry of the queue", site, [&] { body(*this); });
   }
   template <class Body>
-  void for_streams(Body&& body) {
-    within("for each stream", [&] { body(*this); });
+  void for_streams(Body&& body, Site site = Site::here()) {
+    within("for", "for each stream", site, [&] { body(*this); });
   }
   template <class Body>
-  void for_known_peers(Body&& body) {
-    within("for each known peer", [&] { body(*this); });
+  void for_known_peers(Body&& body, Site site = Site::here()) {
+    within("for", "for each known peer", site, [&] { body(*this); });
   }
   template <class Body>
-  void reverse(Body&& body) {
-    within("in the reverse direction", [&] { body(*this); });
+  void reverse(Body&& body, Site site = Site::here()) {
+    within("for", "in the reverse direction", site, [&] { body(*this); });
   }
   template <class Body>
-  void partition(const Said& set, Body&& body) {
+  void partition(const Said& set, Body&& body, Site site = Site::here()) {
     use(set);
-    within("for each part of " + set.text(), [&] { body(set); });
+    within("for", "for each part of " + set.text(), site, [&] { body(set); });
   }
 
   // Effects.
@@ -267,9 +271,11 @@ class Recorder {
     return text;
   }
   template <class Body>
-  void within(const std::string& condition, Body&& body) {
-    blocks_.push_back({condition, ++last_block_});
+  void within(std::string_view kind, const std::string& condition, Site site, Body&& body) {
+    blocks_.push_back({condition, ++last_block_, kind, trail_.at(kind, "", site)});
+    const Trail outer = std::exchange(trail_, trail_.inside(site));
     body();
+    trail_ = outer;
     blocks_.pop_back();
   }
   void use(const Said& value) {
@@ -285,7 +291,7 @@ class Recorder {
     if constexpr (requires { Target::owner; }) owner = label(Target::owner);
     rule_->effects.push_back({rule_->id + "." + std::to_string(rule_->effects.size() + 1), kind,
                               label<Target>(), owner, std::move(detail), blocks_, site.file,
-                              site.line});
+                              site.line, trail_.at(kind, label<Target>(), site)});
   }
   template <class P>
   auto outbox_of() {
@@ -345,7 +351,9 @@ class Recorder {
     const std::size_t place = list.size() - 1;
     RuleInfo* const outer = std::exchange(rule_, &recorded);
     std::vector<BlockInfo> blocks = std::exchange(blocks_, {});
+    const Trail outer_trail = std::exchange(trail_, Trail{name});
     body();
+    trail_ = outer_trail;
     blocks_ = std::move(blocks);
     rule_ = outer;
     list[place] = std::move(recorded);
@@ -355,6 +363,7 @@ class Recorder {
   RuleInfo* rule_ = nullptr;
   std::vector<BlockInfo> blocks_;
   unsigned last_block_ = 0;
+  Trail trail_{""};
 };
 
 /// The composition `Composition` as data.

@@ -15,6 +15,7 @@
 #include "fsm/composition/reader.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/driver.hpp"
+#include "model/engine/effect_mutator.hpp"
 #include "model/engine/implementation.hpp"
 #include "model/engine/network.hpp"
 #include "model/engine/running_world.hpp"
@@ -31,6 +32,7 @@ class DiscoveryBase : public Implementation {
   DiscoveryBase(RunState& run, Network& network);
 
   [[nodiscard]] RunState& run() { return run_; }
+  [[nodiscard]] comp::Watcher* watcher() { return watched_ ? &mutator_ : nullptr; }
   [[nodiscard]] const Topology& topology() const { return run_.topology; }
   [[nodiscard]] std::int64_t now() const { return run_.now.count(); }
   template <class Knob>
@@ -253,6 +255,8 @@ class DiscoveryBase : public Implementation {
   }
   void plan_batches(std::uint32_t writer, std::int64_t stretched);
 
+  EffectMutator mutator_{run_};
+  const bool watched_ = mutator_.is_needed();
   std::vector<Announcer> announcers_;
   std::vector<Clock> clocks_;  // by writer
   std::vector<Asked> asked_;   // by relation

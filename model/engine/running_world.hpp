@@ -17,6 +17,7 @@
 //   schedule(timer, n, time), pending(timer, n), cancel(timer, n)
 //   emit(packet, world, sayings)         sends it
 //   perform(step, world, …)              an opaque step
+//   watcher()                            who watches the effects, or nobody
 //   readers(w), readers_by_number(w)     the open relations of a writer
 //   for_queue(i, visit)                  visit(writer, descriptor) until the queue is empty
 //
@@ -35,6 +36,7 @@
 #include <boost/pfr.hpp>
 
 #include "fsm/composition/vocabulary.hpp"
+#include "fsm/composition/watched_world.hpp"
 #include "fsm/domain.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/descriptor_set.hpp"
@@ -112,9 +114,10 @@ class DescriptorLanes {
   std::uint32_t k_;
 };
 
-template <class Host_, Owner place>
+template <class Host_, Owner place_>
 class RunningWorld {
  public:
+  static constexpr Owner place = place_;
   using Host = Host_;
   using D = fsm::Plain;
   using Bool = bool;
@@ -438,6 +441,12 @@ void run_rule(Host& host, std::uint32_t subject, const Packet* packet = nullptr,
               std::uint32_t descriptor = 0) {
   using Rule = comp::RuleFor<typename Host::Composition, Trigger>;
   RunningWorld<Host, Rule::owner> world{host, subject, packet, descriptor};
+  if (comp::Watcher* watcher = host.watcher(); watcher != nullptr) [[unlikely]] {
+    comp::WatchedWorld watched{world, *watcher, comp::Trail{fsm::name_of<Rule>()}};
+    Rule::run(watched);
+    watcher->go_on();
+    return;
+  }
   Rule::run(world);
 }
 

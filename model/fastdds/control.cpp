@@ -48,6 +48,7 @@ Packet ControlRelations::packet_of(PacketKind kind, std::uint32_t relation,
 }
 
 void Protocol::open(ControlSide side) {
+  if (side.relation == topic::none) return;  // only a mistake asks for what does not exist
   if (side.writer)
     run_rule<comp::Happens<control::ControlWriterOpens>>(*this, side.relation);
   else
@@ -70,7 +71,6 @@ void Protocol::open_created(std::uint32_t i, Stream s, std::uint32_t d) {
     if (!run_.topology.pair(pair).cross_host) continue;
     const std::uint32_t reverse = run_.topology.pair(pair).reverse;
     const std::uint32_t relation = control_.find(s == Stream::pub ? pair : reverse, t);
-    if (relation == topic::none) continue;
     if (!is_notified(reverse, other(s), descriptor_on(t, other(s)))) continue;
     open({relation, s == Stream::pub});
   }
@@ -82,7 +82,6 @@ void Protocol::open_notified(std::uint32_t pair, Stream s, std::uint32_t d) {
   if (t == topic::none) return;
   const Pair& p = run_.topology.pair(pair);
   const std::uint32_t relation = control_.find(s == Stream::pub ? pair : p.reverse, t);
-  if (relation == topic::none) return;
   if (!is_created(p.destination, other(s), descriptor_on(t, other(s)))) return;
   open({relation, s != Stream::pub});
 }

@@ -89,7 +89,7 @@ class Protocol final : public DiscoveryBase {
     return relations_[relation].matched;
   }
   void assign(rules::WriterOpen, std::uint32_t relation, bool matched) {
-    relations_[relation].matched = matched;
+    if (std::exchange(relations_[relation].matched, matched)) return;
     writers_[writer_of(relation)].readers.push_back(relation);
   }
   [[nodiscard]] bool value(rules::SomeConfirmed, std::uint32_t relation) const {

@@ -80,12 +80,14 @@ void Protocol::source_completed(const Packet& packet) {
 
 void Protocol::assign(comp::Recognised, std::uint32_t pair, bool) {
   const std::uint32_t reverse = run_.topology.pair(pair).reverse;
+  if (known_rank_[reverse] != no_rank) return;
   Participant& participant = participants_[run_.topology.pair(pair).destination];
   known_rank_[reverse] = participant.known++;
   participant.first_known_pair = std::min(participant.first_known_pair, reverse);
 }
 
 void Protocol::assign(rules::WriterOpen, std::uint32_t relation, bool) {
+  if (relations_[relation].open_rank != no_rank) return;
   Writer& writer = writers_[writer_of(relation)];
   relations_[relation].open_rank = writer.open++;
   writer.first_open_pair = std::min(writer.first_open_pair, relation / 2);

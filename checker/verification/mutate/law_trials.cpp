@@ -30,7 +30,7 @@ props::Simulate simulator(const checker::Mutant* mutant) {
 
 bool shows_in_runs(const checker::Mutant& mutant) {
   return !mutant.rules.tables.empty() || !mutant.rules.events.empty() ||
-         mutant.rules.live_bitmaps || mutant.knobs;
+         !mutant.rules.effects.empty() || mutant.rules.live_bitmaps || mutant.knobs;
 }
 
 std::vector<LawTrials::Ground>& LawTrials::grounds(model::ImplementationKind implementation) {

@@ -1,6 +1,11 @@
 // Mistakes in the rules around the tables: events, snapshots, knobs, and the order of events.
 #include "checker/verification/mutate/mutants.hpp"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "checker/verification/mutate/effect_mutants.hpp"
 #include "checker/verification/mutate/table_mutants.hpp"
 
 namespace stormproof::mutate {
@@ -12,8 +17,9 @@ using model::EventClass;
 using model::EventKind;
 using model::Nanoseconds;
 
-CatalogueEntry named(std::string id, std::string description, Concerns concerns) {
+CatalogueEntry named(Kind kind, std::string id, std::string description, Concerns concerns) {
   CatalogueEntry entry;
+  entry.kind = kind;
   entry.mutant.id = std::move(id);
   entry.mutant.description = std::move(description);
   entry.concerns = concerns;
@@ -22,7 +28,7 @@ CatalogueEntry named(std::string id, std::string description, Concerns concerns)
 
 CatalogueEntry event(std::string id, std::string description, EventKind kind, Change change,
                      Concerns concerns, Nanoseconds by = {}, EventClass event_class = {}) {
-  CatalogueEntry entry = named(std::move(id), std::move(description), concerns);
+  CatalogueEntry entry = named(Kind::event, std::move(id), std::move(description), concerns);
   model::EventMutation mutation;
   mutation.kind = kind;
   mutation.change = change;
@@ -69,13 +75,14 @@ void add_events(std::vector<CatalogueEntry>& list) {
 
 void add_rules(std::vector<CatalogueEntry>& list) {
   CatalogueEntry live =
-      named("live-bitmap", "an ACKNACK asks for what is missing when it arrives", Concerns::both);
+      named(Kind::snapshot, "live-bitmap", "an ACKNACK asks for what is missing when it arrives",
+            Concerns::both);
   live.mutant.rules.live_bitmaps = true;
   list.push_back(std::move(live));
 
   const auto knob = [&](std::string id, std::string description, Concerns concerns,
                         std::function<void(model::Scenario&)> change) {
-    CatalogueEntry entry = named(std::move(id), std::move(description), concerns);
+    CatalogueEntry entry = named(Kind::knob, std::move(id), std::move(description), concerns);
     entry.mutant.knobs = std::move(change);
     list.push_back(std::move(entry));
   };
@@ -99,7 +106,8 @@ void add_rules(std::vector<CatalogueEntry>& list) {
        });
 
   const auto order = [&](std::string id, std::string description, checker::OrderRule rule) {
-    CatalogueEntry entry = named(std::move(id), std::move(description), Concerns::both);
+    CatalogueEntry entry =
+        named(Kind::order, std::move(id), std::move(description), Concerns::both);
     entry.mutant.order = rule;
     list.push_back(std::move(entry));
   };
@@ -117,7 +125,15 @@ std::vector<CatalogueEntry> mutants() {
   std::vector<CatalogueEntry> list = table_mutants();
   add_events(list);
   add_rules(list);
+  std::vector<CatalogueEntry> effects = effect_mutants();
+  std::ranges::move(effects, std::back_inserter(list));
   return list;
+}
+
+std::string_view name_of(Kind kind) {
+  constexpr std::array<std::string_view, 6> names{"table", "event", "snapshot",
+                                                  "knob",  "order", "effect"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace stormproof::mutate

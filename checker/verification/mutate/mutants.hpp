@@ -3,7 +3,9 @@
 // notices which.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "checker/engines/bounds/check_request.hpp"
@@ -13,14 +15,19 @@ namespace stormproof::mutate {
 /// Which runs a mutant can show itself in.
 enum class Concerns : std::uint8_t { both, paper, fastdds };
 
+/// Where the mistake is.
+enum class Kind : std::uint8_t { table, event, snapshot, knob, order, effect };
+[[nodiscard]] std::string_view name_of(Kind kind);
+
 struct CatalogueEntry {
   checker::Mutant mutant;
   Concerns concerns = Concerns::both;
   /// Why no property can notice it, if that is known; empty otherwise.
   std::string survives_because;
+  Kind kind = Kind::table;
 };
 
-/// All mutants; ids are stable and unique.
+/// All mutants; ids are unique, and stable as long as the rules stay as they are.
 [[nodiscard]] std::vector<CatalogueEntry> mutants();
 
 }  // namespace stormproof::mutate

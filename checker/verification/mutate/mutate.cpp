@@ -68,7 +68,7 @@ class Mutator {
         report.interrupted = true;
         break;
       }
-      report.mutants.push_back(try_out(entry));
+      report.mutants.push_back(entry.kind == Kind::effect ? try_effect(entry) : try_out(entry));
     }
     report.seconds = std::chrono::duration<double>(Clock::now() - started).count();
     return report;
@@ -135,12 +135,41 @@ class Mutator {
                                request(ground.trial, &entry.mutant)));
       }
     }
-    MutantResult result{entry.mutant.id, entry.mutant.description, {}, {}, {}};
-    if (shows_in_runs(entry.mutant)) result.killed_by_laws = laws_.killers(entry);
+    std::optional<std::vector<std::string>> laws;
+    if (shows_in_runs(entry.mutant)) laws = laws_.killers(entry);
+    return result_of(entry, killers, std::move(laws));
+  }
+
+  /// Runs first, then laws, then the search, until somebody notices the mistake.
+  MutantResult try_effect(const CatalogueEntry& entry) {
+    using model::ImplementationKind;
+    const ImplementationKind implementation =
+        entry.concerns == Concerns::paper ? ImplementationKind::paper : ImplementationKind::fastdds;
+    Ids killers;
+    const auto ask = [&](EngineFunction engine) {
+      for (const Ground& ground : grounds(implementation)) {
+        if (ground.engine != engine || !killers.empty()) continue;
+        killers = violated(engine, ground.hold, request(ground.trial, &entry.mutant));
+      }
+    };
+    ask(exact::check);
+    std::optional<std::vector<std::string>> laws;
+    if (killers.empty()) laws = laws_.killers(entry);
+    if (laws && laws->empty()) ask(explorer::check);
+    return result_of(entry, killers, std::move(laws));
+  }
+
+  static MutantResult result_of(const CatalogueEntry& entry, const Ids& killers,
+                                std::optional<std::vector<std::string>> laws) {
+    MutantResult result;
+    result.id = entry.mutant.id;
+    result.kind = entry.kind;
+    result.description = entry.mutant.description;
+    result.killed_by_laws = std::move(laws);
     for (const props::Property& property : props::catalogue()) {
       if (killers.contains(property.id)) result.killed_by.emplace_back(property.id);
     }
-    if (result.killed_by.empty()) {
+    if (!result.noticed()) {
       result.reason = entry.survives_because.empty()
                           ? "no property notices it on the trial scenarios"
                           : entry.survives_because;
@@ -156,10 +185,13 @@ class Mutator {
 
 }  // namespace
 
+bool MutantResult::noticed() const {
+  const bool by_law = kind == Kind::effect && killed_by_laws && !killed_by_laws->empty();
+  return !killed_by.empty() || by_law;
+}
+
 std::size_t MutationReport::killed() const {
-  return static_cast<std::size_t>(
-      std::count_if(mutants.begin(), mutants.end(),
-                    [](const MutantResult& mutant) { return !mutant.killed_by.empty(); }));
+  return static_cast<std::size_t>(std::ranges::count_if(mutants, &MutantResult::noticed));
 }
 
 bool MutationReport::notices_enough() const {

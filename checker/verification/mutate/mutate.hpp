@@ -15,11 +15,16 @@ namespace stormproof::mutate {
 
 struct MutantResult {
   std::string id;
+  Kind kind = Kind::table;
   std::string description;
   std::vector<std::string> killed_by;  ///< property ids, in the order of the catalogue
   std::string reason;                  ///< of a survivor: why no property noticed it
-  /// Laws that the mutant breaks; absent if no run can show it.
+  /// Laws that the mutant breaks; absent if no run can show it, or if a property has noticed a
+  /// mutant of an effect.
   std::optional<std::vector<std::string>> killed_by_laws;
+
+  /// By a property; a mistake at an effect also by a law.
+  [[nodiscard]] bool noticed() const;
 };
 
 struct MutationReport {
@@ -47,7 +52,7 @@ struct MutateOptions {
 
 /// A property kills a mutant if it is violated with the mutant and not without, on one of a few
 /// small scenarios of each implementation. A law does if it is broken with the mutant and not
-/// without.
+/// without. Of the many mutants of effects it is only asked whether somebody notices them.
 [[nodiscard]] MutationReport mutate(const MutateOptions& options);
 
 }  // namespace stormproof::mutate

@@ -15,13 +15,17 @@ using report::Paragraph;
 
 /// What the property tests say about a mutant.
 std::string laws_text(const MutantResult& mutant) {
-  if (!mutant.killed_by_laws) return "property tests: – (no run shows it)";
+  if (!mutant.killed_by_laws) {
+    return mutant.kind == Kind::effect ? "property tests: – (not asked)"
+                                       : "property tests: – (no run shows it)";
+  }
   if (mutant.killed_by_laws->empty()) return "property tests: none";
   return fmt::format("property tests: {}", fmt::join(*mutant.killed_by_laws, ", "));
 }
 
 std::string noticed_by(const MutantResult& mutant) {
-  return mutant.killed_by.empty() ? "SURVIVES: " + mutant.reason
+  if (!mutant.noticed()) return "SURVIVES: " + mutant.reason;
+  return mutant.killed_by.empty() ? "→ a law"
                                   : fmt::format("→ {}", fmt::join(mutant.killed_by, ", "));
 }
 
@@ -33,7 +37,7 @@ report::Table mutants_table(const MutationReport& report) {
   for (const MutantResult& mutant : report.mutants) {
     report::Text who = noticed_by(mutant) + "; " + laws_text(mutant);
     table.rows.push_back(
-        {{report::code(mutant.id), mutant.description, std::move(who)}, mutant.killed_by.empty()});
+        {{report::code(mutant.id), mutant.description, std::move(who)}, !mutant.noticed()});
   }
   return table;
 }
@@ -55,9 +59,9 @@ report::Finding finding_of(const MutantResult& mutant) {
   finding.id = mutant.id;
   finding.group = "stormproof.mutate";
   finding.statement = mutant.description;
-  finding.outcome = mutant.killed_by.empty() ? report::Finding::Outcome::failed
-                                             : report::Finding::Outcome::passed;
-  finding.word = mutant.killed_by.empty() ? "survives" : "noticed";
+  finding.outcome =
+      mutant.noticed() ? report::Finding::Outcome::passed : report::Finding::Outcome::failed;
+  finding.word = mutant.noticed() ? "noticed" : "survives";
   finding.message = noticed_by(mutant);
   finding.details =
       mutant.description + "\n" + noticed_by(mutant) + "\n" + laws_text(mutant) + "\n";

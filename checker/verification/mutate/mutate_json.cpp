@@ -9,9 +9,10 @@ namespace stormproof::mutate {
 template <class V>
 void describe(V& v, const MutantResult& mutant) {
   v("id", mutant.id);
+  v("kind", name_of(mutant.kind));
   v("description", mutant.description);
   v("killed_by", mutant.killed_by);
-  v.or_null("reason", mutant.killed_by.empty() ? mutant.reason : "");
+  v.or_null("reason", mutant.noticed() ? "" : mutant.reason);
   v("killed_by_laws", mutant.killed_by_laws);
 }
 

@@ -86,7 +86,8 @@ TEST(RelationBits, ARowThatKeepsItsStateIsTold) {
   keep.kind = fsm::TableMutation::Kind::retarget;
   keep.target = Repair::id<fsm::descriptor_repair::U>;
   while (rows[keep.row].target != Repair::id<fsm::descriptor_repair::R>) ++keep.row;
-  const Mutation mutation{.tables = {keep}, .events = {}};
+  Mutation mutation;
+  mutation.tables.push_back(keep);
   const Scenario scenario = by_hand({{0, 3}, {1, 0}});
   Told told;
   RunState run{scenario, &told, &mutation};

@@ -1,0 +1,106 @@
+// The mistakes that can be made between the machines, from the recorded rules. What changes nothing
+// by construction is left out: setting a value twice, and two effects in another order of which one
+// waits for an answer (a machine's outbox) or is a step of the host's.
+#include <array>
+#include <set>
+
+#include "fsm/composition/composition_info.hpp"
+#include "fsm/composition/effect_mutation.hpp"
+
+namespace stormproof::fsm::composition {
+
+namespace {
+
+using Change = EffectMutation::Change;
+
+bool is_any(std::string_view kind, std::initializer_list<std::string_view> kinds) {
+  for (const std::string_view each : kinds) {
+    if (kind == each) return true;
+  }
+  return false;
+}
+
+/// Whether an effect can come after another one; see WatchedWorld.
+bool can_wait(const EffectInfo& effect) {
+  return is_any(effect.kind, {"set", "set each", "after", "at", "cancel", "emit"});
+}
+
+bool same_block(const EffectInfo& a, const EffectInfo& b) {
+  return a.blocks.size() == b.blocks.size() &&
+         (a.blocks.empty() || a.blocks.back().number == b.blocks.back().number);
+}
+
+/// What can be wrong at an effect of a rule with this owner, whatever follows it.
+std::vector<Change> changes_of(const EffectInfo& effect, std::string_view owner) {
+  std::vector<Change> changes{Change::drop};
+  if (!is_any(effect.kind, {"set", "set each", "cancel"})) changes.push_back(Change::twice);
+  if (is_any(effect.kind, {"after", "at"})) {
+    changes.push_back(Change::at_once);
+    changes.push_back(Change::other_delay);
+  }
+  const bool of_one_reader = owner == "relation";
+  if (of_one_reader && is_any(effect.kind, {"after", "at", "emit", "feed each", "raise"})) {
+    changes.push_back(Change::every_reader);
+  }
+  if (owner == "relation" && is_any(effect.kind, {"after", "at", "emit", "raise"})) {
+    changes.push_back(Change::reversed);
+  }
+  return changes;
+}
+
+class Mutations {
+ public:
+  explicit Mutations(const CompositionInfo& composition) : name_{composition.name} {
+    for (const RuleInfo& rule : composition.rules) add(rule);
+    for (const RuleInfo& procedure : composition.procedures) add(procedure);
+  }
+  std::vector<EffectMutation> list;
+
+ private:
+  void add(const RuleInfo& rule) {
+    for (std::size_t k = 0; k < rule.effects.size(); ++k) {
+      const EffectInfo& effect = rule.effects[k];
+      for (std::size_t depth = 0; depth < effect.blocks.size(); ++depth) {
+        add(effect.blocks[depth], effect.id + ":if" + std::to_string(depth + 1));
+      }
+      for (const Change change : changes_of(effect, rule.owner)) add(effect, change);
+      if (k + 1 == rule.effects.size()) continue;
+      const EffectInfo& next = rule.effects[k + 1];
+      if (can_wait(effect) && can_wait(next) && same_block(effect, next)) {
+        add(effect, Change::after_next);
+      }
+    }
+  }
+  void add(const EffectInfo& effect, Change change) {
+    list.push_back({std::string{name_}, effect.id, sentence(effect), effect.key, change});
+  }
+  void add(const BlockInfo& block, const std::string& id) {
+    if (!seen_.insert(block.key).second) return;
+    const auto add = [&](Change change) {
+      list.push_back({std::string{name_}, id, block.text, block.key, change});
+    };
+    if (block.kind == "when") {
+      add(Change::negated);
+      add(Change::always);
+    } else if (block.text != "in the reverse direction") {
+      add(Change::first_only);
+    }
+  }
+
+  std::string_view name_;
+  std::set<EffectKey> seen_;
+};
+
+constexpr std::array<std::string_view, 11> change_names{
+    "none",         "dropped",    "twice",    "after-next", "at-once", "other-delay",
+    "every-reader", "first-only", "reversed", "negated",    "always"};
+
+}  // namespace
+
+std::string_view word_of(Change change) { return change_names[static_cast<std::size_t>(change)]; }
+
+std::vector<EffectMutation> effect_mutations(const CompositionInfo& composition) {
+  return std::move(Mutations{composition}.list);
+}
+
+}  // namespace stormproof::fsm::composition

@@ -1,0 +1,126 @@
+// Effects have the same names everywhere: what a run does is what the recorded composition lists,
+// and everything that it lists happens in some run. A mistake at an effect is made in the run.
+#include <map>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "fsm/composition/compositions.hpp"
+#include "model/probe.hpp"
+#include "model/simulator.hpp"
+#include "tests/oracle/random_scenario.hpp"
+
+namespace stormproof::model {
+namespace effects_test {
+
+using fsm::composition::CompositionInfo;
+using fsm::composition::EffectInfo;
+using fsm::composition::EffectKey;
+using fsm::composition::RuleInfo;
+
+CompositionInfo composition_of(std::string_view name) {
+  for (CompositionInfo& info : fsm::composition::compositions()) {
+    if (info.name == name) return std::move(info);
+  }
+  ADD_FAILURE() << name;
+  return {};
+}
+
+std::map<EffectKey, std::string> effects_of(const CompositionInfo& composition) {
+  std::map<EffectKey, std::string> ids;
+  for (const auto* list : {&composition.rules, &composition.procedures}) {
+    for (const RuleInfo& rule : *list) {
+      for (const EffectInfo& effect : rule.effects) {
+        const auto [entry, fresh] = ids.emplace(effect.key, effect.id);
+        EXPECT_TRUE(fresh) << effect.id << " and " << entry->second << " have one key";
+      }
+    }
+  }
+  return ids;
+}
+
+class Effects : public Probe {
+ public:
+  [[nodiscard]] bool wants_effects() const override { return true; }
+  void effect(EffectKey key) override { seen.insert(key); }
+
+  std::set<EffectKey> seen;
+};
+
+class EveryEffect : public testing::TestWithParam<ImplementationKind> {};
+
+TEST_P(EveryEffect, HappensInSomeRunAndHasItsNameThere) {
+  const CompositionInfo composition =
+      composition_of(GetParam() == ImplementationKind::paper ? "paper" : "fastdds");
+  const std::map<EffectKey, std::string> known = effects_of(composition);
+  Effects effects;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    const Scenario scenario = oracle::random_scenario(seed, GetParam());
+    RunOptions options;
+    options.probe = &effects;
+    options.max_events = 20'000;
+    (void)simulate(scenario, options);
+  }
+  for (const EffectKey key : effects.seen) {
+    EXPECT_TRUE(known.contains(key)) << "an effect that is not on the page";
+  }
+  std::set<std::string> never;
+  for (const auto& [key, id] : known) {
+    if (!effects.seen.contains(key)) never.insert(id);
+  }
+  EXPECT_EQ(never, std::set<std::string>{});
+}
+
+INSTANTIATE_TEST_SUITE_P(Implementations, EveryEffect,
+                         testing::Values(ImplementationKind::paper, ImplementationKind::fastdds));
+
+/// Watching changes nothing.
+TEST(Effects, AreToldWithoutChangingTheRun) {
+  for (const ImplementationKind kind : {ImplementationKind::paper, ImplementationKind::fastdds}) {
+    const Scenario scenario = oracle::random_scenario(7, kind);
+    Effects effects;
+    RunOptions options;
+    options.probe = &effects;
+    const RunResult watched = simulate(scenario, options);
+    const RunResult alone = simulate(scenario, {});
+    EXPECT_EQ(watched.events, alone.events);
+    EXPECT_EQ(watched.end_time, alone.end_time);
+    EXPECT_FALSE(effects.seen.empty());
+  }
+}
+
+/// How many of the mistakes at effects change the number of events or the end of some run.
+TEST_P(EveryEffect, CanBeWrong) {
+  const CompositionInfo composition =
+      composition_of(GetParam() == ImplementationKind::paper ? "paper" : "fastdds");
+  const auto mutations = fsm::composition::effect_mutations(composition);
+  std::vector<Scenario> scenarios;
+  std::vector<RunResult> correct;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    scenarios.push_back(oracle::random_scenario(seed, GetParam()));
+    RunOptions options;
+    options.max_events = 5'000;
+    correct.push_back(simulate(scenarios.back(), options));
+  }
+  std::size_t differ = 0;
+  for (const auto& effect : mutations) {
+    Mutation mutation;
+    mutation.effects.push_back(effect);
+    RunOptions options;
+    options.mutation = &mutation;
+    options.max_events = 5'000;
+    bool found = false;
+    for (std::size_t k = 0; k < scenarios.size() && !found; ++k) {
+      const RunResult wrong = simulate(scenarios[k], options);
+      found = wrong.events != correct[k].events || wrong.end_time != correct[k].end_time ||
+              wrong.counts != correct[k].counts;
+    }
+    differ += found ? 1 : 0;
+    if (!found) std::cout << effect.effect << " " << word_of(effect.change) << "\n";
+  }
+  std::cout << differ << " of " << mutations.size() << "\n";
+}
+
+}  // namespace effects_test
+}  // namespace stormproof::model
