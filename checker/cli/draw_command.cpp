@@ -56,11 +56,7 @@ std::string draw_all(const std::vector<MachineInfo>& machines, draw::Format form
 
 Outcome write_each(const std::string& directory, const std::vector<MachineInfo>& machines,
                    draw::Format format) {
-  std::error_code failed;
-  std::filesystem::create_directories(directory, failed);
-  if (failed) {
-    return Complaint{fmt::format("{}: cannot be created: {}", directory, failed.message())};
-  }
+  if (const auto error = make_folder("--directory", directory)) return Complaint{*error};
   for (const MachineInfo& machine : machines) {
     const std::string name = fmt::format("{}.{}", machine.name, draw::file_ending(format));
     const std::string path = (std::filesystem::path{directory} / name).string();
@@ -147,7 +143,8 @@ void declare(Options& options, DrawArguments& arguments) {
                {"svg", DrawFormat::svg},
                {"text", DrawFormat::text},
                {"json", DrawFormat::json}},
-              "Of machines mermaid (default), dot or svg; of a composition text (default) or json",
+              "Of machines mermaid (default), dot or svg; of a composition text (default), svg, "
+              "mermaid or json",
               "FORMAT")
       .not_repeated();
   options.text("--dds", arguments.composition.dds,

@@ -55,7 +55,7 @@ std::variant<std::string, Complaint> compared(const CompositionRequest& request,
   if (request.format == DrawFormat::usual || request.format == DrawFormat::text) {
     return page(draw::comparison_document(comparison), request);
   }
-  return Complaint{"a comparison is shown as text or json"};
+  return Complaint{"a comparison is shown as text or json; a drawing shows one composition: --dds"};
 }
 
 }  // namespace
@@ -73,12 +73,14 @@ std::variant<std::string, Complaint> draw_composition(const CompositionRequest& 
       return page(draw::composition_document(*composition), request);
     case DrawFormat::json:
       return json_text(draw::composition_json(*composition), session);
-    case DrawFormat::mermaid:
     case DrawFormat::svg:
+      return draw::composition_svg(*composition);
+    case DrawFormat::mermaid:
+      return draw::composition_mermaid(*composition);
     case DrawFormat::dot:
       break;
   }
-  return Complaint{"a composition is drawn as text or json"};
+  return Complaint{"a composition is drawn as text, svg, mermaid or json"};
 }
 
 }  // namespace stormproof::cli

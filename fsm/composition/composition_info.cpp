@@ -1,4 +1,4 @@
-// A composition as a page of text, and what it forgets.
+// What a composition forgets.
 #include "fsm/composition/composition_info.hpp"
 
 #include <algorithm>
@@ -6,30 +6,6 @@
 
 namespace stormproof::fsm::composition {
 namespace {
-
-std::string padded(std::string_view text, std::size_t width) {
-  std::string result{text};
-  if (result.size() < width) result.resize(width, ' ');
-  return result;
-}
-
-/// The effects as a program: conditions open indented blocks.
-std::string program_text(const std::vector<EffectInfo>& effects) {
-  std::string text;
-  for (const ProgramLine& line : program(effects)) {
-    const std::string number =
-        line.effect == nullptr ? "" : line.effect->id.substr(line.effect->id.rfind('.') + 1);
-    text += padded(" " + number, 5) + std::string(2 * line.depth, ' ') + line.text + "\n";
-  }
-  return text.empty() ? "     nothing\n" : text;
-}
-
-void list(std::string& text, std::string_view title, const std::vector<ThingInfo>& things) {
-  text += "\n" + std::string{title} + "\n";
-  for (const ThingInfo& thing : things) {
-    text += "  " + padded(thing.name, 24) + std::string{thing.owner} + "\n";
-  }
-}
 
 class Completeness {
  public:
@@ -141,73 +117,6 @@ class Completeness {
 };
 
 }  // namespace
-
-std::string sentence(const EffectInfo& effect) {
-  const std::string target{effect.target};
-  const std::string& detail = effect.detail;
-  if (effect.kind == "feed") return target + " <- " + detail;
-  if (effect.kind == "feed each") return "each " + target + " <- " + detail;
-  if (effect.kind == "set") return target + " := " + detail;
-  if (effect.kind == "set each") return "each " + target + " := " + detail;
-  if (effect.kind == "after" || effect.kind == "at") {
-    return target + " " + std::string{effect.kind} + " " + detail;
-  }
-  std::string text{effect.kind};
-  text += " " + target;
-  if (detail.empty()) return text;
-  return text + (effect.kind == "emit" ? " {" + detail + "}" : " (" + detail + ")");
-}
-
-std::vector<ProgramLine> program(const std::vector<EffectInfo>& effects) {
-  std::vector<ProgramLine> lines;
-  std::vector<BlockInfo> open;
-  for (const EffectInfo& effect : effects) {
-    std::size_t shared = 0;
-    while (shared < open.size() && shared < effect.blocks.size() &&
-           open[shared].number == effect.blocks[shared].number) {
-      ++shared;
-    }
-    open = effect.blocks;
-    for (std::size_t k = shared; k < open.size(); ++k) {
-      lines.push_back({k, open[k].text + ":", nullptr});
-    }
-    lines.push_back({open.size(), sentence(effect), &effect});
-  }
-  return lines;
-}
-
-std::string page(const CompositionInfo& composition) {
-  std::string text = "composition " + std::string{composition.name} + "\n\nparts\n";
-  for (const PartInfo& part : composition.parts) {
-    text +=
-        "  " + padded(part.name, 24) + padded(part.owner, 20) + std::string{part.machine} + "\n";
-  }
-  list(text, "timers", composition.timers);
-  list(text, "state", composition.state);
-  list(text, "packets", composition.packets);
-  text += "\nfacts\n";
-  for (const auto& [name, definition] : composition.facts) {
-    text += "  " + std::string{name} + ": " + definition + "\n";
-  }
-  for (const RuleInfo& rule : composition.rules) {
-    text += "\n" + rule.id + ": " + std::string{rule.cause} + " " + std::string{rule.trigger} +
-            " (" + std::string{rule.owner} + ")\n" + program_text(rule.effects);
-  }
-  text += "\nprocedures\n";
-  for (const RuleInfo& procedure : composition.procedures) {
-    text += "\n" + procedure.id + "\n" + program_text(procedure.effects);
-  }
-  text += "\nsteps that are stated by their contracts\n";
-  for (const RuleInfo& step : composition.steps) {
-    text += "\n" + step.id + "\n" + program_text(step.effects);
-  }
-  text += "\nunused\n";
-  for (const UnusedInfo& unused : composition.unused) {
-    text += "  " + std::string{unused.part} + "." + std::string{unused.name} + ": " +
-            std::string{unused.reason} + "\n";
-  }
-  return text;
-}
 
 std::vector<std::string> what_is_forgotten(const CompositionInfo& composition) {
   return Completeness{composition}.check();

@@ -79,20 +79,6 @@ struct CompositionInfo {
   std::vector<UnusedInfo> unused;
 };
 
-/// "C <- RepairDue", "RepairGeneration after NackResponseDelay": an effect without its condition.
-[[nodiscard]] std::string sentence(const EffectInfo& effect);
-
-/// A line of the program that a rule is: a condition that opens an indented block, or an effect.
-struct ProgramLine {
-  std::size_t depth = 0;               ///< how many blocks it stands in
-  std::string text;                    ///< "if Reader.opened:", or the sentence of the effect
-  const EffectInfo* effect = nullptr;  ///< none: a condition
-};
-[[nodiscard]] std::vector<ProgramLine> program(const std::vector<EffectInfo>& effects);
-
-/// The composition as a page of text, to be read from the top to the bottom.
-[[nodiscard]] std::string page(const CompositionInfo& composition);
-
 /// What is forgotten: an outbox field that nothing reads, an event that nothing feeds, a timer that
 /// is never started or that no rule handles, a packet that nobody emits or receives, an occasion
 /// without a rule or a cause, state that nothing sets; and reasons that are not needed. One

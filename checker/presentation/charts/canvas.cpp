@@ -37,7 +37,7 @@ constexpr std::string_view classes = R"(
 
 }  // namespace
 
-std::string chart_style() {
+std::string palette_style() {
   std::string light;
   std::string dark;
   std::string rules;
@@ -48,9 +48,11 @@ std::string chart_style() {
         "    .s{0} {{ stroke: var(--c{0}); }}\n    .f{0} {{ fill: var(--c{0}); }}\n", k);
   }
   return fmt::format(
-      "    svg {{ {} }}\n    @media (prefers-color-scheme: dark) {{ svg {{ {} }} }}{}{}", light,
-      dark, classes, rules);
+      "    svg {{ {} }}\n    @media (prefers-color-scheme: dark) {{ svg {{ {} }} }}\n{}", light,
+      dark, rules);
 }
+
+std::string chart_style() { return palette_style() + std::string{classes}; }
 
 std::string stroke_class(std::size_t color) { return fmt::format("s{}", color % color_count); }
 std::string fill_class(std::size_t color) { return fmt::format("f{}", color % color_count); }

@@ -33,7 +33,9 @@ inline constexpr int font_size = 12;
 inline constexpr int line_height = 16;
 inline constexpr std::size_t color_count = 8;
 
-/// The classes of all charts, for draw::Svg::finish.
+/// The colours of series and their classes, for draw::Svg::finish.
+[[nodiscard]] std::string palette_style();
+/// The classes of all charts, those of the palette included.
 [[nodiscard]] std::string chart_style();
 
 /// Class names of colour k: of a line, of a filled shape.

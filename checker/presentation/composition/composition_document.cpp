@@ -1,10 +1,10 @@
 // The page of a composition: how to read it, what there is, what happens.
 #include <algorithm>
-#include <set>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "checker/presentation/composition/composition_drawing.hpp"
+#include "checker/presentation/composition/composition_graph.hpp"
 #include "checker/presentation/composition/composition_words.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 
@@ -23,41 +23,14 @@ using report::Text;
 constexpr std::size_t program_width = 92;  ///< of a listing, below two headings
 
 /// "one, two".
-class Names {
- public:
-  void add(const std::string& name) {
-    if (known_.insert(name).second) text_ += (text_.empty() ? "" : ", ") + name;
-  }
-  [[nodiscard]] std::string text() const { return text_.empty() ? "–" : text_; }
-
- private:
-  std::set<std::string> known_;
-  std::string text_;
-};
-
-/// The rules, procedures and steps with an effect of such a kind on `target`.
-std::string causes(const CompositionInfo& composition, std::string_view target,
-                   std::initializer_list<std::string_view> kinds) {
-  Names names;
-  for (const auto* rules : {&composition.rules, &composition.procedures, &composition.steps}) {
-    for (const RuleInfo& rule : *rules) {
-      for (const EffectInfo& effect : rule.effects) {
-        if (effect.target == target && std::ranges::find(kinds, effect.kind) != kinds.end()) {
-          names.add(rule.id);
-        }
-      }
-    }
-  }
-  return names.text();
+std::string or_dash(const std::vector<std::string>& names) {
+  return names.empty() ? "–" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The rules that this triggers.
-std::string handlers(const CompositionInfo& composition, std::string_view cause) {
-  Names names;
-  for (const RuleInfo& rule : composition.rules) {
-    if (rule.cause == cause) names.add(rule.id);
-  }
-  return names.text();
+report::Facts facts(const Glossary& glossary) {
+  report::Facts facts;
+  for (const auto& [word, meaning] : glossary) facts.rows.emplace_back(word, meaning);
+  return facts;
 }
 
 Section how_to_read() {
@@ -67,37 +40,14 @@ Section how_to_read() {
                "Machines do not know each other. A rule says what happens between them: its "
                "trigger, whose it is, and effects, one after the other. At the right margin stands "
                "the id of each effect."},
-           report::Facts{{{"M <- E", "the machine M takes the event E; M.field is what it answers"},
-                          {"each M <- E", "the same for every descriptor"},
-                          {"S := value", "a flag or number"},
-                          {"T after delay, T at time", "the timer T is started; cancel T stops it"},
-                          {"emit P {…}", "the packet P is sent; what it does not say is false"},
-                          {"raise O", "the rules for O run here and now"},
-                          {"call N", "what several rules have in common; see the procedures"},
-                          {"perform N",
-                           "stated by a contract, done in a way of its own; see the "
-                           "steps"}}}}};
-}
-
-Section owners() {
-  return {"Whose it is",
-          "",
-          {report::Facts{{{"participant", "each has one"},
-                          {"pair", "a participant and a peer"},
-                          {"writer", "a participant and one of its streams (pub, sub)"},
-                          {"relation", "a writer and one reader of it"},
-                          {"entry", "a descriptor of a writer, whoever reads it"},
-                          {"descriptor", "a descriptor of a writer towards one reader"},
-                          {"control relation",
-                           "a pair on a topic of which only the control "
-                           "traffic is modelled"}}}}};
+           facts(notation())}};
 }
 
 Section machines(const CompositionInfo& composition) {
   Table table{{{"name"}, {"machine"}, {"of each"}, {"fed by", {}, true}}, {}};
   for (const comp::PartInfo& part : composition.parts) {
     table.rows.push_back({{part.name, part.machine, part.owner,
-                           causes(composition, part.name, {"feed", "feed each"})}});
+                           or_dash(causes_of(composition, part.name, {"feed", "feed each"}))}});
   }
   return {"Machines", "", {std::move(table)}};
 }
@@ -105,8 +55,9 @@ Section machines(const CompositionInfo& composition) {
 Section packets(const CompositionInfo& composition) {
   Table table{{{"packet"}, {"of each"}, {"sent by", {}, true}, {"triggers", {}, true}}, {}};
   for (const comp::ThingInfo& packet : composition.packets) {
-    table.rows.push_back({{packet.name, packet.owner, causes(composition, packet.name, {"emit"}),
-                           handlers(composition, packet.name)}});
+    table.rows.push_back(
+        {{packet.name, packet.owner, or_dash(causes_of(composition, packet.name, {"emit"})),
+          or_dash(handlers_of(composition, packet.name))}});
   }
   return {"Packets", "", {std::move(table)}};
 }
@@ -115,8 +66,8 @@ Section timers(const CompositionInfo& composition) {
   Table table{{{"timer"}, {"of each"}, {"started by", {}, true}, {"triggers", {}, true}}, {}};
   for (const comp::ThingInfo& timer : composition.timers) {
     table.rows.push_back(
-        {{timer.name, timer.owner, causes(composition, timer.name, {"after", "at"}),
-          handlers(composition, timer.name)}});
+        {{timer.name, timer.owner, or_dash(causes_of(composition, timer.name, {"after", "at"})),
+          or_dash(handlers_of(composition, timer.name))}});
   }
   return {"Timers", "", {std::move(table)}};
 }
@@ -124,8 +75,8 @@ Section timers(const CompositionInfo& composition) {
 Section state(const CompositionInfo& composition) {
   Table table{{{"state"}, {"of each"}, {"set by", {}, true}}, {}};
   for (const comp::ThingInfo& state : composition.state) {
-    table.rows.push_back(
-        {{state.name, state.owner, causes(composition, state.name, {"set", "set each"})}});
+    table.rows.push_back({{state.name, state.owner,
+                           or_dash(causes_of(composition, state.name, {"set", "set each"}))}});
   }
   report::Facts facts;
   for (const auto& [name, definition] : composition.facts) {
@@ -142,7 +93,7 @@ report::Listing program_listing(const RuleInfo& rule) {
   for (const EffectInfo& effect : rule.effects) margin = std::max(margin, effect.id.size());
   const std::size_t width = program_width - margin - 2;
   std::string text;
-  for (const comp::ProgramLine& line : program(rule.effects)) {
+  for (const ProgramLine& line : program(rule)) {
     const std::string indent(2 * line.depth, ' ');
     const auto lines = report::wrapped(line.text, width, indent.size() + 4, indent);
     for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -189,7 +140,7 @@ report::Document composition_document(const CompositionInfo& composition) {
                        composition.timers.size(), composition.rules.size())};
   document.blocks = {
       how_to_read(),
-      owners(),
+      Section{"Whose it is", "", {facts(owners())}},
       machines(composition),
       packets(composition),
       timers(composition),

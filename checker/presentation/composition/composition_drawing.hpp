@@ -20,4 +20,10 @@ namespace stormproof::draw {
 [[nodiscard]] nlohmann::ordered_json composition_json(
     const fsm::composition::CompositionInfo& composition);
 
+/// A self-contained SVG document: the sides, then a band for each rule; names lead to their rules.
+[[nodiscard]] std::string composition_svg(const fsm::composition::CompositionInfo& composition);
+
+/// Mermaid source, `flowchart`: rules as nodes, packets, timers and calls as edges.
+[[nodiscard]] std::string composition_mermaid(const fsm::composition::CompositionInfo& composition);
+
 }  // namespace stormproof::draw

@@ -24,7 +24,7 @@ void describe(V& v, const ThingInfo& thing) {
 
 template <class V>
 void describe(V& v, const EffectInfo& effect) {
-  const bool waits = effect.kind == "after" || effect.kind == "at";
+  const bool waits = effect.kind == "after";
   v("id", effect.id);
   v("kind", effect.kind);
   v("target", effect.target);

@@ -107,6 +107,19 @@ void Svg::text(int x, int y, std::string_view text, std::string_view classes, An
                            where, xml_text(text));
 }
 
+void Svg::link(int x, int y, std::string_view text, std::string_view classes, std::string_view to,
+               Anchor anchor) {
+  elements_ += fmt::format("  <a href=\"#{}\">\n", xml_text(to));
+  Svg::text(x, y, text, classes, anchor);
+  elements_ += "  </a>\n";
+}
+
+void Svg::open_group(std::string_view id, std::string_view classes) {
+  elements_ += fmt::format("  <g id=\"{}\" class=\"{}\">\n", xml_text(id), classes);
+}
+
+void Svg::close_group() { elements_ += "  </g>\n"; }
+
 std::string Svg::finish(int width, int height, std::string_view style) const {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "

@@ -29,6 +29,14 @@ class Svg {
   void path(std::string_view data, std::string_view classes);
   void text(int x, int y, std::string_view text, std::string_view classes,
             Anchor anchor = Anchor::start);
+  /// A text that leads to the group of this id.
+  void link(int x, int y, std::string_view text, std::string_view classes, std::string_view to,
+            Anchor anchor = Anchor::start);
+
+  /// What is drawn until it is closed is a group that links and the style sheet's `:target` find.
+  /// Groups may stand in groups.
+  void open_group(std::string_view id, std::string_view classes = {});
+  void close_group();
 
   /// The document. `style` is CSS in addition to the common classes.
   [[nodiscard]] std::string finish(int width, int height, std::string_view style = {}) const;
