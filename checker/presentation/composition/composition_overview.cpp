@@ -83,9 +83,17 @@ class Overview {
     int y = top + 22;
     svg.text(x, y, party.name, "bold");
     y += CompositionPen::line_height + 2;
+    int column = 0;  // in which machines stand
+    for (const comp::PartInfo& part : party.parts) {
+      column = std::max(column, text_width(part.name, CompositionPen::font_size) + 10);
+    }
     for (const comp::PartInfo& part : party.parts) {
       svg.text(x, y, part.name, "machine");
-      svg.text(x + 148, y, part.machine, "small");
+      const int rest = text_width(part.machine, CompositionPen::small_size) +
+                       text_width(part.owner, CompositionPen::small_size) + 10;
+      const bool fits = column + rest <= inner;
+      if (!fits) y += CompositionPen::small_line;
+      svg.text(x + (fits ? column : 16), y, part.machine, "small");
       svg.text(x + inner, y, part.owner, "quiet small", Anchor::end);
       y += CompositionPen::line_height;
     }

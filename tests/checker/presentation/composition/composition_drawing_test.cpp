@@ -2,6 +2,8 @@
 #include "checker/presentation/composition/composition_drawing.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -32,6 +34,18 @@ std::vector<std::string> ids(const CompositionInfo& composition) {
     }
   }
   return ids;
+}
+
+/// Pages are read before they change: `stormproof draw composition --dds PROFILE -o FILE`.
+TEST(CompositionPage, IsTheOneThatWasRead) {
+  for (const CompositionInfo& composition : all()) {
+    const std::string name = std::string{composition.name} + ".txt";
+    std::ostringstream expected;
+    expected << std::ifstream{STORMPROOF_SOURCE_DIR "/tests/checker/presentation/composition/" +
+                              name}
+                    .rdbuf();
+    EXPECT_EQ(to_text(composition_document(composition)), expected.str()) << name;
+  }
 }
 
 TEST(CompositionPage, HasEveryRuleAndEffect) {
@@ -73,6 +87,31 @@ TEST(CompositionJson, SaysConditionsAndDelays) {
     EXPECT_EQ(effect["delay"], "NackResponseDelay");
     EXPECT_NE(effect["condition"].get<std::string>().find("if some C.requested"),
               std::string::npos);
+  }
+}
+
+/// The keys that readers of the data rely on, for every effect of every group.
+TEST(CompositionJson, HasTheSameKeysForEveryEffect) {
+  for (const CompositionInfo& composition : all()) {
+    const nlohmann::ordered_json json = composition_json(composition);
+    for (const char* key : {"machines", "rules", "packets"}) ASSERT_TRUE(json[key].is_array());
+    for (const char* group : {"rules", "procedures", "steps"}) {
+      for (const auto& rule : json[group]) {
+        if (group == std::string{"rules"}) {
+          EXPECT_TRUE(rule["trigger"].is_string() && rule["owner"].is_string()) << rule["id"];
+        }
+        for (const auto& effect : rule["effects"]) {
+          const std::string id = effect["id"];
+          const bool after = effect["kind"] == "after";
+          EXPECT_TRUE(id.starts_with(rule["id"].get<std::string>() + ".")) << id;
+          EXPECT_TRUE(effect["condition"].is_null() || effect["condition"] != "") << id;
+          ASSERT_TRUE(effect.contains("condition") && effect.contains("delay")) << id;
+          EXPECT_EQ(effect["delay"].is_string(), after) << id;
+          EXPECT_TRUE(!after || effect["detail"].is_null()) << id;
+          EXPECT_TRUE(effect["kind"] != "at" || effect["detail"].is_string()) << id;
+        }
+      }
+    }
   }
 }
 

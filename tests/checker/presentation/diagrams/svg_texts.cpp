@@ -34,6 +34,22 @@ PlacedText placed(const tinyxml2::XMLElement& element) {
   return text;
 }
 
+/// Texts, groups and links, in whatever groups and links they stand.
+void collect(const tinyxml2::XMLElement& parent, SvgTexts& svg) {
+  for (const auto* child = parent.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    const std::string name = child->Name();
+    if (name == "text") svg.texts.push_back(placed(*child));
+    if (name == "g" && child->Attribute("id") != nullptr) {
+      svg.groups.emplace_back(child->Attribute("id"));
+    }
+    if (name == "a" && child->Attribute("href") != nullptr) {
+      svg.links.emplace_back(child->Attribute("href"));
+    }
+    if (name == "g" || name == "a") collect(*child, svg);
+  }
+}
+
 bool overlap(const PlacedText& a, const PlacedText& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
@@ -80,10 +96,7 @@ std::optional<SvgTexts> read_svg(const std::string& document) {
   SvgTexts svg;
   svg.width = root->IntAttribute("width");
   svg.height = root->IntAttribute("height");
-  for (const auto* text = root->FirstChildElement("text"); text != nullptr;
-       text = text->NextSiblingElement("text")) {
-    svg.texts.push_back(placed(*text));
-  }
+  collect(*root, svg);
   return svg;
 }
 

@@ -22,6 +22,8 @@ struct SvgTexts {
   int width = 0;  ///< of the document
   int height = 0;
   std::vector<PlacedText> texts;
+  std::vector<std::string> groups;  ///< their ids
+  std::vector<std::string> links;   ///< "#id"
 
   [[nodiscard]] bool says(const std::string& text) const;
   /// How many texts are exactly this.
