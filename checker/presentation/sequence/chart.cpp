@@ -5,6 +5,12 @@
 
 namespace stormproof::sequence {
 
+std::string with_effect(const std::string& text, const std::string& effect) {
+  return effect.empty() ? text : text + " [" + effect + "]";
+}
+
+std::string words_of(const Chart::Line& line) { return with_effect(line.text, line.effect); }
+
 std::string number_of(const Chart::Row& row) {
   if (row.kind == Chart::Row::Kind::gap) return {};
   return row.packet.empty() ? std::to_string(row.event) : row.packet;

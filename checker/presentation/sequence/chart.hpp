@@ -25,6 +25,7 @@ struct Chart {
     std::size_t lane = 0;
     std::string text;
     std::vector<std::size_t> packets;  ///< in `packets` of the chart: those that it is about
+    std::string effect{};              ///< of a composition, that does it; empty: not known
   };
 
   struct Row {
@@ -73,6 +74,11 @@ struct Chart {
   std::vector<Row> rows;             ///< downwards in time
   std::vector<Packet> packets;
 };
+
+/// What happens, and the id of the effect that does it, in every story and chart alike.
+[[nodiscard]] std::string with_effect(const std::string& text, const std::string& effect);
+/// The text of a line, with the effect that does it: "sends p11 ACKNACK [AckNackDue.2]".
+[[nodiscard]] std::string words_of(const Chart::Line& line);
 
 /// "101", "713": what a row is numbered with; empty for a gap.
 [[nodiscard]] std::string number_of(const Chart::Row& row);

@@ -45,9 +45,9 @@ class Planner {
       ChartLayout::Row& placed = layout_.rows.emplace_back();
       for (std::size_t k = 0; k < row.lines.size(); ++k) {
         const bool network = chart_.lanes[row.lines[k].lane].network;
-        placed.texts.push_back(
-            {k, 0,
-             report::wrapped(row.lines[k].text, network ? channel_text_columns : text_columns, 2)});
+        placed.texts.push_back({k, 0,
+                                report::wrapped(words_of(row.lines[k]),
+                                                network ? channel_text_columns : text_columns, 2)});
       }
     }
   }

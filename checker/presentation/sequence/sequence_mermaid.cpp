@@ -69,7 +69,7 @@ class Mermaid {
   /// Adds line k, with those after it that belong into the same note; returns the next one.
   std::size_t add_line(const std::vector<Chart::Line>& lines, std::size_t k) {
     const Chart::Line& line = lines[k];
-    const std::string text = time() + escaped(line.text);
+    const std::string text = time() + escaped(words_of(line));
     switch (line.kind) {
       case Chart::Line::Kind::sent:
         if (is_local(line)) break;
@@ -97,7 +97,7 @@ class Mermaid {
     while (next < lines.size() && lines[next].lane == line.lane &&
            (lines[next].kind == Chart::Line::Kind::change ||
             lines[next].kind == Chart::Line::Kind::timer)) {
-      note += "<br/>" + escaped(lines[next++].text);
+      note += "<br/>" + escaped(words_of(lines[next++]));
     }
     text_ += fmt::format("  Note over {}: {}\n", id(line.lane), note);
     return next;

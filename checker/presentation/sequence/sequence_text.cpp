@@ -101,7 +101,7 @@ class TextPainter {
       if (line.kind == LineKind::sent)
         write_arrow(line);
       else
-        write_note(line.text, lanes_[line.lane].x);
+        write_note(words_of(line), lanes_[line.lane].x);
     }
   }
 
@@ -155,12 +155,12 @@ class TextPainter {
     const Way way = way_of(line);
     const std::size_t from = lanes_[line.lane].x;
     const std::size_t to = lanes_[way.lane].x;
-    if (from == to) return write_note(line.text, from);
+    if (from == to) return write_note(words_of(line), from);
     const std::size_t first = std::min(from, to) + 1;
     const std::size_t last = std::max(from, to) - 1;
-    std::vector<std::string> label = glyphs(" " + line.text + " ");
+    std::vector<std::string> label = glyphs(" " + words_of(line) + " ");
     if (label.size() + 5 > last - first + 1) {
-      write_note(line.text, from);
+      write_note(words_of(line), from);
       label.clear();
     }
     std::vector<std::string> cells = lifelines();

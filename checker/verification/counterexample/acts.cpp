@@ -88,8 +88,8 @@ class Narrator {
 
  private:
   void add(Act::Kind kind, std::uint32_t who, std::string text,
-           std::vector<std::uint64_t> packets = {}) {
-    acts_.push_back({kind, who, std::move(packets), std::move(text)});
+           std::vector<std::uint64_t> packets = {}, std::string effect = {}) {
+    acts_.push_back({kind, who, std::move(packets), std::move(text), std::move(effect)});
   }
 
   /// The acts of one party stand together, parties in the order of their first act.
@@ -209,8 +209,9 @@ class Narrator {
         continue;
       }
       const auto alike = std::ranges::find_if(groups, [&](const auto& group) {
-        return packet_words(history_.packets.at(group.front())) ==
-               packet_words(history_.packets.at(number));
+        const PacketLog& known = history_.packets.at(group.front());
+        const PacketLog& packet = history_.packets.at(number);
+        return packet_words(known) == packet_words(packet) && known.effect == packet.effect;
       });
       if (alike == groups.end())
         groups.push_back({number});
@@ -218,7 +219,8 @@ class Narrator {
         alike->push_back(number);
     }
     for (const auto& group : groups) {
-      add(Act::Kind::sent, history_.packets.at(group.front()).from, sending(group), group);
+      const PacketLog& packet = history_.packets.at(group.front());
+      add(Act::Kind::sent, packet.from, sending(group), group, packet.effect);
     }
     if (acts_.empty()) return;
     for (const auto& [source, count] : others) {
@@ -253,8 +255,8 @@ class Narrator {
     if (!relevant || timer.kind == EventKind::announcement_due) return;
     std::string label = model::trace::timer_label(timer.kind);
     if (label.ends_with(" due")) label.resize(label.size() - 4);
-    add(Act::Kind::change, *who,
-        fmt::format("{} at {} ms", label, report::milliseconds(timer.due)));
+    add(Act::Kind::change, *who, fmt::format("{} at {} ms", label, report::milliseconds(timer.due)),
+        {}, timer.effect);
   }
 
   /// Only the network does something here.

@@ -24,6 +24,7 @@ struct Act {
   std::uint32_t who = 0;               ///< participant; for `lost` and `channel`: the channel
   std::vector<std::uint64_t> packets;  ///< usually one; several that differ in their number only
   std::string text;
+  std::string effect{};  ///< of the composition, that does it; empty: not known
 };
 
 /// What of the event matters, party by party. At least one act.

@@ -177,7 +177,7 @@ class Builder {
       for (const Act& act : acts_.at(selected.step)) {
         const std::size_t lane =
             on_network(act) ? first_channel_ + act.who : participant_lane_.at(act.who);
-        Chart::Line line{line_kind(act.kind), lane, act.text, {}};
+        Chart::Line line{line_kind(act.kind), lane, act.text, {}, act.effect};
         for (const std::uint64_t number : act.packets) line.packets.push_back(packets_.at(number));
         row.lines.push_back(std::move(line));
       }

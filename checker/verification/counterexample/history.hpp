@@ -25,6 +25,7 @@ struct Step {
     model::EventKind kind{};
     model::Nanoseconds due;
     std::uint32_t subject = 0;
+    std::string effect{};  ///< of the composition, that starts it; empty: not known
   };
   struct Reception {
     std::uint64_t packet = 0;
@@ -68,6 +69,7 @@ struct PacketLog {
   std::optional<std::size_t> left_source;
   std::optional<std::size_t> arrived;
   bool lost = false;
+  std::string effect{};           ///< of the composition, that sent it; empty: not known
   std::vector<Service> services;  ///< by stage that it has reached
 };
 

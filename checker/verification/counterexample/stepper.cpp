@@ -42,7 +42,7 @@ std::string acts_html(const Chart& chart, const Chart::Row& row) {
   if (row.kind == RowKind::gap) html += "<li>left out: " + html_text(row.text) + "</li>\n";
   for (const Chart::Line& line : row.lines) {
     html += fmt::format("<li>{}: {}</li>\n", html_text(chart.lanes[line.lane].title),
-                        html_text(line.text));
+                        html_text(words_of(line)));
   }
   if (row.violation)
     html += "<li class=\"violated\">" + html_text(chart.sign + " " + chart.reason) + "</li>\n";

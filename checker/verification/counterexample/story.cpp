@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/presentation/sequence/chart.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/verification/counterexample/acts.hpp"
@@ -63,7 +64,7 @@ std::string line_of(const History& history, const Relevance& relevance, std::siz
     else
       text += party == who ? "; " : " | " + party + ": ";
     who = party;
-    text += act.text;
+    text += sequence::with_effect(act.text, act.effect);
   }
   const bool last = n + 1 == history.steps.size();
   const std::string first =

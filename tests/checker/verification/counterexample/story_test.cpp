@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "checker/presentation/sequence/chart.hpp"
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/verification/counterexample/acts.hpp"
 #include "checker/verification/counterexample/selection.hpp"
@@ -119,6 +120,44 @@ TEST(Story, ShowsTheEnginesOwnSteps) {
   props::Counterexample told = smallest();
   told.steps = {"The HEARTBEAT overtakes the DATA."};
   EXPECT_NE(story(told).find("  - The HEARTBEAT overtakes the DATA.\n"), std::string::npos);
+}
+
+/// The texts of an event's acts with their effects.
+std::vector<std::string> told(const History& history, std::size_t step) {
+  std::vector<std::string> texts;
+  for (const Act& act : acts_of(history, step, relevance_of(history))) {
+    texts.push_back(sequence::with_effect(act.text, act.effect));
+  }
+  return texts;
+}
+
+TEST(Acts, NameTheEffectsThatTheHistoryKnows) {
+  History history = record(smallest());
+  constexpr std::size_t sends_acknack = 45;
+  const auto says = [&](const std::string& words) {
+    const auto texts = told(history, sends_acknack);
+    return std::ranges::any_of(texts, [&](const auto& text) { return text.ends_with(words); });
+  };
+  EXPECT_TRUE(says("sends p14 ACKNACK 1→0 pub, lacks 0–9"));
+  history.packets.at(14).effect = "AckNackDue.2";
+  EXPECT_TRUE(says("sends p14 ACKNACK 1→0 pub, lacks 0–9 [AckNackDue.2]"));
+}
+
+TEST(Acts, OfDifferentEffectsAreToldApart) {
+  History history = record(smallest());
+  constexpr std::size_t sends = 45;
+  const PacketLog acknack = history.packets.at(14);
+  history.packets.emplace(1000, acknack);
+  history.steps[sends].emitted.push_back(1000);
+  Relevance relevance = relevance_of(history);
+  relevance.packets.insert(1000);
+  const auto count = [&] {
+    const auto acts = acts_of(history, sends, relevance);
+    return std::ranges::count(acts, Act::Kind::sent, &Act::kind);
+  };
+  EXPECT_EQ(count(), 1);
+  history.packets.at(1000).effect = "InitialAckNackDue.3";
+  EXPECT_EQ(count(), 2);
 }
 
 TEST(Relevance, IsTheConeAndTheRelation) {
