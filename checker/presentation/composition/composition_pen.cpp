@@ -88,8 +88,8 @@ int CompositionPen::on_one_page(int y, int height) {
   return fits ? y : next + page_top;
 }
 
-std::size_t CompositionPen::columns(int width, int font_size) {
-  return static_cast<std::size_t>(std::max(1, (100 * width - 99) / (62 * font_size)));
+std::size_t CompositionPen::columns(int width, int size) {
+  return static_cast<std::size_t>(std::max(1, (100 * width - 99) / (62 * size)));
 }
 
 std::string CompositionPen::element_id(std::string_view id) {

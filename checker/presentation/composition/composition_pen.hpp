@@ -41,8 +41,8 @@ class CompositionPen {
   /// end of the page: A4 landscape in its own size, see `style`.
   [[nodiscard]] static int on_one_page(int y, int height);
 
-  /// Columns of text of `font_size` pixels that `width` pixels hold.
-  [[nodiscard]] static std::size_t columns(int width, int font_size = CompositionPen::font_size);
+  /// Columns of text of `size` pixels that `width` pixels hold.
+  [[nodiscard]] static std::size_t columns(int width, int size = font_size);
 
   /// The id of a rule or effect as XML allows it: "Deliver-ToAll.3".
   [[nodiscard]] static std::string element_id(std::string_view id);
