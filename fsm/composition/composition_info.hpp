@@ -31,8 +31,8 @@ struct ThingInfo {
 /// A condition or loop around an effect. Effects of one block stand in the same place.
 struct BlockInfo {
   std::string text;
-  unsigned number = 0;    ///< within the rule
-  std::string_view kind;  ///< when, for
+  unsigned number = 0;             ///< within the rule
+  std::string_view kind = "when";  ///< or "for"
   EffectKey key{};
 };
 

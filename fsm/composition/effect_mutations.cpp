@@ -1,11 +1,14 @@
 // The mistakes that can be made between the machines, from the recorded rules. What changes nothing
-// by construction is left out: setting a value twice, and two effects in another order of which one
-// waits for an answer (a machine's outbox) or is a step of the host's.
+// by construction is left out: setting a value twice; feeding an event twice that has no row in a
+// state that it has led to; and another order of effects that join no queue, for their values are
+// known before.
+#include <algorithm>
 #include <array>
 #include <set>
 
 #include "fsm/composition/composition_info.hpp"
 #include "fsm/composition/effect_mutation.hpp"
+#include "fsm/machines.hpp"
 
 namespace stormproof::fsm::composition {
 
@@ -20,9 +23,9 @@ bool is_any(std::string_view kind, std::initializer_list<std::string_view> kinds
   return false;
 }
 
-/// Whether an effect can come after another one; see WatchedWorld.
-bool can_wait(const EffectInfo& effect) {
-  return is_any(effect.kind, {"set", "set each", "after", "at", "cancel", "emit"});
+/// Whether the order of an effect among its like can be seen: it joins a queue.
+bool joins_a_queue(const EffectInfo& effect) {
+  return is_any(effect.kind, {"after", "at", "emit"});
 }
 
 bool same_block(const EffectInfo& a, const EffectInfo& b) {
@@ -30,10 +33,33 @@ bool same_block(const EffectInfo& a, const EffectInfo& b) {
          (a.blocks.empty() || a.blocks.back().number == b.blocks.back().number);
 }
 
+/// Whether a machine can react to the event again where it has led to.
+bool reacts_twice(const MachineInfo& machine, std::string_view event) {
+  for (const RowInfo& first : machine.rows) {
+    for (const RowInfo& second : machine.rows) {
+      if (machine.events[first.event] == event && second.event == first.event &&
+          second.source == first.target) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool shows_twice(const EffectInfo& effect, const CompositionInfo& composition) {
+  if (is_any(effect.kind, {"set", "set each", "cancel"})) return false;
+  if (!is_any(effect.kind, {"feed", "feed each"})) return true;
+  const std::string_view event = std::string_view{effect.detail}.substr(0, effect.detail.find(' '));
+  const auto part = std::ranges::find(composition.parts, effect.target, &PartInfo::name);
+  const std::vector<MachineInfo> all = machines();
+  return reacts_twice(*std::ranges::find(all, part->machine, &MachineInfo::name), event);
+}
+
 /// What can be wrong at an effect of a rule with this owner, whatever follows it.
-std::vector<Change> changes_of(const EffectInfo& effect, std::string_view owner) {
+std::vector<Change> changes_of(const EffectInfo& effect, std::string_view owner,
+                               const CompositionInfo& composition) {
   std::vector<Change> changes{Change::drop};
-  if (!is_any(effect.kind, {"set", "set each", "cancel"})) changes.push_back(Change::twice);
+  if (shows_twice(effect, composition)) changes.push_back(Change::twice);
   if (is_any(effect.kind, {"after", "at"})) {
     changes.push_back(Change::at_once);
     changes.push_back(Change::other_delay);
@@ -50,7 +76,7 @@ std::vector<Change> changes_of(const EffectInfo& effect, std::string_view owner)
 
 class Mutations {
  public:
-  explicit Mutations(const CompositionInfo& composition) : name_{composition.name} {
+  explicit Mutations(const CompositionInfo& composition) : composition_{composition} {
     for (const RuleInfo& rule : composition.rules) add(rule);
     for (const RuleInfo& procedure : composition.procedures) add(procedure);
   }
@@ -63,21 +89,25 @@ class Mutations {
       for (std::size_t depth = 0; depth < effect.blocks.size(); ++depth) {
         add(effect.blocks[depth], effect.id + ":if" + std::to_string(depth + 1));
       }
-      for (const Change change : changes_of(effect, rule.owner)) add(effect, change);
+      for (const Change change : changes_of(effect, rule.owner, composition_)) add(effect, change);
       if (k + 1 == rule.effects.size()) continue;
       const EffectInfo& next = rule.effects[k + 1];
-      if (can_wait(effect) && can_wait(next) && same_block(effect, next)) {
+      if (joins_a_queue(effect) && joins_a_queue(next) && same_block(effect, next)) {
         add(effect, Change::after_next);
       }
     }
   }
   void add(const EffectInfo& effect, Change change) {
-    list.push_back({std::string{name_}, effect.id, sentence(effect), effect.key, change});
+    std::string what{effect.kind};
+    what.append(" ").append(effect.target);
+    if (!effect.detail.empty()) what.append(" ").append(effect.detail);
+    list.push_back(
+        {std::string{composition_.name}, effect.id, std::move(what), effect.key, change});
   }
   void add(const BlockInfo& block, const std::string& id) {
     if (!seen_.insert(block.key).second) return;
     const auto add = [&](Change change) {
-      list.push_back({std::string{name_}, id, block.text, block.key, change});
+      list.push_back({std::string{composition_.name}, id, block.text, block.key, change});
     };
     if (block.kind == "when") {
       add(Change::negated);
@@ -87,7 +117,7 @@ class Mutations {
     }
   }
 
-  std::string_view name_;
+  const CompositionInfo& composition_;
   std::set<EffectKey> seen_;
 };
 

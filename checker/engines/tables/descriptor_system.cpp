@@ -56,8 +56,9 @@ DescriptorSystem descriptor_system(Proof& proof) {
       "The numbers of descriptors and readers are arbitrary: one is looked at, and what the rules "
       "read of the others ranges freely.");
   proof.assume(
-      "The simulator follows the rules that connect the machines (draw composition): it steps the "
-      "same tables, but has its own code for what is between them.");
+      "What the rules leave to a host (draw composition: packing, queues, the piggyback budget) "
+      "keeps "
+      "its contracts.");
   return {proof.scenario().dds, proof.mistakes()};
 }
 

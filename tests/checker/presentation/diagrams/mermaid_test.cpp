@@ -24,10 +24,10 @@ TEST(Mermaid, DrawsTheTable) {
   R --> Q : RepairDue / Generate
   Q --> S : RepairSent
   S --> U : SuppressionEnded / Return
-  U --> A : AckNackReceived [Confirmed] / Acknowledge
-  R --> A : AckNackReceived [Confirmed] / Acknowledge
-  Q --> A : AckNackReceived [Confirmed] / Acknowledge
-  S --> A : AckNackReceived [Confirmed] / Acknowledge
+  U --> A : AckNackReceived [Confirmed]
+  R --> A : AckNackReceived [Confirmed]
+  Q --> A : AckNackReceived [Confirmed]
+  S --> A : AckNackReceived [Confirmed]
 )");
 }
 
