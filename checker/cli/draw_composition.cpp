@@ -8,7 +8,7 @@
 #include "checker/presentation/composition/composition_comparison.hpp"
 #include "checker/presentation/composition/composition_drawing.hpp"
 #include "checker/presentation/json/dumped.hpp"
-#include "fsm/composition/compositions.hpp"
+#include "model/composition_of.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::cli {
@@ -18,17 +18,12 @@ namespace {
 using fsm::composition::CompositionInfo;
 using model::config::Result;
 
-CompositionInfo composition_of(bool fastdds) {
-  const std::vector<CompositionInfo> all = fsm::composition::compositions();
-  return *std::ranges::find(all, fastdds ? "fastdds" : "paper", &CompositionInfo::name);
-}
-
 /// The composition of the profile's implementation.
 Result<CompositionInfo> composition_of(const std::string& profile) {
   const auto dds =
       model::config::read_dds_profile(profile, {}, model::config::SpecPath::standard());
   if (!dds) return dds.error();
-  return composition_of(model::is_fastdds(*dds));
+  return model::composition_of(*dds);
 }
 
 std::string json_text(nlohmann::ordered_json content, const Session& session) {
@@ -64,8 +59,9 @@ std::variant<std::string, Complaint> draw_composition(const CompositionRequest& 
                                                       const Session& session) {
   if (request.compare) return compared(request, session);
   if (!request.profiles.empty()) return Complaint{"profiles are compared with --compare"};
-  const auto composition = request.dds.empty() ? Result<CompositionInfo>{composition_of(false)}
-                                               : composition_of(request.dds);
+  const auto composition = request.dds.empty()
+                               ? Result<CompositionInfo>{model::composition_of(model::DdsProfile{})}
+                               : composition_of(request.dds);
   if (!composition) return Complaint{composition.error()};
   switch (request.format) {
     case DrawFormat::usual:

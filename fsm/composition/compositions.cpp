@@ -17,8 +17,20 @@ std::string_view label(Owner owner) {
   return "control relation";
 }
 
-std::vector<CompositionInfo> compositions() {
-  return {recorded<paper::Paper>(), recorded<fastdds::FastDds>()};
+const std::vector<CompositionInfo>& compositions() {
+  static const std::vector<CompositionInfo> all{recorded<paper::Paper>(),
+                                                recorded<fastdds::FastDds>()};
+  return all;
+}
+
+std::map<EffectKey, std::string> effect_ids(const CompositionInfo& composition) {
+  std::map<EffectKey, std::string> ids;
+  for (const auto* list : {&composition.rules, &composition.procedures}) {
+    for (const RuleInfo& rule : *list) {
+      for (const EffectInfo& effect : rule.effects) ids.emplace(effect.key, effect.id);
+    }
+  }
+  return ids;
 }
 
 }  // namespace stormproof::fsm::composition

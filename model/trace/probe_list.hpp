@@ -2,6 +2,7 @@
 // added.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "model/probe.hpp"
@@ -29,6 +30,12 @@ class ProbeList final : public Probe {
     for (Probe* probe : probes_) {
       probe->transition(machine, event, before, after, first_word, descriptors);
     }
+  }
+  [[nodiscard]] bool wants_effects() const override {
+    return std::ranges::any_of(probes_, &Probe::wants_effects);
+  }
+  void effect(fsm::composition::EffectKey key) override {
+    for (Probe* probe : probes_) probe->effect(key);
   }
   void scheduled(std::uint64_t insertion, Nanoseconds time, EventKind kind,
                  std::uint32_t subject) override {

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "fsm/composition/compositions.hpp"
+#include "model/composition_of.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/packet_text.hpp"
 #include "model/trace/perfetto_labels.hpp"
@@ -40,8 +42,12 @@ class Recorder final : public model::Probe {
     received_.resize(history.topology.relation_count());
   }
 
+  [[nodiscard]] bool wants_effects() const override { return true; }
+  void effect(fsm::composition::EffectKey key) override { effect_ = effects_.at(key); }
+
   void event_started(const model::Event& event) override {
     over_ = history_.steps.size() > limit_;
+    effect_.clear();
     if (over_) return;
     Step& step = history_.steps.emplace_back();
     step.event = event;
@@ -85,7 +91,7 @@ class Recorder final : public model::Probe {
       looped_.reset();
     }
     if (class_of(kind) == model::EventClass::protocol) {
-      step().timers.push_back({kind, due, subject});
+      step().timers.push_back({kind, due, subject, effect_});
     }
   }
 
@@ -97,6 +103,7 @@ class Recorder final : public model::Probe {
     log.content = content_of(packet);
     log.from = source;
     log.emitted = now();
+    log.effect = effect_;
     if (packet.multicast() || destinations.empty()) {
       enter(packet.number, std::move(log));
       return;
@@ -120,6 +127,7 @@ class Recorder final : public model::Probe {
     log.to = receiver;
     log.relation = relation_of(packet, log.from, receiver);
     log.emitted = now();
+    log.effect = effect_;
     enter(next_local_, std::move(log));
     looped_ = next_local_++;
   }
@@ -213,6 +221,9 @@ class Recorder final : public model::Probe {
 
   History& history_;
   std::uint64_t limit_;
+  const std::map<fsm::composition::EffectKey, std::string> effects_ =
+      fsm::composition::effect_ids(model::composition_of(history_.scenario.dds));
+  std::string effect_;  // the last one of the event
   bool over_ = false;
   bool running_ = false;
   std::unordered_map<std::uint64_t, std::uint64_t> causes_;  // insertion → step

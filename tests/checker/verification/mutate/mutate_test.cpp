@@ -25,6 +25,7 @@ TEST(Mutants, HaveUniqueIdsDescriptionsAndMistakes) {
     EXPECT_FALSE(mutant.description.empty()) << mutant.id;
     const bool mistaken = !mutant.rules.tables.empty() || !mutant.rules.events.empty() ||
                           mutant.rules.live_bitmaps || mutant.knobs ||
+                          !mutant.rules.effects.empty() ||
                           mutant.order != checker::OrderRule::time_class_insertion;
     EXPECT_TRUE(mistaken) << mutant.id;
   }
@@ -97,9 +98,11 @@ TEST(LawTrials, MistakesAreNoticedByTheRightLaw) {
 
 TEST(MutateReport, ShowsLawsBesideProperties) {
   MutationReport report;
-  report.mutants.push_back({"a", "first", {"timer.armed"}, "", {{"law.counts", "law.answers"}}});
-  report.mutants.push_back({"b", "second", {"timer.armed"}, "", std::vector<std::string>{}});
-  report.mutants.push_back({"c", "third", {"order.total"}, "", {}});
+  report.mutants.push_back(
+      {"a", Kind::table, "first", {"timer.armed"}, "", {{"law.counts", "law.answers"}}});
+  report.mutants.push_back(
+      {"b", Kind::table, "second", {"timer.armed"}, "", std::vector<std::string>{}});
+  report.mutants.push_back({"c", Kind::table, "third", {"order.total"}, "", {}});
   const std::string text = to_text(document_of(report));
   EXPECT_NE(text.find("property tests: law.counts, law.answers"), std::string::npos) << text;
   EXPECT_NE(text.find("property tests: none"), std::string::npos) << text;
