@@ -122,10 +122,13 @@ INSTANTIATE_TEST_SUITE_P(Examples, Charts, testing::Range(std::size_t{0}, exampl
 
 TEST(MermaidChart, SaysWhoSendsWhatWhen) {
   const std::string text = mermaid_chart(smallest());
-  EXPECT_NE(text.find("  L0->>L1: sends p5 HEARTBEAT 0→1 pub\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  L0->>L1: sends p5 HEARTBEAT 0→1 pub [WriterSideOpens.4]\n"),
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("  L1->>L2: 6.573343 ms: receives p5 HEARTBEAT 0→1 pub\n"),
             std::string::npos);
-  EXPECT_NE(text.find("  L2->>L1: sends p14 ACKNACK 1→0 pub, lacks 0–9\n"), std::string::npos);
+  EXPECT_NE(text.find("  L2->>L1: sends p14 ACKNACK 1→0 pub, lacks 0–9 [AckNackDue.2]\n"),
+            std::string::npos);
   EXPECT_NE(
       text.find("  Note over L0: 0→1 pub 0–9: U→R<br/>repair DATA generation at 13.653072 ms"),
       std::string::npos);
