@@ -9,8 +9,6 @@
 #include <optional>
 #include <type_traits>
 
-#include <boost/pfr.hpp>
-
 #include "checker/engines/tables/derivation.hpp"
 #include "checker/engines/tables/machine_step.hpp"
 #include "model/engine/composition_knobs.hpp"
@@ -333,20 +331,7 @@ class DerivedWorld {
         derivation().now(state_name<P>(k)) = effect.next[k];
       }
     }
-    typename Step::Output outbox;
-    for (const auto& [fires, asked] : effect.fired) {
-      [&, &fired = fires, &one = asked ]<std::size_t... I>(std::index_sequence<I...>) {
-        (merge(boost::pfr::get<I>(outbox), boost::pfr::get<I>(one), fired), ...);
-      }
-      (std::make_index_sequence<boost::pfr::tuple_size_v<typename Step::Output>>{});
-    }
-    return outbox;
-  }
-  static void merge(Bool& total, const Bool& one, const Expr& fires) {
-    total = Bool{(total.expr() || (fires && one.expr())).simplify()};
-  }
-  static void merge(Int& total, const Int& one, const Expr& fires) {
-    total = Int{z3::ite(fires, one.expr(), total.expr()).simplify()};
+    return effect.outbox();
   }
 
   /// How often T is scheduled, as the rules count: a variable of its own only if a mistake makes

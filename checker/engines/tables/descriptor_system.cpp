@@ -55,10 +55,7 @@ DescriptorSystem descriptor_system(Proof& proof) {
   proof.assume(
       "The numbers of descriptors and readers are arbitrary: one is looked at, and what the rules "
       "read of the others ranges freely.");
-  proof.assume(
-      "What the rules leave to a host (draw composition: packing, queues, the piggyback budget) "
-      "keeps "
-      "its contracts.");
+  proof.assume(hosts_keep_contracts);
   return {proof.scenario().dds, proof.mistakes()};
 }
 

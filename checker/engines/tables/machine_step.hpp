@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <boost/pfr.hpp>
+
 #include "checker/engines/tables/proof.hpp"
 #include "fsm/row_table.hpp"
 
@@ -43,6 +45,25 @@ class MachineStep {
       for (const auto& row : fired) cases.push_back(row.first);
       return any_of(cases);
     }
+    /// What is asked for in all: an empty outbox if no row fires.
+    [[nodiscard]] Output outbox() const {
+      Output total;
+      for (const auto& [when, asked] : fired) {
+        [&total, &fires = when, &one = asked ]<std::size_t... I>(std::index_sequence<I...>) {
+          (merge(boost::pfr::get<I>(total), boost::pfr::get<I>(one), fires), ...);
+        }
+        (std::make_index_sequence<boost::pfr::tuple_size_v<Output>>{});
+      }
+      return total;
+    }
+
+   private:
+    static void merge(smt::SymbolicBool& total, const smt::SymbolicBool& one, const Expr& fires) {
+      total = smt::SymbolicBool{(total.expr() || (fires && one.expr())).simplify()};
+    }
+    static void merge(smt::SymbolicInt& total, const smt::SymbolicInt& one, const Expr& fires) {
+      total = smt::SymbolicInt{z3::ite(fires, one.expr(), total.expr()).simplify()};
+    }
   };
 
   explicit MachineStep(const std::vector<fsm::TableMutation>& mutations) : table_{mutations} {}
@@ -58,11 +79,6 @@ class MachineStep {
     return state;
   }
 
-  /// The state is `S`.
-  template <class S>
-  [[nodiscard]] static const Expr& is(const OneHot& state) {
-    return state[fsm::Reflect<Machine>::template id<S>];
-  }
   /// Each value says whether the state is the initial one.
   [[nodiscard]] static Expr is_initial(const OneHot& state) {
     const auto initial = fsm::Reflect<Machine>::template id<typename Machine::initial_state>;
