@@ -54,7 +54,7 @@ const std::array properties{
              "rule decides.",
              "∀ kinds a, b, states σ: a(b(σ)) = b(a(σ)) with equal outputs, or (a, b) listed",
              "The kinds are those of Fast DDS's writer: creation, nack response, serialization.",
-             "one relation",
+             "one relation; announcements",
              {tables},
              "specs/expected/commutation.yaml"},
     Property{"safety.ack-implies-received",

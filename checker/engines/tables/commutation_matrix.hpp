@@ -1,8 +1,7 @@
 // Does the order of two same-time events on one relation matter? For each pair of event kinds: two
-// events with free inputs are processed in both orders from one free state; the order matters if
-// the final states or what was emitted and scheduled in all differ. A relation says what its state
-// is, which kinds of events there are and what each does (built from the tables); the comparison
-// is here.
+// events with free inputs happen in both orders from one free state; the order matters if the final
+// states differ, or what was emitted and scheduled in all. What an event does is the rule of the
+// composition (checker/engines/tables/event_kinds.hpp); the comparison is here.
 #pragma once
 
 #include <functional>
@@ -10,48 +9,40 @@
 #include <vector>
 
 #include "checker/engines/tables/proof.hpp"
+#include "checker/engines/tables/symbolic_run.hpp"
 
 namespace stormproof::tables {
 
-/// What an event does.
-struct Outcome {
-  Exprs state;    ///< the new value of each state variable
-  Exprs outputs;  ///< how many of each kind of output (integers)
+/// What is said of an event before it happens.
+struct EventConditions {
+  Expr possible;    ///< such an event can be pending in the state
+  Expr consistent;  ///< what is only known of events of real runs
 };
 
-/// One event of some kind with its own unknown inputs.
-struct EventInstance {
-  Exprs inputs;
-  Expr possible;    ///< over state and inputs: such an event can be pending in the state
-  Expr consistent;  ///< the same for what is only known of states and events of real runs
-  std::function<Outcome(const Exprs& state)> apply;
-};
-
-struct EventKindModel {
+struct EventKind {
   std::string name;
-  bool repeats = true;  ///< two of them can be pending at once
-  /// Makes an event whose inputs have this prefix; `state` is where it is pending.
-  std::function<EventInstance(const std::string& prefix, const Exprs& state)> make;
+  /// Lets an event happen; the names of its inputs begin with the given text.
+  std::function<void(SymbolicRun&, const std::string& event)> happen;
+  std::function<EventConditions(SymbolicRun& before, const std::string& event)> conditions;
 };
 
-struct RelationModel {
-  Exprs variables;  ///< the state
-  Exprs knobs;      ///< unknowns that no event changes
-  Expr possible;    ///< the states that there are
-  Expr consistent;  ///< what is known of the states of real runs
-  std::vector<std::string> outputs;
-  std::vector<EventKindModel> kinds;
+/// Kinds of events that are compared with each other.
+struct EventGroup {
+  std::string of_what;
+  std::function<Expr(SymbolicRun& before)> possible;    ///< what every deployment keeps
+  std::function<Expr(SymbolicRun& before)> consistent;  ///< what is known of the states of runs
+  std::vector<EventKind> kinds;
 };
 
-/// The paper's relation (fsm/descriptor_repair.hpp and its neighbours), and Fast DDS's.
-[[nodiscard]] RelationModel paper_relation(Proof& proof);
-[[nodiscard]] RelationModel fastdds_relation(Proof& proof);
+/// The events of the compositions: those of one relation, its writer and its queue, and those of
+/// announcements, which meet a relation only in its openings; these are events of the former.
+[[nodiscard]] std::vector<EventGroup> paper_events();
+[[nodiscard]] std::vector<EventGroup> fastdds_events();
 
 enum class Verdict : char {
   commutes = '.',     ///< from every state
   matters = 'X',      ///< in a state that is consistent
   unreachable = 'u',  ///< only in states that no run reaches
-  excluded = '-',     ///< two of this kind are never pending at once
   unknown = '?'
 };
 
@@ -62,12 +53,12 @@ struct PairResult {
   std::string witness;  ///< of `matters` and `unreachable`
 };
 
-/// All unordered pairs of kinds.
-[[nodiscard]] std::vector<PairResult> commutation_matrix(Proof& proof,
-                                                         const RelationModel& relation);
+/// All unordered pairs of kinds, in a deployment of this size.
+[[nodiscard]] std::vector<PairResult> commutation_matrix(Proof& proof, const EventGroup& group,
+                                                         Extent extent);
 
 /// The matrix as lines of text.
-[[nodiscard]] std::vector<std::string> matrix_lines(const RelationModel& relation,
+[[nodiscard]] std::vector<std::string> matrix_lines(const EventGroup& group,
                                                     const std::vector<PairResult>& results);
 
 }  // namespace stormproof::tables

@@ -19,7 +19,8 @@ using Exprs = std::vector<z3::expr>;
 
 /// An assumption of every verdict that rests on a composition.
 inline constexpr const char* hosts_keep_contracts =
-    "What the rules leave to a host (draw composition: packing, queues, the piggyback budget) keeps "
+    "What the rules leave to a host (draw composition: packing, queues, the piggyback budget) "
+    "keeps "
     "its contracts.";
 
 class Proof {

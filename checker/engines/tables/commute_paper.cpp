@@ -1,0 +1,8 @@
+// The paper's events in two orders: one instantiation of the tables per source file.
+#include "checker/engines/tables/event_kinds.hpp"
+
+namespace stormproof::tables {
+
+std::vector<EventGroup> paper_events() { return event_groups<KnownOfPaper>(); }
+
+}  // namespace stormproof::tables
