@@ -61,6 +61,8 @@ class SymbolicWorld {
       return Int{run_->knob(Int::named(name<Tag>()).expr())};
     } else if constexpr (std::derived_from<Tag, Fact>) {
       return Bool{Tag::of(*this)};
+    } else if constexpr (std::derived_from<Tag, Tally>) {
+      return Int{Tag::of(*this)};
     } else if constexpr (requires { typename Tag::IsFlag; }) {
       return Bool{run_->truth(variable<Tag>())};
     } else if constexpr (requires { typename Tag::IsNumber; }) {
@@ -146,6 +148,10 @@ class SymbolicWorld {
     path_ = (path_ && condition.expr()).simplify();
     if (!path_.is_false()) body();
     path_ = outer;
+  }
+  template <class Body>
+  void for_readers_by_number(Body&& body) {
+    for_readers(body);
   }
   template <class Body>
   void for_readers(Body&& body) {
