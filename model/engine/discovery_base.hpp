@@ -29,9 +29,10 @@ concept IsCycleTimer = std::is_same_v<Timer, comp::CycleStart> ||
 
 class DiscoveryBase : public Implementation {
  public:
+  using Packet = model::Packet;
+
   DiscoveryBase(RunState& run, Network& network);
 
-  [[nodiscard]] RunState& run() { return run_; }
   [[nodiscard]] comp::Watcher* watcher() { return watched_ ? &mutator_ : nullptr; }
   [[nodiscard]] const Topology& topology() const { return run_.topology; }
   [[nodiscard]] std::int64_t now() const { return run_.now.count(); }
@@ -255,7 +256,7 @@ class DiscoveryBase : public Implementation {
   }
   void plan_batches(std::uint32_t writer, std::int64_t stretched);
 
-  EffectMutator mutator_{run_};
+  EffectMutator mutator_{run_.mutation, run_.probe};
   const bool watched_ = mutator_.is_needed();
   std::vector<Announcer> announcers_;
   std::vector<Clock> clocks_;  // by writer

@@ -23,22 +23,23 @@ class Driver {
   using Output = typename fsm::Stepper<Machine>::Output;
 
   Driver(const RunState& run, MachineRef::Kind kind)
-      : machines_{table_mutations(run)}, kind_{kind} {}
+      : run_{run}, machines_{table_mutations(run)}, kind_{kind} {}
 
   template <class Event>
-  Output step(RunState& run, fsm::StateId& state, const Input& input, std::uint32_t subject) {
+  Output step(fsm::StateId& state, const Input& input, std::uint32_t subject) {
     using Info = fsm::Reflect<Machine>;
     const fsm::StateId before = state;
     fsm::RowId row = fsm::no_row;
     const Output output = machines_.template step<Event>(state, input, row);
-    if (run.probe != nullptr && row != fsm::no_row) {
-      run.probe->transition({fsm::name_of<Machine>(), kind_, subject}, fsm::name_of<Event>(),
-                            Info::state_names[before], Info::state_names[state], 0, 0);
+    if (run_.probe != nullptr && row != fsm::no_row) {
+      run_.probe->transition({fsm::name_of<Machine>(), kind_, subject}, fsm::name_of<Event>(),
+                             Info::state_names[before], Info::state_names[state], 0, 0);
     }
     return output;
   }
 
  private:
+  const RunState& run_;
   fsm::Stepper<Machine> machines_;
   MachineRef::Kind kind_;
 };

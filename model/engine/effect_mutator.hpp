@@ -3,32 +3,36 @@
 #pragma once
 
 #include "fsm/composition/watched_world.hpp"
-#include "model/engine/run_state.hpp"
+#include "model/mutation.hpp"
+#include "model/probe.hpp"
 
 namespace stormproof::model {
 
 class EffectMutator final : public fsm::composition::Watcher {
  public:
-  explicit EffectMutator(const RunState& run) : run_{run} {}
+  /// No mutation: the rules are correct; no probe: nobody is told.
+  explicit EffectMutator(const Mutation* mutation, Probe* probe = nullptr)
+      : mutation_{mutation}, probe_{probe} {}
 
-  /// Whether there is anything to watch in this run.
+  /// Whether there is anything to watch.
   [[nodiscard]] bool is_needed() const {
-    const bool wrong = run_.mutation != nullptr && !run_.mutation->effects.empty();
-    return wrong || (run_.probe != nullptr && run_.probe->wants_effects());
+    const bool wrong = mutation_ != nullptr && !mutation_->effects.empty();
+    return wrong || (probe_ != nullptr && probe_->wants_effects());
   }
   void happens(fsm::composition::EffectKey key) override {
-    if (run_.probe != nullptr) run_.probe->effect(key);
+    if (probe_ != nullptr) probe_->effect(key);
   }
   [[nodiscard]] Change change_of(fsm::composition::EffectKey key) const override {
-    if (run_.mutation == nullptr) return Change::none;
-    for (const fsm::composition::EffectMutation& mutation : run_.mutation->effects) {
+    if (mutation_ == nullptr) return Change::none;
+    for (const fsm::composition::EffectMutation& mutation : mutation_->effects) {
       if (mutation.key == key) return mutation.change;
     }
     return Change::none;
   }
 
  private:
-  const RunState& run_;
+  const Mutation* mutation_;
+  Probe* probe_;
 };
 
 }  // namespace stormproof::model

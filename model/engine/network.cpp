@@ -132,8 +132,7 @@ template <class Event>
 void Network::step(std::uint32_t channel) {
   ChannelState& c = channels_[channel];
   const auto output = channel_driver_.step<Event>(
-      run_, c.state, {.waiting = !c.waiting.empty(), .dispatch_pending = c.dispatch_pending},
-      channel);
+      c.state, {.waiting = !c.waiting.empty(), .dispatch_pending = c.dispatch_pending}, channel);
   if (output.schedule_dispatch) {
     c.dispatch_pending = true;
     run_.schedule(run_.now, EventKind::dispatch, channel);

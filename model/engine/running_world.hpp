@@ -2,7 +2,7 @@
 // knows where it is (`place`: the indices of what it is about) and what a rule can say; the host
 // has the state, the machines, the packets and the clock, by these names:
 //
-//   Composition                          whose rules these are
+//   Composition, Packet                  whose rules these are, and what its packets are
 //   topology()                           the numbers of pairs and relations
 //   knob(tag), answer(tag, world)        of a switch or delay; of what only a host knows
 //   value(tag, n), assign(tag, n[, d], value)        of a flag or number of owner n
@@ -21,7 +21,8 @@
 //   readers(w), readers_by_number(w)     the open relations of a writer
 //   for_queue(i, visit)                  visit(writer, descriptor) until the queue is empty
 //
-// The simulator's hosts are model/paper and model/fastdds.
+// The simulator's hosts are model/paper and model/fastdds, the explorer's is
+// checker/engines/explorer/rule_host.hpp.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +42,6 @@
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/descriptor_set.hpp"
 #include "model/engine/lanes.hpp"
-#include "model/engine/packet.hpp"
 #include "model/engine/topology.hpp"
 
 namespace stormproof::model {
@@ -131,12 +131,12 @@ class RunningWorld {
 
   /// `subject` is the number of what the world is about; with a descriptor, the number of its
   /// relation or writer.
-  RunningWorld(Host& host, std::uint32_t subject, const Packet* packet = nullptr,
+  RunningWorld(Host& host, std::uint32_t subject, const typename Host::Packet* packet = nullptr,
                std::uint32_t descriptor = 0)
       : host_{host}, packet_{packet}, subject_{subject}, descriptor_{descriptor} {}
 
   [[nodiscard]] Host& host() { return host_; }
-  [[nodiscard]] const Packet& packet() const { return *packet_; }
+  [[nodiscard]] const typename Host::Packet& packet() const { return *packet_; }
   [[nodiscard]] std::uint32_t descriptor() const { return descriptor_; }
   /// The number of the owner of something, seen from here; of a descriptor, that of its relation or
   /// writer.
@@ -297,7 +297,7 @@ class RunningWorld {
       return output;
     } else {
       const std::uint32_t n = number<P::owner>();
-      return host_.driver(part).template step<E>(host_.run(), host_.state(part, n), input, n);
+      return host_.driver(part).template step<E>(host_.state(part, n), input, n);
     }
   }
   template <class P, class E, class Input = decltype(comp::no_input),
@@ -421,7 +421,7 @@ class RunningWorld {
   }
 
   Host& host_;
-  const Packet* packet_;
+  const typename Host::Packet* packet_;
   std::uint32_t subject_;
   std::uint32_t descriptor_;
 };
@@ -437,7 +437,7 @@ const auto& said_of(const std::tuple<Sayings...>& sayings) {
 
 /// Runs the rule of a trigger for the owner `subject`.
 template <class Trigger, class Host>
-void run_rule(Host& host, std::uint32_t subject, const Packet* packet = nullptr,
+void run_rule(Host& host, std::uint32_t subject, const typename Host::Packet* packet = nullptr,
               std::uint32_t descriptor = 0) {
   using Rule = comp::RuleFor<typename Host::Composition, Trigger>;
   RunningWorld<Host, Rule::owner> world{host, subject, packet, descriptor};

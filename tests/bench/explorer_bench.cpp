@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "checker/engines/explorer/fastdds_world.hpp"
-#include "checker/engines/explorer/paper_world.hpp"
+#include "checker/engines/explorer/fastdds_packing.hpp"
+#include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
 #include "checker/engines/explorer/search.hpp"
 #include "checker/engines/promela/promela.hpp"

@@ -58,6 +58,11 @@ DelayBound delay_bound(const model::Scenario& scenario, const std::function<bool
                       props::time_text(quarter), props::time_text(measured))};
 }
 
+Nanoseconds creation_distance(const model::Scenario& scenario) {
+  const std::int64_t suppression = scenario.dds.sedp.nack_suppression_duration.count();
+  return Nanoseconds{std::max<std::int64_t>(1, suppression / 2)};
+}
+
 bool splits_packets(const model::Scenario& scenario) {
   const std::int64_t bytes = scenario.dds.descriptors.user_bytes.count();
   return packet_is_full(scenario.dds.sedp, bytes,

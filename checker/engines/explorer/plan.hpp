@@ -28,6 +28,9 @@ struct DelayBound {
 /// The scopes to explore, cheap ones first.
 [[nodiscard]] std::vector<Scope> scopes(const model::Scenario& scenario, model::Nanoseconds delay);
 
+/// Fast DDS: the time between the creations of two descriptors that are created after the match.
+[[nodiscard]] model::Nanoseconds creation_distance(const model::Scenario& scenario);
+
 /// Whether the first two user descriptors travel in different packets.
 [[nodiscard]] bool splits_packets(const model::Scenario& scenario);
 

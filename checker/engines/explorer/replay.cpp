@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "checker/engines/explorer/fastdds_world.hpp"
+#include "checker/engines/explorer/plan.hpp"
 #include "model/engine/packet.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/replay.hpp"
@@ -64,7 +64,7 @@ Nanoseconds start_of_world(const ReplayRequest& request, const ConcretePath& pat
   // The last publication is the 16th of 17 endpoints that are created at equal distances, the last
   // but one is the 15th. Both must be the only ones after the start of the world.
   if (request.scope.pushed == 1) return Nanoseconds{16 * creation + margin};
-  return Nanoseconds{15 * FastDdsWorld::creation_distance(request.running).count() - creation};
+  return Nanoseconds{15 * creation_distance(request.running).count() - creation};
 }
 
 /// When participant 0 has created its last endpoint.
@@ -75,7 +75,7 @@ Nanoseconds endpoints_done(const ReplayRequest& request, const ConcretePath& pat
     const std::int64_t creation = (start + *path.time_of(What::creation)).count();
     return Nanoseconds{(17 * creation + 15) / 16};
   }
-  return FastDdsWorld::creation_distance(request.running) * 17;
+  return creation_distance(request.running) * 17;
 }
 
 model::Scenario bare_scenario(const ReplayRequest& request, const ConcretePath& path) {

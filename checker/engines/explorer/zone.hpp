@@ -22,6 +22,17 @@ class Zone {
   /// Most variables that a zone can have, the present included.
   static constexpr unsigned capacity = 24;
 
+  Zone() { d_[0][0] = 0; }
+  /// Copies no more than there is; most zones are small.
+  Zone(const Zone& other) { *this = other; }
+  Zone& operator=(const Zone& other) {
+    size_ = other.size_;
+    for (unsigned i = 0; i < size_; ++i) {
+      std::copy(other.d_[i].begin(), other.d_[i].begin() + size_, d_[i].begin());
+    }
+    return *this;
+  }
+
   /// Variables, the present included.
   [[nodiscard]] unsigned size() const { return size_; }
   /// The largest value of x_a - x_b, ns.
@@ -105,7 +116,7 @@ class Zone {
   }
 
  private:
-  std::array<std::array<std::int64_t, capacity>, capacity> d_{};
+  std::array<std::array<std::int64_t, capacity>, capacity> d_;  // the first `size_` of each
   unsigned size_ = 1;
 };
 

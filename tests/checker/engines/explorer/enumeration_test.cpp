@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/engines/explorer/paper_world.hpp"
+#include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/search.hpp"
 #include "model/engine/packet.hpp"
 #include "model/simulator.hpp"
@@ -44,7 +44,7 @@ class CountingWorld {
     state.packets += frame.emitted();
     for (unsigned d = 0; d < world_.descriptors(); ++d) {
       const bool queued = slot.what == What::repair_generation;
-      if (queued && state.paper.repair[d] != before.repair[d]) ++state.repairs;
+      if (queued && view_of(state.paper, d) != view_of(before, d)) ++state.repairs;
     }
     if (missing && complete(state)) {
       const unsigned mark = frame.find_mark(What::opened, 0) + 1;
@@ -56,12 +56,16 @@ class CountingWorld {
     if (!frame.any_pending()) outcomes_.ends.insert({state.repairs, state.packets});
   }
   [[nodiscard]] bool complete(const State& state) const { return world_.complete(state.paper); }
-  [[nodiscard]] std::uint16_t received(const State& s) const { return s.paper.received; }
+  [[nodiscard]] std::uint16_t received(const State& s) const { return world_.received(s.paper); }
   [[nodiscard]] unsigned descriptors() const { return world_.descriptors(); }
   [[nodiscard]] const Scope& scope() const { return world_.scope(); }
   [[nodiscard]] const EventRules& rules() const { return world_.rules(); }
 
  private:
+  static fsm::StateId view_of(const PaperWorld::State& state, unsigned d) {
+    return state.state<PaperWorld::C>(d);
+  }
+
   PaperWorld& world_;
   Outcomes& outcomes_;
 };

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "checker/engines/explorer/explorer.hpp"
-#include "checker/engines/explorer/fastdds_world.hpp"
-#include "checker/engines/explorer/paper_world.hpp"
+#include "checker/engines/explorer/fastdds_packing.hpp"
+#include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
 #include "checker/engines/explorer/replay.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/engines/explorer/paper_world.hpp"
+#include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/replay.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
 

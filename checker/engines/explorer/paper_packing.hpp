@@ -1,0 +1,105 @@
+// What the paper's rules (fsm/composition/paper.hpp) leave to a host, for a writer with one reader:
+// DATA packets are filled up to the grouping limit, and each descriptor is charged against the
+// piggyback budget; a budget that is used up sends a HEARTBEAT in the packet
+// (model/paper/data.cpp).
+#pragma once
+
+#include "checker/engines/explorer/relation_world.hpp"
+#include "model/descriptor_sizes.hpp"
+
+namespace stormproof::explorer {
+
+class PaperPacking {
+ public:
+  struct Budget : comp::Number<comp::owner::writer> {};          ///< bytes
+  struct SentBytes : comp::Number<comp::owner::participant> {};  ///< the cumulative charge
+
+  using Composition = comp::paper::Paper;
+  using WriterOpens = comp::paper::WriterOpens;
+  using State = fsm::TypeList<Budget, SentBytes>;
+  static constexpr unsigned max_descriptors = 3;
+  static constexpr bool receives_separately = false;
+  static constexpr bool one_event_opens_both = true;
+  static constexpr bool repairs_leave_later = true;
+
+  PaperPacking(const model::Scenario& running, const Scope& scope)
+      : sedp_{running.dds.sedp},
+        count_{scope.descriptors},
+        sizes_{without_defaults(running.dds.descriptors)} {}
+
+  [[nodiscard]] unsigned descriptors() const { return count_; }
+
+  template <class Host>
+  void start(Host& host) const {
+    refill(host.state());
+  }
+  template <class Host>
+  static void create(Host&, const Slot&) {}  // everything exists
+  template <class W>
+  void perform(comp::paper::RefillBudget, W& w) {
+    refill(w.host().state());
+  }
+  template <class W>
+  static void perform(comp::paper::Clock::SendBatch, W&) {}
+  template <class W>
+  void perform(comp::paper::Generate, W& w, const model::DescriptorSet& set, bool repair) {
+    auto& host = w.host();
+    note_generated(host.state(), host.frame(), host.members_of(set), repair);
+    const Slot empty{What::data, repair ? Slot::from_repair : std::uint8_t{0}};
+    const std::int64_t shared = sedp_.shared_header_bytes.count();
+    Slot packet = empty;
+    std::int64_t payload_bytes = 0;
+    set.for_each([&](std::uint32_t d) {
+      const std::int64_t bytes = sizes_.bytes(model::Stream::pub, d);
+      if (packet.set != 0 && packet_is_full(sedp_, payload_bytes, bytes - shared)) {
+        host.send(std::exchange(packet, empty));
+        payload_bytes = 0;
+      }
+      const std::int64_t added = packet.set == 0 ? bytes : bytes - shared;
+      packet.set |= member(d);
+      payload_bytes += added;
+      if (!is_used_up(host.state(), added)) return;
+      packet.flags |= Slot::carries_heartbeat;
+      payload_bytes += sedp_.piggyback_heartbeat_bytes.count();
+    });
+    if (packet.set != 0) host.send(packet);
+  }
+
+ private:
+  /// User descriptors only: default ones differ in nothing but their size.
+  static model::DescriptorProfile without_defaults(model::DescriptorProfile profile) {
+    profile.default_publications = 0;
+    profile.default_subscriptions = 0;
+    return profile;
+  }
+  template <class State>
+  void refill(State& state) const {
+    if (sedp_.piggyback == model::Piggyback::off) return;
+    state.template set<Budget>(sedp_.piggyback_threshold_bytes.count());
+  }
+  /// Charges the bytes; whether a HEARTBEAT follows from that.
+  template <class State>
+  [[nodiscard]] bool is_used_up(State& state, std::int64_t added) const {
+    if (sedp_.piggyback == model::Piggyback::off) return false;
+    const bool cumulative = sedp_.piggyback == model::Piggyback::cumulative;
+    const std::int64_t sent = state.template get<SentBytes>() + added;
+    if (cumulative) state.template set<SentBytes>(sent);
+    const std::int64_t budget = state.template get<Budget>() - (cumulative ? sent : added);
+    state.template set<Budget>(budget);
+    if (budget >= 0) return false;
+    refill(state);
+    if (cumulative) {
+      state.template set<SentBytes>(sent + sedp_.piggyback_heartbeat_bytes.count());
+    }
+    return true;
+  }
+
+  const model::SedpProfile sedp_;
+  const unsigned count_;
+  const model::DescriptorSizes sizes_;
+};
+
+using PaperWorld = RelationWorld<PaperPacking>;
+extern template class RelationWorld<PaperPacking>;
+
+}  // namespace stormproof::explorer

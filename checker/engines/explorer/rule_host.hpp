@@ -1,0 +1,367 @@
+// The host of rules (model/engine/running_world.hpp) in the explorer, whatever the composition: its
+// state is a small one that can be copied, its clock a frame of pending events. What is scheduled
+// becomes a slot of the frame, what is emitted a packet that may be late or lost. There is one
+// relation, whose number, like that of all else, is 0.
+//
+// `Packing` says which composition it is, and does what its rules leave to a host. It has
+//   Composition, WriterOpens      the rules, and the occasion that opens the writer side
+//   State                         flags and numbers that it needs besides the composition's
+//   max_descriptors, receives_separately
+//   one_event_opens_both          the receiver of an announcement opens both sides
+//   repairs_leave_later           suppression begins when a repair leaves the source, for each of
+//                                 its descriptors; otherwise when the message is made
+//   Packing(running, scope), descriptors()
+//   start(host)                   the first state, and what will happen by itself
+//   create(host, slot)            a descriptor comes into being, if that happens
+//   answer(tag), fact(tag, world), perform(step, world, …)   steps without one run their contract
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include <boost/pfr.hpp>
+
+#include "checker/engines/explorer/claims.hpp"
+#include "fsm/stepper.hpp"
+#include "model/engine/effect_mutator.hpp"
+#include "model/engine/running_world.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::explorer {
+
+namespace detail {
+/// The machines of a part.
+template <class P>
+class PartMachines {
+ public:
+  explicit PartMachines(std::span<const fsm::TableMutation> tables) : machines_{tables} {}
+  template <class Event>
+  auto step(fsm::StateId& state, const typename fsm::Stepper<typename P::Machine>::Input& input,
+            std::uint32_t = 0) {
+    return machines_.template step<Event>(state, input);
+  }
+
+ private:
+  fsm::Stepper<typename P::Machine> machines_;
+};
+template <class Parts>
+class Machines;
+template <class... Ps>
+class Machines<fsm::TypeList<Ps...>> : public PartMachines<Ps>... {
+ public:
+  explicit Machines(std::span<const fsm::TableMutation> tables) : PartMachines<Ps>{tables}... {}
+};
+
+/// The part of which each descriptor has one: the writer's view of it.
+template <class... Ps>
+auto descriptor_part(fsm::TypeList<Ps...>) {
+  return std::get<0>(std::tuple_cat(
+      std::conditional_t<Ps::owner == comp::owner::descriptor, std::tuple<Ps>, std::tuple<>>{}...));
+}
+
+/// What a timer is in a frame; `completed` if nothing.
+template <class T>
+constexpr What what_of() {
+  for (auto k = static_cast<unsigned>(What::heartbeat_expiry);
+       k <= static_cast<unsigned>(What::async_run); ++k) {
+    if (kind_of(What{static_cast<std::uint8_t>(k)}, false) == model::event_kind_of<T>) {
+      return What{static_cast<std::uint8_t>(k)};
+    }
+  }
+  return What::completed;
+}
+}  // namespace detail
+
+template <class Packing_>
+class RuleHost {
+ public:
+  using Packing = Packing_;
+  using Composition = typename Packing::Composition;
+  using Packet = Slot;
+  /// The writer's view of a descriptor, the paper's letter.
+  using C = decltype(detail::descriptor_part(typename Composition::Parts{}));
+  using State = WorldState<comp::Joined<typename Composition::Parts, typename Composition::Timers,
+                                        typename Composition::State, typename Packing::State,
+                                        fsm::TypeList<Asked, Generated>>,
+                           Packing::max_descriptors>;
+
+  RuleHost(const model::Scenario& running, const Scope& scope, const model::Mutation& mutation)
+      : packing_{running, scope},
+        count_{packing_.descriptors()},
+        dds_{running.dds},
+        machines_{mutation.tables},
+        mutation_{mutation} {}
+  RuleHost(const RuleHost&) = delete;
+  RuleHost& operator=(const RuleHost&) = delete;
+
+  /// What rules are about from now on, and what `packing` works on.
+  void go_on_with(State& state, Frame& frame) {
+    state_ = &state;
+    frame_ = &frame;
+  }
+  [[nodiscard]] State& state() { return *state_; }
+  [[nodiscard]] Frame& frame() { return *frame_; }
+  [[nodiscard]] Packing& packing() { return packing_; }
+  [[nodiscard]] unsigned descriptors() const { return count_; }
+  template <class Trigger>
+  void run_rule(const Slot* packet = nullptr, std::uint32_t descriptor = 0) {
+    model::run_rule<Trigger>(*this, 0, packet, descriptor);
+  }
+  /// Runs the rule of the timer that the slot is.
+  void run_due(What what) {
+    comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
+      if constexpr (detail::what_of<T>() != What::completed) {
+        if (detail::what_of<T>() != what) return;
+        if constexpr (T::counted) {
+          const std::uint8_t scheduled = state_->template get<T>();
+          if (scheduled > 0) state_->template set<T>(scheduled - 1);  // 0: it was scheduled twice
+        }
+        run_rule<comp::Due<T>>();
+      }
+    });
+  }
+  void send(const Slot& packet) {
+    if (said_ != nullptr) {
+      *said_ = packet;
+    } else {
+      frame_->emit(packet);
+    }
+  }
+  /// What the reader would say if it emitted the ACKNACK now.
+  [[nodiscard]] Slot said_now(const Slot& acknack) {
+    Slot said;
+    said_ = &said;
+    model::RunningWorld<RuleHost, comp::owner::relation> w{*this, 0};
+    if (acknack.has(Slot::initial)) {
+      Composition::emit_initial(w);
+    } else {
+      Composition::emit_acknack(w);
+    }
+    said_ = nullptr;
+    return said;
+  }
+  /// Whether the ACKNACK that arrives is the one that was emitted.
+  void acknack_is_as_emitted(bool as_emitted) { as_emitted_ = as_emitted; }
+  [[nodiscard]] static Members members_of(const model::DescriptorSet& set) {
+    return static_cast<Members>(set.word(0));
+  }
+
+  // What a RunningWorld asks of its host.
+  [[nodiscard]] comp::Watcher* watcher() { return mutator_.is_needed() ? &mutator_ : nullptr; }
+  struct OneRelation {
+    unsigned descriptors;
+    [[nodiscard]] static model::Pair pair(std::uint32_t) { return {0, 1, 1, true}; }
+    [[nodiscard]] std::uint32_t descriptor_count(std::uint32_t, model::Stream) const {
+      return descriptors;
+    }
+  };
+  [[nodiscard]] OneRelation topology() const { return {count_}; }
+  [[nodiscard]] static std::int64_t now() { return 0; }
+  template <class Knob>
+  [[nodiscard]] auto knob(Knob knob) const {
+    return model::knob_value(knob, dds_);
+  }
+  template <class Tag, class World>
+  [[nodiscard]] auto answer(Tag tag, const World&) const {
+    if constexpr (std::derived_from<Tag, comp::Amount>) {
+      return std::int64_t{0};  // the present, and counts of a cycle that there is not
+    } else if constexpr (std::is_same_v<Tag, comp::RunEnds>) {
+      return false;
+    } else {
+      return packing_.answer(tag);
+    }
+  }
+  template <class Fact, class World>
+  [[nodiscard]] bool fact(Fact fact, World& w) requires requires(Packing& packing) {
+    packing.fact(fact, w);
+  }
+  { return packing_.fact(fact, w); }
+
+  // Machines.
+  template <class P>
+  auto& driver(P) {
+    return static_cast<detail::PartMachines<P>&>(machines_);
+  }
+  template <class P>
+  [[nodiscard]] fsm::StateId& state(P, std::uint32_t) {
+    return state_->template state<P>();
+  }
+  auto& bits(C) { return *this; }
+  static constexpr auto lane_order(C) { return nullptr; }
+  static void moved(C, std::uint32_t, fsm::StateId, fsm::StateId, std::uint64_t) {}
+
+  [[nodiscard]] std::uint64_t in_state(std::uint32_t, std::uint32_t, fsm::StateId wanted) const {
+    return state_->template in_state<C>(wanted);
+  }
+  [[nodiscard]] fsm::StateId state_of(std::uint32_t, std::uint32_t d) const {
+    return state_->template state<C>(d);
+  }
+  template <class Event, class Effect>
+  void step(std::uint32_t, std::uint32_t, std::uint64_t members,
+            const typename fsm::Stepper<typename C::Machine>::Input& input, Effect&& effect) {
+    for (std::uint64_t left = members; left != 0; left &= left - 1) {
+      fsm::StateId& state =
+          state_->template state<C>(static_cast<unsigned>(std::countr_zero(left)));
+      const fsm::StateId before = state;
+      const auto output = driver(C{}).template step<Event>(state, input);
+      effect(left & -left, output, before, state);
+    }
+  }
+  template <class Event, class LaneInput, class Order, class Effect>
+  void step_each(std::uint32_t, std::uint32_t, std::uint64_t members, const LaneInput& lanes,
+                 const Order&, Effect&& effect) {
+    if constexpr (requires { lanes.listed; }) {
+      note_asked(*state_, *frame_, static_cast<Members>(lanes.listed.bits & members), as_emitted_);
+    }
+    for (std::uint64_t left = members; left != 0; left &= left - 1) {
+      typename fsm::Stepper<typename C::Machine>::Input input;
+      [&]<std::size_t... I>(std::index_sequence<I...>) {
+        ((boost::pfr::get<I>(input) = (boost::pfr::get<I>(lanes).bits & left & -left) != 0), ...);
+      }
+      (std::make_index_sequence<boost::pfr::tuple_size_v<LaneInput>>{});
+      step<Event>(0, 0, left & -left, input, effect);
+    }
+  }
+
+  // Flags, numbers and what packets say.
+  template <class V>
+  [[nodiscard]] auto value(V, std::uint32_t) const {
+    if constexpr (is_kept<V>) {
+      return state_->template get<V>();
+    } else if constexpr (requires { typename V::IsNumber; }) {
+      return std::int64_t{0};
+    } else {
+      return false;
+    }
+  }
+  template <class V, class Value>
+  void assign(V, std::uint32_t, Value value) {
+    if constexpr (is_kept<V>) state_->template set<V>(value);
+  }
+  /// Doubling without end, the explored world would never come back to a state.
+  void assign(comp::LastDelay, std::uint32_t, std::int64_t delay) {
+    if (delay > knob(comp::InitialDelay{}) << last_doubling) return;
+    state_->template set<comp::LastDelay>(delay);
+  }
+  template <class V>
+  void assign(V, std::uint32_t, std::uint32_t d, bool holds) {
+    const Members others = state_->template get<V>() & static_cast<Members>(~member(d));
+    state_->template set<V>(others | (holds ? member(d) : Members{0}));
+  }
+  template <class V>
+  void assign_each(V, std::uint32_t, const model::DescriptorSet& set) {
+    if constexpr (is_kept<V>) state_->template set<V>(members_of(set));
+  }
+  template <class V>
+  [[nodiscard]] std::uint64_t word(V, std::uint32_t, std::uint32_t) const {
+    if constexpr (is_kept<V>) {
+      return state_->template get<V>();
+    } else {
+      return 0;
+    }
+  }
+  template <class Field>
+  [[nodiscard]] static std::uint64_t word(Field, const Slot& packet, std::uint32_t) {
+    return is_limit<Field> ? (std::uint64_t{1} << packet.number) - 1 : packet.set;
+  }
+  template <class Field>
+  [[nodiscard]] static bool said(Field, const Slot& packet) {
+    return packet.has(flag_of<Field>());
+  }
+
+  // Effects.
+  template <class T>
+  void schedule(T, std::uint32_t, std::int64_t time) {
+    constexpr What what = detail::what_of<T>();
+    if constexpr (what != What::completed) {
+      if constexpr (T::counted) state_->template set<T>(state_->template get<T>() + 1);
+      frame_->schedule({what}, time);
+    }
+  }
+  template <class T>
+  [[nodiscard]] std::int64_t pending(T, std::uint32_t) const {
+    return state_->template get<T>();
+  }
+  template <class T>
+  void cancel(T, std::uint32_t) {
+    static_assert(!is_kept<T>, "slots of a frame are not cancelled");
+  }
+  template <class P, class World, class... Sayings>
+  void emit(P, World& w, const std::tuple<Sayings...>& sayings) {
+    Slot packet{std::is_same_v<P, typename Composition::AckNack> ? What::acknack : What::heartbeat};
+    std::apply([&](const auto&... each) { (say(packet, w, each), ...); }, sayings);
+    send(packet);
+  }
+  template <class Step, class World, class... Args>
+  void perform(Step step, World& w, const Args&... args) {
+    if constexpr (requires { packing_.perform(step, w, args...); }) {
+      packing_.perform(step, w, args...);
+    } else {
+      Step::contract(w, args...);
+    }
+  }
+  /// The periodic policy has no cycle.
+  template <class World>
+  static void perform(comp::PlanBatches, World&, std::int64_t) {}
+  /// Relation 0, if its writer side is open.
+  [[nodiscard]] std::span<const std::uint32_t> readers(std::uint32_t) const {
+    static constexpr std::uint32_t only = 0;
+    return {&only, state_->template get<typename Composition::IsOpen>() ? 1U : 0U};
+  }
+  [[nodiscard]] std::span<const std::uint32_t> readers_by_number(std::uint32_t writer) const {
+    return readers(writer);
+  }
+  template <class Visit>
+  void for_queue(std::uint32_t, Visit&& visit) {
+    const unsigned queue = state_->template get<typename Composition::IsQueued>();
+    for (unsigned left = queue; left != 0; left &= left - 1) {
+      visit(0, static_cast<std::uint32_t>(std::countr_zero(left)));
+    }
+  }
+
+ private:
+  // A field that says "the first n descriptors" is a number; any other is a set.
+  template <class Field>
+  static constexpr bool is_limit =
+      std::is_same_v<Field, comp::Announces> || std::is_same_v<Field, comp::BelowBase>;
+  template <class Field>
+  static constexpr std::uint8_t flag_of() {
+    if (std::is_same_v<Field, comp::IsInitial>) return Slot::initial;
+    if (std::is_same_v<Field, comp::IsRepair>) return Slot::from_repair;
+    static_assert(std::is_same_v<Field, comp::IsInitial> || std::is_same_v<Field, comp::IsRepair> ||
+                  std::is_same_v<Field, comp::CarriesHeartbeat>);
+    return Slot::carries_heartbeat;
+  }
+  template <class World, class Saying>
+  static void say(Slot& packet, World& w, const Saying& saying) {
+    using Field = typename Saying::Field;
+    if constexpr (std::derived_from<Field, comp::PacketField>) {
+      if (saying.value) packet.flags |= flag_of<Field>();
+    } else {
+      const Members said = members_of(w.set_of(saying.value));
+      if constexpr (is_limit<Field>) {
+        packet.number = static_cast<std::uint8_t>(std::bit_width(said));
+      } else {
+        packet.set = said;
+      }
+    }
+  }
+
+  Packing packing_;
+  const unsigned count_;
+  const model::DdsProfile dds_;
+  detail::Machines<typename Composition::Parts> machines_;
+  const model::Mutation mutation_;
+  model::EffectMutator mutator_{&mutation_};
+  State* state_ = nullptr;
+  Frame* frame_ = nullptr;
+  Slot* said_ = nullptr;  ///< where an ACKNACK goes that is only to be known
+  bool as_emitted_ = true;
+};
+
+}  // namespace stormproof::explorer

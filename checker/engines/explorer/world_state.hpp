@@ -1,0 +1,141 @@
+// The state of an explored world, laid out from what a composition declares: a byte for each
+// machine, flag and count of scheduled events, a set for each flag of descriptors, eight bytes for
+// each number. It is plain memory without padding, because states are kept by the hundred thousand,
+// compared and hashed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "fsm/composition/fastdds.hpp"
+#include "fsm/composition/paper.hpp"
+#include "fsm/machine_info.hpp"
+
+namespace stormproof::explorer {
+
+namespace comp = fsm::composition;
+
+/// Descriptors, one bit each.
+using Members = std::uint16_t;
+
+// What the explorer remembers besides, for the claims about repairs.
+/// Listed by an ACKNACK since it was generated last.
+struct Asked : comp::Flag<comp::owner::descriptor> {};
+struct Generated : comp::Flag<comp::owner::descriptor> {};
+
+/// The explored relation is open from outside, its writer keeps the periodic policy, and it has no
+/// topics.
+using LeftOut = comp::Joined<
+    fsm::TypeList<comp::AnnouncementTimer, comp::AnnouncementsSent, comp::Recognised,
+                  comp::CycleStart, comp::CycleEnd, comp::BatchDue, comp::CycleBegan,
+                  comp::CyclePeriod, comp::Contacted, comp::Responded, comp::AnnouncedAtStart>,
+    comp::control::Parts, comp::control::State>;
+
+namespace detail {
+template <class T, class... Ts>
+constexpr bool is_among(fsm::TypeList<Ts...>) {
+  return (std::is_same_v<T, Ts> || ...);
+}
+template <class T>
+constexpr bool is_of_descriptors() {
+  return (T::owner.indices & comp::owner::descriptor_index) != 0;
+}
+/// What a thing is kept as; void: it is not kept.
+template <class T>
+constexpr auto kept_as() {
+  if constexpr (is_among<T>(LeftOut{})) {
+    return;
+  } else if constexpr (requires { typename T::Machine; }) {
+    return fsm::StateId{};
+  } else if constexpr (requires { typename T::IsNumber; }) {
+    return std::int64_t{};
+  } else if constexpr (requires { typename T::IsFlag; }) {
+    return std::conditional_t<is_of_descriptors<T>(), Members, bool>{};
+  } else if constexpr (T::counted) {
+    return std::uint8_t{};
+  }
+}
+}  // namespace detail
+
+template <class T>
+using KeptAs = decltype(detail::kept_as<T>());
+template <class T>
+inline constexpr bool is_kept = !std::is_void_v<KeptAs<T>>;
+
+/// `Things` are parts, timers, flags and numbers; a machine of descriptors is there for each of
+/// `descriptors`.
+template <class Things, unsigned descriptors>
+class WorldState {
+ public:
+  bool operator==(const WorldState& other) const {
+    for (std::size_t k = 0; k < words_.size(); ++k) {
+      if (words_[k] != other.words_[k]) return false;
+    }
+    return true;
+  }
+
+  template <class T>
+  [[nodiscard]] KeptAs<T> get() const {
+    KeptAs<T> value;
+    std::memcpy(&value, bytes() + offset<T>(), sizeof value);
+    return value;
+  }
+  template <class T>
+  void set(KeptAs<T> value) {
+    std::memcpy(bytes() + offset<T>(), &value, sizeof value);
+  }
+  /// The state of a machine, of descriptor d if each of them has one.
+  template <class P>
+  [[nodiscard]] fsm::StateId& state(unsigned d = 0) {
+    return bytes()[offset<P>() + d];
+  }
+  template <class P>
+  [[nodiscard]] fsm::StateId state(unsigned d = 0) const {
+    return bytes()[offset<P>() + d];
+  }
+  /// The descriptors whose machines are in a state.
+  template <class P>
+  [[nodiscard]] Members in_state(fsm::StateId wanted) const {
+    unsigned members = 0;
+    for (unsigned d = 0; d < descriptors; ++d) {
+      members |= static_cast<unsigned>(state<P>(d) == wanted) << d;
+    }
+    return static_cast<Members>(members);
+  }
+
+ private:
+  template <class T>
+  static constexpr std::size_t size() {
+    if constexpr (!is_kept<T>) {
+      return 0;
+    } else if constexpr (requires { typename T::Machine; } && detail::is_of_descriptors<T>()) {
+      return descriptors;
+    } else {
+      return sizeof(KeptAs<T>);
+    }
+  }
+  template <class T, class... Ts>
+  static constexpr std::size_t offset_in(fsm::TypeList<Ts...>) {
+    std::size_t sum = 0;
+    bool found = false;
+    ((found = found || std::is_same_v<T, Ts>, sum += found ? 0 : size<Ts>()), ...);
+    return sum;
+  }
+  template <class T>
+  static constexpr std::size_t offset() {
+    static_assert(is_kept<T>);
+    constexpr std::size_t k = offset_in<T>(Things{});
+    static_assert(k < offset_in<void>(Things{}), "this is not part of the state");
+    return k;
+  }
+  [[nodiscard]] unsigned char* bytes() { return reinterpret_cast<unsigned char*>(words_.data()); }
+  [[nodiscard]] const unsigned char* bytes() const {
+    return reinterpret_cast<const unsigned char*>(words_.data());
+  }
+
+  std::array<std::uint64_t, (offset_in<void>(Things{}) + 7) / 8> words_{};
+};
+
+}  // namespace stormproof::explorer

@@ -1,0 +1,10 @@
+// The worlds that are explored, compiled once.
+#include "checker/engines/explorer/fastdds_packing.hpp"
+#include "checker/engines/explorer/paper_packing.hpp"
+
+namespace stormproof::explorer {
+
+template class RelationWorld<PaperPacking>;
+template class RelationWorld<FastDdsPacking>;
+
+}  // namespace stormproof::explorer
