@@ -53,7 +53,6 @@ void compare(const std::vector<TableMutation>& mutations) {
       }
       EXPECT_EQ(effect.fires().simplify().is_true(), expected.fired());
       EXPECT_EQ(effect.asks(&Step::Output::requested).is_true(), output.requested);
-      EXPECT_EQ(effect.asks(&Step::Output::acknowledged).is_true(), output.acknowledged);
       EXPECT_EQ(effect.asks(&Step::Output::generate).is_true(), output.generate);
       const auto idle = symbolic.step<Event>(from, {}, context.bool_val(false));
       EXPECT_TRUE(idle.next[state].simplify().is_true());
