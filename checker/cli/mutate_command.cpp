@@ -14,8 +14,9 @@ namespace stormproof::cli {
 namespace {
 
 struct MutateArguments {
-  std::vector<std::string> only;  ///< ids of mutants; empty: all
-  double timeout_seconds = 10;    ///< of each query
+  std::vector<std::string> only;   ///< ids of mutants; empty: all
+  std::vector<std::string> kinds;  ///< of mutants; empty: all
+  double timeout_seconds = 10;     ///< of each query
 };
 
 std::optional<std::string> unknown_mutant(const std::vector<std::string>& ids) {
@@ -32,6 +33,10 @@ Outcome run(MutateArguments& arguments, Session& session) {
   if (const auto error = unknown_mutant(arguments.only)) return Complaint{*error};
   mutate::MutateOptions options;
   options.only = arguments.only;
+  for (const std::string& kind : arguments.kinds) {
+    const auto found = std::ranges::find(mutate::kind_names, kind);
+    options.kinds.push_back(static_cast<mutate::Kind>(found - mutate::kind_names.begin()));
+  }
   options.solver.timeout =
       std::chrono::milliseconds{static_cast<std::int64_t>(arguments.timeout_seconds * 1000)};
   options.on_progress = session.on_steps("trying ");
@@ -44,6 +49,8 @@ Outcome run(MutateArguments& arguments, Session& session) {
 
 void declare(Options& options, MutateArguments& arguments) {
   options.texts("--mutant", arguments.only, "Try only this mutant (repeatable)", "ID");
+  options.texts("--kind", arguments.kinds, "Try only mutants of this kind (repeatable)", "KIND")
+      .one_of({mutate::kind_names.begin(), mutate::kind_names.end()});
   options.timeout(arguments.timeout_seconds);
 }
 

@@ -2,7 +2,6 @@
 #include "checker/verification/mutate/mutants.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 
 #include "checker/verification/mutate/effect_mutants.hpp"
@@ -128,12 +127,6 @@ std::vector<CatalogueEntry> mutants() {
   std::vector<CatalogueEntry> effects = effect_mutants();
   std::ranges::move(effects, std::back_inserter(list));
   return list;
-}
-
-std::string_view name_of(Kind kind) {
-  constexpr std::array<std::string_view, 6> names{"table", "event", "snapshot",
-                                                  "knob",  "order", "effect"};
-  return names[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace stormproof::mutate

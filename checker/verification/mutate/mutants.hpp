@@ -3,6 +3,8 @@
 // notices which.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -17,7 +19,11 @@ enum class Concerns : std::uint8_t { both, paper, fastdds };
 
 /// Where the mistake is.
 enum class Kind : std::uint8_t { table, event, snapshot, knob, order, effect };
-[[nodiscard]] std::string_view name_of(Kind kind);
+inline constexpr std::array<std::string_view, 6> kind_names{"table", "event", "snapshot",
+                                                            "knob",  "order", "effect"};
+[[nodiscard]] constexpr std::string_view name_of(Kind kind) {
+  return kind_names[static_cast<std::size_t>(kind)];
+}
 
 struct CatalogueEntry {
   checker::Mutant mutant;

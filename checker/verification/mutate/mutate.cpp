@@ -88,10 +88,11 @@ class Mutator {
 
   [[nodiscard]] std::vector<CatalogueEntry> wanted() const {
     std::vector<CatalogueEntry> list = mutants();
-    if (options_.only.empty()) return list;
+    const auto wanted = [](const auto& chosen, const auto& value) {
+      return chosen.empty() || std::ranges::find(chosen, value) != chosen.end();
+    };
     std::erase_if(list, [&](const CatalogueEntry& entry) {
-      return std::find(options_.only.begin(), options_.only.end(), entry.mutant.id) ==
-             options_.only.end();
+      return !wanted(options_.only, entry.mutant.id) || !wanted(options_.kinds, entry.kind);
     });
     return list;
   }

@@ -46,6 +46,7 @@ struct MutationReport {
 
 struct MutateOptions {
   std::vector<std::string> only;  ///< ids of mutants; empty: all
+  std::vector<Kind> kinds;        ///< where the mistake is; empty: anywhere
   smt::Options solver;            ///< the second solver is not asked
   std::function<bool(std::string_view)> on_progress;
 };
