@@ -5,8 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "model/engine/network.hpp"
-#include "model/engine/run_state.hpp"
+#include "model/engine/implementation_maker.hpp"
 #include "model/fastdds/protocol.hpp"
 #include "model/paper/protocol.hpp"
 
@@ -18,33 +17,19 @@ bool concerns_network(EventKind kind) {
   return class_of(kind) != EventClass::protocol || kind == EventKind::source_completion;
 }
 
-/// What has to be known of an implementation before there is one.
-struct Maker {
-  SameHostPairs same_host;
-  std::unique_ptr<Implementation> (*make)(RunState& run, Network& network);
-};
-
-template <class Protocol>
-Maker maker_of() {
-  return {Protocol::same_host_pairs, [](RunState& run, Network& network) {
-            return std::unique_ptr<Implementation>{std::make_unique<Protocol>(run, network)};
-          }};
-}
-
 /// The one place that tells implementations apart.
-Maker maker_of(ImplementationKind kind) {
+ImplementationMaker maker_for(ImplementationKind kind) {
   return kind == ImplementationKind::fastdds ? maker_of<fastdds::Protocol>()
                                              : maker_of<paper::Protocol>();
 }
 
 class Simulator {
  public:
-  Simulator(const Scenario& scenario, const RunOptions& options)
+  Simulator(const Scenario& scenario, const RunOptions& options, const ImplementationMaker& maker)
       : options_{options},
-        maker_{maker_of(scenario.dds.implementation)},
-        run_{scenario, options.probe, options.mutation, maker_.same_host},
+        run_{scenario, options.probe, options.mutation, maker.same_host},
         network_{run_},
-        implementation_{maker_.make(run_, network_)} {
+        implementation_{maker.make(run_, network_)} {
     network_.attach(*implementation_);
   }
 
@@ -108,7 +93,6 @@ class Simulator {
   }
 
   const RunOptions& options_;
-  const Maker maker_;
   RunState run_;
   Network network_;
   std::unique_ptr<Implementation> implementation_;
@@ -118,8 +102,13 @@ class Simulator {
 
 }  // namespace
 
+RunResult simulate(const Scenario& scenario, const RunOptions& options,
+                   const ImplementationMaker& maker) {
+  return std::make_unique<Simulator>(scenario, options, maker)->run();
+}
+
 RunResult simulate(const Scenario& scenario, const RunOptions& options) {
-  return std::make_unique<Simulator>(scenario, options)->run();
+  return simulate(scenario, options, maker_for(scenario.dds.implementation));
 }
 
 }  // namespace stormproof::model

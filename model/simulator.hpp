@@ -32,4 +32,9 @@ struct RunOptions {
 /// Simulates `scenario`. The scenario must be valid: what `read_scenario` accepts is.
 [[nodiscard]] RunResult simulate(const Scenario& scenario, const RunOptions& options = {});
 
+struct ImplementationMaker;
+/// The same with an implementation of one's own, whatever the profile names.
+[[nodiscard]] RunResult simulate(const Scenario& scenario, const RunOptions& options,
+                                 const ImplementationMaker& maker);
+
 }  // namespace stormproof::model

@@ -1,0 +1,25 @@
+// What has to be known of an implementation before there is one.
+#pragma once
+
+#include <memory>
+
+#include "model/engine/implementation.hpp"
+#include "model/engine/network.hpp"
+#include "model/engine/run_state.hpp"
+#include "model/engine/topology.hpp"
+
+namespace stormproof::model {
+
+struct ImplementationMaker {
+  SameHostPairs same_host;
+  std::unique_ptr<Implementation> (*make)(RunState& run, Network& network);
+};
+
+template <class Protocol>
+[[nodiscard]] ImplementationMaker maker_of() {
+  return {Protocol::same_host_pairs, [](RunState& run, Network& network) {
+            return std::unique_ptr<Implementation>{std::make_unique<Protocol>(run, network)};
+          }};
+}
+
+}  // namespace stormproof::model
