@@ -1,8 +1,8 @@
 // What is known of the states and events of real runs, in the words of the composition: conditions
 // over a world. `possible` says which events can be pending in a state at all, everything else what
-// runs keep true: safety.ack-implies-received, what each implementation waits for when it is asked
-// (tests/checker/engines/tables/pending_test.cpp), and what follows from where a flag is set. Two
-// events whose order matters only where this fails do not matter in runs.
+// runs keep true. Two events whose order matters only where this fails do not matter in runs. It is
+// not proved here: tests/checker/engines/tables/known_of_runs_test.cpp looks for a run that leaves
+// it, for all but packets that leave their source and timers that are due.
 #pragma once
 
 #include "fsm/composition/fastdds.hpp"

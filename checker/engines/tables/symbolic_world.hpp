@@ -17,37 +17,20 @@
 
 #include <boost/pfr.hpp>
 
-#include "checker/engines/tables/machine_step.hpp"
-#include "checker/engines/tables/symbolic_run.hpp"
+#include "checker/engines/tables/symbolic_scope.hpp"
 #include "fsm/composition/announcements.hpp"
 #include "fsm/composition/heartbeat_clock.hpp"
 #include "fsm/composition/reader.hpp"
 
 namespace stormproof::tables {
 
-/// One truth value for each descriptor; none: false.
-struct Lanes {
-  std::vector<smt::SymbolicBool> of;
-};
-/// The domain of outboxes that several descriptors fill.
-struct LaneDomain {
-  using Bool = Lanes;
-  struct Int {
-    constexpr Int(std::int64_t = 0) {}
-  };
-};
-
 template <class Composition>
-class SymbolicWorld {
+class SymbolicWorld : public SymbolicScope {
  public:
-  using D = smt::Symbolic;
-  using Bool = smt::SymbolicBool;
-  using Int = smt::SymbolicInt;
   using Set = Lanes;
 
-  /// `event` is how the names of its inputs begin: "a.".
   SymbolicWorld(SymbolicRun& run, std::string event, Place place = {})
-      : run_{&run}, event_{std::move(event)}, place_{place}, subject_{place.descriptor} {}
+      : SymbolicScope{run, std::move(event), place} {}
 
   // Values.
   template <class Tag>
@@ -278,12 +261,6 @@ class SymbolicWorld {
     Step::contract(*this, args...);
   }
 
-  /// An input of the event that no packet says.
-  Bool drawn(const std::string& words) {
-    return Bool{run_->input(Bool::named(event_ + words).expr())};
-  }
-  /// Under which condition effects happen here.
-  [[nodiscard]] const Expr& path() const { return path_; }
   /// The event is due: returns whether it can be, as far as counts tell.
   template <class Trigger>
   Bool trigger() {
@@ -300,71 +277,21 @@ class SymbolicWorld {
   }
 
  private:
-  template <class T>
-  static std::string name() {
-    return std::string{fsm::name_of<T>()};
-  }
-  template <class T>
-  [[nodiscard]] std::string variable() const {
-    return name<T>() + place_.of(T::owner.indices).text();
-  }
-  template <class T>
-  [[nodiscard]] std::string pending() const {
-    return "pending " + variable<T>();
-  }
-  template <class F>
-  Bool input() {
-    Place place = place_;
-    if constexpr (!std::derived_from<F, fsm::composition::DescriptorField>) place.descriptor = 0;
-    return Bool{run_->input(Bool::named(event_ + name<F>() + place.text()).expr())};
-  }
-  template <class P>
-  Exprs machine() {
-    std::vector<std::string> names;
-    for (const std::string_view state : fsm::Reflect<typename P::Machine>::state_names) {
-      names.push_back(name<P>() + "=" + std::string{state} + place_.of(P::owner.indices).text());
-    }
-    run_->machine(names);
-    Exprs now;
-    for (const std::string& state : names) now.push_back(run_->truth(state));
-    return now;
-  }
-  template <class P, class E>
-  auto step(const Expr& when, const typename P::Machine::Io::template Input<D>& input) {
-    const MachineStep<typename P::Machine> table{run_->mistakes()};
-    const auto effect = table.template step<E>(machine<P>(), input, when);
-    std::size_t k = 0;
-    for (const std::string_view state : fsm::Reflect<typename P::Machine>::state_names) {
-      run_->truth(name<P>() + "=" + std::string{state} + place_.of(P::owner.indices).text()) =
-          effect.next[k++];
-    }
-    return effect.outbox();
-  }
   static void join(Lanes& total, const Bool& one) { total.of.push_back(one); }
   static void join(LaneDomain::Int&, const Int&) {}
 
-  void assign(Expr& target, const Expr& value) {
-    target = z3::ite(path_, value, target).simplify();
-  }
-  template <class T>
-  void happens(const char* how, Exprs content) {
-    run_->happens({variable<T>() + how, path_, std::move(content)});
-  }
   template <class F, class G, class Value>
   void say(Exprs& content, const fsm::composition::Says<G, Value>& saying) {
     if constexpr (std::is_same_v<F, G>) {
       if constexpr (std::derived_from<F, fsm::composition::PacketField>) {
         content.push_back(saying.value.expr());
       } else if constexpr (std::is_same_v<Value, Bool>) {
-        content.resize(content.size() + extent_of_descriptors(), saying.value.expr());
+        const auto descriptors = static_cast<std::size_t>(run_->extent().descriptors);
+        content.resize(content.size() + descriptors, saying.value.expr());
       } else {
         for (const Bool& lane : set_of(saying.value).of) content.push_back(lane.expr());
       }
     }
-  }
-
-  [[nodiscard]] std::size_t extent_of_descriptors() const {
-    return static_cast<std::size_t>(run_->extent().descriptors);
   }
 
   // Other places.
@@ -400,12 +327,6 @@ class SymbolicWorld {
       });
     }
   }
-
-  SymbolicRun* run_;
-  std::string event_;
-  Place place_;
-  int subject_;
-  Expr path_ = Bool{true}.expr();
 };
 
 }  // namespace stormproof::tables
