@@ -34,6 +34,33 @@ const std::array properties{
              "inputs range freely",
              {tables},
              "transition tables in fsm/"},
+    Property{
+        "composition.total",
+        "What there is between the machines is used and caused by rules, or a reason is given.",
+        "∀ outbox field: read; ∀ event: fed; ∀ timer, packet, occasion: caused and handled; "
+        "∀ state: set; or listed with a reason",
+        "",
+        "",
+        {tables},
+        "rules in fsm/composition/"},
+    Property{"composition.live",
+             "Each effect of each rule can happen, or a knob of the profile rules it out.",
+             "∀ effect: initial →* a step in which it happens; or its knobs ⊢ it never does",
+             "",
+             "packets and timers in any order",
+             {tables},
+             "rules in fsm/composition/"},
+    Property{
+        "composition.pending",
+        "What a descriptor or a reader waits for is under way.",
+        "□ (C = R ⇒ repair generation pending) ∧ □ (C = S ⇒ end of suppression pending) ∧ "
+        "□ (open ∧ C ≠ A ⇒ HEARTBEAT expiry pending) ∧ □ (no HEARTBEAT seen ⇒ initial ACKNACK "
+        "pending)",
+        "R waits for the writer's nack response, Q for the participant's async run, and U, not "
+        "all but A, for an expiry; a reply that was asked for is pending.",
+        "",
+        {tables},
+        "rules in fsm/composition/"},
     Property{"order.total",
              "(time, class, insertion) is a strict total order on events.",
              "irreflexive, asymmetric, transitive, and total for distinct insertion numbers",

@@ -1,8 +1,6 @@
 // Which composition is drawn, and how.
 #include "checker/cli/draw_composition.hpp"
 
-#include <algorithm>
-
 #include "checker/cli/frame.hpp"
 #include "checker/cli/terminal.hpp"
 #include "checker/presentation/composition/composition_comparison.hpp"

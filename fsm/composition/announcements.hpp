@@ -33,6 +33,8 @@ struct ResendsCopy : Switch {};
 struct SpdpMulticast : Packet<owner::pair> {};
 struct SpdpUnicast : Packet<owner::pair> {};
 
+inline constexpr FromOutside announcements_start{"Announcement",
+                                                 "announcement 0 is due when a participant starts"};
 /// A unicast copy to each participant that is known. A host may keep the copies as one record.
 struct CopyToKnown : Opaque {
   template <class W>

@@ -64,6 +64,12 @@ struct UnusedInfo {
   std::string_view reason;
 };
 
+/// An occasion or timer that is not the rules' doing, or not at first, and whose it is.
+struct FromOutsideInfo {
+  std::string_view name;
+  std::string_view reason;
+};
+
 struct CompositionInfo {
   std::string_view name;
   std::vector<PartInfo> parts;
@@ -77,12 +83,22 @@ struct CompositionInfo {
   std::vector<std::pair<std::string_view, std::string>> facts;  ///< and their definitions
   std::vector<std::string> consumed;  ///< outbox fields that something reads, "Reader.opened"
   std::vector<UnusedInfo> unused;
+  std::vector<FromOutsideInfo> from_outside;
+};
+
+/// "AckNackArrives.3 at fsm/composition/paper.hpp:181".
+[[nodiscard]] std::string place_of(const EffectInfo& effect);
+
+/// Something that a composition forgets.
+struct Forgotten {
+  std::string what;      ///< one sentence: "nothing reads C.requested"
+  std::string where;     ///< the effect that one looks at first; empty: there is none
+  std::string expected;  ///< what would be complete
 };
 
 /// What is forgotten: an outbox field that nothing reads, an event that nothing feeds, a timer that
-/// is never started or that no rule handles, a packet that nobody emits or receives, an occasion
-/// without a rule or a cause, state that nothing sets; and reasons that are not needed. One
-/// sentence each.
-[[nodiscard]] std::vector<std::string> what_is_forgotten(const CompositionInfo& composition);
+/// nothing else than itself starts or that no rule handles, a packet that nobody emits or receives,
+/// an occasion without a rule or a cause, state that nothing sets; and reasons that are not needed.
+[[nodiscard]] std::vector<Forgotten> what_is_forgotten(const CompositionInfo& composition);
 
 }  // namespace stormproof::fsm::composition

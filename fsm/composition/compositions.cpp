@@ -1,6 +1,8 @@
 // Records every composition once.
 #include "fsm/composition/compositions.hpp"
 
+#include <algorithm>
+
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/paper.hpp"
 #include "fsm/composition/recorder.hpp"

@@ -243,6 +243,10 @@ struct FastDds : Implementation {
       Unused{"ControlWriterSide", "reply", "the reader side's, in the same outbox"},
       Unused{"ControlReaderSide", "send_heartbeat", "the writer side's, in the same outbox"},
   };
+  static constexpr std::array from_outside{
+      announcements_start,
+      FromOutside{"Created", "the application creates endpoints"},
+  };
 };
 
 }  // namespace stormproof::fsm::composition::fastdds

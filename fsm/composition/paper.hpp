@@ -231,6 +231,7 @@ struct Paper : Implementation {
   using Rules = Joined<Announcing, Exchange>;
   using IsOpen = WriterOpen;
   static constexpr std::array<Unused, 0> unused{};
+  static constexpr std::array from_outside{announcements_start};
 };
 
 }  // namespace stormproof::fsm::composition::paper

@@ -388,6 +388,9 @@ CompositionInfo recorded() {
   for (const Unused& unused : Composition::unused) {
     info.unused.push_back({unused.part, unused.name, unused.reason});
   }
+  for (const FromOutside& cause : Composition::from_outside) {
+    info.from_outside.push_back({cause.name, cause.reason});
+  }
   Recorder recorder{info};
   for_each_type(typename Composition::Rules{}, [&]<class R>() { recorder.template record<R>(); });
   return info;

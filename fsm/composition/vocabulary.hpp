@@ -253,6 +253,12 @@ struct Unused {
   std::string_view reason;
 };
 
+/// An occasion that no rule raises, or a timer that none starts for the first time, and who does.
+struct FromOutside {
+  std::string_view name;
+  std::string_view reason;
+};
+
 /// Calls `f.operator()<T>()` for each type of the list.
 template <class F, class... Ts>
 constexpr void for_each_type(TypeList<Ts...>, F&& f) {

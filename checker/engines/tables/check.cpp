@@ -12,9 +12,12 @@ namespace {
 
 using Decide = Finding (*)(const CheckRequest&);
 
-constexpr std::array<std::string_view, 10> ids{"fsm.determinism",
+constexpr std::array<std::string_view, 13> ids{"fsm.determinism",
                                                "fsm.totality",
                                                "fsm.reachability",
+                                               "composition.total",
+                                               "composition.live",
+                                               "composition.pending",
                                                "order.total",
                                                "order.reception-first",
                                                "order.commutation",
@@ -22,9 +25,12 @@ constexpr std::array<std::string_view, 10> ids{"fsm.determinism",
                                                "safety.repair-only-if-asked",
                                                "safety.snapshot",
                                                "timer.single-heartbeat"};
-constexpr std::array<Decide, 10> functions{fsm_determinism,
+constexpr std::array<Decide, 13> functions{fsm_determinism,
                                            fsm_totality,
                                            fsm_reachability,
+                                           composition_total,
+                                           composition_live,
+                                           composition_pending,
                                            order_total,
                                            order_reception_first,
                                            order_commutation,

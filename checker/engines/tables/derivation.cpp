@@ -90,55 +90,6 @@ Exprs with_values(const SystemStep& step, const Exprs& from, const Exprs& to) {
   return result;
 }
 
-/// The variables that never change: the largest set of which every possible step keeps the initial
-/// values if it finds them.
-std::vector<bool> never_changing(const TransitionSystem& system) {
-  std::vector<bool> fixed(system.variables.size(), true);
-  for (bool stable = false; !stable;) {
-    stable = true;
-    Exprs from;
-    Exprs to;
-    for (std::size_t v = 0; v < fixed.size(); ++v) {
-      if (!fixed[v]) continue;
-      from.push_back(system.variables[v]);
-      to.push_back(initial_value(system, v));
-    }
-    for (const SystemStep& step : system.steps) {
-      const Exprs after = with_values(step, from, to);
-      if (after[0].is_false()) continue;
-      for (std::size_t v = 0; v < fixed.size(); ++v) {
-        if (!fixed[v] || z3::eq(after[v + 1], initial_value(system, v))) continue;
-        fixed[v] = false;
-        stable = false;
-      }
-    }
-  }
-  return fixed;
-}
-
-/// Puts the initial values in place of the variables that never change.
-void fix_constants(TransitionSystem& system) {
-  std::vector<bool> keep = never_changing(system);
-  Exprs from;
-  Exprs to;
-  for (std::size_t v = 0; v < keep.size(); ++v) {
-    keep[v] = !keep[v];
-    if (keep[v]) continue;
-    from.push_back(system.variables[v]);
-    to.push_back(initial_value(system, v));
-  }
-  for (SystemStep& step : system.steps) {
-    const Exprs after = with_values(step, from, to);
-    step.guard = after[0];
-    step.next.assign(after.begin() + 1, after.end());
-  }
-  std::erase_if(system.steps, [](const SystemStep& step) { return step.guard.is_false(); });
-  system.bad = with(system.bad, from, to).simplify();
-  const Expr initial = system.initial;
-  system = restricted(system, keep);
-  system.initial = restricted_initial(initial, system.variables);
-}
-
 /// The variables on which `bad` depends, over any number of steps.
 std::vector<bool> seen_by(const TransitionSystem& system) {
   ConstantsOf constants;
@@ -163,6 +114,81 @@ std::vector<bool> seen_by(const TransitionSystem& system) {
 }
 
 }  // namespace
+
+std::vector<bool> never_changing(const TransitionSystem& system) {
+  std::vector<bool> fixed(system.variables.size(), true);
+  for (bool stable = false; !stable;) {
+    stable = true;
+    Exprs from;
+    Exprs to;
+    for (std::size_t v = 0; v < fixed.size(); ++v) {
+      if (!fixed[v]) continue;
+      from.push_back(system.variables[v]);
+      to.push_back(initial_value(system, v));
+    }
+    for (const SystemStep& step : system.steps) {
+      const Exprs after = with_values(step, from, to);
+      if (after[0].is_false()) continue;
+      for (std::size_t v = 0; v < fixed.size(); ++v) {
+        if (!fixed[v] || z3::eq(after[v + 1], initial_value(system, v))) continue;
+        fixed[v] = false;
+        stable = false;
+      }
+    }
+  }
+  return fixed;
+}
+
+TransitionSystem with(const TransitionSystem& system, const Exprs& constants, const Exprs& values) {
+  TransitionSystem result = system;
+  for (SystemStep& step : result.steps) {
+    const Exprs after = with_values(step, constants, values);
+    step.guard = after[0];
+    step.next.assign(after.begin() + 1, after.end());
+  }
+  std::erase_if(result.steps, [](const SystemStep& step) { return step.guard.is_false(); });
+  result.bad = with(result.bad, constants, values).simplify();
+  return result;
+}
+
+TransitionSystem without(const std::vector<bool>& never_changing, const TransitionSystem& system) {
+  std::vector<bool> keep = never_changing;
+  Exprs from;
+  Exprs to;
+  for (std::size_t v = 0; v < keep.size(); ++v) {
+    keep[v] = !keep[v];
+    if (keep[v]) continue;
+    from.push_back(system.variables[v]);
+    to.push_back(initial_value(system, v));
+  }
+  TransitionSystem result = restricted(with(system, from, to), keep);
+  result.initial = restricted_initial(system.initial, result.variables);
+  return result;
+}
+
+std::vector<bool> reasons(const TransitionSystem& system, const std::vector<bool>& never_changing,
+                          std::vector<bool> of) {
+  ConstantsOf constants;
+  std::set<unsigned> seen;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::size_t v = 0; v < of.size(); ++v) {
+      if (!of[v] && (!never_changing[v] || !seen.contains(system.variables[v].id()))) continue;
+      if (!of[v]) grows = true;
+      of[v] = true;
+      for (const SystemStep& step : system.steps) {
+        if (z3::eq(step.next[v], system.variables[v])) continue;
+        for (const Expr& part : {step.guard, step.next[v]}) {
+          const std::size_t before = seen.size();
+          const std::set<unsigned>& more = constants(part);
+          seen.insert(more.begin(), more.end());
+          grows = grows || seen.size() > before;
+        }
+      }
+    }
+  }
+  return of;
+}
 
 void Derivation::declare(const std::string& name, bool start) {
   index_[name] = variables_.size();
@@ -218,8 +244,7 @@ TransitionSystem Derivation::system() const {
 }
 
 TransitionSystem what_matters(const TransitionSystem& system) {
-  TransitionSystem smaller = system;
-  fix_constants(smaller);
+  TransitionSystem smaller = without(never_changing(system), system);
   const Expr initial = smaller.initial;
   smaller = restricted(smaller, seen_by(smaller));
   smaller.initial = restricted_initial(initial, smaller.variables);

@@ -74,6 +74,21 @@ class Derivation {
   Expr guard_{smt::SymbolicContext::current().bool_val(true)};
 };
 
+/// The variables that never change: the largest set of which every possible step keeps the initial
+/// values if it finds them, as far as simplifying tells. For systems of a derivation.
+[[nodiscard]] std::vector<bool> never_changing(const TransitionSystem& system);
+/// The same system with the initial values in place of those variables.
+[[nodiscard]] TransitionSystem without(const std::vector<bool>& never_changing,
+                                       const TransitionSystem& system);
+/// The same system with values in place of constants that are no variables.
+[[nodiscard]] TransitionSystem with(const TransitionSystem& system, const Exprs& constants,
+                                    const Exprs& values);
+/// Of the variables that never change, those for which `of` is true, and those on which it depends
+/// that these do not change.
+[[nodiscard]] std::vector<bool> reasons(const TransitionSystem& system,
+                                        const std::vector<bool>& never_changing,
+                                        std::vector<bool> of);
+
 /// The same question with what cannot matter to `system.bad` left out: variables that never change,
 /// then those that neither `bad` nor the steps of what remains can see. The answer is the same. For
 /// systems of a derivation.

@@ -1,5 +1,5 @@
 // The paper's rules over solver expressions: one instantiation of the tables per source file.
-#include "checker/engines/tables/derived_world.hpp"
+#include "checker/engines/tables/derive.hpp"
 #include "checker/engines/tables/descriptor_system.hpp"
 
 namespace stormproof::tables {

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "checker/engines/tables/derivation.hpp"
+#include "checker/engines/tables/effect_system.hpp"
 #include "checker/engines/tables/machine_step.hpp"
 #include "model/engine/composition_knobs.hpp"
 
@@ -24,16 +25,34 @@ struct Derived {
   Derivation& derivation;
   /// Called when our relation's writer or reader emits a packet: its name, when, and what it says
   /// of our descriptor and of itself.
-  std::function<void(std::string_view, const Expr&, const std::map<std::string, Expr>&)> emitted;
+  std::function<void(std::string_view, const Expr&, const std::map<std::string, Expr>&)> emitted{};
   /// Called when a packet arrives at our relation.
-  std::function<void(std::string_view, const std::map<std::string, Expr>&)> received;
+  std::function<void(std::string_view, const std::map<std::string, Expr>&)> received{};
   /// Called at the end of each step, with whether an ACKNACK would list our descriptor now.
-  std::function<void(const Expr&)> ended;
+  std::function<void(const Expr&)> ended{};
+  /// Called for each effect at our own place: its id (EffectInfo::id) and when it happens. With it,
+  /// all rules are derived, also those that only announce and those of control-only relations, and
+  /// occasions only happen once they are raised.
+  std::function<void(const std::string&, const Expr&)> happens{};
+  /// Called for each knob that is read: what stands for it; without it, the knob's value does.
+  std::function<Expr(const Knob&)> knob{};
+
+  /// Effects are counted as the recorder does (fsm/composition/recorder.hpp): within a rule,
+  /// procedure or step, each once, however often it runs.
+  std::string within{};
+  unsigned number = 0;
 };
 
 template <class T>
 std::string tag_name() {
   return std::string{fsm::name_of<T>()};
+}
+
+/// Whether something else than the rules causes it, at least for the first time.
+template <class T, class Composition>
+bool comes_from_outside() {
+  return std::ranges::any_of(Composition::from_outside,
+                             [](const auto& cause) { return cause.name == fsm::name_of<T>(); });
 }
 
 template <class Composition>
@@ -54,9 +73,9 @@ class DerivedWorld {
   auto operator()(Tag tag) {
     using namespace composition;
     if constexpr (std::derived_from<Tag, Switch>) {
-      return Bool{model::knob_value(tag, derived_->dds)};
+      return knob<Bool>(tag);
     } else if constexpr (std::derived_from<Tag, Delay>) {
-      return Int{model::knob_value(tag, derived_->dds)};
+      return knob<Int>(tag);
     } else if constexpr (std::derived_from<Tag, Fact>) {
       return Bool{Tag::of(*this)};
     } else if constexpr (std::derived_from<Tag, Tally>) {
@@ -135,7 +154,7 @@ class DerivedWorld {
   void when(const Bool& condition, Body&& body) {
     const Expr outer = path_;
     path_ = (path_ && condition.expr()).simplify();
-    if (!path_.is_false()) body();
+    if (derived_->happens || !path_.is_false()) body();
     path_ = outer;
   }
   template <class Body>
@@ -162,15 +181,38 @@ class DerivedWorld {
   /// The part that has our descriptor, if the set has it, and others before and after it.
   template <class Body>
   void partition(const Set& set, Body&& body) {
+    const unsigned first = derived_->number;
     const auto others = [&] { when(unknown(), [&] { body(Set{false}); }); };
     others();
-    body(set);
-    others();
+    again(first, [&] { body(set); });
+    again(first, others);
+  }
+  template <class Body>
+  void for_streams(Body&& body) {
+    around(composition::owner::stream_index, body);
+  }
+  template <class Body>
+  void for_known_peers(Body&& body) {
+    around(composition::owner::peer_index,
+           [&](DerivedWorld& peer) { peer.when(unknown(), [&] { body(peer); }); });
+  }
+  /// Another pair: that of another one may be ours.
+  template <class Body>
+  void reverse(Body&& body) {
+    const Foreign pair = composition::owner::pair.indices;
+    const unsigned first = derived_->number;
+    DerivedWorld back = *this;
+    back.foreign_ = static_cast<Foreign>(foreign_ | pair);
+    body(back);
+    if ((foreign_ & pair) == 0) return;
+    DerivedWorld us = ours(pair);
+    again(first, [&] { us.when(unknown(), [&] { body(us); }); });
   }
 
   // Effects.
   template <class P, class E>
   auto feed(P, composition::On<E>, const typename P::Machine::Io::template Input<D>& input = {}) {
+    effect(path_);
     return step<P, E>(path_, input);
   }
   template <class P, class E, class Input = decltype(composition::no_input),
@@ -179,29 +221,33 @@ class DerivedWorld {
     DerivedWorld d = ours(composition::owner::descriptor_index);
     const typename P::Machine::Io::template Input<D> in = input(d);
     const Expr when = (path_ && Bool{who(d)}.expr()).simplify();
+    d.effect(when);
     return d.template step<P, E>(when, in);
   }
   template <class V, class Value>
   void set(V, const Value& value) {
-    if constexpr (requires { typename V::IsFlag; }) {
-      if (!is_foreign(V::owner)) derivation().assign(tag_name<V>(), path_, Bool{value}.expr());
-    }
+    effect(path_);
+    assign<V>(value);
   }
   template <class V, class Term>
-  void set_each(V flag, Term&& term) {
+  void set_each(V, Term&& term) {
+    effect(path_);
     DerivedWorld d = ours(composition::owner::descriptor_index);
-    d.set(flag, Bool{term(d)});
+    d.template assign<V>(Bool{term(d)});
   }
   template <class Wait, class T>
   void after(Wait, T) {
+    effect(path_);
     start<T>();
   }
   template <class T>
   void at(const Int&, T) {
+    effect(path_);
     start<T>();
   }
   template <class T>
   void cancel(T) {
+    effect(path_);
     if (is_foreign(T::owner)) return;
     const Expr none = Int{0}.expr();
     derivation().assign("pending " + tag_name<T>(), path_, none);
@@ -209,6 +255,7 @@ class DerivedWorld {
   }
   template <class P, class... Sayings>
   void emit(P, const std::tuple<Sayings...>& sayings) {
+    effect(path_);
     if (is_foreign(P::owner)) return;
     const std::map<std::string, Expr> says = contents<P>(sayings);
     if (derived_->emitted) derived_->emitted(tag_name<P>(), path_, says);
@@ -229,16 +276,22 @@ class DerivedWorld {
     std::apply([&](const auto&... each) { (d.say(says, each), ...); }, sayings);
     return says;
   }
-  /// The rules of control-only relations and occasions share nothing with ours.
   template <class O>
-  void raise(O) {}
+  void raise(O) {
+    effect(path_);
+    if (derived_->happens && !is_foreign(O::owner)) {
+      derivation().assign("raised " + tag_name<O>(), path_, Bool{true}.expr());
+    }
+  }
   template <class P, class... Args>
   void call(P, const Args&... args) {
-    P::body(*this, args...);
+    effect(path_);
+    aside<P, Args...>([&] { P::body(*this, args...); });
   }
   template <class Step, class... Args>
   void perform(Step, const Args&... args) {
-    Step::contract(*this, args...);
+    effect(path_);
+    aside<Step, Args...>([&] { Step::contract(*this, args...); });
   }
 
   // Triggers: what makes the rule possible for us.
@@ -282,6 +335,48 @@ class DerivedWorld {
     return z3::ite(condition, Int{1}.expr(), Int{0}.expr());
   }
 
+  template <class Value, class Tag>
+  Value knob(Tag tag) {
+    if (!derived_->knob) return Value{model::knob_value(tag, derived_->dds)};
+    return Value{derived_->knob({tag_name<Tag>(), [tag](const model::DdsProfile& dds) {
+                                   return Value{model::knob_value(tag, dds)}.expr();
+                                 }})};
+  }
+
+  /// An effect happens here `when`.
+  void effect(const Expr& when) {
+    if (!derived_->happens) return;
+    const std::string id = derived_->within + "." + std::to_string(++derived_->number);
+    if (foreign_ == 0) derived_->happens(id, when);
+  }
+  /// The same effects once more, from number `first` on.
+  template <class Body>
+  void again(unsigned first, Body&& body) {
+    derived_->number = first;
+    body();
+  }
+  /// The effects of a procedure or step, which is named like in the recorder.
+  template <class P, class... Args, class Body>
+  void aside(Body&& body) {
+    if (!derived_->happens) return body();
+    std::string name = tag_name<P>();
+    [[maybe_unused]] const auto add = [&]<class Arg>() {
+      if constexpr (std::is_empty_v<Arg>) name += " " + tag_name<Arg>();
+    };
+    (add.template operator()<Args>(), ...);
+    std::swap(derived_->within, name);
+    const unsigned number = std::exchange(derived_->number, 0);
+    body();
+    derived_->within = name;
+    derived_->number = number;
+  }
+  template <class V, class Value>
+  void assign(const Value& value) {
+    if constexpr (requires { typename V::IsFlag; }) {
+      if (!is_foreign(V::owner)) derivation().assign(tag_name<V>(), path_, Bool{value}.expr());
+    }
+  }
+
   /// The same place, but with our own of these indices.
   DerivedWorld ours(Foreign indices) const {
     DerivedWorld world = *this;
@@ -304,15 +399,16 @@ class DerivedWorld {
       }
     };
     const auto us = static_cast<Foreign>(foreign_ & ~indices);
+    const unsigned first = derived_->number;
     const auto others = [&] {
       if (derivation().is(Unsound::loops_for_us_only)) return;
       for (Foreign index = 1; index != 0 && index <= indices;
            index = static_cast<Foreign>(index << 1)) {
-        if ((indices & index) != 0) run(static_cast<Foreign>(us | index));
+        if ((indices & index) != 0) again(first, [&] { run(static_cast<Foreign>(us | index)); });
       }
     };
     others();
-    run(us);
+    again(first, [&] { run(us); });
     others();
   }
 
@@ -446,7 +542,10 @@ class DerivedWorld {
     }
   }
   template <class O>
-  void trigger_of(composition::Happens<O>) {}
+  void trigger_of(composition::Happens<O>) {
+    if (!derived_->happens || is_foreign(O::owner) || comes_from_outside<O, Composition>()) return;
+    derivation().require(derivation().now("raised " + tag_name<O>()));
+  }
 
  private:
   Derived* derived_;
@@ -455,59 +554,5 @@ class DerivedWorld {
   Expr path_ = Bool{true}.expr();
   std::optional<std::map<std::string, Expr>> packet_;
 };
-
-/// Declares the variables of the composition and derives a step from each of its rules about
-/// relations and writers: one for us, and one for another of each index of its owner.
-template <class Composition>
-void derive(Derived& derived) {
-  using World = DerivedWorld<Composition>;
-  Derivation& derivation = derived.derivation;
-  composition::for_each_type(typename Composition::Parts{}, [&]<class P>() {
-    using Info = fsm::Reflect<typename P::Machine>;
-    for (std::size_t k = 0; k < Info::state_count; ++k) {
-      const bool start = k == Info::template id<typename P::Machine::initial_state>;
-      derivation.declare(World::template state_name<P>(k), start);
-    }
-  });
-  composition::for_each_type(typename Composition::State{}, [&]<class V>() {
-    if constexpr (requires { typename V::IsFlag; }) derivation.declare(tag_name<V>(), false);
-  });
-  composition::for_each_type(typename Composition::Timers{}, [&]<class T>() {
-    if constexpr (T::counted) {
-      derivation.declare_count("pending " + tag_name<T>());
-      derivation.declare_count("counted " + tag_name<T>());
-    } else {
-      derivation.declare("pending " + tag_name<T>(), false);
-      derivation.declare("started " + tag_name<T>(), false);
-    }
-  });
-  composition::for_each_type(typename Composition::Packets{}, [&]<class P>() {
-    for (const auto& content : World::template all_contents<P>()) {
-      derivation.declare(content.first, false);
-    }
-  });
-  composition::for_each_type(typename Composition::Exchange{}, [&]<class R>() {
-    const auto derive_for = [&](Foreign foreign, const std::string& prefix) {
-      derivation.begin();
-      World world{derived, foreign};
-      world.template trigger<typename R::Trigger>();
-      R::run(world);
-      if (derived.ended) {
-        World us{derived, 0};
-        derived.ended(us.template contents<typename Composition::AckNack>(Composition::bitmap())
-                          .at(tag_name<composition::Listed>()));
-      }
-      derivation.end(prefix + tag_name<R>());
-    };
-    derive_for(0, "");
-    if (derivation.is(Unsound::rules_for_us_only)) return;
-    const auto other = [&](Foreign index, const char* prefix) {
-      if ((R::owner.indices & index) != 0) derive_for(index, prefix);
-    };
-    other(composition::owner::peer_index, "another reader: ");
-    other(composition::owner::stream_index, "another stream: ");
-    other(composition::owner::descriptor_index, "another descriptor: ");
-  });
-}
 
 }  // namespace stormproof::tables

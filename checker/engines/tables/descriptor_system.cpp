@@ -14,7 +14,7 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
     system.declare(bit, false);
   }
   const Expr yes = smt::SymbolicContext::current().bool_val(true);
-  Derived derived{dds, mistakes, system, {}, {}, {}};
+  Derived derived{dds, mistakes, system};
   derived.received = [&](std::string_view packet, const auto& says) {
     if (packet == "AckNack") system.assign(watched::asked, says.at("Listed"), yes);
   };
@@ -35,7 +35,11 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
       system.assign(watched::lists, system.now(watched::generated), listed_now);
     };
   }
-  if (model::is_fastdds(dds)) {
+  derive_composition(derived);
+}
+
+void derive_composition(Derived& derived) {
+  if (model::is_fastdds(derived.dds)) {
     derive_fastdds(derived);
   } else {
     derive_paper(derived);
@@ -48,7 +52,7 @@ TransitionSystem DescriptorSystem::with_bad(const Expr& bad) const {
   return what_matters(system);
 }
 
-DescriptorSystem descriptor_system(Proof& proof) {
+void assume_for_descriptors(Proof& proof) {
   proof.assume(
       "ACKNACKs, HEARTBEATs and DATA may be delayed, lost, duplicated and reordered without bound; "
       "a timer that was started may be due at any time, any number of times.");
@@ -56,6 +60,10 @@ DescriptorSystem descriptor_system(Proof& proof) {
       "The numbers of descriptors and readers are arbitrary: one is looked at, and what the rules "
       "read of the others ranges freely.");
   proof.assume(hosts_keep_contracts);
+}
+
+DescriptorSystem descriptor_system(Proof& proof) {
+  assume_for_descriptors(proof);
   return {proof.scenario().dds, proof.mistakes()};
 }
 

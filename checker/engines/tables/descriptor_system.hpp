@@ -41,6 +41,11 @@ struct Derived;
 /// Derive all steps of one composition, each in a source file of its own.
 void derive_paper(Derived& derived);
 void derive_fastdds(Derived& derived);
+/// That of the profile's implementation.
+void derive_composition(Derived& derived);
+
+/// States in the finding what everything assumes that is derived from a composition.
+void assume_for_descriptors(Proof& proof);
 
 /// The system of the implementation that the scenario of `proof` names, with the mutant's mistakes.
 /// States its assumptions in the finding.

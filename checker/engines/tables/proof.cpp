@@ -36,7 +36,7 @@ void Proof::violate(std::string line) {
 
 props::Finding Proof::finish(std::string how) {
   const smt::SecondOpinion opinion = request_.claims.second_opinion(property_);
-  finding_.solver = request_.claims.solver_name();
+  if (asked_ > 0) finding_.solver = request_.claims.solver_name();
   finding_.how = std::move(how);
   if (asked_ > 0) {
     finding_.how += "; " + std::to_string(asked_) + (asked_ == 1 ? " condition" : " conditions");

@@ -18,6 +18,9 @@ using props::Finding;
 [[nodiscard]] Finding safety_ack_implies_received(const CheckRequest& request);
 [[nodiscard]] Finding safety_repair_only_if_asked(const CheckRequest& request);
 [[nodiscard]] Finding safety_snapshot(const CheckRequest& request);
+[[nodiscard]] Finding composition_total(const CheckRequest& request);
+[[nodiscard]] Finding composition_live(const CheckRequest& request);
+[[nodiscard]] Finding composition_pending(const CheckRequest& request);
 [[nodiscard]] Finding timer_single_heartbeat(const CheckRequest& request);
 
 }  // namespace stormproof::tables

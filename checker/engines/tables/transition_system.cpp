@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "checker/engines/smt/deadline.hpp"
+#include "checker/engines/tables/unrolling.hpp"
 
 namespace stormproof::tables {
 namespace {
@@ -117,120 +118,17 @@ bool certify(Proof& proof, const TransitionSystem& system, const Expr& invariant
 
 std::string number(std::size_t k) { return std::to_string(k); }
 
-/// A system unrolled over time: copies of its variables and inputs, and which step is taken.
-class Unrolling {
- public:
-  explicit Unrolling(const TransitionSystem& system)
-      : system_{system}, context_{smt::SymbolicContext::current()} {
-    states_.push_back(copies(system.variables, "@0"));
-    conditions_.push_back(with(system.initial, system.variables, states_[0]));
-  }
-
-  /// Adds one more step.
-  void extend() {
-    const std::string suffix = "@" + number(states_.size());
-    const Exprs before = states_.back();
-    states_.push_back(copies(system_.variables, suffix));
-    const Exprs& after = states_.back();
-    taken_.emplace_back();
-    inputs_.emplace_back();
-    for (const SystemStep& step : system_.steps) {
-      Exprs from = system_.variables;
-      from.insert(from.end(), step.inputs.begin(), step.inputs.end());
-      const Exprs inputs = copies(step.inputs, " of " + step.name + suffix);
-      Exprs to = before;
-      to.insert(to.end(), inputs.begin(), inputs.end());
-      const Expr taken = context_.bool_const((step.name + suffix).c_str());
-      Exprs effect{with(step.guard, from, to)};
-      for (std::size_t k = 0; k < after.size(); ++k) {
-        effect.push_back(after[k] == with(step.next[k], from, to));
-      }
-      conditions_.push_back(z3::implies(taken, all_of(effect)));
-      taken_.back().push_back(taken);
-      inputs_.back().push_back(inputs);
-    }
-    conditions_.push_back(any_of(taken_.back()));
-  }
-
-  /// The last state is bad.
-  [[nodiscard]] Exprs ends_badly() const {
-    Exprs conditions = conditions_;
-    conditions.push_back(with(system_.bad, system_.variables, states_.back()));
-    return conditions;
-  }
-
-  /// The steps that a model takes, with what changes at each.
-  [[nodiscard]] std::vector<std::string> lines(const z3::model& model) const {
-    std::vector<std::string> result;
-    for (std::size_t t = 0; t < taken_.size(); ++t) {
-      std::size_t step = 0;
-      while (!is_true_in(model, taken_[t][step])) ++step;
-      std::string line = "  " + number(t + 1) + ". " + system_.steps[step].name;
-      const std::string inputs = input_text(model, system_.steps[step], inputs_[t][step]);
-      if (!inputs.empty()) line += " (" + inputs + ")";
-      result.push_back(line + changes(model, t));
-    }
-    return result;
-  }
-
- private:
-  /// The inputs of a step that are set, by their own names.
-  static std::string input_text(const z3::model& model, const SystemStep& step,
-                                const Exprs& copies_of_inputs) {
-    std::string text;
-    for (std::size_t k = 0; k < step.inputs.size(); ++k) {
-      const std::string value = value_text(model, copies_of_inputs[k]);
-      const bool hidden = step.inputs[k].decl().name().str().front() == hidden_input;
-      if (hidden || value == "false" || value == "0") continue;
-      text += text.empty() ? "" : ", ";
-      text += step.inputs[k].decl().name().str() + (value == "true" ? "" : " = " + value);
-    }
-    return text;
-  }
-  /// What step `t` changes. Of a machine that moves only the new state is shown.
-  [[nodiscard]] std::string changes(const z3::model& model, std::size_t t) const {
-    std::string text;
-    for (std::size_t k = 0; k < system_.variables.size(); ++k) {
-      const std::string name = system_.variables[k].decl().name().str();
-      const std::string now = value_text(model, states_[t + 1][k]);
-      const bool left = now == "false" && name.find('=') != std::string::npos;
-      if (left || now == value_text(model, states_[t][k])) continue;
-      text += text.empty() ? ": " : ", ";
-      text += now == "true" ? name : now == "false" ? "not " + name : name + " = " + now;
-    }
-    return text;
-  }
-  Exprs copies(const Exprs& originals, const std::string& suffix) const {
-    Exprs result;
-    for (const Expr& original : originals) {
-      const std::string name = original.decl().name().str() + suffix;
-      result.push_back(context_.constant(name.c_str(), original.get_sort()));
-    }
-    return result;
-  }
-
-  const TransitionSystem& system_;
-  z3::context& context_;
-  std::vector<Exprs> states_;
-  std::vector<Exprs> taken_;                // by time and step
-  std::vector<std::vector<Exprs>> inputs_;  // by time and step
-  Exprs conditions_;
-};
-
-/// Looks for the shortest sequence of steps to a bad state. Returns whether there is one.
-bool find_trace(Proof& proof, const TransitionSystem& system, const std::string& breaks) {
+/// Looks for the shortest sequence of steps to a bad state: none, if none is found.
+std::optional<std::vector<std::string>> find_trace(Proof& proof, const TransitionSystem& system) {
   Unrolling unrolling{system};
   for (std::size_t length = 0; length <= longest_trace; ++length) {
     if (length > 0) unrolling.extend();
     const auto decision =
         proof.ask("a bad state after " + number(length) + " steps", unrolling.ends_badly());
-    if (decision.answer == smt::Answer::unknown) return false;
-    if (decision.answer == smt::Answer::unsat) continue;
-    proof.violate(breaks + ", after " + number(length) + " steps:");
-    for (std::string& line : unrolling.lines(*decision.model)) proof.detail(std::move(line));
-    return true;
+    if (decision.answer == smt::Answer::unknown) return std::nullopt;
+    if (decision.answer == smt::Answer::sat) return unrolling.lines(*decision.model);
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -240,24 +138,79 @@ Expr with(const Expr& expr, const Exprs& variables, const Exprs& values) {
   return copy.substitute(as_vector(variables), as_vector(values));
 }
 
+Reached reach_bad(Proof& proof, const TransitionSystem& system) {
+  const SpacerAnswer answer = ask_spacer(system, proof.request().claims.options());
+  if (answer.reachable == smt::Answer::unsat) {
+    if (!certify(proof, system, *answer.invariant)) {
+      return {smt::Answer::unknown, {}, "Spacer's invariant does not pass its check"};
+    }
+    return {smt::Answer::unsat, invariant_lines(*answer.invariant), ""};
+  }
+  if (auto trace = find_trace(proof, system)) return {smt::Answer::sat, std::move(*trace), ""};
+  if (answer.reachable == smt::Answer::unknown) {
+    return {smt::Answer::unknown, {}, "Spacer has no answer (" + answer.why + ")"};
+  }
+  return {
+      smt::Answer::unknown,
+      {},
+      "Spacer reaches a bad state, but no trace of up to " + number(longest_trace) + " steps does"};
+}
+
+std::vector<bool> inductive_together(Proof& proof, const TransitionSystem& system,
+                                     const Exprs& candidates) {
+  std::vector<bool> kept(candidates.size(), true);
+  const auto all_kept = [&] {
+    Exprs parts;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      if (kept[k]) parts.push_back(candidates[k]);
+    }
+    return all_of(parts);
+  };
+  const auto possible = [&](const Expr& condition) {
+    z3::solver solver{smt::SymbolicContext::current(), z3::solver::simple()};
+    solver.add(condition);
+    const smt::Deadline deadline{smt::SymbolicContext::current(),
+                                 proof.request().claims.options().timeout};
+    return solver.check() != z3::unsat;
+  };
+  for (bool stable = false; !stable;) {
+    stable = true;
+    for (const SystemStep& step : system.steps) {
+      if (!possible(all_kept() && step.guard && !with(all_kept(), system.variables, step.next))) {
+        continue;
+      }
+      for (std::size_t k = 0; k < kept.size(); ++k) {
+        if (!kept[k]) continue;
+        const Expr after = with(candidates[k], system.variables, step.next);
+        kept[k] = !possible(system.initial && !candidates[k]) &&
+                  !possible(all_kept() && step.guard && !after);
+        stable = stable && kept[k];
+      }
+    }
+  }
+  const Expr invariant = all_kept();
+  TransitionSystem safe = system;
+  safe.bad = !invariant;
+  if (!certify(proof, safe, invariant)) {
+    proof.give_up("an invariant that was found does not pass its check");
+  }
+  return kept;
+}
+
 std::string prove_unreachable(Proof& proof, const TransitionSystem& system,
                               const std::string& breaks) {
-  const SpacerAnswer answer = ask_spacer(system, proof.request().claims.options());
-  if (answer.reachable != smt::Answer::unsat) {
-    const bool found = find_trace(proof, system, breaks);
-    if (!found && answer.reachable == smt::Answer::unknown) {
-      proof.give_up("Spacer has no answer (" + answer.why + ")");
-    } else if (!found) {
-      proof.give_up("Spacer reaches a bad state, but no trace of up to " + number(longest_trace) +
-                    " steps does");
-    }
-    return found ? "Spacer; shortest sequence of steps by unrolling" : "Spacer";
+  Reached reached = reach_bad(proof, system);
+  if (reached.answer == smt::Answer::sat) {
+    proof.violate(breaks + ", after " + number(reached.lines.size()) + " steps:");
+    for (std::string& line : reached.lines) proof.detail(std::move(line));
+    return "Spacer; shortest sequence of steps by unrolling";
+  }
+  if (reached.answer == smt::Answer::unknown) {
+    proof.give_up(reached.why);
+    return "Spacer";
   }
   proof.detail("invariant:");
-  for (const std::string& line : invariant_lines(*answer.invariant)) proof.detail("  " + line);
-  if (!certify(proof, system, *answer.invariant)) {
-    proof.give_up("Spacer's invariant does not pass its check");
-  }
+  for (const std::string& line : reached.lines) proof.detail("  " + line);
   return "Spacer, any number of steps; its invariant checked again (initially, at each step, at "
          "the end)";
 }

@@ -30,6 +30,19 @@ struct TransitionSystem {
   Expr bad;
 };
 
+/// Whether `bad` can be reached, and how that is known.
+struct Reached {
+  smt::Answer answer = smt::Answer::unknown;
+  std::vector<std::string> lines;  ///< the invariant of `unsat`, the steps of `sat`
+  std::string why;                 ///< of `unknown`
+};
+[[nodiscard]] Reached reach_bad(Proof& proof, const TransitionSystem& system);
+
+/// The largest set of `candidates` that hold initially and that every step keeps together, which
+/// both solvers then check. About the others that says nothing.
+[[nodiscard]] std::vector<bool> inductive_together(Proof& proof, const TransitionSystem& system,
+                                                   const Exprs& candidates);
+
 /// Decides whether `bad` can be reached. Proved: the invariant goes into the details. Violated: the
 /// shortest sequence of steps does, headed by `breaks`. Returns the method, for `Proof::finish`.
 std::string prove_unreachable(Proof& proof, const TransitionSystem& system,

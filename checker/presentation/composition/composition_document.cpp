@@ -128,6 +128,14 @@ Section unused(const CompositionInfo& composition) {
   return {"What no rule needs, and why", "", {std::move(facts)}};
 }
 
+Section from_outside(const CompositionInfo& composition) {
+  report::Facts facts;
+  for (const comp::FromOutsideInfo& cause : composition.from_outside) {
+    facts.rows.emplace_back(std::string{cause.name}, cause.reason);
+  }
+  return {"What comes from outside", "", {std::move(facts)}};
+}
+
 }  // namespace
 
 report::Document composition_document(const CompositionInfo& composition) {
@@ -149,6 +157,7 @@ report::Document composition_document(const CompositionInfo& composition) {
       programs("Procedures", "What several rules have in common.", composition.procedures),
       programs("Steps", "Their contracts: what they may do.", composition.steps)};
   if (!composition.unused.empty()) document.blocks.push_back(unused(composition));
+  if (!composition.from_outside.empty()) document.blocks.push_back(from_outside(composition));
   return document;
 }
 

@@ -10,9 +10,9 @@
 namespace stormproof::fsm::composition {
 namespace composition_test {
 
-std::string lines(const std::vector<std::string>& complaints) {
+std::string lines(const std::vector<Forgotten>& forgotten) {
   std::string text;
-  for (const std::string& complaint : complaints) text += complaint + "\n";
+  for (const Forgotten& one : forgotten) text += one.what + "\n";
   return text;
 }
 
@@ -103,6 +103,9 @@ TEST(Completeness, NoticesAnOccasionWithoutRuleAndStateThatStaysAsItIs) {
   rule(composition, "DescriptorIsCreated").cause = "WriterOpens";
   EXPECT_EQ(lines(what_is_forgotten(composition)), "occasion Created has no rule\n");
   composition = paper();
+  drop(*std::ranges::find(composition.procedures, "Hear", &RuleInfo::id), "raise", "ReaderOpens");
+  EXPECT_EQ(lines(what_is_forgotten(composition)), "occasion ReaderOpens is raised by nothing\n");
+  composition = paper();
   drop(rule(composition, "DataArrives"), "set each", "X");
   EXPECT_EQ(lines(what_is_forgotten(composition)), "state X is set by nothing\n");
 }
@@ -115,6 +118,30 @@ TEST(Completeness, NoticesAReasonThatIsNotNeededOrIsNone) {
   composition.unused.front().reason = "";
   EXPECT_EQ(lines(what_is_forgotten(composition)),
             "nothing feeds HeartbeatClock.SuppressionEnded\n");
+}
+
+TEST(Completeness, WantsAReasonForWhatComesFromOutsideAndForNothingElse) {
+  CompositionInfo composition = fastdds();
+  composition.from_outside.clear();
+  EXPECT_EQ(lines(what_is_forgotten(composition)),
+            "timer Announcement is started by nothing but itself\n"
+            "occasion Created is raised by nothing\n");
+  composition = paper();
+  composition.from_outside.push_back({"ReaderOpens", "it is raised"});
+  EXPECT_EQ(lines(what_is_forgotten(composition)),
+            "ReaderOpens is caused by a rule, and needs no reason\n");
+}
+
+TEST(Completeness, SaysWhereOneLooksAndWhatIsExpected) {
+  CompositionInfo composition = paper();
+  std::erase(composition.consumed, "C.requested");
+  const Forgotten field = what_is_forgotten(composition).at(0);
+  EXPECT_EQ(field.where.substr(0, field.where.find(':')),
+            "AckNackArrives.3 at fsm/composition/paper.hpp");
+  EXPECT_EQ(field.expected, "a condition or value with it, or a reason among what is unused");
+  composition = paper();
+  drop(rule(composition, "AckNackArrives"), "after", "RepairGeneration");
+  EXPECT_EQ(what_is_forgotten(composition).at(0).where, "rule RepairIsDue");
 }
 
 TEST(Completeness, NoticesAPartThatIsNotListed) {

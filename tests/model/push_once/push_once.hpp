@@ -112,6 +112,7 @@ struct PushOnce : Implementation {
       Unused{"C", "generate", "nothing is repaired"},
       Unused{"C", "returned", "nothing is repaired"},
   };
+  static constexpr std::array from_outside{announcements_start};
 };
 
 }  // namespace stormproof::fsm::composition::push_once

@@ -1,96 +1,73 @@
-// Asked implies pending: what a state of a descriptor waits for is under way. Safety alone does not
-// notice an effect that is dropped; these do. For any number of descriptors and readers, like all
-// that is proved of the derived systems; and each can fail, with an event that is forgotten.
+// composition.pending: what a state waits for is under way; each of its statements can fail, with
+// an event that is forgotten or a row that asks for nothing.
 #include "checker/engines/tables/descriptor_system.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
 
 namespace stormproof::tables {
 namespace pending_test {
 
-using System = DescriptorSystem;
-using BadState = Expr (*)(const System&);
+using model::EventKind;
 
-struct Statement {
-  const char* words;
-  BadState bad;
-  model::EventKind forgotten;  ///< what breaks it
+model::Scenario adaptive(model::Scenario scenario) {
+  scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
+  return scenario;
+}
+
+TEST(Pending, IsProvedByAnInvariant) {
+  model::Scenario pull = paper();
+  pull.dds.sedp.initial_data = model::InitialData::pull;
+  pull.dds.sedp.relation_opening = model::RelationOpening::each_side;
+  pull.dds.sedp.acknowledge = model::Acknowledge::prefix;
+  for (const model::Scenario& scenario :
+       {paper(), pull, adaptive(paper()), fastdds(), adaptive(fastdds())}) {
+    const Finding finding = decide("composition.pending", scenario);
+    EXPECT_EQ(finding.kind, VerdictKind::proved) << finding.how;
+    EXPECT_NE(finding.how.find("together an invariant"), std::string::npos) << finding.how;
+  }
+}
+
+struct Forgotten {
+  EventKind event;
+  const char* words;  ///< of the statement that it breaks
 };
 
-VerdictKind decide_statement(const model::Scenario& scenario, const Statement& statement,
-                             const checker::Mutant* mutant = nullptr) {
-  smt::Claims claims{{.second_solver = false}};
-  const checker::CheckRequest request{
-      .scenario = scenario, .claims = claims, .mutant = mutant, .on_progress = {}};
-  Proof proof{statement.words, request};
-  const System system = descriptor_system(proof);
-  const std::string how =
-      prove_unreachable(proof, system.with_bad(statement.bad(system)), statement.words);
-  return proof.finish(how).kind;
-}
-
-void check_statement(const model::Scenario& scenario, const Statement& statement) {
-  EXPECT_EQ(decide_statement(scenario, statement), VerdictKind::proved) << statement.words;
+void check_forgotten(const model::Scenario& scenario, const Forgotten& forgotten) {
   checker::Mutant mutant;
-  mutant.rules.events.push_back(
-      {statement.forgotten, model::EventMutation::Change::forget, {}, {}});
-  EXPECT_EQ(decide_statement(scenario, statement, &mutant), VerdictKind::violated)
-      << statement.words;
+  mutant.rules.events.push_back({forgotten.event, model::EventMutation::Change::forget, {}, {}});
+  expect_violated("composition.pending", scenario, mutant,
+                  std::string{"not so: "} + forgotten.words);
 }
 
-Expr none_pending(const System& s, const char* timer) {
-  return !s[std::string{"pending "} + timer];
+TEST(Pending, EachStatementOfThePaperNoticesWhatItWaitsFor) {
+  for (const Forgotten& forgotten :
+       {Forgotten{EventKind::repair_generation, "R: a repair generation is pending"},
+        Forgotten{EventKind::suppression_end, "S: an end of suppression is pending"},
+        Forgotten{EventKind::heartbeat_expiry, "while the HEARTBEAT timer is armed, an expiry"},
+        Forgotten{EventKind::initial_acknack_due, "while the reader asks by itself"}}) {
+    check_forgotten(paper(), forgotten);
+  }
+  check_forgotten(adaptive(paper()), {EventKind::cycle_start, "between cycles"});
+  check_forgotten(adaptive(paper()), {EventKind::cycle_end, "in a cycle, its end"});
 }
 
-TEST(Pending, InThePapersModel) {
-  for (const Statement& statement : {
-           Statement{
-               "R: a repair generation is pending",
-               [](const System& s) { return s["C=R"] && none_pending(s, "RepairGeneration"); },
-               model::EventKind::repair_generation},
-           Statement{"S: an end of suppression is pending",
-                     [](const System& s) { return s["C=S"] && none_pending(s, "SuppressionEnd"); },
-                     model::EventKind::suppression_end},
-           Statement{"open and not in A: an expiry is pending",
-                     [](const System& s) {
-                       return s["WriterOpen"] && !s["C=A"] && s["pending HeartbeatExpiry"] < 1;
-                     },
-                     model::EventKind::heartbeat_expiry},
-       }) {
-    check_statement(paper(), statement);
+TEST(Pending, EachStatementOfFastDdsNoticesWhatItWaitsFor) {
+  for (const Forgotten& forgotten :
+       {Forgotten{EventKind::suppression_end, "Suppression: what is asked for is pending"},
+        Forgotten{EventKind::heartbeat_expiry, "while the HEARTBEAT timer is armed, an expiry"},
+        Forgotten{EventKind::acknack_generation, "Reply: what is asked for is pending"}}) {
+    check_forgotten(fastdds(), forgotten);
   }
 }
 
-TEST(Pending, InFastDds) {
-  for (const Statement& statement : {
-           Statement{"R: the writer's nack response is pending",
-                     [](const System& s) {
-                       return s["C=R"] &&
-                              (!s["NackResponse=Pending"] || none_pending(s, "NackResponseDue"));
-                     },
-                     model::EventKind::nack_response},
-           Statement{"Q: it is in the queue, and the participant's async run is pending",
-                     [](const System& s) {
-                       return s["C=Q"] && (!s["Enqueued"] || !s["AsyncRun=Pending"] ||
-                                           none_pending(s, "AsyncRunDue"));
-                     },
-                     model::EventKind::async_run},
-           Statement{"S: an end of suppression is pending",
-                     [](const System& s) {
-                       return s["C=S"] &&
-                              (!s["Suppression=Pending"] || none_pending(s, "SuppressionEnd"));
-                     },
-                     model::EventKind::suppression_end},
-           Statement{"U: an expiry is pending",
-                     [](const System& s) { return s["C=U"] && s["pending HeartbeatExpiry"] < 1; },
-                     model::EventKind::heartbeat_expiry},
-           Statement{"a reply that was asked for is pending",
-                     [](const System& s) {
-                       return s["Reply=Pending"] && none_pending(s, "AckNackGeneration");
-                     },
-                     model::EventKind::acknack_generation},
-       }) {
-    check_statement(fastdds(), statement);
-  }
+TEST(Pending, NoticesATimerThatIsNotAskedFor) {
+  const std::size_t request = row_of("ChangeForReader", "U", "AckNackReceived", "R");
+  expect_violated("composition.pending", fastdds(),
+                  with_row("ChangeForReader", request, fsm::TableMutation::Kind::drop_action),
+                  "not so: R: the writer's nack response is asked for");
+  const std::size_t arm = row_of("HeartbeatTimer", "Idle", "ArmRequested", "Armed");
+  expect_violated("composition.pending", paper(),
+                  with_row("HeartbeatTimer", arm, fsm::TableMutation::Kind::drop_row),
+                  "not so: open and not in A: the HEARTBEAT timer runs");
 }
 
 /// A proof about a system in which nothing happens would prove nothing.
@@ -100,7 +77,7 @@ TEST(Pending, IsSaidOfStatesThatAreReached) {
     smt::Claims claims{{.second_solver = false}};
     const checker::CheckRequest request{.scenario = scenario, .claims = claims, .on_progress = {}};
     Proof proof{state, request};
-    const System system = descriptor_system(proof);
+    const DescriptorSystem system = descriptor_system(proof);
     const std::string how = prove_unreachable(proof, system.with_bad(system[state]), state);
     EXPECT_EQ(proof.finish(how).kind, VerdictKind::violated) << state;
   }

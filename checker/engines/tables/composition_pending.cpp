@@ -1,0 +1,145 @@
+// composition.pending: what a state waits for is under way. Safety alone does not notice an effect
+// that is dropped; this does. Statements about one generic descriptor
+// (checker/engines/tables/descriptor_system.hpp), one for each state that something must end.
+// Together they are an invariant; if a mutant's rules break one, Spacer says which.
+#include <algorithm>
+#include <map>
+
+#include "checker/engines/tables/descriptor_system.hpp"
+#include "checker/engines/tables/machine_step.hpp"
+#include "checker/engines/tables/properties.hpp"
+
+namespace stormproof::tables {
+namespace {
+
+struct Statement {
+  std::string words;
+  Expr broken;
+};
+
+/// The statements about one composition, and what else is needed to see that steps keep them.
+class Statements {
+ public:
+  Statements(const DescriptorSystem& system, const model::DdsProfile& dds)
+      : system_{system}, adaptive_{dds.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive} {
+    if (model::is_fastdds(dds)) {
+      add_fastdds();
+    } else {
+      add_paper();
+    }
+    say("while the reader asks by itself, an initial ACKNACK is pending",
+        is("InitialTimer=Waiting"), is_pending("InitialAttempt"));
+    if (adaptive_) {
+      say("between cycles, the start of one is pending", is("HeartbeatClock=Pacing"),
+          is_pending("CycleStart") >= 1);
+      say("in a cycle, its end is pending", is("HeartbeatClock=Awaiting"),
+          is_pending("CycleEnd") >= 1);
+    } else {
+      say("while the HEARTBEAT timer is armed, an expiry is pending", is("HeartbeatClock=Armed"),
+          is_pending("HeartbeatExpiry") >= 1);
+    }
+  }
+
+  [[nodiscard]] const std::vector<Statement>& list() const { return list_; }
+  [[nodiscard]] const Exprs& facts() const { return facts_; }
+
+ private:
+  void add_paper() {
+    say("R: a repair generation is pending", is("C=R"), is_pending("RepairGeneration"));
+    say("S: an end of suppression is pending", is("C=S"), is_pending("SuppressionEnd"));
+    say("open and not in A: the HEARTBEAT timer runs", is("WriterOpen") && !is("C=A"),
+        clock_runs());
+  }
+  void add_fastdds() {
+    say("R: the writer's nack response is asked for", is("C=R"), is("NackResponse=Pending"));
+    say("Q: it is in the queue, and the participant's async run is asked for", is("C=Q"),
+        is("Enqueued") && is("AsyncRun=Pending"));
+    say("S: an end of suppression is asked for", is("C=S"), is("Suppression=Pending"));
+    say("U: the HEARTBEAT timer runs", is("C=U"), clock_runs());
+    for (const auto& [part, timer] :
+         {std::pair{"NackResponse", "NackResponseDue"}, std::pair{"AsyncRun", "AsyncRunDue"},
+          std::pair{"Suppression", "SuppressionEnd"}, std::pair{"Reply", "AckNackGeneration"}}) {
+      say(std::string{part} + ": what is asked for is pending", is(std::string{part} + "=Pending"),
+          is_pending(timer));
+    }
+    facts_.push_back(is("C=Absent") || (is("WriterOpen") && is("Exists")));
+  }
+
+  void say(std::string words, const Expr& waits, const Expr& under_way) {
+    list_.push_back({std::move(words), waits && !under_way});
+  }
+  [[nodiscard]] Expr is(const std::string& variable) const { return system_[variable]; }
+  [[nodiscard]] Expr is_pending(const std::string& timer) const {
+    return system_["pending " + timer];
+  }
+  /// It is not idle, and works by the policy that is chosen.
+  [[nodiscard]] Expr clock_runs() const {
+    if (!adaptive_) return is("HeartbeatClock=Armed");
+    return is("HeartbeatClock=Pacing") || is("HeartbeatClock=Awaiting");
+  }
+
+  const DescriptorSystem& system_;
+  bool adaptive_;
+  std::vector<Statement> list_;
+  Exprs facts_;
+};
+
+/// Counts are not negative, and a machine is in exactly one of its states.
+Exprs facts_of(const TransitionSystem& system) {
+  Exprs facts;
+  std::map<std::string, OneHot> machines;
+  for (const Expr& variable : system.variables) {
+    const std::string name = variable.decl().name().str();
+    const std::size_t end = name.find('=');
+    if (!variable.is_bool()) facts.push_back(variable >= 0);
+    if (end != std::string::npos) machines[name.substr(0, end)].push_back(variable);
+  }
+  for (const auto& [name, states] : machines) facts.push_back(exactly_one(states));
+  return facts;
+}
+
+/// Which of the statements are kept together by every step; with correct rules all of them.
+std::vector<bool> kept_together(Proof& proof, const DescriptorSystem& descriptor,
+                                const Statements& statements) {
+  const TransitionSystem whole = descriptor.whole();
+  const std::vector<bool> never = never_changing(whole);
+  const TransitionSystem system = without(never, whole);
+  Exprs from;
+  Exprs to;
+  for (std::size_t v = 0; v < never.size(); ++v) {
+    if (!never[v]) continue;
+    from.push_back(whole.variables[v]);
+    to.push_back(whole.initial.arg(static_cast<unsigned>(v)).arg(1));
+  }
+  Exprs candidates = facts_of(system);
+  const auto add = [&](const Expr& one) { candidates.push_back(with(one, from, to).simplify()); };
+  for (const Expr& fact : statements.facts()) add(fact);
+  const std::size_t facts = candidates.size();
+  for (const Statement& statement : statements.list()) add(!statement.broken);
+  const std::vector<bool> kept = inductive_together(proof, system, candidates);
+  return {kept.begin() + static_cast<std::ptrdiff_t>(facts), kept.end()};
+}
+
+}  // namespace
+
+Finding composition_pending(const CheckRequest& request) {
+  Proof proof{"composition.pending", request};
+  const DescriptorSystem descriptor = descriptor_system(proof);
+  const Statements statements{descriptor, proof.scenario().dds};
+  const std::vector<bool> kept = kept_together(proof, descriptor, statements);
+  std::string how = std::to_string(std::ranges::count(kept, true)) + " of " +
+                    std::to_string(kept.size()) +
+                    " statements are together an invariant: they hold initially, and every step "
+                    "keeps them";
+  for (std::size_t k = 0; k < kept.size() && !proof.violated(); ++k) {
+    const Statement& statement = statements.list()[k];
+    proof.detail(statement.words);
+    if (kept[k]) continue;
+    how += "; " + statement.words + ": " +
+           prove_unreachable(proof, descriptor.with_bad(statement.broken),
+                             "not so: " + statement.words);
+  }
+  return proof.finish(how);
+}
+
+}  // namespace stormproof::tables
