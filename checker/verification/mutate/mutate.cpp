@@ -110,10 +110,10 @@ class Mutator {
       const Ids broken = violated(engine, whole_catalogue(), request(trial, nullptr));
       list.push_back({trial, engine, without(whole_catalogue(), broken)});
     };
+    for (const Trial& trial : all) add(trial, exact::check);
     for (const Trial& trial : all) {
       if (trial.all_engines) add(trial, tables::check);
     }
-    for (const Trial& trial : all) add(trial, exact::check);
     for (const Trial& trial : all) {
       if (trial.all_engines) add(trial, timeline::check);
     }
