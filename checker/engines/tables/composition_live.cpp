@@ -2,6 +2,9 @@
 // Steps in which it happens are found in the system of one generic descriptor
 // (checker/engines/tables/effect_system.hpp); that it cannot happen is proved, and why. An effect
 // that no knob allows is a rule that somebody wrote down and nobody executes.
+#include <algorithm>
+#include <stdexcept>
+
 #include "checker/engines/tables/descriptor_system.hpp"
 #include "checker/engines/tables/properties.hpp"
 #include "checker/engines/tables/ruled_out.hpp"
