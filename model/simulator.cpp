@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "model/engine/implementation_maker.hpp"
+#include "model/engine/network.hpp"
+#include "model/engine/run_state.hpp"
 #include "model/fastdds/protocol.hpp"
 #include "model/paper/protocol.hpp"
 

@@ -4,11 +4,12 @@
 #include <memory>
 
 #include "model/engine/implementation.hpp"
-#include "model/engine/network.hpp"
-#include "model/engine/run_state.hpp"
 #include "model/engine/topology.hpp"
 
 namespace stormproof::model {
+
+class Network;    // model/engine/network.hpp
+struct RunState;  // model/engine/run_state.hpp
 
 struct ImplementationMaker {
   SameHostPairs same_host;

@@ -126,7 +126,8 @@ class Liveness {
         ids.push_back(id_of(effect));
         if (!group.by.empty()) continue;
         const composition::EffectInfo& info = effect_of(info_, ids.back());
-        proof_.violate("no knobs let it happen: " + sentence(info) + " (" + place_of(info) + ")");
+        proof_.violate("no knobs let it happen: " + std::string{info.kind} + " " +
+                       std::string{info.target} + " (" + place_of(info) + ")");
       }
       if (group.by.empty()) continue;
       ruled_out_ += ids.size();

@@ -97,11 +97,11 @@ TEST(Live, EveryEffectHappensUnderSomeProfile) {
 
 TEST(Live, NoticesWhatNoKnobAllows) {
   expect_violated("composition.live", paper(), forgets(EventKind::suppression_end),
-                  "no knobs let it happen: each C <- SuppressionEnded (SuppressionEnds.1 at "
+                  "no knobs let it happen: feed each C (SuppressionEnds.1 at "
                   "fsm/composition/paper.hpp:");
   const std::size_t asked = row_of("SingleShot", "Idle", "Requested", "Pending");
   expect_violated("composition.live", fastdds(), with_row("SingleShot", asked, Kind::drop_action),
-                  "no knobs let it happen: NackResponse <- Due (NackResponds.1 at");
+                  "no knobs let it happen: feed NackResponse (NackResponds.1 at");
 }
 
 /// The derivation counts effects as the recorder does, so that ids mean the same.
