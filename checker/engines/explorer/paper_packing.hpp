@@ -44,7 +44,7 @@ class PaperPacking {
   template <class W>
   void perform(comp::paper::Generate, W& w, const model::DescriptorSet& set, bool repair) {
     auto& host = w.host();
-    note_generated(host.state(), host.frame(), host.members_of(set), repair);
+    note_generated(host.state(), host.frame(), members_of(set), repair);
     const Slot empty{What::data, repair ? Slot::from_repair : std::uint8_t{0}};
     const std::int64_t shared = sedp_.shared_header_bytes.count();
     Slot packet = empty;

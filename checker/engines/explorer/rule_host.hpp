@@ -27,6 +27,7 @@
 #include <boost/pfr.hpp>
 
 #include "checker/engines/explorer/claims.hpp"
+#include "checker/engines/explorer/slot_fields.hpp"
 #include "fsm/stepper.hpp"
 #include "model/engine/effect_mutator.hpp"
 #include "model/engine/running_world.hpp"
@@ -62,18 +63,6 @@ template <class... Ps>
 auto descriptor_part(fsm::TypeList<Ps...>) {
   return std::get<0>(std::tuple_cat(
       std::conditional_t<Ps::owner == comp::owner::descriptor, std::tuple<Ps>, std::tuple<>>{}...));
-}
-
-/// What a timer is in a frame; `completed` if nothing.
-template <class T>
-constexpr What what_of() {
-  for (auto k = static_cast<unsigned>(What::heartbeat_expiry);
-       k <= static_cast<unsigned>(What::async_run); ++k) {
-    if (kind_of(What{static_cast<std::uint8_t>(k)}, false) == model::event_kind_of<T>) {
-      return What{static_cast<std::uint8_t>(k)};
-    }
-  }
-  return What::completed;
 }
 }  // namespace detail
 
@@ -115,8 +104,8 @@ class RuleHost {
   /// Runs the rule of the timer that the slot is.
   void run_due(What what) {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
-      if constexpr (detail::what_of<T>() != What::completed) {
-        if (detail::what_of<T>() != what) return;
+      if constexpr (what_of<T>().has_value()) {
+        if (what_of<T>() != what) return;
         if constexpr (T::counted) {
           const std::uint8_t scheduled = state_->template get<T>();
           if (scheduled > 0) state_->template set<T>(scheduled - 1);  // 0: it was scheduled twice
@@ -147,9 +136,6 @@ class RuleHost {
   }
   /// Whether the ACKNACK that arrives is the one that was emitted.
   void acknack_is_as_emitted(bool as_emitted) { as_emitted_ = as_emitted; }
-  [[nodiscard]] static Members members_of(const model::DescriptorSet& set) {
-    return static_cast<Members>(set.word(0));
-  }
 
   // What a RunningWorld asks of its host.
   [[nodiscard]] comp::Watcher* watcher() { return mutator_.is_needed() ? &mutator_ : nullptr; }
@@ -231,17 +217,11 @@ class RuleHost {
   // Flags, numbers and what packets say.
   template <class V>
   [[nodiscard]] auto value(V, std::uint32_t) const {
-    if constexpr (is_kept<V>) {
-      return state_->template get<V>();
-    } else if constexpr (requires { typename V::IsNumber; }) {
-      return std::int64_t{0};
-    } else {
-      return false;
-    }
+    return state_->template get<V>();
   }
   template <class V, class Value>
   void assign(V, std::uint32_t, Value value) {
-    if constexpr (is_kept<V>) state_->template set<V>(value);
+    state_->template set<V>(value);
   }
   /// Doubling without end, the explored world would never come back to a state.
   void assign(comp::LastDelay, std::uint32_t, std::int64_t delay) {
@@ -255,46 +235,42 @@ class RuleHost {
   }
   template <class V>
   void assign_each(V, std::uint32_t, const model::DescriptorSet& set) {
-    if constexpr (is_kept<V>) state_->template set<V>(members_of(set));
+    state_->template set<V>(members_of(set));
   }
   template <class V>
   [[nodiscard]] std::uint64_t word(V, std::uint32_t, std::uint32_t) const {
-    if constexpr (is_kept<V>) {
-      return state_->template get<V>();
-    } else {
-      return 0;
-    }
+    return state_->template get<V>();
   }
   template <class Field>
   [[nodiscard]] static std::uint64_t word(Field, const Slot& packet, std::uint32_t) {
-    return is_limit<Field> ? (std::uint64_t{1} << packet.number) - 1 : packet.set;
+    return members_said<Field>(packet);
   }
   template <class Field>
-  [[nodiscard]] static bool said(Field, const Slot& packet) {
-    return packet.has(flag_of<Field>());
+  [[nodiscard]] static bool said(Field field, const Slot& packet) {
+    return packet.has(flag_of(field));
   }
 
   // Effects.
   template <class T>
   void schedule(T, std::uint32_t, std::int64_t time) {
-    constexpr What what = detail::what_of<T>();
-    if constexpr (what != What::completed) {
+    if constexpr (what_of<T>().has_value()) {
       if constexpr (T::counted) state_->template set<T>(state_->template get<T>() + 1);
-      frame_->schedule({what}, time);
+      frame_->schedule({*what_of<T>()}, time);
     }
   }
   template <class T>
   [[nodiscard]] std::int64_t pending(T, std::uint32_t) const {
     return state_->template get<T>();
   }
+  /// Of the cycle that there is not.
   template <class T>
-  void cancel(T, std::uint32_t) {
-    static_assert(!is_kept<T>, "slots of a frame are not cancelled");
+  static void cancel(T, std::uint32_t) {
+    static_assert(detail::is_among<T>(LeftOut{}), "slots of a frame are not cancelled");
   }
   template <class P, class World, class... Sayings>
   void emit(P, World& w, const std::tuple<Sayings...>& sayings) {
     Slot packet{std::is_same_v<P, typename Composition::AckNack> ? What::acknack : What::heartbeat};
-    std::apply([&](const auto&... each) { (say(packet, w, each), ...); }, sayings);
+    std::apply([&](const auto&... each) { (say(packet, each, w), ...); }, sayings);
     send(packet);
   }
   template <class Step, class World, class... Args>
@@ -325,33 +301,6 @@ class RuleHost {
   }
 
  private:
-  // A field that says "the first n descriptors" is a number; any other is a set.
-  template <class Field>
-  static constexpr bool is_limit =
-      std::is_same_v<Field, comp::Announces> || std::is_same_v<Field, comp::BelowBase>;
-  template <class Field>
-  static constexpr std::uint8_t flag_of() {
-    if (std::is_same_v<Field, comp::IsInitial>) return Slot::initial;
-    if (std::is_same_v<Field, comp::IsRepair>) return Slot::from_repair;
-    static_assert(std::is_same_v<Field, comp::IsInitial> || std::is_same_v<Field, comp::IsRepair> ||
-                  std::is_same_v<Field, comp::CarriesHeartbeat>);
-    return Slot::carries_heartbeat;
-  }
-  template <class World, class Saying>
-  static void say(Slot& packet, World& w, const Saying& saying) {
-    using Field = typename Saying::Field;
-    if constexpr (std::derived_from<Field, comp::PacketField>) {
-      if (saying.value) packet.flags |= flag_of<Field>();
-    } else {
-      const Members said = members_of(w.set_of(saying.value));
-      if constexpr (is_limit<Field>) {
-        packet.number = static_cast<std::uint8_t>(std::bit_width(said));
-      } else {
-        packet.set = said;
-      }
-    }
-  }
-
   Packing packing_;
   const unsigned count_;
   const model::DdsProfile dds_;

@@ -39,33 +39,26 @@ constexpr bool is_among(fsm::TypeList<Ts...>) {
   return (std::is_same_v<T, Ts> || ...);
 }
 template <class T>
-constexpr bool is_of_descriptors() {
-  return (T::owner.indices & comp::owner::descriptor_index) != 0;
-}
-/// What a thing is kept as; void: it is not kept.
+inline constexpr bool is_of_descriptors = (T::owner.indices & comp::owner::descriptor_index) != 0;
 template <class T>
 constexpr auto kept_as() {
-  if constexpr (is_among<T>(LeftOut{})) {
-    return;
-  } else if constexpr (requires { typename T::Machine; }) {
+  if constexpr (requires { typename T::Machine; }) {
     return fsm::StateId{};
   } else if constexpr (requires { typename T::IsNumber; }) {
     return std::int64_t{};
   } else if constexpr (requires { typename T::IsFlag; }) {
-    return std::conditional_t<is_of_descriptors<T>(), Members, bool>{};
-  } else if constexpr (T::counted) {
-    return std::uint8_t{};
+    return std::conditional_t<is_of_descriptors<T>, Members, bool>{};
+  } else {
+    return std::uint8_t{};  // how often a timer is scheduled
   }
 }
 }  // namespace detail
 
 template <class T>
 using KeptAs = decltype(detail::kept_as<T>());
-template <class T>
-inline constexpr bool is_kept = !std::is_void_v<KeptAs<T>>;
 
 /// `Things` are parts, timers, flags and numbers; a machine of descriptors is there for each of
-/// `descriptors`.
+/// `descriptors`. What is left out is false or 0, whatever it is set to.
 template <class Things, unsigned descriptors>
 class WorldState {
  public:
@@ -78,13 +71,13 @@ class WorldState {
 
   template <class T>
   [[nodiscard]] KeptAs<T> get() const {
-    KeptAs<T> value;
-    std::memcpy(&value, bytes() + offset<T>(), sizeof value);
+    KeptAs<T> value{};
+    if constexpr (size<T>() > 0) std::memcpy(&value, bytes() + offset<T>(), sizeof value);
     return value;
   }
   template <class T>
   void set(KeptAs<T> value) {
-    std::memcpy(bytes() + offset<T>(), &value, sizeof value);
+    if constexpr (size<T>() > 0) std::memcpy(bytes() + offset<T>(), &value, sizeof value);
   }
   /// The state of a machine, of descriptor d if each of them has one.
   template <class P>
@@ -108,10 +101,11 @@ class WorldState {
  private:
   template <class T>
   static constexpr std::size_t size() {
-    if constexpr (!is_kept<T>) {
-      return 0;
-    } else if constexpr (requires { typename T::Machine; } && detail::is_of_descriptors<T>()) {
-      return descriptors;
+    if constexpr (detail::is_among<T>(LeftOut{})) return 0;
+    if constexpr (requires { typename T::Machine; }) {
+      return detail::is_of_descriptors<T> ? descriptors : 1;
+    } else if constexpr (requires { T::counted; }) {
+      return T::counted ? 1 : 0;
     } else {
       return sizeof(KeptAs<T>);
     }
@@ -125,7 +119,6 @@ class WorldState {
   }
   template <class T>
   static constexpr std::size_t offset() {
-    static_assert(is_kept<T>);
     constexpr std::size_t k = offset_in<T>(Things{});
     static_assert(k < offset_in<void>(Things{}), "this is not part of the state");
     return k;
