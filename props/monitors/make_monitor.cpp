@@ -24,6 +24,7 @@ constexpr Entry makers[] = {
     {"live.quiescence", watch_quiescence},
     {"storm.single-copy", watch_single_copies},
     {"storm.free-threshold", watch_needless_repairs},
+    {"composition.followed", watch_composition},
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 
 namespace stormproof::props {

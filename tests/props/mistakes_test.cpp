@@ -77,9 +77,9 @@ struct Case {
 };
 
 Mutation tables(std::vector<TableMutation> rows, std::vector<EventMutation> events = {}) {
-  return {std::move(rows), std::move(events), false};
+  return {std::move(rows), std::move(events), {}, false};
 }
-Mutation events(std::vector<EventMutation> list) { return {{}, std::move(list), false}; }
+Mutation events(std::vector<EventMutation> list) { return {{}, std::move(list), {}, false}; }
 
 using Kind = TableMutation::Kind;
 using Change = EventMutation::Change;
@@ -98,7 +98,7 @@ std::vector<Case> paper_cases() {
       {"RepairsTwice", "safety.repair-only-if-asked", small(),
        tables({row(repair, "R RepairDue Q", Kind::retarget, "R")},
               {event(EventKind::repair_generation, Change::duplicate)})},
-      {"LiveBitmap", "safety.snapshot", small(), Mutation{{}, {}, true}},
+      {"LiveBitmap", "safety.snapshot", small(), Mutation{{}, {}, {}, true}},
       {"TakesDataWithoutNoting", "safety.snapshot", small(),
        tables({row("DiscoveryReader", "Recognised DataReceived Complete", Kind::drop_action)})},
       {"LateDispatch", "safety.conservation", small(),
@@ -150,7 +150,7 @@ std::vector<Case> fastdds_cases() {
        tables({row(change, "S SuppressionEnded U", Kind::retarget, "A")})},
       {"FastddsSerializedForever", "safety.repair-only-if-asked", small_fastdds(),
        tables({row(change, "Q Serialized S", Kind::retarget, "R")})},
-      {"FastddsLiveBitmap", "safety.snapshot", small_fastdds(), Mutation{{}, {}, true}},
+      {"FastddsLiveBitmap", "safety.snapshot", small_fastdds(), Mutation{{}, {}, {}, true}},
       {"FastddsForgottenReception", "safety.conservation", small_fastdds(),
        events({event(EventKind::reception, Change::forget)})},
       {"FastddsTwoExpiries", "timer.single-heartbeat", small_fastdds(),

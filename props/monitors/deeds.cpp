@@ -1,0 +1,102 @@
+// Deeds in words.
+#include "props/monitors/deeds.hpp"
+
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "model/trace/event_subject.hpp"
+#include "props/monitors/describe.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+using model::trace::Subject;
+
+std::string subject_text(const model::Topology& topology, Subject subject, std::uint32_t number) {
+  switch (subject) {
+    case Subject::relation:
+      return relation_text(topology, number);
+    case Subject::writer:
+      return writer_text(number);
+    case Subject::participant:
+      return fmt::format("participant {}", number);
+    default:
+      return fmt::format("control-only relation {}", number);
+  }
+}
+
+std::string descriptors_text(const std::vector<std::uint32_t>& descriptors) {
+  return fmt::format("descriptor{} {}", descriptors.size() == 1 ? "" : "s",
+                     fmt::join(descriptors, ", "));
+}
+
+std::string move_text(const Move& move, const model::Topology& topology) {
+  std::vector<std::uint32_t> descriptors;
+  for (std::uint64_t left = move.descriptors; left != 0; left &= left - 1) {
+    descriptors.push_back(64 * move.first_word +
+                          static_cast<std::uint32_t>(std::countr_zero(left)));
+  }
+  return fmt::format(
+      "{} of {}{} goes from {} to {} on {}", move.machine.machine,
+      descriptors.empty() ? "" : descriptors_text(descriptors) + " of ",
+      subject_text(topology, model::trace::subject_of(move.machine.kind), move.machine.subject),
+      move.before, move.after, move.event);
+}
+
+std::string message_text(const Message& message, const model::Topology& topology) {
+  using enum model::PacketKind;
+  std::string text = name_of(message.kind);
+  switch (message.kind) {
+    case spdp_multicast:
+      text += fmt::format(" of participant {}", message.pair);
+      break;
+    case spdp_unicast:
+      text +=
+          fmt::format(" of participant {} to participant {}", topology.pair(message.pair).source,
+                      topology.pair(message.pair).destination);
+      break;
+    case user_heartbeat:
+    case user_acknack:
+      text += fmt::format(" of control-only relation {}", message.detail);
+      break;
+    default:
+      text += " of " + relation_text(topology, message.relation());
+  }
+  if (message.initial) text += ", initial,";
+  if (message.repair) text += ", a repair,";
+  if (!message.descriptors.empty()) text += " with " + descriptors_text(message.descriptors);
+  if (message.carries_heartbeat) text += " and a HEARTBEAT";
+  return text + " is sent";
+}
+
+}  // namespace
+
+Message message_of(const model::Packet& packet) {
+  Message message;
+  message.kind = packet.kind;
+  const bool control = packet.kind == model::PacketKind::user_heartbeat ||
+                       packet.kind == model::PacketKind::user_acknack;
+  message.pair = control ? 0 : packet.pair;
+  message.stream = packet.stream;
+  if (!packet.descriptors.empty()) {
+    packet.descriptors.for_each([&](std::uint32_t d) { message.descriptors.push_back(d); });
+  }
+  message.detail = packet.detail;
+  message.initial = packet.initial_acknack;
+  message.repair = packet.from_repair;
+  message.carries_heartbeat = packet.carries_heartbeat;
+  return message;
+}
+
+std::string said(const Deed& deed, const model::Topology& topology) {
+  if (const Move* move = std::get_if<Move>(&deed)) return move_text(*move, topology);
+  if (const Message* message = std::get_if<Message>(&deed)) return message_text(*message, topology);
+  const Scheduled& event = std::get<Scheduled>(deed);
+  return fmt::format("{} of {} is scheduled for {}", name_of(event.kind),
+                     subject_text(topology, model::trace::subject_of(event.kind), event.subject),
+                     time_text(event.time));
+}
+
+}  // namespace stormproof::props

@@ -1,0 +1,85 @@
+// What a run does because of a rule, as an observer sees it: machines move, events are scheduled,
+// packets go out. A monitor collects them in order and holds them against what the rules say
+// (props/monitors/followed.cpp). What the network does by itself is not among them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "model/engine/packet.hpp"
+#include "model/engine/topology.hpp"
+#include "model/probe.hpp"
+
+namespace stormproof::props {
+
+/// A row fired; `descriptors` are the bits of word `first_word`, 0 if the machine has none.
+struct Move {
+  model::MachineRef machine;
+  std::string_view event;
+  std::string_view before;
+  std::string_view after;
+  std::uint32_t first_word = 0;
+  std::uint64_t descriptors = 0;
+};
+
+/// An event was scheduled. Two are the same whatever their insertion numbers.
+struct Scheduled {
+  model::EventKind kind{};
+  std::uint32_t subject = 0;
+  model::Nanoseconds time;
+  std::uint64_t insertion = 0;
+};
+
+/// What a packet says, without its size. A record that stands for several packets is several.
+struct Message {
+  model::PacketKind kind{};
+  std::uint32_t pair = 0;  ///< of a multicast: the sending participant; control-only relations: 0
+  model::Stream stream{};
+  std::uint32_t loops_to = UINT32_MAX;     ///< a multicast that goes to a participant of its host
+  std::vector<std::uint32_t> descriptors;  ///< carried or listed, ascending
+  std::uint32_t detail = 0;                ///< as in `Packet`
+  bool initial = false;                    ///< ACKNACK marked initial
+  bool repair = false;
+  bool carries_heartbeat = false;
+
+  bool operator==(const Message&) const = default;
+  [[nodiscard]] std::uint32_t relation() const {
+    return 2 * pair + static_cast<std::uint32_t>(stream);
+  }
+};
+[[nodiscard]] Message message_of(const model::Packet& packet);
+
+using Deed = std::variant<Move, Scheduled, Message>;
+
+/// "acknack_generation of participant 0's pub stream at participant 1 is scheduled for 2 ms".
+[[nodiscard]] std::string said(const Deed& deed, const model::Topology& topology);
+
+/// In the order in which they were done.
+class Deeds {
+ public:
+  void add(Deed deed) { list_.push_back(std::move(deed)); }
+  void clear() {
+    list_.clear();
+    next_ = 0;
+  }
+  [[nodiscard]] bool empty() const { return next_ == list_.size(); }
+  /// The next one but `skip`, or null.
+  [[nodiscard]] const Deed* next(std::size_t skip = 0) const {
+    return next_ + skip < list_.size() ? &list_[next_ + skip] : nullptr;
+  }
+  /// The same if it is a `Kind`, or null.
+  template <class Kind>
+  [[nodiscard]] const Kind* next(std::size_t skip = 0) const {
+    return std::get_if<Kind>(next(skip));
+  }
+  void take() { ++next_; }
+
+ private:
+  std::vector<Deed> list_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace stormproof::props

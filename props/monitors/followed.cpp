@@ -1,0 +1,114 @@
+// composition.followed: what a run does is what the rules say. The rules of fsm/composition are
+// executed a second time beside the run, in a plain world (props/monitors/followed_world.hpp) that
+// shares nothing with the simulator but the rules and the machines; timers, receptions and packets
+// that leave their source start them. What they do must be what the run did, in order: every
+// transition, every event that is scheduled, every packet. What a rule leaves to its host may be
+// whatever its contract allows.
+#include <functional>
+
+#include <fmt/core.h>
+
+#include "model/run_result.hpp"
+#include "props/monitors/followed_rules.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+class FollowedRun final : public Observer {
+ public:
+  explicit FollowedRun(const model::Scenario& scenario)
+      : Observer{"composition.followed"}, scenario_{scenario} {}
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    follower_ = is_fastdds(scenario_.dds) ? follow_fastdds(scenario_, topology)
+                                          : follow_paper(scenario_, topology);
+    if (follower_ != nullptr) trigger_ = [this] { follower_->started(); };
+  }
+  void event_started(const model::Event& event) override {
+    follow();
+    Observer::event_started(event);
+    if (follower_ == nullptr) return;
+    ++followed_;
+    follower_->happens_at(event.time);
+    if (is_of_protocol(event.kind)) trigger_ = [this, event] { follower_->due(event); };
+  }
+  void received(const model::Packet& packet, std::uint32_t receiver) override {
+    follow();
+    if (follower_ == nullptr) return;
+    trigger_ = [this, message = message_of(packet), receiver] {
+      follower_->received(message, receiver);
+    };
+  }
+  void source_completed(const model::Packet& packet) override {
+    follow();
+    if (follower_ == nullptr) return;
+    trigger_ = [this, message = message_of(packet)] { follower_->left_source(message); };
+  }
+  void event_finished(const model::Depths&) override { follow(); }
+
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
+                  std::string_view after, std::uint32_t first_word,
+                  std::uint64_t descriptors) override {
+    if (machine.kind == model::MachineRef::Kind::channel) return;
+    add(Move{machine, event, before, after, first_word, descriptors});
+  }
+  void scheduled(std::uint64_t insertion, model::Nanoseconds time, model::EventKind kind,
+                 std::uint32_t subject) override {
+    if (is_of_protocol(kind)) add(Scheduled{kind, subject, time, insertion});
+  }
+  void emitted(const model::Packet& packet, std::uint32_t source,
+               std::span<const std::uint32_t> destinations) override {
+    if (follower_ == nullptr) return;
+    Message message = message_of(packet);
+    for (std::uint32_t copy = 0; copy < packet.copies; ++copy) {
+      if (packet.copies > 1) message.pair = topology().pair_between(source, destinations[copy]);
+      add(message);
+    }
+  }
+  void looped_back(const model::Packet& packet, std::uint32_t receiver) override {
+    if (follower_ == nullptr) return;
+    Message message = message_of(packet);
+    if (packet.multicast()) message.loops_to = receiver;
+    add(std::move(message));
+  }
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("{} events were followed.", followed_)};
+  }
+
+ private:
+  static bool is_of_protocol(model::EventKind kind) {
+    return model::class_of(kind) == model::EventClass::protocol &&
+           kind != model::EventKind::source_completion;
+  }
+  void add(Deed deed) {
+    if (follower_ != nullptr) follower_->deeds().add(std::move(deed));
+  }
+  /// Holds what was done since the last trigger against the rule that it started.
+  void follow() {
+    if (follower_ == nullptr) return;
+    if (trigger_) trigger_();
+    trigger_ = nullptr;
+    follower_->nothing_more();
+    if (!follower_->difference()) return;
+    object_now("At " + time_text(now()) + ", " + *follower_->difference());
+    follower_.reset();
+  }
+
+  const model::Scenario scenario_;
+  std::unique_ptr<Follower> follower_;
+  std::function<void()> trigger_;
+  std::uint64_t followed_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_composition(const model::Scenario& scenario) {
+  return std::make_unique<FollowedRun>(scenario);
+}
+
+}  // namespace stormproof::props

@@ -1,0 +1,219 @@
+// Follows Fast DDS's composition: which packets reach whom, how descriptors become messages, and
+// that control-only relations open as the run shows.
+#include "model/fastdds/endpoints.hpp"
+#include "props/monitors/followed_rules.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+namespace fastdds = comp::fastdds;
+namespace control = comp::control;
+
+class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::FastDds> {
+ public:
+  static constexpr bool readers_in_order_of_match = true;
+  using FollowedRules::FollowedRules;
+
+  /// Announcement 0 of everybody; endpoints are created when the deployment says.
+  void started() override {
+    begin("The start");
+    for (std::uint32_t i = 0; i < topology_.participant_count(); ++i) {
+      expect_timer(comp::Announcement{}, i, topology_.start(i), {});
+      while (const auto* creation = deeds_.next<Scheduled>()) {
+        if (creation->kind != model::EventKind::endpoint_creation) break;
+        deeds_.take();
+      }
+    }
+  }
+  void due(const model::Event& event) override {
+    if (event.kind != model::EventKind::endpoint_creation) return FollowedRules::due(event);
+    const std::uint32_t user_publications =
+        topology_.descriptor_count(event.subject, model::Stream::pub) -
+        model::fastdds::default_publications;
+    const auto [stream, d] = model::fastdds::creation_order(event.detail, user_publications);
+    Place place = writer_place(2 * event.subject + static_cast<std::uint32_t>(stream));
+    place.descriptor = d;
+    run<comp::Happens<fastdds::Created>>(place);
+  }
+  void received(const Message& message, std::uint32_t receiver) override {
+    using enum model::PacketKind;
+    if (!has_started(receiver)) return;
+    if (message.kind == spdp_multicast) {
+      const std::uint32_t pair = topology_.pair_between(message.pair, receiver);
+      run<comp::Received<comp::SpdpMulticast>>(relation_place(2 * pair));
+      return;
+    }
+    const Place side{.control = message.detail};
+    if (message.kind == user_heartbeat) run<comp::Received<control::UserHeartbeat>>(side, &message);
+    if (message.kind == user_acknack) run<comp::Received<control::UserAckNack>>(side, &message);
+    const Place place = relation_place(message.relation());
+    if (message.kind == spdp_unicast) run<comp::Received<comp::SpdpUnicast>>(place);
+    if (message.kind == data) run<comp::Received<fastdds::Data>>(place, &message);
+    if (message.kind == heartbeat) run<comp::Received<fastdds::Heartbeat>>(place, &message);
+    if (message.kind == acknack) run<comp::Received<fastdds::AckNack>>(place, &message);
+  }
+  void left_source(const Message&) override {}
+
+  static model::PacketKind kind_of(comp::SpdpUnicast) { return model::PacketKind::spdp_unicast; }
+  static model::PacketKind kind_of(fastdds::Heartbeat) { return model::PacketKind::heartbeat; }
+  static model::PacketKind kind_of(fastdds::AckNack) { return model::PacketKind::acknack; }
+  static model::PacketKind kind_of(control::UserHeartbeat) {
+    return model::PacketKind::user_heartbeat;
+  }
+  static model::PacketKind kind_of(control::UserAckNack) { return model::PacketKind::user_acknack; }
+  // What a packet says of the first descriptors of a stream is how many these are.
+  template <class Term>
+  static void say(Message& message, World& w, const comp::Says<comp::Announces, Term>& announced) {
+    message.detail = static_cast<std::uint32_t>(w.count(announced.value));
+  }
+  template <class Term>
+  static void say(Message& message, World& w, const comp::Says<comp::BelowBase, Term>& confirmed) {
+    message.detail = static_cast<std::uint32_t>(w.count(confirmed.value));
+  }
+  template <class Term>
+  static void say(Message& message, World& w, const comp::Says<comp::Listed, Term>& listed) {
+    message.descriptors = w.set_of(listed.value).list;
+  }
+  static void say(Message& message, World&, const comp::Says<comp::IsInitial, bool>& initial) {
+    message.initial = initial.value;
+  }
+  using FollowedRules::says;
+  static bool says(comp::BelowBase, const Message& message, std::uint32_t d) {
+    return d < message.detail;
+  }
+  static bool says(comp::Announces, const Message& message, std::uint32_t d) {
+    return d < message.detail;
+  }
+  using FollowedRules::answer;
+  bool answer(fastdds::CrossHost, World& w) const {
+    return topology_.pair(w.place().pair).cross_host;
+  }
+
+  using FollowedRules::emit;
+  /// To every participant of the same host, then to the others.
+  void emit(comp::SpdpMulticast, World& w, const std::tuple<>&, comp::Site site) {
+    const std::uint32_t i = w.place().participant;
+    Message message;
+    message.kind = model::PacketKind::spdp_multicast;
+    message.pair = i;
+    for (std::uint32_t pair = topology_.first_pair(i); pair < topology_.first_pair(i + 1); ++pair) {
+      if (topology_.pair(pair).cross_host) continue;
+      message.loops_to = topology_.pair(pair).destination;
+      expect(message, site);
+    }
+    message.loops_to = UINT32_MAX;
+    expect(message, site);
+  }
+
+  // The asynchronous queue.
+  using FollowedRules::becomes;
+  void becomes(fastdds::Enqueued, const Place& place) {
+    Place entry = writer_place(place.writer);
+    entry.descriptor = place.descriptor;
+    queues_[place.participant].push_back(entry);
+  }
+  std::optional<Place> next_in_queue(std::uint32_t i) {
+    std::vector<Place>& queue = queues_[i];
+    if (queue.empty()) return std::nullopt;
+    const Place first = queue.front();
+    queue.erase(queue.begin());
+    return first;
+  }
+
+  using FollowedRules::perform;
+  void perform(fastdds::Clock::SendBatch, World& w) { send_batch<fastdds::Implementation>(w); }
+  template <class To>
+  void perform(fastdds::Pack, World& w, To) {
+    std::vector<std::uint32_t> served;
+    w.for_readers([&](World& r) {
+      if (To::serves(r)) served.push_back(r.place().relation);
+    });
+    const std::uint32_t d = w.place().descriptor;
+    const bool joins = message_.writer == w.place().writer && message_.readers == served &&
+                       !std::ranges::binary_search(message_.descriptors, d);
+    // Whether there was room shows in the run: only a flush sends something now.
+    if (!joins || deeds_.next<Message>() != nullptr) flush();
+    if (message_.descriptors.empty()) {
+      message_.writer = w.place().writer;
+      message_.readers = std::move(served);
+    }
+    message_.descriptors.insert(std::ranges::lower_bound(message_.descriptors, d), d);
+  }
+  /// Whether the budget is used up shows when the message is flushed.
+  template <class To>
+  void perform(fastdds::Charge, World& w, To) {
+    if (dds().sedp.piggyback == model::Piggyback::off) return;
+    const bool to_all = message_.readers == readers(w.place().writer);
+    (to_all ? message_.heartbeat_may_ride : message_.heartbeats_may_follow) = true;
+  }
+  template <class To>
+  void perform(fastdds::Flush, World&, To) {
+    flush();
+  }
+  /// The sides that open are those that the run opens.
+  void perform(control::OpenTopics, World&) {
+    while (const Move* move = deeds_.next<Move>()) {
+      if (move->machine.kind != model::MachineRef::Kind::control_relation || difference()) return;
+      if (move->event != fsm::name_of<fsm::control_relation::Opened>()) return;
+      World side{*this, {.control = move->machine.subject}, nullptr};
+      if (move->machine.machine == fsm::name_of<fsm::ControlWriter>()) {
+        side.raise(control::ControlWriterOpens{});
+      } else {
+        side.raise(control::ControlReaderOpens{});
+      }
+    }
+  }
+
+ private:
+  /// The message that is open, if it carries a descriptor.
+  struct OpenMessage {
+    std::uint32_t writer = 0;
+    std::vector<std::uint32_t> readers;  ///< relations
+    std::vector<std::uint32_t> descriptors;
+    bool heartbeat_may_ride = false;
+    bool heartbeats_may_follow = false;  ///< to all readers, of whom it goes to some
+  };
+
+  /// What the message carries goes to each of its readers, with or without a HEARTBEAT.
+  void flush() {
+    const OpenMessage message = std::exchange(message_, {});
+    if (message.descriptors.empty()) return;
+    const Message* first = deeds_.next<Message>();
+    const bool rides = message.heartbeat_may_ride && first != nullptr && first->carries_heartbeat;
+    send(model::PacketKind::data, message.readers, message.descriptors, rides);
+    const Message* next = deeds_.next<Message>();
+    if (!message.heartbeats_may_follow || next == nullptr) return;
+    if (next->kind != model::PacketKind::heartbeat) return;
+    send(model::PacketKind::heartbeat, readers(message.writer), {}, false);
+  }
+  void send(model::PacketKind kind, const std::vector<std::uint32_t>& relations,
+            const std::vector<std::uint32_t>& descriptors, bool carries_heartbeat) {
+    for (const std::uint32_t relation : relations) {
+      Message wanted;
+      wanted.kind = kind;
+      wanted.pair = relation / 2;
+      wanted.stream = model::streams[relation % 2];
+      wanted.descriptors = descriptors;
+      wanted.carries_heartbeat = carries_heartbeat;
+      if (carries_heartbeat || kind == model::PacketKind::heartbeat) {
+        World w{*this, relation_place(relation), nullptr};
+        wanted.detail =
+            static_cast<std::uint32_t>(w.count([](World& d) { return d(fastdds::Exists{}); }));
+      }
+      expect(wanted, site_);
+    }
+  }
+
+  std::map<std::uint32_t, std::vector<Place>> queues_;  // by participant, first in, first out
+  OpenMessage message_;
+};
+
+}  // namespace
+
+std::unique_ptr<Follower> follow_fastdds(const model::Scenario& scenario,
+                                         const model::Topology& topology) {
+  return std::make_unique<FastDdsFollower>(scenario, topology);
+}
+
+}  // namespace stormproof::props

@@ -1,0 +1,370 @@
+// The state of a run as the rules of a composition have it, and what all implementations leave to
+// their hosts: how timers are cancelled, and how the silent readers of a cycle form batches. The
+// paper's and Fast DDS's own steps are in followed_paper.cpp and followed_fastdds.cpp.
+#pragma once
+
+#include <bit>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "fsm/adaptive_period.hpp"
+#include "fsm/flyweight.hpp"
+#include "model/scenario.hpp"
+#include "props/monitors/describe.hpp"
+#include "props/monitors/followed_world.hpp"
+
+namespace stormproof::props {
+
+/// Runs the rules of what happens, and holds what the run did against them.
+class Follower {
+ public:
+  Follower(const model::Scenario& scenario, const model::Topology& topology)
+      : scenario_{scenario}, topology_{topology}, missing_{topology.required_deliveries()} {}
+  virtual ~Follower() = default;
+
+  /// What is done from now on is done at `now`.
+  void happens_at(model::Nanoseconds now) { now_ = now; }
+  [[nodiscard]] Deeds& deeds() { return deeds_; }
+  virtual void started() = 0;
+  virtual void due(const model::Event& event) = 0;
+  virtual void received(const Message& message, std::uint32_t receiver) = 0;
+  virtual void left_source(const Message& message) = 0;
+  /// Nothing more follows from what has happened.
+  void nothing_more() {
+    if (!deeds_.empty()) differ("nothing more happens");
+    deeds_.clear();
+  }
+
+  /// In words, what the run did that the rules do not say, or the other way around.
+  [[nodiscard]] const std::optional<std::string>& difference() const { return difference_; }
+
+  [[nodiscard]] const model::DdsProfile& dds() const { return scenario_.dds; }
+  [[nodiscard]] const model::Topology& topology() const { return topology_; }
+
+ protected:
+  void begin(std::string_view rule) {
+    rule_ = rule;
+    site_ = {};
+  }
+  /// `wanted` is what the rules say that happens next; the run did something else.
+  void differ(const std::string& wanted) {
+    if (difference_) return;
+    const Deed* actual = deeds_.next();
+    std::string place{rule_};
+    if (site_.line != 0) {
+      place += fmt::format(" ({}:{})", site_.file.substr(site_.file.rfind('/') + 1), site_.line);
+    }
+    difference_ = fmt::format("{}: by the rules {}, but {}.", place, wanted,
+                              actual == nullptr ? "nothing does" : said(*actual, topology_));
+  }
+  /// The next deed if it is `same`; otherwise there is a difference, and null.
+  template <class Kind, class Same>
+  const Kind* next(const Kind& wanted, Same&& same) {
+    if (difference_) return nullptr;
+    const Kind* actual = deeds_.next<Kind>();
+    if (actual == nullptr || !same(*actual)) {
+      differ(said(wanted, topology_));
+      return nullptr;
+    }
+    deeds_.take();
+    return actual;
+  }
+
+  const model::Scenario& scenario_;
+  const model::Topology& topology_;
+  Deeds deeds_;
+  model::Nanoseconds now_;
+  std::uint64_t missing_;  ///< required deliveries that have not happened
+  comp::Site site_;        ///< of the effect that is looked at
+
+ private:
+  std::string_view rule_;
+  std::optional<std::string> difference_;
+};
+
+/// `Self` is the implementation's follower, the host of a FollowedWorld.
+template <class Self, class Composition_>
+class FollowedRules : public Follower {
+ public:
+  using Composition = Composition_;
+  using World = FollowedWorld<Self>;
+  using Follower::Follower;
+
+  void due(const model::Event& event) override {
+    comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
+      if (event.kind != model::event_kind_of<T>) return;
+      if (T::counted && pending_[{event.kind, event.subject}].erase(event.insertion()) == 0) return;
+      run<comp::Due<T>>(place_of(T::owner, event.subject));
+    });
+  }
+
+  // Places.
+  [[nodiscard]] Place writer_place(std::uint32_t writer) const {
+    return {.participant = writer / 2, .writer = writer};
+  }
+  [[nodiscard]] Place relation_place(std::uint32_t relation) const {
+    const std::uint32_t source = topology_.pair(relation / 2).source;
+    return {.participant = source,
+            .pair = relation / 2,
+            .writer = 2 * source + relation % 2,
+            .relation = relation};
+  }
+  [[nodiscard]] std::uint32_t descriptor_count(std::uint32_t writer) const {
+    return topology_.descriptor_count(writer / 2, model::streams[writer % 2]);
+  }
+  static constexpr model::MachineRef::Kind machine_kind(comp::Owner owner) {
+    using enum model::MachineRef::Kind;
+    if (owner == comp::owner::participant) return participant;
+    if (owner == comp::owner::writer) return writer;
+    return owner == comp::owner::control_relation ? control_relation : relation;
+  }
+
+  // State. What nobody has changed has its first value.
+  template <class V>
+  std::int64_t value(const Place& place) {
+    return at(std::get<Values<V>>(values_).of, V::owner, place, 0);
+  }
+  template <class V>
+  void assign(const Place& place, std::int64_t to) {
+    std::int64_t& value = at(std::get<Values<V>>(values_).of, V::owner, place, 0);
+    if (value == 0 && to != 0) static_cast<Self*>(this)->becomes(V{}, place);
+    value = to;
+  }
+  template <class P>
+  fsm::StateId& state(const Place& place) {
+    return at(std::get<States<P>>(states_).of, P::owner, place,
+              fsm::Flyweight<typename P::Machine>::initial);
+  }
+  template <class P, class E>
+  auto step(const Place& place, const typename P::Machine::Io::template Input<fsm::Plain>& input,
+            fsm::RowId& row) {
+    typename P::Machine::Io::template Output<fsm::Plain> output{};
+    fsm::StateId& now = state<P>(place);
+    now = std::get<States<P>>(states_).machine.template step<E>(now, input, output, row);
+    return output;
+  }
+  /// Something that was false or 0 is no longer.
+  template <class V>
+  void becomes(V, const Place& place) {
+    if constexpr (std::is_same_v<V, comp::X>) {
+      if (topology_.pair(place.pair).cross_host) --missing_;
+    } else if constexpr (std::is_same_v<V, typename Composition::IsOpen>) {
+      readers_[place.writer].push_back(place.relation);
+      if (!Self::readers_in_order_of_match) std::ranges::sort(readers_[place.writer]);
+    }
+  }
+  /// The open relations of the writer.
+  [[nodiscard]] const std::vector<std::uint32_t>& readers(std::uint32_t writer) {
+    return readers_[writer];
+  }
+  /// The pairs of participant i with those whom it has recognised.
+  [[nodiscard]] std::vector<std::uint32_t> known_peers(std::uint32_t i) {
+    std::vector<std::uint32_t> pairs;
+    for (std::uint32_t pair = topology_.first_pair(i); pair < topology_.first_pair(i + 1); ++pair) {
+      const Place back{.pair = topology_.pair(pair).reverse};
+      if (value<comp::Recognised>(back) != 0) pairs.push_back(pair);
+    }
+    return pairs;
+  }
+
+  // Timers.
+  [[nodiscard]] std::int64_t pending(model::EventKind kind, std::uint32_t owner) {
+    return static_cast<std::int64_t>(pending_[{kind, owner}].size());
+  }
+  void cancel(model::EventKind kind, std::uint32_t owner) { pending_[{kind, owner}].clear(); }
+
+  // What packets say, and what only a host knows.
+  static bool says(comp::Carries, const Message& message, std::uint32_t d) {
+    return std::ranges::binary_search(message.descriptors, d);
+  }
+  static bool says(comp::Listed, const Message& message, std::uint32_t d) {
+    return std::ranges::binary_search(message.descriptors, d);
+  }
+  static bool says(comp::CarriesHeartbeat, const Message& message) {
+    return message.carries_heartbeat;
+  }
+  static bool says(comp::IsRepair, const Message& message) { return message.repair; }
+  static bool says(comp::IsInitial, const Message& message) { return message.initial; }
+  std::int64_t answer(comp::Now, World&) const { return now_.count(); }
+  bool answer(comp::RunEnds, World&) const {
+    return missing_ == 0 && scenario_.run_until == model::RunUntil::completion;
+  }
+  std::int64_t answer(comp::ContactedCount, World& w) {
+    return std::ranges::count_if(readers(w.place().writer), [&](std::uint32_t relation) {
+      return value<comp::Contacted>(relation_place(relation)) != 0;
+    });
+  }
+  std::int64_t answer(comp::RespondedCount, World& w) {
+    return std::ranges::count_if(readers(w.place().writer), [&](std::uint32_t relation) {
+      return value<comp::Responded>(relation_place(relation)) != 0;
+    });
+  }
+
+  // What the run must do next.
+  void expect(const Move& wanted, comp::Site site) {
+    site_ = site;
+    next(wanted, [&](const Move& actual) { return same(actual, wanted); });
+  }
+  /// The moves of one event of a machine, in any order.
+  void expect_moves(std::vector<Move> wanted, comp::Site site) {
+    site_ = site;
+    while (!wanted.empty() && !difference()) {
+      const Move* actual = deeds_.next<Move>();
+      const std::uint64_t moved = actual == nullptr ? 0 : actual->descriptors;
+      const std::size_t removed = std::erase_if(wanted, [&](const Move& one) {
+        return (one.descriptors & moved) != 0 && one.first_word == actual->first_word &&
+               same_kind(*actual, one);
+      });
+      if (removed == 0 || std::cmp_not_equal(removed, std::popcount(moved)))
+        return differ(said(wanted[0], topology_));
+      deeds_.take();
+    }
+  }
+  template <class T>
+  void expect_timer(T, std::uint32_t owner, model::Nanoseconds time, comp::Site site) {
+    site_ = site;
+    const Scheduled wanted{model::event_kind_of<T>, owner, time};
+    const Scheduled* actual = next(wanted, [&](const Scheduled& it) {
+      return it.kind == wanted.kind && it.subject == owner && it.time == time;
+    });
+    if (T::counted && actual != nullptr) {
+      pending_[{wanted.kind, owner}].insert(actual->insertion);
+    }
+  }
+  void expect(const Message& wanted, comp::Site site) {
+    site_ = site;
+    next(wanted, [&](const Message& actual) { return actual == wanted; });
+  }
+  template <class P, class... Sayings>
+  void emit(P packet, World& w, const std::tuple<Sayings...>& sayings, comp::Site site) {
+    Message message;
+    message.kind = Self::kind_of(packet);
+    if constexpr (P::owner == comp::owner::control_relation) {
+      message.detail = w.place().control;
+    } else {
+      message.pair = w.place().pair;
+      if (P::owner == comp::owner::relation) {
+        message.stream = model::streams[w.place().relation % 2];
+      }
+    }
+    std::apply([&](const auto&... each) { (Self::say(message, w, each), ...); }, sayings);
+    expect(message, site);
+  }
+
+  // Opaque steps.
+  void perform(comp::PlanBatches, World& w, std::int64_t period) {
+    const std::uint32_t writer = w.place().writer;
+    auto& batches = batches_[writer];
+    batches.clear();
+    const auto size = fsm::batch_size<fsm::Plain>({.contacted = w(comp::ContactedCount{}),
+                                                   .responded = w(comp::RespondedCount{}),
+                                                   .epsilon_num = w(comp::EpsilonNumerator{}),
+                                                   .epsilon_den = w(comp::EpsilonDenominator{})});
+    w.for_readers_by_number([&](World& r) {
+      if (!r(comp::Contacted{}) || r(comp::Responded{})) return;
+      if (batches.empty() || std::ssize(batches.back()) == size) batches.emplace_back();
+      batches.back().push_back(r.place().relation);
+    });
+    const std::int64_t rest = period - w(comp::CyclePeriod{});
+    const std::int64_t count = std::ssize(batches);
+    for (std::int64_t k = 0; k < count; ++k)
+      w.at(now_.count() + rest * k / count, comp::BatchDue{});
+    std::ranges::reverse(batches);
+  }
+
+ protected:
+  template <class Trigger>
+  void run(const Place& place, const Message* heard = nullptr) {
+    using Rule = comp::RuleFor<Composition, Trigger>;
+    begin(fsm::name_of<Rule>());
+    World w{static_cast<Self&>(*this), place, heard};
+    Rule::run(w);
+  }
+  [[nodiscard]] Place place_of(comp::Owner owner, std::uint32_t number) const {
+    if (owner == comp::owner::participant) return {.participant = number};
+    if (owner == comp::owner::pair) return relation_place(2 * number);
+    if (owner == comp::owner::writer) return writer_place(number);
+    if (owner == comp::owner::control_relation) return {.control = number};
+    return relation_place(number);
+  }
+  /// A HEARTBEAT to each reader of the next batch that still waits.
+  template <class Rules>
+  void send_batch(World& w) {
+    auto& batches = batches_[w.place().writer];
+    if (batches.empty()) return;
+    const std::vector<std::uint32_t> batch = std::move(batches.back());
+    batches.pop_back();
+    for (const std::uint32_t relation : batch) {
+      World r = w.at_relation(relation);
+      if (r(typename Rules::Waits{})) Rules::heartbeat(r);
+    }
+  }
+  [[nodiscard]] bool has_started(std::uint32_t participant) const {
+    return now_ >= topology_.start(participant);
+  }
+
+ private:
+  template <class V>
+  struct Values {
+    std::vector<std::int64_t> of;
+  };
+  template <class P>
+  struct States {
+    std::vector<fsm::StateId> of;
+    fsm::Flyweight<typename P::Machine> machine;
+  };
+  template <template <class> class Each, class... Ts>
+  static std::tuple<Each<Ts>...> each_of(fsm::TypeList<Ts...>);
+
+  /// The value of an owner; of one with a descriptor, `place` says which.
+  template <class T>
+  T& at(std::vector<T>& values, comp::Owner owner, const Place& place,
+        std::type_identity_t<T> first) {
+    const bool of_descriptor = (owner.indices & comp::owner::descriptor_index) != 0;
+    const std::size_t n =
+        of_descriptor ? place.number(owner) * stride_ + place.descriptor : place.number(owner);
+    if (n >= values.size()) values.resize(n + 1, first);
+    return values[n];
+  }
+  static bool same_kind(const Move& one, const Move& other) {
+    return one.machine.subject == other.machine.subject && one.machine.kind == other.machine.kind &&
+           one.before == other.before && one.after == other.after && one.event == other.event &&
+           one.machine.machine == other.machine.machine;
+  }
+  static bool same(const Move& one, const Move& other) {
+    return one.descriptors == other.descriptors && one.first_word == other.first_word &&
+           same_kind(one, other);
+  }
+  [[nodiscard]] std::size_t largest_stream() const {
+    std::size_t largest = 1;
+    for (std::uint32_t writer = 0; writer < 2 * topology_.participant_count(); ++writer) {
+      largest = std::max<std::size_t>(largest, descriptor_count(writer));
+    }
+    return largest;
+  }
+
+  using AllValues = decltype(each_of<Values>(typename Composition::State{}));
+  using AllStates = decltype(each_of<States>(typename Composition::Parts{}));
+  AllValues values_;
+  AllStates states_;
+  const std::size_t stride_ = largest_stream();
+  std::map<std::uint32_t, std::vector<std::uint32_t>> readers_;               // by writer
+  std::map<std::uint32_t, std::vector<std::vector<std::uint32_t>>> batches_;  // the last is next
+  std::map<std::pair<model::EventKind, std::uint32_t>, std::set<std::uint64_t>> pending_;
+};
+
+[[nodiscard]] std::unique_ptr<Follower> follow_paper(const model::Scenario&,
+                                                     const model::Topology&);
+[[nodiscard]] std::unique_ptr<Follower> follow_fastdds(const model::Scenario&,
+                                                       const model::Topology&);
+
+}  // namespace stormproof::props

@@ -1,0 +1,326 @@
+// The world that follows a run (props/monitors/followed.cpp): plain and scalar, one descriptor
+// after the other; facts and tallies are evaluated by their definitions. An effect on the state is
+// done; one that an observer sees must be what the run did next, or the host is told the
+// difference. The host (props/monitors/followed_rules.hpp) keeps the state and knows what the run
+// did.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <boost/pfr.hpp>
+
+#include "model/engine/composition_knobs.hpp"
+#include "props/monitors/deeds.hpp"
+
+namespace stormproof::props {
+
+namespace comp = fsm::composition;
+
+/// Descriptors of a stream, ascending.
+struct Members {
+  std::vector<std::uint32_t> list;
+
+  [[nodiscard]] bool has(std::uint32_t d) const { return std::ranges::binary_search(list, d); }
+};
+struct MembersDomain {
+  using Bool = Members;
+};
+
+/// The numbers of what a world is about, as far as they are known from there.
+struct Place {
+  std::uint32_t participant = 0;
+  std::uint32_t pair = 0;
+  std::uint32_t writer = 0;
+  std::uint32_t relation = 0;
+  std::uint32_t control = 0;
+  std::uint32_t descriptor = 0;
+
+  /// The number of an owner; of one with a descriptor, that of its relation or writer.
+  [[nodiscard]] std::uint32_t number(comp::Owner owner) const {
+    if (owner == comp::owner::participant) return participant;
+    if (owner == comp::owner::pair) return pair;
+    if (owner == comp::owner::writer || owner == comp::owner::entry) return writer;
+    if (owner == comp::owner::control_relation) return control;
+    return relation;
+  }
+};
+
+template <class Host>
+class FollowedWorld {
+ public:
+  using D = fsm::Plain;
+  using Bool = bool;
+  using Int = std::int64_t;
+  using Set = Members;
+  using Composition = typename Host::Composition;
+  using Site = comp::Site;
+
+  FollowedWorld(Host& host, const Place& place, const Message* heard)
+      : host_{&host}, place_{place}, heard_{heard} {}
+
+  [[nodiscard]] const Place& place() const { return place_; }
+  [[nodiscard]] FollowedWorld at_relation(std::uint32_t relation) const {
+    Place place = host_->relation_place(relation);
+    place.descriptor = place_.descriptor;
+    return {*host_, place, heard_};
+  }
+
+  // Values.
+  template <class Tag>
+  auto operator()(Tag tag) {
+    if constexpr (std::derived_from<Tag, comp::Switch> || std::derived_from<Tag, comp::Delay>) {
+      return model::knob_value(tag, host_->dds());
+    } else if constexpr (std::derived_from<Tag, comp::Fact>) {
+      return static_cast<bool>(Tag::of(*this));
+    } else if constexpr (std::derived_from<Tag, comp::Tally>) {
+      return static_cast<Int>(Tag::of(*this));
+    } else if constexpr (requires { typename Tag::IsFlag; }) {
+      return host_->template value<Tag>(place_) != 0;
+    } else if constexpr (requires { typename Tag::IsNumber; }) {
+      return Int{host_->template value<Tag>(place_)};
+    } else if constexpr (std::derived_from<Tag, comp::DescriptorField>) {
+      return static_cast<bool>(host_->says(tag, *heard_, place_.descriptor));
+    } else if constexpr (std::derived_from<Tag, comp::PacketField>) {
+      return static_cast<bool>(host_->says(tag, *heard_));
+    } else if constexpr (std::derived_from<Tag, comp::Answer>) {
+      return static_cast<bool>(host_->answer(tag, *this));
+    } else {
+      return static_cast<Int>(host_->answer(tag, *this));
+    }
+  }
+  template <class T>
+  Int operator()(comp::Pending<T>) {
+    return host_->pending(model::event_kind_of<T>, place_.number(T::owner));
+  }
+  template <class P, class S>
+  bool in(P, comp::Is<S>) {
+    return host_->template state<P>(place_) == fsm::Reflect<typename P::Machine>::template id<S>;
+  }
+  [[nodiscard]] bool is_in(const Set& set) const { return set.has(place_.descriptor); }
+  static bool any(const Set& set) { return !set.list.empty(); }
+  template <class Term>
+  Set set_of(Term&& term) {
+    Set set;
+    each_descriptor([&](FollowedWorld& d) {
+      if (term(d)) set.list.push_back(d.place_.descriptor);
+    });
+    return set;
+  }
+  template <class Term>
+  bool some(Term&& term) {
+    const std::uint32_t count = host_->descriptor_count(place_.writer);
+    FollowedWorld d = *this;
+    for (d.place_.descriptor = 0; d.place_.descriptor < count; ++d.place_.descriptor) {
+      if (term(d)) return true;
+    }
+    return false;
+  }
+  template <class Term>
+  bool all(Term&& term) {
+    return !some([&](auto& d) { return !term(d); });
+  }
+  template <class Term>
+  Int count(Term&& term) {
+    Int total = 0;
+    each_descriptor([&](FollowedWorld& d) { total += term(d) ? 1 : 0; });
+    return total;
+  }
+  template <class Term>
+  bool all_up_to(Term&& term) {
+    FollowedWorld d = *this;
+    for (d.place_.descriptor = 0; d.place_.descriptor <= place_.descriptor; ++d.place_.descriptor) {
+      if (!term(d)) return false;
+    }
+    return true;
+  }
+  template <class Term>
+  bool some_from_here(Term&& term) {
+    return some([&](auto& d) { return d.place_.descriptor >= place_.descriptor && term(d); });
+  }
+  template <class Term>
+  bool some_reader(Term&& term) {
+    return std::ranges::any_of(host_->readers(place_.writer), [&](std::uint32_t relation) {
+      FollowedWorld r = at_relation(relation);
+      return term(r);
+    });
+  }
+  template <class Term>
+  bool some_entry(Term&& term) {
+    for (std::uint32_t stream = 0; stream < 2; ++stream) {
+      FollowedWorld w{*host_, host_->writer_place(2 * place_.participant + stream), heard_};
+      if (w.some(term)) return true;
+    }
+    return false;
+  }
+
+  // Conditions and loops.
+  template <class Body>
+  void when(bool condition, Body&& body) {
+    if (condition) body();
+  }
+  template <class Body>
+  void for_readers(Body&& body) {
+    for_relations(host_->readers(place_.writer), body);
+  }
+  template <class Body>
+  void for_readers_by_number(Body&& body) {
+    std::vector<std::uint32_t> relations = host_->readers(place_.writer);
+    std::ranges::sort(relations);
+    for_relations(relations, body);
+  }
+  template <class Term, class Body>
+  void for_descriptors(Term&& term, Body&& body) {
+    each_descriptor([&](FollowedWorld& d) {
+      if (term(d)) body(d);
+    });
+  }
+  template <class Body>
+  void for_queue(Body&& body) {
+    while (const auto entry = host_->next_in_queue(place_.participant)) {
+      FollowedWorld e{*host_, *entry, heard_};
+      body(e);
+    }
+  }
+  template <class Body>
+  void for_streams(Body&& body) {
+    for_relations(std::array{2 * place_.pair, 2 * place_.pair + 1}, body);
+  }
+  template <class Body>
+  void for_known_peers(Body&& body) {
+    for (const std::uint32_t pair : host_->known_peers(place_.participant)) {
+      FollowedWorld peer{*host_, host_->relation_place(2 * pair), heard_};
+      body(peer);
+    }
+  }
+  template <class Body>
+  void reverse(Body&& body) {
+    FollowedWorld back =
+        at_relation(2 * host_->topology().pair(place_.pair).reverse + place_.relation % 2);
+    body(back);
+  }
+
+  // Effects.
+  template <class P, class E>
+  auto feed(P, comp::On<E>, const typename P::Machine::Io::template Input<D>& input = {},
+            Site site = Site::here()) {
+    fsm::RowId row = fsm::no_row;
+    const fsm::StateId before = host_->template state<P>(place_);
+    const auto output = host_->template step<P, E>(place_, input, row);
+    if (row == fsm::no_row) return output;
+    Move move = move_of<P, E>(before);
+    if constexpr ((P::owner.indices & comp::owner::descriptor_index) != 0) {
+      move.first_word = place_.descriptor / 64;
+      move.descriptors = std::uint64_t{1} << place_.descriptor % 64;
+    }
+    host_->expect(std::move(move), site);
+    return output;
+  }
+  template <class P, class E, class Input = decltype(comp::no_input),
+            class Who = decltype(comp::everyone)>
+  auto feed_each(P, comp::On<E>, Input input = {}, Who who = {}, Site site = Site::here()) {
+    typename P::Machine::Io::template Output<MembersDomain> total{};
+    std::vector<Move> moves;
+    each_descriptor([&](FollowedWorld& d) {
+      if (!who(d)) return;
+      fsm::RowId row = fsm::no_row;
+      const fsm::StateId before = host_->template state<P>(d.place_);
+      const typename P::Machine::Io::template Input<D> in = input(d);
+      const auto output = host_->template step<P, E>(d.place_, in, row);
+      if (row != fsm::no_row) {
+        Move move = d.template move_of<P, E>(before);
+        move.first_word = d.place_.descriptor / 64;
+        move.descriptors = std::uint64_t{1} << d.place_.descriptor % 64;
+        moves.push_back(move);
+      }
+      [&]<std::size_t... I>(std::index_sequence<I...>) {
+        ((boost::pfr::get<I>(output) ? boost::pfr::get<I>(total).list.push_back(d.place_.descriptor)
+                                     : void()),
+         ...);
+      }
+      (std::make_index_sequence<boost::pfr::tuple_size_v<decltype(total)>>{});
+    });
+    host_->expect_moves(std::move(moves), site);
+    return total;
+  }
+  template <class V, class Value>
+  void set(V, Value to, Site = Site::here()) {
+    host_->template assign<V>(place_, to);
+  }
+  template <class V, class Term>
+  void set_each(V, Term&& term, Site = Site::here()) {
+    const Set set = set_of(term);
+    each_descriptor([&](FollowedWorld& d) { host_->template assign<V>(d.place_, d.is_in(set)); });
+  }
+  template <class Wait, class T>
+  void after(Wait wait, T timer, Site site = Site::here()) {
+    at((*this)(comp::Now{}) + (*this)(wait), timer, site);
+  }
+  template <class T>
+  void at(Int time, T timer, Site site = Site::here()) {
+    host_->expect_timer(timer, place_.number(T::owner), model::Nanoseconds{time}, site);
+  }
+  template <class T>
+  void cancel(T, Site = Site::here()) {
+    host_->cancel(model::event_kind_of<T>, place_.number(T::owner));
+  }
+  template <class P, class... Sayings>
+  void emit(P packet, const std::tuple<Sayings...>& sayings, Site site = Site::here()) {
+    host_->emit(packet, *this, sayings, site);
+  }
+  template <class O>
+  void raise(O, Site = Site::here()) {
+    comp::RuleFor<Composition, comp::Happens<O>>::run(*this);
+  }
+  template <class P, class... Args>
+  void call(P, const Args&... args) {
+    P::body(*this, args...);
+  }
+  template <class Step, class... Args>
+  void perform(Step step, const Args&... args) {
+    if constexpr (requires { host_->perform(step, *this, args...); }) {
+      host_->perform(step, *this, args...);
+    } else {
+      Step::contract(*this, args...);
+    }
+  }
+
+ private:
+  template <class Body>
+  void each_descriptor(Body&& body) {
+    const std::uint32_t count = host_->descriptor_count(place_.writer);
+    FollowedWorld d = *this;
+    for (d.place_.descriptor = 0; d.place_.descriptor < count; ++d.place_.descriptor) body(d);
+  }
+  template <class Relations, class Body>
+  void for_relations(const Relations& relations, Body& body) {
+    for (const std::uint32_t relation : relations) {
+      FollowedWorld r = at_relation(relation);
+      body(r);
+    }
+  }
+  /// What an observer hears of the step that the machine has just taken.
+  template <class P, class E>
+  [[nodiscard]] Move move_of(fsm::StateId before) const {
+    const auto& names = fsm::Reflect<typename P::Machine>::state_names;
+    Move move;
+    move.machine.machine = fsm::name_of<typename P::Machine>();
+    move.machine.kind = Host::machine_kind(P::owner);
+    move.machine.subject = place_.number(P::owner);
+    move.event = fsm::name_of<E>();
+    move.before = names[before];
+    move.after = names[host_->template state<P>(place_)];
+    return move;
+  }
+
+  Host* host_;
+  Place place_;
+  const Message* heard_;
+};
+
+}  // namespace stormproof::props
