@@ -169,6 +169,14 @@ const std::array properties{
              "no loss",
              {timelines, explorer, exact_run},
              "specs/guide/bounds.md"},
+    Property{"composition.followed",
+             "What a run does is what the rules say.",
+             "∀ event: (transitions, scheduled events, packets) = those of its rules in "
+             "fsm/composition, in order",
+             "",
+             "a step that a rule leaves to its host does something that its contract allows",
+             {exact_run},
+             "fsm/composition; stormproof draw composition"},
 };
 
 }  // namespace

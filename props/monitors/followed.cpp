@@ -2,8 +2,8 @@
 // executed a second time beside the run, in a plain world (props/monitors/followed_world.hpp) that
 // shares nothing with the simulator but the rules and the machines; timers, receptions and packets
 // that leave their source start them. What they do must be what the run did, in order: every
-// transition, every event that is scheduled, every packet. What a rule leaves to its host may be
-// whatever its contract allows.
+// transition, every event that is scheduled, every packet; and what is missing then. What a rule
+// leaves to its host may be whatever its contract allows.
 #include <functional>
 
 #include <fmt/core.h>
@@ -48,7 +48,13 @@ class FollowedRun final : public Observer {
     if (follower_ == nullptr) return;
     trigger_ = [this, message = message_of(packet)] { follower_->left_source(message); };
   }
-  void event_finished(const model::Depths&) override { follow(); }
+  void event_finished(const model::Depths& depths) override {
+    follow();
+    if (follower_ == nullptr || depths.missing == follower_->missing()) return;
+    object_now(fmt::format("At {} {} required descriptors are missing, by the rules {}.",
+                           time_text(now()), depths.missing, follower_->missing()));
+    follower_.reset();
+  }
 
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word,

@@ -1,6 +1,7 @@
 // Follows Fast DDS's composition: which packets reach whom, how descriptors become messages, and
-// that control-only relations open as the run shows.
+// which sides of control-only relations open.
 #include "model/fastdds/endpoints.hpp"
+#include "props/monitors/control_sides.hpp"
 #include "props/monitors/followed_rules.hpp"
 
 namespace stormproof::props {
@@ -151,17 +152,12 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
   void perform(fastdds::Flush, World&, To) {
     flush();
   }
-  /// The sides that open are those that the run opens.
-  void perform(control::OpenTopics, World&) {
-    while (const Move* move = deeds_.next<Move>()) {
-      if (move->machine.kind != model::MachineRef::Kind::control_relation || difference()) return;
-      if (move->event != fsm::name_of<fsm::control_relation::Opened>()) return;
-      World side{*this, {.control = move->machine.subject}, nullptr};
-      if (move->machine.machine == fsm::name_of<fsm::ControlWriter>()) {
-        side.raise(control::ControlWriterOpens{});
-      } else {
-        side.raise(control::ControlReaderOpens{});
-      }
+  /// Between the participant and one peer, or any.
+  void perform(control::OpenTopics, World& w) {
+    const std::uint32_t i = w.place().participant;
+    if (w.place().pair != Place::nowhere) return open_sides(w.place().pair);
+    for (std::uint32_t pair = topology_.first_pair(i); pair < topology_.first_pair(i + 1); ++pair) {
+      open_sides(topology_.pair(pair).reverse);
     }
   }
 
@@ -205,6 +201,33 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
     }
   }
 
+  /// Each side at the destination of the pair that has what it needs is open.
+  void open_sides(std::uint32_t pair) {
+    const auto open = [&](std::uint32_t number, const ControlSides::Needs& needs, auto part,
+                          auto occasion) {
+      const Place side{.control = number};
+      using Part = decltype(part);
+      constexpr fsm::StateId closed = fsm::Flyweight<typename Part::Machine>::initial;
+      if (state<Part>(side) != closed || !has(needs)) return;
+      World w{*this, side, nullptr};
+      w.raise(occasion);
+    };
+    sides_.for_each(pair, false, [&](std::uint32_t number, const ControlSides::Needs& needs) {
+      open(number, needs, control::ControlReaderSide{}, control::ControlReaderOpens{});
+    });
+    const std::uint32_t back = topology_.pair(pair).reverse;
+    sides_.for_each(back, true, [&](std::uint32_t number, const ControlSides::Needs& needs) {
+      open(number, needs, control::ControlWriterSide{}, control::ControlWriterOpens{});
+    });
+  }
+  bool has(const ControlSides::Needs& needs) {
+    if (needs.liveliness) return value<comp::Recognised>({.pair = needs.pair}) != 0;
+    const Place own{.writer = needs.writer, .descriptor = needs.created};
+    const Place other{.relation = 2 * needs.pair + needs.stream, .descriptor = needs.notified};
+    return value<fastdds::Exists>(own) != 0 && value<fastdds::Notified>(other) != 0;
+  }
+
+  const ControlSides sides_{topology_};
   std::map<std::uint32_t, std::vector<Place>> queues_;  // by participant, first in, first out
   OpenMessage message_;
 };

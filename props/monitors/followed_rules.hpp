@@ -47,6 +47,9 @@ class Follower {
   /// In words, what the run did that the rules do not say, or the other way around.
   [[nodiscard]] const std::optional<std::string>& difference() const { return difference_; }
 
+  /// How many required deliveries have not happened.
+  [[nodiscard]] std::uint64_t missing() const { return missing_; }
+
   [[nodiscard]] const model::DdsProfile& dds() const { return scenario_.dds; }
   [[nodiscard]] const model::Topology& topology() const { return topology_; }
 
@@ -83,8 +86,8 @@ class Follower {
   const model::Topology& topology_;
   Deeds deeds_;
   model::Nanoseconds now_;
-  std::uint64_t missing_;  ///< required deliveries that have not happened
-  comp::Site site_;        ///< of the effect that is looked at
+  std::uint64_t missing_;
+  comp::Site site_;  ///< of the effect that is looked at
 
  private:
   std::string_view rule_;

@@ -34,8 +34,10 @@ struct MembersDomain {
 
 /// The numbers of what a world is about, as far as they are known from there.
 struct Place {
+  static constexpr std::uint32_t nowhere = UINT32_MAX;
+
   std::uint32_t participant = 0;
-  std::uint32_t pair = 0;
+  std::uint32_t pair = nowhere;
   std::uint32_t writer = 0;
   std::uint32_t relation = 0;
   std::uint32_t control = 0;

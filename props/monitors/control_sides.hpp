@@ -1,0 +1,71 @@
+// Which sides of control-only relations there are, and what each of them needs in order to open
+// (`OpenTopics` of fsm/composition/control.hpp). Liveliness needs that its participant has
+// recognised the other one. A topic needs that it has created its endpoint there and has been
+// notified of the other's.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "model/engine/topology.hpp"
+#include "model/fastdds/endpoints.hpp"
+
+namespace stormproof::props {
+
+class ControlSides {
+ public:
+  explicit ControlSides(const model::Topology& topology) : topology_{topology} {
+    namespace fastdds = model::fastdds;
+    for (std::uint32_t pair = 0; pair < topology.pair_count(); ++pair) {
+      first_.push_back(next_);
+      const model::Pair& ends = topology.pair(pair);
+      if (!ends.cross_host) continue;
+      using enum model::Stream;
+      next_ += fastdds::topic::first_user +
+               std::min(topology.descriptor_count(ends.source, pub) - fastdds::default_publications,
+                        topology.descriptor_count(ends.destination, sub) -
+                            fastdds::default_subscriptions);
+    }
+    first_.push_back(next_);
+  }
+
+  /// What a side at participant i needs. `pair` leads from the other end to i.
+  struct Needs {
+    std::uint32_t pair = 0;
+    bool liveliness = false;
+    // A topic: i's descriptor, and the one of the pair's `stream` that i must know.
+    std::uint32_t writer = 0;
+    std::uint32_t created = 0;
+    std::uint32_t stream = 0;
+    std::uint32_t notified = 0;
+  };
+  /// Calls `visit(number, needs)` for each relation of the pair, whose writer is at its source: for
+  /// the side of the writer, or of the reader.
+  template <class Visit>
+  void for_each(std::uint32_t pair, bool of_writer, Visit&& visit) const {
+    using model::fastdds::descriptor_on;
+    const model::Pair& ends = topology_.pair(pair);
+    const std::uint32_t own = of_writer ? 0 : 1;
+    Needs needs;
+    needs.pair = of_writer ? ends.reverse : pair;
+    needs.writer = 2 * (of_writer ? ends.source : ends.destination) + own;
+    needs.stream = 1 - own;
+    for (std::uint32_t number = first_[pair]; number < first_[pair + 1]; ++number) {
+      const std::uint32_t topic = number - first_[pair];
+      needs.liveliness = topic == model::fastdds::topic::liveliness;
+      if (!needs.liveliness) {
+        needs.created = descriptor_on(topic, model::streams[own]);
+        needs.notified = descriptor_on(topic, model::streams[needs.stream]);
+      }
+      visit(number, needs);
+    }
+  }
+
+ private:
+  const model::Topology& topology_;
+  std::vector<std::uint32_t> first_;  // by pair
+  std::uint32_t next_ = 0;
+};
+
+}  // namespace stormproof::props
