@@ -3,7 +3,10 @@
 // explorer can be run by the simulator.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 #include <fmt/core.h>
 

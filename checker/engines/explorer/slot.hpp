@@ -47,7 +47,7 @@ struct Slot {
   What what{};
   std::uint8_t flags = 0;
   std::uint16_t set = 0;    ///< descriptors, bit d is descriptor d
-  std::uint8_t number = 0;  ///< Fast DDS: what a HEARTBEAT announces; the base of an ACKNACK
+  std::uint8_t number = 0;  ///< what a HEARTBEAT announces; the base of an ACKNACK
   std::uint8_t unused = 0;  ///< no padding: slots are compared and hashed bytewise
 
   static constexpr std::uint8_t carries_heartbeat = 1;  ///< DATA with a piggybacked HEARTBEAT
