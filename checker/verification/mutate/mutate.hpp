@@ -19,6 +19,8 @@ struct MutantResult {
   std::string description;
   std::vector<std::string> killed_by;  ///< property ids, in the order of the catalogue
   std::string reason;                  ///< of a survivor: why no property noticed it
+  /// Of a surviving mutant of an effect: whether some random run differs from the correct one.
+  bool makes_a_difference = true;
   /// Laws that the mutant breaks; absent if no run can show it, or if a property has noticed a
   /// mutant of an effect.
   std::optional<std::vector<std::string>> killed_by_laws;
@@ -33,7 +35,9 @@ struct MutationReport {
   bool interrupted = false;
 
   [[nodiscard]] std::size_t killed() const;
-  /// At least 95 % of them.
+  /// How many change nothing in any random run, so that nothing can notice them.
+  [[nodiscard]] std::size_t harmless() const;
+  /// At least 95 % of the others.
   [[nodiscard]] bool notices_enough() const;
   /// How many mutants the property notices.
   [[nodiscard]] std::size_t killed_by(std::string_view property) const;

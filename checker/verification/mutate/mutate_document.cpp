@@ -24,6 +24,7 @@ std::string laws_text(const MutantResult& mutant) {
 }
 
 std::string noticed_by(const MutantResult& mutant) {
+  if (!mutant.makes_a_difference) return "harmless: " + mutant.reason;
   if (!mutant.noticed()) return "SURVIVES: " + mutant.reason;
   return mutant.killed_by.empty() ? "→ a law"
                                   : fmt::format("→ {}", fmt::join(mutant.killed_by, ", "));
@@ -36,8 +37,8 @@ report::Table mutants_table(const MutationReport& report) {
                    {"who notices", Column::Align::left, true}};
   for (const MutantResult& mutant : report.mutants) {
     report::Text who = noticed_by(mutant) + "; " + laws_text(mutant);
-    table.rows.push_back(
-        {{report::code(mutant.id), mutant.description, std::move(who)}, !mutant.noticed()});
+    table.rows.push_back({{report::code(mutant.id), mutant.description, std::move(who)},
+                          !mutant.noticed() && mutant.makes_a_difference});
   }
   return table;
 }
@@ -59,9 +60,9 @@ report::Finding finding_of(const MutantResult& mutant) {
   finding.id = mutant.id;
   finding.group = "stormproof.mutate";
   finding.statement = mutant.description;
-  finding.outcome =
-      mutant.noticed() ? report::Finding::Outcome::passed : report::Finding::Outcome::failed;
-  finding.word = mutant.noticed() ? "noticed" : "survives";
+  using enum report::Finding::Outcome;
+  finding.outcome = mutant.noticed() ? passed : mutant.makes_a_difference ? failed : note;
+  finding.word = mutant.noticed() ? "noticed" : mutant.makes_a_difference ? "survives" : "harmless";
   finding.message = noticed_by(mutant);
   finding.details =
       mutant.description + "\n" + noticed_by(mutant) + "\n" + laws_text(mutant) + "\n";
@@ -81,8 +82,12 @@ report::Document document_of(const MutationReport& report) {
   document.tone = report.interrupted        ? report::Tone::warn
                   : report.notices_enough() ? report::Tone::good
                                             : report::Tone::bad;
+  const std::size_t total_seen = total - report.harmless();
   document.answer = fmt::format("{} of {} mutants are noticed ({}), in {:.1f} s", report.killed(),
-                                total, share(report.killed(), total), report.seconds);
+                                total_seen, share(report.killed(), total_seen), report.seconds);
+  if (report.harmless() > 0) {
+    document.answer += fmt::format("; {} more change nothing in random runs", report.harmless());
+  }
   document.elaboration = fmt::format(
       "killed by property tests: {} of the {} that a run can show ({})", report.killed_by_laws(),
       report.tried_on_laws(), share(report.killed_by_laws(), report.tried_on_laws()));

@@ -14,6 +14,7 @@ void describe(V& v, const MutantResult& mutant) {
   v("killed_by", mutant.killed_by);
   v.or_null("reason", mutant.noticed() ? "" : mutant.reason);
   v("killed_by_laws", mutant.killed_by_laws);
+  v("makes_a_difference", mutant.makes_a_difference);
 }
 
 template <class V>
@@ -28,6 +29,7 @@ void describe(V& v, const MutationReport& report) {
   }
   v("mutants", report.mutants);
   v("killed", report.killed());
+  v("harmless", report.harmless());
   v("properties", properties);
   v("killed_by_laws", report.killed_by_laws());
   v("tried_on_laws", report.tried_on_laws());

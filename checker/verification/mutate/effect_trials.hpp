@@ -1,0 +1,35 @@
+// The trials of mutants of effects: random runs of the mutant's composition. Their rules say what
+// each event does (`composition.followed`), and a correct run what would have been.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "checker/verification/mutate/mutants.hpp"
+#include "model/scenario.hpp"
+#include "props/laws/run_log.hpp"
+
+namespace stormproof::mutate {
+
+class EffectTrials {
+ public:
+  static constexpr std::uint64_t runs = 40;
+
+  /// Whether all runs of the mutant are what the rules say.
+  [[nodiscard]] bool are_followed(const CatalogueEntry& entry);
+  /// Whether some run of the mutant differs from the correct one: in an event, or in what one does.
+  [[nodiscard]] bool makes_a_difference(const CatalogueEntry& entry);
+
+ private:
+  struct Correct {
+    model::Scenario scenario;
+    props::RunLog log;
+  };
+  /// The random scenarios of an implementation, and their correct runs.
+  std::vector<Correct>& drawn(Concerns concerns);
+
+  std::array<std::vector<Correct>, 2> drawn_;
+};
+
+}  // namespace stormproof::mutate
