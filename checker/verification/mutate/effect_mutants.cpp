@@ -60,7 +60,7 @@ CatalogueEntry entry_of(const comp::EffectMutation& mutation) {
   entry.mutant.id = fmt::format("{}:{}:{}", mutation.composition, mutation.effect,
                                 comp::word_of(mutation.change));
   entry.mutant.description =
-      fmt::format("{}: “{}” {}", mutation.effect, what, in_words(mutation.change));
+      fmt::format("{}: “{}” {}", mutation.effect, mutation.what, in_words(mutation.change));
   entry.mutant.rules.effects.push_back(mutation);
   entry.concerns = mutation.composition == "paper" ? Concerns::paper : Concerns::fastdds;
   entry.kind = Kind::effect;

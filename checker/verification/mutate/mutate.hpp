@@ -57,7 +57,8 @@ struct MutateOptions {
 
 /// A property kills a mutant if it is violated with the mutant and not without, on one of a few
 /// small scenarios of each implementation. A law does if it is broken with the mutant and not
-/// without. Of the many mutants of effects it is only asked whether somebody notices them.
+/// without. `composition.live` and `composition.pending` are asked of mutants that forget events
+/// only. Of the many mutants of effects it is only asked whether somebody notices them.
 [[nodiscard]] MutationReport mutate(const MutateOptions& options);
 
 }  // namespace stormproof::mutate

@@ -119,8 +119,25 @@ TEST(MutateReport, ShowsLawsBesideProperties) {
   EXPECT_EQ(json["laws"]["law.counts"], 1);
 }
 
+/// Several hundred, one for each mistake that the rules allow. Those that nobody notices change
+/// nothing in random runs, or have a reason.
+TEST(Mutate, MistakesAtEffectsAreNoticed) {
+  MutateOptions options;
+  options.kinds = {Kind::effect};
+  const MutationReport report = mutate(options);
+  EXPECT_GE(report.mutants.size(), 600U);
+  EXPECT_GE(100 * report.killed(), 95 * (report.mutants.size() - report.harmless()));
+  EXPECT_LE(8 * report.harmless(), report.mutants.size());
+  for (const MutantResult& mutant : report.mutants) {
+    EXPECT_TRUE(mutant.noticed() || !mutant.reason.empty()) << mutant.id;
+    EXPECT_NE(mutant.reason, "no property notices it on the trial scenarios") << mutant.id;
+  }
+}
+
 TEST(Mutate, PropertiesNoticeTheMutants) {
-  const MutationReport report = mutate({});
+  MutateOptions options;
+  options.kinds = {Kind::table, Kind::event, Kind::snapshot, Kind::knob, Kind::order};
+  const MutationReport report = mutate(options);
   for (const MutantResult& mutant : report.mutants) {
     EXPECT_TRUE(!mutant.killed_by.empty() || !mutant.reason.empty()) << mutant.id;
   }
