@@ -40,6 +40,7 @@ class Follower {
   virtual void left_source(const Message& message) = 0;
   /// Nothing more follows from what has happened.
   void nothing_more() {
+    site_ = {};
     if (!deeds_.empty()) differ("nothing more happens");
     deeds_.clear();
   }
@@ -66,8 +67,9 @@ class Follower {
     if (site_.line != 0) {
       place += fmt::format(" ({}:{})", site_.file.substr(site_.file.rfind('/') + 1), site_.line);
     }
-    difference_ = fmt::format("{}: by the rules {}, but {}.", place, wanted,
-                              actual == nullptr ? "nothing does" : said(*actual, topology_));
+    difference_ =
+        fmt::format("{}: by the rules {}; in the run {}.", place, wanted,
+                    actual == nullptr ? "nothing more happens" : said(*actual, topology_));
   }
   /// The next deed if it is `same`; otherwise there is a difference, and null.
   template <class Kind, class Same>
@@ -212,7 +214,8 @@ class FollowedRules : public Follower {
     });
   }
 
-  // What the run must do next.
+  // What the run must do next, by the effect at `site`.
+  void looks_at(comp::Site site) { site_ = site; }
   void expect(const Move& wanted, comp::Site site) {
     site_ = site;
     next(wanted, [&](const Move& actual) { return same(actual, wanted); });
@@ -288,7 +291,8 @@ class FollowedRules : public Follower {
   template <class Trigger>
   void run(const Place& place, const Message* heard = nullptr) {
     using Rule = comp::RuleFor<Composition, Trigger>;
-    begin(fsm::name_of<Rule>());
+    static constexpr std::string_view name = fsm::name_of<Rule>();
+    begin(name);
     World w{static_cast<Self&>(*this), place, heard};
     Rule::run(w);
   }

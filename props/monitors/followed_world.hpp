@@ -283,16 +283,30 @@ class FollowedWorld {
   void call(P, const Args&... args) {
     P::body(*this, args...);
   }
+  template <class Step>
+  void perform(Step, Site site = Site::here()) {
+    do_step<Step>(site);
+  }
+  template <class Step, class A>
+  void perform(Step, const A& a, Site site = Site::here()) {
+    do_step<Step>(site, a);
+  }
+  template <class Step, class A, class B>
+  void perform(Step, const A& a, const B& b, Site site = Site::here()) {
+    do_step<Step>(site, a, b);
+  }
+
+ private:
+  /// In the host's own way, or as the contract says.
   template <class Step, class... Args>
-  void perform(Step step, const Args&... args) {
-    if constexpr (requires { host_->perform(step, *this, args...); }) {
-      host_->perform(step, *this, args...);
+  void do_step(Site site, const Args&... args) {
+    host_->looks_at(site);
+    if constexpr (requires { host_->perform(Step{}, *this, args...); }) {
+      host_->perform(Step{}, *this, args...);
     } else {
       Step::contract(*this, args...);
     }
   }
-
- private:
   template <class Body>
   void each_descriptor(Body&& body) {
     const std::uint32_t count = host_->descriptor_count(place_.writer);
@@ -309,12 +323,14 @@ class FollowedWorld {
   /// What an observer hears of the step that the machine has just taken.
   template <class P, class E>
   [[nodiscard]] Move move_of(fsm::StateId before) const {
+    static constexpr std::string_view machine = fsm::name_of<typename P::Machine>();
+    static constexpr std::string_view event = fsm::name_of<E>();
     const auto& names = fsm::Reflect<typename P::Machine>::state_names;
     Move move;
-    move.machine.machine = fsm::name_of<typename P::Machine>();
+    move.machine.machine = machine;
     move.machine.kind = Host::machine_kind(P::owner);
     move.machine.subject = place_.number(P::owner);
-    move.event = fsm::name_of<E>();
+    move.event = event;
     move.before = names[before];
     move.after = names[host_->template state<P>(place_)];
     return move;

@@ -1,13 +1,14 @@
-// composition.followed: correct runs are what the rules say, and a mistake at an effect that
-// changes what a run does is noticed.
+// composition.followed: correct runs are what the rules say, and a mistake at an effect is noticed
+// whenever it changes what some run does.
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "fsm/composition/compositions.hpp"
-#include "props/laws/run_log.hpp"
+#include "model/engine/packet.hpp"
 #include "tests/oracle/random_scenario.hpp"
 #include "tests/props/monitored_run.hpp"
 
@@ -25,69 +26,128 @@ std::unique_ptr<Monitor> follow(const Scenario& scenario, model::RunOptions opti
   return monitor;
 }
 
+/// A digest of what a run does, without the numbers that cancelled events have.
+class Deeds : public model::Probe {
+ public:
+  void event_started(const model::Event& event) override {
+    note(static_cast<std::uint64_t>(event.time.count()));
+    note(static_cast<std::uint64_t>(event.kind));
+    note(event.subject);
+  }
+  void event_finished(const model::Depths& depths) override { note(depths.missing); }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+                  std::string_view after, std::uint32_t word, std::uint64_t descriptors) override {
+    for (const std::string_view text : {machine.machine, event, after}) {
+      note(std::hash<std::string_view>{}(text));
+    }
+    note(machine.subject);
+    note(word);
+    note(descriptors);
+  }
+  void scheduled(std::uint64_t, model::Nanoseconds time, model::EventKind kind,
+                 std::uint32_t subject) override {
+    note(static_cast<std::uint64_t>(time.count()));
+    note(static_cast<std::uint64_t>(kind));
+    note(subject);
+  }
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t>) override {
+    note_packet(packet);
+  }
+  void looped_back(const model::Packet& packet, std::uint32_t receiver) override {
+    note_packet(packet);
+    note(receiver);
+  }
+  std::uint64_t digest = 0;
+
+ private:
+  void note(std::uint64_t what) { digest = (digest ^ what) * 1'099'511'628'211U + 1; }
+  void note_packet(const model::Packet& packet) {
+    note(static_cast<std::uint64_t>(packet.kind));
+    note(packet.relation());
+    note(packet.detail);
+    note(packet.copies);
+    note(packet.carries_heartbeat ? 1 : 0);
+    packet.descriptors.for_each([&](std::uint32_t d) { note(d); });
+  }
+};
+std::uint64_t deeds_of(const Scenario& scenario, model::RunOptions options) {
+  Deeds deeds;
+  options.probe = &deeds;
+  (void)simulate(scenario, options);
+  return deeds.digest;
+}
+
 class Followed : public testing::TestWithParam<ImplementationKind> {};
 
-TEST_P(Followed, CorrectRuns) {
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+TEST_P(Followed, CorrectRunsAreWhatTheRulesSay) {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
     Scenario scenario = oracle::random_scenario(seed, GetParam());
     if (seed % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
     const auto monitor = follow(scenario);
-    if (monitor->violation()) {
-      ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
-                    << monitor->violation()->reason;
-    }
+    if (!monitor->violation()) continue;
+    ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
+                  << monitor->violation()->reason;
   }
 }
 
-/// Of the mistakes at effects, those that change what some run does are noticed.
-TEST_P(Followed, MistakesAtEffects) {
+/// When a piggyback budget is used up is the host's: HEARTBEATs may ride or follow, or not.
+bool is_of_the_budget(const EffectMutation& mistake) {
+  return mistake.what.find("RefillBudget") != std::string::npos ||
+         mistake.what.find("Charge") != std::string::npos;
+}
+
+TEST_P(Followed, MistakesAtEffectsThatChangeARunAreNoticed) {
   std::vector<Scenario> scenarios;
-  std::vector<RunLog> correct;
+  std::vector<std::uint64_t> correct;
   model::RunOptions options;
-  options.max_events = 5'000;
-  std::uint64_t events = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  options.max_events = 3'000;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     scenarios.push_back(oracle::random_scenario(seed, GetParam()));
-    options.probe = &correct.emplace_back();
-    events += simulate(scenarios.back(), options).events;
+    correct.push_back(deeds_of(scenarios.back(), options));
   }
-  std::cout << events << " events\n";
-  std::map<std::string, std::array<int, 3>> by_change;
+  const std::string name = GetParam() == ImplementationKind::paper ? "paper" : "fastdds";
+  std::size_t noticed = 0;
+  std::size_t tried = 0;
   for (const auto& composition : fsm::composition::compositions()) {
-    if ((composition.name == "paper") != (GetParam() == ImplementationKind::paper)) continue;
+    if (composition.name != name) continue;
     for (const EffectMutation& mistake : fsm::composition::effect_mutations(composition)) {
       model::Mutation mutation;
       mutation.effects.push_back(mistake);
       options.mutation = &mutation;
-      bool noticed = false;
-      std::string differs;
-      for (std::size_t k = 0; k < scenarios.size() && !noticed; ++k) {
-        noticed = follow(scenarios[k], options)->violation().has_value();
-        if (noticed || !differs.empty()) continue;
-        RunLog log;
-        options.probe = &log;
-        (void)simulate(scenarios[k], options);
-        const auto found = first_difference(log, correct[k]);
-        if (found) differs = std::to_string(k) + ": " + *found;
+      ++tried;
+      bool changes = false;
+      bool found = false;
+      for (std::size_t k = 0; k < scenarios.size() && !found; ++k) {
+        found = follow(scenarios[k], options)->violation().has_value();
+        changes = changes || found || deeds_of(scenarios[k], options) != correct[k];
       }
-      auto& counts = by_change[std::string{word_of(mistake.change)}];
-      ++counts[0];
-      if (noticed) ++counts[1];
-      if (!noticed && !differs.empty()) {
-        ++counts[2];
-        std::cout << mistake.effect << " " << word_of(mistake.change) << " " << mistake.what
-                  << " seed index " << differs << "\n";
-      }
+      if (found) ++noticed;
+      EXPECT_TRUE(found || !changes || is_of_the_budget(mistake))
+          << mistake.effect << " " << word_of(mistake.change) << ": " << mistake.what;
     }
   }
-  for (const auto& [change, counts] : by_change) {
-    std::cout << change << ": " << counts[0] << " noticed " << counts[1] << " unnoticed "
-              << counts[2] << "\n";
-  }
+  EXPECT_GT(5 * noticed, 4 * tried) << noticed << " of " << tried;
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Followed,
                          testing::Values(ImplementationKind::paper, ImplementationKind::fastdds));
+
+TEST(Followed, ADifferenceNamesTheRuleAndThePlaceOfTheEffect) {
+  const Scenario scenario = shipped("wifi-5x20");
+  Scenario specification = scenario;
+  specification.dds.sedp.nack_response_delay = model::Nanoseconds{1'000};
+  const MonitoredRun run = run_monitored(scenario, specification);
+  ASSERT_NE(run.violation("composition.followed"), nullptr);
+  const std::string& reason = run.violation("composition.followed")->reason;
+  EXPECT_EQ(reason.find("At 1.515537595 s, AckNackArrives (paper.hpp:"), 0U) << reason;
+  EXPECT_NE(reason.find("by the rules repair_generation of participant 0's pub stream at "
+                        "participant 5 is scheduled for 1.515538595 s; in the run "
+                        "repair_generation of participant 0's pub stream at participant 5 is "
+                        "scheduled for 1.515637595 s."),
+            std::string::npos)
+      << reason;
+}
 
 }  // namespace followed_test
 }  // namespace stormproof::props

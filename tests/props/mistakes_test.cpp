@@ -138,6 +138,8 @@ std::vector<Case> paper_cases() {
                    "Complete")})},
       {"NeverAcknowledges", "live.quiescence", small(),
        tables({row(repair, "U AckNackReceived A", Kind::drop_row)})},
+      {"AnsweredTwice", "composition.followed", small(),
+       events({event(EventKind::acknack_generation, Change::duplicate)})},
   };
 }
 
@@ -168,6 +170,8 @@ std::vector<Case> fastdds_cases() {
                    "Complete")})},
       {"FastddsNeverAcknowledges", "live.quiescence", small_fastdds(),
        tables({row(change, "U AckNackReceived A", Kind::drop_row)})},
+      {"FastddsLateResponse", "composition.followed", small_fastdds(),
+       events({event(EventKind::nack_response, Change::shift)})},
   };
 }
 
