@@ -174,7 +174,7 @@ const std::array properties{
              "∀ event: (transitions, scheduled events, packets) = those of its rules in "
              "fsm/composition, in order",
              "",
-             "a step that a rule leaves to its host does something that its contract allows",
+             "steps that a rule leaves to its host do what their contracts allow",
              {exact_run},
              "fsm/composition; stormproof draw composition"},
 };

@@ -29,6 +29,8 @@ class Monitor : public model::Probe {
   virtual void finish(model::Nanoseconds /*end*/) {}
 
   [[nodiscard]] const std::optional<Violation>& violation() const { return violation_; }
+  /// What the monitor takes from the run instead of judging it; one sentence each.
+  [[nodiscard]] virtual std::vector<std::string> assumptions() const { return {}; }
   /// Lines worth reporting if nothing broke: largest delay, margins, counts.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 

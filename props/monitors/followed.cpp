@@ -82,6 +82,14 @@ class FollowedRun final : public Observer {
     add(std::move(message));
   }
 
+  [[nodiscard]] std::vector<std::string> assumptions() const override {
+    std::vector<std::string> taken{
+        "descriptors share DATA, and HEARTBEATs ride in them or follow them, wherever the "
+        "contracts "
+        "of packing and of the piggyback budget allow it"};
+    if (is_fastdds(scenario_.dds)) taken.emplace_back("endpoints are created when the run says");
+    return taken;
+  }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {fmt::format("{} events were followed.", followed_)};
   }

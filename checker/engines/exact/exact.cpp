@@ -36,6 +36,7 @@ struct Judgment {
   std::string_view property;
   std::optional<props::Counterexample> counterexample;
   std::vector<std::string> remarks;  ///< of the first run
+  std::vector<std::string> assumptions;
   std::uint32_t runs = 0;
   std::uint32_t incomplete = 0;
   bool interrupted = false;
@@ -112,6 +113,7 @@ class Checker {
       judgment.interrupted = judgment.interrupted || run.result.end == RunEnd::interrupted;
       judgment.events = run.result.events;
       judgment.until = std::max(judgment.until, run.known_until);
+      judgment.assumptions = monitor->assumptions();
       if (judgment.runs == 1) judgment.remarks = monitor->remarks();
       if (!monitor->violation()) continue;
       const props::Violation& violation = *monitor->violation();
@@ -133,6 +135,7 @@ class Checker {
     answer.engine = "exact run";
     answer.seed = request_.seed;
     answer.details = judgment.remarks;
+    answer.assumptions = judgment.assumptions;
     if (judgment.counterexample) {
       violated(judgment, answer);
       return answer;
