@@ -140,9 +140,9 @@ class FollowedRules : public Follower {
   }
   template <class V>
   void assign(const Place& place, std::int64_t to) {
-    std::int64_t& value = at(std::get<Values<V>>(values_).of, V::owner, place, 0);
+    ValueOf<V>& value = at(std::get<Values<V>>(values_).of, V::owner, place, 0);
     if (value == 0 && to != 0) static_cast<Self*>(this)->becomes(V{}, place);
-    value = to;
+    value = static_cast<ValueOf<V>>(to);
   }
   template <class P>
   fsm::StateId& state(const Place& place) {
@@ -320,9 +320,15 @@ class FollowedRules : public Follower {
   }
 
  private:
+  /// A truth value or a number.
+  template <class V>
+  using ValueOf = std::conditional_t < requires {
+    typename V::IsFlag;
+  }
+  , std::uint8_t, std::int64_t > ;
   template <class V>
   struct Values {
-    std::vector<std::int64_t> of;
+    std::vector<ValueOf<V>> of;
   };
   template <class P>
   struct States {
