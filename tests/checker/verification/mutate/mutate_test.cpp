@@ -50,6 +50,7 @@ TEST(Mutate, EachKindOfMistakeIsNoticedByTheRightProperty) {
       {"live-bitmap", "safety.snapshot"},
       {"expiry-doubled", "timer.single-heartbeat"},
       {"queue-twice-as-large", "safety.conservation"},
+      {"repair-a-nanosecond-late", "composition.followed"},
       {"order-pairwise", "order.total"},
       {"base-ignored", "safety.ack-implies-received"},
       {"control-writer-silent", "fsm.totality"},
