@@ -8,8 +8,8 @@
 
 #include <fmt/core.h>
 
-#include "model/run_result.hpp"
-#include "props/monitors/followed_rules.hpp"
+#include "props/monitors/describe.hpp"
+#include "props/monitors/follower.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
 
