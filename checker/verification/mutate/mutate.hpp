@@ -19,11 +19,11 @@ struct MutantResult {
   std::string description;
   std::vector<std::string> killed_by;  ///< property ids, in the order of the catalogue
   std::string reason;                  ///< of a survivor: why no property noticed it
-  /// Of a surviving mutant of an effect: whether some random run differs from the correct one.
-  bool makes_a_difference = true;
   /// Laws that the mutant breaks; absent if no run can show it, or if a property has noticed a
   /// mutant of an effect.
   std::optional<std::vector<std::string>> killed_by_laws;
+  /// Of a surviving mutant of an effect: whether some random run differs from the correct one.
+  bool makes_a_difference = true;
 
   /// By a property; a mistake at an effect also by a law.
   [[nodiscard]] bool noticed() const;

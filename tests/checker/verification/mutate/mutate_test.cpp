@@ -103,7 +103,7 @@ TEST(MutateReport, ShowsLawsBesideProperties) {
       {"a", Kind::table, "first", {"timer.armed"}, "", {{"law.counts", "law.answers"}}});
   report.mutants.push_back(
       {"b", Kind::table, "second", {"timer.armed"}, "", std::vector<std::string>{}});
-  report.mutants.push_back({"c", Kind::table, "third", {"order.total"}, "", {}});
+  report.mutants.push_back({"c", Kind::table, "third", {"order.total"}, "", std::nullopt});
   const std::string text = to_text(document_of(report));
   EXPECT_NE(text.find("property tests: law.counts, law.answers"), std::string::npos) << text;
   EXPECT_NE(text.find("property tests: none"), std::string::npos) << text;
