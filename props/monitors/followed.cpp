@@ -84,10 +84,9 @@ class FollowedRun final : public Observer {
 
   [[nodiscard]] std::vector<std::string> assumptions() const override {
     std::vector<std::string> taken{
-        "descriptors share DATA, and HEARTBEATs ride in them or follow them, wherever the "
-        "contracts "
-        "of packing and of the piggyback budget allow it"};
-    if (is_fastdds(scenario_.dds)) taken.emplace_back("endpoints are created when the run says");
+        "the network carries packets as it should, and what is scheduled happens when it is due",
+        "DATA are filled and piggyback budgets used up wherever the contracts allow it"};
+    if (is_fastdds(scenario_.dds)) taken.emplace_back("endpoints are created when they should be");
     return taken;
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
