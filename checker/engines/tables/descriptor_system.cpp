@@ -6,7 +6,7 @@
 namespace stormproof::tables {
 
 DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mutation& mistakes,
-                                   Unsound unsound)
+                                   Unsound unsound, void (*derive)(Derived&))
     : derivation_{unsound} {
   Derivation& system = derivation_;
   for (const char* bit : {watched::asked, watched::unasked_repair, watched::generated,
@@ -19,7 +19,7 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
     if (packet == "AckNack") system.assign(watched::asked, says.at("Listed"), yes);
   };
   derived.emitted = [&](std::string_view packet, const Expr& when, const auto& says) {
-    if (packet == "Data") {
+    if (packet == "Data" && says.contains("IsRepair")) {  // what is not said is false
       const Expr repaired = when && says.at("Carries") && says.at("IsRepair");
       system.assign(watched::unasked_repair, repaired && !system.now(watched::asked), yes);
     } else if (packet == "AckNack" && says.contains("Listed")) {
@@ -35,7 +35,7 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
       system.assign(watched::lists, system.now(watched::generated), listed_now);
     };
   }
-  derive_composition(derived);
+  derive(derived);
 }
 
 void derive_composition(Derived& derived) {

@@ -19,10 +19,15 @@ inline constexpr const char* lists = "it lists the descriptor";
 inline constexpr const char* listed_at_first = "it listed the descriptor at its generation";
 }  // namespace watched
 
+struct Derived;
+/// That of the profile's implementation.
+void derive_composition(Derived& derived);
+
 class DescriptorSystem {
  public:
+  /// `derive`: all steps of one composition.
   DescriptorSystem(const model::DdsProfile& dds, const model::Mutation& mistakes,
-                   Unsound unsound = Unsound::none);
+                   Unsound unsound = Unsound::none, void (*derive)(Derived&) = derive_composition);
 
   /// A variable: "C=A" (the writer's state of the descriptor), "X", "pending HeartbeatExpiry", …
   [[nodiscard]] const Expr& operator[](const std::string& name) const {
@@ -37,12 +42,9 @@ class DescriptorSystem {
   Derivation derivation_;
 };
 
-struct Derived;
 /// Derive all steps of one composition, each in a source file of its own.
 void derive_paper(Derived& derived);
 void derive_fastdds(Derived& derived);
-/// That of the profile's implementation.
-void derive_composition(Derived& derived);
 
 /// States in the finding what everything assumes that is derived from a composition.
 void assume_for_descriptors(Proof& proof);

@@ -1,5 +1,5 @@
 // A composition for readers: what there is and every rule with all its effects, on one page and as
-// data. All of it comes from the rules that proofs are derived from.
+// data. All of it comes from the rules that run and that proofs are derived from.
 #pragma once
 
 #include <string>

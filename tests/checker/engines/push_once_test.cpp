@@ -1,0 +1,92 @@
+// The third composition (tests/model/push_once) is proved and explored, with what packing its rules
+// leave to a host and nothing else.
+#include "tests/model/push_once/push_once.hpp"
+
+#include <gtest/gtest.h>
+
+#include "checker/engines/explorer/relation_world.hpp"
+#include "checker/engines/explorer/search.hpp"
+#include "checker/engines/smt/claims.hpp"
+#include "checker/engines/tables/derive.hpp"
+#include "checker/engines/tables/descriptor_system.hpp"
+#include "tests/checker/engines/explorer/tiny.hpp"
+
+namespace stormproof {
+namespace push_once_test {
+
+namespace push_once = fsm::composition::push_once;
+
+void derive_push_once(tables::Derived& derived) { tables::derive<push_once::PushOnce>(derived); }
+
+/// Whether it is proved that `bad` cannot be reached, for any number of descriptors and readers.
+props::VerdictKind decide(const char* name, bool negated_x) {
+  smt::Claims claims{{.second_solver = false}};
+  const model::Scenario scenario;
+  const checker::CheckRequest request{
+      .scenario = scenario, .claims = claims, .mutant = nullptr, .on_progress = {}};
+  tables::Proof proof{"safety.ack-implies-received", request};
+  const tables::DescriptorSystem system{scenario.dds, model::Mutation{}, tables::Unsound::none,
+                                        derive_push_once};
+  const tables::Expr bad = negated_x ? system[name] && !system["X"] : system[name];
+  return proof.finish(tables::prove_unreachable(proof, system.with_bad(bad), name)).kind;
+}
+
+TEST(PushOnceProofs, HoldForAnyNumberOfDescriptorsAndReaders) {
+  using enum props::VerdictKind;
+  EXPECT_EQ(decide("C=A", true), proved);   // what is acknowledged has been received
+  EXPECT_EQ(decide("C=R", false), proved);  // nothing is ever requested
+  EXPECT_EQ(decide("C=A", false), violated);
+  EXPECT_EQ(decide("pending AckNackGeneration", false), violated);
+}
+
+/// What the rules leave to a host: one DATA for all descriptors.
+class Packing {
+ public:
+  using Composition = push_once::PushOnce;
+  using WriterOpens = push_once::WriterOpens;
+  using State = fsm::TypeList<>;
+  static constexpr unsigned max_descriptors = 3;
+  static constexpr bool receives_separately = false;
+  static constexpr bool one_event_opens_both = true;
+  static constexpr bool repairs_leave_later = false;
+
+  Packing(const model::Scenario&, const explorer::Scope& scope) : count_{scope.descriptors} {}
+  [[nodiscard]] unsigned descriptors() const { return count_; }
+  template <class Host>
+  static void start(Host&) {}
+  template <class Host>
+  static void create(Host&, const explorer::Slot&) {}
+  template <class W>
+  void perform(push_once::Push, W& w) {
+    const auto all = static_cast<explorer::Members>(explorer::member(count_) - 1);
+    explorer::note_generated(w.host().state(), w.host().frame(), all, false);
+    w.host().send({explorer::What::data, 0, all});
+  }
+
+ private:
+  unsigned count_;
+};
+using World = explorer::RelationWorld<Packing>;
+
+bool stalls(unsigned losses) {
+  explorer::Scope scope;
+  scope.descriptors = 2;
+  scope.losses = losses;
+  scope.least_delay = model::Nanoseconds{1};
+  scope.largest_delay = model::Nanoseconds{3};
+  const model::Scenario scenario = explorer::tiny_scenario();
+  World world{scenario, scenario, scope, {}};
+  explorer::SearchOptions options;
+  options.claims = explorer::bit(explorer::Claim::no_stall);
+  const explorer::SearchResult result = explorer::Search<World>{world, options}.run();
+  EXPECT_TRUE(result.exhausted || losses > 0);
+  return result.objections[static_cast<std::size_t>(explorer::Claim::no_stall)].has_value();
+}
+
+TEST(PushOnceExplorer, StallsExactlyIfSomethingIsLost) {
+  EXPECT_FALSE(stalls(0));
+  EXPECT_TRUE(stalls(1));
+}
+
+}  // namespace push_once_test
+}  // namespace stormproof
