@@ -384,7 +384,7 @@ class RunningWorld {
   static constexpr bool has_descriptor() {
     return (Tag::owner.indices & comp::owner::descriptor_index) != 0;
   }
-  [[nodiscard]] std::uint32_t descriptor_count() const {
+  [[nodiscard, gnu::always_inline]] std::uint32_t descriptor_count() const {
     const std::uint32_t writer = number<comp::owner::writer>();
     return host_.topology().descriptor_count(writer / 2, streams[writer % 2]);
   }
