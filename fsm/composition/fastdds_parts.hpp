@@ -101,10 +101,6 @@ struct HeartbeatToAll : Opaque {
     w.for_readers([](auto& r) { emit_heartbeat(r); });
   }
 };
-struct RefillBudget : Opaque {
-  template <class W>
-  static void contract(W&) {}
-};
 /// What is requested joins the queue, ascending, unless it is in it.
 struct Enqueue : Opaque {
   template <class W>

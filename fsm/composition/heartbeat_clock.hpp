@@ -38,6 +38,11 @@ struct MaxPeriod : Delay {};
 struct EpsilonNumerator : Delay {};
 struct EpsilonDenominator : Delay {};
 
+/// The piggyback budget of the writer is full again: every HEARTBEAT that it sends fills it.
+struct RefillBudget : Opaque {
+  template <class W>
+  static void contract(W&) {}
+};
 /// The silent readers of the cycle form batches of `batch_size` (fsm/adaptive_period.hpp); with m
 /// of them, batch k is due at now + (period - T)·k/m.
 struct PlanBatches : Opaque {

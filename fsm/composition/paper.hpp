@@ -50,11 +50,6 @@ struct SomeReaderWaits : Fact {
   }
 };
 
-/// The piggyback budget of the writer is full again.
-struct RefillBudget : Opaque {
-  template <class W>
-  static void contract(W&) {}
-};
 /// A HEARTBEAT to every open relation of the writer, or to those whose readers wait. A host may
 /// keep those to all as one record.
 struct HeartbeatToRecipients : Opaque {
@@ -84,7 +79,7 @@ struct Generate : Opaque {
   }
 };
 
-struct Implementation {
+struct Implementation : AnswersEachHeartbeat {
   using Data = paper::Data;
   using Heartbeat = paper::Heartbeat;
   using Waits = paper::Waits;
@@ -98,20 +93,6 @@ struct Implementation {
   static constexpr bool multicast_first = true;
 
   // The reader.
-  template <class W>
-  static void learn_from_data(W&) {}
-  template <class W>
-  static void learn_from_heartbeat(W&) {}
-  template <class W>
-  static void answer_later(W& w) {
-    w.after(ResponseDelay{}, AckNackGeneration{});
-  }
-  template <class W, class Body>
-  static void acknack_due(W&, Body&& body) {
-    body();
-  }
-  /// The bitmap of the instant at which it is emitted; it never changes after.
-  static auto bitmap() { return says(Says{Listed{}, is_missing}, Says{BelowBase{}, is_confirmed}); }
   template <class W>
   static void emit_acknack(W& w) {
     emit_bitmap(w, typename W::Bool(false));

@@ -43,7 +43,7 @@ inline constexpr auto is_confirmed = [](auto& d) {
 };
 
 /// How many descriptors the reader lacks.
-struct Missing : Tally {
+struct Missing : Fact {
   template <class W>
   static auto of(W& w) {
     return w.count(is_missing);
@@ -80,6 +80,25 @@ struct InitialAttempts {
       w.at(timer.next_at, Attempt{});
     });
   }
+};
+
+/// A reader that notes nothing besides X, answers each HEARTBEAT by itself, and asks for all that
+/// it lacks.
+struct AnswersEachHeartbeat {
+  template <class W>
+  static void learn_from_data(W&) {}
+  template <class W>
+  static void learn_from_heartbeat(W&) {}
+  template <class W>
+  static void answer_later(W& w) {
+    w.after(ResponseDelay{}, AckNackGeneration{});
+  }
+  template <class W, class Body>
+  static void acknack_due(W&, Body&& body) {
+    body();
+  }
+  /// The bitmap of the instant at which it is emitted; it never changes after.
+  static auto bitmap() { return says(Says{Listed{}, is_missing}, Says{BelowBase{}, is_confirmed}); }
 };
 
 template <class C>

@@ -70,7 +70,7 @@ class Recorder {
   // Values.
   template <class Tag>
   Said operator()(Tag) {
-    if constexpr (std::derived_from<Tag, Fact> || std::derived_from<Tag, Tally>) define<Tag>();
+    if constexpr (std::derived_from<Tag, Fact>) define<Tag>();
     return Said{std::string{label<Tag>()}};
   }
   template <class T>

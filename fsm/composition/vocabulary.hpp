@@ -109,10 +109,9 @@ struct Number {
   static constexpr Owner owner = owner_;
 };
 
-/// What follows from the state: `of(w)` is its definition. A world may keep it up to date instead.
+/// What follows from the state, a truth value or a number: `of(w)` is its definition. A world may
+/// keep it up to date instead.
 struct Fact {};
-/// The same of a number.
-struct Tally {};
 
 /// A knob of the profile: a truth value, or a delay in ns.
 struct Switch {};

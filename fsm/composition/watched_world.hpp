@@ -169,31 +169,11 @@ class WatchedWorld {
   }
   template <class Wait, class T>
   void after(Wait wait, T timer, Site site = Site::here()) {
-    const Change change = watcher_->change_of(trail_.at("after", name_of<T>(), site));
-    effect<T>("after", site, [=](auto& w) {
-      if (change == Change::at_once) {
-        w.at(w(Now{}), timer);
-      } else if (change == Change::other_delay) {
-        w.after(HeartbeatPeriod{}, timer);
-      } else {
-        w.after(wait, timer);
-      }
-    });
+    start<T>("after", site, [=](auto& w) { w.after(wait, timer); });
   }
   template <class T>
   void at(const Int& time, T timer, Site site = Site::here()) {
-    using Other =
-        std::conditional_t<std::is_same_v<T, HeartbeatExpiry>, ResponseDelay, HeartbeatPeriod>;
-    const Change change = watcher_->change_of(trail_.at("at", name_of<T>(), site));
-    effect<T>("at", site, [=](auto& w) {
-      if (change == Change::at_once) {
-        w.at(w(Now{}), timer);
-      } else if (change == Change::other_delay) {
-        w.after(Other{}, timer);
-      } else {
-        w.at(time, timer);
-      }
-    });
+    start<T>("at", site, [=](auto& w) { w.at(time, timer); });
   }
   template <class T>
   void cancel(T timer, Site site = Site::here()) {
@@ -265,6 +245,22 @@ class WatchedWorld {
         break;
     }
     watcher_->go_on();
+  }
+  /// The start of a timer, as the rule has it (`usual`) or at another time.
+  template <class T, class Usual>
+  void start(std::string_view kind, Site site, Usual usual) {
+    using Other =
+        std::conditional_t<std::is_same_v<T, HeartbeatExpiry>, ResponseDelay, HeartbeatPeriod>;
+    const Change change = watcher_->change_of(trail_.at(kind, name_of<T>(), site));
+    effect<T>(kind, site, [=](auto& w) {
+      if (change == Change::at_once) {
+        w.at(w(Now{}), T{});
+      } else if (change == Change::other_delay) {
+        w.after(Other{}, T{});
+      } else {
+        usual(w);
+      }
+    });
   }
   template <class P, class... Args>
   void call_with(Site site, const Args&... args) {

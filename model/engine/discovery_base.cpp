@@ -13,7 +13,11 @@ DiscoveryBase::DiscoveryBase(RunState& run, Network& network)
       readers_(run.topology.relation_count()),
       announcers_(run.topology.participant_count()),
       clocks_(2 * std::size_t{run.topology.participant_count()}),
-      asked_(run.topology.relation_count()) {}
+      asked_(run.topology.relation_count()) {
+  for (std::uint32_t relation = 0; relation < readers_.size(); ++relation) {
+    readers_[relation].missing = run.topology.descriptor_count(relation);
+  }
+}
 
 namespace {
 /// Sets a flag; `count` is how many of its kind are set.

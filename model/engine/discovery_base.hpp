@@ -18,6 +18,7 @@
 #include "model/engine/effect_mutator.hpp"
 #include "model/engine/implementation.hpp"
 #include "model/engine/network.hpp"
+#include "model/engine/relation_bits.hpp"
 #include "model/engine/running_world.hpp"
 
 namespace stormproof::model {
@@ -161,7 +162,32 @@ class DiscoveryBase : public Implementation {
     return event.detail == token(Timer{}, event.subject);
   }
 
-  // Opaque steps.
+  /// How many descriptors the reader lacks.
+  template <class World>
+  [[nodiscard]] std::uint32_t fact(comp::Missing, const World& w) const {
+    return readers_[w.template number<comp::owner::relation>()].missing;
+  }
+  [[nodiscard]] std::vector<std::uint32_t> readers_by_number(std::uint32_t w) const {
+    return open_relations(w);
+  }
+
+  // Packets and opaque steps.
+  template <class World, class Sayings>
+  void emit(comp::SpdpMulticast, World& w, const Sayings&) {
+    send_spdp_multicast(w.template number<comp::owner::participant>());
+  }
+  template <class World, class Sayings>
+  void emit(comp::SpdpUnicast, World& w, const Sayings&) {
+    send_spdp_copy(w.template number<comp::owner::pair>());
+  }
+  template <class World>
+  void perform(comp::CopyToKnown, World& w) {
+    send_spdp_to_known(w.template number<comp::owner::participant>());
+  }
+  template <class World>
+  void perform(comp::RefillBudget, World& w) {
+    refill(w.template number<comp::owner::writer>());
+  }
   /// The silent readers of the cycle are asked again, in batches spread over the rest of the
   /// stretched period.
   template <class World>
@@ -192,8 +218,38 @@ class DiscoveryBase : public Implementation {
   void start_announcing(std::uint32_t i) {
     run_.schedule(run_.topology.start(i), EventKind::announcement_due, i);
   }
-  /// The descriptors that arrive at the reader of the relation complete the run.
-  void note_last_delivery(std::uint32_t relation, std::uint32_t descriptor);
+  /// Counts the copies in a DATA that arrives.
+  template <class Machine>
+  void count_copies(const RelationBits<Machine>& bits, const Packet& data) {
+    const std::uint32_t relation = data.relation();
+    if (!ends(relation).cross_host) return;
+    run_.duplicate_deliveries +=
+        data.descriptors.count() - bits.count_missing(relation, data.descriptors);
+  }
+  /// The reader has these now, and perhaps they complete the run.
+  template <class Machine>
+  void take(RelationBits<Machine>& bits, std::uint32_t relation, const DescriptorSet& received) {
+    std::uint32_t& missing = readers_[relation].missing;
+    const std::uint32_t fresh =
+        received.count() - (topology().descriptor_count(relation) - missing);
+    if (ends(relation).cross_host) {
+      if (fresh > 0 && fresh == run_.missing) {
+        note_last_delivery(relation, bits.missing(relation).lowest());
+      }
+      run_.missing -= fresh;
+      run_.useful_deliveries += fresh;
+    }
+    bits.receive(relation, received);
+    missing -= fresh;
+  }
+
+  /// A unicast announcement to each participant that i knows.
+  virtual void send_spdp_to_known(std::uint32_t i) = 0;
+  virtual void send_spdp_multicast(std::uint32_t i) = 0;
+  /// A unicast announcement from the pair's source to its destination.
+  virtual void send_spdp_copy(std::uint32_t pair) = 0;
+  /// The piggyback budget of the writer is full again.
+  virtual void refill(std::uint32_t writer) = 0;
 
   [[nodiscard]] static Packet packet_of(PacketKind kind, std::uint32_t pair,
                                         std::int64_t payload_bytes);
@@ -219,6 +275,7 @@ class DiscoveryBase : public Implementation {
     fsm::StateId state = fsm::Stepper<fsm::DiscoveryReader>::initial;
     fsm::StateId initial = fsm::Stepper<fsm::InitialAckNack>::initial;
     bool heartbeat_seen = false;
+    std::uint32_t missing = 0;    ///< descriptors with X = 0
     std::int64_t last_delay = 0;  ///< of the initial ACKNACK, ns
   };
   std::vector<ReaderSide> readers_;  // by relation
@@ -255,6 +312,7 @@ class DiscoveryBase : public Implementation {
     return clocks_[w].tokens[k];
   }
   void plan_batches(std::uint32_t writer, std::int64_t stretched);
+  void note_last_delivery(std::uint32_t relation, std::uint32_t descriptor);
 
   EffectMutator mutator_{run_.mutation, run_.probe};
   const bool watched_ = mutator_.is_needed();

@@ -9,7 +9,7 @@
 //   assign_each(tag, n, set), or assign_word(tag, n, k, bits) for each word, ascending
 //   word(tag, n, k)                      64 descriptors of a flag; of a field of `packet`
 //   said(tag, packet)                    a field of a packet as a whole
-//   fact(tag, world), tally(tag, world)  if it keeps them up to date instead of evaluating them
+//   fact(tag, world)                     if it keeps a fact up to date instead of evaluating it
 //   driver(part), state(part, n)         of a machine
 //   bits(part), lane_order(part)         of the machines of descriptors, and which of those that
 //                                        meet different inputs come first; moved(part, …) tells
@@ -168,15 +168,9 @@ class RunningWorld {
       return host_.knob(tag);
     } else if constexpr (std::derived_from<Tag, comp::Fact>) {
       if constexpr (requires { host_.fact(tag, *this); }) {
-        return static_cast<bool>(host_.fact(tag, *this));
+        return of_domain(host_.fact(tag, *this));
       } else {
-        return static_cast<bool>(Tag::of(*this));
-      }
-    } else if constexpr (std::derived_from<Tag, comp::Tally>) {
-      if constexpr (requires { host_.tally(tag, *this); }) {
-        return static_cast<Int>(host_.tally(tag, *this));
-      } else {
-        return static_cast<Int>(Tag::of(*this));
+        return Tag::of(*this);
       }
     } else if constexpr (std::derived_from<Tag, comp::PacketField>) {
       return static_cast<bool>(host_.said(tag, *packet_));
@@ -380,6 +374,8 @@ class RunningWorld {
   }
 
  private:
+  static Bool of_domain(bool value) { return value; }
+  static Int of_domain(std::uint32_t value) { return value; }
   template <class Tag>
   static constexpr bool has_descriptor() {
     return (Tag::owner.indices & comp::owner::descriptor_index) != 0;

@@ -14,9 +14,6 @@ Protocol::Protocol(RunState& run, Network& network)
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
       known_(run.topology.pair_count(), false) {
-  for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) {
-    relations_[relation].missing = run.topology.descriptor_count(relation);
-  }
   for (std::uint32_t w = 0; w < writers_.size(); ++w) {
     refill(w);
     writers_[w].enqueued.resize(words_for(run.topology.descriptor_count(w / 2, stream_of(w))));
@@ -77,10 +74,7 @@ void Protocol::received(const Packet& packet, std::uint32_t receiver) {
       run_rule<comp::Received<comp::SpdpUnicast>>(*this, packet.pair);
       break;
     case PacketKind::data:
-      if (crosses(relation)) {
-        run_.duplicate_deliveries +=
-            packet.descriptors.count() - changes_.count_missing(relation, packet.descriptors);
-      }
+      count_copies(changes_, packet);
       run_rule<comp::Received<rules::Data>>(*this, relation, &packet);
       break;
     case PacketKind::heartbeat:
@@ -96,21 +90,6 @@ void Protocol::received(const Packet& packet, std::uint32_t receiver) {
       run_rule<comp::Received<control::UserAckNack>>(*this, packet.detail, &packet);
       break;
   }
-}
-
-void Protocol::assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-  Relation& r = relations_[relation];
-  const std::uint32_t missing = run_.topology.descriptor_count(relation) - received.count();
-  const std::uint32_t fresh = r.missing - missing;
-  if (crosses(relation)) {
-    if (fresh > 0 && fresh == run_.missing) {
-      note_last_delivery(relation, changes_.missing(relation).lowest());
-    }
-    run_.missing -= fresh;
-    run_.useful_deliveries += fresh;
-  }
-  changes_.receive(relation, received);
-  r.missing = missing;
 }
 
 std::vector<std::uint32_t> Protocol::open_relations(std::uint32_t w) const {

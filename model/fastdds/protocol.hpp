@@ -73,6 +73,8 @@ class Protocol final : public DiscoveryBase {
   using DiscoveryBase::answer;
   using DiscoveryBase::assign;
   using DiscoveryBase::assign_each;
+  using DiscoveryBase::emit;
+  using DiscoveryBase::fact;
   using DiscoveryBase::value;
   using DiscoveryBase::word;
   template <class World>
@@ -101,7 +103,9 @@ class Protocol final : public DiscoveryBase {
   [[nodiscard]] std::uint64_t word(comp::X, std::uint32_t relation, std::uint32_t k) const {
     return changes_.received(relation, k);
   }
-  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received);
+  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
+    take(changes_, relation, received);
+  }
   // The others hold for the first descriptors of a stream, up to some number.
   [[nodiscard]] std::uint64_t word(rules::Exists, std::uint32_t w, std::uint32_t k) const {
     return bits_below(writers_[w].created, k);
@@ -134,10 +138,6 @@ class Protocol final : public DiscoveryBase {
     return writers_[w.template number<comp::owner::writer>()].created > 0;
   }
   template <class World>
-  [[nodiscard]] std::uint32_t tally(comp::Missing, const World& w) const {
-    return relations_[w.template number<comp::owner::relation>()].missing;
-  }
-  template <class World>
   [[nodiscard]] bool fact(rules::HasReaders, const World& w) const {
     return !writers_[w.template number<comp::owner::writer>()].readers.empty();
   }
@@ -160,14 +160,6 @@ class Protocol final : public DiscoveryBase {
   }
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.detail, k);
-  }
-  template <class World, class Sayings>
-  void emit(comp::SpdpMulticast, World& w, const Sayings&) {
-    send_spdp_multicast(w.template number<comp::owner::participant>());
-  }
-  template <class World, class Sayings>
-  void emit(comp::SpdpUnicast, World& w, const Sayings&) {
-    send_spdp_copy(w.template number<comp::owner::pair>());
   }
   template <class World, class Sayings>
   void emit(rules::Heartbeat, World& w, const Sayings& sayings) {
@@ -198,9 +190,6 @@ class Protocol final : public DiscoveryBase {
   [[nodiscard]] const std::vector<std::uint32_t>& readers(std::uint32_t w) const {
     return writers_[w].readers;
   }
-  [[nodiscard]] std::vector<std::uint32_t> readers_by_number(std::uint32_t w) const {
-    return open_relations(w);
-  }
   template <class Visit>
   void for_queue(std::uint32_t i, Visit&& visit) {
     std::deque<Endpoint>& queue = participants_[i].queue;
@@ -212,16 +201,8 @@ class Protocol final : public DiscoveryBase {
   }
   using DiscoveryBase::perform;
   template <class World>
-  void perform(comp::CopyToKnown, World& w) {
-    send_spdp_to_known(w.template number<comp::owner::participant>());
-  }
-  template <class World>
   void perform(rules::HeartbeatToAll, World& w) {
     send_heartbeat_to_all(w.template number<comp::owner::writer>());
-  }
-  template <class World>
-  void perform(rules::RefillBudget, World& w) {
-    refill(w.template number<comp::owner::writer>());
   }
   template <class World>
   void perform(rules::Clock::SendBatch, World& w) {
@@ -286,7 +267,6 @@ class Protocol final : public DiscoveryBase {
     fsm::StateId suppression = fsm::Stepper<fsm::SingleShot>::initial;
     // Reader side.
     fsm::StateId reply = fsm::Stepper<fsm::SingleShot>::initial;
-    std::uint32_t missing = 0;   ///< descriptors with X = 0
     std::uint32_t known = 0;     ///< descriptors that the reader knows to exist
     std::uint32_t notified = 0;  ///< descriptors received without a gap
   };
@@ -306,9 +286,9 @@ class Protocol final : public DiscoveryBase {
   // protocol.cpp
   [[nodiscard]] std::vector<std::uint32_t> open_relations(std::uint32_t writer) const override;
   void enqueue(std::uint32_t writer, const DescriptorSet& requested);
-  void send_spdp_to_known(std::uint32_t i);
-  void send_spdp_multicast(std::uint32_t i);
-  void send_spdp_copy(std::uint32_t pair);
+  void send_spdp_to_known(std::uint32_t i) override;
+  void send_spdp_multicast(std::uint32_t i) override;
+  void send_spdp_copy(std::uint32_t pair) override;
   void send_heartbeat(std::uint32_t relation, std::uint32_t announced, std::int64_t bytes);
   void send_heartbeat_to_all(std::uint32_t writer);
   void send_acknack(Packet&& packet);
@@ -327,7 +307,7 @@ class Protocol final : public DiscoveryBase {
 
   // sender.cpp
   enum class SendMode : std::uint8_t { sync, async };
-  void refill(std::uint32_t writer);
+  void refill(std::uint32_t writer) override;
   void pack(Message& message, std::uint32_t writer, std::uint32_t d,
             const std::vector<std::uint32_t>& readers, SendMode mode);
   void charge(Message& message, std::uint32_t d, SendMode mode);

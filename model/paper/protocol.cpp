@@ -20,7 +20,6 @@ Protocol::Protocol(RunState& run, Network& network)
   using ReaderStates = fsm::Reflect<fsm::DiscoveryReader>;
   for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) {
     const std::uint32_t count = run.topology.descriptor_count(relation);
-    relations_[relation].missing = count;
     relations_[relation].unacknowledged = count;
     readers_[relation].state =
         count > 0 ? ReaderStates::id<reader::Unknown> : ReaderStates::id<reader::EarlyComplete>;
@@ -58,8 +57,7 @@ void Protocol::received(const Packet& packet, std::uint32_t) {
       run_rule<comp::Received<comp::SpdpUnicast>>(*this, packet.pair);
       break;
     case PacketKind::data:
-      run_.duplicate_deliveries +=
-          packet.descriptors.count() - descriptors_.count_missing(relation, packet.descriptors);
+      count_copies(descriptors_, packet);
       run_rule<comp::Received<rules::Data>>(*this, relation, &packet);
       break;
     case PacketKind::heartbeat:
@@ -114,19 +112,6 @@ void Protocol::moved(rules::C, std::uint32_t relation, fsm::StateId before, fsm:
   const auto count = static_cast<std::uint32_t>(std::popcount(members));
   r.unacknowledged += after == acknowledged ? -count : count;
   if (waited != (r.unacknowledged > 0) && r.open_rank != no_rank) note_waiting(relation);
-}
-
-void Protocol::assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-  Relation& r = relations_[relation];
-  const std::uint32_t missing = run_.topology.descriptor_count(relation) - received.count();
-  const std::uint32_t fresh = r.missing - missing;
-  if (fresh > 0 && fresh == run_.missing) {
-    note_last_delivery(relation, descriptors_.missing(relation).lowest());
-  }
-  descriptors_.receive(relation, received);
-  r.missing = missing;
-  run_.missing -= fresh;
-  run_.useful_deliveries += fresh;
 }
 
 std::uint32_t Protocol::next_recipient(const Packet& packet, std::uint32_t pair) const {

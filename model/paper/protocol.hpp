@@ -45,6 +45,8 @@ class Protocol final : public DiscoveryBase {
   // The host of a RunningWorld.
   using DiscoveryBase::assign;
   using DiscoveryBase::assign_each;
+  using DiscoveryBase::emit;
+  using DiscoveryBase::fact;
   using DiscoveryBase::perform;
   using DiscoveryBase::value;
   using DiscoveryBase::word;
@@ -66,7 +68,9 @@ class Protocol final : public DiscoveryBase {
   [[nodiscard]] std::uint64_t word(comp::X, std::uint32_t relation, std::uint32_t k) const {
     return descriptors_.received(relation, k);
   }
-  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received);
+  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
+    take(descriptors_, relation, received);
+  }
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.descriptors.lowest(), k);
   }
@@ -80,26 +84,10 @@ class Protocol final : public DiscoveryBase {
     return writers_[w.template number<comp::owner::writer>()].unacknowledged > 0;
   }
 
-  template <class World>
-  [[nodiscard]] std::uint32_t tally(comp::Missing, const World& w) const {
-    return relations_[w.template number<comp::owner::relation>()].missing;
-  }
-
   [[nodiscard]] std::vector<std::uint32_t> readers(std::uint32_t w) const {
     return open_relations(w);
   }
-  [[nodiscard]] std::vector<std::uint32_t> readers_by_number(std::uint32_t w) const {
-    return open_relations(w);
-  }
 
-  template <class World, class Sayings>
-  void emit(comp::SpdpMulticast, World& w, const Sayings&) {
-    send_spdp_multicast(w.template number<comp::owner::participant>());
-  }
-  template <class World, class Sayings>
-  void emit(comp::SpdpUnicast, World& w, const Sayings&) {
-    send_spdp_copy(w.template number<comp::owner::pair>());
-  }
   template <class World, class Sayings>
   void emit(rules::Heartbeat, World& w, const Sayings&) {
     send_heartbeat(w.template number<comp::owner::relation>());
@@ -110,14 +98,6 @@ class Protocol final : public DiscoveryBase {
                  w.set_of(said_of<comp::Listed>(sayings)), said_of<comp::IsInitial>(sayings));
   }
 
-  template <class World>
-  void perform(comp::CopyToKnown, World& w) {
-    send_spdp_to_known(w.template number<comp::owner::participant>());
-  }
-  template <class World>
-  void perform(rules::RefillBudget, World& w) {
-    refill(w.template number<comp::owner::writer>());
-  }
   template <class World>
   void perform(rules::HeartbeatToRecipients, World& w) {
     send_periodic(w.template number<comp::owner::writer>());
@@ -132,11 +112,10 @@ class Protocol final : public DiscoveryBase {
   }
 
  private:
+  /// Its writer side.
   struct Relation {
-    std::uint32_t missing = 0;         ///< reader side: descriptors with X = 0
-    std::uint32_t unacknowledged = 0;  ///< writer side: descriptors not in A
-    std::uint32_t open_rank =
-        no_rank;  ///< writer side: how many relations of the writer opened before
+    std::uint32_t unacknowledged = 0;   ///< descriptors not in A
+    std::uint32_t open_rank = no_rank;  ///< how many relations of the writer opened before
   };
 
   struct Writer {
@@ -161,13 +140,13 @@ class Protocol final : public DiscoveryBase {
   void send_acknack(std::uint32_t relation, DescriptorSet&& bitmap, bool initial);
 
   // announcements.cpp
-  void send_spdp_to_known(std::uint32_t i);
-  void send_spdp_multicast(std::uint32_t i);
-  void send_spdp_copy(std::uint32_t pair);
+  void send_spdp_to_known(std::uint32_t i) override;
+  void send_spdp_multicast(std::uint32_t i) override;
+  void send_spdp_copy(std::uint32_t pair) override;
 
   // data.cpp
   void generate_data(std::uint32_t relation, const DescriptorSet& descriptors, bool repair);
-  void refill(std::uint32_t writer);
+  void refill(std::uint32_t writer) override;
   void send_heartbeat(std::uint32_t relation);
   void send_heartbeat_to(std::uint32_t relation);
   void send_heartbeat_to_open(std::uint32_t writer);

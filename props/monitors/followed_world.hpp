@@ -1,5 +1,5 @@
 // The world that follows a run (props/monitors/followed.cpp): plain and scalar, one descriptor
-// after the other; facts and tallies are evaluated by their definitions. An effect on the state is
+// after the other; facts are evaluated by their definitions. An effect on the state is
 // done; one that an observer sees must be what the run did next, or the host is told the
 // difference. The host (props/monitors/followed_rules.hpp) keeps the state and knows what the run
 // did.
@@ -79,9 +79,7 @@ class FollowedWorld {
     if constexpr (std::derived_from<Tag, comp::Switch> || std::derived_from<Tag, comp::Delay>) {
       return model::knob_value(tag, host_->dds());
     } else if constexpr (std::derived_from<Tag, comp::Fact>) {
-      return static_cast<bool>(Tag::of(*this));
-    } else if constexpr (std::derived_from<Tag, comp::Tally>) {
-      return static_cast<Int>(Tag::of(*this));
+      return Tag::of(*this);
     } else if constexpr (requires { typename Tag::IsFlag; }) {
       return host_->template value<Tag>(place_) != 0;
     } else if constexpr (requires { typename Tag::IsNumber; }) {

@@ -36,7 +36,7 @@ class PaperPacking {
   template <class Host>
   static void create(Host&, const Slot&) {}  // everything exists
   template <class W>
-  void perform(comp::paper::RefillBudget, W& w) {
+  void perform(comp::RefillBudget, W& w) {
     refill(w.host().state());
   }
   template <class W>

@@ -77,9 +77,7 @@ class DerivedWorld {
     } else if constexpr (std::derived_from<Tag, Delay>) {
       return knob<Int>(tag);
     } else if constexpr (std::derived_from<Tag, Fact>) {
-      return Bool{Tag::of(*this)};
-    } else if constexpr (std::derived_from<Tag, Tally>) {
-      return Int{Tag::of(*this)};
+      return Tag::of(*this);
     } else if constexpr (requires { typename Tag::IsFlag; }) {
       return is_foreign(Tag::owner) ? unknown() : Bool{derivation().now(tag_name<Tag>())};
     } else if constexpr (requires { typename Tag::IsNumber; }) {

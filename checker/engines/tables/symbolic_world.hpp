@@ -43,9 +43,7 @@ class SymbolicWorld : public SymbolicScope {
     } else if constexpr (std::derived_from<Tag, Delay> || std::derived_from<Tag, Amount>) {
       return Int{run_->knob(Int::named(name<Tag>()).expr())};
     } else if constexpr (std::derived_from<Tag, Fact>) {
-      return Bool{Tag::of(*this)};
-    } else if constexpr (std::derived_from<Tag, Tally>) {
-      return Int{Tag::of(*this)};
+      return Tag::of(*this);
     } else if constexpr (requires { typename Tag::IsFlag; }) {
       return Bool{run_->truth(variable<Tag>())};
     } else if constexpr (requires { typename Tag::IsNumber; }) {

@@ -26,8 +26,7 @@ void run(const model::Scenario& scenario, const model::Mutation* mutation, model
 }  // namespace
 
 std::vector<EffectTrials::Correct>& EffectTrials::drawn(Concerns concerns) {
-  const auto kind = concerns == Concerns::paper ? model::ImplementationKind::paper
-                                                : model::ImplementationKind::fastdds;
+  const model::ImplementationKind kind = implementations_of(concerns).front();
   std::vector<Correct>& list = drawn_[static_cast<std::size_t>(kind)];
   for (std::uint64_t seed = 1; list.size() < runs; ++seed) {
     Correct& correct = list.emplace_back();

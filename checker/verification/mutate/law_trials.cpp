@@ -49,15 +49,10 @@ std::vector<LawTrials::Ground>& LawTrials::grounds(model::ImplementationKind imp
 }
 
 std::vector<std::string> LawTrials::killers(const CatalogueEntry& entry) {
-  using model::ImplementationKind;
   const std::span<const props::Law> laws = props::laws();
   const props::Simulate simulate = simulator(&entry.mutant);
   std::vector<bool> kills(laws.size());
-  for (const auto implementation : {ImplementationKind::paper, ImplementationKind::fastdds}) {
-    const bool left_out =
-        entry.concerns ==
-        (implementation == ImplementationKind::paper ? Concerns::fastdds : Concerns::paper);
-    if (left_out) continue;
+  for (const auto implementation : implementations_of(entry.concerns)) {
     for (const Ground& ground : grounds(implementation)) {
       for (std::size_t k = 0; k < laws.size(); ++k) {
         if (kills[k] || !ground.holds[k]) continue;

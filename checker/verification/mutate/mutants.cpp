@@ -120,6 +120,12 @@ void add_rules(std::vector<CatalogueEntry>& list) {
 
 }  // namespace
 
+std::vector<model::ImplementationKind> implementations_of(Concerns concerns) {
+  using enum model::ImplementationKind;
+  if (concerns == Concerns::both) return {paper, fastdds};
+  return {concerns == Concerns::paper ? paper : fastdds};
+}
+
 std::vector<CatalogueEntry> mutants() {
   std::vector<CatalogueEntry> list = table_mutants();
   add_events(list);

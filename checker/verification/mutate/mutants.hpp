@@ -33,6 +33,9 @@ struct CatalogueEntry {
   Kind kind = Kind::table;
 };
 
+/// The implementations whose runs those are; at least one.
+[[nodiscard]] std::vector<model::ImplementationKind> implementations_of(Concerns concerns);
+
 /// All mutants; ids are unique, and stable as long as the rules stay as they are.
 [[nodiscard]] std::vector<CatalogueEntry> mutants();
 

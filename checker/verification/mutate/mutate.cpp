@@ -139,13 +139,8 @@ class Mutator {
   }
 
   MutantResult try_out(const CatalogueEntry& entry) {
-    using model::ImplementationKind;
     Ids killers;
-    for (const auto implementation : {ImplementationKind::paper, ImplementationKind::fastdds}) {
-      const bool left_out =
-          entry.concerns ==
-          (implementation == ImplementationKind::paper ? Concerns::fastdds : Concerns::paper);
-      if (left_out) continue;
+    for (const auto implementation : implementations_of(entry.concerns)) {
       for (const Ground& ground : grounds(implementation)) {
         Ids asked = without(ground.hold, killers);
         if (!forgets(entry)) asked = without(asked, {of_causes.begin(), of_causes.end()});
@@ -159,12 +154,9 @@ class Mutator {
 
   /// Runs first, then laws, the recorded composition and the search, until somebody notices.
   MutantResult try_effect(const CatalogueEntry& entry) {
-    using model::ImplementationKind;
-    const ImplementationKind implementation =
-        entry.concerns == Concerns::paper ? ImplementationKind::paper : ImplementationKind::fastdds;
     Ids killers;
     const auto ask = [&](EngineFunction engine, const Ids& properties) {
-      for (const Ground& ground : grounds(implementation)) {
+      for (const Ground& ground : grounds(implementations_of(entry.concerns).front())) {
         if (ground.engine != engine || !killers.empty()) continue;
         Ids asked;
         std::ranges::set_intersection(ground.hold, properties, std::inserter(asked, asked.end()));

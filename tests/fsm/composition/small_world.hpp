@@ -93,8 +93,6 @@ class SmallWorld {
     if constexpr (std::derived_from<Tag, Switch> || std::derived_from<Tag, Delay>) {
       return model::knob_value(knob, *dds_);
     } else if constexpr (std::derived_from<Tag, Fact>) {
-      return static_cast<bool>(Tag::of(*this));
-    } else if constexpr (std::derived_from<Tag, Tally>) {
       return Tag::of(*this);
     } else if constexpr (requires { typename Tag::IsFlag; }) {
       return value<Tag>() != 0;

@@ -32,24 +32,11 @@ struct Push : Opaque {
   }
 };
 
-struct Implementation {
+struct Implementation : AnswersEachHeartbeat {
   using Data = push_once::Data;
   using Heartbeat = push_once::Heartbeat;
   static constexpr bool multicast_first = true;
 
-  template <class W>
-  static void learn_from_data(W&) {}
-  template <class W>
-  static void learn_from_heartbeat(W&) {}
-  template <class W>
-  static void answer_later(W& w) {
-    w.after(ResponseDelay{}, AckNackGeneration{});
-  }
-  template <class W, class Body>
-  static void acknack_due(W&, Body&& body) {
-    body();
-  }
-  static auto bitmap() { return says(Says{Listed{}, is_missing}, Says{BelowBase{}, is_confirmed}); }
   template <class W>
   static void emit_acknack(W& w) {
     w.emit(AckNack{}, bitmap());

@@ -62,6 +62,8 @@ class PushOnceHost final : public DiscoveryBase {
 
   using DiscoveryBase::assign;
   using DiscoveryBase::assign_each;
+  using DiscoveryBase::emit;
+  using DiscoveryBase::perform;
   using DiscoveryBase::value;
   using DiscoveryBase::word;
   auto& bits(C) { return changes_; }
@@ -75,9 +77,7 @@ class PushOnceHost final : public DiscoveryBase {
     return changes_.received(relation, k);
   }
   void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-    run_.missing -= received.count() -
-                    (topology().descriptor_count(relation) - changes_.missing(relation).count());
-    changes_.receive(relation, received);
+    take(changes_, relation, received);
   }
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.descriptors.lowest(), k);
@@ -86,15 +86,6 @@ class PushOnceHost final : public DiscoveryBase {
     return open_relations(w);
   }
 
-  template <class World, class Sayings>
-  void emit(comp::SpdpMulticast, World& w, const Sayings&) {
-    const std::uint32_t i = w.template number<comp::owner::participant>();
-    network_.emit(i, packet_of(PacketKind::spdp_multicast, i, bytes));
-  }
-  template <class World, class Sayings>
-  void emit(comp::SpdpUnicast, World& w, const Sayings&) {
-    send_copy(w.template number<comp::owner::pair>());
-  }
   template <class World, class Sayings>
   void emit(Heartbeat, World& w, const Sayings&) {
     const std::uint32_t relation = w.template number<comp::owner::relation>();
@@ -118,21 +109,23 @@ class PushOnceHost final : public DiscoveryBase {
     packet.carries_initial = true;
     network_.emit(ends(relation).source, std::move(packet));
   }
-  template <class World>
-  void perform(comp::CopyToKnown, World& w) {
-    const std::uint32_t i = w.template number<comp::owner::participant>();
-    for (std::uint32_t pair = topology().first_pair(i); pair < topology().first_pair(i + 1);
-         ++pair) {
-      if (recognised_[topology().pair(pair).reverse]) send_copy(pair);
-    }
-  }
 
  private:
   static constexpr std::int64_t bytes = 500;
 
-  void send_copy(std::uint32_t pair) {
+  void send_spdp_multicast(std::uint32_t i) override {
+    network_.emit(i, packet_of(PacketKind::spdp_multicast, i, bytes));
+  }
+  void send_spdp_copy(std::uint32_t pair) override {
     network_.emit(topology().pair(pair).source, packet_of(PacketKind::spdp_unicast, pair, bytes));
   }
+  void send_spdp_to_known(std::uint32_t i) override {
+    for (std::uint32_t pair = topology().first_pair(i); pair < topology().first_pair(i + 1);
+         ++pair) {
+      if (recognised_[topology().pair(pair).reverse]) send_spdp_copy(pair);
+    }
+  }
+  void refill(std::uint32_t) override {}  // nothing is charged
   [[nodiscard]] std::vector<std::uint32_t> open_relations(std::uint32_t w) const override {
     std::vector<std::uint32_t> relations;
     for (std::uint32_t relation = 0; relation < open_.size(); ++relation) {
