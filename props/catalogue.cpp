@@ -128,7 +128,10 @@ const std::array properties{
              "after it was put into a message.",
              "",
              {explorer, exact_run},
-             "model.md, repair; fastdds.md, writer"},
+             "model.md, repair; fastdds.md, writer",
+             "",
+             "a relation has one suppression timer: what is sent while it is pending is suppressed "
+             "only for the rest of it"},
     Property{"live.no-stall",
              "While a receiver lacks a descriptor, some pending event can still bring it there.",
              "□ (X = 0 ⇒ ∃ pending event from which X = 1 is reachable without further loss)",
@@ -153,7 +156,9 @@ const std::array properties{
              "",
              "delays ≤ Δ, no loss after completion",
              {timelines, explorer, exact_run},
-             "specs/guide/bounds.md"},
+             "specs/guide/bounds.md",
+             "if the only HEARTBEAT of a relation is lost and an initial ACKNACK confirms "
+             "everything, the reader's initial ACKNACKs go on for ever"},
     Property{"storm.single-copy",
              "Without loss no descriptor reaches a receiver twice.",
              "no losses ⇒ □ (each D is received at most once); for constant delay Δ and two "
@@ -161,14 +166,20 @@ const std::array properties{
              "",
              "no loss",
              {timelines, explorer, exact_run},
-             "specs/guide/bounds.md"},
+             "specs/guide/bounds.md",
+             "a HEARTBEAT overtakes DATA that is on its way, and the reader asks for it again",
+             "a HEARTBEAT overtakes DATA that is on its way, and the reader asks for it again"},
     Property{"storm.free-threshold",
              "No repair is possible as long as no packet takes longer than a threshold.",
              "∀ delays ≤ Δ: no repair, iff Δ ≤ Δ*(τ_A, τ_N, τ_H, τ_I)",
              "Also for descriptors that are pulled: none is sent twice.",
              "no loss",
              {timelines, explorer, exact_run},
-             "specs/guide/bounds.md"},
+             "specs/guide/bounds.md",
+             "packets take longer than the timers wait",
+             "packets take longer than the timers wait; what exists at the match is pulled, and "
+             "asked for again before it arrives",
+             true},
     Property{"composition.followed",
              "What a run does is what the rules say.",
              "∀ event: (transitions, scheduled events, packets) = those of its rules in "
@@ -193,6 +204,22 @@ const char* name_of(Engine engine) {
       return "exact run";
   }
   return "";
+}
+
+const char* name_of(Reach reach) {
+  switch (reach) {
+    case Reach::deployment:
+      return "deployment";
+    case Reach::profile:
+      return "profile";
+    case Reach::rules:
+      return "rules";
+  }
+  return "";
+}
+
+std::string_view Property::weakness_of(model::ImplementationKind implementation) const {
+  return implementation == model::ImplementationKind::fastdds ? fastdds_weakness : weakness;
 }
 
 std::span<const Property> catalogue() { return properties; }

@@ -1,6 +1,6 @@
-// The limits of a scenario (`limits:`) as properties of a run: each has an id, a statement and a
-// monitor, so that a run that exceeds one is a counterexample like any other and replays. They are
-// no part of the catalogue, because they hold or not by the author's choice.
+// The limits of a scenario (`limits:` and its `time_limit`) as properties of a run: each has an id,
+// a statement and a monitor, so that a run that exceeds one is a counterexample like any other and
+// replays. They are no part of the catalogue, because they hold or not by the author's choice.
 #pragma once
 
 #include <memory>
@@ -15,11 +15,14 @@
 
 namespace stormproof::props {
 
-/// "limit.completion", "limit.messages", "limit.amplification", "limit.backlog".
+/// "limit.completion", "limit.messages", "limit.amplification", "limit.backlog", "limit.time".
 [[nodiscard]] std::span<const Property> limit_properties();
 
-/// Ids of the limits that are set, in this order.
+/// Ids of those of `limits:` that are set, in this order.
 [[nodiscard]] std::vector<std::string_view> set_limits(const std::optional<model::Limits>& limits);
+/// What a deployment is held against: those that are set, and limit.time, because a discovery that
+/// does not complete within the scenario's time_limit has failed.
+[[nodiscard]] std::vector<std::string_view> limits_of(const model::Scenario& scenario);
 
 /// How far a run went with respect to one limit. Units: ns, messages, a ratio, packets.
 struct LimitReading {
@@ -29,7 +32,7 @@ struct LimitReading {
   bool exceeded = false;
 };
 
-/// Observes all limits of a scenario that are set. Limits are about discovery: what follows its
+/// Observes all of `limits:` that are set. Limits are about discovery: what follows its
 /// completion does not count.
 class LimitWatch {
  public:

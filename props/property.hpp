@@ -2,6 +2,7 @@
 // expected verdicts refer to them.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,16 @@ enum class Engine : unsigned char { tables, explorer, timelines, exact_run };
 
 [[nodiscard]] const char* name_of(Engine engine);
 
+/// What an answer about a property covers.
+enum class Reach : unsigned char {
+  deployment,  ///< the scenario as described: its channel, its load, its start times
+  profile,     ///< every deployment with this profile, up to stated delays and losses
+  rules        ///< the transition tables and their composition, whatever surrounds them
+};
+inline constexpr std::array reaches{Reach::deployment, Reach::profile, Reach::rules};
+/// "deployment", "profile", "rules".
+[[nodiscard]] const char* name_of(Reach reach);
+
 struct Property {
   std::string_view id;           ///< "safety.snapshot"
   std::string_view statement;    ///< one sentence
@@ -24,6 +35,15 @@ struct Property {
   std::string_view assumptions;  ///< what it is claimed under; empty: nothing
   std::vector<Engine> engines;   ///< which can decide it
   std::string_view source;       ///< rule or section
+  /// Why the paper's rules, or Fast DDS's, do not promise it: under which delays or losses they
+  /// break it. Empty if they promise it.
+  std::string_view weakness = {};
+  std::string_view fastdds_weakness = {};
+  /// It says how far a profile is from a failure. A run beyond that distance has not failed by it.
+  bool is_margin = false;
+
+  /// The weakness of these rules; empty: they promise the property.
+  [[nodiscard]] std::string_view weakness_of(model::ImplementationKind implementation) const;
 };
 
 /// All properties, in the order in which reports show them.

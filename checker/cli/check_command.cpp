@@ -1,5 +1,6 @@
 // `stormproof check SCENARIO`: reads the scenario, checks it, writes the counterexamples.
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/core.h>
 
@@ -8,11 +9,14 @@
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/engines/smt/claims.hpp"
+#include "checker/verification/check/baseline.hpp"
 #include "checker/verification/check/check.hpp"
 #include "checker/verification/check/check_report.hpp"
+#include "checker/verification/check/next_steps.hpp"
 #include "checker/verification/counterexample/gtest_case.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/suggestion.hpp"
+#include "props/limits.hpp"
 
 namespace stormproof::cli {
 
@@ -21,12 +25,14 @@ namespace {
 using props::VerdictKind;
 
 struct CheckArguments {
-  std::string scenario;                        ///< file, or name of a shipped scenario
-  std::vector<std::string> overrides;          ///< key.path=value
-  std::vector<std::string> properties;         ///< ids; empty: the whole catalogue
-  VerdictKind require = VerdictKind::sampled;  ///< the weakest verdict that is accepted
-  double timeout_seconds = 10;                 ///< of each query, for each solver
-  std::string export_directory;                ///< for SMT-LIB 2 files; empty: none
+  std::string scenario;                 ///< file, or name of a shipped scenario
+  std::vector<std::string> overrides;   ///< key.path=value
+  std::vector<std::string> properties;  ///< ids; empty: the whole catalogue
+  checker::GateRules rules;
+  std::string baseline;  ///< file; empty: none
+  bool update_baseline = false;
+  double timeout_seconds = 10;   ///< of each query, for each solver
+  std::string export_directory;  ///< for SMT-LIB 2 files; empty: none
   std::string counterexamples = "counterexamples";
   OutputFile emit_test;
   unsigned seed = 0;
@@ -35,9 +41,11 @@ struct CheckArguments {
 };
 
 /// What is wrong with the ids on the command line, or nothing.
-std::optional<std::string> unknown_property(const std::vector<std::string>& ids) {
+std::optional<std::string> unknown_property(const std::vector<std::string>& ids,
+                                            const model::Scenario& scenario) {
   std::vector<std::string> known;
   for (const props::Property& property : props::catalogue()) known.emplace_back(property.id);
+  for (const std::string_view limit : props::limits_of(scenario)) known.emplace_back(limit);
   for (const std::string& id : ids) {
     if (std::ranges::find(known, id) != known.end()) continue;
     return fmt::format("--property {}: no such property{}; 'stormproof properties' lists them", id,
@@ -46,12 +54,29 @@ std::optional<std::string> unknown_property(const std::vector<std::string>& ids)
   return std::nullopt;
 }
 
-ExitCode exit_code(const checker::CheckReport& report, VerdictKind require) {
-  if (report.count(VerdictKind::violated) > 0) return violated;
-  // Kinds are in the order of their strength.
-  const auto too_weak = [&](const auto& result) { return result.verdict > require; };
-  const bool weak = std::ranges::any_of(report.results, too_weak);
-  return weak || report.interrupted ? inconclusive : established;
+/// The baseline of the command line; empty if there is none, or none yet that is to be written.
+model::config::Result<checker::Baseline> baseline_of(const CheckArguments& arguments) {
+  const std::string& path = arguments.baseline;
+  if (path.empty() || (arguments.update_baseline && !std::filesystem::exists(path))) {
+    return checker::Baseline{};
+  }
+  return checker::read_baseline(path);
+}
+
+/// Writes what fails as accepted, beside what the file accepts of other scenarios. The reason if
+/// that cannot be done.
+std::optional<std::string> update_baseline(const CheckArguments& arguments,
+                                           checker::Baseline baseline, bool interrupted,
+                                           checker::Gate& gate, const checker::CheckReport& report,
+                                           const model::DdsProfile& dds) {
+  if (interrupted) return arguments.baseline + ": not written, because the check was interrupted";
+  std::vector<checker::Failure>& accepted = baseline[arguments.scenario];
+  accepted = gate.failures;
+  if (auto error = write_text(arguments.baseline, baseline_text(baseline))) return error;
+  checker::GateRules rules = gate.rules;
+  rules.baseline = accepted;
+  gate = judge(report, dds, std::move(rules));
+  return std::nullopt;
 }
 
 checker::CheckReport run_check(const CheckArguments& arguments, const model::Scenario& scenario,
@@ -72,19 +97,33 @@ Outcome run(CheckArguments& arguments, Session& session) {
   const auto traced = model::config::trace_scenario(arguments.scenario, arguments.overrides,
                                                     model::config::SpecPath::standard());
   if (!traced) return traced.error();
-  if (const auto error = unknown_property(arguments.properties)) return Complaint{*error};
+  if (const auto error = unknown_property(arguments.properties, traced->value)) {
+    return Complaint{*error};
+  }
+  const auto baseline = baseline_of(arguments);
+  if (!baseline) return baseline.error();
   if (!arguments.export_directory.empty()) {
     const auto error = make_folder("--export", arguments.export_directory);
     if (error) return Complaint{*error};
   }
   const checker::CheckReport report = run_check(arguments, traced->value, session);
+  Answer answer;
+  if (const auto known = baseline->find(arguments.scenario); known != baseline->end()) {
+    arguments.rules.baseline = known->second;
+  }
+  const model::DdsProfile& dds = traced->value.dds;
+  checker::Gate gate = judge(report, dds, arguments.rules);
+  if (arguments.update_baseline) {
+    const auto error = update_baseline(arguments, *baseline, report.interrupted, gate, report, dds);
+    if (error) answer.complaint = *error;
+  }
   checker::CheckContext context{traced->reference,
                                 traced->value,
                                 {},
                                 {},
                                 traced->places,
-                                exit_code(report, arguments.require)};
-  Answer answer;
+                                std::move(gate),
+                                checker::words_of(arguments.scenario, arguments.overrides)};
   if (const auto error = write_counterexamples(arguments.counterexamples, report, context)) {
     answer.complaint = *error;
   }
@@ -104,11 +143,20 @@ void declare(Options& options, CheckArguments& arguments) {
   options.scenario(arguments.scenario, arguments.overrides);
   options.texts("--property", arguments.properties,
                 "Check only this property (repeatable); 'stormproof properties' lists them", "ID");
-  options.choice("--require", arguments.require,
+  options.choice("--require", arguments.rules.require,
                  {{"proved", VerdictKind::proved},
                   {"bounded", VerdictKind::bounded},
                   {"sampled", VerdictKind::sampled}},
-                 "Accept only verdicts of at least this kind: proved, bounded or sampled", "KIND");
+                 "Accept what the rules promise only if it is proved, bounded or sampled", "KIND");
+  options.flag("--strict", arguments.rules.strict,
+               "Fail, too, where other delays or losses could break what the rules do not promise");
+  const Option baseline = options.text(
+      "--baseline", arguments.baseline,
+      "Accept the failures that this file lists for the scenario; fail on anything new", "FILE");
+  options
+      .flag("--update-baseline", arguments.update_baseline,
+            "Write what fails now into the baseline")
+      .needs(baseline);
   options.timeout(arguments.timeout_seconds);
   options.folder("--counterexamples", arguments.counterexamples,
                  "Where counterexamples are written (default: counterexamples/)");
@@ -128,9 +176,11 @@ void declare(Options& options, CheckArguments& arguments) {
 
 void declare_check(Frame& frame) {
   frame.add<CheckArguments>(
-      {"check", "Which properties hold for a scenario: proofs, exploration, counterexamples",
-       "Exit code: 0 everything holds, 1 a property is violated, 3 a verdict is inconclusive or\n"
-       "weaker than --require, 2 bad input.",
+      {"check", "Whether discovery works in a scenario: runs, proofs, exploration, counterexamples",
+       "Exit code: 0 discovery completes within its limits and without a storm, nothing is "
+       "violated\n"
+       "in this deployment, and what the rules promise is established; 1 something of that fails;\n"
+       "3 something promised is inconclusive or weaker than --require; 2 bad input.",
        Formats::findings},
       declare, run);
 }

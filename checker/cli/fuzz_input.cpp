@@ -102,7 +102,7 @@ model::config::Result<std::vector<std::string>> ids_to_judge(const FuzzArguments
                                                              const model::Scenario& scenario) {
   std::vector<std::string> known;
   for (const std::string_view id : props::monitored_properties()) known.emplace_back(id);
-  for (const std::string_view id : props::set_limits(scenario.limits)) known.emplace_back(id);
+  for (const std::string_view id : props::limits_of(scenario)) known.emplace_back(id);
   for (const std::string& id : arguments.properties) {
     if (std::ranges::find(known, id) != known.end()) continue;
     const bool exists = props::find_property(id) != nullptr;

@@ -1,9 +1,11 @@
-// `simulate --samples N` and `--compare PROFILE`: the same schedules under one or several DDS
-// profiles.
+// `simulate --samples N`, `--start-jitter TIME` and `--compare PROFILE`: the same start times under
+// one or several DDS profiles.
 #include <fmt/core.h>
 
+#include "checker/cli/durations.hpp"
 #include "checker/cli/simulate_request.hpp"
 #include "checker/experiments/simulate/sample_report.hpp"
+#include "checker/verification/check/next_steps.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::cli {
@@ -34,6 +36,7 @@ void run_all(report::Sampling& sampling, Session& session) {
     trials::SampleOptions options;
     options.samples = sampling.wanted;
     options.first_seed = sampling.first_seed;
+    options.start_jitter = sampling.start_jitter;
     options.on_progress = [&](std::size_t finished, std::size_t) {
       return on_runs(before + finished, all);
     };
@@ -49,11 +52,19 @@ Outcome sample(const SimulateArguments& arguments, const model::Scenario& scenar
   const auto& schedule = scenario.deployment.schedule;
   report::Sampling sampling;
   sampling.name = arguments.scenario;
-  sampling.wanted = arguments.samples.value_or(1);
+  sampling.words = checker::words_of(arguments.scenario, arguments.overrides);
+  if (!arguments.start_jitter.empty()) {
+    const auto jitter = parse_start_jitter(arguments.start_jitter, scenario);
+    if (!jitter) return Complaint{jitter.error()};
+    sampling.start_jitter = *jitter;
+  }
+  sampling.wanted =
+      arguments.samples.value_or(sampling.is_drawn(scenario) ? trials::usual_samples : 1);
   sampling.first_seed = arguments.seed.value_or(schedule ? schedule->seed : 0);
-  if (sampling.wanted > 1 && !schedule) {
+  if (sampling.wanted > 1 && !sampling.is_drawn(scenario)) {
     return Complaint{arguments.scenario +
-                     ": has no schedule to sample; give the short form of the deployment\n"
+                     ": all runs would be the same; let every participant start up to 100 ms later "
+                     "with\n  --start-jitter 100ms\nor give the deployment ranges of start times\n"
                      "  schedule: {start: [0ms, 20ms], endpoints_done: [50ms, 120ms]}"};
   }
   if (const auto error = add_profiles(arguments, scenario, sampling)) return *error;

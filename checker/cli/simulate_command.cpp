@@ -5,6 +5,7 @@
 #include "checker/evidence/capture/write/capture_probe.hpp"
 #include "checker/experiments/simulate/simulate_report.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/verification/check/next_steps.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/perfetto.hpp"
@@ -63,11 +64,22 @@ class Recorders {
   model::trace::ProbeList probes_;
 };
 
+/// Start times that are drawn could have been others: one run of a storm says little.
+std::vector<trials::Sample> other_draws(const model::Scenario& scenario, Session& session) {
+  trials::SampleOptions options;
+  options.samples = trials::usual_samples;
+  options.first_seed = scenario.deployment.schedule->seed;
+  options.on_progress = session.on_runs();
+  return trials::sample_runs(scenario, options);
+}
+
 Outcome run(SimulateArguments& arguments, Session& session) {
   const auto scenario = model::config::read_scenario(arguments.scenario, arguments.overrides,
                                                      model::config::SpecPath::standard());
   if (!scenario) return scenario.error();
-  if (arguments.samples || !arguments.compare.empty()) return sample(arguments, *scenario, session);
+  if (arguments.samples || !arguments.compare.empty() || !arguments.start_jitter.empty()) {
+    return sample(arguments, *scenario, session);
+  }
   Recorders recorders{arguments, *scenario};
   model::RunOptions options;
   options.probe = recorders.probe();
@@ -78,6 +90,12 @@ Outcome run(SimulateArguments& arguments, Session& session) {
   report::Simulation simulation =
       report::describe(arguments.scenario, *scenario, std::move(result));
   simulation.limits = std::move(limits);
+  simulation.words = checker::words_of(arguments.scenario, arguments.overrides);
+  const bool recorded =
+      arguments.trace.wanted() || arguments.perfetto.wanted() || arguments.pcap.wanted();
+  if (scenario->deployment.schedule && !recorded) {
+    simulation.samples = other_draws(*scenario, session);
+  }
   Answer answer;
   answer.document = document_of(simulation);
   answer.json = to_json(simulation);
@@ -94,14 +112,17 @@ void declare(Options& options, SimulateArguments& arguments) {
   const Option samples =
       options
           .number("--samples", arguments.samples,
-                  "Run N schedules drawn from deployment.schedule, on all cores", "N")
+                  "Run N schedules drawn from deployment.schedule, on all cores (default 12)", "N")
           .within(1, 1'000'000);
   options.number("--seed", arguments.seed, "Seed of the first sampled schedule", "S")
       .needs(samples);
   const Option compare = options.texts(
       "--compare", arguments.compare,
       "Run another DDS profile on the same schedules, side by side (repeatable)", "PROFILE");
-  for (const Option& recording : recordings) recording.excludes(samples).excludes(compare);
+  const Option jitter = options.start_jitter(arguments.start_jitter);
+  for (const Option& recording : recordings) {
+    recording.excludes(samples).excludes(compare).excludes(jitter);
+  }
 }
 
 }  // namespace
@@ -109,9 +130,8 @@ void declare(Options& options, SimulateArguments& arguments) {
 void declare_simulate(Frame& frame) {
   frame.add<SimulateArguments>(
       {"simulate", "Predict the discovery of a scenario: completion time, messages, channel use",
-       "Exit code: 0 discovery completes (with --samples: in every run), 1 a limit of the "
-       "scenario\n"
-       "is exceeded, 3 it does not complete within the time limit, 2 bad input.",
+       "Exit code: 0 discovery completes (in every run), 1 a limit of the scenario is exceeded,\n"
+       "3 it does not complete within the time limit, 2 bad input.",
        Formats::findings},
       declare, run);
 }

@@ -20,9 +20,10 @@ struct SimulateArguments {
   std::optional<std::uint64_t> samples;  ///< runs of sampled schedules instead of a single run
   std::optional<std::uint64_t> seed;     ///< of the first sample; not given: the schedule's
   std::vector<std::string> compare;      ///< DDS profiles to run on the same schedules
+  std::string start_jitter;              ///< each participant starts up to this much later
 };
 
-/// `--samples N` and `--compare PROFILE`.
+/// `--samples N`, `--compare PROFILE` and `--start-jitter TIME`.
 [[nodiscard]] Outcome sample(const SimulateArguments& arguments, const model::Scenario& scenario,
                              Session& session);
 

@@ -1,8 +1,8 @@
-// limit.completion, limit.messages, limit.amplification, limit.backlog: what the author of a
-// scenario demands of discovery. The monitors count as reports do: a DATA packet is a message for
-// each of its descriptors, a HEARTBEAT that rides in it is one more, a record of several copies is
-// as many messages, and control-only relations are in no class (model/counts.hpp). They look at a
-// run until discovery is complete.
+// limit.completion, limit.messages, limit.amplification, limit.backlog, limit.time: what the author
+// of a scenario demands of discovery. The monitors count as reports do: a DATA packet is a message
+// for each of its descriptors, a HEARTBEAT that rides in it is one more, a record of several copies
+// is as many messages, and control-only relations are in no class (model/counts.hpp). They look at
+// a run until discovery is complete.
 #include "props/limits.hpp"
 
 #include <algorithm>
@@ -51,6 +51,13 @@ const std::array limits_as_properties{
              "",
              {Engine::exact_run},
              "limits of the scenario"},
+    Property{"limit.time",
+             "Discovery is complete when the scenario's time_limit has passed.",
+             "T_disc ≤ time_limit",
+             "",
+             "",
+             {Engine::exact_run},
+             "time_limit of the scenario"},
 };
 
 std::uint64_t messages_of(const model::Packet& packet) {
@@ -101,8 +108,8 @@ class LimitMonitor : public Observer {
 
 class CompletionLimit final : public LimitMonitor {
  public:
-  explicit CompletionLimit(model::Nanoseconds limit)
-      : LimitMonitor{"limit.completion"}, limit_{limit} {}
+  CompletionLimit(std::string_view id, model::Nanoseconds limit)
+      : LimitMonitor{id}, limit_{limit} {}
 
   void event_started(const model::Event& event) override {
     Observer::event_started(event);
@@ -187,10 +194,11 @@ class BacklogLimit final : public LimitMonitor {
 
 std::unique_ptr<LimitMonitor> make_limit_monitor(std::string_view id,
                                                  const model::Scenario& scenario) {
+  if (id == "limit.time") return std::make_unique<CompletionLimit>(id, scenario.time_limit);
   if (!scenario.limits) return nullptr;
   const model::Limits& limits = *scenario.limits;
   if (id == "limit.completion" && limits.completion) {
-    return std::make_unique<CompletionLimit>(*limits.completion);
+    return std::make_unique<CompletionLimit>(id, *limits.completion);
   }
   if (id == "limit.messages" && limits.messages) {
     return std::make_unique<MessageLimit>(*limits.messages);
@@ -214,9 +222,15 @@ std::vector<std::string_view> set_limits(const std::optional<model::Limits>& lim
   if (!limits) return ids;
   const bool set[] = {limits->completion.has_value(), limits->messages.has_value(),
                       limits->amplification.has_value(), limits->backlog.has_value()};
-  for (std::size_t k = 0; k < limits_as_properties.size(); ++k) {
+  for (std::size_t k = 0; k < std::size(set); ++k) {
     if (set[k]) ids.push_back(limits_as_properties[k].id);
   }
+  return ids;
+}
+
+std::vector<std::string_view> limits_of(const model::Scenario& scenario) {
+  std::vector<std::string_view> ids = set_limits(scenario.limits);
+  ids.push_back(limits_as_properties.back().id);
   return ids;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/mutation.hpp"
+#include "model/run_result.hpp"
 #include "model/scenario.hpp"
 #include "props/verdict.hpp"
 
@@ -45,6 +46,8 @@ struct CheckRequest {
   std::uint32_t samples = 12;  ///< runs of a scenario whose schedule is drawn
   /// Called now and then with what is being done; returning false interrupts the check.
   std::function<bool(std::string_view)> on_progress;
+  /// Called with each run of the scenario up to the end of discovery, in the order of the seeds.
+  std::function<void(const model::Scenario&, const model::RunResult&)> on_run = {};
 };
 
 /// Answers by property id.

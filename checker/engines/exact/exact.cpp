@@ -9,6 +9,7 @@
 
 #include "checker/engines/exact/observed_run.hpp"
 #include "checker/engines/exact/smallest_violation.hpp"
+#include "props/limits.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::exact {
@@ -49,7 +50,9 @@ class Checker {
  public:
   Checker(std::span<const std::string_view> properties, const checker::CheckRequest& request)
       : request_{request} {
-    for (const std::string_view monitored : props::monitored_properties()) {
+    std::vector<std::string_view> known = props::limits_of(request.scenario);
+    for (const std::string_view id : props::monitored_properties()) known.push_back(id);
+    for (const std::string_view monitored : known) {
       if (std::ranges::find(properties, monitored) != properties.end()) {
         judgments_.emplace_back().property = monitored;
       }
@@ -100,7 +103,11 @@ class Checker {
       else
         during.push_back(judgment.property);
     }
-    if (!during.empty()) judge(run_observed(during, plan), seed);
+    if (!during.empty() || request_.on_run) {
+      const ObservedRun observed = run_observed(during, plan);
+      if (request_.on_run) request_.on_run(observed.scenario, observed.result);
+      judge(observed, seed);
+    }
     if (after && !stopped_) judge(run_until_quiet(plan), seed);
   }
 

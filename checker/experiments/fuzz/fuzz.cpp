@@ -65,7 +65,7 @@ class Fuzzer {
  private:
   void choose_ids() {
     std::vector<std::string_view> known = props::monitored_properties();
-    const std::vector<std::string_view> limits = props::set_limits(base_.limits);
+    const std::vector<std::string_view> limits = props::limits_of(base_);
     const std::vector<std::string_view> ordinary = exact::ordinary_properties();
     known.insert(known.begin(), limits.begin(), limits.end());
     for (const std::string_view id : known) {

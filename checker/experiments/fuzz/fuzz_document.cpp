@@ -33,6 +33,7 @@ std::string rate_text(double rate) { return fmt::format("{:.2f} %", 100 * rate);
 /// "limit.completion 3s".
 std::string name_text(const Judgment& judgment, const model::Scenario& scenario) {
   std::string text{judgment.id};
+  if (text == "limit.time") return text + " " + print_duration(scenario.time_limit);
   if (!scenario.limits) return text;
   const model::Limits& limits = *scenario.limits;
   if (text == "limit.completion") return text + " " + print_duration(*limits.completion);
@@ -194,13 +195,22 @@ report::Finding finding_of(const Judgment& judgment, const FuzzContext& context)
   return finding;
 }
 
-std::string answer_text(const FuzzReport& report) {
+std::string answer_text(const FuzzReport& report, const model::Scenario& scenario) {
   if (report.runs.empty()) return "No run finished, so nothing is known.";
   const auto broken = std::ranges::count_if(
       report.judgments, [](const Judgment& judgment) { return judgment.broken > 0; });
-  if (broken == 0) return "No run of the sample breaks anything.";
-  return fmt::format("Runs of the sample break {} of {} properties and limits.", broken,
-                     report.judgments.size());
+  if (broken == 0) {
+    return fmt::format("None of {} breaks anything.", plural(report.runs.size(), "run"));
+  }
+  const auto worst = std::ranges::max_element(report.judgments, {}, [](const Judgment& judgment) {
+    return static_cast<double>(judgment.broken) /
+           static_cast<double>(std::max<std::size_t>(judgment.runs, 1));
+  });
+  std::string text = fmt::format("{} breaks in {} of {}", name_text(*worst, scenario),
+                                 grouped(worst->broken), plural(worst->runs, "run"));
+  if (broken > 1)
+    text += fmt::format("; {} of {} properties and limits break", broken, report.judgments.size());
+  return text + ".";
 }
 
 void add_reservations(Document& document, const FuzzReport& report) {
@@ -249,7 +259,7 @@ Document document_of(const FuzzReport& report, const FuzzContext& context) {
   document.subject =
       fmt::format("{}: {}, {}", context.name, plural(scenario.deployment.size(), "participant"),
                   fastdds ? "Fast DDS's own rules" : "the rules of the closed-loop model");
-  document.answer = answer_text(report);
+  document.answer = answer_text(report, scenario);
   add_ranges(document.blocks, report, scenario);
   document.blocks.emplace_back(verdicts(report, context));
   if (!report.runs.empty()) document.blocks.emplace_back(distribution(report));

@@ -6,8 +6,10 @@
 #include <fmt/core.h>
 
 #include "checker/experiments/simulate/sample_report.hpp"
+#include "checker/experiments/simulate/tone_of_health.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/verification/check/next_steps.hpp"
 
 namespace stormproof::report {
 
@@ -107,12 +109,33 @@ Table side_by_side(const Sampling& sampling) {
   return table;
 }
 
+/// Which profile's median is the least.
+std::string fastest_text(const Sampling& sampling) {
+  const auto median = [](const SampledProfile& profile) {
+    return summarize(profile.samples).discovery_time_ns.median;
+  };
+  const SampledProfile* best = nullptr;
+  for (const SampledProfile& one : sampling.profiles) {
+    if (median(one) && (best == nullptr || *median(one) < *median(*best))) best = &one;
+  }
+  if (best == nullptr) return "With no profile half of the runs complete.";
+  const auto own = median(sampling.profiles.front());
+  std::string text = fmt::format("{} is fastest: discovery completes after {} at the median",
+                                 best->name, as_time(*median(*best)));
+  if (best != &sampling.profiles.front()) {
+    text += fmt::format(", {} {}", sampling.profiles.front().name,
+                        own ? "after " + as_time(*own) : "not within the limit");
+  }
+  return text + ".";
+}
+
 }  // namespace
 
 Document document_of(const Sampling& sampling) {
   const SampledProfile& own = sampling.profiles.front();
   const SampleSummary summary = summarize(own.samples);
-  const bool drawn = own.scenario.deployment.schedule.has_value();
+  const bool drawn = sampling.is_drawn(own.scenario);
+  const auto outlook = trials::outlook_of(own.samples);
   const bool alone = sampling.profiles.size() == 1;
   Document document;
   document.title = "stormproof simulate " + sampling.name;
@@ -121,12 +144,14 @@ Document document_of(const Sampling& sampling) {
                           own.samples.size(), sampling.wanted)
             : fmt::format("{}: one run with the start times of the scenario", sampling.name);
   if (alone) {
-    document.answer = fmt::format("{} of {} complete within {}.", summary.completed, summary.runs,
-                                  duration(own.scenario.time_limit));
+    document.answer = outlook ? outlook->headline() + ": " + outlook->sentence() : "No run ended.";
+    document.elaboration = fmt::format("{} of {} complete within {}.", summary.completed,
+                                       summary.runs, duration(own.scenario.time_limit));
     document.blocks.emplace_back(distribution(summary));
     add_histogram(document.blocks, own.samples);
   } else {
-    document.answer = "All profiles run the same start times.";
+    document.answer = fastest_text(sampling);
+    document.elaboration = "All profiles run the same start times.";
     document.blocks.emplace_back(side_by_side(sampling));
   }
   for (const SampledProfile& profile : sampling.profiles) {
@@ -134,11 +159,14 @@ Document document_of(const Sampling& sampling) {
     add_unmodelled(document, profile.scenario.dds, alone ? "" : profile.name);
   }
   const bool all = document.complete && summary.completed == sampling.wanted;
-  document.tone = all ? Tone::good : Tone::warn;
+  document.tone = !all ? Tone::warn : alone ? tone_of(outlook->health()) : Tone::info;
+  if (outlook && alone) {
+    document.next = checker::next_steps(sampling.words, own.scenario, *outlook);
+  }
   document.exit_code = all ? 0 : 3;
-  if (drawn) {
+  if (own.scenario.deployment.schedule) {
     document.blocks.emplace_back(Paragraph{
-        fmt::format("One of the runs: --set deployment.schedule.seed=K without --samples, K from "
+        fmt::format("One of the runs: --set deployment.schedule.seed=K --samples 1, K from "
                     "{} to {}",
                     sampling.first_seed, sampling.first_seed + sampling.wanted - 1)});
   }

@@ -25,7 +25,14 @@ struct Sampling {
   std::string name;        ///< what the user called the scenario
   std::size_t wanted = 0;  ///< samples asked for; fewer exist if the runs were interrupted
   std::uint64_t first_seed = 0;
+  model::Nanoseconds start_jitter{};     ///< each participant starts up to this much later
   std::vector<SampledProfile> profiles;  ///< the scenario's own first, then those to compare with
+  std::string words = name;              ///< the scenario with its overrides, for a command line
+
+  /// Whether the runs of a scenario differ.
+  [[nodiscard]] bool is_drawn(const model::Scenario& scenario) const {
+    return scenario.deployment.schedule.has_value() || start_jitter.count() > 0;
+  }
 };
 
 /// Statistics of one profile.

@@ -5,9 +5,11 @@
 #include <fmt/core.h>
 
 #include "checker/experiments/simulate/simulate_report.hpp"
+#include "checker/experiments/simulate/tone_of_health.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
+#include "checker/verification/check/next_steps.hpp"
 
 namespace stormproof::report {
 
@@ -18,33 +20,30 @@ using model::RunResult;
 
 constexpr auto to_right = Column::Align::right;
 
-std::string headline(const Simulation& s) {
-  const RunResult& result = s.result;
-  if (result.completed()) {
-    return fmt::format("Discovery completes after {}.", duration(*result.discovery_time));
-  }
-  std::string reason;
-  switch (result.end) {
+/// Why a run that is not complete ended.
+std::string end_text(const Simulation& s) {
+  const std::string missing =
+      fmt::format("{} of {} descriptor deliveries are missing", grouped(s.result.missing_count),
+                  grouped(s.failure_free.initial_data));
+  switch (s.result.end) {
     case model::RunEnd::time_limit:
-      reason = "by the time limit of " + duration(s.scenario.time_limit);
-      break;
+      return fmt::format("At the time limit of {} {}. ", duration(s.scenario.time_limit), missing);
     case model::RunEnd::no_more_events:
-      reason = "and no event is left";
-      break;
+      return fmt::format("No event is left after {}: nothing more can happen, and {}. ",
+                         duration(s.result.end_time), missing);
     case model::RunEnd::interrupted:
-      reason = "by " + duration(result.end_time) + ", when the run was interrupted";
-      break;
+      return fmt::format("The run was interrupted at {}, when {}. ", duration(s.result.end_time),
+                         missing);
     case model::RunEnd::completed:
       break;
   }
-  return fmt::format("Discovery does NOT complete {}: {} of {} descriptor deliveries are missing.",
-                     reason, grouped(result.missing_count), grouped(s.failure_free.initial_data));
+  return "";
 }
 
 /// If the run goes on after discovery, that it does; then the open loop.
 std::string elaboration(const Simulation& s) {
   const RunResult& result = s.result;
-  std::string text;
+  std::string text = result.completed() ? "" : end_text(s);
   if (result.completed() && result.end != model::RunEnd::completed) {
     text = fmt::format(
         "The run goes on after that, as run_until: time_limit asks for, and ends after {}; what "
@@ -55,12 +54,13 @@ std::string elaboration(const Simulation& s) {
     return text + "No open-loop airtime: this profile has a constant delay and no channel.";
   }
   const auto open_loop = static_cast<double>(s.open_loop->count());
-  const auto end = static_cast<double>(result.discovery_time.value_or(result.end_time).count());
+  const exact::RunHealth run = exact::health_of(s.scenario, result);
   text += fmt::format("Everything sent once would need {} of airtime (open loop); ",
                       duration(*s.open_loop));
-  return text + (result.completed()
-                     ? fmt::format("the closed loop takes {} as long.", ratio(end, open_loop))
-                     : fmt::format("the run ended after {} of that.", ratio(end, open_loop)));
+  const std::string took = ratio(static_cast<double>(run.took.count()), open_loop);
+  const std::string from = run.last_start.count() > 0 ? ", from the last start" : "";
+  return text + (result.completed() ? fmt::format("the closed loop takes {} as long{}.", took, from)
+                                    : fmt::format("the run ended after {} of that.", took));
 }
 
 /// Each as a row of the table and as a finding.
@@ -252,11 +252,10 @@ void add_footer(Blocks& blocks, const Simulation& s) {
       "states its rules and assumptions.",
       grouped(s.result.events), fastdds ? "specs/guide/fastdds.md" : "specs/guide/model.md")});
   if (s.result.counts.repair_data == 0) return;
+  if (!s.samples.empty()) return;
   blocks.emplace_back(Paragraph{
-      s.scenario.deployment.schedule
-          ? "A single run of a storm is chaotic: --samples 12 shows the range over start times."
-          : "A single run of a storm is chaotic: with start times drawn from ranges "
-            "(deployment.schedule), --samples 12 shows the range of outcomes."});
+      "A single run of a storm is chaotic: --start-jitter 100ms shows the range of outcomes when "
+      "processes start at slightly different times."});
 }
 
 }  // namespace
@@ -265,19 +264,26 @@ Document document_of(const Simulation& s) {
   const bool exceeded = std::ranges::any_of(s.limits, &props::LimitReading::exceeded);
   Document document;
   document.title = "stormproof simulate " + s.name;
-  document.exit_code = exceeded ? 1 : s.result.completed() ? 0 : 3;
-  // That discovery completes is good or bad only beside a limit.
-  document.tone = exceeded                ? Tone::bad
-                  : !s.result.completed() ? Tone::warn
-                  : s.limits.empty()      ? Tone::plain
-                                          : Tone::good;
+  const exact::Outlook outlook = s.outlook();
+  const bool completed = outlook.completed() == outlook.size();
+  document.exit_code = exceeded ? 1 : completed ? 0 : 3;
+  document.tone = exceeded ? Tone::bad : tone_of(outlook.health());
   document.complete = s.result.end != model::RunEnd::interrupted;
   document.subject = fmt::format("{}: {}, {}, {} to be delivered across hosts", s.name,
                                  plural(s.scenario.deployment.host_count(), "host"),
                                  plural(s.scenario.deployment.size(), "participant"),
                                  plural(s.failure_free.initial_data, "descriptor"));
-  document.answer = headline(s);
-  document.elaboration = elaboration(s);
+  document.answer = outlook.headline() + ": " + outlook.sentence();
+  if (s.samples.empty()) {
+    document.elaboration = elaboration(s);
+  } else {
+    document.blocks.emplace_back(
+        Paragraph{fmt::format("What follows is the run with seed {}, which completes after {}. ",
+                              s.scenario.deployment.schedule->seed,
+                              s.result.completed() ? duration(*s.result.discovery_time) : "–") +
+                  elaboration(s)});
+  }
+  document.next = checker::next_steps(s.words, s.scenario, outlook);
   add_limits(document, s);
   Blocks& blocks = document.blocks;
   blocks.emplace_back(messages(s));

@@ -1,5 +1,6 @@
 // The JSON form of a simulation. Times are integers in ns, sizes in bytes; what does not exist is
 // null.
+#include "checker/experiments/simulate/samples_json.hpp"
 #include "checker/experiments/simulate/simulate_report.hpp"
 #include "checker/presentation/json/describe.hpp"
 #include "checker/presentation/json/describe_model.hpp"
@@ -120,17 +121,22 @@ Simulation describe(std::string name, const model::Scenario& scenario, model::Ru
           model::open_loop_airtime(scenario)};
 }
 
+exact::Outlook Simulation::outlook() const {
+  if (auto of_samples = trials::outlook_of(samples)) return *std::move(of_samples);
+  return exact::Outlook{std::vector{exact::health_of(scenario, result)}};
+}
+
 Json to_json(const Simulation& s) {
   const RunResult& result = s.result;
   Json counts = json_of(result.counts);
   counts["user_control"] = result.user_control;
   std::optional<double> closed_to_open_loop;
   if (s.open_loop && result.discovery_time) {
-    closed_to_open_loop = static_cast<double>(result.discovery_time->count()) /
-                          static_cast<double>(s.open_loop->count());
+    closed_to_open_loop = exact::health_of(s.scenario, result).stretch;
   }
   JsonObject v;
   v("scenario", s.name);
+  v("outlook", s.outlook());
   v("completed", result.completed());
   v("end", result.end);
   v("t_disc_ns", result.discovery_time);
@@ -150,6 +156,10 @@ Json to_json(const Simulation& s) {
   v("deliveries",
     Json{{"useful", result.useful_deliveries}, {"duplicate", result.duplicate_deliveries}});
   v("last_delivery", result.last_delivery);
+  if (!s.samples.empty()) {
+    v("samples", s.samples);
+    v("summary", summarize(s.samples));
+  }
   v.unless_empty("unmodelled", s.scenario.dds.unmodelled);
   v("profile", model::config::effective_json(s.scenario));
   return std::move(v).take();

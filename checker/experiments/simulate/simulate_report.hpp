@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "checker/experiments/trials/sample_runs.hpp"
 #include "checker/presentation/document/document.hpp"
 #include "model/counts.hpp"
 #include "model/run_result.hpp"
@@ -23,6 +24,11 @@ struct Simulation {
   model::Counts failure_free;
   std::optional<model::Nanoseconds> open_loop;
   std::vector<props::LimitReading> limits = {};  ///< those that the scenario sets
+  std::vector<trials::Sample> samples = {};      ///< other draws of its schedule, if it has one
+  std::string words = name;                      ///< with the overrides, for a command line
+
+  /// Of all samples, or of the one run.
+  [[nodiscard]] exact::Outlook outlook() const;
 };
 
 /// Completes a run with its reference and its baseline.
@@ -32,9 +38,9 @@ struct Simulation {
 /// For a person who knows ROS 2 but not this project.
 [[nodiscard]] Document document_of(const Simulation& simulation);
 
-/// Keys: scenario, completed, end, t_disc_ns, end_ns, counts, failure_free, amplification, events,
-/// open_loop_ns, closed_to_open_loop, limits (if the scenario has any), missing, channels, backlog,
-/// latency, deliveries, last_delivery, profile. specs/guide/output.md describes them.
+/// Keys: scenario, outlook, completed, end, t_disc_ns, end_ns, counts, failure_free, amplification,
+/// events, open_loop_ns, closed_to_open_loop, limits (if the scenario has any), missing, channels,
+/// backlog, latency, deliveries, last_delivery, profile. specs/guide/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Simulation& simulation);
 
 }  // namespace stormproof::report

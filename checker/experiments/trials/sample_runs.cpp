@@ -9,10 +9,25 @@ std::vector<Sample> sample_runs(const model::Scenario& scenario, const SampleOpt
   Runner runner{options.threads, options.on_progress};
   return present(runner.run(options.samples, [&](std::size_t k) -> std::optional<Sample> {
     const std::uint64_t seed = options.first_seed + k;
-    const auto run = runner.simulate(under_seed(scenario, seed));
+    const model::Scenario drawn = under_seed(scenario, seed, options.start_jitter);
+    const auto run = runner.simulate(drawn);
     if (!run) return std::nullopt;
-    return Sample{seed, run->end, run->discovery_time, run->counts, run->user_control, run->events};
+    return Sample{seed,
+                  run->end,
+                  run->discovery_time,
+                  run->counts,
+                  run->user_control,
+                  run->events,
+                  exact::health_of(drawn, *run)};
   }));
+}
+
+std::optional<exact::Outlook> outlook_of(const std::vector<Sample>& samples) {
+  if (samples.empty()) return std::nullopt;
+  std::vector<exact::RunHealth> runs;
+  runs.reserve(samples.size());
+  for (const Sample& sample : samples) runs.push_back(sample.health);
+  return exact::Outlook{std::move(runs)};
 }
 
 }  // namespace stormproof::trials

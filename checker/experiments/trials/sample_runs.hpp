@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "checker/engines/exact/health.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "model/counts.hpp"
 #include "model/run_result.hpp"
@@ -22,17 +23,25 @@ struct Sample {
   model::Counts counts;
   std::uint64_t user_control = 0;
   std::uint64_t events = 0;
+  exact::RunHealth health{};
 };
+
+/// What the samples were like together; absent if there are none.
+[[nodiscard]] std::optional<exact::Outlook> outlook_of(const std::vector<Sample>& samples);
+
+/// Samples of a scenario whose start times are drawn, unless somebody wants another number.
+inline constexpr std::size_t usual_samples = 12;
 
 struct SampleOptions {
   std::size_t samples = 1;
-  std::uint64_t first_seed = 0;  ///< sample k draws its schedule from seed first_seed + k
-  std::size_t threads = 0;       ///< 0: as many as the machine has cores
+  std::uint64_t first_seed = 0;       ///< sample k draws its schedule from seed first_seed + k
+  model::Nanoseconds start_jitter{};  ///< each participant starts up to this much later
+  std::size_t threads = 0;            ///< 0: as many as the machine has cores
   Progress on_progress;
 };
 
 /// The sampled runs in the order of their seeds; those that were stopped are left out. The
-/// deployment must have a schedule, or `samples` be 1: then the scenario runs as it is.
+/// deployment must have a schedule or a jitter, or `samples` be 1: then the scenario runs as it is.
 [[nodiscard]] std::vector<Sample> sample_runs(const model::Scenario& scenario,
                                               const SampleOptions& options);
 

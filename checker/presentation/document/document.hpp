@@ -233,16 +233,23 @@ struct Finding {
 
 // ---- the document -------------------------------------------------------------------------------
 
+/// A command to run after this one, and what it tells.
+struct NextStep {
+  std::string command;
+  std::string why;
+};
+
 struct Document {
   std::string title;        ///< "stormproof check wifi-5x20"
   Tone tone = Tone::plain;  ///< of the answer; its sign stands before the answer
-  Text subject{};           ///< what was looked at, on one line above the answer; may be empty
+  Text subject{};           ///< what was looked at, on one line; may be empty
   Text answer;              ///< the first line: what the reader asked
   Text elaboration;         ///< one or two sentences below it; may be empty
   Blocks blocks{};
   std::vector<Finding> findings{};
   std::vector<Text> assumptions{};  ///< what the answer takes for granted; listed near the end
   std::string command{};            ///< gives the same answer again; empty: nothing to repeat
+  std::vector<NextStep> next{};     ///< where to go from here
   int exit_code = 0;                ///< of the program that shows the document
   bool complete = true;             ///< false: interrupted; what is there holds
   double seconds = 0;               ///< that the work behind it took, by the clock

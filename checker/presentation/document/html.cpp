@@ -111,13 +111,13 @@ class Page {
  public:
   std::string run(const Document& document) {
     std::string body = "<h1>" + html_text(document.title) + "</h1>\n";
-    if (!document.subject.empty()) body += "<p>" + html(document.subject) + "</p>\n";
     std::string more;
     if (!document.elaboration.empty()) more = "<p>" + html(document.elaboration) + "</p>\n";
     if (!document.answer.empty()) {
       const std::string sign = html_text(sign_of(document.tone));
       more = framed(document.tone, with_sign(sign, html(document.answer)), more);
     }
+    if (!document.subject.empty()) more += "<p>" + html(document.subject) + "</p>\n";
     body += more + blocks(document.blocks, 2);
     if (!document.assumptions.empty()) {
       body += add(Section{"Assumptions", "assumptions", {Bullets{document.assumptions}}}, 2);
@@ -125,10 +125,21 @@ class Page {
     if (!document.command.empty()) {
       body += add(Section{"Repeat it", "repeat", {Command{document.command}}}, 2);
     }
+    body += next_steps(document);
     return html_page(document.title, body, drawings_);
   }
 
  private:
+  std::string next_steps(const Document& document) {
+    if (document.next.empty()) return "";
+    Section section{"Next", "next"};
+    for (const NextStep& step : document.next) {
+      section.blocks.emplace_back(Paragraph{step.why});
+      section.blocks.emplace_back(Command{step.command});
+    }
+    return add(section, 2);
+  }
+
   std::string blocks(const Blocks& all, std::size_t level) {
     std::string text;
     bool drawings = false;  // side by side

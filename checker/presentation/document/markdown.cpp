@@ -261,14 +261,18 @@ std::string to_markdown(const Document& document) {
   std::string answer = (sign.empty() ? "" : std::string{sign} + " ") + md(document.answer);
   const std::string title = md_text(document.title);
   parts.add("", "### " + title + (title.empty() || answer.empty() ? "" : ": ") + answer + "\n");
-  if (!document.subject.empty()) parts.add("", md(document.subject) + "\n");
   if (!document.elaboration.empty()) parts.add("", md(document.elaboration) + "\n");
+  if (!document.subject.empty()) parts.add("", md(document.subject) + "\n");
   parts.add(document.blocks, "", 4);
   if (!document.assumptions.empty()) {
     parts.add("the assumptions",
               md_details("Assumptions", to_md(Bullets{document.assumptions}, 4)));
   }
   if (!document.command.empty()) parts.add("the command", repeat(document.command));
+  for (const NextStep& step : document.next) {
+    parts.add("what to do next",
+              fmt::format("Next: {} – {}\n", md_code(step.command), md_text(step.why)));
+  }
   return parts.text();
 }
 

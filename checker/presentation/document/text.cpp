@@ -33,6 +33,11 @@ class TextPage {
     if (!document.command.empty()) {
       add(Section{"Repeat it", "", {Command{document.command}}}, 0);
     }
+    if (!document.next.empty()) blank_line();
+    for (const NextStep& step : document.next) {
+      line(0, fmt::format("next: {}", valid_text(step.command)));
+      running(0, "      ", step.why);
+    }
     return std::move(out_);
   }
 
@@ -68,10 +73,6 @@ class TextPage {
   }
 
   void answer(const Document& document) {
-    if (!document.subject.empty()) {
-      running(0, "", document.subject);
-      blank_line();
-    }
     const std::string_view sign = sign_of(document.tone);
     if (!document.answer.empty()) {
       const std::string words = (sign.empty() ? "" : std::string{sign} + " ") +
@@ -81,6 +82,10 @@ class TextPage {
       }
     }
     if (!document.elaboration.empty()) running(0, "", document.elaboration);
+    if (!document.subject.empty()) {
+      blank_line();
+      running(0, "", document.subject);
+    }
   }
 
   static std::string plain_with_signs(const Text& text) {

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <sstream>
 
 #include "checker/engines/exact/exact.hpp"
 #include "checker/engines/explorer/explorer.hpp"
 #include "checker/engines/tables/tables.hpp"
 #include "checker/engines/timeline/timeline.hpp"
 #include "checker/verification/counterexample/write.hpp"
+#include "props/limits.hpp"
 
 namespace stormproof::checker {
 
@@ -45,12 +45,14 @@ int rank(const Finding& finding) {
   return 0;
 }
 
-std::vector<std::string_view> selected(std::vector<std::string_view> wanted) {
+std::vector<std::string_view> selected(const std::vector<std::string_view>& wanted,
+                                       const model::Scenario& scenario) {
   std::vector<std::string_view> ids;
-  for (const props::Property& property : props::catalogue()) {
-    const bool named = std::find(wanted.begin(), wanted.end(), property.id) != wanted.end();
-    if (wanted.empty() || named) ids.push_back(property.id);
-  }
+  for (const props::Property& property : props::catalogue()) ids.push_back(property.id);
+  for (const std::string_view limit : props::limits_of(scenario)) ids.push_back(limit);
+  if (wanted.empty()) return ids;
+  std::erase_if(ids,
+                [&](std::string_view id) { return std::ranges::find(wanted, id) == wanted.end(); });
   return ids;
 }
 
@@ -67,8 +69,7 @@ std::vector<std::string_view> for_engine(Engine engine,
 /// A counterexample that the simulator does not confirm is none: the finding says so instead.
 void confirm(Finding& finding) {
   if (!finding.counterexample) return;
-  std::ostringstream trace;
-  const auto error = counterexample::write_counterexample(*finding.counterexample, trace);
+  const auto error = counterexample::refuted(*finding.counterexample);
   if (!error) return;
   finding.kind = VerdictKind::inconclusive;
   finding.how = "a violation was found that does not happen in the simulator: " + *error;
@@ -121,11 +122,17 @@ std::size_t deciding_finding(const std::vector<Finding>& findings) {
   return static_cast<std::size_t>(best - findings.begin());
 }
 
-CheckReport check(std::vector<std::string_view> properties, const CheckRequest& request) {
+CheckReport check(const std::vector<std::string_view>& properties, const CheckRequest& request) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point started = Clock::now();
-  const std::vector<std::string_view> ids = selected(std::move(properties));
+  const std::vector<std::string_view> ids = selected(properties, request.scenario);
   CheckReport report;
+  std::vector<exact::RunHealth> runs;
+  CheckRequest watched = request;
+  watched.on_run = [&](const model::Scenario& scenario, const model::RunResult& result) {
+    if (result.end != model::RunEnd::interrupted)
+      runs.push_back(exact::health_of(scenario, result));
+  };
   std::vector<Findings> answers;
   for (const auto& [engine, function] : engines) {
     const std::vector<std::string_view> own = for_engine(engine, ids);
@@ -134,8 +141,9 @@ CheckReport check(std::vector<std::string_view> properties, const CheckRequest& 
       report.interrupted = true;
       break;
     }
-    answers.push_back(function(own, request));
+    answers.push_back(function(own, watched));
   }
+  if (!runs.empty()) report.outlook.emplace(std::move(runs));
   for (const std::string_view id : ids) report.results.push_back(result_of(id, answers));
   report.seconds = std::chrono::duration<double>(Clock::now() - started).count();
   return report;

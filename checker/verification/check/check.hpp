@@ -2,11 +2,13 @@
 // combines their findings into one verdict for each property of the catalogue.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "checker/engines/bounds/check_request.hpp"
+#include "checker/engines/exact/health.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::checker {
@@ -25,15 +27,18 @@ struct PropertyResult {
 };
 
 struct CheckReport {
-  std::vector<PropertyResult> results;  ///< in the order of the catalogue
+  std::vector<PropertyResult> results;  ///< in the order of the catalogue, then the limits
   double seconds = 0;
   bool interrupted = false;  ///< the rest is inconclusive
+  /// What the runs of the scenario were like; absent: no property needed one, or none ended.
+  std::optional<exact::Outlook> outlook;
 
   [[nodiscard]] std::size_t count(props::VerdictKind kind) const;
 };
 
-/// Checks the properties with these ids (all of the catalogue if empty); unknown ids are ignored.
-[[nodiscard]] CheckReport check(std::vector<std::string_view> properties,
+/// Checks the properties and limits with these ids; unknown ones are ignored. If empty: the whole
+/// catalogue, and what the scenario is held against (props::limits_of).
+[[nodiscard]] CheckReport check(const std::vector<std::string_view>& properties,
                                 const CheckRequest& request);
 
 /// The verdict of several findings about one property, and which of them decides: a violation

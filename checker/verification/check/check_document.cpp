@@ -1,5 +1,5 @@
-// A check as a document: what is violated and what nobody knows first, then what holds, then how
-// each violation comes about, step by step.
+// A check as a document: whether it passes, the three questions that decide it, what fails and why,
+// what the rules are known not to promise, what holds, and how each violation comes about.
 #include <array>
 #include <memory>
 
@@ -9,8 +9,10 @@
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/document/verdicts.hpp"
 #include "checker/presentation/text/plain_text.hpp"
+#include "checker/verification/check/check_answer.hpp"
 #include "checker/verification/check/check_findings.hpp"
 #include "checker/verification/check/check_report.hpp"
+#include "checker/verification/check/next_steps.hpp"
 #include "checker/verification/check/origins.hpp"
 #include "checker/verification/check/run_plots.hpp"
 #include "checker/verification/counterexample/stepper.hpp"
@@ -33,10 +35,8 @@ using report::Text;
 
 constexpr std::array all_kinds{VerdictKind::violated, VerdictKind::inconclusive,
                                VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled};
-
-bool is_problem(const PropertyResult& result) {
-  return result.verdict == VerdictKind::violated || result.verdict == VerdictKind::inconclusive;
-}
+constexpr std::array all_standings{Standing::fails, Standing::accepted, Standing::open,
+                                   Standing::possible, Standing::holds};
 
 /// "tables: no two rows …"
 std::string method(const props::Finding& finding) {
@@ -102,14 +102,21 @@ Blocks findings_in_documents(const PropertyResult& result) {
   return blocks;
 }
 
-Table::Row row_of(const PropertyResult& result, const CheckContext& context) {
+Table::Row row_of(const PropertyResult& result, Standing standing, const CheckContext& context) {
   const std::string id{result.property->id};
   const bool told = result.verdict == VerdictKind::violated && result.counterexample() != nullptr;
+  const bool possible = standing == Standing::possible;
+  const model::ImplementationKind rules = context.scenario.dds.implementation;
   Table::Row row;
-  row.cells = {report::badge(result.verdict), told ? report::link(id, id) : report::code(id),
-               statement_of(*result.property, context.scenario.dds.implementation),
-               sentence_of(result)};
-  row.details = findings_at_terminal(result, context);
+  row.cells = {
+      possible ? report::badge(report::Tone::info, "possible") : report::badge(result.verdict),
+      told ? report::link(id, id) : report::code(id), statement_of(*result.property, rules),
+      possible ? std::string{result.property->weakness_of(rules)} : sentence_of(result)};
+  if (possible) row.details.emplace_back(Paragraph{sentence_of(result)}, Audience::verbose);
+  for (Block& block : findings_at_terminal(result, context)) {
+    if (possible && block.audience == Audience::terminal) block.audience = Audience::explained;
+    row.details.push_back(std::move(block));
+  }
   for (Block& block : findings_in_documents(result)) row.details.push_back(std::move(block));
   const std::size_t count = result.decisive().assumptions.size();
   row.summary = (count == 0 ? "no assumptions" : report::plural(count, "assumption")) + ", " +
@@ -117,26 +124,50 @@ Table::Row row_of(const PropertyResult& result, const CheckContext& context) {
   return row;
 }
 
-/// The properties that are a problem, or those that are none.
+const char* title_of(Standing standing) {
+  switch (standing) {
+    case Standing::fails:
+      return "What fails";
+    case Standing::accepted:
+      return "What fails and is accepted by the baseline";
+    case Standing::open:
+      return "What is not established";
+    case Standing::possible:
+      return "What the rules do not promise";
+    case Standing::holds:
+      return "What holds, and how";
+  }
+  return "";
+}
+
+/// The properties of one standing.
 void add_verdicts(report::Document& document, const CheckReport& report,
-                  const CheckContext& context, bool problems) {
+                  const CheckContext& context, Standing standing) {
+  const bool holds = standing == Standing::holds;
   Table table;
-  table.columns = {{"verdict"}, {"property"}, {"what it says"}, {problems ? "why" : "how"}};
+  table.columns = {{"verdict"}, {"property"}, {"what it says"}, {holds ? "how" : "why"}};
   table.columns[2].audience = Audience::page;
   table.columns[2].wraps = true;
   table.columns[3].wraps = true;
   for (const VerdictKind kind : all_kinds) {
-    for (const PropertyResult& result : report.results) {
-      if (result.verdict != kind || is_problem(result) != problems) continue;
-      table.rows.push_back(row_of(result, context));
+    for (std::size_t k = 0; k < report.results.size(); ++k) {
+      if (report.results[k].verdict != kind || context.gate.standings[k] != standing) continue;
+      table.rows.push_back(row_of(report.results[k], standing, context));
     }
   }
   if (table.rows.empty()) return;
-  Section section{problems ? "What does not hold" : "What holds, and how",
-                  problems ? "problems" : "verdicts"};
-  section.folded_in_comments = !problems;
+  Section section{title_of(standing), name_of(standing)};
+  section.folded_in_comments = holds;
+  if (standing == Standing::possible) {
+    section.blocks.emplace_back(
+        Paragraph{"Under other delays or losses than those of this deployment it can break; "
+                  "--strict counts that as a failure, -v tells how."});
+  }
   section.blocks.emplace_back(std::move(table));
-  document.blocks.emplace_back(std::move(section));
+  // At a terminal what holds is a number in the table of questions, unless it was asked for.
+  const bool few = report.results.size() <= 3;
+  document.blocks.emplace_back(std::move(section),
+                               holds && !few ? Audience::verbose : Audience::everybody);
 }
 
 /// Names of machines that pages draw below all violations.
@@ -188,9 +219,14 @@ void add_violations(report::Document& document, const CheckReport& report,
   Section section{"What breaks, step by step", "violations"};
   const auto machines = std::make_shared<std::set<std::string>>();
   std::size_t number = 0;
-  for (const PropertyResult& result : report.results) {
+  bool any = false;  // that a terminal shows
+  for (std::size_t k = 0; k < report.results.size(); ++k) {
+    const PropertyResult& result = report.results[k];
     if (result.verdict != VerdictKind::violated) continue;
-    section.blocks.emplace_back(violation(result, context, number++, machines));
+    const bool possible = context.gate.standings[k] == Standing::possible;
+    section.blocks.emplace_back(violation(result, context, number++, machines),
+                                possible ? Audience::verbose : Audience::everybody);
+    any = any || !possible;
   }
   if (section.blocks.empty()) return;
   const auto diagrams = [machines]() -> Blocks {
@@ -244,54 +280,31 @@ void add_profiles(report::Document& document, const CheckContext& context) {
   document.blocks.emplace_back(std::move(section), Audience::page);
 }
 
-void add_answer(report::Document& document, const CheckReport& report,
-                const CheckContext& context) {
-  const std::size_t violated = report.count(VerdictKind::violated);
-  const std::size_t open = report.count(VerdictKind::inconclusive);
-  const std::size_t all = report.results.size();
-  document.tone = violated > 0 ? report::Tone::bad
-                  : open > 0   ? report::Tone::warn
-                               : report::Tone::good;
-  document.answer = violated > 0 ? fmt::format("{} of {} properties are violated", violated, all)
-                    : open > 0   ? fmt::format("{} of {} properties are inconclusive", open, all)
-                    : all == 1   ? "the property holds"
-                                 : fmt::format("all {} properties hold", all);
-  std::string counts;
-  for (const VerdictKind kind : all_kinds) {
-    if (report.count(kind) == 0) continue;
-    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", report.count(kind), name_of(kind));
-  }
-  const bool fastdds = model::is_fastdds(context.scenario.dds);
-  document.elaboration = fmt::format("{} ({:.1f} s)", counts, report.seconds);
-  document.subject =
-      report::code(context.name) +
-      fmt::format(": {}, {}",
-                  report::plural(context.scenario.deployment.participants.size(), "participant"),
-                  fastdds ? "Fast DDS's own rules" : "the rules of the closed-loop model");
-  if (report.interrupted) {
-    document.blocks.emplace_back(
-        Paragraph{"Interrupted: what was not checked is inconclusive.", report::Tone::warn});
-  }
-}
-
 }  // namespace
 
 report::Document document_of(const CheckReport& report, const CheckContext& context) {
   report::Document document;
   document.title = "stormproof check " + context.name;
-  document.exit_code = context.exit_code;
   document.complete = !report.interrupted;
   document.seconds = report.seconds;
   add_answer(document, report, context);
-  for (const PropertyResult& result : report.results) {
-    document.findings.push_back(ci_finding(result, context));
+  for (std::size_t k = 0; k < report.results.size(); ++k) {
+    document.findings.push_back(ci_finding(report.results[k], context.gate.standings[k], context));
   }
-  add_verdicts(document, report, context, true);
-  add_verdicts(document, report, context, false);
+  if (context.gate.storm != Standing::holds) {
+    document.findings.push_back(storm_finding(report, context));
+  }
+  for (const Standing standing : all_standings) add_verdicts(document, report, context, standing);
   add_unmodelled(document, context.scenario.dds, "", &context.places);
   add_violations(document, report, context);
   add_run(document, context);
   add_profiles(document, context);
+  // Of a failure in a fine run the replay is the next thing to look at.
+  const bool told = context.gate.exit_code != 0 && report.outlook &&
+                    report.outlook->health() == exact::Health::fine;
+  if (report.outlook && !told) {
+    document.next = next_steps(context.words, context.scenario, *report.outlook);
+  }
   return document;
 }
 

@@ -10,8 +10,6 @@ namespace stormproof::checker {
 
 namespace {
 
-using props::VerdictKind;
-
 /// The other knobs of the property that the user set.
 std::vector<report::Location> related_to(std::string_view property, const CheckContext& context,
                                          const report::Location& chosen) {
@@ -25,9 +23,39 @@ std::vector<report::Location> related_to(std::string_view property, const CheckC
   return related;
 }
 
+report::Finding::Outcome outcome_of(Standing standing) {
+  using Outcome = report::Finding::Outcome;
+  switch (standing) {
+    case Standing::fails:
+      return Outcome::failed;
+    case Standing::open:
+      return Outcome::unknown;
+    case Standing::possible:
+    case Standing::accepted:
+      return Outcome::note;
+    case Standing::holds:
+      break;
+  }
+  return Outcome::passed;
+}
+
 }  // namespace
 
-report::Finding ci_finding(const PropertyResult& result, const CheckContext& context) {
+report::Finding storm_finding(const CheckReport& report, const CheckContext& context) {
+  report::Finding one;
+  one.id = storm_id;
+  one.group = "stormproof." + context.name;
+  one.statement = "Discovery is no storm: feedback does not take the channel.";
+  one.outcome = outcome_of(context.gate.storm);
+  one.word = name_of(context.gate.storm);
+  one.message = report.outlook->headline() + ": " + report.outlook->sentence();
+  one.locations.push_back(location_of(one.id, context.places, context.name));
+  one.identity = {context.name, one.word};
+  return one;
+}
+
+report::Finding ci_finding(const PropertyResult& result, Standing standing,
+                           const CheckContext& context) {
   using Outcome = report::Finding::Outcome;
   report::Finding one;
   one.id = result.property->id;
@@ -37,9 +65,7 @@ report::Finding ci_finding(const PropertyResult& result, const CheckContext& con
   if (!result.property->assumptions.empty()) {
     one.description += fmt::format(" Claimed under: {}.", result.property->assumptions);
   }
-  one.outcome = result.verdict == VerdictKind::violated       ? Outcome::failed
-                : result.verdict == VerdictKind::inconclusive ? Outcome::unknown
-                                                              : Outcome::passed;
+  one.outcome = outcome_of(standing);
   one.word = name_of(result.verdict);
   const props::Counterexample* counterexample = result.counterexample();
   one.message = counterexample == nullptr ? result.decisive().how : counterexample->reason;

@@ -6,6 +6,10 @@
 namespace stormproof::checker {
 
 /// A property: violated is a failure, inconclusive nobody knows.
-[[nodiscard]] report::Finding ci_finding(const PropertyResult& result, const CheckContext& context);
+[[nodiscard]] report::Finding ci_finding(const PropertyResult& result, Standing standing,
+                                         const CheckContext& context);
+
+/// That this deployment is in a storm.
+[[nodiscard]] report::Finding storm_finding(const CheckReport& report, const CheckContext& context);
 
 }  // namespace stormproof::checker

@@ -1,4 +1,5 @@
 // The JSON of a check.
+#include "checker/engines/exact/health_json.hpp"
 #include "checker/presentation/json/describe.hpp"
 #include "checker/verification/check/check_report.hpp"
 
@@ -20,10 +21,33 @@ void describe(V& v, const Finding& finding) {
 
 namespace stormproof::checker {
 
+template <class V>
+void describe(V& v, const Failure& failure) {
+  v("property", failure.property);
+  v("reach", failure.reach);
+}
+
+template <class V>
+void describe(V& v, const Gate& gate) {
+  v("passes", gate.exit_code == 0);
+  v("require", gate.rules.require);
+  v("strict", gate.rules.strict);
+  nlohmann::ordered_json standings;
+  for (const Standing one :
+       {Standing::fails, Standing::accepted, Standing::open, Standing::possible, Standing::holds}) {
+    standings[name_of(one)] = gate.count(one);
+  }
+  v("standings", standings);
+  v("storm", gate.storm);
+  v("failures", gate.failures);
+  v("outdated", gate.outdated);
+}
+
 namespace {
 
 struct ResultInContext {
   const PropertyResult& result;
+  Standing standing{};
   const CheckContext& context;
 };
 
@@ -34,6 +58,12 @@ void describe(V& v, const ResultInContext& shown) {
   v("id", result.property->id);
   v("statement", statement_of(*result.property, shown.context.scenario.dds.implementation));
   v("verdict", result.verdict);
+  v("standing", shown.standing);
+  for (const props::Reach reach : props::reaches) {
+    const props::Finding* const answer = answer_to(reach, result);
+    v(name_of(reach), answer == nullptr ? std::nullopt : std::optional{answer->kind});
+  }
+  v.or_null("weakness", result.property->weakness_of(shown.context.scenario.dds.implementation));
   v("engine", decisive.engine);
   v("how", decisive.how);
   v("assumptions", decisive.assumptions);
@@ -74,10 +104,12 @@ void describe(V& v, const ReportInContext& shown) {
   v("implementation", model::is_fastdds(dds) ? "fastdds" : "paper");
   v("seconds", shown.report.seconds);
   v("summary", Summary{shown.report});
+  v("gate", shown.context.gate);
+  v("deployment", shown.report.outlook);
   v.unless_empty("unmodelled", dds.unmodelled);
   std::vector<ResultInContext> verdicts;
   for (const PropertyResult& result : shown.report.results) {
-    verdicts.push_back({result, shown.context});
+    verdicts.push_back({result, shown.context.gate.standings[verdicts.size()], shown.context});
   }
   v("verdicts", verdicts);
 }

@@ -8,6 +8,7 @@
 
 #include "checker/presentation/document/document.hpp"
 #include "checker/verification/check/check.hpp"
+#include "checker/verification/check/gate.hpp"
 #include "model/config/tree/tree.hpp"
 
 namespace stormproof::checker {
@@ -19,7 +20,8 @@ struct CheckContext {
   std::map<std::string, std::string, std::less<>> counterexamples;  ///< property id → path
   std::map<std::string, std::string, std::less<>> stories;          ///< property id → text
   model::config::Places places{};  ///< of the scenario's values; empty if they are not known
-  int exit_code = 0;               ///< of the program that prints the report
+  Gate gate{};                     ///< what the verdicts mean for the exit code
+  std::string words{};             ///< the scenario with its overrides, for a command line
 };
 
 /// The answer, the verdicts, what is violated and why. Pages that are made of it run the scenario

@@ -49,6 +49,7 @@ const std::vector<PropertyKnobs>& property_knobs() {
        {"dds.sedp.nack_response_delay", "dds.sedp.heartbeat_response_delay",
         "dds.sedp.initial_acknack_delay", "dds.sedp.heartbeat_period",
         "dds.sedp.piggyback_threshold_bytes"}},
+      {"limit.time", {"time_limit"}},
       {"limit.completion", {"limits.completion"}},
       {"limit.messages", {"limits.messages"}},
       {"limit.amplification", {"limits.amplification"}},

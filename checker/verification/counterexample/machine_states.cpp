@@ -12,6 +12,7 @@
 #include "checker/verification/counterexample/history.hpp"
 #include "checker/verification/counterexample/relevance.hpp"
 #include "fsm/machines.hpp"
+#include "model/engine/packet.hpp"
 #include "model/simulator.hpp"
 
 namespace stormproof::counterexample {

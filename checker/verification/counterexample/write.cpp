@@ -37,7 +37,18 @@ std::optional<std::string> objection(const props::Counterexample& counterexample
   return std::nullopt;
 }
 
+/// Why nobody can say.
+std::string unobservable(const props::Counterexample& counterexample) {
+  return fmt::format("{}: no monitor can observe it in a run", counterexample.property);
+}
+
 }  // namespace
+
+std::optional<std::string> refuted(const props::Counterexample& counterexample) {
+  const auto monitor = props::make_monitor(counterexample.property, counterexample.scenario);
+  if (!monitor) return unobservable(counterexample);
+  return objection(counterexample, observe(counterexample.scenario, *monitor));
+}
 
 std::optional<std::string> write_counterexample(const props::Counterexample& counterexample,
                                                 props::Monitor& monitor, std::ostream& out) {
@@ -64,9 +75,7 @@ std::optional<std::string> write_counterexample(const props::Counterexample& cou
 std::optional<std::string> write_counterexample(const props::Counterexample& counterexample,
                                                 std::ostream& out) {
   const auto monitor = props::make_monitor(counterexample.property, counterexample.scenario);
-  if (!monitor) {
-    return fmt::format("{}: no monitor can observe it in a run", counterexample.property);
-  }
+  if (!monitor) return unobservable(counterexample);
   return write_counterexample(counterexample, *monitor, out);
 }
 

@@ -12,9 +12,12 @@
 
 namespace stormproof::counterexample {
 
+/// Runs the counterexample under the monitor of its property. Returns why it is not one: the
+/// property has no monitor, or its monitor does not object at exactly that event.
+[[nodiscard]] std::optional<std::string> refuted(const props::Counterexample& counterexample);
+
 /// Writes the trace of the counterexample under the monitor of its property. Returns why it is not
-/// one: the property has no monitor, or its monitor does not object at exactly that event. Then
-/// `out` has got nothing. Whether everything could be written is the stream's to say.
+/// one; then `out` has got nothing. Whether everything could be written is the stream's to say.
 [[nodiscard]] std::optional<std::string> write_counterexample(
     const props::Counterexample& counterexample, std::ostream& out);
 /// The same with a fresh monitor of the caller's.

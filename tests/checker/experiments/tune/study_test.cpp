@@ -94,7 +94,7 @@ TEST(TuneStudy, TheFileGivesTheNumbersAgain) {
   model::Scenario scenario = subject.scenario;
   scenario.dds = *profile;
   const auto samples =
-      trials::sample_runs(scenario, {report.basis.count, report.basis.first, 1, {}});
+      trials::sample_runs(scenario, {report.basis.count, report.basis.first, {}, 1, {}});
   std::vector<double> completion, messages;
   for (const trials::Sample& sample : samples) {
     ASSERT_TRUE(sample.discovery_time);

@@ -89,7 +89,7 @@ CheckExample::CheckExample()
   scenario_.dds.unmodelled.emplace("setting " + hostile, "an effect " + hostile);
   context_.counterexamples.emplace("storm.free-threshold", "ce/storm.free-threshold.jsonl");
   context_.stories.emplace("storm.free-threshold", "a story\nof " + hostile);
-  context_.exit_code = 1;
+  context_.gate = checker::judge(report_, scenario_.dds, {.strict = true});
   const std::string file = "my robots.yaml";
   context_.places.emplace("deployment", place(file, 1, 1));
   context_.places.emplace("dds.sedp.heartbeat_timer", place(file, 7, 22));

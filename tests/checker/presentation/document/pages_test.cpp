@@ -63,9 +63,9 @@ TEST(Pages, TheChecksNoticeWhatIsWrong) {
 
 TEST(Pages, ACheckShowsVerdictsFirstThenEachViolationWithChartAndSteps) {
   const std::string& page = check_page();
-  const std::size_t verdicts = page.find("id=\"verdicts\"");
+  const std::size_t verdicts = page.find("id=\"holds\"");
   const std::size_t violations = page.find("id=\"violations\"");
-  EXPECT_LT(page.find("✗ 2 of 4 properties are violated"), verdicts);
+  EXPECT_LT(page.find("✗ FAIL; 2 of 4 properties are violated"), verdicts);
   EXPECT_LT(verdicts, violations);
   EXPECT_LT(violations, page.find("id=\"run\""));
   EXPECT_LT(page.find("id=\"run\""), page.find("id=\"profile\""));

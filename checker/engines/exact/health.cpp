@@ -1,0 +1,180 @@
+// One word for a run: what it took beside what everything sent once takes.
+#include "checker/engines/exact/health.hpp"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "checker/presentation/text/numbers.hpp"
+#include "model/reference.hpp"
+#include "model/simulator.hpp"
+
+namespace stormproof::exact {
+
+using model::Nanoseconds;
+
+namespace {
+
+Nanoseconds last_start(const model::Deployment& deployment) {
+  Nanoseconds last;
+  for (const model::Participant& one : deployment.participants) last = std::max(last, one.start);
+  return last;
+}
+
+/// Airtime of all channels.
+double used(const model::RunResult& result) {
+  double sum = 0;
+  for (const model::ChannelUse& channel : result.channels) {
+    sum += static_cast<double>(channel.total_busy().count());
+  }
+  return sum;
+}
+
+double busiest(const model::RunResult& result) {
+  Nanoseconds most;
+  for (const model::ChannelUse& channel : result.channels) {
+    most = std::max(most, channel.total_busy());
+  }
+  const auto passed = static_cast<double>(std::max<std::int64_t>(result.end_time.count(), 1));
+  return std::min(1.0, static_cast<double>(most.count()) / passed);
+}
+
+/// Beside the limit of the scenario, if it sets one; otherwise by what people wait for.
+bool is_late(const RunHealth& run, const std::optional<model::Limits>& limits) {
+  if (limits && limits->completion) return *run.completion > *limits->completion;
+  return run.took > late;
+}
+
+Health judged(const RunHealth& run, const std::optional<model::Limits>& limits) {
+  const bool storm =
+      run.airtime.value_or(0) >= storm_factor && run.stretch.value_or(0) >= storm_factor;
+  if (storm) return Health::storm;
+  if (!run.completion) return Health::incomplete;
+  if (!is_late(run, limits)) return Health::fine;
+  return run.busy >= 0.5 ? Health::slow_link : Health::waiting;
+}
+
+std::string after_last_start(const RunHealth& run) {
+  return run.last_start.count() > 0 ? report::duration(run.took) + " after the last start"
+                                    : "after " + report::duration(run.took);
+}
+
+}  // namespace
+
+const char* name_of(Health health) {
+  switch (health) {
+    case Health::fine:
+      return "fine";
+    case Health::slow_link:
+      return "slow_link";
+    case Health::waiting:
+      return "waiting";
+    case Health::storm:
+      return "storm";
+    case Health::incomplete:
+      return "incomplete";
+  }
+  return "";
+}
+
+const char* headline_of(Health health) {
+  switch (health) {
+    case Health::fine:
+      return "FINE";
+    case Health::slow_link:
+      return "SLOW LINK";
+    case Health::waiting:
+      return "SLOW";
+    case Health::storm:
+      return "STORM";
+    case Health::incomplete:
+      return "INCOMPLETE";
+  }
+  return "";
+}
+
+RunHealth health_of(const model::Scenario& scenario, const model::RunResult& result) {
+  if (result.completed() && result.end != model::RunEnd::completed) {
+    // What the channels carried after discovery does not count.
+    model::Scenario discovery = scenario;
+    discovery.run_until = model::RunUntil::completion;
+    return health_of(discovery, model::simulate(discovery));
+  }
+  RunHealth run;
+  run.completion = result.discovery_time;
+  run.last_start = last_start(scenario.deployment);
+  run.missing = result.missing_count;
+  const bool cut = result.end == model::RunEnd::interrupted;
+  const Nanoseconds end =
+      result.discovery_time.value_or(cut ? result.end_time : scenario.time_limit);
+  run.took = std::max(end - run.last_start, Nanoseconds{});
+  run.busy = busiest(result);
+  if (const auto once = model::open_loop_airtime(scenario); once && once->count() > 0) {
+    const auto airtime = static_cast<double>(once->count());
+    run.airtime = used(result) / airtime;
+    run.stretch = static_cast<double>(run.took.count()) / airtime;
+  }
+  run.health = judged(run, scenario.limits);
+  return run;
+}
+
+Outlook::Outlook(std::vector<RunHealth> runs) : runs_{std::move(runs)} {
+  std::ranges::stable_sort(runs_, [](const RunHealth& a, const RunHealth& b) {
+    if (!a.completion != !b.completion) return a.completion.has_value();
+    return a.completion ? a.took < b.took : a.missing < b.missing;
+  });
+}
+
+std::size_t Outlook::count(Health health) const {
+  return static_cast<std::size_t>(std::ranges::count(runs_, health, &RunHealth::health));
+}
+
+std::size_t Outlook::completed() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      runs_, [](const RunHealth& run) { return run.completion.has_value(); }));
+}
+
+Health Outlook::health() const { return count(Health::storm) > 0 ? Health::storm : worst().health; }
+
+std::string Outlook::headline() const {
+  const Health health = this->health();
+  const std::size_t number = count(health);
+  if (number == size()) return headline_of(health);
+  return fmt::format("{} in {} of {} runs", headline_of(health), number, size());
+}
+
+std::string Outlook::sentence() const {
+  const RunHealth& run = median();
+  if (size() > 1) {
+    if (completed() < size()) {
+      return fmt::format("discovery does not complete in {} of {} runs", size() - completed(),
+                         size());
+    }
+    return fmt::format("discovery completes {} at the median of {} runs, {} to {}",
+                       after_last_start(run), size(), report::duration(best().took),
+                       report::duration(worst().took));
+  }
+  std::string text = run.completion ? "discovery completes " + after_last_start(run)
+                                    : "discovery is not complete " + after_last_start(run);
+  switch (run.health) {
+    case Health::storm:
+      return text + fmt::format(
+                        "; repeats and control messages take {} the airtime of everything "
+                        "sent once",
+                        report::ratio(*run.airtime, 1));
+    case Health::slow_link:
+      return text +
+             fmt::format("; the channel is busy {} of the time", report::percent(run.busy, 1));
+    case Health::waiting:
+      return text + fmt::format(
+                        "; the channel is busy only {} of the time, the rest is waiting for "
+                        "timers and processes",
+                        report::percent(run.busy, 1));
+    case Health::fine:
+    case Health::incomplete:
+      break;
+  }
+  return text;
+}
+
+}  // namespace stormproof::exact

@@ -1,0 +1,169 @@
+// The answer of a check: whether it passes and what kind of discovery it is, in one line; then the
+// three questions behind it, which are never mixed.
+#include "checker/verification/check/check_answer.hpp"
+
+#include <fmt/core.h>
+
+#include "checker/presentation/text/plain_text.hpp"
+
+namespace stormproof::checker {
+
+namespace {
+
+using props::VerdictKind;
+using report::Paragraph;
+using report::Table;
+using report::Text;
+
+std::string ids_of(const std::vector<std::string_view>& ids) {
+  std::string text;
+  for (const std::string_view id : ids) text += (text.empty() ? "" : ", ") + std::string{id};
+  return text;
+}
+
+/// Whether the rules are known not to promise it, and nobody asks them to.
+bool is_weakness(const PropertyResult& result, const CheckContext& context) {
+  return !context.gate.rules.strict &&
+         !result.property->weakness_of(context.scenario.dds.implementation).empty();
+}
+
+/// The answers to one question: what is violated, what nobody knows, how many hold.
+Table::Row question_row(props::Reach reach, std::string_view question, const CheckReport& report,
+                        const CheckContext& context) {
+  std::vector<std::string_view> failing, possible, open;
+  std::size_t holding = 0;
+  for (std::size_t k = 0; k < report.results.size(); ++k) {
+    const PropertyResult& result = report.results[k];
+    const props::Finding* const answer = answer_to(reach, result);
+    if (answer == nullptr) continue;
+    const bool weak = reach != props::Reach::deployment && is_weakness(result, context);
+    if (answer->kind == VerdictKind::violated)
+      (weak ? possible : failing).push_back(result.property->id);
+    else if (answer->kind != VerdictKind::inconclusive)
+      ++holding;
+    else if (context.gate.standings[k] == Standing::open)
+      open.push_back(result.property->id);
+  }
+  if (reach == props::Reach::deployment && context.gate.storm != Standing::holds) {
+    failing.insert(failing.begin(), storm_id);
+  }
+  std::string text;
+  const auto add = [&](const char* word, const std::vector<std::string_view>& ids) {
+    if (!ids.empty()) text += fmt::format("{}: {}; ", word, ids_of(ids));
+  };
+  add("violated", failing);
+  add("not established", open);
+  add("possible", possible);
+  if (holding > 0) {
+    text += holding == 1 ? "1 property holds" : fmt::format("{} properties hold", holding);
+  } else if (text.ends_with("; ")) {
+    text.resize(text.size() - 2);
+  } else {
+    text = "not asked";
+  }
+  const bool nothing = failing.empty() && open.empty() && possible.empty() && holding == 0;
+  const Text badge = !failing.empty()    ? report::badge(report::Tone::bad, "no")
+                     : nothing           ? report::badge(report::Tone::plain, "–")
+                     : !open.empty()     ? report::badge(report::Tone::warn, "open")
+                     : !possible.empty() ? report::badge(report::Tone::info, "not promised")
+                                         : report::badge(report::Tone::good, "yes");
+  return {{std::string{question}, badge, text}};
+}
+
+void add_questions(report::Document& document, const CheckReport& report,
+                   const CheckContext& context) {
+  Table table{{{"question"}, {"answer"}, {"by", report::Column::Align::left, true}}, {}};
+  table.rows.push_back(question_row(
+      props::Reach::deployment, "does it hold in this deployment, as described?", report, context));
+  table.rows.push_back(question_row(props::Reach::profile, "in every deployment with this profile?",
+                                    report, context));
+  table.rows.push_back(
+      question_row(props::Reach::rules, "are the rules themselves sound?", report, context));
+  document.blocks.emplace_back(std::move(table));
+}
+
+/// What a CI job wants to know.
+const char* word_of(const Gate& gate) {
+  return gate.exit_code == 0 ? "PASS" : gate.exit_code == 1 ? "FAIL" : "OPEN";
+}
+
+/// "; storm.single-copy is violated", "; 2 of 21 properties are violated".
+std::string count_text(const CheckReport& report, const Gate& gate, Standing standing,
+                       std::string_view word) {
+  std::vector<std::string_view> ids;
+  for (std::size_t k = 0; k < report.results.size(); ++k) {
+    if (gate.standings[k] == standing) ids.push_back(report.results[k].property->id);
+  }
+  if (ids.empty()) return "";
+  if (ids.size() == 1) return fmt::format("; {} is {}", ids.front(), word);
+  return fmt::format("; {} of {} properties are {}", ids.size(), report.results.size(), word);
+}
+
+void say_whether_it_passes(report::Document& document, const CheckReport& report,
+                           const CheckContext& context) {
+  const Gate& gate = context.gate;
+  document.exit_code = gate.exit_code;
+  document.tone = gate.exit_code == 1   ? report::Tone::bad
+                  : gate.exit_code == 0 ? report::Tone::good
+                                        : report::Tone::warn;
+  std::string answer = word_of(gate);
+  if (report.outlook) {
+    const bool fine = report.outlook->health() == exact::Health::fine;
+    if (!fine) answer += ", " + report.outlook->headline();
+    answer += ": " + report.outlook->sentence();
+  } else if (gate.exit_code == 0) {
+    const std::size_t all = report.results.size();
+    answer += all == 1 ? fmt::format(": {} is {}", report.results.front().property->id,
+                                     name_of(report.results.front().verdict))
+                       : fmt::format(": all {} properties hold", all);
+  }
+  answer += count_text(report, gate, Standing::fails, "violated");
+  if (gate.exit_code != 1) answer += count_text(report, gate, Standing::open, "not established");
+  document.answer = answer;
+  const std::size_t possible = gate.count(Standing::possible);
+  if (possible > 0) {
+    document.elaboration =
+        possible == 1 ? "Possible under other delays or losses: 1 known weakness of the rules."
+                      : fmt::format(
+                            "Possible under other delays or losses: {} known weaknesses of "
+                            "the rules.",
+                            possible);
+  }
+}
+
+void add_subject(report::Document& document, const CheckReport& report,
+                 const CheckContext& context) {
+  const bool fastdds = model::is_fastdds(context.scenario.dds);
+  std::string counts;
+  for (const VerdictKind kind : {VerdictKind::violated, VerdictKind::inconclusive,
+                                 VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled}) {
+    if (report.count(kind) == 0) continue;
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", report.count(kind), name_of(kind));
+  }
+  document.subject =
+      report::code(context.name) +
+      fmt::format(": {}, {}; {} ({:.1f} s)",
+                  report::plural(context.scenario.deployment.participants.size(), "participant"),
+                  fastdds ? "Fast DDS's own rules" : "the rules of the closed-loop model", counts,
+                  report.seconds);
+  if (report.interrupted) {
+    document.blocks.emplace_back(
+        Paragraph{"Interrupted: what was not checked is inconclusive.", report::Tone::warn});
+  }
+  for (const Failure& one : context.gate.outdated) {
+    document.blocks.emplace_back(Paragraph{
+        fmt::format("The baseline accepts {}, which does not fail any more.", one.property),
+        report::Tone::info});
+  }
+}
+
+}  // namespace
+
+void add_answer(report::Document& document, const CheckReport& report,
+                const CheckContext& context) {
+  say_whether_it_passes(document, report, context);
+  add_subject(document, report, context);
+  add_questions(document, report, context);
+}
+
+}  // namespace stormproof::checker

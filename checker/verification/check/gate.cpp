@@ -1,0 +1,125 @@
+// From verdicts to an exit code.
+#include "checker/verification/check/gate.hpp"
+
+#include <algorithm>
+
+namespace stormproof::checker {
+
+using props::Finding;
+using props::Property;
+using props::Reach;
+using props::VerdictKind;
+
+const char* name_of(Standing standing) {
+  switch (standing) {
+    case Standing::holds:
+      return "holds";
+    case Standing::possible:
+      return "possible";
+    case Standing::accepted:
+      return "accepted";
+    case Standing::open:
+      return "open";
+    case Standing::fails:
+      return "fails";
+  }
+  return "";
+}
+
+Reach reach_of(const Property& property, const Finding& finding) {
+  if (finding.engine == props::name_of(props::Engine::tables)) return Reach::rules;
+  const bool ran = finding.engine == props::name_of(props::Engine::exact_run);
+  return ran && !property.is_margin ? Reach::deployment : Reach::profile;
+}
+
+const Finding* answer_to(Reach reach, const PropertyResult& result) {
+  std::vector<Finding> about;
+  std::vector<const Finding*> places;
+  for (const Finding& finding : result.findings) {
+    if (finding.engine.empty() || reach_of(*result.property, finding) != reach) continue;
+    about.push_back(finding);
+    places.push_back(&finding);
+  }
+  return about.empty() ? nullptr : places[deciding_finding(about)];
+}
+
+namespace {
+
+bool is_limit(const Property& property) { return property.id.starts_with("limit."); }
+
+/// Where a property is violated, the nearest first.
+std::optional<Reach> violated_in(const PropertyResult& result) {
+  for (const Reach reach : props::reaches) {
+    const Finding* const answer = answer_to(reach, result);
+    if (answer != nullptr && answer->kind == VerdictKind::violated) return reach;
+  }
+  return std::nullopt;
+}
+
+class Judge {
+ public:
+  Judge(const CheckReport& report, const model::DdsProfile& dds, GateRules rules)
+      : report_{report}, dds_{dds} {
+    gate_.rules = std::move(rules);
+  }
+
+  Gate judge() && {
+    if (report_.outlook && report_.outlook->health() == exact::Health::storm) {
+      gate_.storm = failure({std::string{storm_id}, Reach::deployment});
+    }
+    for (const PropertyResult& result : report_.results) {
+      gate_.standings.push_back(standing(result));
+    }
+    for (const Failure& accepted : gate_.rules.baseline) {
+      if (std::ranges::find(gate_.failures, accepted) == gate_.failures.end()) {
+        gate_.outdated.push_back(accepted);
+      }
+    }
+    if (gate_.count(Standing::fails) > 0)
+      gate_.exit_code = 1;
+    else if (gate_.count(Standing::open) > 0 || report_.interrupted)
+      gate_.exit_code = 3;
+    return std::move(gate_);
+  }
+
+ private:
+  Standing failure(Failure one) {
+    const auto& accepted = gate_.rules.baseline;
+    const bool known = std::ranges::find(accepted, one) != accepted.end();
+    gate_.failures.push_back(std::move(one));
+    return known ? Standing::accepted : Standing::fails;
+  }
+
+  Standing standing(const PropertyResult& result) {
+    const Property& property = *result.property;
+    const bool promised = gate_.rules.strict || property.weakness_of(dds_.implementation).empty();
+    if (const auto where = violated_in(result)) {
+      const bool counts = promised || *where == Reach::deployment;
+      return counts ? failure({std::string{property.id}, *where}) : Standing::possible;
+    }
+    if (result.decisive().disputed) return Standing::open;
+    // Kinds are in the order of their strength.
+    const bool unknown = result.verdict == VerdictKind::inconclusive;
+    if (!promised) return unknown ? Standing::possible : Standing::holds;
+    const bool weak = result.verdict > gate_.rules.require && !is_limit(property);
+    return unknown || weak ? Standing::open : Standing::holds;
+  }
+
+  const CheckReport& report_;
+  const model::DdsProfile& dds_;
+  Gate gate_;
+};
+
+}  // namespace
+
+std::size_t Gate::count(Standing standing) const {
+  const auto properties = std::ranges::count(standings, standing);
+  return static_cast<std::size_t>(properties) +
+         (storm == standing && storm != Standing::holds ? 1 : 0);
+}
+
+Gate judge(const CheckReport& report, const model::DdsProfile& dds, GateRules rules) {
+  return Judge{report, dds, std::move(rules)}.judge();
+}
+
+}  // namespace stormproof::checker

@@ -1,0 +1,35 @@
+// One or two commands for each kind of outcome.
+#include "checker/verification/check/next_steps.hpp"
+
+#include "checker/presentation/text/plain_text.hpp"
+
+namespace stormproof::checker {
+
+std::vector<report::NextStep> next_steps(const std::string& words, const model::Scenario& scenario,
+                                         const exact::Outlook& outlook) {
+  const bool of_a_product = model::is_fastdds(scenario.dds);
+  const report::NextStep which{"stormproof sensitivity " + words,
+                               "which knob moves it, and how far"};
+  switch (outlook.health()) {
+    case exact::Health::storm:
+      if (!of_a_product) return {which};
+      return {{"stormproof tune " + words, "the settings of this library that help most"}, which};
+    case exact::Health::slow_link:
+    case exact::Health::waiting:
+      return {which};
+    case exact::Health::incomplete:
+      return {{"stormproof check " + words, "whether a rule gets stuck, with a counterexample"}};
+    case exact::Health::fine:
+      break;
+  }
+  return {{"stormproof fuzz " + words + " --loss 1% --start-jitter 100ms",
+           "whether that lasts when packets get lost and starts differ"}};
+}
+
+std::string words_of(const std::string& scenario, const std::vector<std::string>& overrides) {
+  std::string words = report::shell_word(scenario);
+  for (const std::string& one : overrides) words += " --set " + report::shell_word(one);
+  return words;
+}
+
+}  // namespace stormproof::checker

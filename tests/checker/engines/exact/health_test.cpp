@@ -1,0 +1,93 @@
+// Storm, slow link, waiting, fine: told apart by what feedback costs and from the last start on.
+#include "checker/engines/exact/health.hpp"
+
+#include <gtest/gtest.h>
+
+#include "model/simulator.hpp"
+#include "tests/props/monitored_run.hpp"
+
+namespace stormproof::exact {
+namespace health_test {
+
+using model::Nanoseconds;
+using props::shipped;
+
+RunHealth health(const char* name, const std::vector<std::string>& overrides = {}) {
+  const model::Scenario scenario = shipped(name, overrides);
+  return health_of(scenario, model::simulate(scenario));
+}
+
+TEST(Health, ShippedScenariosAreWhatTheirNamesSay) {
+  EXPECT_EQ(health("smallest").health, Health::fine);
+  EXPECT_EQ(health("wired-5x20").health, Health::fine);
+  EXPECT_EQ(health("wifi-5x20-tuned").health, Health::fine);
+  EXPECT_EQ(health("wifi-5x20").health, Health::storm);
+  EXPECT_EQ(health("high-load-6x30").health, Health::storm);
+}
+
+TEST(Health, ALateJoinerIsNoStorm) {
+  const RunHealth run = health("staggered-joins");
+  EXPECT_EQ(run.health, Health::fine);
+  EXPECT_EQ(run.last_start, Nanoseconds{2'000'000'000});
+  EXPECT_EQ(run.took, *run.completion - run.last_start);
+}
+
+TEST(Health, AChannelThatIsSlowIsNoStorm) {
+  // Everything is sent about once, and that takes its time.
+  const RunHealth run = health("wifi-5x20-tuned", {"limits.completion=1s"});
+  EXPECT_EQ(run.health, Health::slow_link) << run.airtime.value_or(-1) << " " << run.took.count();
+}
+
+TEST(Health, WaitingForATimerIsNoStorm) {
+  const RunHealth run = health(
+      "wired-5x20", {"deployment.hosts=2", "deployment.participants_per_host=1",
+                     "wireless.lost_packets=[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]",
+                     "dds.spdp.startup_period=2s"});
+  EXPECT_EQ(run.health, Health::waiting) << run.took.count();
+}
+
+TEST(Health, OfARunThatIsNotCompleteTheMissingAreCounted) {
+  const RunHealth run = health("smallest", {"time_limit=1ms"});
+  EXPECT_EQ(run.health, Health::incomplete);
+  EXPECT_EQ(run.missing, 38U);
+  EXPECT_EQ(run.took, Nanoseconds{1'000'000});
+}
+
+TEST(Health, WhatHappensAfterDiscoveryDoesNotCount) {
+  const RunHealth alone = health("smallest");
+  const RunHealth longer = health("smallest", {"run_until=time_limit", "time_limit=5s"});
+  EXPECT_EQ(longer.airtime, alone.airtime);
+  EXPECT_EQ(longer.busy, alone.busy);
+}
+
+TEST(Health, TheScenariosLimitSaysWhatIsLate) {
+  EXPECT_EQ(health("smallest", {"limits.completion=10ms"}).health, Health::slow_link);
+  EXPECT_EQ(health("smallest", {"limits.completion=17ms"}).health, Health::fine);
+}
+
+RunHealth one(Health kind, std::int64_t took) {
+  RunHealth run;
+  run.health = kind;
+  run.took = Nanoseconds{took};
+  if (kind != Health::incomplete) run.completion = run.took;
+  return run;
+}
+
+TEST(Outlook, TheMedianAndTheRangeAreThoseOfTheRuns) {
+  const Outlook outlook{{one(Health::fine, 3), one(Health::storm, 9), one(Health::fine, 1)}};
+  EXPECT_EQ(outlook.median().took, Nanoseconds{3});
+  EXPECT_EQ(outlook.best().took, Nanoseconds{1});
+  EXPECT_EQ(outlook.worst().took, Nanoseconds{9});
+  EXPECT_EQ(outlook.headline(), "STORM in 1 of 3 runs");
+}
+
+TEST(Outlook, WhatIsNotCompleteIsWorseThanEverythingThatIs) {
+  const Outlook outlook{{one(Health::incomplete, 2), one(Health::fine, 100)}};
+  EXPECT_FALSE(outlook.worst().completion);
+  EXPECT_EQ(outlook.completed(), 1U);
+  EXPECT_EQ(outlook.headline(), "INCOMPLETE in 1 of 2 runs");
+  EXPECT_EQ(outlook.sentence(), "discovery does not complete in 1 of 2 runs");
+}
+
+}  // namespace health_test
+}  // namespace stormproof::exact

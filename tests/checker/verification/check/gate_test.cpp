@@ -1,0 +1,204 @@
+// Which verdicts make a check fail, and what a baseline accepts.
+#include "checker/verification/check/gate.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "checker/engines/smt/claims.hpp"
+#include "checker/verification/check/baseline.hpp"
+#include "model/config/scenario_file.hpp"
+
+namespace stormproof::checker {
+namespace gate_test {
+
+using props::Finding;
+using props::Reach;
+using props::VerdictKind;
+
+Finding by(props::Engine engine, VerdictKind kind) {
+  Finding finding;
+  finding.engine = props::name_of(engine);
+  finding.kind = kind;
+  return finding;
+}
+
+PropertyResult result_of(std::string_view id, std::vector<Finding> findings) {
+  PropertyResult result;
+  result.property = props::find_property(id);
+  result.findings = std::move(findings);
+  result.deciding = deciding_finding(result.findings);
+  result.verdict = result.decisive().kind;
+  return result;
+}
+
+Gate judged(PropertyResult result, GateRules rules = {}) {
+  CheckReport report;
+  report.results.push_back(std::move(result));
+  return judge(report, model::DdsProfile{}, std::move(rules));
+}
+
+Standing standing(PropertyResult result, GateRules rules = {}) {
+  return judged(std::move(result), std::move(rules)).standings.front();
+}
+
+constexpr auto run = props::Engine::exact_run;
+constexpr auto tables = props::Engine::tables;
+constexpr auto explorer = props::Engine::explorer;
+
+TEST(Gate, WhatBreaksInThisDeploymentFailsWhateverTheRulesPromise) {
+  for (const char* id : {"safety.snapshot", "storm.single-copy", "limit.time"}) {
+    const Gate gate = judged(result_of(id, {by(run, VerdictKind::violated)}));
+    EXPECT_EQ(gate.standings.front(), Standing::fails) << id;
+    EXPECT_EQ(gate.exit_code, 1) << id;
+    EXPECT_EQ(gate.failures, (std::vector<Failure>{{id, Reach::deployment}})) << id;
+  }
+}
+
+TEST(Gate, AWeaknessThatOtherDeploymentsHaveIsPossibleAndFailsIfStrict) {
+  const PropertyResult weak = result_of(
+      "live.quiescence", {by(run, VerdictKind::bounded), by(explorer, VerdictKind::violated)});
+  EXPECT_EQ(weak.verdict, VerdictKind::violated);
+  EXPECT_EQ(standing(weak), Standing::possible);
+  EXPECT_EQ(judged(weak).exit_code, 0);
+  const Gate strict = judged(weak, {.strict = true});
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_EQ(strict.failures, (std::vector<Failure>{{"live.quiescence", Reach::profile}}));
+}
+
+TEST(Gate, WhatTheRulesPromiseFailsWhereverItBreaks) {
+  EXPECT_EQ(standing(result_of("safety.snapshot", {by(run, VerdictKind::bounded),
+                                                   by(explorer, VerdictKind::violated)})),
+            Standing::fails);
+  EXPECT_EQ(standing(result_of("fsm.determinism", {by(tables, VerdictKind::violated)})),
+            Standing::fails);
+}
+
+TEST(Gate, AMarginIsNoFailureOfTheRunThatIsBeyondIt) {
+  const PropertyResult margin = result_of("storm.free-threshold", {by(run, VerdictKind::violated)});
+  EXPECT_EQ(standing(margin), Standing::possible);
+  EXPECT_EQ(standing(margin, {.strict = true}), Standing::fails);
+}
+
+TEST(Gate, WeaknessesAreThoseOfTheImplementation) {
+  const PropertyResult result =
+      result_of("timer.suppression-honoured",
+                {by(run, VerdictKind::bounded), by(explorer, VerdictKind::violated)});
+  CheckReport report;
+  report.results.push_back(result);
+  model::DdsProfile dds;
+  EXPECT_EQ(judge(report, dds, {}).exit_code, 1);
+  dds.implementation = model::ImplementationKind::fastdds;
+  EXPECT_EQ(judge(report, dds, {}).exit_code, 0);
+}
+
+TEST(Gate, WhatIsPromisedHasToBeEstablishedAsStronglyAsRequired) {
+  const PropertyResult bounded = result_of("safety.snapshot", {by(run, VerdictKind::bounded)});
+  EXPECT_EQ(judged(bounded, {.require = VerdictKind::bounded}).exit_code, 0);
+  EXPECT_EQ(judged(bounded, {.require = VerdictKind::proved}).exit_code, 3);
+  EXPECT_EQ(standing(bounded, {.require = VerdictKind::proved}), Standing::open);
+  EXPECT_EQ(judged(result_of("safety.snapshot", {by(run, VerdictKind::inconclusive)})).exit_code,
+            3);
+  // A weakness is not promised, and a limit is no rule: they have no kind to reach.
+  const PropertyResult weak = result_of("live.quiescence", {by(run, VerdictKind::bounded)});
+  EXPECT_EQ(judged(weak, {.require = VerdictKind::proved}).exit_code, 0);
+  EXPECT_EQ(judged(weak, {.require = VerdictKind::proved, .strict = true}).exit_code, 3);
+  const PropertyResult limit = result_of("limit.time", {by(run, VerdictKind::sampled)});
+  EXPECT_EQ(judged(limit, {.require = VerdictKind::proved}).exit_code, 0);
+}
+
+TEST(Gate, ADisputeOfSolversIsOpenEvenForAWeakness) {
+  Finding disputed = by(tables, VerdictKind::inconclusive);
+  disputed.disputed = true;
+  EXPECT_EQ(
+      judged(result_of("live.quiescence", {by(run, VerdictKind::bounded), disputed})).exit_code, 3);
+}
+
+TEST(Gate, AnInterruptedCheckIsOpen) {
+  CheckReport report;
+  report.interrupted = true;
+  EXPECT_EQ(judge(report, model::DdsProfile{}, {}).exit_code, 3);
+}
+
+TEST(Gate, AStormFailsEvenIfNoPropertyBreaks) {
+  exact::RunHealth storm;
+  storm.health = exact::Health::storm;
+  storm.completion = model::Nanoseconds{5};
+  CheckReport report;
+  report.outlook.emplace(std::vector{storm});
+  EXPECT_EQ(judge(report, model::DdsProfile{}, {}).exit_code, 1);
+  const GateRules accepting{.baseline = {{std::string{storm_id}, Reach::deployment}}};
+  EXPECT_EQ(judge(report, model::DdsProfile{}, accepting).exit_code, 0);
+}
+
+TEST(Gate, ABaselineAcceptsWhatItListsAndNothingElse) {
+  const PropertyResult broken = result_of("storm.single-copy", {by(run, VerdictKind::violated)});
+  const Gate accepted = judged(broken, {.baseline = {{"storm.single-copy", Reach::deployment}}});
+  EXPECT_EQ(accepted.exit_code, 0);
+  EXPECT_EQ(accepted.standings.front(), Standing::accepted);
+  EXPECT_TRUE(accepted.outdated.empty());
+  const Gate elsewhere = judged(broken, {.baseline = {{"storm.single-copy", Reach::profile}}});
+  EXPECT_EQ(elsewhere.exit_code, 1);
+  EXPECT_EQ(elsewhere.outdated.size(), 1U);
+}
+
+class BaselineFile : public testing::Test {
+ protected:
+  std::string error_of(const std::string& text) {
+    std::ofstream{path_} << text;
+    const auto baseline = read_baseline(path_);
+    return baseline ? "" : to_string(baseline.error());
+  }
+  ~BaselineFile() override { std::filesystem::remove(path_); }
+
+  std::string path_ = testing::TempDir() + "stormproof-baseline.yaml";
+};
+
+TEST_F(BaselineFile, IsReadAsItIsWritten) {
+  const Baseline baseline{{"a: \"b\" c", {{"safety.snapshot", Reach::rules}}},
+                          {"wifi-5x20",
+                           {{std::string{storm_id}, Reach::deployment},
+                            {"storm.single-copy", Reach::deployment},
+                            {"live.quiescence", Reach::profile}}}};
+  std::ofstream{path_} << baseline_text(baseline);
+  const auto read = read_baseline(path_);
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(*read, baseline);
+}
+
+TEST_F(BaselineFile, MistakesAreRefusedWithTheirPlace) {
+  EXPECT_NE(error_of("acepted: {}").find(":1:1"), std::string::npos);
+  EXPECT_NE(error_of("{}").find("expected 'accepted:'"), std::string::npos);
+  EXPECT_NE(error_of("accepted:\n  x: 3\n").find(":2:6: x: '3'; expected a list"),
+            std::string::npos);
+  EXPECT_NE(error_of("accepted:\n  x:\n    - storm.single-coppy in this deployment\n")
+                .find("did you mean 'storm.single-copy'?"),
+            std::string::npos);
+  EXPECT_NE(error_of("accepted:\n  x:\n    - storm.single-copy somewhere\n").find(":3:7"),
+            std::string::npos);
+  EXPECT_FALSE(read_baseline(path_ + ".none"));
+}
+
+std::map<std::string, int> exit_codes() {
+  std::map<std::string, int> codes;
+  for (const char* name : {"smallest", "wired-5x20", "wired-5x20-fastdds", "wifi-5x20"}) {
+    const auto scenario =
+        model::config::read_scenario(name, {}, model::config::SpecPath::standard());
+    smt::Options solver;
+    solver.second_solver = false;
+    smt::Claims claims{solver};
+    const CheckReport report = check({}, {*scenario, claims, nullptr, 0, 2, {}});
+    codes[name] = judge(report, scenario->dds, {}).exit_code;
+  }
+  return codes;
+}
+
+TEST(Gate, WiredAndSmallDeploymentsPassAndAStormDoesNot) {
+  EXPECT_EQ(exit_codes(),
+            (std::map<std::string, int>{
+                {"smallest", 0}, {"wired-5x20", 0}, {"wired-5x20-fastdds", 0}, {"wifi-5x20", 1}}));
+}
+
+}  // namespace gate_test
+}  // namespace stormproof::checker
