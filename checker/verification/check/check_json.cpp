@@ -105,7 +105,7 @@ void describe(V& v, const ReportInContext& shown) {
   v("seconds", shown.report.seconds);
   v("summary", Summary{shown.report});
   v("gate", shown.context.gate);
-  v("deployment", shown.report.outlook);
+  v("outlook", shown.report.outlook);
   v.unless_empty("unmodelled", dds.unmodelled);
   std::vector<ResultInContext> verdicts;
   for (const PropertyResult& result : shown.report.results) {
