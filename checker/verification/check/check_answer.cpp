@@ -119,6 +119,9 @@ void say_whether_it_passes(report::Document& document, const CheckReport& report
   }
   answer += count_text(report, gate, Standing::fails, "violated");
   if (gate.exit_code != 1) answer += count_text(report, gate, Standing::open, "not established");
+  if (const std::size_t accepted = gate.count(Standing::accepted); accepted > 0) {
+    answer += fmt::format("; {} accepted by the baseline", report::plural(accepted, "failure"));
+  }
   document.answer = answer;
   const std::size_t possible = gate.count(Standing::possible);
   if (possible > 0) {

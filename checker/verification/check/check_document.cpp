@@ -161,7 +161,7 @@ void add_verdicts(report::Document& document, const CheckReport& report,
   if (standing == Standing::possible) {
     section.blocks.emplace_back(
         Paragraph{"Under other delays or losses than those of this deployment it can break; "
-                  "--strict counts that as a failure, -v tells how."});
+                  "--strict counts that as a failure."});
   }
   section.blocks.emplace_back(std::move(table));
   // At a terminal what holds is a number in the table of questions, unless it was asked for.
