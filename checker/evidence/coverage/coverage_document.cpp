@@ -1,6 +1,7 @@
 // The comparison for people: a section for each profile, in it a table for each scope and the
 // charts.
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -137,6 +138,54 @@ Section section_of(const ProfileStudy& profile, const Heading& heading,
   return section;
 }
 
+const Fit* overall(const ProfileStudy& profile, Measure measure) {
+  for (const FitRow& row : profile.rows) {
+    if (row.scope == "all" && row.measure == measure) return &row.fit;
+  }
+  return nullptr;
+}
+
+/// One row for each profile and measure: how good it is over all configurations.
+Table summary(const Study& study) {
+  Table table{{{"profile"},
+               {"measure"},
+               {"median ratio", to_the_right},
+               {"median |ln ratio|", to_the_right},
+               {"in range", to_the_right}},
+              {}};
+  for (const ProfileStudy& profile : study.profiles) {
+    std::string name = profile.name;
+    for (const Measure measure : {Measure::completion, Measure::messages}) {
+      const Fit* const fit = overall(profile, measure);
+      if (fit == nullptr) continue;
+      table.rows.push_back({{std::exchange(name, ""), label(measure), plain(fit->median_ratio, 3),
+                             plain(fit->median_abs_ln_ratio, 3),
+                             profile.sampled ? percent(fit->in_range) : "–"}});
+    }
+  }
+  return table;
+}
+
+/// The profile whose completion is off least, in words.
+std::string best_fit(const Study& study) {
+  const ProfileStudy* best = nullptr;
+  double least = 0;
+  for (const ProfileStudy& profile : study.profiles) {
+    const Fit* const fit = overall(profile, Measure::completion);
+    if (fit == nullptr || !fit->median_abs_ln_ratio || !fit->median_ratio) continue;
+    if (best != nullptr && *fit->median_abs_ln_ratio >= least) continue;
+    best = &profile;
+    least = *fit->median_abs_ln_ratio;
+  }
+  if (best == nullptr) return "";
+  const double ratio = *overall(*best, Measure::completion)->median_ratio;
+  return fmt::format(
+      "{}{} predicts completion to within {:.0f} % at the median; its times are {:.2f} × the "
+      "measured ones",
+      best->name, study.profiles.size() > 1 ? " fits best: it" : "", 100 * (std::exp(least) - 1),
+      ratio);
+}
+
 }  // namespace
 
 report::Document document_of(const Heading& heading, const Study& study) {
@@ -144,9 +193,16 @@ report::Document document_of(const Heading& heading, const Study& study) {
   const std::string baseline = last.is_baseline ? last.name : "";
   report::Document document;
   document.title = "stormproof coverage " + heading.observations;
-  document.answer = fmt::format(
+  const std::string runs = fmt::format(
       "{}: {}{}", heading.observations, report::plural(heading.rows, "measured run"),
       heading.not_selected > 0 ? fmt::format(", {} not selected", heading.not_selected) : "");
+  const std::string best = baseline.empty() ? best_fit(study) : "";
+  document.answer = best.empty() ? runs : best;
+  if (!best.empty()) {
+    document.subject = runs;
+    document.tone = report::Tone::info;
+    document.blocks.emplace_back(summary(study));
+  }
   if (study.interrupted) {
     document.elaboration = "interrupted: only the runs that finished are evaluated";
     document.tone = report::Tone::warn;

@@ -181,14 +181,21 @@ report::Facts head(const Report& report, const Heading& heading) {
   return facts;
 }
 
+/// "15 % slower", "3 % fewer messages".
+std::string difference(std::optional<double> ratio, const char* more, const char* less,
+                       const char* same) {
+  if (!ratio) return "not comparable";
+  const double percent = 100 * (*ratio - 1);
+  if (std::abs(percent) < 0.5) return same;
+  return fmt::format("{:.0f} % {}", std::abs(percent), percent > 0 ? more : less);
+}
+
 report::Text answer(const Report& report) {
-  const auto of = [&](Figure figure) {
-    const std::optional<double> ratio = report.of(figure).ratio;
-    return ratio ? fmt::format("{:.2f}", *ratio) : std::string{"unknown"};
-  };
-  const std::string ratios =
-      fmt::format("model/observed is {} for completion and {} for all messages",
-                  of(Figure::completion), of(Figure::total));
+  const std::string ratios = fmt::format(
+      "the model's completion is {}, and it sends {} than observed",
+      difference(report.of(Figure::completion).ratio, "later", "earlier", "as observed"),
+      difference(report.of(Figure::total).ratio, "more messages", "fewer messages",
+                 "no more or fewer messages"));
   switch (report.agreement) {
     case Agreement::not_asked:
       break;
@@ -201,7 +208,7 @@ report::Text answer(const Report& report) {
                          report.observation.complete ? "too few runs of the model completed"
                                                      : "the observation is incomplete");
   }
-  return ratios + ".";
+  return "T" + ratios.substr(1) + ".";
 }
 
 Tone tone_of(Agreement agreement) {

@@ -3,10 +3,13 @@
 
 #include <fmt/core.h>
 
+#include "checker/experiments/statistics/completion.hpp"
+#include "checker/experiments/statistics/quantiles.hpp"
 #include "checker/experiments/sweep/sweep_report.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/json/describe.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/plain_text.hpp"
 
 namespace stormproof::sweep {
 
@@ -32,6 +35,56 @@ Totals count(const Plan& plan, const Collector& results) {
                               : totals.incomplete);
   }
   return totals;
+}
+
+/// Median, and the job that takes longest or is not complete.
+struct Spread {
+  statistics::Quantiles completion_ns;
+  std::optional<std::size_t> worst;  ///< job
+};
+
+Spread spread_of(const Plan& plan, const Collector& results) {
+  Spread spread;
+  std::vector<double> times;
+  double most = -1;
+  for (std::size_t job = 0; job < plan.size(); ++job) {
+    const Outcome* outcome = results.outcome(job);
+    if (outcome == nullptr || outcome->failed()) continue;
+    std::optional<model::Nanoseconds> time;
+    if (outcome->completed()) time = model::Nanoseconds{*outcome->numbers.front()};
+    times.push_back(statistics::completion_ns(time));
+    if (times.back() <= most) continue;
+    most = times.back();
+    spread.worst = job;
+  }
+  spread.completion_ns = statistics::quantiles(std::move(times));
+  return spread;
+}
+
+/// "deployment.participants_per_host 5, endpoints_per_participant 20".
+std::string job_text(const Plan& plan, std::size_t job) {
+  std::string text;
+  const std::vector<std::string> keys = plan.keys();
+  const std::vector<std::string> values = plan.values(job);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", keys[k], values[k]);
+  }
+  return text.empty() ? "the only one" : text;
+}
+
+void add_spread(report::Document& document, const Plan& plan, const Collector& results) {
+  const Spread spread = spread_of(plan, results);
+  if (!spread.worst) return;
+  const auto time = [](const std::optional<double>& ns) {
+    return ns ? report::duration(model::Nanoseconds{static_cast<std::int64_t>(*ns)})
+              : std::string{"not complete"};
+  };
+  report::Facts facts;
+  facts.rows.emplace_back("median completion", time(spread.completion_ns.median));
+  facts.rows.emplace_back("shortest", time(spread.completion_ns.min));
+  facts.rows.emplace_back(
+      "longest", time(spread.completion_ns.max) + ": " + job_text(plan, *spread.worst));
+  document.blocks.emplace_back(std::move(facts));
 }
 
 /// The settings that the model has not got, of all profiles in the plan.
@@ -71,6 +124,11 @@ report::Document document_of(const Plan& plan, const Collector& results,
   if (totals.failed > 0) {
     document.elaboration = "first that cannot run: " + totals.first_error;
   }
+  add_spread(document, plan, results);
+  document.next.push_back(
+      {"sqlite3 " + report::shell_word(database) +
+           " 'SELECT * FROM runs ORDER BY t_disc_ns DESC LIMIT 5'",
+       "the runs that take longest; --csv FILE writes all of them as a table"});
   model::DdsProfile dds;
   dds.unmodelled = unmodelled_in(plan);
   add_unmodelled(document, dds);

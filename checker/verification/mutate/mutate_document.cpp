@@ -70,6 +70,18 @@ report::Finding finding_of(const MutantResult& mutant) {
   return finding;
 }
 
+/// The end of a long list is what one sees of it.
+void add_survivors(report::Document& document, const MutationReport& report) {
+  report::Bullets survivors;
+  for (const MutantResult& mutant : report.mutants) {
+    if (mutant.noticed() || !mutant.makes_a_difference) continue;
+    survivors.items.push_back(report::code(mutant.id) + ": " + mutant.reason);
+  }
+  if (survivors.items.empty()) return;
+  document.blocks.emplace_back(
+      report::Section{"Nobody notices", "survivors", {std::move(survivors)}});
+}
+
 }  // namespace
 
 report::Document document_of(const MutationReport& report) {
@@ -100,6 +112,7 @@ report::Document document_of(const MutationReport& report) {
       counts_table("property", props::catalogue(), [&](auto id) { return report.killed_by(id); }));
   document.blocks.emplace_back(
       counts_table("law", props::laws(), [&](auto id) { return report.killed_by_law(id); }));
+  add_survivors(document, report);
   for (const MutantResult& mutant : report.mutants) {
     document.findings.push_back(finding_of(mutant));
   }
