@@ -52,7 +52,6 @@ std::optional<std::string> complete(TuneArguments& arguments, const model::Scena
 /// The command that gives the numbers of a row again, from the written file.
 std::string repeat_line(const TuneArguments& arguments, const tune::Subject& subject,
                         const tune::Report& report, const std::string& file) {
-  if (arguments.options.start_jitter.count() > 0) return {};  // `simulate` has none
   std::string command = "stormproof simulate " + report::shell_word(arguments.scenario);
   for (const std::string& change : arguments.overrides) {
     if (!change.starts_with("dds=") && !change.starts_with("dds.")) {
@@ -61,6 +60,9 @@ std::string repeat_line(const TuneArguments& arguments, const tune::Subject& sub
   }
   command += " --set " + report::shell_word("dds=" + tune::reference_to(file, subject));
   if (!report.is_sampled) return command;
+  if (arguments.options.start_jitter.count() > 0) {
+    command += " --start-jitter " + print_duration(arguments.options.start_jitter);
+  }
   return command +
          fmt::format(" --samples {} --seed {}", report.compared.count, report.compared.first);
 }
