@@ -2,11 +2,12 @@
 #include "model/composition_of.hpp"
 
 #include "fsm/composition/compositions.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::model {
 
 const fsm::composition::CompositionInfo& composition_of(ImplementationKind kind) {
-  return fsm::composition::compositions()[static_cast<std::size_t>(kind)];
+  return fsm::composition::compositions()[index_of(kind)];
 }
 
 const fsm::composition::CompositionInfo& composition_of(const DdsProfile& dds) {

@@ -12,7 +12,8 @@
 
 namespace stormproof::model {
 
-/// Which writer the profile describes: the paper's, or Fast DDS as its source code has it.
+/// Whose DDS the profile describes: the paper's, or Fast DDS as its source code has it. What is
+/// true of each: model/implementations.hpp.
 enum class ImplementationKind : std::uint8_t { paper, fastdds };
 
 /// What a participant sends when it recognises another one for the first time.
@@ -107,7 +108,7 @@ struct DescriptorProfile {
 };
 
 struct DdsProfile {
-  ImplementationKind implementation = ImplementationKind::paper;
+  ImplementationKind implementation{};  ///< the paper's, if nothing else is said
   SpdpProfile spdp;
   SedpProfile sedp;
   DescriptorProfile descriptors;

@@ -9,6 +9,7 @@
 #include "model/engine/network.hpp"
 #include "model/engine/run_state.hpp"
 #include "model/fastdds/protocol.hpp"
+#include "model/implementations.hpp"
 #include "model/paper/protocol.hpp"
 
 namespace stormproof::model {
@@ -19,10 +20,11 @@ bool concerns_network(EventKind kind) {
   return class_of(kind) != EventClass::protocol || kind == EventKind::source_completion;
 }
 
-/// The one place that tells implementations apart.
-ImplementationMaker maker_for(ImplementationKind kind) {
-  return kind == ImplementationKind::fastdds ? maker_of<fastdds::Protocol>()
-                                             : maker_of<paper::Protocol>();
+ImplementationMaker maker_for(Of<comp::paper::Paper>, SameHostPairs same_host) {
+  return maker_of<paper::Protocol>(same_host);
+}
+ImplementationMaker maker_for(Of<comp::fastdds::FastDds>, SameHostPairs same_host) {
+  return maker_of<fastdds::Protocol>(same_host);
 }
 
 class Simulator {
@@ -110,7 +112,10 @@ RunResult simulate(const Scenario& scenario, const RunOptions& options,
 }
 
 RunResult simulate(const Scenario& scenario, const RunOptions& options) {
-  return simulate(scenario, options, maker_for(scenario.dds.implementation));
+  const auto maker = [&](auto composition) {
+    return maker_for(composition, same_host_pairs(scenario.dds));
+  };
+  return simulate(scenario, options, visit_composition(scenario.dds, maker));
 }
 
 }  // namespace stormproof::model

@@ -154,7 +154,7 @@ std::optional<InputError> check_implementation(const Node& profile, const Node* 
   if (replacement == nullptr || !replacement->is_scalar()) return std::nullopt;
   const Node* own = profile.find(implementation_key);
   if (own != nullptr && !own->is_scalar()) return std::nullopt;
-  const std::string_view name = own != nullptr ? own->text : name_of(ImplementationKind::paper);
+  const std::string_view name = own != nullptr ? own->text : name_of(default_implementation);
   if (replacement->text == name) return std::nullopt;
   return error_at(replacement->place,
                   fmt::format("{}: {}; expected {}, as the profile that this changes has it; the "

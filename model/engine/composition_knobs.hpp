@@ -6,6 +6,7 @@
 #include "fsm/composition/paper.hpp"
 #include "model/dds_profile.hpp"
 #include "model/event.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::model {
 
@@ -15,9 +16,9 @@ namespace knobs_of_composition {
 
 // Truth values.
 inline bool value(comp::AcceptsUnmatched, const DdsProfile& dds) {
-  if (is_fastdds(dds)) return false;
-  return dds.sedp.unmatched == Unmatched::accept ||
-         dds.sedp.relation_opening != RelationOpening::each_side;
+  const RelationRules rules = rules_of(dds);
+  return rules.unmatched == Unmatched::accept ||
+         rules.relation_opening != RelationOpening::each_side;
 }
 inline bool value(comp::ConstantInterval, const DdsProfile& dds) {
   return dds.sedp.initial_acknack_interval == InitialAckNackInterval::constant;

@@ -17,8 +17,8 @@ struct ImplementationMaker {
 };
 
 template <class Protocol>
-[[nodiscard]] ImplementationMaker maker_of() {
-  return {Protocol::same_host_pairs, [](RunState& run, Network& network) {
+[[nodiscard]] ImplementationMaker maker_of(SameHostPairs same_host) {
+  return {same_host, [](RunState& run, Network& network) {
             return std::unique_ptr<Implementation>{std::make_unique<Protocol>(run, network)};
           }};
 }

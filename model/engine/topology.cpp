@@ -3,7 +3,17 @@
 
 #include <algorithm>
 
+#include "model/implementations.hpp"
+
 namespace stormproof::model {
+
+SameHostPairs same_host_pairs(const DdsProfile& dds) {
+  return traits_of(dds).discovers_same_host ? SameHostPairs::included : SameHostPairs::left_out;
+}
+
+Topology topology_of(const Scenario& scenario) {
+  return {scenario.deployment, scenario.dds.descriptors, same_host_pairs(scenario.dds)};
+}
 
 Topology::Topology(const Deployment& deployment, const DescriptorProfile& descriptors,
                    SameHostPairs same_host)

@@ -2,7 +2,7 @@
 // ascending order of the destination, relation 2·pair + stream belongs to the pair's writer side.
 // For the paper's protocol only cross-host pairs exist (its set R), because same-host traffic never
 // touches the channel; Fast DDS's writers treat all readers alike, so there same-host pairs exist
-// too.
+// too (`discovers_same_host`).
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,13 @@
 
 #include "model/dds_profile.hpp"
 #include "model/deployment.hpp"
+#include "model/scenario.hpp"
 
 namespace stormproof::model {
 
 enum class SameHostPairs : std::uint8_t { left_out, included };
+/// Whether runs of the profile have them.
+[[nodiscard]] SameHostPairs same_host_pairs(const DdsProfile& dds);
 
 /// A directed pair: what `source` advertises, `destination` must learn.
 struct Pair {
@@ -67,5 +70,8 @@ class Topology {
   std::vector<Nanoseconds> start_;
   std::uint64_t required_deliveries_ = 0;
 };
+
+/// As a run of the scenario has it.
+[[nodiscard]] Topology topology_of(const Scenario& scenario);
 
 }  // namespace stormproof::model

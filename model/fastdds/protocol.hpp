@@ -26,8 +26,6 @@ namespace control = fsm::composition::control;
 class Protocol final : public DiscoveryBase {
  public:
   using Composition = rules::FastDds;
-  static constexpr SameHostPairs same_host_pairs =
-      SameHostPairs::included;  ///< a writer treats all readers alike
 
   Protocol(RunState& run, Network& network);
 

@@ -26,8 +26,6 @@ inline constexpr std::uint32_t no_rank = UINT32_MAX;
 class Protocol final : public DiscoveryBase {
  public:
   using Composition = rules::Paper;
-  static constexpr SameHostPairs same_host_pairs =
-      SameHostPairs::left_out;  ///< same-host traffic never touches the channel
 
   Protocol(RunState& run, Network& network);
 

@@ -2,6 +2,7 @@
 #include "model/trace/perfetto_tracks.hpp"
 
 #include "model/engine/topology.hpp"
+#include "model/implementations.hpp"
 #include "model/trace/event_subject.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/scenario_names.hpp"
@@ -132,7 +133,7 @@ void name_tracks(PerfettoEvents& events, const Scenario& scenario) {
   for (std::uint32_t c = 0; c < channels.size(); ++c) {
     events.thread_name(channel_track(c), "channel " + channels[c]);
   }
-  const bool user_topics = is_fastdds(scenario.dds);
+  const bool user_topics = traits_of(scenario.dds).has_control_relations;
   const auto& participants = scenario.deployment.participants;
   for (std::uint32_t i = 0; i < participants.size(); ++i) {
     std::string name;

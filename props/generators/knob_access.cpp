@@ -30,13 +30,13 @@ class Collector {
  public:
   void knob(std::string_view, auto&& member, const auto& type, std::string_view,
             Presence presence = {}) {
-    add(member, type, presence != Presence::of_paper);
+    add(member, type, presence != Presence::of_others);
   }
   template <class Section>
   void section(std::string_view, Section& member, std::string_view, Presence presence = {},
                const auto&... context) {
     const bool was_used = is_used_;
-    is_used_ = is_used_ && presence != Presence::of_paper;
+    is_used_ = is_used_ && presence != Presence::of_others;
     visit_knobs(*this, member, context...);
     is_used_ = was_used;
   }

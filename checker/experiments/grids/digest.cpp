@@ -21,12 +21,12 @@ class KnobText {
  public:
   void knob(std::string_view key, const auto& member, const auto& type, std::string_view,
             config::Presence presence = {}) {
-    if (presence != config::Presence::of_paper) value(key, member, type);
+    if (presence != config::Presence::of_others) value(key, member, type);
   }
   template <class Section>
   void section(std::string_view key, const Section& member, std::string_view,
                config::Presence presence = {}, const auto&... context) {
-    if (presence == config::Presence::of_paper) return;
+    if (presence == config::Presence::of_others) return;
     if constexpr (requires { member.has_value(); }) {
       if (member) section(key, *member, {}, presence, context...);
     } else {

@@ -1,6 +1,6 @@
 // The table of the DDS profile: every key, its range and its meaning, in the order of the file. See
-// knobs.hpp for what visits it. The two implementations share the timers; the relation rules and
-// all sizes are keys of the paper's model alone, because they are constants of the other one.
+// knobs.hpp for what visits it. All implementations share the timers; the relation rules and all
+// sizes are keys where they are no constants of the implementation (model/implementations.hpp).
 #pragma once
 
 #include <fmt/core.h>
@@ -8,11 +8,18 @@
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
 #include "model/dds_profile.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::model::config {
 
 template <>
-inline constexpr std::array<std::string_view, 2> enum_names<ImplementationKind>{"paper", "fastdds"};
+inline constexpr auto enum_names<ImplementationKind> = [] {
+  std::array<std::string_view, implementations.size()> names;
+  for (const ImplementationKind kind : implementations) {
+    names[index_of(kind)] = traits_of(kind).name;
+  }
+  return names;
+}();
 template <>
 inline constexpr std::array<std::string_view, 4> enum_names<SpdpResend>{
     "all_known", "new_and_multicast", "new_only", "none"};
@@ -52,9 +59,13 @@ inline constexpr NumberType packet_bytes = byte_range(1, 1'000'000'000);
 /// denominator.
 inline constexpr std::int64_t max_epsilon_denominator = 1'000;
 
-/// Of a key that only the paper's model has.
-[[nodiscard]] constexpr Presence in_paper(ImplementationKind implementation) {
-  return implementation == ImplementationKind::paper ? Presence::required : Presence::of_paper;
+/// Of a relation rule.
+[[nodiscard]] constexpr Presence of_rules(ImplementationKind implementation) {
+  return traits_of(implementation).fixed_rules ? Presence::of_others : Presence::required;
+}
+/// Of the size of a packet or of its parts.
+[[nodiscard]] constexpr Presence of_sizes(ImplementationKind implementation) {
+  return traits_of(implementation).has_size_knobs ? Presence::required : Presence::of_others;
 }
 
 void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp, ImplementationKind implementation) {
@@ -66,7 +77,7 @@ void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp, ImplementationKind imp
   visit.knob("resend", spdp.resend, ChoiceType<SpdpResend>{},
              "what is sent when a participant is recognised for the first time");
   visit.knob("payload_bytes", spdp.payload_bytes, packet_bytes, "UDP payload of an announcement",
-             in_paper(implementation));
+             of_sizes(implementation));
 }
 
 void visit_knobs(auto& visit, Is<AdaptiveProfile> auto& adaptive) {
@@ -98,26 +109,25 @@ void visit_sedp_timers(auto& visit, Is<SedpProfile> auto& sedp) {
 
 /// How relations open, repair and acknowledge; the second part of `sedp`.
 void visit_sedp_rules(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
-  const Presence of_paper = in_paper(implementation);
+  const Presence of_rule = of_rules(implementation);
   visit.knob("relation_opening", sedp.relation_opening, ChoiceType<RelationOpening>{},
              "when the writer side opens: with the receiver's recognition, or with its own",
-             of_paper);
+             of_rule);
   visit.knob("initial_data", sedp.initial_data, ChoiceType<InitialData>{},
-             "whether descriptors are sent when a relation opens, or only when asked for",
-             of_paper);
+             "whether descriptors are sent when a relation opens, or only when asked for", of_rule);
   visit.knob("unmatched", sedp.unmatched, ChoiceType<Unmatched>{},
              "what a reader side that is not open does with DATA and HEARTBEATs (with each_side)",
-             of_paper);
+             of_rule);
   visit.knob("initial_acknack", sedp.initial_acknack, ChoiceType<InitialAckNackReply>{},
-             "what a writer does with an initial ACKNACK", of_paper);
+             "what a writer does with an initial ACKNACK", of_rule);
   visit.knob("acknowledge", sedp.acknowledge, ChoiceType<Acknowledge>{},
              "what an ACKNACK confirms: all outside its bitmap, or only the contiguous prefix",
-             of_paper);
+             of_rule);
   visit.knob("heartbeat_timer", sedp.heartbeat_timer, ChoiceType<HeartbeatTimerKind>{},
              "one pending periodic HEARTBEAT per writer, or one more for each suppression end",
-             of_paper);
+             of_rule);
   visit.knob("heartbeat_recipients", sedp.heartbeat_recipients, ChoiceType<HeartbeatRecipients>{},
-             "who receives a periodic HEARTBEAT", of_paper);
+             "who receives a periodic HEARTBEAT", of_rule);
   visit.knob("heartbeat_policy", sedp.heartbeat_policy, ChoiceType<HeartbeatPolicy>{},
              "fixed period, or the response-aware policy");
   visit.section("adaptive", sedp.adaptive, "the response-aware HEARTBEAT policy");
@@ -126,25 +136,24 @@ void visit_sedp_rules(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKin
 /// How DATA shares packets, and what packets weigh; the last part of `sedp`.
 void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
                         ImplementationKind implementation) {
-  const Presence of_paper = in_paper(implementation);
+  const Presence of_size = of_sizes(implementation);
   visit.knob("grouping", sedp.grouping, ChoiceType<Grouping>{},
-             "how descriptors share packets: up to a limit, one MTU, or one a packet", of_paper);
-  visit.knob(
-      "grouping_limit_bytes", sedp.grouping_limit_bytes, packet_bytes,
-      "largest UDP payload of a packet with grouping: message, or that fastdds fills",
-      implementation == ImplementationKind::paper ? Presence::required : Presence::defaulted);
+             "how descriptors share packets: up to a limit, one MTU, or one a packet", of_size);
+  visit.knob("grouping_limit_bytes", sedp.grouping_limit_bytes, packet_bytes,
+             "largest UDP payload of a packet with grouping: message, or that fastdds fills",
+             of_size == Presence::required ? Presence::required : Presence::defaulted);
   visit.knob("piggyback", sedp.piggyback, ChoiceType<Piggyback>{},
              "what DATA is charged against the threshold of the piggyback HEARTBEAT");
   visit.knob("piggyback_threshold_bytes", sedp.piggyback_threshold_bytes,
              byte_range(0, 1'000'000'000'000), "bytes that a writer may send without a HEARTBEAT");
   visit.knob("heartbeat_bytes", sedp.heartbeat_bytes, packet_bytes,
-             "UDP payload of a HEARTBEAT of its own", of_paper);
+             "UDP payload of a HEARTBEAT of its own", of_size);
   visit.knob("acknack_bytes", sedp.acknack_bytes, packet_bytes,
-             "UDP payload of an ACKNACK with no bitmap", of_paper);
+             "UDP payload of an ACKNACK with no bitmap", of_size);
   visit.knob("piggyback_heartbeat_bytes", sedp.piggyback_heartbeat_bytes, packet_bytes,
-             "what a HEARTBEAT adds to a packet with DATA", of_paper);
+             "what a HEARTBEAT adds to a packet with DATA", of_size);
   visit.knob("shared_header_bytes", sedp.shared_header_bytes, packet_bytes,
-             "RTPS header and INFO_DST, once per packet", of_paper);
+             "RTPS header and INFO_DST, once per packet", of_size);
 }
 
 void visit_knobs(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
@@ -169,14 +178,14 @@ void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors) {
 inline constexpr std::string_view implementation_key = "implementation";
 
 void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
-  const Presence of_paper = in_paper(dds.implementation);
   visit.knob(implementation_key, dds.implementation, ChoiceType<ImplementationKind>{},
              "whose writer: the paper's, or Fast DDS's own", Presence::optional);
   visit.section("spdp", dds.spdp, "participant announcements", Presence::required,
                 dds.implementation);
   visit.section("sedp", dds.sedp, "reliable exchange of endpoint descriptors", Presence::required,
                 dds.implementation);
-  visit.section("descriptors", dds.descriptors, "number and size of descriptors", of_paper);
+  visit.section("descriptors", dds.descriptors, "number and size of descriptors",
+                of_sizes(dds.implementation));
   visit.knob("unmodelled", dds.unmodelled, TextMapType{},
              "settings of the real system that the model has not, and what they do there",
              Presence::optional);

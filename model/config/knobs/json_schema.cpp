@@ -57,7 +57,7 @@ class SchemaVisitor {
 
  private:
   bool exclude(std::string_view key, Presence presence) {
-    if (presence != Presence::of_paper) return false;
+    if (presence != Presence::of_others) return false;
     excluded_[std::string{key}] = false;
     return true;
   }
@@ -143,18 +143,23 @@ Json profile(std::string_view title, SchemaVisitor visitor, const Json& requirem
 }
 
 Json dds_schema() {
-  const SchemaVisitor of_paper = visited(DdsProfile{});
-  DdsProfile fastdds;
-  fastdds.implementation = ImplementationKind::fastdds;
-  const SchemaVisitor of_fastdds = visited(fastdds);
-  // The key may be absent, and then it is the paper's.
+  // The key may be absent, and then it is the default one's, which has all keys.
+  const SchemaVisitor fullest = visited(DdsProfile{});
   const std::string key{implementation_key};
-  const Json is_fastdds = {{"required", Json::array({key})},
-                           {"properties", {{key, {{"const", name_of(fastdds.implementation)}}}}}};
-  Json schema = profile(
-      "DDS profile", of_paper,
-      {{"if", is_fastdds}, {"then", of_fastdds.requirements()}, {"else", of_paper.requirements()}});
-  schema["allOf"] = Json::array({{{"if", is_fastdds}, {"then", of_fastdds.exclusions()}}});
+  Json requirements = fullest.requirements();
+  Json exclusions = Json::array();
+  for (const ImplementationKind kind : implementations) {
+    if (kind == default_implementation) continue;
+    DdsProfile other;
+    other.implementation = kind;
+    const SchemaVisitor keys = visited(other);
+    const Json is_other = {{"required", Json::array({key})},
+                           {"properties", {{key, {{"const", name_of(kind)}}}}}};
+    requirements = {{"if", is_other}, {"then", keys.requirements()}, {"else", requirements}};
+    exclusions.push_back({{"if", is_other}, {"then", keys.exclusions()}});
+  }
+  Json schema = profile("DDS profile", fullest, requirements);
+  schema["allOf"] = exclusions;
   return schema;
 }
 

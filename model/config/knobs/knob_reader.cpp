@@ -1,5 +1,5 @@
 // The parts of reading that do not depend on the table, and the tables with keys that depend on
-// each other: the two forms of a deployment, its schedule, the two implementations.
+// each other: the two forms of a deployment, its schedule, the implementations.
 #include "model/config/knobs/knob_reader.hpp"
 
 #include <algorithm>
@@ -21,9 +21,14 @@ bool contains(const std::vector<std::string>& keys, const std::string& key) {
   return std::ranges::find(keys, key) != keys.end();
 }
 
-/// "implementation: paper".
-std::string shown(ImplementationKind implementation) {
-  return fmt::format("{}: {}", implementation_key, name_of(implementation));
+/// "implementation: paper": those whose profiles have every key, or those whose have not.
+std::string implementations_with(bool every_key) {
+  std::vector<std::string> shown;
+  for (const ImplementationTraits& one : implementation_traits) {
+    if ((!one.fixed_rules && one.has_size_knobs) != every_key) continue;
+    shown.push_back(fmt::format("{}: {}", implementation_key, one.name));
+  }
+  return fmt::format("{}", fmt::join(shown, " or "));
 }
 
 }  // namespace
@@ -37,12 +42,12 @@ std::optional<InputError> check_keys(const Node& map, std::string_view path,
   }
   for (const Member& member : map.members) {
     if (contains(keys.allowed, member.key)) continue;
-    if (contains(keys.of_paper, member.key)) {
+    if (contains(keys.of_others, member.key)) {
       return error_at(member.key_place,
                       fmt::format("{}: only {} has this key; expected none of it in a profile with "
                                   "{}",
-                                  join_path(path, member.key), shown(ImplementationKind::paper),
-                                  shown(ImplementationKind::fastdds)));
+                                  join_path(path, member.key), implementations_with(true),
+                                  implementations_with(false)));
     }
     std::string hint = suggestion(member.key, keys.allowed);
     if (hint.empty()) hint = fmt::format("; expected one of {}", fmt::join(keys.allowed, ", "));

@@ -19,7 +19,7 @@ namespace stormproof::model::config {
 /// The keys of a map: those that it may have, and those that only another implementation has.
 struct KnownKeys {
   std::vector<std::string> allowed;
-  std::vector<std::string> of_paper;
+  std::vector<std::string> of_others;
 };
 
 /// Collects the keys of one table, without those of its sections.
@@ -41,7 +41,7 @@ class KeyCollector {
 
  private:
   void add(std::string_view key, Presence presence) {
-    (presence == Presence::of_paper ? keys.of_paper : keys.allowed).emplace_back(key);
+    (presence == Presence::of_others ? keys.of_others : keys.allowed).emplace_back(key);
   }
 };
 
@@ -85,7 +85,7 @@ class KnobReader {
   template <class T>
   void knob(std::string_view key, T&& member, const auto& type, std::string_view,
             Presence presence = Presence::required) {
-    if (presence == Presence::of_paper) return;
+    if (presence == Presence::of_others) return;
     const Node* node = find(key, presence, [&type] { return type.expected(); });
     if (node == nullptr) return;
     Complaint complaint;
@@ -102,7 +102,7 @@ class KnobReader {
 
   void section(std::string_view key, auto& member, std::string_view,
                Presence presence = Presence::required, const auto&... context) {
-    if (presence == Presence::of_paper) return;
+    if (presence == Presence::of_others) return;
     const Node* node = find(key, presence, [] { return "a map"; });
     if (node == nullptr) return;
     if constexpr (requires { member.emplace(); }) {  // an optional table: present from now on

@@ -24,14 +24,14 @@ class KnobWriter {
  public:
   void knob(std::string_view key, const auto& member, const auto& type, std::string_view,
             Presence presence = {}) {
-    if (presence == Presence::of_paper) return;
+    if (presence == Presence::of_others) return;
     Json value = write_value(type, member);
     if (!value.is_null()) json[std::string{key}] = std::move(value);
   }
   template <class Section>
   void section(std::string_view key, const Section& member, std::string_view,
                Presence presence = {}, const auto&... context) {
-    if (presence == Presence::of_paper) return;
+    if (presence == Presence::of_others) return;
     if constexpr (requires { member.has_value(); }) {
       if (member) section(key, *member, {}, presence, context...);
     } else {

@@ -30,10 +30,10 @@ template <class A, class T>
 concept Is = std::same_as<std::remove_const_t<A>, T>;
 
 /// Whether a file has to have the key. An optional key that is absent leaves the member as it is,
-/// and then nothing depends on it; a `defaulted` one leaves it at a default that counts. `of_paper`
-/// marks a key of the paper's model in the table of a profile with another
-/// implementation: it may not be there, and the member keeps its default.
-enum class Presence { required, optional, defaulted, of_paper };
+/// and then nothing depends on it; a `defaulted` one leaves it at a default that counts.
+/// `of_others` marks a key that only profiles with another implementation have: it may not be
+/// there, and the member keeps its default.
+enum class Presence { required, optional, defaulted, of_others };
 
 /// Least and greatest length of a list.
 struct ListSize {

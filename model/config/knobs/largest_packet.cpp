@@ -6,6 +6,7 @@
 
 #include "model/descriptor_sizes.hpp"
 #include "model/fastdds/endpoints.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::model::config {
 namespace {
@@ -21,7 +22,7 @@ Bytes largest_acknack(const Scenario& scenario) {
   return scenario.dds.sedp.acknack_bytes + Bytes{std::int64_t{4} * ((most + 31) / 32)};
 }
 
-LargestPacket largest_paper_packet(const Scenario& scenario) {
+LargestPacket largest_of(Of<fsm::composition::paper::Paper>, const Scenario& scenario) {
   const SedpProfile& sedp = scenario.dds.sedp;
   const DescriptorProfile& descriptors = scenario.dds.descriptors;
   const Bytes heartbeat =
@@ -38,16 +39,18 @@ LargestPacket largest_paper_packet(const Scenario& scenario) {
   return *std::ranges::max_element(candidates, {}, &LargestPacket::payload);
 }
 
-}  // namespace
-
-LargestPacket largest_packet(const Scenario& scenario) {
-  if (!is_fastdds(scenario.dds)) {
-    return largest_paper_packet(scenario);
-  }
+LargestPacket largest_of(Of<fsm::composition::fastdds::FastDds>, const Scenario& scenario) {
   const std::int64_t alone = fastdds::message_header_bytes + fastdds::destination_bytes +
                              fastdds::timestamp_bytes + fastdds::largest_submessage_bytes;
   const std::int64_t message = std::max(scenario.dds.sedp.grouping_limit_bytes.count(), alone);
   return {Bytes{message + fastdds::heartbeat_submessage_bytes}, "dds.sedp.grouping_limit_bytes"};
+}
+
+}  // namespace
+
+LargestPacket largest_packet(const Scenario& scenario) {
+  return visit_composition(scenario.dds,
+                           [&](auto composition) { return largest_of(composition, scenario); });
 }
 
 }  // namespace stormproof::model::config

@@ -1,5 +1,5 @@
 // Finds the numeric knobs by visiting the tables of the two profiles. Keys that only the other
-// implementation or the other kind of service has are marked as such by the tables (`of_paper`, or
+// implementation or the other kind of service has are marked as such by the tables (`of_others`, or
 // optional although the member always has a value) and passed over: nothing depends on them.
 #include "model/config/knobs/numeric_knobs.hpp"
 
@@ -51,7 +51,7 @@ class NumericVisitor {
   template <class Member, class Type>
   void knob(std::string_view key, Member&& member, const Type& type, std::string_view doc,
             Presence presence = Presence::required) {
-    if (presence == Presence::of_paper) return;
+    if (presence == Presence::of_others) return;
     if constexpr (requires { member.has_value(); }) {
       if (member) knob(key, *member, type, doc);
     } else if (presence != Presence::optional) {
@@ -60,7 +60,7 @@ class NumericVisitor {
   }
   void section(std::string_view key, auto& member, std::string_view, Presence presence = {},
                const auto&... context) {
-    if (presence == Presence::of_paper) return;
+    if (presence == Presence::of_others) return;
     NumericVisitor inner{prefix_ + std::string{key} + ".", use_};
     visit_knobs(inner, member, context...);
   }

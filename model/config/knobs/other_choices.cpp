@@ -15,12 +15,12 @@ class KnobVisitor {
   template <class Member, class Type>
   void knob(std::string_view key, Member&& member, const Type& type, std::string_view,
             Presence presence = Presence::required) {
-    if (presence == Presence::of_paper || key == implementation_key) return;
+    if (presence == Presence::of_others || key == implementation_key) return;
     use_(prefix_ + std::string{key}, member, type);
   }
   void section(std::string_view key, auto& member, std::string_view, Presence presence = {},
                const auto&... context) {
-    if (presence == Presence::of_paper) return;
+    if (presence == Presence::of_others) return;
     KnobVisitor inner{prefix_ + std::string{key} + ".", use_};
     visit_knobs(inner, member, context...);
   }

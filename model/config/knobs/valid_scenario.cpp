@@ -81,7 +81,7 @@ class Validator {
  public:
   void knob(std::string_view, const auto& member, const auto& type, std::string_view,
             Presence presence = {}) {
-    if (presence == Presence::of_paper) return;
+    if (presence == Presence::of_others) return;
     if constexpr (requires { member.has_value(); }) {
       if (member) valid = valid && accepts(type, *member);
     } else {
@@ -90,7 +90,7 @@ class Validator {
   }
   void section(std::string_view, const auto& member, std::string_view, Presence presence = {},
                const auto&... context) {
-    if (presence == Presence::of_paper) return;
+    if (presence == Presence::of_others) return;
     if constexpr (requires { member.has_value(); }) {
       if (member) table(*member, context...);
     } else {

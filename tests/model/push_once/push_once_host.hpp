@@ -20,7 +20,6 @@ class PushOnceHost final : public DiscoveryBase {
 
  public:
   using Composition = rules_of_push_once::PushOnce;
-  static constexpr SameHostPairs same_host_pairs = SameHostPairs::left_out;
 
   PushOnceHost(RunState& run, Network& network)
       : DiscoveryBase{run, network},

@@ -20,7 +20,7 @@ RunResult run(const Scenario& scenario, const Mutation* mutation = nullptr) {
   RunOptions options;
   options.mutation = mutation;
   options.max_events = 10'000;
-  return simulate(scenario, options, maker_of<PushOnceHost>());
+  return simulate(scenario, options, maker_of<PushOnceHost>(SameHostPairs::left_out));
 }
 
 Scenario two_by_two() { return by_hand({{0, 70}, {1, 3}, {1, 5}}); }

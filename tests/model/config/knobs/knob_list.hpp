@@ -47,7 +47,7 @@ class KnobLister {
         const HomogeneousForm form;
         visit_knobs(inner, form);
       }
-      if (presence != Presence::of_paper) return;
+      if (presence != Presence::of_others) return;
       for (std::size_t k = first; k < out_.size(); ++k) out_[k].presence = presence;
     }
   }
@@ -67,7 +67,7 @@ class KnobLister {
 
 /// Every knob of deployment (both forms), DDS profile, wireless profile and scenario. Whatever the
 /// implementation, the keys are the same; those that only the paper's model has are then marked
-/// `of_paper`.
+/// `of_others`.
 inline std::vector<KnobInfo> scenario_knob_list(
     ImplementationKind implementation = ImplementationKind::paper) {
   std::vector<KnobInfo> knobs;

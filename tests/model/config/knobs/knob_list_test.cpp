@@ -40,8 +40,8 @@ TEST(KnobList, fast_dds_has_the_same_list_with_the_keys_of_the_paper_marked) {
   std::set<std::string> of_paper;
   for (std::size_t k = 0; k < paper.size(); ++k) {
     EXPECT_EQ(paper[k].key, fastdds[k].key);
-    EXPECT_NE(paper[k].presence, Presence::of_paper) << paper[k].key;
-    if (fastdds[k].presence == Presence::of_paper) of_paper.insert(fastdds[k].key);
+    EXPECT_NE(paper[k].presence, Presence::of_others) << paper[k].key;
+    if (fastdds[k].presence == Presence::of_others) of_paper.insert(fastdds[k].key);
   }
   EXPECT_EQ(of_paper,
             (std::set<std::string>{
@@ -59,7 +59,7 @@ TEST(KnobList, the_keys_of_the_paper_are_refused_with_fast_dds) {
     if (!knob.key.starts_with("dds.") || knob.default_value.is_null()) continue;
     const std::vector<std::string> overrides{knob.key + "=" + knob.default_value.dump()};
     const auto scenario = read_scenario("live-5x20", overrides, source_specs());
-    if (knob.presence != Presence::of_paper) {
+    if (knob.presence != Presence::of_others) {
       EXPECT_TRUE(scenario) << to_string(scenario.error());
       continue;
     }

@@ -1,0 +1,159 @@
+// The implementations of DDS that there are: which composition of machines each executes, and what
+// is true of each whatever its profile says. This is the one place that tells them apart
+// (tests/structure); everybody else asks for the capability that they mean, or gives a function for
+// each composition to `visit_composition`, and does not compile as long as one is missing.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "model/dds_profile.hpp"
+
+namespace stormproof::fsm::composition {
+namespace paper {
+struct Paper;  // fsm/composition/paper.hpp
+}
+namespace fastdds {
+struct FastDds;  // fsm/composition/fastdds.hpp
+}
+}  // namespace stormproof::fsm::composition
+
+namespace stormproof::model {
+
+/// Rules of a relation that some implementations leave to the profile and others have built in.
+struct RelationRules {
+  RelationOpening relation_opening = RelationOpening::receiver;
+  Unmatched unmatched = Unmatched::drop;
+  InitialAckNackReply initial_acknack = InitialAckNackReply::bitmap;
+  HeartbeatTimerKind heartbeat_timer = HeartbeatTimerKind::single;
+};
+
+/// The writers that bounds, theorems and monitors are about. Implementations that differ in how
+/// they announce, create endpoints or pack may have the same writer. Another writer needs its own
+/// bounds and theorems: those of these two say nothing about it.
+enum class Writer : std::uint8_t {
+  of_the_paper,  ///< each ACKNACK and each repair starts a timer of its own
+  stateful       ///< Fast DDS's StatefulWriter: one nack response for all requests, one suppression
+                 ///< for all repairs of a reader, an asynchronous thread that sends
+};
+
+/// RTPS vendor ids: the two bytes of a vendor, as one number.
+namespace vendor {
+inline constexpr std::uint16_t fastdds = 0x010f;
+}
+
+struct ImplementationTraits {
+  std::string_view name;   ///< in profiles, lists and data: "fastdds"
+  std::string_view whose;  ///< whose writer it is, for people: "Fast DDS"
+  std::string_view rules;  ///< the same for all its rules: "Fast DDS's own rules"
+  std::string_view guide;  ///< the page that states them
+
+  /// Whose participants send that way; absent if no program does.
+  std::optional<std::uint16_t> vendor = {};
+  /// Relation rules that are built in. Absent: they are knobs of the profile.
+  std::optional<RelationRules> fixed_rules = {};
+  /// Whether the sizes of packets, and the number and sizes of default descriptors, are knobs of
+  /// the profile; otherwise they are constants of the program.
+  bool has_size_knobs = false;
+  /// Descriptors come into being one after the other between `start` and `endpoints_done`, and each
+  /// is sent at its creation to the readers that are matched then; all other DATA is asked for.
+  /// HEARTBEATs announce those that exist. Otherwise all descriptors exist at `start`.
+  bool creates_endpoints_over_time = false;
+  /// Participants discover those of their own host, too, through packets that take
+  /// `loopback_delay`. Otherwise same-host pairs do not exist.
+  bool discovers_same_host = false;
+  /// Matched user endpoints, and liveliness, exchange HEARTBEATs and ACKNACKs of their own, with
+  /// times that no knob changes.
+  bool has_control_relations = false;
+  /// Each receiver of a packet has a reception event of its own, and with a constant delay there is
+  /// no other; otherwise a packet arrives once, whoever it reaches.
+  bool receives_separately = false;
+  /// An ACKNACK has a base, below which everything is received, and asks only for what HEARTBEATs
+  /// announced; an initial one says nothing. Otherwise an ACKNACK is a bitmap of all descriptors of
+  /// the stream.
+  bool acknacks_have_bases = false;
+  /// A reader answers all HEARTBEATs that come until its ACKNACK is due by that one; otherwise each
+  /// by one of its own.
+  bool answers_heartbeats_together = false;
+  /// What follows a repair counts from the instant when its packet has left the source queue;
+  /// otherwise from its generation.
+  bool waits_for_source = false;
+  Writer writer = Writer::of_the_paper;
+};
+
+inline constexpr std::array implementations{ImplementationKind::paper, ImplementationKind::fastdds};
+
+/// Of a profile that does not say its implementation.
+inline constexpr ImplementationKind default_implementation{};
+
+[[nodiscard]] constexpr std::size_t index_of(ImplementationKind kind) {
+  return static_cast<std::size_t>(kind);
+}
+
+/// In the order of the enumerators.
+inline constexpr std::array<ImplementationTraits, implementations.size()> implementation_traits{
+    {{.name = "paper",
+      .whose = "the paper",
+      .rules = "the rules of the closed-loop model",
+      .guide = "specs/guide/model.md",
+      .has_size_knobs = true,
+      .waits_for_source = true},
+     {.name = "fastdds",
+      .whose = "Fast DDS",
+      .rules = "Fast DDS's own rules",
+      .guide = "specs/guide/fastdds.md",
+      .vendor = vendor::fastdds,
+      .fixed_rules = RelationRules{.relation_opening = RelationOpening::each_side,
+                                   .unmatched = Unmatched::drop,
+                                   .initial_acknack = InitialAckNackReply::heartbeat,
+                                   .heartbeat_timer = HeartbeatTimerKind::single},
+      .creates_endpoints_over_time = true,
+      .discovers_same_host = true,
+      .has_control_relations = true,
+      .receives_separately = true,
+      .acknacks_have_bases = true,
+      .answers_heartbeats_together = true,
+      .writer = Writer::stateful}}};
+
+[[nodiscard]] constexpr const ImplementationTraits& traits_of(ImplementationKind kind) {
+  return implementation_traits[index_of(kind)];
+}
+[[nodiscard]] inline const ImplementationTraits& traits_of(const DdsProfile& dds) {
+  return traits_of(dds.implementation);
+}
+
+/// The relation rules that run: those that are built in, or those of the profile.
+[[nodiscard]] inline RelationRules rules_of(const DdsProfile& dds) {
+  const std::optional<RelationRules>& fixed = traits_of(dds).fixed_rules;
+  if (fixed) return *fixed;
+  const SedpProfile& sedp = dds.sedp;
+  return {sedp.relation_opening, sedp.unmatched, sedp.initial_acknack, sedp.heartbeat_timer};
+}
+
+/// Stands for a composition where functions are chosen by it: `f(Of<comp::paper::Paper>)`.
+template <class Composition>
+struct Of {
+  using Type = Composition;
+};
+
+/// What `visit` returns for `Of` the composition that the implementation executes. It has the same
+/// type for each.
+template <class Visit>
+decltype(auto) visit_composition(ImplementationKind kind, Visit&& visit) {
+  switch (kind) {
+    case ImplementationKind::paper:
+      return visit(Of<fsm::composition::paper::Paper>{});
+    case ImplementationKind::fastdds:
+      break;
+  }
+  return visit(Of<fsm::composition::fastdds::FastDds>{});
+}
+template <class Visit>
+decltype(auto) visit_composition(const DdsProfile& dds, Visit&& visit) {
+  return visit_composition(dds.implementation, visit);
+}
+
+}  // namespace stormproof::model

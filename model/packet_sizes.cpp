@@ -1,0 +1,50 @@
+// The knobs of the paper's profiles, and the constants of Fast DDS's source code.
+#include "model/packet_sizes.hpp"
+
+#include "model/descriptor_sizes.hpp"
+#include "model/fastdds/endpoints.hpp"
+#include "model/implementations.hpp"
+
+namespace stormproof::model {
+
+namespace {
+
+constexpr std::int64_t bitmap_word_bytes = 4;  // an ACKNACK that asks for something
+
+PacketSizes sizes_of(Of<fsm::composition::paper::Paper>, const DdsProfile& dds) {
+  const SedpProfile sedp = dds.sedp;
+  const std::int64_t header = sedp.shared_header_bytes.count();
+  return {.announcement = dds.spdp.payload_bytes.count(),
+          .heartbeat = sedp.heartbeat_bytes.count(),
+          .acknack = sedp.acknack_bytes.count() + bitmap_word_bytes,
+          .header = header,
+          .heartbeat_in_data = sedp.piggyback_heartbeat_bytes.count(),
+          .descriptor = [sizes = DescriptorSizes{dds.descriptors}, header](
+                            Stream s, std::uint32_t d) { return sizes.bytes(s, d) - header; },
+          .is_full = [sedp](std::int64_t payload,
+                            std::int64_t added) { return packet_is_full(sedp, payload, added); }};
+}
+
+PacketSizes sizes_of(Of<fsm::composition::fastdds::FastDds>, const DdsProfile& dds) {
+  return {
+      .announcement = fastdds::spdp_bytes,
+      .heartbeat = fastdds::heartbeat_to_one_bytes,
+      .acknack = fastdds::acknack_bytes + fastdds::acknack_bitmap_bytes,
+      .header = fastdds::message_header_bytes,
+      .destination = fastdds::destination_bytes,
+      .heartbeat_in_data = fastdds::heartbeat_submessage_bytes,
+      .descriptor =
+          [](Stream s, std::uint32_t d) {
+            return fastdds::timestamp_bytes + fastdds::submessage_bytes(s, d);
+          },
+      .is_full = [limit = dds.sedp.grouping_limit_bytes.count()](
+                     std::int64_t payload, std::int64_t added) { return payload + added > limit; }};
+}
+
+}  // namespace
+
+PacketSizes packet_sizes(const DdsProfile& dds) {
+  return visit_composition(dds, [&](auto composition) { return sizes_of(composition, dds); });
+}
+
+}  // namespace stormproof::model
