@@ -3,6 +3,7 @@
 // bound on the delay of a packet from its emission to its reception.
 #include <array>
 
+#include "model/implementations.hpp"
 #include "props/limits.hpp"
 #include "props/property.hpp"
 
@@ -226,8 +227,8 @@ std::span<const Property> catalogue() { return properties; }
 
 std::string statement_of(const Property& property, model::ImplementationKind implementation) {
   std::string text{property.statement};
-  const bool fastdds = implementation == model::ImplementationKind::fastdds;
-  if (fastdds && !property.fastdds.empty()) text.append(" ").append(property.fastdds);
+  const bool stateful = model::traits_of(implementation).writer == model::Writer::stateful;
+  if (stateful && !property.stateful.empty()) text.append(" ").append(property.stateful);
   return text;
 }
 

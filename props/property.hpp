@@ -31,7 +31,7 @@ struct Property {
   std::string_view id;           ///< "safety.snapshot"
   std::string_view statement;    ///< one sentence
   std::string_view formal;       ///< the same in symbols; D(ata), X, C as in specs/guide/model.md
-  std::string_view fastdds;      ///< what to add to it for `implementation: fastdds`; may be empty
+  std::string_view stateful;     ///< what to add to it for a stateful writer; may be empty
   std::string_view assumptions;  ///< what it is claimed under; empty: nothing
   std::vector<Engine> engines;   ///< which can decide it
   std::string_view source;       ///< rule or section

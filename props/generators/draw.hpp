@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/implementations.hpp"
 #include "model/scenario.hpp"
 #include "props/generators/dice.hpp"
 #include "props/generators/space.hpp"

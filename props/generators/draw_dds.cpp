@@ -1,5 +1,5 @@
-// The DDS profile of a random scenario: every rule, size and timer of both implementations. Sizes
-// and relation rules are constants of Fast DDS, so that a profile of it keeps their defaults.
+// The DDS profile of a random scenario: every rule, size and timer of every implementation. Where
+// sizes and relation rules are constants of the implementation, a profile keeps their defaults.
 #include <numeric>
 
 #include "props/generators/draw.hpp"
@@ -88,11 +88,12 @@ void draw_rules_and_sizes(Dice& dice, Scenario& scenario) {
   scenario.dds.spdp.resend = dice.choice<model::SpdpResend>(4);
   if (dice.chance(40)) scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
   draw_piggyback(dice, scenario.dds.sedp);
-  if (model::is_fastdds(scenario.dds)) {
+  const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
+  if (!traits.fixed_rules) draw_relation_rules(dice, scenario.dds.sedp);
+  if (!traits.has_size_knobs) {
     draw_message_limit(dice, scenario.dds.sedp);
     return;
   }
-  draw_relation_rules(dice, scenario.dds.sedp);
   draw_sizes(dice, scenario);
   draw_descriptors(dice, scenario);
 }

@@ -21,8 +21,6 @@ std::uint32_t draw_endpoints(Dice& dice, std::uint32_t most) {
   return dice.pick<std::uint32_t>({0, dice.count(0, few), dice.count(0, std::min(most, 20U))});
 }
 
-bool is_fastdds(const Scenario& scenario) { return model::is_fastdds(scenario.dds); }
-
 // How long a participant takes to create its endpoints: nothing, one step for each, or any time.
 std::int64_t draw_creation(Dice& dice, const Clock& clock, const Participant& p) {
   const std::int64_t count = std::int64_t{model::fastdds::default_publications} +
@@ -94,6 +92,7 @@ void draw_participants(Dice& dice, const ScenarioSpace& space, int size, Scenari
 void draw_times(Dice& dice, const ScenarioSpace& space, const Clock& clock, Scenario& scenario) {
   const auto starts = dice.choice<Starts>(4);
   const std::int64_t latest_start = space.max_time_limit.count() / 4;
+  const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
   const bool is_creation_alike = dice.chance(30);
   const std::int64_t alike = draw_creation(dice, clock, {});
   std::int64_t latest = 0;
@@ -101,11 +100,11 @@ void draw_times(Dice& dice, const ScenarioSpace& space, const Clock& clock, Scen
     p.start = Nanoseconds{std::min(draw_start(dice, clock, starts, latest), latest_start)};
     latest = std::max(latest, p.start.count());
     p.endpoints_done = p.start;
-    if (!is_fastdds(scenario)) continue;
+    if (!traits.creates_endpoints_over_time) continue;
     p.endpoints_done += Nanoseconds{is_creation_alike ? alike : draw_creation(dice, clock, p)};
     if (starts != Starts::far_apart) latest = std::max(latest, p.endpoints_done.count());
   }
-  if (is_fastdds(scenario)) draw_loopback(dice, clock, scenario);
+  if (traits.discovers_same_host) draw_loopback(dice, clock, scenario);
   // Where discovery takes seconds, what follows a few of them is more of the same.
   const std::int64_t longer = std::min(clock.scale * dice.among({1, 2, 4, 8, 16}) / 2,
                                        std::max(2 * clock.scale, 5 * second));

@@ -3,13 +3,25 @@
 
 namespace stormproof::props {
 
+namespace {
+
+/// The default one, or in 40 % any other.
+model::ImplementationKind draw_implementation(Dice& dice) {
+  const bool is_other = dice.chance(40);
+  std::vector<model::ImplementationKind> others;
+  for (const model::ImplementationKind kind : model::implementations) {
+    if (kind != model::default_implementation) others.push_back(kind);
+  }
+  if (!is_other) return model::default_implementation;
+  return others.size() == 1 ? others.front() : dice.pick(others);
+}
+
+}  // namespace
+
 model::Scenario draw_scenario(std::uint64_t seed, int size, const ScenarioSpace& space) {
-  using model::ImplementationKind;
   Dice dice{seed};
   model::Scenario scenario;
-  const bool is_fastdds = dice.chance(40);
-  scenario.dds.implementation = space.implementation.value_or(
-      is_fastdds ? ImplementationKind::fastdds : ImplementationKind::paper);
+  scenario.dds.implementation = space.implementation.value_or(draw_implementation(dice));
   draw_participants(dice, space, size, scenario);
   draw_rules_and_sizes(dice, scenario);
   draw_wireless(dice, space, scenario.wireless);

@@ -248,8 +248,10 @@ class DelayCounter final : public model::Probe {
   std::map<std::uint32_t, model::BacklogPeak> peaks_;
 };
 
-/// With Fast DDS and a constant delay packets have no arrival, only receptions.
-bool has_arrivals(const Scenario& scenario) { return is_shared(scenario) || !is_fastdds(scenario); }
+/// With a constant delay and separate receptions packets have no arrival.
+bool has_arrivals(const Scenario& scenario) {
+  return is_shared(scenario) || !traits_of(scenario).receives_separately;
+}
 
 Broken delays(const Scenario& scenario, const Simulate& simulate) {
   DelayCounter counter;

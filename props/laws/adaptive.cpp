@@ -155,8 +155,8 @@ Broken life(const Scenario& scenario, const Simulate& simulate) {
   return observe(watch, longer, simulate);
 }
 
-bool is_adaptive_paper(const Scenario& scenario) {
-  return is_adaptive(scenario) && !model::is_fastdds(scenario.dds);
+bool is_adaptive_of_paper(const Scenario& scenario) {
+  return is_adaptive(scenario) && traits_of(scenario).writer == model::Writer::of_the_paper;
 }
 
 Broken recipients(const Scenario& scenario, const Simulate& simulate) {
@@ -173,7 +173,7 @@ constexpr Law adaptive_list[] = {
      "A cycle that has nobody to ask ends the policy's activity; one that asks has an end.",
      is_adaptive, life},
     {"law.adaptive-recipients", "A cycle asks nobody who has acknowledged everything.",
-     is_adaptive_paper, recipients},
+     is_adaptive_of_paper, recipients},
 };
 
 }  // namespace

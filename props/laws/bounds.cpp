@@ -17,9 +17,8 @@
 #include <fmt/core.h>
 
 #include "model/airtime.hpp"
-#include "model/descriptor_sizes.hpp"
 #include "model/engine/topology.hpp"
-#include "model/fastdds/endpoints.hpp"
+#include "model/packet_sizes.hpp"
 #include "props/laws/families.hpp"
 #include "props/laws/run_log.hpp"
 #include "props/monitors/completion.hpp"
@@ -38,16 +37,10 @@ using Broken = std::optional<std::string>;
 
 /// Least bytes on the channel for the descriptors of one stream.
 std::int64_t least_bytes(const Scenario& scenario, Stream stream, std::uint32_t count) {
-  const model::DescriptorSizes sizes{scenario.dds.descriptors};
-  const std::int64_t shared = scenario.dds.sedp.shared_header_bytes.count();
-  std::int64_t sum = is_fastdds(scenario) ? model::fastdds::message_header_bytes : shared;
-  sum += model::udp_header_bytes + model::ip_header_bytes +
-         scenario.wireless.link_overhead_bytes.count();
-  for (std::uint32_t d = 0; d < count; ++d) {
-    sum += is_fastdds(scenario)
-               ? model::fastdds::timestamp_bytes + model::fastdds::submessage_bytes(stream, d)
-               : sizes.bytes(stream, d) - shared;
-  }
+  const model::PacketSizes sizes = model::packet_sizes(scenario.dds);
+  std::int64_t sum = sizes.header + model::udp_header_bytes + model::ip_header_bytes +
+                     scenario.wireless.link_overhead_bytes.count();
+  for (std::uint32_t d = 0; d < count; ++d) sum += sizes.descriptor(stream, d);
   return sum;
 }
 
@@ -89,7 +82,7 @@ Nanoseconds physical_bound(const Scenario& scenario) {
         topology.peer_count(i) > 0 &&
         topology.descriptor_count(i, Stream::pub) + topology.descriptor_count(i, Stream::sub) > 0;
     if (!sends) continue;
-    const Nanoseconds ready = is_fastdds(scenario)
+    const Nanoseconds ready = traits_of(scenario).creates_endpoints_over_time
                                   ? scenario.deployment.participants[i].endpoints_done
                                   : topology.start(i);
     last_arrival = std::max(last_arrival, ready + delay);
@@ -131,7 +124,8 @@ Broken completion(const Scenario& scenario, const Simulate& simulate) {
   if (was_cut_off(result)) return std::nullopt;
   Nanoseconds ready;
   for (const model::Participant& p : scenario.deployment.participants) {
-    ready = std::max(ready, is_fastdds(scenario) ? p.endpoints_done : p.start);
+    ready = std::max(ready,
+                     traits_of(scenario).creates_endpoints_over_time ? p.endpoints_done : p.start);
   }
   const Nanoseconds known =
       result.end == model::RunEnd::completed ? *result.discovery_time : scenario.time_limit;

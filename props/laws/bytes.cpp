@@ -20,7 +20,7 @@ using Broken = std::optional<std::string>;
 
 constexpr std::int64_t size_factor = 3;
 
-bool of_paper(const Scenario& scenario) { return !model::is_fastdds(scenario.dds); }
+bool can_scale(const Scenario& scenario) { return traits_of(scenario).has_size_knobs; }
 
 /// The scenario with values that scale exactly.
 Scenario with_scalable_bytes(Scenario scenario) {
@@ -90,7 +90,7 @@ constexpr Law bytes_list[] = {
     {"law.byte-scaling",
      "With all sizes × c and rates × c the run is the same (no piggyback; up to the first ACKNACK "
      "with a bitmap).",
-     of_paper, byte_scaling},
+     can_scale, byte_scaling},
 };
 
 }  // namespace

@@ -179,7 +179,7 @@ Broken receptions(const Scenario& scenario, const Simulate& simulate) {
 class KnowledgeWatch final : public Observer {
  public:
   explicit KnowledgeWatch(const Scenario& scenario)
-      : Observer{"law.knowledge"}, fastdds_{model::is_fastdds(scenario.dds)} {}
+      : Observer{"law.knowledge"}, bases_{traits_of(scenario).acknacks_have_bases} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -209,9 +209,9 @@ class KnowledgeWatch final : public Observer {
     if (packet.kind == PacketKind::acknack) check_claims(packet);
   }
   void check_claims(const Packet& acknack) {
-    if (fastdds_ && acknack.initial_acknack) return;  // it claims nothing
+    if (bases_ && acknack.initial_acknack) return;  // it claims nothing
     const std::uint32_t relation = acknack.relation();
-    const std::uint32_t end = fastdds_ ? acknack.detail : topology().descriptor_count(relation);
+    const std::uint32_t end = bases_ ? acknack.detail : topology().descriptor_count(relation);
     for (std::uint32_t d = 0; d < end; ++d) {
       const bool asked = (acknack.descriptors.word(d / 64) >> d % 64 & 1) != 0;
       if (asked || received_.words().test(relation, d)) continue;
@@ -221,7 +221,7 @@ class KnowledgeWatch final : public Observer {
     }
   }
 
-  bool fastdds_;
+  bool bases_;
   RelationWords sent_;
   ReceivedDescriptors received_;
 };

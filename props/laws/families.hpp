@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "model/implementations.hpp"
 #include "props/laws/law.hpp"
 
 namespace stormproof::props {
@@ -28,8 +29,8 @@ quiet_laws();  ///< a network without delays or losses to speak of
 
 /// Of laws that say something about every scenario.
 [[nodiscard]] inline bool always(const model::Scenario&) { return true; }
-[[nodiscard]] inline bool is_fastdds(const model::Scenario& scenario) {
-  return model::is_fastdds(scenario.dds);
+[[nodiscard]] inline const model::ImplementationTraits& traits_of(const model::Scenario& scenario) {
+  return model::traits_of(scenario.dds);
 }
 
 }  // namespace stormproof::props

@@ -49,7 +49,7 @@ Broken route_names(const Scenario& scenario, const Simulate& simulate) {
 /// When something of the participant is scheduled before the run.
 std::set<std::int64_t> initial_times(const Scenario& scenario, const Participant& p) {
   std::set<std::int64_t> times{p.start.count()};
-  if (!model::is_fastdds(scenario.dds)) return times;
+  if (!traits_of(scenario).creates_endpoints_over_time) return times;
   const model::DescriptorProfile& defaults = scenario.dds.descriptors;
   const std::int64_t count = std::int64_t{defaults.default_publications} +
                              defaults.default_subscriptions + p.publications + p.subscriptions;
@@ -59,10 +59,10 @@ std::set<std::int64_t> initial_times(const Scenario& scenario, const Participant
 }
 
 bool may_change_places(const Scenario& scenario, const Participant& a, const Participant& b) {
-  const bool paper = !model::is_fastdds(scenario.dds);
-  if (paper && std::max(a.start, b.start) > scenario.time_limit) return true;
-  const bool seen_together = paper ? a.host == b.host || scenario.deployment.host_count() > 2
-                                   : scenario.deployment.size() > 2;
+  const bool same_host = traits_of(scenario).discovers_same_host;
+  if (!same_host && std::max(a.start, b.start) > scenario.time_limit) return true;
+  const bool seen_together = same_host ? scenario.deployment.size() > 2
+                                       : a.host == b.host || scenario.deployment.host_count() > 2;
   if (seen_together) return false;
   const std::set<std::int64_t> times = initial_times(scenario, a);
   return std::ranges::none_of(initial_times(scenario, b),

@@ -52,16 +52,15 @@ class ReaderWatch : public Observer {
   virtual void opened(std::uint32_t /*relation*/) {}
   virtual void heartbeat_taken(std::uint32_t /*relation*/) {}
   [[nodiscard]] const Scenario& scenario() const { return scenario_; }
-  [[nodiscard]] bool fastdds() const { return model::is_fastdds(scenario_.dds); }
 
  private:
   [[nodiscard]] bool has_started(std::uint32_t pair) const {
     return now() >= topology().start(topology().pair(pair).destination);
   }
   [[nodiscard]] bool takes(std::uint32_t relation) const {
-    const model::SedpProfile& sedp = scenario_.dds.sedp;
-    return open_[relation] || (!fastdds() && sedp.unmatched == model::Unmatched::accept &&
-                               sedp.relation_opening == model::RelationOpening::each_side);
+    const model::RelationRules rules = rules_of(scenario_.dds);
+    return open_[relation] || (rules.unmatched == model::Unmatched::accept &&
+                               rules.relation_opening == model::RelationOpening::each_side);
   }
   void recognise(std::uint32_t pair) {
     if (!has_started(pair)) return;
@@ -100,7 +99,7 @@ class AnswerWatch final : public ReaderWatch {
  private:
   void heartbeat_taken(std::uint32_t relation) override {
     auto& due = due_[relation];
-    if (fastdds() && !due.empty()) return;  // one answer to all of them
+    if (traits_of(scenario()).answers_heartbeats_together && !due.empty()) return;
     due.push_back(now() + scenario().dds.sedp.heartbeat_response_delay);
   }
   void note(const Packet& packet) {

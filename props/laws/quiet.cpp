@@ -59,7 +59,7 @@ Scenario quiet(Scenario scenario) {
     // them again 1 ns later. Without suppression both answers bring a repair.
     sedp.nack_suppression_duration = std::max(sedp.nack_suppression_duration, Nanoseconds{2});
   }
-  if (is_fastdds(scenario)) scenario.deployment.loopback_delay = delay;
+  if (traits_of(scenario).discovers_same_host) scenario.deployment.loopback_delay = delay;
   scenario.wireless = {};
   scenario.wireless.kind = model::ServiceKind::constant_delay;
   scenario.wireless.one_way = delay;
@@ -83,9 +83,9 @@ Broken failure_free(const Scenario& scenario, const Simulate& simulate) {
                        time_text(candidate.wireless.one_way), result.missing_count);
   }
   model::Counts expected = failure_free_reference(candidate);
-  // How many of Fast DDS's copies cross hosts depends on the order of recognitions; the reference
-  // has the average.
-  if (is_fastdds(candidate)) expected.spdp_unicast = result.counts.spdp_unicast;
+  // How many copies cross hosts depends on the order of recognitions; the reference has the
+  // average.
+  if (traits_of(candidate).discovers_same_host) expected.spdp_unicast = result.counts.spdp_unicast;
   for (std::size_t k = 0; k < expected.entries().size(); ++k) {
     const auto [name, value] = expected.entries()[k];
     const std::uint64_t found = result.counts.entries()[k].value;
@@ -189,7 +189,7 @@ Broken single_loss(const Scenario& scenario, const Simulate& simulate) {
     return fmt::format("A lost packet had {} descriptors, but {} are repaired.",
                        first.descriptors(), result.counts.repair_data);
   }
-  if (is_fastdds(candidate)) return std::nullopt;
+  if (traits_of(candidate).writer == model::Writer::stateful) return std::nullopt;
   const model::SedpProfile& sedp = candidate.dds.sedp;
   const Nanoseconds expected =
       candidate.wireless.one_way * 4 + sedp.heartbeat_response_delay + sedp.nack_response_delay;
@@ -222,12 +222,13 @@ Broken double_loss(const Scenario& scenario, const Simulate& simulate) {
   if (Broken noise = silence(candidate, result, watch)) return noise;
   const model::SedpProfile& sedp = candidate.dds.sedp;
   const bool adaptive = sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive;
-  if (is_fastdds(candidate) && adaptive) return std::nullopt;  // it may ask twice for one repair
+  const bool stateful = traits_of(candidate).writer == model::Writer::stateful;
+  if (stateful && adaptive) return std::nullopt;  // it may ask twice for one repair
   if (result.counts.repair_data != 2 * first.descriptors()) {
     return fmt::format("A packet with {} descriptors was lost twice, but {} are repaired.",
                        first.descriptors(), result.counts.repair_data);
   }
-  if (is_fastdds(candidate)) return std::nullopt;
+  if (stateful) return std::nullopt;
   const Nanoseconds expected = candidate.wireless.one_way * 4 + sedp.heartbeat_period +
                                sedp.heartbeat_response_delay + sedp.nack_response_delay;
   if (*result.discovery_time == expected) return std::nullopt;

@@ -91,7 +91,7 @@ Broken unused_values(const Scenario& scenario, const Simulate& simulate) {
   if (sedp.relation_opening == model::RelationOpening::receiver) {
     sedp.unmatched = model::Unmatched::accept;
   }
-  if (!model::is_fastdds(other.dds)) {
+  if (!traits_of(other).discovers_same_host) {
     other.deployment.loopback_delay = model::Nanoseconds{1};
   }
   return run_difference(scenario, other, simulate);

@@ -19,7 +19,6 @@ namespace stormproof::props {
 namespace {
 
 using model::BitsPerSecond;
-using model::ImplementationKind;
 using model::Nanoseconds;
 using model::Scenario;
 using Broken = std::optional<std::string>;
@@ -71,9 +70,11 @@ void for_each_rate(Scenario& scenario, Change&& change) {
 Scenario with_scalable_times(Scenario scenario) {
   for_each_rate(scenario, [](BitsPerSecond& rate) { rate = whole(rate); });
   scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
-  if (!model::is_fastdds(scenario.dds)) return scenario;
-  scenario.wireless.lost_packets.clear();
-  scenario.wireless.packet_delays.clear();
+  if (traits_of(scenario).has_control_relations) {  // their packets change the numbers of others
+    scenario.wireless.lost_packets.clear();
+    scenario.wireless.packet_delays.clear();
+  }
+  if (!traits_of(scenario).creates_endpoints_over_time) return scenario;
   const model::DescriptorProfile& defaults = scenario.dds.descriptors;
   for (model::Participant& p : scenario.deployment.participants) {
     const std::int64_t count = std::int64_t{defaults.default_publications} +
@@ -116,7 +117,7 @@ void for_each_duration(Scenario& scenario, Change&& change) {
 }
 
 bool has_one_unit(const Scenario& scenario) {
-  return !model::is_fastdds(scenario.dds) ||
+  return !traits_of(scenario).has_control_relations ||
          scenario.wireless.kind == model::ServiceKind::constant_delay;
 }
 
@@ -133,7 +134,7 @@ Broken time_scaling(const Scenario& scenario, const Simulate& simulate) {
   const model::RunResult a = simulate(one, &first);
   const model::RunResult b = simulate(other, &second);
   // The control-only relations keep their 5 ms, so the events as a whole do not scale.
-  if (!model::is_fastdds(one.dds)) {
+  if (!traits_of(one).has_control_relations) {
     if (Broken difference = first_difference(first, second)) return difference;
   }
   if (was_cut_off(a) || was_cut_off(b)) return std::nullopt;

@@ -7,6 +7,7 @@
 #include "model/airtime.hpp"
 #include "model/descriptor_sizes.hpp"
 #include "model/fastdds/endpoints.hpp"
+#include "model/packet_sizes.hpp"
 #include "model/reference.hpp"
 #include "props/laws/families.hpp"
 #include "props/laws/run_log.hpp"
@@ -15,6 +16,7 @@ namespace stormproof::props {
 
 namespace {
 
+namespace comp = fsm::composition;
 using model::Nanoseconds;
 using model::Participant;
 using model::Scenario;
@@ -97,20 +99,43 @@ std::int64_t on_air(const model::WirelessProfile& wireless, std::int64_t payload
   return sum;
 }
 
+/// What packets weigh, said once more.
+model::PacketSizes weights(model::Of<comp::paper::Paper>, const model::DdsProfile& dds) {
+  const std::int64_t header = dds.sedp.shared_header_bytes.count();
+  return {
+      .announcement = dds.spdp.payload_bytes.count(),
+      .heartbeat = dds.sedp.heartbeat_bytes.count(),
+      .acknack = dds.sedp.acknack_bytes.count() + 4,
+      .header = header,
+      .descriptor =
+          [&dds, header](Stream stream, std::uint32_t d) {
+            return model::DescriptorSizes{dds.descriptors}.bytes(stream, d) - header;
+          },
+      .is_full = [&dds](std::int64_t payload,
+                        std::int64_t added) { return packet_is_full(dds.sedp, payload, added); }};
+}
+model::PacketSizes weights(model::Of<comp::fastdds::FastDds>, const model::DdsProfile& dds) {
+  return {.announcement = 252,
+          .heartbeat = 68,
+          .acknack = 68,
+          .header = 36,
+          .descriptor =
+              [](Stream stream, std::uint32_t d) {
+                return 12 + model::fastdds::submessage_bytes(stream, d);
+              },
+          .is_full =
+              [&dds](std::int64_t payload, std::int64_t added) {
+                return payload + added > dds.sedp.grouping_limit_bytes.count();
+              }};
+}
+
 /// Airtime of one stream's descriptors, grouped.
-std::int64_t stream_on_air(const Scenario& scenario, Stream stream, std::int64_t count) {
-  const model::DescriptorSizes sizes{scenario.dds.descriptors};
-  const bool fastdds = is_fastdds(scenario);
-  const std::int64_t header = fastdds ? 36 : scenario.dds.sedp.shared_header_bytes.count();
+std::int64_t stream_on_air(const Scenario& scenario, const model::PacketSizes& sizes, Stream stream,
+                           std::int64_t count) {
   std::vector<std::int64_t> packets;
   for (std::uint32_t d = 0; d < count; ++d) {
-    const std::int64_t added = fastdds ? 12 + model::fastdds::submessage_bytes(stream, d)
-                                       : sizes.bytes(stream, d) - header;
-    const bool full =
-        packets.empty() ||
-        (fastdds ? packets.back() + added > scenario.dds.sedp.grouping_limit_bytes.count()
-                 : packet_is_full(scenario.dds.sedp, packets.back(), added));
-    if (full) packets.push_back(header);
+    const std::int64_t added = sizes.descriptor(stream, d);
+    if (packets.empty() || sizes.is_full(packets.back(), added)) packets.push_back(sizes.header);
     packets.back() += added;
   }
   std::int64_t sum = 0;
@@ -120,18 +145,18 @@ std::int64_t stream_on_air(const Scenario& scenario, Stream stream, std::int64_t
 
 /// The open-loop baseline of a homogeneous deployment, in closed form.
 std::int64_t open_loop(const Scenario& scenario, const Grid& grid) {
-  const bool fastdds = is_fastdds(scenario);
   const model::WirelessProfile& wireless = scenario.wireless;
   const model::DescriptorProfile& defaults = scenario.dds.descriptors;
-  const model::SedpProfile& sedp = scenario.dds.sedp;
-  const std::int64_t spdp = fastdds ? 252 : scenario.dds.spdp.payload_bytes.count();
+  const model::PacketSizes sizes = model::visit_composition(
+      scenario.dds, [&](auto composition) { return weights(composition, scenario.dds); });
+  const std::int64_t spdp = sizes.announcement;
   const std::int64_t control =
-      on_air(wireless, fastdds ? 68 : sedp.heartbeat_bytes.count(), false) +
-      on_air(wireless, fastdds ? 68 : sedp.acknack_bytes.count() + 4, false);
+      on_air(wireless, sizes.heartbeat, false) + on_air(wireless, sizes.acknack, false);
   const std::int64_t data =
-      stream_on_air(scenario, Stream::pub,
+      stream_on_air(scenario, sizes, Stream::pub,
                     defaults.default_publications + (grid.endpoints + 1) / 2) +
-      stream_on_air(scenario, Stream::sub, defaults.default_subscriptions + grid.endpoints / 2);
+      stream_on_air(scenario, sizes, Stream::sub,
+                    defaults.default_subscriptions + grid.endpoints / 2);
   const std::int64_t p = grid.peers();
   return grid.participants() *
          ((1 + p) * on_air(wireless, spdp, true) + p * (p + 1) / 2 * on_air(wireless, spdp, false) +
@@ -145,7 +170,7 @@ model::Counts closed_form(const Scenario& scenario, const Grid& grid) {
   const std::int64_t p = grid.peers();
   const std::int64_t descriptors =
       std::int64_t{defaults.default_publications} + defaults.default_subscriptions + grid.endpoints;
-  const std::int64_t recognised = is_fastdds(scenario) ? n - 1 : p;
+  const std::int64_t recognised = traits_of(scenario).discovers_same_host ? n - 1 : p;
   std::int64_t multicast = 1;
   std::int64_t unicast = 0;
   switch (scenario.dds.spdp.resend) {

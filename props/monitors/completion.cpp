@@ -19,6 +19,7 @@
 
 #include <fmt/core.h>
 
+#include "model/implementations.hpp"
 #include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
@@ -48,7 +49,7 @@ class Completion final : public Observer {
   Completion(const model::Scenario& scenario, std::optional<model::Nanoseconds> bound)
       : Observer{"live.completion"}, dds_{scenario.dds}, delays_{scenario}, bound_{bound} {
     for (const model::Participant& participant : scenario.deployment.participants) {
-      const bool created_later = model::is_fastdds(dds_);
+      const bool created_later = model::traits_of(dds_).creates_endpoints_over_time;
       ready_.push_back(created_later ? participant.endpoints_done : participant.start);
     }
   }

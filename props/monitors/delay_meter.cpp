@@ -4,12 +4,13 @@
 
 #include "model/engine/packet.hpp"
 #include "model/engine/topology.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::props {
 
 DelayMeter::DelayMeter(const model::Scenario& scenario)
     : lost_packets_{scenario.wireless.lost_packets},
-      silent_loss_{model::is_fastdds(scenario.dds) &&
+      silent_loss_{model::traits_of(scenario.dds).receives_separately &&
                    scenario.wireless.kind == model::ServiceKind::constant_delay} {}
 
 void DelayMeter::emitted(const model::Packet& packet, model::Nanoseconds now) {

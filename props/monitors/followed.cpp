@@ -24,12 +24,12 @@ class FollowedRun final : public Observer {
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
-    follower_ = is_fastdds(scenario_.dds) ? follow_fastdds(scenario_, topology)
-                                          : follow_paper(scenario_, topology);
+    follower_ = model::visit_composition(
+        scenario_.dds, [&](auto composition) { return follow(composition, scenario_, topology); });
     if (follower_ != nullptr) trigger_ = [this] { follower_->started(); };
   }
   void event_started(const model::Event& event) override {
-    follow();
+    follow_rule();
     Observer::event_started(event);
     if (follower_ == nullptr) return;
     ++followed_;
@@ -37,19 +37,19 @@ class FollowedRun final : public Observer {
     if (is_of_protocol(event.kind)) trigger_ = [this, event] { follower_->due(event); };
   }
   void received(const model::Packet& packet, std::uint32_t receiver) override {
-    follow();
+    follow_rule();
     if (follower_ == nullptr) return;
     trigger_ = [this, message = message_of(packet), receiver] {
       follower_->received(message, receiver);
     };
   }
   void source_completed(const model::Packet& packet) override {
-    follow();
+    follow_rule();
     if (follower_ == nullptr) return;
     trigger_ = [this, message = message_of(packet)] { follower_->left_source(message); };
   }
   void event_finished(const model::Depths& depths) override {
-    follow();
+    follow_rule();
     if (follower_ == nullptr || depths.missing == follower_->missing()) return;
     object_now(fmt::format("At {} {} required descriptors are missing, by the rules {}.",
                            time_text(now()), depths.missing, follower_->missing()));
@@ -86,7 +86,9 @@ class FollowedRun final : public Observer {
     std::vector<std::string> taken{
         "the network carries packets as it should, and what is scheduled happens when it is due",
         "DATA are filled and piggyback budgets used up wherever the contracts allow it"};
-    if (is_fastdds(scenario_.dds)) taken.emplace_back("endpoints are created when they should be");
+    if (traits_of(scenario_.dds).creates_endpoints_over_time) {
+      taken.emplace_back("endpoints are created when they should be");
+    }
     return taken;
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
@@ -102,7 +104,7 @@ class FollowedRun final : public Observer {
     if (follower_ != nullptr) follower_->deeds().add(std::move(deed));
   }
   /// Holds what was done since the last trigger against the rule that it started.
-  void follow() {
+  void follow_rule() {
     if (follower_ == nullptr) return;
     if (trigger_) trigger_();
     trigger_ = nullptr;

@@ -234,8 +234,8 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
 
 }  // namespace
 
-std::unique_ptr<Follower> follow_fastdds(const model::Scenario& scenario,
-                                         const model::Topology& topology) {
+std::unique_ptr<Follower> follow(model::Of<fastdds::FastDds>, const model::Scenario& scenario,
+                                 const model::Topology& topology) {
   return std::make_unique<FastDdsFollower>(scenario, topology);
 }
 

@@ -121,8 +121,8 @@ class PaperFollower final : public FollowedRules<PaperFollower, paper::Paper> {
 
 }  // namespace
 
-std::unique_ptr<Follower> follow_paper(const model::Scenario& scenario,
-                                       const model::Topology& topology) {
+std::unique_ptr<Follower> follow(model::Of<paper::Paper>, const model::Scenario& scenario,
+                                 const model::Topology& topology) {
   return std::make_unique<PaperFollower>(scenario, topology);
 }
 

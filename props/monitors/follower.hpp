@@ -12,6 +12,7 @@
 
 #include "fsm/composition/vocabulary.hpp"
 #include "model/event.hpp"
+#include "model/implementations.hpp"
 #include "model/scenario.hpp"
 #include "props/monitors/deeds.hpp"
 
@@ -91,9 +92,12 @@ class Follower {
   std::optional<std::string> difference_;
 };
 
-[[nodiscard]] std::unique_ptr<Follower> follow_paper(const model::Scenario&,
-                                                     const model::Topology&);
-[[nodiscard]] std::unique_ptr<Follower> follow_fastdds(const model::Scenario&,
-                                                       const model::Topology&);
+/// The follower of each composition, in a source file of its own.
+[[nodiscard]] std::unique_ptr<Follower> follow(model::Of<fsm::composition::paper::Paper>,
+                                               const model::Scenario& scenario,
+                                               const model::Topology& topology);
+[[nodiscard]] std::unique_ptr<Follower> follow(model::Of<fsm::composition::fastdds::FastDds>,
+                                               const model::Scenario& scenario,
+                                               const model::Topology& topology);
 
 }  // namespace stormproof::props

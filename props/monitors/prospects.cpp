@@ -32,15 +32,13 @@ void add(Count& count, std::uint32_t change) {
 }  // namespace
 
 Prospects::Prospects(const model::Scenario& scenario)
-    : fastdds_{model::is_fastdds(scenario.dds)},
+    : traits_{model::traits_of(scenario.dds)},
+      rules_{model::rules_of(scenario.dds)},
+      stateful_{traits_.writer == model::Writer::stateful},
       constant_delay_{scenario.wireless.kind == model::ServiceKind::constant_delay},
-      each_side_{fastdds_ ||
-                 scenario.dds.sedp.relation_opening == model::RelationOpening::each_side},
-      accepts_unmatched_{!fastdds_ &&
-                         (!each_side_ || scenario.dds.sedp.unmatched == model::Unmatched::accept)},
+      each_side_{rules_.relation_opening == model::RelationOpening::each_side},
+      accepts_unmatched_{!each_side_ || rules_.unmatched == model::Unmatched::accept},
       adaptive_{scenario.dds.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive},
-      initial_reply_{fastdds_ ? model::InitialAckNackReply::heartbeat
-                              : scenario.dds.sedp.initial_acknack},
       lost_packets_{scenario.wireless.lost_packets} {}
 
 void Prospects::run_started(const model::Topology& topology) {
@@ -55,7 +53,7 @@ void Prospects::run_started(const model::Topology& topology) {
   writers_.assign(2 * std::size_t{topology.participant_count()}, {});
   participants_.assign(topology.participant_count(), {});
   copies_.assign(topology.pair_count(), 0);
-  RelationWords& initial = states_[fastdds_ ? absent : u];
+  RelationWords& initial = states_[traits_.creates_endpoints_over_time ? absent : u];
   for (std::uint32_t rel = 0; rel < topology.relation_count(); ++rel) {
     for (std::uint32_t k = 0; k < initial.word_count(rel); ++k) {
       initial.word(rel, k) = RelationWords::below(topology.descriptor_count(rel), k);
@@ -177,7 +175,7 @@ void Prospects::move(const Load& load, std::uint32_t change) {
       break;
     case PacketKind::acknack:
       if (load.initial) add(relations_[load.relation()].initial_acknacks, change);
-      if (load.initial && initial_reply_ != model::InitialAckNackReply::bitmap) break;
+      if (load.initial && rules_.initial_acknack != model::InitialAckNackReply::bitmap) break;
       load.descriptors->for_each(
           [&](std::uint32_t d) { add(requests_.at(load.relation(), d), change); });
       break;
@@ -219,7 +217,7 @@ void Prospects::emitted(const model::Packet& packet, std::uint32_t source,
     next.descriptors = model::DescriptorSet{words};
     departing_ = std::move(next);
     departing_.load.descriptors = &departing_.descriptors;
-    if (fastdds_ && packet.multicast()) {  // a reception for each receiver
+    if (traits_.receives_separately && packet.multicast()) {  // a reception for each receiver
       departing_.pairs.resize(topology_->peer_count(source), packet.pair);
     }
     return;
@@ -232,18 +230,18 @@ void Prospects::emitted(const model::Packet& packet, std::uint32_t source,
 }
 
 void Prospects::source_completed(const model::Packet& packet) {
-  if (!fastdds_) in_source(load_of(packet), less);
+  if (traits_.waits_for_source) in_source(load_of(packet), less);
 }
 
 void Prospects::arrived(const model::Packet& packet, bool lost) {
   if (!is_lost(packet.number)) move(load_of(packet), less);
-  delivered_ = fastdds_ && !lost ? &packet : nullptr;
+  delivered_ = traits_.receives_separately && !lost ? &packet : nullptr;
 }
 
 void Prospects::received(const model::Packet& packet, std::uint32_t receiver) {
   received_.arriving(packet);
   delivered_ = nullptr;
-  if (!fastdds_ || !crosses_hosts(*topology_, packet, receiver)) return;
+  if (!traits_.receives_separately || !crosses_hosts(*topology_, packet, receiver)) return;
   move(load_of(packet), less);
 }
 

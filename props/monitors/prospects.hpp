@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/engine/packet.hpp"
+#include "model/implementations.hpp"
 #include "model/scenario.hpp"
 #include "props/monitors/pending_heartbeats.hpp"
 #include "props/monitors/received_descriptors.hpp"
@@ -103,12 +104,13 @@ class Prospects {
   [[nodiscard]] std::uint64_t progressing(std::uint32_t relation, std::uint32_t k) const;
   [[nodiscard]] State state_of(std::uint32_t relation, std::uint32_t d) const;
 
-  bool fastdds_;
+  const model::ImplementationTraits& traits_;
+  const model::RelationRules rules_;
+  bool stateful_;
   bool constant_delay_;
   bool each_side_;
   bool accepts_unmatched_;
   bool adaptive_;
-  model::InitialAckNackReply initial_reply_;
   std::vector<std::uint64_t> lost_packets_;
   std::optional<model::Topology> topology_;  // a copy: asked after the run, too
 

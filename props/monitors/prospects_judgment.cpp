@@ -37,14 +37,14 @@ bool Prospects::will_ask(std::uint32_t relation) const {
   if (rel.heartbeats > 0 || rel.acknacks_due > 0) return true;
   const std::uint32_t writer = 2 * topology_->pair(relation / 2).source + relation % 2;
   if (heartbeats_.count(writer) > 0) return true;
-  if (initial_reply_ == model::InitialAckNackReply::none) return false;
-  const bool replies = initial_reply_ == model::InitialAckNackReply::heartbeat;
+  if (rules_.initial_acknack == model::InitialAckNackReply::none) return false;
+  const bool replies = rules_.initial_acknack == model::InitialAckNackReply::heartbeat;
   return (rel.initials_due > 0 && !rel.heartbeat_seen) || (replies && rel.initial_acknacks > 0);
 }
 
 bool Prospects::forgets_acknowledgments(std::uint32_t relation) const {
   const Relation& rel = relations_[relation];
-  return fastdds_ && (rel.initial_acknacks > 0 || (rel.initials_due > 0 && !rel.heartbeat_seen));
+  return stateful_ && (rel.initial_acknacks > 0 || (rel.initials_due > 0 && !rel.heartbeat_seen));
 }
 
 /// Descriptors of word k whose own next step at the writer is pending.
@@ -54,12 +54,12 @@ std::uint64_t Prospects::progressing(std::uint32_t relation, std::uint32_t k) co
   std::uint64_t members = 0;
   if (will_ask(relation)) members |= states_[u].word(relation, k);
   const bool repair =
-      fastdds_ ? writers_[2 * i + relation % 2].responses_due > 0 : rel.repairs_due > 0;
+      stateful_ ? writers_[2 * i + relation % 2].responses_due > 0 : rel.repairs_due > 0;
   if (repair) members |= states_[r].word(relation, k);
-  const bool rearms = fastdds_ || !adaptive_ || heartbeats_.count(2 * i + relation % 2) > 0;
+  const bool rearms = stateful_ || !adaptive_ || heartbeats_.count(2 * i + relation % 2) > 0;
   if (rel.suppressions > 0 && rearms) members |= states_[s].word(relation, k);
-  if (fastdds_ && participants_[i].async_runs_due > 0) members |= states_[q].word(relation, k);
-  if (fastdds_ && participants_[i].creations_due > 0) members |= states_[absent].word(relation, k);
+  if (participants_[i].async_runs_due > 0) members |= states_[q].word(relation, k);
+  if (participants_[i].creations_due > 0) members |= states_[absent].word(relation, k);
   if (forgets_acknowledgments(relation)) members |= states_[a].word(relation, k);
   return members;
 }

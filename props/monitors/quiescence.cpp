@@ -37,6 +37,7 @@
 
 #include <fmt/core.h>
 
+#include "model/implementations.hpp"
 #include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
@@ -47,7 +48,7 @@ namespace stormproof::props {
 
 model::Nanoseconds quiescence_bound(const model::DdsProfile& dds, model::Nanoseconds delay) {
   const model::SedpProfile& sedp = dds.sedp;
-  const bool fastdds = model::is_fastdds(dds);
+  const model::RelationRules rules = model::rules_of(dds);
   const std::int64_t d = delay.count();
   const std::int64_t tau_h = sedp.heartbeat_period.count();
   const std::int64_t tau_a = sedp.heartbeat_response_delay.count();
@@ -59,20 +60,25 @@ model::Nanoseconds quiescence_bound(const model::DdsProfile& dds, model::Nanosec
   if (sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive) {
     reached = std::max(tau_h, sedp.adaptive.max_period.count()) + 1;
     again = answered;
-  } else if (!fastdds && sedp.heartbeat_timer == model::HeartbeatTimerKind::additive) {
+  } else if (rules.heartbeat_timer == model::HeartbeatTimerKind::additive) {
     again = answered;
   } else {
     again = std::max<std::int64_t>(0, (answered + tau_h - 1) / tau_h - 1) * tau_h;
   }
   const bool attempts = sedp.initial_acknack_delay.count() > 0;
-  if (fastdds) {
-    const std::int64_t suppressed = d + tau_n + sedp.nack_suppression_duration.count();
-    const std::int64_t disturbed = std::max(suppressed, attempts ? reached + 2 * d : 0);
-    return model::Nanoseconds{disturbed + reached + again + d + tau_a};
-  }
-  std::int64_t bound = std::max(reached + again + d + tau_a, 2 * d + tau_n + tau_a);
-  if (attempts && sedp.initial_acknack == model::InitialAckNackReply::heartbeat) {
-    bound = std::max(bound, reached + 3 * d + tau_a);
+  std::int64_t bound = reached + again + d + tau_a;
+  switch (model::traits_of(dds).writer) {
+    case model::Writer::of_the_paper:
+      bound = std::max(bound, 2 * d + tau_n + tau_a);
+      if (attempts && rules.initial_acknack == model::InitialAckNackReply::heartbeat) {
+        bound = std::max(bound, reached + 3 * d + tau_a);
+      }
+      break;
+    case model::Writer::stateful: {
+      const std::int64_t suppressed = d + tau_n + sedp.nack_suppression_duration.count();
+      bound += std::max(suppressed, attempts ? reached + 2 * d : 0);
+      break;
+    }
   }
   return model::Nanoseconds{bound};
 }
@@ -85,8 +91,9 @@ class Quiescence final : public QuiescenceMonitor {
       : QuiescenceMonitor{"live.quiescence"},
         dds_{scenario.dds},
         delays_{scenario},
-        loopback_{model::is_fastdds(scenario.dds) ? scenario.deployment.loopback_delay
-                                                  : model::Nanoseconds{}} {}
+        loopback_{model::traits_of(scenario.dds).discovers_same_host
+                      ? scenario.deployment.loopback_delay
+                      : model::Nanoseconds{}} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);

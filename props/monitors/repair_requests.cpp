@@ -3,6 +3,7 @@
 // received after its start; an initial ACKNACK asks for something only if the profile says so.
 // Fast DDS: what a creation pushes is initial, everything that the async run sends must be asked
 // for, and an ACKNACK asks for its bitmap from its base on.
+#include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
@@ -16,9 +17,9 @@ class RepairRequests final : public Observer {
  public:
   explicit RepairRequests(const model::Scenario& scenario)
       : Observer{"safety.repair-only-if-asked"},
-        fastdds_{model::is_fastdds(scenario.dds)},
-        initial_asks_{!fastdds_ &&
-                      scenario.dds.sedp.initial_acknack == model::InitialAckNackReply::bitmap} {}
+        pushes_at_creation_{model::traits_of(scenario.dds).creates_endpoints_over_time},
+        initial_asks_{model::rules_of(scenario.dds).initial_acknack ==
+                      model::InitialAckNackReply::bitmap} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -47,7 +48,7 @@ class RepairRequests final : public Observer {
  private:
   void generated(const model::Packet& packet) {
     if (packet.kind != model::PacketKind::data) return;
-    const bool repair = fastdds_ ? !creating_ : packet.from_repair;
+    const bool repair = pushes_at_creation_ ? !creating_ : packet.from_repair;
     if (repair) {
       repairs_ += packet.descriptors.count();
       const std::uint32_t d = asked_.first_of(packet.relation(), packet.descriptors, false);
@@ -60,7 +61,7 @@ class RepairRequests final : public Observer {
     asked_.remove(packet.relation(), packet.descriptors);
   }
 
-  bool fastdds_;
+  bool pushes_at_creation_;
   bool initial_asks_;
   bool creating_ = false;
   RelationWords asked_;

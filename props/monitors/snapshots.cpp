@@ -7,6 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
@@ -25,7 +26,7 @@ struct Snapshot {
 class Snapshots final : public Observer {
  public:
   explicit Snapshots(const model::Scenario& scenario)
-      : Observer{"safety.snapshot"}, fastdds_{model::is_fastdds(scenario.dds)} {}
+      : Observer{"safety.snapshot"}, bases_{model::traits_of(scenario.dds).acknacks_have_bases} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -78,7 +79,7 @@ class Snapshots final : public Observer {
     for (std::uint32_t k = 0; k < received_.word_count(packet.relation()); ++k) {
       snapshot.words.push_back(packet.descriptors.word(k));
     }
-    if (fastdds_) snapshot.base = packet.detail;
+    if (bases_) snapshot.base = packet.detail;
     return snapshot;
   }
 
@@ -86,18 +87,18 @@ class Snapshots final : public Observer {
   Snapshot expected(const model::Packet& packet) const {
     const std::uint32_t relation = packet.relation();
     const std::uint32_t count = topology().descriptor_count(relation);
-    const bool claims = !(fastdds_ && packet.initial_acknack);
+    const bool claims = !(bases_ && packet.initial_acknack);
     Snapshot snapshot;
     std::uint32_t first = count;
     for (std::uint32_t k = 0; k < received_.word_count(relation); ++k) {
       const std::uint64_t lacking = RelationWords::below(count, k) & ~received_.word(relation, k);
-      const std::uint32_t limit = fastdds_ ? announced_[relation] : count;
+      const std::uint32_t limit = bases_ ? announced_[relation] : count;
       snapshot.words.push_back(claims ? lacking & RelationWords::below(limit, k) : 0);
       if (lacking != 0 && first == count) {
         first = 64 * k + static_cast<std::uint32_t>(std::countr_zero(lacking));
       }
     }
-    if (fastdds_ && claims) snapshot.base = first;
+    if (bases_ && claims) snapshot.base = first;
     return snapshot;
   }
 
@@ -134,7 +135,7 @@ class Snapshots final : public Observer {
                " arrives with another bitmap at " + time_text(now()) + ".");
   }
 
-  bool fastdds_;
+  bool bases_;
   ReceivedDescriptors received_;
   const model::Packet* announcing_ = nullptr;
   std::vector<std::uint32_t> announced_;  // by relation

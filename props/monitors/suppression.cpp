@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
@@ -21,7 +22,7 @@ class Suppression final : public Observer {
  public:
   explicit Suppression(const model::Scenario& scenario)
       : Observer{"timer.suppression-honoured"},
-        fastdds_{model::is_fastdds(scenario.dds)},
+        waits_{model::traits_of(scenario.dds).waits_for_source},
         duration_{scenario.dds.sedp.nack_suppression_duration.count()} {}
 
   void run_started(const model::Topology& topology) override {
@@ -31,14 +32,14 @@ class Suppression final : public Observer {
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {
     if (packet.kind != model::PacketKind::data) return;
-    if (fastdds_) note(packet, now().count());
+    if (!waits_) note(packet, now().count());
     if (packet.from_repair) note(packet, never);
   }
   void looped_back(const model::Packet& packet, std::uint32_t) override {
     if (packet.kind == model::PacketKind::data) note(packet, now().count());
   }
   void source_completed(const model::Packet& packet) override {
-    if (!fastdds_ && packet.from_repair) note(packet, now().count());
+    if (waits_ && packet.from_repair) note(packet, now().count());
   }
   void transition(const model::MachineRef& machine, std::string_view, std::string_view before,
                   std::string_view after, std::uint32_t first_word,
@@ -64,7 +65,7 @@ class Suppression final : public Observer {
   }
   void judge(std::uint32_t relation, std::uint32_t d) {
     const std::int64_t left = left_.at(relation, d);
-    const char* const deed = fastdds_ ? "was serialized" : "left the source";
+    const char* const deed = waits_ ? "left the source" : "was serialized";
     if (left == never) {
       object_now("The suppression of " + descriptor_text(topology(), relation, d) + " ends at " +
                  time_text(now()) + ", before its repair " + deed + ".");
@@ -79,7 +80,7 @@ class Suppression final : public Observer {
                "; τ_S is " + time_text(model::Nanoseconds{duration_}) + ".");
   }
 
-  bool fastdds_;
+  bool waits_;
   std::int64_t duration_;
   RelationValues<std::int64_t> left_;
   std::optional<std::int64_t> shortest_;

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "checker/verification/check/properties_report.hpp"
+#include "model/implementations.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::checker {
@@ -18,11 +19,13 @@ std::string engines_of(const props::Property& property) {
 
 report::Table::Row row_of(const props::Property& property) {
   report::Facts facts;
-  const auto fact = [&](const char* label, std::string_view text) {
+  const auto fact = [&](std::string_view label, std::string_view text) {
     if (!text.empty()) facts.rows.emplace_back(label, text);
   };
   fact("formal", property.formal);
-  fact("Fast DDS", property.fastdds);
+  for (const model::ImplementationTraits& one : model::implementation_traits) {
+    if (one.writer == model::Writer::stateful) fact(one.whose, property.stateful);
+  }
   fact("assuming", property.assumptions);
   fact("decided by", engines_of(property));
   fact("source", property.source);
