@@ -1,6 +1,8 @@
 // The closed forms.
 #include "checker/engines/bounds/completion_bound.hpp"
 
+#include "model/implementations.hpp"
+
 namespace stormproof::timeline {
 namespace {
 
@@ -47,7 +49,7 @@ void paper_bound(CompletionBound& b, const model::SedpProfile& sedp, const Circu
   }
 }
 
-void fastdds_bound(CompletionBound& b, const model::SedpProfile& sedp, const Circumstances& c) {
+void stateful_bound(CompletionBound& b, const model::SedpProfile& sedp, const Circumstances& c) {
   // Here a repair that is lost spoils no fixed window: the timer dies and is armed again.
   b.window = c.delta * 2 + sedp.heartbeat_response_delay + sedp.nack_response_delay +
              sedp.nack_suppression_duration;
@@ -89,10 +91,14 @@ std::optional<CompletionBound> completion_bound(const model::DdsProfile& dds,
   CompletionBound bound;
   bound.exchange =
       circumstances.delta * 3 + sedp.heartbeat_response_delay + sedp.nack_response_delay;
-  if (model::is_fastdds(dds))
-    fastdds_bound(bound, sedp, circumstances);
-  else
-    paper_bound(bound, sedp, circumstances);
+  switch (model::traits_of(dds).writer) {
+    case model::Writer::of_the_paper:
+      paper_bound(bound, sedp, circumstances);
+      break;
+    case model::Writer::stateful:
+      stateful_bound(bound, sedp, circumstances);
+      break;
+  }
   return bound;
 }
 

@@ -10,6 +10,7 @@
 #include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
 #include "checker/engines/explorer/replay.hpp"
+#include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/quiescence.hpp"
 
@@ -80,11 +81,8 @@ class Exploration {
       const auto share = (end - Clock::now()) / static_cast<std::ptrdiff_t>(list.size() - k);
       deadline_ = Clock::now() + std::max(share, Clock::duration::zero());
       const Scope& scope = list[k];
-      if (model::is_fastdds(running_.dds)) {
-        explore<FastDdsWorld>(scope);
-      } else {
-        explore<PaperWorld>(scope);
-      }
+      model::visit_composition(running_.dds,
+                               [&](auto composition) { explore(composition, scope); });
     }
   }
 
@@ -96,6 +94,10 @@ class Exploration {
     return !interrupted_;
   }
 
+  void explore(model::Of<comp::paper::Paper>, const Scope& scope) { explore<PaperWorld>(scope); }
+  void explore(model::Of<comp::fastdds::FastDds>, const Scope& scope) {
+    explore<FastDdsWorld>(scope);
+  }
   template <class World>
   void explore(const Scope& scope) {
     if ((open_ & bit(Claim::completion)) != 0) {
@@ -195,7 +197,7 @@ Finding Exploration::finding(Claim claim) const {
   finding.assumptions = {
       "One relation; every packet of it has a delay of its own, whatever other relations do.",
       delay_.origin};
-  if (model::is_fastdds(running_.dds)) {
+  if (creates_over_time(running_)) {
     finding.assumptions.emplace_back("No HEARTBEATs ride in DATA packets.");
   }
   const model::SedpProfile& sedp = running_.dds.sedp;

@@ -7,6 +7,7 @@
 
 #include "checker/engines/bounds/completion_bound.hpp"
 #include "model/descriptor_sizes.hpp"
+#include "model/implementations.hpp"
 #include "model/simulator.hpp"
 #include "props/monitors/describe.hpp"
 
@@ -69,6 +70,10 @@ bool splits_packets(const model::Scenario& scenario) {
                         bytes - scenario.dds.sedp.shared_header_bytes.count());
 }
 
+bool creates_over_time(const model::Scenario& scenario) {
+  return model::traits_of(scenario.dds).creates_endpoints_over_time;
+}
+
 std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
   std::vector<Scope> list;
   const auto add = [&](unsigned descriptors, unsigned losses, unsigned pushed) {
@@ -86,7 +91,7 @@ std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
     scope.side_by_side = scenario.dds.sedp.relation_opening == model::RelationOpening::each_side;
     list.push_back(scope);
   };
-  if (model::is_fastdds(scenario.dds)) {
+  if (creates_over_time(scenario)) {
     constexpr unsigned all = 9;  // the publications of a default participant
     add(all, 0, 0);
     add(all, 0, 1);
@@ -109,8 +114,8 @@ std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
 std::optional<Nanoseconds> completion_bound(const model::DdsProfile& dds, const Scope& scope) {
   // The bound counts from the opening of the relation, or the creation of a descriptor; the
   // explorer from the start of its world.
-  const bool apart =
-      dds.sedp.relation_opening == model::RelationOpening::each_side && !model::is_fastdds(dds);
+  const bool apart = model::traits_of(dds).writer == model::Writer::of_the_paper &&
+                     dds.sedp.relation_opening == model::RelationOpening::each_side;
   if (apart || scope.side_by_side || scope.pushed > 0) return std::nullopt;
   timeline::Circumstances circumstances;
   circumstances.delta = scope.largest_delay;

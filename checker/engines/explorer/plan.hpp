@@ -28,7 +28,11 @@ struct DelayBound {
 /// The scopes to explore, cheap ones first.
 [[nodiscard]] std::vector<Scope> scopes(const model::Scenario& scenario, model::Nanoseconds delay);
 
-/// Fast DDS: the time between the creations of two descriptors that are created after the match.
+/// Whether descriptors of the world come into being one after the other. There, HEARTBEATs that
+/// ride in DATA are left out.
+[[nodiscard]] bool creates_over_time(const model::Scenario& scenario);
+
+/// If so: the time between the creations of two descriptors that are created after the match.
 [[nodiscard]] model::Nanoseconds creation_distance(const model::Scenario& scenario);
 
 /// Whether the first two user descriptors travel in different packets.

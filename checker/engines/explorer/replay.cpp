@@ -53,11 +53,9 @@ class PacketList final : public model::Probe {
   }
 };
 
-bool is_fastdds(const ReplayRequest& request) { return model::is_fastdds(request.running.dds); }
-
 /// When the world starts, in the time of the run.
 Nanoseconds start_of_world(const ReplayRequest& request, const ConcretePath& path) {
-  if (!is_fastdds(request)) return Nanoseconds{0};
+  if (!creates_over_time(request.running)) return Nanoseconds{0};
   const std::int64_t margin = 1'000;  // what exists at the match has been created before
   const std::int64_t creation = path.time_of(What::creation).value_or(Nanoseconds{0}).count();
   if (request.scope.pushed == 0) return Nanoseconds{margin};
@@ -70,7 +68,7 @@ Nanoseconds start_of_world(const ReplayRequest& request, const ConcretePath& pat
 /// When participant 0 has created its last endpoint.
 Nanoseconds endpoints_done(const ReplayRequest& request, const ConcretePath& path,
                            Nanoseconds start) {
-  if (!is_fastdds(request) || request.scope.pushed == 0) return Nanoseconds{0};
+  if (!creates_over_time(request.running) || request.scope.pushed == 0) return Nanoseconds{0};
   if (request.scope.pushed == 1) {
     const std::int64_t creation = (start + *path.time_of(What::creation)).count();
     return Nanoseconds{(17 * creation + 15) / 16};
@@ -83,7 +81,7 @@ model::Scenario bare_scenario(const ReplayRequest& request, const ConcretePath& 
   model::Scenario scenario;
   scenario.dds = request.running.dds;
   model::Participant writer{model::HostId{0}, request.scope.descriptors, 0, {}, {}};
-  if (is_fastdds(request)) {
+  if (creates_over_time(request.running)) {
     writer.publications = 0;
     writer.endpoints_done = endpoints_done(request, path, start);
     scenario.dds.sedp.piggyback = model::Piggyback::off;

@@ -10,6 +10,7 @@
 
 #include "checker/engines/tables/proof.hpp"
 #include "checker/engines/tables/symbolic_run.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 
@@ -36,8 +37,8 @@ struct EventGroup {
 
 /// The events of the compositions: those of one relation, its writer and its queue, and those of
 /// announcements, which meet a relation only in its openings; these are events of the former.
-[[nodiscard]] std::vector<EventGroup> paper_events();
-[[nodiscard]] std::vector<EventGroup> fastdds_events();
+[[nodiscard]] std::vector<EventGroup> events_of(model::Of<fsm::composition::paper::Paper>);
+[[nodiscard]] std::vector<EventGroup> events_of(model::Of<fsm::composition::fastdds::FastDds>);
 
 enum class Verdict : char {
   commutes = '.',     ///< from every state

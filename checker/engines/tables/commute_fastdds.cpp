@@ -3,6 +3,8 @@
 
 namespace stormproof::tables {
 
-std::vector<EventGroup> fastdds_events() { return event_groups<KnownOfFastDds>(); }
+std::vector<EventGroup> events_of(model::Of<fsm::composition::fastdds::FastDds>) {
+  return event_groups<KnownOfFastDds>();
+}
 
 }  // namespace stormproof::tables

@@ -3,6 +3,8 @@
 
 namespace stormproof::tables {
 
-std::vector<EventGroup> paper_events() { return event_groups<KnownOfPaper>(); }
+std::vector<EventGroup> events_of(model::Of<fsm::composition::paper::Paper>) {
+  return event_groups<KnownOfPaper>();
+}
 
 }  // namespace stormproof::tables

@@ -8,6 +8,7 @@
 #include "checker/engines/tables/descriptor_system.hpp"
 #include "checker/engines/tables/machine_step.hpp"
 #include "checker/engines/tables/properties.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 namespace {
@@ -22,11 +23,7 @@ class Statements {
  public:
   Statements(const DescriptorSystem& system, const model::DdsProfile& dds)
       : system_{system}, adaptive_{dds.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive} {
-    if (model::is_fastdds(dds)) {
-      add_fastdds();
-    } else {
-      add_paper();
-    }
+    model::visit_composition(dds, [this](auto composition) { add(composition); });
     say("while the reader asks by itself, an initial ACKNACK is pending",
         is("InitialTimer=Waiting"), is_pending("InitialAttempt"));
     if (adaptive_) {
@@ -44,13 +41,13 @@ class Statements {
   [[nodiscard]] const Exprs& facts() const { return facts_; }
 
  private:
-  void add_paper() {
+  void add(model::Of<fsm::composition::paper::Paper>) {
     say("R: a repair generation is pending", is("C=R"), is_pending("RepairGeneration"));
     say("S: an end of suppression is pending", is("C=S"), is_pending("SuppressionEnd"));
     say("open and not in A: the HEARTBEAT timer runs", is("WriterOpen") && !is("C=A"),
         clock_runs());
   }
-  void add_fastdds() {
+  void add(model::Of<fsm::composition::fastdds::FastDds>) {
     say("R: the writer's nack response is asked for", is("C=R"), is("NackResponse=Pending"));
     say("Q: it is in the queue, and the participant's async run is asked for", is("C=Q"),
         is("Enqueued") && is("AsyncRun=Pending"));

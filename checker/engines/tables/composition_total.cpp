@@ -5,6 +5,7 @@
 #include "checker/engines/tables/properties.hpp"
 #include "model/composition_of.hpp"
 #include "model/engine/composition_knobs.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 namespace {
@@ -32,7 +33,6 @@ void forget(std::vector<composition::RuleInfo>& rules, std::string_view timer) {
 
 /// The composition of the scenario's implementation, with the mutant's mistakes.
 CompositionInfo composition_of(const Proof& proof) {
-  const bool fastdds = model::is_fastdds(proof.scenario().dds);
   CompositionInfo info = model::composition_of(proof.scenario().dds);
   for (const composition::EffectMutation& mistake : proof.mistakes().effects) {
     if (mistake.change != composition::EffectMutation::Change::drop) continue;
@@ -46,8 +46,10 @@ CompositionInfo composition_of(const Proof& proof) {
   }
   for (const model::EventMutation& mistake : proof.mistakes().events) {
     if (mistake.change != model::EventMutation::Change::forget) continue;
-    const auto timers = fastdds ? timers_of<composition::fastdds::FastDds>(mistake.kind)
-                                : timers_of<composition::paper::Paper>(mistake.kind);
+    const auto timers = model::visit_composition(proof.scenario().dds,
+                                                 [&]<class Composition>(model::Of<Composition>) {
+                                                   return timers_of<Composition>(mistake.kind);
+                                                 });
     for (const std::string_view timer : timers) {
       for (auto* rules : {&info.rules, &info.procedures, &info.steps}) forget(*rules, timer);
     }

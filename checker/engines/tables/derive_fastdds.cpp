@@ -4,6 +4,8 @@
 
 namespace stormproof::tables {
 
-void derive_fastdds(Derived& derived) { derive<composition::fastdds::FastDds>(derived); }
+void derive_of(model::Of<composition::fastdds::FastDds>, Derived& derived) {
+  derive<composition::fastdds::FastDds>(derived);
+}
 
 }  // namespace stormproof::tables

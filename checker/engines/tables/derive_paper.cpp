@@ -4,6 +4,8 @@
 
 namespace stormproof::tables {
 
-void derive_paper(Derived& derived) { derive<composition::paper::Paper>(derived); }
+void derive_of(model::Of<composition::paper::Paper>, Derived& derived) {
+  derive<composition::paper::Paper>(derived);
+}
 
 }  // namespace stormproof::tables

@@ -39,11 +39,7 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
 }
 
 void derive_composition(Derived& derived) {
-  if (model::is_fastdds(derived.dds)) {
-    derive_fastdds(derived);
-  } else {
-    derive_paper(derived);
-  }
+  model::visit_composition(derived.dds, [&](auto composition) { derive_of(composition, derived); });
 }
 
 TransitionSystem DescriptorSystem::with_bad(const Expr& bad) const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "checker/engines/tables/derivation.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 
@@ -43,8 +44,8 @@ class DescriptorSystem {
 };
 
 /// Derive all steps of one composition, each in a source file of its own.
-void derive_paper(Derived& derived);
-void derive_fastdds(Derived& derived);
+void derive_of(model::Of<fsm::composition::paper::Paper>, Derived& derived);
+void derive_of(model::Of<fsm::composition::fastdds::FastDds>, Derived& derived);
 
 /// States in the finding what everything assumes that is derived from a composition.
 void assume_for_descriptors(Proof& proof);

@@ -35,9 +35,9 @@ void read(const YAML::Node& entries, Verdict verdict, std::map<Pair, Expected>& 
   }
 }
 
-std::map<Pair, Expected> expected_matrix(const std::string& implementation) {
+std::map<Pair, Expected> expected_matrix(std::string_view implementation) {
   const YAML::Node file = YAML::Load(expected_commutation_text);
-  const YAML::Node section = file["implementations"][implementation];
+  const YAML::Node section = file["implementations"][std::string{implementation}];
   std::map<Pair, Expected> expected;
   read(section["matters"], Verdict::matters, expected);
   read(section["only_unreachable"], Verdict::unreachable, expected);
@@ -82,7 +82,7 @@ void compare(Proof& proof, const EventGroup& group, const std::vector<PairResult
 
 Finding order_commutation(const CheckRequest& request) {
   Proof proof{"order.commutation", request};
-  const bool fastdds = model::is_fastdds(proof.scenario().dds);
+  const model::DdsProfile& dds = proof.scenario().dds;
   const Extent extent;
   proof.assume(fmt::format(
       "Looked at are {} descriptors of {} readers of each of {} writers of a participant, exactly; "
@@ -98,8 +98,10 @@ Finding order_commutation(const CheckRequest& request) {
       "packing: each descriptor goes alone, and what only the piggyback budget decides is the same "
       "in both orders.");
   proof.assume(hosts_keep_contracts);
-  std::map<Pair, Expected> expected = expected_matrix(fastdds ? "fastdds" : "paper");
-  for (const EventGroup& group : fastdds ? fastdds_events() : paper_events()) {
+  std::map<Pair, Expected> expected = expected_matrix(model::traits_of(dds).name);
+  const std::vector<EventGroup> groups =
+      model::visit_composition(dds, [](auto composition) { return events_of(composition); });
+  for (const EventGroup& group : groups) {
     const std::vector<PairResult> results = commutation_matrix(proof, group, extent);
     proof.detail("events of " + group.of_what + ":");
     for (std::string& line : matrix_lines(group, results)) proof.detail(std::move(line));

@@ -8,6 +8,7 @@
 #include "checker/engines/tables/properties.hpp"
 #include "model/airtime.hpp"
 #include "model/engine/event_queue.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 namespace {
@@ -84,7 +85,7 @@ struct KindedEvent {
 /// can.
 std::optional<std::string> instant_service(const model::Scenario& scenario) {
   const model::WirelessProfile& wireless = scenario.wireless;
-  const bool loops_back = model::is_fastdds(scenario.dds);
+  const bool loops_back = model::traits_of(scenario.dds).discovers_same_host;
   if (loops_back && scenario.deployment.loopback_delay.count() < 1) {
     return "loopback_delay is 0 ns";
   }

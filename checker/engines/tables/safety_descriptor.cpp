@@ -19,7 +19,7 @@ Finding safety_ack_implies_received(const CheckRequest& request) {
 Finding safety_repair_only_if_asked(const CheckRequest& request) {
   Proof proof{"safety.repair-only-if-asked", request};
   const DescriptorSystem descriptor = descriptor_system(proof);
-  if (model::is_fastdds(proof.scenario().dds)) {
+  if (model::traits_of(proof.scenario().dds).creates_endpoints_over_time) {
     proof.assume("DATA that is pushed when its descriptor is created is no repair.");
   }
   return proof.finish(prove_unreachable(proof,

@@ -63,7 +63,7 @@ void describe(const Question& question, props::Finding& finding) {
   finding.assumptions.push_back("no packet takes longer than Δ from emission to reception (" +
                                 measured_text(question.measured) + ")");
   finding.assumptions.push_back("at most k packets of the relation are lost");
-  if (question.is_fastdds()) {
+  if (question.writer() == model::Writer::stateful) {
     finding.assumptions.push_back(
         "time counts from the creation of the descriptor or the match of both sides, whichever "
         "comes last");
@@ -135,13 +135,20 @@ props::Finding completion_finding(const Question& question) {
     return finding;
   }
   if (theorem.is_asked_for()) {
-    question.is_fastdds() ? prove_completion_fastdds(theorem) : prove_completion(theorem);
+    switch (question.writer()) {
+      case model::Writer::of_the_paper:
+        prove_completion(theorem);
+        break;
+      case model::Writer::stateful:
+        prove_completion_fastdds(theorem);
+        break;
+    }
   }
   props::Finding finding = theorem.finish(
       "inductive invariant over the periodic HEARTBEATs, with all timers, delays and the number of "
       "losses symbolic");
   describe(question, finding);
-  if (question.is_fastdds()) {
+  if (question.writer() == model::Writer::stateful) {
     finding.details.push_back("an upper bound; it is not claimed that it is attained");
     hold_fastdds_against_bound(question, finding);
     return finding;

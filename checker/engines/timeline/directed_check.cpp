@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include "model/implementations.hpp"
 #include "model/simulator.hpp"
 #include "props/monitor.hpp"
 
@@ -51,7 +52,7 @@ std::string difference(const BoundaryPoint& point, const std::optional<DirectedR
 
 model::DdsProfile encoded_profile(const model::DdsProfile& dds) {
   model::DdsProfile encoded = dds;
-  encoded.implementation = model::ImplementationKind::paper;
+  encoded.implementation = model::default_implementation;  // whose writer is `of_the_paper`
   encoded.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
   encoded.sedp.heartbeat_timer = model::HeartbeatTimerKind::single;
   encoded.sedp.relation_opening = model::RelationOpening::receiver;

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "model/engine/topology.hpp"
+#include "model/implementations.hpp"
 #include "model/probe.hpp"
 #include "model/simulator.hpp"
 
@@ -87,7 +88,7 @@ class Recorder final : public model::Probe {
 model::Scenario stage(const Setting& setting) {
   model::Scenario scenario;
   scenario.dds = setting.dds;
-  if (!model::is_fastdds(scenario.dds)) {
+  if (model::traits_of(scenario.dds).has_size_knobs) {
     scenario.dds.descriptors.default_publications = 0;
     scenario.dds.descriptors.default_subscriptions = 0;
   } else {

@@ -3,6 +3,7 @@
 
 #include "checker/engines/bounds/check_request.hpp"
 #include "checker/engines/bounds/measure.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::timeline {
 
@@ -13,7 +14,8 @@ struct Question {
 
   [[nodiscard]] const model::DdsProfile& dds() const { return request.scenario.dds; }
   [[nodiscard]] const model::SedpProfile& sedp() const { return request.scenario.dds.sedp; }
-  [[nodiscard]] bool is_fastdds() const { return model::is_fastdds(dds()); }
+  /// Which writer a theorem has to be about.
+  [[nodiscard]] model::Writer writer() const { return model::traits_of(dds()).writer; }
   [[nodiscard]] bool is_adaptive() const {
     return sedp().heartbeat_policy == model::HeartbeatPolicy::adaptive;
   }

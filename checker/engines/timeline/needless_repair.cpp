@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "model/implementations.hpp"
+
 namespace stormproof::timeline {
 namespace {
 
@@ -62,8 +64,8 @@ Setting counterexample_setting(const model::Scenario& scenario) {
 /// Fast DDS: publication 0 starts the timer, publication 1 is created just before it expires, and
 /// the HEARTBEAT announces it before its DATA arrives. Of the 17 default endpoints, publications 0
 /// and 1 are the first and the third.
-void add_fastdds(const model::SedpProfile& sedp, Nanoseconds delta, Setting& setting,
-                 std::vector<Director>& candidates) {
+void add_stateful(const model::SedpProfile& sedp, Nanoseconds delta, Setting& setting,
+                  std::vector<Director>& candidates) {
   const Nanoseconds late = sedp.heartbeat_response_delay + tick * 4;
   const Nanoseconds answer = std::max(tick, sedp.nack_suppression_duration);
   if (late > delta || answer > delta || sedp.heartbeat_period <= tick * 4) return;
@@ -125,8 +127,8 @@ std::optional<props::Counterexample> needless_repair(const model::Scenario& scen
   std::vector<Director> candidates;
   if (same_for_all) {
     candidates.push_back(constant(delta));
-  } else if (model::is_fastdds(scenario.dds)) {
-    add_fastdds(sedp, delta, setting, candidates);
+  } else if (model::traits_of(scenario.dds).writer == model::Writer::stateful) {
+    add_stateful(sedp, delta, setting, candidates);
   } else if (sedp.initial_data == model::InitialData::pull) {
     add_pulled(sedp, delta, candidates);
   } else {

@@ -69,7 +69,8 @@ std::vector<BoundaryPoint> late_packets(const Question& question) {
 props::Finding quiescence_finding(const Question& question) {
   Theorem theorem{"live.quiescence", question.request};
   const bool single = question.sedp().heartbeat_timer == model::HeartbeatTimerKind::single;
-  const bool covered = !question.is_fastdds() && !question.is_adaptive() && single;
+  const bool covered =
+      question.writer() == model::Writer::of_the_paper && !question.is_adaptive() && single;
   if (covered && theorem.is_asked_for()) prove_quiescence(theorem);
   props::Finding finding = theorem.finish(
       "linear arithmetic over the last exchanges, with all timers and delays symbolic");

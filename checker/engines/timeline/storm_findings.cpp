@@ -23,7 +23,7 @@ void judge(const Question& question, std::string_view property, props::Finding& 
   if (finding.kind != props::VerdictKind::proved) return;
   const Nanoseconds delta = question.measured.largest_delay;
   finding.assumptions.push_back("no packet is lost (" + measured_text(question.measured) + ")");
-  if (!question.is_fastdds()) {
+  if (question.writer() == model::Writer::of_the_paper) {
     const FreeThreshold threshold = free_threshold(question.sedp(), question.has_constant_delay());
     if (question.has_constant_delay()) {
       finding.assumptions.push_back("every packet takes the same time");
@@ -50,9 +50,10 @@ void judge(const Question& question, std::string_view property, props::Finding& 
     return;
   }
   leave_open(finding,
-             question.is_fastdds()
-                 ? "Fast DDS's shared timers leave no threshold above 0, and no schedule at the "
-                   "measured delay was found; the exact run decides"
+             question.writer() == model::Writer::stateful
+                 ? fmt::format("{}'s shared timers leave no threshold above 0, and no schedule at "
+                               "the measured delay was found; the exact run decides",
+                               model::traits_of(question.dds()).whose)
                  : "the measured delay is above what is proved for this profile, and no schedule "
                    "at that delay was found; the exact run decides");
 }
@@ -91,7 +92,7 @@ props::Finding free_threshold_finding(const Question& question) {
     finding.details.push_back("  eliminated: " + part.eliminated);
   }
   judge(question, "storm.free-threshold", finding);
-  if (!question.is_fastdds()) {
+  if (question.writer() == model::Writer::of_the_paper) {
     hold_against_runs(threshold_points(question.dds()), "storm.free-threshold", question.request,
                       finding);
   }
@@ -117,7 +118,7 @@ props::Finding single_copy_finding(const Question& question) {
                                         time_text(lower), time_text(upper),
                                         lower + Nanoseconds{1} < upper ? "" : ", so never"));
   judge(question, "storm.single-copy", finding);
-  if (!question.is_fastdds()) {
+  if (question.writer() == model::Writer::of_the_paper) {
     hold_against_runs(single_copy_points(question.dds()), "storm.single-copy", question.request,
                       finding);
   }

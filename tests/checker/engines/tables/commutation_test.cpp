@@ -13,6 +13,9 @@ namespace commutation_test {
 
 namespace comp = fsm::composition;
 
+constexpr model::Of<comp::paper::Paper> paper;
+constexpr model::Of<comp::fastdds::FastDds> fastdds;
+
 /// The verdicts of all pairs, by the names of the two kinds.
 using Matrix = std::map<std::string, char>;
 
@@ -82,7 +85,7 @@ struct RepairHasLeft : comp::Rule<comp::LeftSource<comp::paper::Data>> {
 };
 
 TEST(Commutation, ARuleThatDoesLessCommutesMoreOften) {
-  const Matrix correct = matrix_of(paper_events(), {});
+  const Matrix correct = matrix_of(events_of(paper), {});
   const Matrix changes = changed(
       correct,
       matrix_of(event_groups<KnownWith<comp::paper::SuppressionEnds, SuppressionEnds>>(), {}));
@@ -93,7 +96,7 @@ TEST(Commutation, ARuleThatDoesLessCommutesMoreOften) {
 }
 
 TEST(Commutation, ARuleThatDoesMoreCommutesLessOften) {
-  const Matrix correct = matrix_of(paper_events(), {});
+  const Matrix correct = matrix_of(events_of(paper), {});
   const Matrix state =
       changed(correct, matrix_of(event_groups<KnownWith<PaperAckNackDue, AckNackDue>>(), {}));
   EXPECT_EQ(state, (Matrix{{"initial ACKNACK, ACKNACK generation", 'X'},
@@ -105,7 +108,7 @@ TEST(Commutation, ARuleThatDoesMoreCommutesLessOften) {
 }
 
 TEST(Commutation, MoreDescriptorsReadersAndWritersChangeNoAnswer) {
-  for (const auto& groups : {paper_events(), fastdds_events()}) {
+  for (const auto& groups : {events_of(paper), events_of(fastdds)}) {
     const Matrix small = matrix_of(groups, {});
     for (const Extent larger :
          {Extent{.descriptors = 3}, Extent{.readers = 3}, Extent{.streams = 3}}) {
@@ -115,8 +118,8 @@ TEST(Commutation, MoreDescriptorsReadersAndWritersChangeNoAnswer) {
 }
 
 TEST(Commutation, OneReaderIsNotEnough) {
-  const Matrix small = matrix_of(fastdds_events(), {.readers = 1});
-  const Matrix larger = matrix_of(fastdds_events(), {});
+  const Matrix small = matrix_of(events_of(fastdds), {.readers = 1});
+  const Matrix larger = matrix_of(events_of(fastdds), {});
   EXPECT_EQ(small.at("opening of the writer side, async run"), 'u');
   EXPECT_EQ(larger.at("opening of the writer side, async run"), 'X');
 }
