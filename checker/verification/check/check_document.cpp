@@ -17,6 +17,7 @@
 #include "checker/verification/check/run_plots.hpp"
 #include "checker/verification/counterexample/stepper.hpp"
 #include "model/config/knobs/effective.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::checker {
 

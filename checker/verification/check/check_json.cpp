@@ -2,6 +2,7 @@
 #include "checker/engines/exact/health_json.hpp"
 #include "checker/presentation/json/describe.hpp"
 #include "checker/verification/check/check_report.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::props {
 
@@ -101,7 +102,7 @@ template <class V>
 void describe(V& v, const ReportInContext& shown) {
   const model::DdsProfile& dds = shown.context.scenario.dds;
   v("scenario", shown.context.name);
-  v("implementation", model::is_fastdds(dds) ? "fastdds" : "paper");
+  v("implementation", model::traits_of(dds).name);
   v("seconds", shown.report.seconds);
   v("summary", Summary{shown.report});
   v("gate", shown.context.gate);

@@ -1,6 +1,7 @@
 // The JSON of the catalogue.
 #include "checker/presentation/json/describe.hpp"
 #include "checker/verification/check/properties_report.hpp"
+#include "model/implementations.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::props {
@@ -10,7 +11,10 @@ void describe(V& v, const Property& property) {
   v("id", property.id);
   v("statement", property.statement);
   v("formal", property.formal);
-  v("fastdds", statement_of(property, model::ImplementationKind::fastdds));
+  for (const model::ImplementationKind kind : model::implementations) {
+    if (kind == model::default_implementation) continue;
+    v(model::traits_of(kind).name, statement_of(property, kind));
+  }
   v("assumptions", property.assumptions);
   v("engines", property.engines);
   v("source", property.source);

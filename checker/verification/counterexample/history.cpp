@@ -242,14 +242,11 @@ class Recorder final : public model::Probe {
 
 History record(const props::Counterexample& counterexample) {
   const model::Scenario& scenario = counterexample.scenario;
-  const bool fastdds = model::is_fastdds(scenario.dds);
-  History history{
-      scenario,
-      model::Topology{scenario.deployment, scenario.dds.descriptors,
-                      fastdds ? model::SameHostPairs::included : model::SameHostPairs::left_out},
-      model::trace::channel_names(scenario.wireless),
-      {},
-      {}};
+  History history{scenario,
+                  model::topology_of(scenario),
+                  model::trace::channel_names(scenario.wireless),
+                  {},
+                  {}};
   Recorder recorder{history, counterexample.event};
   model::RunOptions options;
   options.probe = &recorder;

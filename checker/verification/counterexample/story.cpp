@@ -10,6 +10,7 @@
 #include "checker/presentation/text/paragraph.hpp"
 #include "checker/verification/counterexample/acts.hpp"
 #include "checker/verification/counterexample/selection.hpp"
+#include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/property.hpp"
 
@@ -101,8 +102,7 @@ std::string deployment_text(const model::Scenario& scenario) {
     }
     if (participants.size() > listed) text += "; …";
   }
-  const bool fastdds = model::is_fastdds(scenario.dds);
-  return text + (fastdds ? "; Fast DDS's writer" : "; the paper's writer") + "; " +
+  return text + fmt::format("; {}'s writer; ", model::traits_of(scenario.dds).whose) +
          network_text(scenario.wireless);
 }
 

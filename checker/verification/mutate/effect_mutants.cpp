@@ -62,7 +62,7 @@ CatalogueEntry entry_of(const comp::EffectMutation& mutation) {
   entry.mutant.description =
       fmt::format("{}: “{}” {}", mutation.effect, mutation.what, in_words(mutation.change));
   entry.mutant.rules.effects.push_back(mutation);
-  entry.concerns = mutation.composition == "paper" ? Concerns::paper : Concerns::fastdds;
+  entry.concerns = where_is_composition(mutation.composition);
   entry.kind = Kind::effect;
   entry.survives_because = survives_because(mutation);
   return entry;

@@ -25,19 +25,18 @@ void run(const model::Scenario& scenario, const model::Mutation* mutation, model
 
 }  // namespace
 
-std::vector<EffectTrials::Correct>& EffectTrials::drawn(Concerns concerns) {
-  const model::ImplementationKind kind = implementations_of(concerns).front();
-  std::vector<Correct>& list = drawn_[static_cast<std::size_t>(kind)];
+std::vector<EffectTrials::Correct>& EffectTrials::drawn(model::ImplementationKind implementation) {
+  std::vector<Correct>& list = drawn_[model::index_of(implementation)];
   for (std::uint64_t seed = 1; list.size() < runs; ++seed) {
     Correct& correct = list.emplace_back();
-    correct.scenario = props::draw_scenario(seed, size, {.implementation = kind});
+    correct.scenario = props::draw_scenario(seed, size, {.implementation = implementation});
     run(correct.scenario, nullptr, correct.log);
   }
   return list;
 }
 
 bool EffectTrials::are_followed(const CatalogueEntry& entry) {
-  return std::ranges::none_of(drawn(entry.concerns), [&](const Correct& correct) {
+  return std::ranges::none_of(drawn(entry.concerns.front()), [&](const Correct& correct) {
     const auto monitor = props::make_monitor("composition.followed", correct.scenario);
     run(correct.scenario, &entry.mutant.rules, *monitor);
     return monitor->violation().has_value();
@@ -45,7 +44,7 @@ bool EffectTrials::are_followed(const CatalogueEntry& entry) {
 }
 
 bool EffectTrials::makes_a_difference(const CatalogueEntry& entry) {
-  return std::ranges::any_of(drawn(entry.concerns), [&](const Correct& correct) {
+  return std::ranges::any_of(drawn(entry.concerns.front()), [&](const Correct& correct) {
     props::RunLog log;
     run(correct.scenario, &entry.mutant.rules, log);
     return props::first_difference(log, correct.log).has_value();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "checker/verification/mutate/mutants.hpp"
+#include "model/implementations.hpp"
 #include "model/scenario.hpp"
 #include "props/laws/run_log.hpp"
 
@@ -27,9 +28,9 @@ class EffectTrials {
     props::RunLog log;
   };
   /// The random scenarios of an implementation, and their correct runs.
-  std::vector<Correct>& drawn(Concerns concerns);
+  std::vector<Correct>& drawn(model::ImplementationKind implementation);
 
-  std::array<std::vector<Correct>, 2> drawn_;
+  std::array<std::vector<Correct>, model::implementations.size()> drawn_;
 };
 
 }  // namespace stormproof::mutate

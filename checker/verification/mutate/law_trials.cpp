@@ -34,7 +34,7 @@ bool shows_in_runs(const checker::Mutant& mutant) {
 }
 
 std::vector<LawTrials::Ground>& LawTrials::grounds(model::ImplementationKind implementation) {
-  std::vector<Ground>& list = grounds_[static_cast<std::size_t>(implementation)];
+  std::vector<Ground>& list = grounds_[model::index_of(implementation)];
   if (!list.empty()) return list;
   const props::Simulate correct = simulator(nullptr);
   for (Trial& trial : trials(implementation)) {
@@ -52,7 +52,7 @@ std::vector<std::string> LawTrials::killers(const CatalogueEntry& entry) {
   const std::span<const props::Law> laws = props::laws();
   const props::Simulate simulate = simulator(&entry.mutant);
   std::vector<bool> kills(laws.size());
-  for (const auto implementation : implementations_of(entry.concerns)) {
+  for (const auto implementation : entry.concerns) {
     for (const Ground& ground : grounds(implementation)) {
       for (std::size_t k = 0; k < laws.size(); ++k) {
         if (kills[k] || !ground.holds[k]) continue;

@@ -8,6 +8,7 @@
 
 #include "checker/verification/mutate/mutants.hpp"
 #include "checker/verification/mutate/trial_scenarios.hpp"
+#include "model/implementations.hpp"
 #include "props/laws/law.hpp"
 
 namespace stormproof::mutate {
@@ -30,7 +31,7 @@ class LawTrials {
   };
   std::vector<Ground>& grounds(model::ImplementationKind implementation);
 
-  std::array<std::vector<Ground>, 2> grounds_;
+  std::array<std::vector<Ground>, model::implementations.size()> grounds_;
 };
 
 }  // namespace stormproof::mutate

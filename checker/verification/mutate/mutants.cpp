@@ -21,13 +21,14 @@ CatalogueEntry named(Kind kind, std::string id, std::string description, Concern
   entry.kind = kind;
   entry.mutant.id = std::move(id);
   entry.mutant.description = std::move(description);
-  entry.concerns = concerns;
+  entry.concerns = std::move(concerns);
   return entry;
 }
 
 CatalogueEntry event(std::string id, std::string description, EventKind kind, Change change,
-                     Concerns concerns, Nanoseconds by = {}, EventClass event_class = {}) {
-  CatalogueEntry entry = named(Kind::event, std::move(id), std::move(description), concerns);
+                     Nanoseconds by = {}, EventClass event_class = {}) {
+  CatalogueEntry entry =
+      named(Kind::event, std::move(id), std::move(description), where_happens(kind));
   model::EventMutation mutation;
   mutation.kind = kind;
   mutation.change = change;
@@ -38,75 +39,72 @@ CatalogueEntry event(std::string id, std::string description, EventKind kind, Ch
 }
 
 void add_events(std::vector<CatalogueEntry>& list) {
-  constexpr auto both = Concerns::both;
-  constexpr auto paper = Concerns::paper;
   list.insert(
       list.end(),
       {event("heartbeat-not-rescheduled", "the next HEARTBEAT expiry is forgotten",
-             EventKind::heartbeat_expiry, Change::forget, both),
+             EventKind::heartbeat_expiry, Change::forget),
        event("acknack-forgotten", "the answer to a HEARTBEAT is forgotten",
-             EventKind::acknack_generation, Change::forget, both),
+             EventKind::acknack_generation, Change::forget),
        event("repair-forgotten", "the repair generation is forgotten", EventKind::repair_generation,
-             Change::forget, paper),
+             Change::forget),
        event("response-forgotten", "the nack response is forgotten", EventKind::nack_response,
-             Change::forget, Concerns::fastdds),
+             Change::forget),
        event("suppression-end-forgotten", "the end of a suppression is forgotten",
-             EventKind::suppression_end, Change::forget, both),
+             EventKind::suppression_end, Change::forget),
        event("expiry-doubled", "every HEARTBEAT expiry is scheduled twice",
-             EventKind::heartbeat_expiry, Change::duplicate, both),
+             EventKind::heartbeat_expiry, Change::duplicate),
        event("repair-doubled", "the repair generation is scheduled twice",
-             EventKind::repair_generation, Change::duplicate, paper),
+             EventKind::repair_generation, Change::duplicate),
        event("acknack-a-nanosecond-early", "an ACKNACK is generated 1 ns before it is due",
-             EventKind::acknack_generation, Change::shift, both, Nanoseconds{-1}),
+             EventKind::acknack_generation, Change::shift, Nanoseconds{-1}),
        event("suppression-a-nanosecond-short", "a suppression ends 1 ns too early",
-             EventKind::suppression_end, Change::shift, both, Nanoseconds{-1}),
+             EventKind::suppression_end, Change::shift, Nanoseconds{-1}),
        event("repair-a-nanosecond-late", "a repair is generated 1 ns too late",
-             EventKind::repair_generation, Change::shift, paper, Nanoseconds{1}),
+             EventKind::repair_generation, Change::shift, Nanoseconds{1}),
        event("reception-after-decision", "a reception comes after the decisions of its instant",
-             EventKind::delayed_reception, Change::reclass, paper, {}, EventClass::dispatch),
+             EventKind::delayed_reception, Change::reclass, {}, EventClass::dispatch),
        event("service-after-decision", "the end of a service comes after decisions",
-             EventKind::service_finished, Change::reclass, both, {}, EventClass::protocol),
+             EventKind::service_finished, Change::reclass, {}, EventClass::protocol),
        event("dispatch-first", "the channel picks before the decisions of the instant",
-             EventKind::dispatch, Change::reclass, both, {}, EventClass::service),
+             EventKind::dispatch, Change::reclass, {}, EventClass::service),
        event("acknack-before-reception", "an ACKNACK is generated before receptions of its instant",
-             EventKind::acknack_generation, Change::reclass, both, {}, EventClass::service)});
+             EventKind::acknack_generation, Change::reclass, {}, EventClass::service)});
 }
 
 void add_rules(std::vector<CatalogueEntry>& list) {
-  CatalogueEntry live =
-      named(Kind::snapshot, "live-bitmap", "an ACKNACK asks for what is missing when it arrives",
-            Concerns::both);
+  CatalogueEntry live = named(Kind::snapshot, "live-bitmap",
+                              "an ACKNACK asks for what is missing when it arrives", everywhere());
   live.mutant.rules.live_bitmaps = true;
   list.push_back(std::move(live));
 
   const auto knob = [&](std::string id, std::string description, Concerns concerns,
                         std::function<void(model::Scenario&)> change) {
-    CatalogueEntry entry = named(Kind::knob, std::move(id), std::move(description), concerns);
+    CatalogueEntry entry =
+        named(Kind::knob, std::move(id), std::move(description), std::move(concerns));
     entry.mutant.knobs = std::move(change);
     list.push_back(std::move(entry));
   };
   knob(
-      "additive-timers", "every suppression end adds an expiry", Concerns::paper,
+      "additive-timers", "every suppression end adds an expiry", where_rules_are_knobs(),
       [](model::Scenario& s) { s.dds.sedp.heartbeat_timer = model::HeartbeatTimerKind::additive; });
-  knob("suppression-zero", "a suppression lasts no time", Concerns::both,
+  knob("suppression-zero", "a suppression lasts no time", everywhere(),
        [](model::Scenario& s) { s.dds.sedp.nack_suppression_duration = Nanoseconds{0}; });
   knob("attempts-mistake-interval", "initial ACKNACKs double a constant interval, or keep another",
-       Concerns::both, [](model::Scenario& s) {
+       everywhere(), [](model::Scenario& s) {
          using enum model::InitialAckNackInterval;
          model::InitialAckNackInterval& interval = s.dds.sedp.initial_acknack_interval;
          interval = interval == doubling ? constant : doubling;
        });
   list.back().survives_because =
       "no property depends on the time between initial ACKNACKs; law.initial-attempts does";
-  knob("queue-twice-as-large", "the source queue admits twice its bytes", Concerns::both,
+  knob("queue-twice-as-large", "the source queue admits twice its bytes", everywhere(),
        [](model::Scenario& s) {
          model::Bytes& w = s.wireless.source_queue_bytes;
          if (w != model::WirelessProfile::unlimited) w = w * 2;
        });
 
   const auto order = [&](std::string id, std::string description, checker::OrderRule rule) {
-    CatalogueEntry entry =
-        named(Kind::order, std::move(id), std::move(description), Concerns::both);
+    CatalogueEntry entry = named(Kind::order, std::move(id), std::move(description), everywhere());
     entry.mutant.order = rule;
     list.push_back(std::move(entry));
   };
@@ -119,12 +117,6 @@ void add_rules(std::vector<CatalogueEntry>& list) {
 }
 
 }  // namespace
-
-std::vector<model::ImplementationKind> implementations_of(Concerns concerns) {
-  using enum model::ImplementationKind;
-  if (concerns == Concerns::both) return {paper, fastdds};
-  return {concerns == Concerns::paper ? paper : fastdds};
-}
 
 std::vector<CatalogueEntry> mutants() {
   std::vector<CatalogueEntry> list = table_mutants();

@@ -11,11 +11,9 @@
 #include <vector>
 
 #include "checker/engines/bounds/check_request.hpp"
+#include "checker/verification/mutate/concerns.hpp"
 
 namespace stormproof::mutate {
-
-/// Which runs a mutant can show itself in.
-enum class Concerns : std::uint8_t { both, paper, fastdds };
 
 /// Where the mistake is.
 enum class Kind : std::uint8_t { table, event, snapshot, knob, order, effect };
@@ -27,14 +25,11 @@ inline constexpr std::array<std::string_view, 6> kind_names{"table", "event", "s
 
 struct CatalogueEntry {
   checker::Mutant mutant;
-  Concerns concerns = Concerns::both;
+  Concerns concerns = everywhere();  ///< in whose runs it can show itself
   /// Why no property can notice it, if that is known; empty otherwise.
   std::string survives_because;
   Kind kind = Kind::table;
 };
-
-/// The implementations whose runs those are; at least one.
-[[nodiscard]] std::vector<model::ImplementationKind> implementations_of(Concerns concerns);
 
 /// All mutants; ids are unique, and stable as long as the rules stay as they are.
 [[nodiscard]] std::vector<CatalogueEntry> mutants();

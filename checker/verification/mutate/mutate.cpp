@@ -17,6 +17,7 @@
 #include "checker/verification/mutate/effect_trials.hpp"
 #include "checker/verification/mutate/law_trials.hpp"
 #include "checker/verification/mutate/trial_scenarios.hpp"
+#include "model/implementations.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::mutate {
@@ -118,7 +119,7 @@ class Mutator {
 
   /// The grounds of an implementation; what holds there is found out once.
   std::vector<Ground>& grounds(model::ImplementationKind implementation) {
-    std::vector<Ground>& list = grounds_[static_cast<std::size_t>(implementation)];
+    std::vector<Ground>& list = grounds_[model::index_of(implementation)];
     if (!list.empty()) return list;
     const std::vector<Trial> all = trials(implementation);
     const auto add = [&](const Trial& trial, EngineFunction engine) {
@@ -140,7 +141,7 @@ class Mutator {
 
   MutantResult try_out(const CatalogueEntry& entry) {
     Ids killers;
-    for (const auto implementation : implementations_of(entry.concerns)) {
+    for (const auto implementation : entry.concerns) {
       for (const Ground& ground : grounds(implementation)) {
         Ids asked = without(ground.hold, killers);
         if (!forgets(entry)) asked = without(asked, {of_causes.begin(), of_causes.end()});
@@ -156,7 +157,7 @@ class Mutator {
   MutantResult try_effect(const CatalogueEntry& entry) {
     Ids killers;
     const auto ask = [&](EngineFunction engine, const Ids& properties) {
-      for (const Ground& ground : grounds(implementations_of(entry.concerns).front())) {
+      for (const Ground& ground : grounds(entry.concerns.front())) {
         if (ground.engine != engine || !killers.empty()) continue;
         Ids asked;
         std::ranges::set_intersection(ground.hold, properties, std::inserter(asked, asked.end()));
@@ -200,7 +201,7 @@ class Mutator {
 
   const MutateOptions& options_;
   smt::Claims claims_;
-  std::array<std::vector<Ground>, 2> grounds_;
+  std::array<std::vector<Ground>, model::implementations.size()> grounds_;
   LawTrials laws_;
   EffectTrials effects_;
 };

@@ -58,8 +58,7 @@ std::size_t position(const RowName& name) {
   return found;
 }
 
-CatalogueEntry entry(std::string id, std::string description, const RowName& row, Kind kind,
-                     Concerns concerns) {
+CatalogueEntry entry(std::string id, std::string description, const RowName& row, Kind kind) {
   CatalogueEntry result;
   result.mutant.id = std::move(id);
   result.mutant.description = std::move(description);
@@ -68,7 +67,7 @@ CatalogueEntry entry(std::string id, std::string description, const RowName& row
   mutation.row = position(row);
   mutation.kind = kind;
   result.mutant.rules.tables.push_back(mutation);
-  result.concerns = concerns;
+  result.concerns = where_is_fed(row.machine, row.event);
   return result;
 }
 
@@ -85,7 +84,6 @@ CatalogueEntry from(CatalogueEntry entry, std::string_view source) {
 }
 
 void add_descriptor_repair(std::vector<CatalogueEntry>& list) {
-  constexpr auto paper = Concerns::paper;
   const auto row = [](std::string_view source, std::string_view event, std::string_view target) {
     return RowName{"DescriptorRepair", source, event, target};
   };
@@ -97,67 +95,66 @@ void add_descriptor_repair(std::vector<CatalogueEntry>& list) {
   list.insert(
       list.end(),
       {entry("repair-never-requested", "an ACKNACK that lists a descriptor requests nothing",
-             request, Kind::drop_row, paper),
+             request, Kind::drop_row),
        entry("repair-never-generated", "a requested descriptor stays requested", due,
-             Kind::drop_row, paper),
+             Kind::drop_row),
        entry("repair-never-leaves", "a repair that has left the source stays queued", sent,
-             Kind::drop_row, paper),
+             Kind::drop_row),
        entry("suppression-never-ends", "a suppressed descriptor stays suppressed", ended,
-             Kind::drop_row, paper),
+             Kind::drop_row),
        entry("never-acknowledged", "an ACKNACK confirms nothing that is unacknowledged", confirm,
-             Kind::drop_row, paper),
+             Kind::drop_row),
        entry("suppressed-not-confirmed", "an ACKNACK confirms nothing that is suppressed",
-             row("S", "AckNackReceived", "A"), Kind::drop_row, paper),
+             row("S", "AckNackReceived", "A"), Kind::drop_row),
        entry("queued-not-confirmed", "an ACKNACK confirms nothing that is queued",
-             row("Q", "AckNackReceived", "A"), Kind::drop_row, paper),
+             row("Q", "AckNackReceived", "A"), Kind::drop_row),
        entry("requests-everything", "an ACKNACK requests whatever it does not mention, too",
-             request, Kind::ignore_guard, paper),
+             request, Kind::ignore_guard),
        lead_to(entry("requests-unlisted", "an ACKNACK requests what it does not list", confirm,
-                     Kind::retarget, paper),
+                     Kind::retarget),
                "R"),
        entry("acknowledges-everything", "an ACKNACK confirms also what it lists as missing",
-             confirm, Kind::ignore_guard, paper),
+             confirm, Kind::ignore_guard),
        entry("acknowledges-queued", "an ACKNACK confirms whatever is queued",
-             row("Q", "AckNackReceived", "A"), Kind::ignore_guard, paper),
+             row("Q", "AckNackReceived", "A"), Kind::ignore_guard),
        entry("bitmap-inverted", "the bitmap is read as what has been received", request,
-             Kind::negate_guard, paper),
+             Kind::negate_guard),
        entry("confirmation-inverted", "what the bitmap lists is confirmed", confirm,
-             Kind::negate_guard, paper),
+             Kind::negate_guard),
        lead_to(entry("no-suppression", "a repair that has left the source can be asked for at once",
-                     sent, Kind::retarget, paper),
+                     sent, Kind::retarget),
                "U"),
        lead_to(entry("delivery-assumed", "the end of the suppression counts as a confirmation",
-                     ended, Kind::retarget, paper),
+                     ended, Kind::retarget),
                "A"),
        lead_to(entry("request-skips-generation", "a requested descriptor counts as queued", request,
-                     Kind::retarget, paper),
+                     Kind::retarget),
                "Q"),
        lead_to(entry("repair-returns-to-requested", "the end of the suppression requests again",
-                     ended, Kind::retarget, paper),
+                     ended, Kind::retarget),
                "R"),
        lead_to(from(entry("acknowledgment-not-final", "an older ACKNACK takes a confirmation back",
-                          request, Kind::copy_row, paper),
+                          request, Kind::copy_row),
                     "A"),
                "R"),
        lead_to(from(entry("suppressed-requests", "requests are accepted during the suppression",
-                          request, Kind::copy_row, paper),
+                          request, Kind::copy_row),
                     "S"),
                "R"),
        lead_to(from(entry("queued-requests", "requests are accepted while the repair is queued",
-                          request, Kind::copy_row, paper),
+                          request, Kind::copy_row),
                     "Q"),
                "R"),
        lead_to(from(entry("repairs-unasked", "repair generation takes all that is unacknowledged",
-                          due, Kind::copy_row, paper),
+                          due, Kind::copy_row),
                     "U"),
                "Q"),
        entry("repair-not-scheduled", "a request does not schedule the repair generation", request,
-             Kind::drop_action, paper),
-       entry("repair-not-sent", "a due repair is queued without DATA", due, Kind::drop_action,
-             paper)});
-  CatalogueEntry rearm = entry("suppression-does-not-rearm",
-                               "the end of a suppression does not arm the HEARTBEAT timer", ended,
-                               Kind::drop_action, paper);
+             Kind::drop_action),
+       entry("repair-not-sent", "a due repair is queued without DATA", due, Kind::drop_action)});
+  CatalogueEntry rearm =
+      entry("suppression-does-not-rearm",
+            "the end of a suppression does not arm the HEARTBEAT timer", ended, Kind::drop_action);
   rearm.survives_because =
       "With a single timer the rule has no effect: a descriptor that leaves S is not acknowledged, "
       "so the timer of its writer is armed already (HeartbeatTimer, Idle on SuppressionEnded, "
@@ -167,59 +164,55 @@ void add_descriptor_repair(std::vector<CatalogueEntry>& list) {
 }
 
 void add_reader(std::vector<CatalogueEntry>& list) {
-  constexpr auto both = Concerns::both;
   const auto row = [](std::string_view source, std::string_view event, std::string_view target) {
     return RowName{"DiscoveryReader", source, event, target};
   };
   list.insert(
       list.end(),
       {entry("heartbeat-ignored", "a reader that misses something does not answer HEARTBEATs",
-             row("Recognised", "HeartbeatReceived", "Recognised"), Kind::drop_row, both),
+             row("Recognised", "HeartbeatReceived", "Recognised"), Kind::drop_row),
        entry("complete-reader-silent", "a reader that has everything does not answer HEARTBEATs",
-             row("Complete", "HeartbeatReceived", "Complete"), Kind::drop_row, both),
+             row("Complete", "HeartbeatReceived", "Complete"), Kind::drop_row),
        entry("last-data-dropped", "the DATA that completes a reader is dropped",
-             row("Recognised", "DataReceived", "Complete"), Kind::drop_row, both),
+             row("Recognised", "DataReceived", "Complete"), Kind::drop_row),
        entry("complete-too-early", "every DATA completes the reader",
-             row("Recognised", "DataReceived", "Complete"), Kind::ignore_guard, both),
+             row("Recognised", "DataReceived", "Complete"), Kind::ignore_guard),
        lead_to(entry("opens-complete", "a reader side opens as if nothing were missing",
-                     row("Unknown", "AnnouncementReceived", "Recognised"), Kind::retarget, both),
+                     row("Unknown", "AnnouncementReceived", "Recognised"), Kind::retarget),
                "Complete"),
        entry("acknack-not-sent", "a due ACKNACK is not sent",
-             row("Recognised", "AckNackDue", "Recognised"), Kind::drop_action, both),
+             row("Recognised", "AckNackDue", "Recognised"), Kind::drop_action),
        entry("data-not-taken", "DATA changes nothing at the receiver",
-             row("Recognised", "DataReceived", "Recognised"), Kind::drop_action, both),
+             row("Recognised", "DataReceived", "Recognised"), Kind::drop_action),
        entry("initial-acknack-not-sent", "a due initial ACKNACK has no row",
-             row("Recognised", "InitialAckNackDue", "Recognised"), Kind::drop_row, both)});
+             row("Recognised", "InitialAckNackDue", "Recognised"), Kind::drop_row)});
 }
 
 void add_timers(std::vector<CatalogueEntry>& list) {
-  constexpr auto both = Concerns::both;
   const auto timer = [](std::string_view source, std::string_view event, std::string_view target) {
     return RowName{"HeartbeatTimer", source, event, target};
   };
   list.insert(
       list.end(),
       {entry("expiry-not-handled", "an expiry with nothing unacknowledged has no row",
-             RowName{"HeartbeatTimer", "Armed", "Expired", "Idle"}, Kind::drop_row, both),
+             RowName{"HeartbeatTimer", "Armed", "Expired", "Idle"}, Kind::drop_row),
        entry("suppression-arms-again", "the end of a suppression arms an armed timer again",
-             timer("Armed", "SuppressionEnded", "Armed"), Kind::ignore_guard, Concerns::paper),
+             timer("Armed", "SuppressionEnded", "Armed"), Kind::ignore_guard),
        entry("timer-never-dies", "an expiry with nothing unacknowledged ends nothing",
-             timer("Armed", "Expired", "Idle"), Kind::negate_guard, both),
+             timer("Armed", "Expired", "Idle"), Kind::negate_guard),
        entry("timer-not-scheduled", "arming an idle timer schedules nothing",
-             timer("Idle", "ArmRequested", "Armed"), Kind::drop_action, both),
+             timer("Idle", "ArmRequested", "Armed"), Kind::drop_action),
        lead_to(entry("armed-looks-idle", "an armed timer counts as idle",
-                     timer("Idle", "ArmRequested", "Armed"), Kind::retarget, both),
+                     timer("Idle", "ArmRequested", "Armed"), Kind::retarget),
                "Idle"),
        entry("adaptive-cycle-never-ends", "a cycle of the adaptive policy has no end",
-             timer("Awaiting", "CycleEnded", "Pacing"), Kind::drop_row, both),
+             timer("Awaiting", "CycleEnded", "Pacing"), Kind::drop_row),
        entry("attempts-never-end", "an initial ACKNACK is tried whatever has been seen",
-             RowName{"InitialAckNack", "Waiting", "AttemptDue", "Waiting"}, Kind::ignore_guard,
-             both),
+             RowName{"InitialAckNack", "Waiting", "AttemptDue", "Waiting"}, Kind::ignore_guard),
        entry("attempts-end-unseen", "initial ACKNACKs end before a HEARTBEAT has been seen",
-             RowName{"InitialAckNack", "Waiting", "AttemptDue", "Done"}, Kind::negate_guard, both),
+             RowName{"InitialAckNack", "Waiting", "AttemptDue", "Done"}, Kind::negate_guard),
        entry("announcements-end", "the periodic announcements have no row",
-             RowName{"Announcer", "Periodic", "AnnouncementDue", "Periodic"}, Kind::drop_row,
-             both)});
+             RowName{"Announcer", "Periodic", "AnnouncementDue", "Periodic"}, Kind::drop_row)});
 }
 
 void add_channel(std::vector<CatalogueEntry>& list) {
@@ -228,15 +221,14 @@ void add_channel(std::vector<CatalogueEntry>& list) {
   };
   list.insert(list.end(),
               {entry("channel-idles", "a channel that becomes free does not look who waits",
-                     row("Idle", "EffectsDone", "Idle"), Kind::drop_row, Concerns::both),
+                     row("Idle", "EffectsDone", "Idle"), Kind::drop_row),
                entry("dispatch-forgotten", "a request at an idle channel schedules no dispatch",
-                     row("Idle", "ServiceRequested", "Idle"), Kind::drop_action, Concerns::both),
+                     row("Idle", "ServiceRequested", "Idle"), Kind::drop_action),
                entry("dispatch-doubled", "every request at an idle channel schedules a dispatch",
-                     row("Idle", "ServiceRequested", "Idle"), Kind::ignore_guard, Concerns::both)});
+                     row("Idle", "ServiceRequested", "Idle"), Kind::ignore_guard)});
 }
 
 void add_fastdds(std::vector<CatalogueEntry>& list) {
-  constexpr auto fastdds = Concerns::fastdds;
   const auto row = [](std::string_view source, std::string_view event, std::string_view target) {
     return RowName{"ChangeForReader", source, event, target};
   };
@@ -244,41 +236,37 @@ void add_fastdds(std::vector<CatalogueEntry>& list) {
   list.insert(
       list.end(),
       {entry("base-ignored", "an ACKNACK confirms whatever its base says",
-             row("U", "AckNackReceived", "A"), Kind::ignore_guard, fastdds),
+             row("U", "AckNackReceived", "A"), Kind::ignore_guard),
        entry("base-inverted", "an ACKNACK confirms what is not below its base",
-             row("S", "AckNackReceived", "A"), Kind::negate_guard, fastdds),
-       entry("change-never-requested", "a listed change is not requested", request, Kind::drop_row,
-             fastdds),
+             row("S", "AckNackReceived", "A"), Kind::negate_guard),
+       entry("change-never-requested", "a listed change is not requested", request, Kind::drop_row),
        entry("request-without-response", "a request asks for no nack response", request,
-             Kind::drop_action, fastdds),
+             Kind::drop_action),
        entry("response-without-queue", "the nack response puts nothing into the queue",
-             row("R", "NackResponseDue", "Q"), Kind::drop_action, fastdds),
+             row("R", "NackResponseDue", "Q"), Kind::drop_action),
        entry("change-stays-suppressed", "the end of the suppression changes nothing",
-             row("S", "SuppressionEnded", "U"), Kind::drop_row, fastdds),
+             row("S", "SuppressionEnded", "U"), Kind::drop_row),
        lead_to(entry("change-assumed-delivered", "the end of the suppression is a confirmation",
-                     row("S", "SuppressionEnded", "U"), Kind::retarget, fastdds),
+                     row("S", "SuppressionEnded", "U"), Kind::retarget),
                "A"),
        lead_to(entry("serialized-not-suppressed", "a serialized change can be asked for at once",
-                     row("Q", "Serialized", "S"), Kind::retarget, fastdds),
+                     row("Q", "Serialized", "S"), Kind::retarget),
                "U"),
        entry("initial-acknack-keeps-state", "an initial ACKNACK takes no confirmation back",
-             row("A", "InitialAckNackReceived", "U"), Kind::drop_row, fastdds),
+             row("A", "InitialAckNackReceived", "U"), Kind::drop_row),
        lead_to(from(entry("single-shot-doubled", "a pending timer is scheduled once more",
-                          RowName{"SingleShot", "Idle", "Requested", "Pending"}, Kind::copy_row,
-                          fastdds),
+                          RowName{"SingleShot", "Idle", "Requested", "Pending"}, Kind::copy_row),
                     "Pending"),
                "Pending"),
        lead_to(entry("single-shot-stuck", "a timer that was due counts as pending",
-                     RowName{"SingleShot", "Pending", "Due", "Idle"}, Kind::retarget, fastdds),
+                     RowName{"SingleShot", "Pending", "Due", "Idle"}, Kind::retarget),
                "Pending"),
        entry("control-reader-silent", "a control-only reader does not answer HEARTBEATs",
-             RowName{"ControlReader", "Open", "HeartbeatReceived", "Open"}, Kind::drop_row,
-             fastdds),
+             RowName{"ControlReader", "Open", "HeartbeatReceived", "Open"}, Kind::drop_row),
        entry("control-writer-silent", "a control-only writer does not answer initial ACKNACKs",
-             RowName{"ControlWriter", "Open", "InitialAckNackReceived", "Open"}, Kind::drop_row,
-             fastdds),
+             RowName{"ControlWriter", "Open", "InitialAckNackReceived", "Open"}, Kind::drop_row),
        lead_to(entry("control-writer-closed", "a control-only writer that opens stays closed",
-                     RowName{"ControlWriter", "Closed", "Opened", "Open"}, Kind::retarget, fastdds),
+                     RowName{"ControlWriter", "Closed", "Opened", "Open"}, Kind::retarget),
                "Closed")});
 }
 

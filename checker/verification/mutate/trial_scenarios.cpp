@@ -1,6 +1,8 @@
 // Builds the trial scenarios.
 #include "checker/verification/mutate/trial_scenarios.hpp"
 
+#include "model/implementations.hpp"
+
 namespace stormproof::mutate {
 
 namespace {
@@ -36,7 +38,7 @@ model::Scenario crowded() {
   return scenario;
 }
 
-std::vector<Trial> paper_trials() {
+std::vector<Trial> trials_of(model::Of<fsm::composition::paper::Paper>) {
   std::vector<Trial> list;
   list.push_back({"one loss", quiet({6}), true});
   list.push_back({"many losses", quiet({4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 18, 20}), false});
@@ -54,9 +56,8 @@ std::vector<Trial> paper_trials() {
   return list;
 }
 
-std::vector<Trial> fastdds_trials() {
+std::vector<Trial> trials_of(model::Of<fsm::composition::fastdds::FastDds>) {
   const auto created_over_time = [](model::Scenario scenario) {
-    scenario.dds.implementation = model::ImplementationKind::fastdds;
     scenario.dds.spdp.payload_bytes = Bytes{252};
     std::int64_t done = 20;
     for (model::Participant& participant : scenario.deployment.participants) {
@@ -81,7 +82,10 @@ std::vector<Trial> fastdds_trials() {
 }  // namespace
 
 std::vector<Trial> trials(model::ImplementationKind implementation) {
-  return implementation == model::ImplementationKind::fastdds ? fastdds_trials() : paper_trials();
+  std::vector<Trial> list = model::visit_composition(
+      implementation, [](auto composition) { return trials_of(composition); });
+  for (Trial& trial : list) trial.scenario.dds.implementation = implementation;
+  return list;
 }
 
 }  // namespace stormproof::mutate
