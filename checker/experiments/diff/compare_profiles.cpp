@@ -11,6 +11,7 @@
 #include "checker/experiments/diff/diff.hpp"
 #include "checker/experiments/diff/normal_form.hpp"
 #include "model/config/knobs/effective.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::diff {
 
@@ -85,7 +86,9 @@ void judge(KnobChange& change, const model::DdsProfile& base, const model::DdsPr
   // In profiles that differ elsewhere a knob is idle only if neither of them reads it.
   change.matters = !same_runs && !(before != nullptr && after != nullptr);
   if (change.matters) return;
-  change.why = before != nullptr ? before->why : after != nullptr ? after->why : "";
+  change.why = before != nullptr  ? why_unread(*before, base)
+               : after != nullptr ? why_unread(*after, candidate)
+                                  : "";
 }
 
 Relation relation_of(const std::vector<KnobChange>& changes, bool same_runs) {
@@ -127,8 +130,8 @@ Comparison compare_profiles(const model::config::TracedProfile& base,
   const Values before = values_of(one);
   const Values after = values_of(other);
 
-  // Only the paper's writer has every knob.
-  const bool base_is_fuller = !model::is_fastdds(one);
+  // Where rules and sizes are built in, they are no knobs.
+  const bool base_is_fuller = !model::traits_of(one).fixed_rules;
   Comparison comparison;
   for (const std::string& key : base_is_fuller ? keys_of(before, after) : keys_of(after, before)) {
     KnobChange change{key, value_in(before, key), value_in(after, key), {}, {}, true, true, {}};

@@ -225,10 +225,7 @@ Side inner_side(const Logged& run, const Scenario& scenario) {
             fmt::format("the run has ended at {}", time_text(run.result.end_time)),
             {}};
   }
-  const bool fastdds = model::is_fastdds(scenario.dds);
-  const model::Topology topology{
-      scenario.deployment, scenario.dds.descriptors,
-      fastdds ? model::SameHostPairs::included : model::SameHostPairs::left_out};
+  const model::Topology topology = model::topology_of(scenario);
   const LoggedEvent& event = run.log.events.front();
   std::string text =
       fmt::format("{} is processed at {}", event_text(event, topology), time_text(event.time));

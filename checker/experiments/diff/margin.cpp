@@ -10,6 +10,7 @@
 #include "checker/experiments/diff/costs.hpp"
 #include "checker/experiments/diff/words.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::diff {
@@ -17,9 +18,10 @@ namespace stormproof::diff {
 namespace {
 
 void add_threshold(const model::DdsProfile& dds, bool constant_delay, Margin& margin) {
-  if (is_fastdds(dds)) {
+  const model::ImplementationTraits& traits = model::traits_of(dds);
+  if (traits.writer == model::Writer::stateful) {
     // The theorem about one descriptor does not carry over: its timers are shared by all readers.
-    margin.formula = "Fast DDS's shared timers leave no threshold above 0";
+    margin.formula = fmt::format("{}'s shared timers leave no threshold above 0", traits.whose);
     return;
   }
   const timeline::FreeThreshold threshold = timeline::free_threshold(dds.sedp, constant_delay);
@@ -106,7 +108,7 @@ MarginComparison compare_margins(const model::DdsProfile& base, const model::Dds
   add_load(costs, false, margins.before);
   add_load(costs, true, margins.after);
   const int load = compare_loads(costs, margins);
-  const bool comparable = is_fastdds(base) == is_fastdds(candidate);
+  const bool comparable = model::traits_of(base).writer == model::traits_of(candidate).writer;
   const int threshold =
       comparable ? compare_thresholds(margins.before, margins.after, margins.reason) : 0;
   // What the runs show counts before what the theorem guarantees.

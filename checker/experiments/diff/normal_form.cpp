@@ -1,17 +1,18 @@
-// The list, read off the rules of both implementations, and the normal form that follows from it.
+// The list, read off the rules of all implementations, and the normal form that follows from it.
 // Normal forms exist to be compared; with sizes that nobody reads set to their defaults, one need
 // not be a profile that a file could hold.
 #include "checker/experiments/diff/normal_form.hpp"
 
 #include <numeric>
 
+#include <fmt/core.h>
+
 #include "checker/experiments/diff/diff.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::diff {
 
 namespace {
-
-using model::is_fastdds;
 
 using Dds = model::DdsProfile;
 
@@ -30,14 +31,16 @@ bool asks_never_first(const Dds& dds) {
 }
 bool has_no_piggyback(const Dds& dds) { return dds.sedp.piggyback == model::Piggyback::off; }
 bool has_no_startup(const Dds& dds) { return dds.spdp.startup_announcements == 0; }
+bool has_fixed_rules(const Dds& dds) { return model::traits_of(dds).fixed_rules.has_value(); }
+bool has_fixed_sizes(const Dds& dds) { return !model::traits_of(dds).has_size_knobs; }
 bool sends_singly(const Dds& dds) {
-  return !is_fastdds(dds) && dds.sedp.grouping == model::Grouping::single;
+  return !has_fixed_sizes(dds) && dds.sedp.grouping == model::Grouping::single;
 }
 bool has_fixed_limit(const Dds& dds) {
-  return !is_fastdds(dds) && dds.sedp.grouping != model::Grouping::message;
+  return !has_fixed_sizes(dds) && dds.sedp.grouping != model::Grouping::message;
 }
 bool fills_messages_of_one_mtu(const Dds& dds) {
-  return !is_fastdds(dds) && dds.sedp.grouping == model::Grouping::message &&
+  return !has_fixed_sizes(dds) && dds.sedp.grouping == model::Grouping::message &&
          dds.sedp.grouping_limit_bytes == mtu_limit;
 }
 bool piggybacks_on_everything(const Dds& dds) {
@@ -72,7 +75,7 @@ void set_epsilon(Dds& to, const Dds& from) {
 void set_mtu(Dds& to, const Dds&) { to.sedp.grouping = model::Grouping::mtu; }
 void set_cumulative(Dds& to, const Dds&) { to.sedp.piggyback = model::Piggyback::cumulative; }
 
-constexpr std::string_view in_fastdds = "with implementation: fastdds this is a constant";
+constexpr std::string_view built_in{};
 constexpr std::string_view with_periodic = "with heartbeat_policy: periodic there are no cycles";
 constexpr std::string_view without_piggyback = "with piggyback: off no DATA carries a HEARTBEAT";
 
@@ -84,28 +87,28 @@ using Descriptors = model::DescriptorProfile;
 constexpr UnreadRule rules[] = {
     {"spdp.startup_period", has_no_startup, set_spdp<&Spdp::startup_period>,
      "with startup_announcements: 0 the period after the first announcement is spdp.period"},
-    {"spdp.payload_bytes", is_fastdds, set_spdp<&Spdp::payload_bytes>, in_fastdds},
-    {"sedp.relation_opening", is_fastdds, set_sedp<&Sedp::relation_opening>, in_fastdds},
-    {"sedp.initial_data", is_fastdds, set_sedp<&Sedp::initial_data>, in_fastdds},
-    {"sedp.unmatched", is_fastdds, set_sedp<&Sedp::unmatched>, in_fastdds},
+    {"spdp.payload_bytes", has_fixed_sizes, set_spdp<&Spdp::payload_bytes>, built_in},
+    {"sedp.relation_opening", has_fixed_rules, set_sedp<&Sedp::relation_opening>, built_in},
+    {"sedp.initial_data", has_fixed_rules, set_sedp<&Sedp::initial_data>, built_in},
+    {"sedp.unmatched", has_fixed_rules, set_sedp<&Sedp::unmatched>, built_in},
     {"sedp.unmatched", opens_by_receiver, set_sedp<&Sedp::unmatched>,
      "with relation_opening: receiver the reader side never opens after the writer side"},
-    {"sedp.initial_acknack", is_fastdds, set_sedp<&Sedp::initial_acknack>, in_fastdds},
+    {"sedp.initial_acknack", has_fixed_rules, set_sedp<&Sedp::initial_acknack>, built_in},
     {"sedp.initial_acknack", asks_never_first, set_sedp<&Sedp::initial_acknack>,
      "with initial_acknack_delay: 0 there are no initial ACKNACKs"},
     {"sedp.initial_acknack_interval", asks_never_first, set_sedp<&Sedp::initial_acknack_interval>,
      "with initial_acknack_delay: 0 there are no initial ACKNACKs"},
-    {"sedp.acknowledge", is_fastdds, set_sedp<&Sedp::acknowledge>, in_fastdds},
-    {"sedp.heartbeat_timer", is_fastdds, set_sedp<&Sedp::heartbeat_timer>, in_fastdds},
+    {"sedp.acknowledge", has_fixed_rules, set_sedp<&Sedp::acknowledge>, built_in},
+    {"sedp.heartbeat_timer", has_fixed_rules, set_sedp<&Sedp::heartbeat_timer>, built_in},
     {"sedp.heartbeat_timer", is_adaptive, set_sedp<&Sedp::heartbeat_timer>,
      "with heartbeat_policy: adaptive cycles replace the periodic HEARTBEAT timer"},
-    {"sedp.heartbeat_recipients", is_fastdds, set_sedp<&Sedp::heartbeat_recipients>, in_fastdds},
+    {"sedp.heartbeat_recipients", has_fixed_rules, set_sedp<&Sedp::heartbeat_recipients>, built_in},
     {"sedp.heartbeat_recipients", is_adaptive, set_sedp<&Sedp::heartbeat_recipients>,
      "with heartbeat_policy: adaptive each cycle chooses its recipients"},
     {"sedp.adaptive.min_period", is_periodic, set_adaptive<&Adaptive::min_period>, with_periodic},
     {"sedp.adaptive.max_period", is_periodic, set_adaptive<&Adaptive::max_period>, with_periodic},
     {"sedp.adaptive.epsilon", is_periodic, set_epsilon, with_periodic},
-    {"sedp.grouping", is_fastdds, set_sedp<&Sedp::grouping>, in_fastdds},
+    {"sedp.grouping", has_fixed_sizes, set_sedp<&Sedp::grouping>, built_in},
     {"sedp.grouping", fills_messages_of_one_mtu, set_mtu,
      "grouping: mtu and grouping: message with a limit of 1472 bytes are the same"},
     {"sedp.grouping_limit_bytes", has_fixed_limit, set_sedp<&Sedp::grouping_limit_bytes>,
@@ -114,28 +117,34 @@ constexpr UnreadRule rules[] = {
      "with piggyback_threshold_bytes: 0 any charge uses up the budget"},
     {"sedp.piggyback_threshold_bytes", has_no_piggyback, set_sedp<&Sedp::piggyback_threshold_bytes>,
      without_piggyback},
-    {"sedp.heartbeat_bytes", is_fastdds, set_sedp<&Sedp::heartbeat_bytes>, in_fastdds},
-    {"sedp.acknack_bytes", is_fastdds, set_sedp<&Sedp::acknack_bytes>, in_fastdds},
-    {"sedp.piggyback_heartbeat_bytes", is_fastdds, set_sedp<&Sedp::piggyback_heartbeat_bytes>,
-     in_fastdds},
+    {"sedp.heartbeat_bytes", has_fixed_sizes, set_sedp<&Sedp::heartbeat_bytes>, built_in},
+    {"sedp.acknack_bytes", has_fixed_sizes, set_sedp<&Sedp::acknack_bytes>, built_in},
+    {"sedp.piggyback_heartbeat_bytes", has_fixed_sizes, set_sedp<&Sedp::piggyback_heartbeat_bytes>,
+     built_in},
     {"sedp.piggyback_heartbeat_bytes", has_no_piggyback, set_sedp<&Sedp::piggyback_heartbeat_bytes>,
      without_piggyback},
-    {"sedp.shared_header_bytes", is_fastdds, set_sedp<&Sedp::shared_header_bytes>, in_fastdds},
+    {"sedp.shared_header_bytes", has_fixed_sizes, set_sedp<&Sedp::shared_header_bytes>, built_in},
     {"sedp.shared_header_bytes", sends_singly, set_sedp<&Sedp::shared_header_bytes>,
      "with grouping: single no two descriptors share a header"},
-    // The numbers of default descriptors are constants of Fast DDS as well, but the deployment is
-    // laid out with them.
-    {"descriptors.default_bytes", is_fastdds, set_descriptors<&Descriptors::default_bytes>,
-     in_fastdds},
+    // The numbers of default descriptors are constants there as well, but the deployment is laid
+    // out with them.
+    {"descriptors.default_bytes", has_fixed_sizes, set_descriptors<&Descriptors::default_bytes>,
+     built_in},
     {"descriptors.default_bytes", has_no_default_descriptors,
      set_descriptors<&Descriptors::default_bytes>,
      "with default_publications: 0 and default_subscriptions: 0 no descriptor has this size"},
-    {"descriptors.user_bytes", is_fastdds, set_descriptors<&Descriptors::user_bytes>, in_fastdds},
+    {"descriptors.user_bytes", has_fixed_sizes, set_descriptors<&Descriptors::user_bytes>,
+     built_in},
 };
 
 }  // namespace
 
 std::span<const UnreadRule> unread_rules() { return rules; }
+
+std::string why_unread(const UnreadRule& rule, const model::DdsProfile& profile) {
+  if (!rule.why.empty()) return std::string{rule.why};
+  return fmt::format("with implementation: {} this is a constant", model::traits_of(profile).name);
+}
 
 const UnreadRule* unread_rule(const model::DdsProfile& profile, std::string_view key) {
   for (const UnreadRule& rule : rules) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "model/dds_profile.hpp"
@@ -18,8 +19,11 @@ struct UnreadRule {
   /// Gives the knob the value that it has in `from`; a rule about values that mean the same chooses
   /// one of them.
   void (*set)(model::DdsProfile& profile, const model::DdsProfile& from);
-  std::string_view why;  ///< one sentence
+  std::string_view why;  ///< one sentence; empty: it is built into the implementation
 };
+
+/// The sentence about a profile for which the rule holds.
+[[nodiscard]] std::string why_unread(const UnreadRule& rule, const model::DdsProfile& profile);
 
 /// In the order of the table. A knob may have several rules.
 [[nodiscard]] std::span<const UnreadRule> unread_rules();

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/implementations.hpp"
 #include "props/generators/space.hpp"
 
 namespace stormproof::diff {
@@ -96,9 +97,11 @@ class Series {
   }
 
   bool with_late_starts(std::uint32_t hosts) {
+    const bool creates_over_time =
+        model::traits_of(parts_.implementation).creates_endpoints_over_time;
     for (const std::uint32_t endpoints : {0U, 2U, 60U}) {
       for (const Starts starts : late_starts) {
-        if (starts.creation > 0 && !parts_.creates_over_time) continue;
+        if (starts.creation > 0 && !creates_over_time) continue;
         Scenario scenario = plain(hosts, endpoints);
         start(scenario, starts);
         if (until_each_end(scenario)) return true;
@@ -186,8 +189,7 @@ bool visit_small_scenarios(const SmallScenarios& parts, std::uint32_t participan
 
 bool visit_random_scenarios(const SmallScenarios& parts, Crowd crowd, const Visit& visit) {
   props::ScenarioSpace space;
-  space.implementation = parts.creates_over_time ? model::ImplementationKind::fastdds
-                                                 : model::ImplementationKind::paper;
+  space.implementation = parts.implementation;
   space.max_endpoints = 20;
   space.max_participants = crowd == Crowd::pair ? 2 : 6;
   const std::uint64_t count = crowd == Crowd::pair ? random_pairs : random_groups;

@@ -15,7 +15,8 @@ struct SmallScenarios {
   model::Nanoseconds suppression;  ///< the longer nack suppression duration of the two
   model::Nanoseconds horizon;      ///< time limit: late effects of both profiles fit in
   model::WirelessProfile shared;   ///< a shared channel without losses
-  bool creates_over_time = false;  ///< one of the profiles is of `implementation: fastdds`
+  /// Of one of the profiles; of one that creates endpoints over time, if there is one.
+  model::ImplementationKind implementation{};
 };
 
 /// Returning true ends the search.

@@ -15,6 +15,7 @@
 #include "checker/presentation/text/numbers.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
+#include "model/implementations.hpp"
 #include "props/generators/simpler.hpp"
 
 namespace stormproof::diff {
@@ -56,7 +57,8 @@ SmallScenarios parts_of(const Scenario& start, const DdsProfile& base,
     parts.shared = start.wireless;
     parts.shared.lost_packets.clear();
   }
-  parts.creates_over_time = model::is_fastdds(base) || model::is_fastdds(candidate);
+  parts.implementation =
+      (model::traits_of(base).creates_endpoints_over_time ? base : candidate).implementation;
   return parts;
 }
 

@@ -10,6 +10,7 @@
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/config/tree/quantities.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::fuzz {
 
@@ -248,7 +249,6 @@ std::string FuzzContext::single(const FuzzReport& report, std::uint64_t number) 
 
 Document document_of(const FuzzReport& report, const FuzzContext& context) {
   const model::Scenario& scenario = context.scenario;
-  const bool fastdds = model::is_fastdds(scenario.dds);
   const bool open = report.interrupted || report.runs.empty();
   Document document;
   document.title = "stormproof fuzz " + context.name;
@@ -258,7 +258,7 @@ Document document_of(const FuzzReport& report, const FuzzContext& context) {
   document.command = context.whole(report);
   document.subject =
       fmt::format("{}: {}, {}", context.name, plural(scenario.deployment.size(), "participant"),
-                  fastdds ? "Fast DDS's own rules" : "the rules of the closed-loop model");
+                  model::traits_of(scenario.dds).rules);
   document.answer = answer_text(report, scenario);
   add_ranges(document.blocks, report, scenario);
   document.blocks.emplace_back(verdicts(report, context));

@@ -11,6 +11,7 @@
 
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/tree/quantities.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::sensitivity {
 
@@ -103,7 +104,7 @@ constexpr std::array<DeploymentKnob, 4> deployment_knobs{{
     {"deployment.endpoints", "user endpoints in all; more or fewer for each participant",
      [](const Scenario&) { return true; }, endpoint_total, change_endpoints},
     {"deployment.loopback_delay", "delay of packets to the same host",
-     [](const Scenario& scenario) { return model::is_fastdds(scenario.dds); },
+     [](const Scenario& scenario) { return model::traits_of(scenario.dds).discovers_same_host; },
      [](const Deployment& deployment) { return config::print_duration(deployment.loopback_delay); },
      change_loopback},
     {"deployment.schedule", "all times that starts and endpoints_done are drawn from",

@@ -10,6 +10,7 @@
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/next_steps.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::report {
 
@@ -246,11 +247,10 @@ Section reading(const RunResult& result) {
 }
 
 void add_footer(Blocks& blocks, const Simulation& s) {
-  const bool fastdds = model::is_fastdds(s.scenario.dds);
   blocks.emplace_back(Paragraph{fmt::format(
       "{} events. This is the one trajectory of the model for these inputs, exact to the ns; {} "
       "states its rules and assumptions.",
-      grouped(s.result.events), fastdds ? "specs/guide/fastdds.md" : "specs/guide/model.md")});
+      grouped(s.result.events), model::traits_of(s.scenario.dds).guide)});
   if (s.result.counts.repair_data == 0) return;
   if (!s.samples.empty()) return;
   blocks.emplace_back(Paragraph{
