@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "model/implementations.hpp"
+
 namespace stormproof::capture {
 
 /// The part of a GUID that a participant and all its endpoints share.
@@ -65,7 +67,7 @@ inline constexpr std::array<Traffic, 5> all_traffic{
 
 /// The two bytes of a vendor, as one number.
 using VendorId = std::uint16_t;
-inline constexpr VendorId fastdds_vendor = 0x010f;
+inline constexpr VendorId fastdds_vendor = model::vendor::fastdds;
 /// "Fast DDS", "Cyclone DDS", …; "vendor 01.7f" if unknown.
 [[nodiscard]] std::string vendor_name(VendorId vendor);
 

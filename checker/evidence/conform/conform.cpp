@@ -14,6 +14,7 @@
 #include "checker/evidence/conform/reader_side.hpp"
 #include "checker/evidence/conform/words.hpp"
 #include "checker/evidence/conform/writer_side.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::conform {
 
@@ -193,11 +194,13 @@ model::config::Result<Conformance> conform(const Request& request) {
                       "discovery between hosts was expected, but all participants are on "
                       "one host"};
   }
-  if (!model::is_fastdds(request.dds)) {
-    return InputError{"--dds",
-                      "a capture can be held against a profile with `implementation: "
-                      "fastdds`; this one describes the paper's writer, which no "
-                      "program sends that way"};
+  const model::ImplementationTraits& traits = model::traits_of(request.dds);
+  if (traits.writer != model::Writer::stateful) {
+    return InputError{
+        "--dds",
+        fmt::format("a capture can be held against a profile with `implementation: "
+                    "fastdds`; this one describes {}'s writer{}",
+                    traits.whose, traits.vendor ? "" : ", which no program sends that way")};
   }
   if (request.dds.sedp.heartbeat_policy != model::HeartbeatPolicy::periodic) {
     return InputError{"--dds",

@@ -10,6 +10,7 @@
 
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::prediction {
 
@@ -139,7 +140,7 @@ model::config::Result<model::Scenario> scenario_of(const Configuration& configur
   const bool schedule_wanted = std::ranges::any_of(options.overrides, [](const std::string& set) {
     return set.starts_with("deployment.schedule");
   });
-  if (!model::is_fastdds(scenario->dds) && !schedule_wanted) {
+  if (!model::traits_of(scenario->dds).creates_endpoints_over_time && !schedule_wanted) {
     scenario = read(false);
     if (!scenario) return scenario.error();
   }

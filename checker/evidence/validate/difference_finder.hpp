@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "checker/evidence/validate/differences.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::validate {
 
@@ -26,7 +27,9 @@ class Finder {
   void add(const char* id, std::uint64_t count, std::string text) {
     if (count > 0) found_.push_back({id, std::move(text), count});
   }
-  [[nodiscard]] bool is_fastdds() const { return model::is_fastdds(scenario_.dds); }
+  [[nodiscard]] const model::ImplementationTraits& traits() const {
+    return model::traits_of(scenario_.dds);
+  }
   [[nodiscard]] const capture::Participant& captured(const CapturedParticipant& one) const {
     return conversation_.topology.participants[one.number];
   }

@@ -20,7 +20,7 @@ using report::grouped;
 std::vector<Difference> Finder::find() {
   who_takes_part();
   endpoints();
-  if (is_fastdds()) control_relations();
+  if (traits().has_control_relations) control_relations();
   creation();
   destinations();
   submessages();
@@ -43,7 +43,7 @@ void Finder::who_takes_part() {
   for (const CapturedParticipant& one : observation_.deployment.participants) {
     const capture::Participant& participant = captured(one);
     counted.insert(one.number);
-    if (is_fastdds() && participant.vendor != capture::fastdds_vendor) {
+    if (traits().vendor && participant.vendor != *traits().vendor) {
       ++others[capture::vendor_name(participant.vendor)];
     }
     if (!one.announced) ++unannounced;
@@ -51,7 +51,8 @@ void Finder::who_takes_part() {
   }
   for (const auto& [vendor, count] : others) {
     add("other-vendor", count,
-        fmt::format("{} participants are of {}; the profile describes Fast DDS", count, vendor));
+        fmt::format("{} participants are of {}; the profile describes {}", count, vendor,
+                    traits().whose));
   }
   add("unannounced", unannounced,
       fmt::format("{} participants never announce themselves in the capture; the model's announce "
@@ -155,8 +156,7 @@ void Finder::control_relations() {
                   grouped(captured_pairs), grouped(model_pairs)));
 }
 
-/// The paper's participants have all endpoints at their start, those of Fast DDS create them at
-/// equal intervals.
+/// Participants of the model have all endpoints at their start, or create them at equal intervals.
 void Finder::creation() {
   std::uint64_t late = 0;
   std::uint64_t uneven = 0;
@@ -169,7 +169,7 @@ void Finder::creation() {
     latest = std::max(latest, after);
     farthest = std::max(farthest, one.unevenness);
   }
-  if (is_fastdds()) {
+  if (traits().creates_endpoints_over_time) {
     add("uneven-creation", uneven,
         fmt::format("{} participants create endpoints up to {} earlier or later than at equal "
                     "intervals, as the model's do; so much `endpoints_done` varies from run to run",

@@ -63,7 +63,7 @@ void Finder::submessages() {
   add("other-builtin", messages,
       fmt::format("{} submessages of other built-in endpoints ({} bytes); the model has none",
                   grouped(messages), grouped(builtin.bytes)));
-  if (is_fastdds()) return;
+  if (traits().has_control_relations) return;
   const std::uint64_t control = of(Traffic::user).heartbeat + of(Traffic::user).acknack +
                                 of(Traffic::liveliness).heartbeat + of(Traffic::liveliness).acknack;
   add("control", control,

@@ -8,6 +8,7 @@
 #include "checker/evidence/validate/figures.hpp"
 #include "model/dds_profile.hpp"
 #include "model/engine/packet.hpp"
+#include "model/implementations.hpp"
 #include "model/probe.hpp"
 #include "props/monitors/relation_words.hpp"
 
@@ -16,8 +17,8 @@ namespace stormproof::validate {
 class MessageTally final : public model::Probe {
  public:
   /// Growth is kept for `steps` steps of `step_ns`.
-  MessageTally(model::ImplementationKind implementation, std::int64_t step_ns, std::size_t steps)
-      : acknacks_have_bases_{implementation == model::ImplementationKind::fastdds}, steps_{steps} {
+  MessageTally(const model::DdsProfile& dds, std::int64_t step_ns, std::size_t steps)
+      : acknacks_have_bases_{model::traits_of(dds).acknacks_have_bases}, steps_{steps} {
     growth_.step_ns = step_ns;
   }
 

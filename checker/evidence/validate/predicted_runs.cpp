@@ -7,12 +7,13 @@
 
 #include "checker/evidence/validate/message_tally.hpp"
 #include "checker/experiments/trials/losses.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::validate {
 
 bool is_drawn(const model::Scenario& scenario, const CapturedDeployment& deployment, double loss) {
   if (loss > 0) return true;
-  if (!model::is_fastdds(scenario.dds)) return false;
+  if (!model::traits_of(scenario.dds).creates_endpoints_over_time) return false;
   return std::ranges::any_of(deployment.participants, [](const CapturedParticipant& one) {
     return one.done_earliest() < one.done_latest();
   });
@@ -41,8 +42,7 @@ Predicted predict(const model::Scenario& scenario, const Observation& observatio
   trials::Runner runner{sampling.threads, sampling.on_progress};
   const auto run_sample = [&](std::size_t k) -> std::optional<PredictedRun> {
     const std::uint64_t seed = sampling.first_seed + k;
-    MessageTally tally{scenario.dds.implementation, observation.growth.step_ns,
-                       most_growth * observed_steps};
+    MessageTally tally{scenario.dds, observation.growth.step_ns, most_growth * observed_steps};
     const auto result =
         runner.simulate(draw(scenario, observation.deployment, sampling.loss, seed), &tally);
     if (!result) return std::nullopt;

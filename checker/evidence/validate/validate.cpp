@@ -9,6 +9,7 @@
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::validate {
 
@@ -188,7 +189,7 @@ Result<Report> validate(const capture::Conversation& conversation, const Request
   report.runs = predicted.runs.size();
   report.complete =
       static_cast<std::size_t>(std::ranges::count_if(predicted.runs, &PredictedRun::complete));
-  const bool has_control = model::is_fastdds(scenario->dds);
+  const bool has_control = model::traits_of(scenario->dds).has_control_relations;
   report.rows = rows_of(*observation, predicted, has_control, report.is_drawn);
   report.bands = bands_of(predicted.runs);
   report.differences = differences(conversation, *observation, *scenario, predicted.sizes);

@@ -9,6 +9,7 @@
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::validate {
 
@@ -236,7 +237,7 @@ report::Section compared(const Report& report) {
        "messages count when they are sent: at the interface in the capture, at generation in the "
        "model",
        "the model's participants start at their first captured announcement"}};
-  if (model::is_fastdds(report.scenario.dds)) {
+  if (model::traits_of(report.scenario.dds).creates_endpoints_over_time) {
     list.items.emplace_back(
         fmt::format("endpoints are created at equal intervals until the last one, {}; packets to "
                     "the same host take {}",

@@ -12,6 +12,7 @@
 #include "checker/evidence/capture/write/fan_out.hpp"
 #include "checker/evidence/capture/write/packet_layout.hpp"
 #include "checker/evidence/capture/write/pcap_writer.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::capture {
 
@@ -21,7 +22,7 @@ using model::PacketKind;
 using model::Stream;
 
 VendorId vendor_of(const model::Scenario& scenario) {
-  return model::is_fastdds(scenario.dds) ? fastdds_vendor : simulated_vendor;
+  return model::traits_of(scenario.dds).vendor.value_or(simulated_vendor);
 }
 
 }  // namespace
@@ -30,6 +31,7 @@ class CaptureProbe::Implementation {
  public:
   Implementation(Sink sink, const model::Scenario& scenario)
       : scenario_{scenario},
+        traits_{model::traits_of(scenario.dds)},
         vendor_{vendor_of(scenario)},
         layout_{scenario.dds},
         identities_{write::identities(scenario.deployment, vendor_)},
@@ -37,7 +39,7 @@ class CaptureProbe::Implementation {
 
   void start(const model::Topology& topology) {
     topology_ = &topology;
-    if (model::is_fastdds(scenario_.dds)) control_.emplace(topology);
+    if (traits_.has_control_relations) control_.emplace(topology);
   }
 
   void announce(const model::Packet& packet, std::uint32_t source) {
@@ -143,10 +145,10 @@ class CaptureProbe::Implementation {
     return write::topic_name(stream, d, defaults, identities_[source].name);
   }
 
-  /// In the paper's model all descriptors exist from the start.
+  /// If all descriptors exist from the start, a HEARTBEAT does not say how many.
   [[nodiscard]] std::uint64_t announced(const model::Packet& packet) const {
-    return model::is_fastdds(scenario_.dds) ? packet.detail
-                                            : topology_->descriptor_count(packet.relation());
+    return traits_.creates_endpoints_over_time ? packet.detail
+                                               : topology_->descriptor_count(packet.relation());
   }
 
   /// Of the HEARTBEATs in a packet; the copies of one message have the same.
@@ -162,9 +164,9 @@ class CaptureProbe::Implementation {
     const std::uint32_t all = topology_->descriptor_count(packet.relation());
     SequenceNumberSet missing;
     if (!packet.initial_acknack) {
-      const bool is_fastdds = model::is_fastdds(scenario_.dds);
-      missing.base =
-          1 + std::int64_t{is_fastdds ? packet.detail : std::min(packet.descriptors.lowest(), all)};
+      missing.base = 1 + std::int64_t{traits_.acknacks_have_bases
+                                          ? packet.detail
+                                          : std::min(packet.descriptors.lowest(), all)};
       packet.descriptors.for_each([&](std::uint32_t d) { ask(missing, d); });
     }
     const EntityId reader = write::sedp_reader(packet.stream);
@@ -203,6 +205,7 @@ class CaptureProbe::Implementation {
   }
 
   const model::Scenario& scenario_;
+  const model::ImplementationTraits& traits_;
   const VendorId vendor_;
   const write::PacketLayout layout_;
   const std::vector<write::Identity> identities_;

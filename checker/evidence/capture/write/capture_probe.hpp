@@ -21,8 +21,7 @@ namespace stormproof::capture {
 /// 2000-01-01T00:00:00Z, in nanoseconds since 1970: time 0 of a run in its capture.
 inline constexpr std::int64_t simulated_epoch_ns = 946'684'800'000'000'000;
 
-/// Vendor of the participants of `implementation: paper`, which no vendor has: "SP". Those of
-/// `implementation: fastdds` have Fast DDS's.
+/// Vendor of the participants of an implementation that no vendor has, as the paper's: "SP".
 inline constexpr std::uint16_t simulated_vendor = 0x5350;
 
 class CaptureProbe final : public model::Probe {

@@ -7,19 +7,14 @@
 #include <cstdint>
 
 #include "checker/evidence/capture/write/message_writer.hpp"
-#include "model/dds_profile.hpp"
-#include "model/descriptor_sizes.hpp"
 #include "model/engine/packet.hpp"
-#include "model/fastdds/endpoints.hpp"
+#include "model/packet_sizes.hpp"
 
 namespace stormproof::capture::write {
 
 class PacketLayout {
  public:
-  explicit PacketLayout(const model::DdsProfile& dds)
-      : is_fastdds_{model::is_fastdds(dds)},
-        paper_{dds.descriptors},
-        shared_bytes_{dds.sedp.shared_header_bytes.count()} {}
+  explicit PacketLayout(const model::DdsProfile& dds) : sizes_{model::packet_sizes(dds)} {}
 
   /// How many HEARTBEATs a DATA or HEARTBEAT packet holds.
   [[nodiscard]] static std::uint32_t heartbeats_in(const model::Packet& packet) {
@@ -27,13 +22,13 @@ class PacketLayout {
     return std::max<std::uint32_t>(packet.heartbeats, is_alone ? 1 : 0);
   }
 
-  /// Whether there is an INFO_DST: in the paper's model every packet has one destination; Fast DDS
-  /// leaves it out, and the packet is smaller, when a message goes to several.
+  /// Whether there is an INFO_DST: where it is no part of the header, it is left out, and the
+  /// packet is smaller, when a message goes to several.
   [[nodiscard]] bool names_destination(const model::Packet& packet) const {
-    if (!is_fastdds_) return true;
-    std::int64_t without = model::fastdds::message_header_bytes +
-                           heartbeats_in(packet) * model::fastdds::heartbeat_submessage_bytes;
-    packet.descriptors.for_each([&](std::uint32_t d) { without += data_bytes(packet.stream, d); });
+    if (sizes_.destination == 0) return true;
+    std::int64_t without = sizes_.header + heartbeats_in(packet) * sizes_.heartbeat_in_data;
+    packet.descriptors.for_each(
+        [&](std::uint32_t d) { without += sizes_.descriptor(packet.stream, d); });
     return packet.payload_bytes > without;
   }
 
@@ -46,22 +41,14 @@ class PacketLayout {
     std::uint32_t left = packet.descriptors.count();
     auto end = static_cast<std::int64_t>(header);
     packet.descriptors.for_each([&](std::uint32_t d) {
-      end += data_bytes(packet.stream, d);
+      end += sizes_.descriptor(packet.stream, d);
       if (--left == 0) end = std::int64_t{packet.payload_bytes} - static_cast<std::int64_t>(tail);
       visit(d, static_cast<std::size_t>(std::max<std::int64_t>(end, 0)));
     });
   }
 
  private:
-  /// What a descriptor adds to a packet: INFO_TS and DATA.
-  [[nodiscard]] std::int64_t data_bytes(model::Stream stream, std::uint32_t d) const {
-    if (!is_fastdds_) return paper_.bytes(stream, d) - shared_bytes_;
-    return model::fastdds::timestamp_bytes + model::fastdds::submessage_bytes(stream, d);
-  }
-
-  bool is_fastdds_;
-  model::DescriptorSizes paper_;
-  std::int64_t shared_bytes_;
+  model::PacketSizes sizes_;
 };
 
 }  // namespace stormproof::capture::write

@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include <fmt/core.h>
+
 #include "fsm/machines.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::conform {
 
@@ -18,28 +22,29 @@ using fsm::MachineInfo;
 struct KnobGuard {
   std::string_view guard;
   bool holds;
-  std::string_view knob;
+  std::string knob;
 };
 
 /// The guards that ask for knobs only.
 std::array<KnobGuard, 4> knob_guards(const model::DdsProfile& dds) {
-  const bool is_fastdds = model::is_fastdds(dds);
+  const model::ImplementationTraits& traits = model::traits_of(dds);
+  const bool is_built_in = traits.fixed_rules.has_value();
+  const model::RelationRules rules = model::rules_of(dds);
   const bool is_adaptive = dds.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive;
-  const bool is_additive =
-      !is_fastdds && dds.sedp.heartbeat_timer == model::HeartbeatTimerKind::additive;
-  const bool accepts = !is_fastdds && dds.sedp.unmatched == model::Unmatched::accept;
+  const bool is_additive = rules.heartbeat_timer == model::HeartbeatTimerKind::additive;
+  const bool accepts = rules.unmatched == model::Unmatched::accept;
+  const std::string built_in = fmt::format("implementation: {}", traits.name);
   const bool has_initial = dds.sedp.initial_acknack_delay.count() > 0;
-  constexpr std::string_view fastdds = "implementation: fastdds";
   return {{{"Adaptive", is_adaptive,
             is_adaptive ? "sedp.heartbeat_policy: adaptive" : "sedp.heartbeat_policy: periodic"},
            {"Additive", is_additive,
-            is_fastdds    ? fastdds
+            is_built_in   ? built_in
             : is_additive ? "sedp.heartbeat_timer: additive"
                           : "sedp.heartbeat_timer: single"},
            {"AcceptsUnmatched", accepts,
-            is_fastdds ? fastdds
-            : accepts  ? "sedp.unmatched: accept"
-                       : "sedp.unmatched: drop"},
+            is_built_in ? built_in
+            : accepts   ? "sedp.unmatched: accept"
+                        : "sedp.unmatched: drop"},
            {"Enabled", has_initial,
             has_initial ? "sedp.initial_acknack_delay above 0" : "sedp.initial_acknack_delay: 0"}}};
 }
