@@ -220,7 +220,8 @@ const char* name_of(Reach reach) {
 }
 
 std::string_view Property::weakness_of(model::ImplementationKind implementation) const {
-  return implementation == model::ImplementationKind::fastdds ? fastdds_weakness : weakness;
+  const bool stateful = model::traits_of(implementation).writer == model::Writer::stateful;
+  return stateful ? stateful_weakness : weakness;
 }
 
 std::span<const Property> catalogue() { return properties; }

@@ -35,10 +35,10 @@ struct Property {
   std::string_view assumptions;  ///< what it is claimed under; empty: nothing
   std::vector<Engine> engines;   ///< which can decide it
   std::string_view source;       ///< rule or section
-  /// Why the paper's rules, or Fast DDS's, do not promise it: under which delays or losses they
-  /// break it. Empty if they promise it.
+  /// Why the paper's writer, or the stateful one, does not promise it: under which delays or losses
+  /// it breaks. Empty if it is promised.
   std::string_view weakness = {};
-  std::string_view fastdds_weakness = {};
+  std::string_view stateful_weakness = {};
   /// It says how far a profile is from a failure. A run beyond that distance has not failed by it.
   bool is_margin = false;
 

@@ -61,7 +61,7 @@ std::string repeat_line(const TuneArguments& arguments, const tune::Subject& sub
   command += " --set " + report::shell_word("dds=" + tune::reference_to(file, subject));
   if (!report.is_sampled) return command;
   if (arguments.options.start_jitter.count() > 0) {
-    command += " --start-jitter " + print_duration(arguments.options.start_jitter);
+    command += " --start-jitter " + model::config::print_duration(arguments.options.start_jitter);
   }
   return command +
          fmt::format(" --samples {} --seed {}", report.compared.count, report.compared.first);

@@ -158,9 +158,9 @@ Table summary(const Study& study) {
     for (const Measure measure : {Measure::completion, Measure::messages}) {
       const Fit* const fit = overall(profile, measure);
       if (fit == nullptr) continue;
-      table.rows.push_back({{std::exchange(name, ""), label(measure), plain(fit->median_ratio, 3),
-                             plain(fit->median_abs_ln_ratio, 3),
-                             profile.sampled ? percent(fit->in_range) : "–"}});
+      table.rows.push_back(
+          {{std::exchange(name, ""), label(measure), plain(fit->median_ratio, 3),
+            plain(fit->median_abs_ln_ratio, 3), profile.sampled ? percent(fit->in_range) : "–"}});
     }
   }
   return table;

@@ -82,8 +82,8 @@ void add_spread(report::Document& document, const Plan& plan, const Collector& r
   report::Facts facts;
   facts.rows.emplace_back("median completion", time(spread.completion_ns.median));
   facts.rows.emplace_back("shortest", time(spread.completion_ns.min));
-  facts.rows.emplace_back(
-      "longest", time(spread.completion_ns.max) + ": " + job_text(plan, *spread.worst));
+  facts.rows.emplace_back("longest",
+                          time(spread.completion_ns.max) + ": " + job_text(plan, *spread.worst));
   document.blocks.emplace_back(std::move(facts));
 }
 
@@ -125,10 +125,9 @@ report::Document document_of(const Plan& plan, const Collector& results,
     document.elaboration = "first that cannot run: " + totals.first_error;
   }
   add_spread(document, plan, results);
-  document.next.push_back(
-      {"sqlite3 " + report::shell_word(database) +
-           " 'SELECT * FROM runs ORDER BY t_disc_ns DESC LIMIT 5'",
-       "the runs that take longest; --csv FILE writes all of them as a table"});
+  document.next.push_back({"sqlite3 " + report::shell_word(database) +
+                               " 'SELECT * FROM runs ORDER BY t_disc_ns DESC LIMIT 5'",
+                           "the runs that take longest; --csv FILE writes all of them as a table"});
   model::DdsProfile dds;
   dds.unmodelled = unmodelled_in(plan);
   add_unmodelled(document, dds);

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "checker/presentation/text/plain_text.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::checker {
 
@@ -136,7 +137,6 @@ void say_whether_it_passes(report::Document& document, const CheckReport& report
 
 void add_subject(report::Document& document, const CheckReport& report,
                  const CheckContext& context) {
-  const bool fastdds = model::is_fastdds(context.scenario.dds);
   std::string counts;
   for (const VerdictKind kind : {VerdictKind::violated, VerdictKind::inconclusive,
                                  VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled}) {
@@ -147,8 +147,7 @@ void add_subject(report::Document& document, const CheckReport& report,
       report::code(context.name) +
       fmt::format(": {}, {}; {} ({:.1f} s)",
                   report::plural(context.scenario.deployment.participants.size(), "participant"),
-                  fastdds ? "Fast DDS's own rules" : "the rules of the closed-loop model", counts,
-                  report.seconds);
+                  model::traits_of(context.scenario.dds).rules, counts, report.seconds);
   if (report.interrupted) {
     document.blocks.emplace_back(
         Paragraph{"Interrupted: what was not checked is inconclusive.", report::Tone::warn});

@@ -2,12 +2,13 @@
 #include "checker/verification/check/next_steps.hpp"
 
 #include "checker/presentation/text/plain_text.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::checker {
 
 std::vector<report::NextStep> next_steps(const std::string& words, const model::Scenario& scenario,
                                          const exact::Outlook& outlook) {
-  const bool of_a_product = model::is_fastdds(scenario.dds);
+  const bool of_a_product = model::traits_of(scenario.dds).vendor.has_value();
   const report::NextStep which{"stormproof sensitivity " + words,
                                "which knob moves it, and how far"};
   switch (outlook.health()) {
