@@ -119,9 +119,4 @@ struct DdsProfile {
   bool operator==(const DdsProfile&) const = default;
 };
 
-/// Whether the profile describes Fast DDS's own writer, rather than the paper's model of it.
-[[nodiscard]] inline bool is_fastdds(const DdsProfile& dds) {
-  return dds.implementation == ImplementationKind::fastdds;
-}
-
 }  // namespace stormproof::model

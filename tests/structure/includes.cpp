@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace stormproof::structure {
@@ -42,17 +43,22 @@ std::vector<std::string> includes_of(const std::string& text) {
   return names;
 }
 
-Includes read_includes(const std::string& root, const std::vector<std::string>& folders) {
-  Includes includes;
+Texts read_texts(const std::string& root, const std::vector<std::string>& folders) {
+  Texts texts;
   for (const std::string& folder : folders) {
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator{fs::path{root} / folder}) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".hpp" && extension != ".cpp") continue;
-      includes[fs::relative(entry.path(), root).generic_string()] =
-          includes_of(content(entry.path()));
+      texts[fs::relative(entry.path(), root).generic_string()] = content(entry.path());
     }
   }
+  return texts;
+}
+
+Includes includes_of(const Texts& texts) {
+  Includes includes;
+  for (const auto& [file, text] : texts) includes[file] = includes_of(text);
   return includes;
 }
 

@@ -1,7 +1,9 @@
-// Both rules look up files by path; what is no file of the tree is somebody else's header.
+// Rules about includes look up files by path; what is no file of the tree is somebody else's
+// header.
 #include "tests/structure/rules.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <set>
 
@@ -131,6 +133,24 @@ std::vector<std::string> check_heavy_headers(const Includes& includes, const Hea
       complaints.push_back(
           fmt::format("{} does not reach {}, and need not be allowed to", entry, rule.library));
     }
+  }
+  return complaints;
+}
+
+std::vector<std::string> check_word(const Texts& texts, const ReservedWord& rule) {
+  std::vector<std::string> complaints;
+  std::set<std::string> unused{rule.allowed.begin(), rule.allowed.end()};
+  for (const auto& [file, text] : texts) {
+    std::string dense = text;
+    std::erase_if(dense, [](unsigned char one) { return std::isspace(one) != 0; });
+    if (dense.find(rule.word) == std::string::npos) continue;
+    const bool is_allowed = std::ranges::find(rule.allowed, file) != rule.allowed.end();
+    if (!is_allowed) complaints.push_back(fmt::format("{} is not to say {}", file, rule.word));
+    unused.erase(file);
+  }
+  for (const std::string& file : unused) {
+    complaints.push_back(
+        fmt::format("{} does not say {}, and need not be allowed to", file, rule.word));
   }
   return complaints;
 }

@@ -30,4 +30,13 @@ struct HeavyHeaders {
 [[nodiscard]] std::vector<std::string> check_heavy_headers(const Includes& includes,
                                                            const HeavyHeaders& rule);
 
+/// A word that belongs to some files; blanks do not count.
+struct ReservedWord {
+  std::string word;
+  std::vector<std::string> allowed;
+};
+
+/// No other file than the allowed ones says the word; and each of the allowed ones does.
+[[nodiscard]] std::vector<std::string> check_word(const Texts& texts, const ReservedWord& rule);
+
 }  // namespace stormproof::structure

@@ -1,5 +1,5 @@
-// The includes of fsm, model, props and checker obey the rules; and the rules can fail, which
-// invented trees show.
+// The includes and words of fsm, model, props and checker obey the rules; and the rules can fail,
+// which invented trees show.
 #include <gtest/gtest.h>
 
 #include "tests/structure/includes.hpp"
@@ -16,9 +16,12 @@ std::string lines(const Complaints& complaints) {
   return text;
 }
 
+const Texts& texts() {
+  static const Texts all = read_texts(STORMPROOF_SOURCE_DIR, {"fsm", "model", "props", "checker"});
+  return all;
+}
 const Includes& sources() {
-  static const Includes includes =
-      read_includes(STORMPROOF_SOURCE_DIR, {"fsm", "model", "props", "checker"});
+  static const Includes includes = includes_of(texts());
   return includes;
 }
 
@@ -42,6 +45,20 @@ TEST(Structure, HeadersDoNotDragInWhatTheyDoNotNeed) {
     ASSERT_TRUE(rules.contains(library)) << library;
     EXPECT_EQ(lines(check_heavy_headers(sources(), rules[library])), "");
   }
+}
+
+TEST(Structure, WordsStayWhereTheyBelong) {
+  std::map<std::string, ReservedWord> rules;
+  for (const std::vector<std::string>& words : read_words(data_file("reserved_words.txt"))) {
+    ASSERT_TRUE(words.size() == 1 || words.size() == 2) << "expected: word [file] # reason";
+    ReservedWord& rule = rules[words[0]];
+    rule.word = words[0];
+    if (words.size() == 2) rule.allowed.push_back(words[1]);
+  }
+  for (const char* word : {"ImplementationKind::", "is_fastdds"}) {
+    ASSERT_TRUE(rules.contains(word)) << word;
+  }
+  for (const auto& [word, rule] : rules) EXPECT_EQ(lines(check_word(texts(), rule)), "");
 }
 
 TEST(Structure, ReadsIncludes) {
@@ -107,6 +124,22 @@ TEST(HeavyHeaders, PermissionsThatNobodyNeedsAreNoticed) {
   const Includes tree{{"a/x.hpp", {"boost/msm/row.hpp"}}, {"b/x.hpp", {}}};
   EXPECT_EQ(check_heavy_headers(tree, {"boost/", {"a/", "b/"}}),
             Complaints{"b/ does not reach boost/, and need not be allowed to"});
+}
+
+TEST(ReservedWords, AreFoundWithBlanksInThem) {
+  const Texts tree{{"home.hpp", "switch (kind) { case Kind::round: }"},
+                   {"a.cpp", "if (kind == Kind::square) roll();"},
+                   {"b.cpp", "enum class Kind : char { round };"},
+                   {"c.cpp", "using enum\n  Kind;"}};
+  EXPECT_EQ(check_word(tree, {"Kind::", {"home.hpp"}}), Complaints{"a.cpp is not to say Kind::"});
+  EXPECT_EQ(check_word(tree, {"Kind::", {"home.hpp", "a.cpp"}}), Complaints{});
+  EXPECT_EQ(check_word(tree, {"usingenumKind", {}}),
+            Complaints{"c.cpp is not to say usingenumKind"});
+}
+
+TEST(ReservedWords, PermissionsThatNobodyNeedsAreNoticed) {
+  EXPECT_EQ(check_word({{"a.cpp", "no"}, {"b.cpp", "yes"}}, {"yes", {"a.cpp", "b.cpp"}}),
+            Complaints{"a.cpp does not say yes, and need not be allowed to"});
 }
 
 }  // namespace structure_test
