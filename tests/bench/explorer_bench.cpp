@@ -1,6 +1,6 @@
 // How fast the explorer steps: fired events per second, through Boost.MSM and with difference-bound
 // matrices, on its own scopes; and beside it, if SPIN is installed, the states per second of SPIN
-// on the exported descriptor machine. A state of the explorer is a zone (all times at once), one of
+// on the exported composition. A state of the explorer is a zone (all times at once), one of
 // SPIN has no times. Started by hand; a time says more about the machine than about the code.
 #include <chrono>
 #include <cstdio>
@@ -44,8 +44,7 @@ void measure_spin(unsigned descriptors) {
   std::error_code error;
   const auto folder = std::filesystem::temp_directory_path(error) / "stormproof-explorer-bench";
   std::filesystem::create_directories(folder, error);
-  const auto run =
-      promela::run_spin(promela::promela_of_descriptor_repair(descriptors), folder.string());
+  const auto run = promela::run_spin(promela::promela_of_paper(descriptors, {}), folder.string());
   std::filesystem::remove_all(folder, error);
   if (!run) {
     std::printf("spin      %s\n", run.error().c_str());

@@ -1,8 +1,8 @@
 // Promela models of one relation, for SPIN: an independent model checker looks at the same
-// transition tables. A model composes the writer's table, generated from the reflected rows, with a
-// reader (its bitmap X), channels that may lose anything, ACKNACKs whose bitmaps are snapshots, and
-// the timers of the relation. It has no clock: whatever is due happens at any time, which covers
-// all delays and schedules.
+// transition tables and the same rules between them (fsm/composition), written as text by
+// checker/engines/promela/promela_of.hpp, which does so for any composition. Besides the rules a
+// model has channels that may lose anything. It has no clock: whatever is due happens at any time,
+// which covers all delays and schedules.
 //
 // Properties in a model, as LTL claims:
 //   safe_d    [] (descriptor d is in A -> X_d): what counts as acknowledged has been received
@@ -10,10 +10,10 @@
 // and an end state in which something is not acknowledged is invalid (a deadlock).
 #pragma once
 
-#include <span>
 #include <string>
 
-#include "fsm/table_mutation.hpp"
+#include "model/dds_profile.hpp"
+#include "model/mutation.hpp"
 
 namespace stormproof::promela {
 
@@ -22,14 +22,13 @@ inline constexpr unsigned max_descriptors = 4;
 /// Models with more descriptors have no `progress` claim: fairness multiplies the states again.
 inline constexpr unsigned max_descriptors_of_progress = 2;
 
-/// The paper's writer (fsm/descriptor_repair.hpp), with both values of `acknowledge`.
-/// `descriptors` is 1 … max_descriptors. `mutations` are mistakes in the table, or none.
-[[nodiscard]] std::string promela_of_descriptor_repair(
-    unsigned descriptors, std::span<const fsm::TableMutation> mutations = {});
+/// The paper's composition with 1 … max_descriptors descriptors, under a profile with the periodic
+/// HEARTBEAT policy. `mistakes` are those of tables and effects that a mutant makes, or none.
+[[nodiscard]] std::string promela_of_paper(unsigned descriptors, const model::DdsProfile& dds,
+                                           const model::Mutation& mistakes = {});
 
-/// Fast DDS's writer (fsm/change_for_reader.hpp): some descriptors exist when the reader is
-/// matched, the others are created afterwards.
-[[nodiscard]] std::string promela_of_change_for_reader(
-    unsigned descriptors, std::span<const fsm::TableMutation> mutations = {});
+/// Fast DDS's: some descriptors exist when the reader is matched, others are created afterwards.
+[[nodiscard]] std::string promela_of_fastdds(unsigned descriptors, const model::DdsProfile& dds,
+                                             const model::Mutation& mistakes = {});
 
 }  // namespace stormproof::promela

@@ -80,7 +80,7 @@ Outcome<SpinRun> run_spin(const std::string& promela, const std::string& folder_
   if (auto error = run_tool({"spin", "-a", "model.pml"}, folder)) return *error;
   // Weak fairness needs a counter for every few processes; at most 18 of them here.
   if (auto error = run_tool(
-          {"gcc", "-O1", "-w", "-DNFAIR=5", "-DMEMLIM=4096", "-o", "pan", "pan.c"}, folder)) {
+          {"gcc", "-Og", "-w", "-DNFAIR=5", "-DMEMLIM=4096", "-o", "pan", "pan.c"}, folder)) {
     return *error;
   }
   const std::string program = (folder / "pan").string();

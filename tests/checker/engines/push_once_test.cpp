@@ -1,15 +1,17 @@
-// The third composition (tests/model/push_once) is proved and explored, with what packing its rules
-// leave to a host and nothing else.
+// The third composition (tests/model/push_once) is proved, explored and given to SPIN, with what
+// packing its rules leave to a host and nothing else.
 #include "tests/model/push_once/push_once.hpp"
 
 #include <gtest/gtest.h>
 
 #include "checker/engines/explorer/relation_world.hpp"
 #include "checker/engines/explorer/search.hpp"
+#include "checker/engines/promela/promela_of.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/engines/tables/derive.hpp"
 #include "checker/engines/tables/descriptor_system.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
+#include "tests/checker/engines/promela/run_in_test.hpp"
 
 namespace stormproof {
 namespace push_once_test {
@@ -86,6 +88,15 @@ bool stalls(unsigned losses) {
 TEST(PushOnceExplorer, StallsExactlyIfSomethingIsLost) {
   EXPECT_FALSE(stalls(0));
   EXPECT_TRUE(stalls(1));
+}
+
+class PushOncePromela : public promela::SpinTest {};
+
+/// Its only claim that fails is progress: that something is sent again.
+TEST_F(PushOncePromela, IsSafeAndDoesNotProgress) {
+  const std::string model = promela::promela_of<push_once::PushOnce>(2, {});
+  expect_error(model, "progress: pan:1: acceptance cycle");
+  expect_correct(model.substr(0, model.find("ltl progress")), 1'000);
 }
 
 }  // namespace push_once_test
