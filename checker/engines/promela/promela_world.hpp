@@ -17,34 +17,17 @@
 // it.
 #pragma once
 
-#include <cctype>
 #include <string>
 #include <tuple>
 #include <type_traits>
 
 #include <boost/pfr.hpp>
 
-#include "checker/engines/promela/script.hpp"
-#include "checker/engines/promela/table_macros.hpp"
+#include "checker/engines/promela/promela_place.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/mutation.hpp"
 
 namespace stormproof::promela {
-
-namespace composition = fsm::composition;
-
-/// A single letter is written small, because X and U are operators of the claims.
-template <class T>
-std::string name() {
-  std::string text{fsm::name_of<T>()};
-  if (text.size() == 1) text[0] = static_cast<char>(std::tolower(text[0]));
-  return text;
-}
-
-/// Whether a descriptor has one, so that it is a bit or an element of something.
-template <class T>
-inline constexpr bool of_descriptors = (T::owner.indices & composition::owner::descriptor_index) !=
-                                       0;
 
 /// Whether DATA and the like are at their source for a while, because a rule waits for them to
 /// leave it.
@@ -54,7 +37,7 @@ inline constexpr bool leaves_later = []<class... Rs>(fsm::TypeList<Rs...>) {
 }(typename Composition::Exchange{});
 
 template <class Composition_>
-class PromelaWorld {
+class PromelaWorld : public PromelaPlace {
  public:
   using Composition = Composition_;
   using D = Written;
@@ -65,11 +48,7 @@ class PromelaWorld {
 
   PromelaWorld(Script& script, const model::DdsProfile& dds, const model::Mutation& mistakes,
                int descriptor = 0)
-      : script_{&script},
-        dds_{&dds},
-        mistakes_{&mistakes},
-        descriptor_{descriptor},
-        subject_{descriptor} {}
+      : PromelaPlace{script, mistakes.tables, descriptor}, dds_{&dds} {}
 
   // Values.
   template <class Tag>
@@ -278,22 +257,7 @@ class PromelaWorld {
     Step::contract(*this, args...);
   }
 
-  /// The part is in the model, in its initial state.
-  template <class P>
-  void declare() {
-    const std::string initial = Table<P>::state(fsm::name_of<typename P::Machine::initial_state>());
-    const std::string count =
-        of_descriptors<P> ? fmt::format("[{}]", script_->descriptors()) : std::string{};
-    script_->define(Table<P>::states());
-    script_->declare(fmt::format("byte {}{} = {};\n", name<P>(), count, initial));
-  }
-  /// The rule is about this packet.
-  void look_at(const std::string& packet) { packet_ = packet; }
-
  private:
-  template <class P>
-  using Table = TableMacros<typename P::Machine>;
-
   template <class Body>
   void each(Body&& body) {
     for (unsigned d = 0; d < script_->descriptors(); ++d) {
@@ -303,35 +267,6 @@ class PromelaWorld {
     }
   }
 
-  // Flags, timers and packets.
-  template <class V>
-  Truth flag() {
-    if (!script_->is_found("set " + name<V>())) return false;
-    return of_descriptors<V> ? script_->bit(name<V>(), descriptor_) : script_->truth(name<V>());
-  }
-  template <class V>
-  void assign(const Truth& may_hold, const Expression& value) {
-    if (!may_hold.is(false)) script_->find("set " + name<V>());
-    if (!script_->is_found("set " + name<V>())) return;
-    script_->declare((of_descriptors<V> ? "byte " : "bool ") + name<V>() + ";\n");
-    script_->assign(name<V>(), value);
-  }
-  template <class T>
-  void start() {
-    script_->find("due " + name<T>());
-    script_->declare((T::counted ? "byte " : "bool ") + name<T>() + ";  /* pending */\n");
-    if constexpr (T::counted) {
-      script_->write(fmt::format("assert({} < 255)", name<T>()));  // a byte can count it
-      script_->assign(name<T>(), (script_->number(name<T>()) + 1).expression());
-    } else {
-      script_->assign(name<T>(), Truth{true}.expression());
-    }
-  }
-  [[nodiscard]] Truth field(const std::string& field, bool bitmap) const {
-    const std::string variable = variable_of(packet_, field);
-    if (!script_->is_said(variable)) return false;
-    return bitmap ? script_->bit(variable, descriptor_) : script_->truth(variable);
-  }
   template <class F, class G, class Value>
   void say(Number& said, const composition::Says<G, Value>& saying) {
     if constexpr (!std::is_same_v<F, G>) {
@@ -345,56 +280,8 @@ class PromelaWorld {
     }
   }
 
-  // Machines.
-  template <class P>
-  [[nodiscard]] std::string state() const {
-    return of_descriptors<P> ? fmt::format("{}[{}]", name<P>(), descriptor_) : name<P>();
-  }
-  /// The part's table, its outbox empty.
-  template <class P, class E>
-  Table<P> cleared() {
-    declare<P>();
-    Table<P> table{mistakes_->tables};
-    typename P::Machine::Io::template Output<D> output;
-    for_each_asked<E>(table, output, [&](Truth&, const std::string& outbox) {
-      script_->declare("hidden byte " + outbox + ";\n");
-      script_->assign(outbox, Number{0}.expression());
-    });
-    script_->define(table.macro(fsm::Reflect<typename P::Machine>::template event_id<E>));
-    return table;
-  }
-  template <class P, class E>
-  void step(const Table<P>& table, const typename P::Machine::Io::template Input<D>& input) {
-    std::string call = fmt::format(
-        "{}({}, {}", table.name(fsm::Reflect<typename P::Machine>::template event_id<E>),
-        state<P>(), of_descriptors<P> ? descriptor_ : 0);
-    for (const Truth& finding : table.template findings<E>(input)) {
-      call += ", " + script_->say(finding.expression());
-    }
-    script_->write(call + ")");
-    script_->changed(state<P>());
-    typename P::Machine::Io::template Output<D> output;
-    for_each_asked<E>(table, output,
-                      [&](Truth&, const std::string& outbox) { script_->changed(outbox); });
-  }
-  /// Visits the fields of an outbox that the event can raise, with their variables.
-  template <class E, class Macros, class Output, class Visit>
-  static void for_each_asked(const Macros& table, Output& output, Visit&& visit) {
-    constexpr auto event = fsm::Reflect<typename Macros::Of>::template event_id<E>;
-    boost::pfr::for_each_field(output, [&](auto& field, std::size_t k) {
-      if constexpr (std::is_invocable_v<Visit, decltype(field), std::string>) {
-        if (table.asks(event, k)) visit(field, table.outbox(k));
-      }
-    });
-  }
-
-  Script* script_;
   const model::DdsProfile* dds_;
-  const model::Mutation* mistakes_;
-  int descriptor_;
-  int subject_;             ///< the descriptor that the rule is about
   Script* ours_ = nullptr;  ///< in the other direction: the model
-  std::string packet_;
 };
 
 }  // namespace stormproof::promela

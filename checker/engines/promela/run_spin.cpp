@@ -84,7 +84,7 @@ Outcome<SpinRun> run_spin(const std::string& promela, const std::string& folder_
     return *error;
   }
   const std::string program = (folder / "pan").string();
-  const std::vector<std::string> common{program, "-m1000000", "-Q10"};
+  const std::vector<std::string> common{program, "-m200000", "-Q10"};
   SpinRun total;
   std::vector<std::string> names = claims_in(promela);
   names.emplace_back("no deadlock");
