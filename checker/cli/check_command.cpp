@@ -8,6 +8,7 @@
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
+#include "checker/engines/explorer/scope.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/verification/check/baseline.hpp"
 #include "checker/verification/check/check.hpp"
@@ -37,6 +38,7 @@ struct CheckArguments {
   OutputFile emit_test;
   unsigned seed = 0;
   std::uint32_t samples = 12;
+  std::uint32_t readers = 1;  ///< of one writer that the explorer looks at together, at most
   bool single_solver = false;
 };
 
@@ -90,7 +92,7 @@ checker::CheckReport run_check(const CheckArguments& arguments, const model::Sce
   smt::Claims claims{solver};
   return checker::check({arguments.properties.begin(), arguments.properties.end()},
                         {scenario, claims, nullptr, arguments.seed, arguments.samples,
-                         session.on_steps("checking, ")});
+                         session.on_steps("checking, "), arguments.readers});
 }
 
 Outcome run(CheckArguments& arguments, Session& session) {
@@ -170,6 +172,10 @@ void declare(Options& options, CheckArguments& arguments) {
       .number("--samples", arguments.samples,
               "Runs of a scenario whose schedule is drawn (default 12)", "N")
       .within(1, 1'000'000);
+  options
+      .number("--readers", arguments.readers,
+              "Let the explorer look at several readers of one writer, too: 2 (default 1)", "N")
+      .within(1, explorer::most_readers);
 }
 
 }  // namespace

@@ -30,10 +30,11 @@ void measure(const char* name, const model::Scenario& scenario, const Scope& sco
   const SearchResult result = Search<World>{world, options}.run();
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%-9s %-75s %8llu states %9llu steps %6.2f s %9.0f steps/s%s\n", name,
+  std::printf("%-9s %-75s %8llu states %9llu steps %6.2f s %9.0f steps/s, depth %u%s\n", name,
               to_text(scope).c_str(), static_cast<unsigned long long>(result.states),
               static_cast<unsigned long long>(result.steps), seconds,
-              static_cast<double>(result.steps) / seconds, result.exhausted ? "" : " (cut off)");
+              static_cast<double>(result.steps) / seconds, result.depth,
+              result.exhausted ? "" : " (cut off)");
 }
 
 void measure_spin(unsigned descriptors) {
@@ -61,6 +62,9 @@ int main() {
   model::Scenario scenario;  // the paper's timers
   const model::Nanoseconds delay{scenario.dds.sedp.heartbeat_period.count() / 4};
   for (const Scope& scope : scopes(scenario, delay)) measure<PaperWorld>("paper", scenario, scope);
+  for (const Scope& scope : shared_scopes(scenario, delay)) {
+    measure<SharedPaperWorld>("paper", scenario, scope);
+  }
   scenario.dds.sedp.grouping = model::Grouping::single;
   for (const Scope& scope : scopes(scenario, delay)) {
     if (scope.descriptors == 2) measure<PaperWorld>("single", scenario, scope);
@@ -69,6 +73,9 @@ int main() {
   scenario.dds.implementation = model::ImplementationKind::fastdds;
   for (const Scope& scope : scopes(scenario, delay)) {
     measure<FastDdsWorld>("fastdds", scenario, scope);
+  }
+  for (const Scope& scope : shared_scopes(scenario, delay)) {
+    measure<SharedFastDdsWorld>("fastdds", scenario, scope);
   }
   for (const unsigned descriptors : {1U, 2U}) measure_spin(descriptors);
   return 0;

@@ -48,6 +48,7 @@ struct CheckRequest {
   std::function<bool(std::string_view)> on_progress;
   /// Called with each run of the scenario up to the end of discovery, in the order of the seeds.
   std::function<void(const model::Scenario&, const model::RunResult&)> on_run = {};
+  unsigned readers = 1;  ///< of one writer that the explorer looks at together, at most
 };
 
 /// Answers by property id.

@@ -73,9 +73,16 @@ class Exploration {
 
   void run() {
     delay_ = delay_bound(request_.scenario, [&] { return go_on("measuring packet delays"); });
+    run(scopes(running_, delay_.delay));
+    if (request_.readers > 1) run(shared_scopes(running_, delay_.delay));
+  }
+
+  [[nodiscard]] Finding finding(Claim claim) const;
+
+ private:
+  void run(const std::vector<Scope>& list) {
     const Clock::time_point end =
         Clock::now() + (request_.mutant == nullptr ? most_time : most_time_for_mutant);
-    const std::vector<Scope> list = scopes(running_, delay_.delay);
     for (std::size_t k = 0; k < list.size() && !interrupted_ && open_ != 0; ++k) {
       // What a scope does not need of its share is left to those after it.
       const auto share = (end - Clock::now()) / static_cast<std::ptrdiff_t>(list.size() - k);
@@ -86,17 +93,16 @@ class Exploration {
     }
   }
 
-  [[nodiscard]] Finding finding(Claim claim) const;
-
- private:
   bool go_on(const std::string& what) {
     if (request_.on_progress && !request_.on_progress(what)) interrupted_ = true;
     return !interrupted_;
   }
 
-  void explore(model::Of<comp::paper::Paper>, const Scope& scope) { explore<PaperWorld>(scope); }
+  void explore(model::Of<comp::paper::Paper>, const Scope& scope) {
+    scope.readers > 1 ? explore<SharedPaperWorld>(scope) : explore<PaperWorld>(scope);
+  }
   void explore(model::Of<comp::fastdds::FastDds>, const Scope& scope) {
-    explore<FastDdsWorld>(scope);
+    scope.readers > 1 ? explore<SharedFastDdsWorld>(scope) : explore<FastDdsWorld>(scope);
   }
   template <class World>
   void explore(const Scope& scope) {
@@ -194,8 +200,12 @@ Finding Exploration::finding(Claim claim) const {
   Finding finding;
   finding.engine = "explorer";
   finding.seconds = answer.seconds;
+  const bool shared = request_.readers > 1;
   finding.assumptions = {
-      "One relation; every packet of it has a delay of its own, whatever other relations do.",
+      fmt::format(
+          "{}; every packet of {} has a delay of its own, whatever other relations do.",
+          shared ? fmt::format("One relation, or {} of one writer", most_readers) : "One relation",
+          shared ? "theirs" : "it"),
       delay_.origin};
   if (creates_over_time(running_)) {
     finding.assumptions.emplace_back("No HEARTBEATs ride in DATA packets.");
@@ -226,8 +236,9 @@ Finding Exploration::finding(Claim claim) const {
   }
   finding.kind = VerdictKind::bounded;
   finding.how = fmt::format(
-      "all interleavings of one relation with packet delays up to {}, {} zone "
+      "all interleavings of one relation{} with packet delays up to {}, {} zone "
       "states: {}",
+      shared ? fmt::format(", and of {} of one writer,", most_readers) : "",
       props::time_text(delay_.delay), answer.states, answer.scopes);
   return finding;
 }
@@ -236,7 +247,8 @@ Finding Exploration::finding(Claim claim) const {
 
 checker::Findings check(std::span<const std::string_view> properties,
                         const checker::CheckRequest& request) {
-  return explore(properties, {request.scenario, request.mutant, request.on_progress});
+  return explore(properties,
+                 {request.scenario, request.mutant, request.on_progress, request.readers});
 }
 
 checker::Findings explore(std::span<const std::string_view> properties, const Request& request) {

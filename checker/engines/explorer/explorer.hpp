@@ -1,7 +1,8 @@
-// The engine "explorer": runs the concrete machines of one relation along every interleaving of a
-// small scope, with event times as difference constraints, and reports what breaks first. Its
-// counterexamples have the fewest possible events; each has been replayed by the simulator before
-// it is reported. What it does not find is bounded by the scope, which the finding states.
+// The engine "explorer": runs the concrete machines of one relation, or of one writer with several
+// readers, along every interleaving of a small scope, with event times as difference constraints,
+// and reports what breaks first. Its counterexamples have the fewest possible events; each has been
+// replayed by the simulator before it is reported. What it does not find is bounded by the scope,
+// which the finding states.
 #pragma once
 
 #include <span>
@@ -11,8 +12,8 @@
 
 namespace stormproof::explorer {
 
-/// Answers about those of `properties` that are about one relation. Takes at most about 10 s; an
-/// interrupted or unfinished search says how far it came.
+/// Answers about those of `properties` that are about one relation. Takes at most about 10 s, twice
+/// that with several readers; an interrupted or unfinished search says how far it came.
 [[nodiscard]] checker::Findings check(std::span<const std::string_view> properties,
                                       const checker::CheckRequest& request);
 
@@ -21,6 +22,8 @@ struct Request {
   const model::Scenario& scenario;  ///< the specification
   const checker::Mutant* mutant = nullptr;
   std::function<bool(std::string_view)> on_progress;  ///< false interrupts
+  /// 1: one relation only; most_readers: several readers of one writer, too.
+  unsigned readers = 1;
 };
 [[nodiscard]] checker::Findings explore(std::span<const std::string_view> properties,
                                         const Request& request);

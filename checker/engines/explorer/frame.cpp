@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 namespace stormproof::explorer {
 
@@ -130,7 +131,7 @@ void Frame::emit(Slot packet) {
     if (arrival > before && count() > arrival) relate(before, arrival, 0);
     for (unsigned k = 0; scope_->fifo && count() > arrival && k < before; ++k) {
       if (!is_packet(slots_[k].what)) continue;
-      if (from_writer(slots_[k].what) == from_writer(packet.what)) relate(k, arrival, 0);
+      if (have_one_source(slots_[k], packet)) relate(k, arrival, 0);
     }
   }
   if (log_ == nullptr) return;
@@ -138,6 +139,32 @@ void Frame::emit(Slot packet) {
   if (arrival > before) emission.left_source = ids_[before];
   if (count() > arrival) emission.received = ids_[arrival];
   log_->emissions.push_back(emission);
+}
+
+/// Of slots k and k + 1: whether the second comes first in the order that `sort` makes.
+bool Frame::belong_the_other_way(unsigned k) const {
+  const Slot& a = slots_[k];
+  const Slot& b = slots_[k + 1];
+  if (is_mark(a.what) || is_mark(b.what)) {
+    const auto key = [](const Slot& slot) {
+      return is_mark(slot.what) ? std::tuple{slot.what, slot.reader, slot.set}
+                                : std::tuple{What{}, std::uint8_t{}, std::uint16_t{}};
+    };
+    return key(b) < key(a);
+  }
+  const auto first = rules_->of(a.what).event_class;
+  const auto second = rules_->of(b.what).event_class;
+  return first != second ? second < first : zone_.bound(k + 2, k + 1) < 0;
+}
+
+void Frame::sort() {
+  for (unsigned end = 1; end < count(); ++end) {
+    for (unsigned k = end; k-- > 0 && belong_the_other_way(k);) {
+      std::swap(slots_[k], slots_[k + 1]);
+      std::swap(ids_[k], ids_[k + 1]);
+      zone_.exchange(k + 1, k + 2);
+    }
+  }
 }
 
 void Frame::mark(Slot slot) {
@@ -159,16 +186,19 @@ void Frame::erase(unsigned k) {
   }
 }
 
-void Frame::erase_marks(What what, std::uint16_t set) {
+void Frame::erase_marks(What what, std::uint16_t set, unsigned reader) {
   for (unsigned k = count(); k-- > 0;) {
-    if (slots_[k].what == what && (slots_[k].set & ~set) == 0) erase(k);
+    const Slot& slot = slots_[k];
+    if (slot.what == what && slot.reader == reader && (slot.set & ~set) == 0) erase(k);
   }
 }
 
-unsigned Frame::find_mark(What what, std::uint16_t set) const {
-  unsigned k = 0;
-  while (k < count() && !(slots_[k].what == what && slots_[k].set == set)) ++k;
-  return k;
+unsigned Frame::find(What what, std::uint16_t set, unsigned reader) const {
+  for (unsigned k = 0; k < count(); ++k) {
+    const Slot& slot = slots_[k];
+    if (slot.what == what && slot.set == set && slot.reader == reader) return k;
+  }
+  return count();
 }
 
 unsigned Frame::pending(What what) const {

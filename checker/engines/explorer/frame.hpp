@@ -99,13 +99,18 @@ class Frame {
   /// Something happens `delay` ns from now.
   void schedule(Slot slot, std::int64_t delay) { schedule_between(slot, delay, delay); }
   void schedule_between(Slot slot, std::int64_t low, std::int64_t high);
+  /// The pending event k does not happen after another one.
+  void precede(unsigned k, unsigned other) { relate(k, other, 0); }
   /// A packet is emitted now; it arrives within the scope's delays, unless it is lost.
   void emit(Slot packet);
+  /// Puts the slots into an order that says no more than it must: events of one class that may
+  /// happen at the same time keep the order of their insertion, and nothing else does.
+  void sort();
   /// The present is remembered.
   void mark(Slot slot);
-  void erase_marks(What what, std::uint16_t set);
-  /// Position of the mark, or `count()`.
-  [[nodiscard]] unsigned find_mark(What what, std::uint16_t set) const;
+  void erase_marks(What what, std::uint16_t set, unsigned reader = 0);
+  /// Position of the first such slot, or `count()`.
+  [[nodiscard]] unsigned find(What what, std::uint16_t set = 0, unsigned reader = 0) const;
   [[nodiscard]] unsigned pending(What what) const;
   [[nodiscard]] bool any_pending() const;
 
@@ -133,6 +138,7 @@ class Frame {
   unsigned append(Slot slot, std::int64_t low, std::int64_t high);
   void relate(unsigned a, unsigned b, std::int64_t c);
   void erase(unsigned k);
+  [[nodiscard]] bool belong_the_other_way(unsigned k) const;
   [[nodiscard]] std::uint32_t id_of(unsigned variable) const {
     return variable == 0 ? now_id_ : ids_[variable - 1];
   }

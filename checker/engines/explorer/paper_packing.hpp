@@ -1,6 +1,6 @@
-// What the paper's rules (fsm/composition/paper.hpp) leave to a host, for a writer with one reader:
-// DATA packets are filled up to the grouping limit, and each descriptor is charged against the
-// piggyback budget; a budget that is used up sends a HEARTBEAT in the packet
+// What the paper's rules (fsm/composition/paper.hpp) leave to a host: DATA packets are filled up to
+// the grouping limit, and each descriptor is charged against the piggyback budget; a budget that is
+// used up sends a HEARTBEAT in the packet, or after it to every open relation if there are several
 // (model/paper/data.cpp).
 #pragma once
 
@@ -17,6 +17,7 @@ class PaperPacking {
   using Composition = comp::paper::Paper;
   using WriterOpens = comp::paper::WriterOpens;
   using State = fsm::TypeList<Budget, SentBytes>;
+  using SharedState = fsm::TypeList<>;
   static constexpr unsigned max_descriptors = 3;
   static constexpr bool receives_separately = false;
   static constexpr bool one_event_opens_both = true;
@@ -44,8 +45,9 @@ class PaperPacking {
   template <class W>
   void perform(comp::paper::Generate, W& w, const model::DescriptorSet& set, bool repair) {
     auto& host = w.host();
-    note_generated(host.state(), host.frame(), members_of(set), repair);
-    const Slot empty{What::data, repair ? Slot::from_repair : std::uint8_t{0}};
+    const std::uint8_t reader = host.reader_at(w);
+    note_generated(host.state(), host.frame(), reader, members_of(set), repair);
+    const Slot empty{What::data, repair ? Slot::from_repair : std::uint8_t{0}, 0, 0, reader};
     const std::int64_t shared = sedp_.shared_header_bytes.count();
     Slot packet = empty;
     std::int64_t payload_bytes = 0;
@@ -58,9 +60,20 @@ class PaperPacking {
       const std::int64_t added = packet.set == 0 ? bytes : bytes - shared;
       packet.set |= member(d);
       payload_bytes += added;
-      if (!is_used_up(host.state(), added)) return;
-      packet.flags |= Slot::carries_heartbeat;
-      payload_bytes += sedp_.piggyback_heartbeat_bytes.count();
+      const auto open = host.readers(0);
+      const bool rides = open.size() <= 1;
+      if (!is_used_up(host.state(), added, rides)) return;
+      if (rides) {
+        packet.flags |= Slot::carries_heartbeat;
+        payload_bytes += sedp_.piggyback_heartbeat_bytes.count();
+        return;
+      }
+      host.send(std::exchange(packet, empty));
+      payload_bytes = 0;
+      for (const std::uint32_t relation : open) {
+        const auto to = static_cast<std::uint8_t>(host.reader_of(relation));
+        host.send({What::heartbeat, 0, 0, 0, to});
+      }
     });
     if (packet.set != 0) host.send(packet);
   }
@@ -77,9 +90,9 @@ class PaperPacking {
     if (sedp_.piggyback == model::Piggyback::off) return;
     state.template set<Budget>(sedp_.piggyback_threshold_bytes.count());
   }
-  /// Charges the bytes; whether a HEARTBEAT follows from that.
+  /// Charges the bytes, and those of the HEARTBEAT that follows from that; whether it does.
   template <class State>
-  [[nodiscard]] bool is_used_up(State& state, std::int64_t added) const {
+  [[nodiscard]] bool is_used_up(State& state, std::int64_t added, bool rides) const {
     if (sedp_.piggyback == model::Piggyback::off) return false;
     const bool cumulative = sedp_.piggyback == model::Piggyback::cumulative;
     const std::int64_t sent = state.template get<SentBytes>() + added;
@@ -89,7 +102,9 @@ class PaperPacking {
     if (budget >= 0) return false;
     refill(state);
     if (cumulative) {
-      state.template set<SentBytes>(sent + sedp_.piggyback_heartbeat_bytes.count());
+      const model::Bytes heartbeat =
+          rides ? sedp_.piggyback_heartbeat_bytes : sedp_.heartbeat_bytes;
+      state.template set<SentBytes>(sent + heartbeat.count());
     }
     return true;
   }
@@ -100,6 +115,8 @@ class PaperPacking {
 };
 
 using PaperWorld = RelationWorld<PaperPacking>;
+using SharedPaperWorld = RelationWorld<PaperPacking, most_readers>;
 extern template class RelationWorld<PaperPacking>;
+extern template class RelationWorld<PaperPacking, most_readers>;
 
 }  // namespace stormproof::explorer

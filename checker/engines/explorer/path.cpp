@@ -48,9 +48,9 @@ std::optional<ConcretePath> solve(const PathLog& log, std::vector<std::string> s
   return path;
 }
 
-std::optional<model::Nanoseconds> ConcretePath::time_of(What what) const {
+std::optional<model::Nanoseconds> ConcretePath::time_of(What what, unsigned reader) const {
   for (const Scheduled& event : scheduled) {
-    if (event.slot.what == what) return event.time;
+    if (event.slot.what == what && event.slot.reader == reader) return event.time;
   }
   return std::nullopt;
 }
@@ -104,8 +104,11 @@ std::string what_text(const Slot& slot) {
 
 }  // namespace
 
-std::string step_text(const ConcretePath::Step& step) {
-  return fmt::format("t = {}: {} [{}]", props::time_text(step.time), what_text(step.slot),
+std::string step_text(const ConcretePath::Step& step, unsigned readers) {
+  const std::string whose = readers > 1 && is_of_reader(step.slot.what)
+                                ? fmt::format(" (reader {})", step.slot.reader)
+                                : "";
+  return fmt::format("t = {}: {}{} [{}]", props::time_text(step.time), what_text(step.slot), whose,
                      step.state);
 }
 

@@ -23,6 +23,27 @@ bool has_one_delay(const model::Scenario& scenario) {
          scenario.wireless.packet_delays.empty() && scenario.wireless.one_way.count() > 0;
 }
 
+/// The publications of a default participant of Fast DDS.
+constexpr unsigned default_publications = 9;
+
+Scope scope_of(const model::Scenario& scenario, Nanoseconds delay, unsigned descriptors,
+               unsigned losses) {
+  Scope scope;
+  scope.descriptors = descriptors;
+  scope.losses = losses;
+  scope.least_delay = Nanoseconds{1};  // nothing arrives at the instant of its emission
+  scope.largest_delay = delay;
+  scope.leaves_within = delay;
+  if (has_one_delay(scenario)) {
+    scope.least_delay = delay;
+    scope.leaves_within = Nanoseconds{0};
+  }
+  // Where nothing waits for it, nothing depends on it.
+  if (!model::traits_of(scenario.dds).waits_for_source) scope.leaves_within = Nanoseconds{0};
+  scope.side_by_side = scenario.dds.sedp.relation_opening == model::RelationOpening::each_side;
+  return scope;
+}
+
 }  // namespace
 
 DelayBound delay_bound(const model::Scenario& scenario, const std::function<bool()>& go_on) {
@@ -77,28 +98,15 @@ bool creates_over_time(const model::Scenario& scenario) {
 std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
   std::vector<Scope> list;
   const auto add = [&](unsigned descriptors, unsigned losses, unsigned pushed) {
-    Scope scope;
-    scope.descriptors = descriptors;
-    scope.losses = losses;
-    scope.least_delay = Nanoseconds{1};  // nothing arrives at the instant of its emission
-    scope.largest_delay = delay;
-    scope.leaves_within = delay;
-    if (has_one_delay(scenario)) {
-      scope.least_delay = delay;
-      scope.leaves_within = Nanoseconds{0};
-    }
-    scope.pushed = pushed;
-    scope.side_by_side = scenario.dds.sedp.relation_opening == model::RelationOpening::each_side;
-    list.push_back(scope);
+    list.push_back(scope_of(scenario, delay, descriptors, losses));
+    list.back().pushed = pushed;
   };
   if (creates_over_time(scenario)) {
-    constexpr unsigned all = 9;  // the publications of a default participant
-    add(all, 0, 0);
-    add(all, 0, 1);
-    add(all, 0, 2);
-    add(all, 1, 0);
-    add(all, 1, 1);
-    for (Scope& scope : list) scope.leaves_within = Nanoseconds{0};  // nothing depends on it
+    add(default_publications, 0, 0);
+    add(default_publications, 0, 1);
+    add(default_publications, 0, 2);
+    add(default_publications, 1, 0);
+    add(default_publications, 1, 1);
     list.push_back(list.front());
     list.back().side_by_side = true;
     return list;
@@ -111,6 +119,28 @@ std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
   return list;
 }
 
+// With delays of their own for all packets of two relations there are too many interleavings to try
+// all of them; with one delay for all there are few, and several losses are possible.
+std::vector<Scope> shared_scopes(const model::Scenario& scenario, Nanoseconds delay) {
+  const bool created = creates_over_time(scenario);
+  std::vector<Scope> list;
+  const auto add = [&](unsigned losses, bool one_delay) -> Scope& {
+    Scope& scope =
+        list.emplace_back(scope_of(scenario, delay, created ? default_publications : 1, losses));
+    scope.readers = most_readers;
+    if (one_delay) {
+      scope.least_delay = delay;
+      scope.leaves_within = Nanoseconds{0};
+    }
+    return scope;
+  };
+  add(2, true);
+  if (!list.front().side_by_side) add(1, true).joins_within = delay;
+  if (created) add(1, true).pushed = 1;
+  if (!has_one_delay(scenario)) add(0, false);
+  return list;
+}
+
 std::optional<Nanoseconds> completion_bound(const model::DdsProfile& dds, const Scope& scope) {
   // The bound counts from the opening of the relation, or the creation of a descriptor; the
   // explorer from the start of its world.
@@ -120,7 +150,7 @@ std::optional<Nanoseconds> completion_bound(const model::DdsProfile& dds, const 
   timeline::Circumstances circumstances;
   circumstances.delta = scope.largest_delay;
   circumstances.source = scope.leaves_within;
-  circumstances.timer_starts_with_relation = true;  // it is the writer's only relation
+  circumstances.timer_starts_with_relation = scope.readers == 1;
   circumstances.least = scope.least_delay;
   const auto bound = timeline::completion_bound(dds, circumstances);
   return bound ? bound->after(scope.losses) : std::nullopt;

@@ -25,8 +25,12 @@ struct DelayBound {
 [[nodiscard]] DelayBound delay_bound(const model::Scenario& scenario,
                                      const std::function<bool()>& go_on);
 
-/// The scopes to explore, cheap ones first.
+/// The scopes of one relation to explore, cheap ones first.
 [[nodiscard]] std::vector<Scope> scopes(const model::Scenario& scenario, model::Nanoseconds delay);
+
+/// Those of several relations of one writer, cheap ones first.
+[[nodiscard]] std::vector<Scope> shared_scopes(const model::Scenario& scenario,
+                                               model::Nanoseconds delay);
 
 /// Whether descriptors of the world come into being one after the other. There, HEARTBEATs that
 /// ride in DATA are left out.

@@ -1,8 +1,10 @@
-// One relation as a world for the explorer: which rule each event is, and what must hold after it.
+// One relation as a world for the explorer, or those of one writer to several readers: which rule
+// each event is, and what must hold after it.
 // The rules are those that the simulator executes, in the order in which it does, so a path of the
 // explorer can be run by the simulator.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,13 +16,14 @@
 
 namespace stormproof::explorer {
 
-template <class Packing>
+template <class Packing, unsigned readers = 1>
 class RelationWorld {
  public:
-  using Host = RuleHost<Packing>;
+  using Host = RuleHost<Packing, readers>;
   using Composition = typename Packing::Composition;
   using C = typename Host::C;
   using State = typename Host::State;
+  static constexpr bool sorts_slots = readers > 1;
 
   /// `scenario` is the one that runs, `specification` the one whose τ_S has to be honoured.
   RelationWorld(const model::Scenario& scenario, const model::Scenario& specification,
@@ -37,9 +40,17 @@ class RelationWorld {
   void fire(State& state, Frame& frame, const Slot& slot);
 
   [[nodiscard]] bool complete(const State& state) const {
-    return received(state) == member(descriptors()) - 1;
+    return received(state) == (std::uint32_t{1} << deliveries()) - 1;
   }
-  [[nodiscard]] Members received(const State& state) const { return state.template get<comp::X>(); }
+  /// A bit for each reader and descriptor, reader by reader.
+  [[nodiscard]] std::uint32_t received(const State& state) const {
+    std::uint32_t bits = 0;
+    for (unsigned r = 0; r < readers; ++r) {
+      bits |= std::uint32_t{state.template get<comp::X>(r)} << r * descriptors();
+    }
+    return bits;
+  }
+  [[nodiscard]] unsigned deliveries() const { return readers * descriptors(); }
   [[nodiscard]] unsigned descriptors() const { return host_.descriptors(); }
   [[nodiscard]] const Scope& scope() const { return scope_; }
   [[nodiscard]] const EventRules& rules() const { return rules_; }
@@ -48,7 +59,11 @@ class RelationWorld {
 
  private:
   void happen(const Slot& slot);
-  void open_writer() { host_.template run_rule<comp::Happens<typename Packing::WriterOpens>>(); }
+  void schedule_openings(Frame& frame) const;
+  void open_writer(const Slot& slot) {
+    host_.template run_rule<comp::Happens<typename Packing::WriterOpens>>(slot);
+  }
+  [[nodiscard]] std::string describe(const State& state, unsigned reader) const;
   [[nodiscard]] bool opens_at_once() const {
     return Packing::one_event_opens_both && !scope_.side_by_side;
   }
@@ -60,75 +75,125 @@ class RelationWorld {
   Host host_;
 };
 
-template <class Packing>
-auto RelationWorld<Packing>::start(Frame& frame) -> State {
+template <class Packing, unsigned readers>
+auto RelationWorld<Packing, readers>::start(Frame& frame) -> State {
   static_assert(std::has_unique_object_representations_v<State>);
   State state;
   host_.go_on_with(state, frame);
   host_.packing().start(host_);
-  const std::int64_t apart = scope_.side_by_side ? scope_.largest_delay.count() : 0;
-  frame.schedule_between({What::reader_opens}, 0, apart);
-  if (!opens_at_once()) frame.schedule_between({What::writer_opens}, 0, apart);
+  schedule_openings(frame);
   return state;
 }
 
-template <class Packing>
-void RelationWorld<Packing>::fire(State& state, Frame& frame, const Slot& slot) {
+/// One announcement of the writer opens the reader sides, so they open together; the writer sides
+/// open in ascending order of the readers, which is what tells these apart. The writer hears first
+/// of a reader that joins later, and answers at once.
+template <class Packing, unsigned readers>
+void RelationWorld<Packing, readers>::schedule_openings(Frame& frame) const {
+  const std::int64_t apart = scope_.side_by_side ? scope_.largest_delay.count() : 0;
+  const std::int64_t late = scope_.joins_within.count();
+  const unsigned early = readers > 1 && late > 0 ? readers - 1 : readers;
+  const auto schedule = [&](What what, unsigned reader, std::int64_t within) {
+    frame.schedule_between({what, 0, 0, 0, static_cast<std::uint8_t>(reader)}, 0, within);
+  };
+  const auto in_order = [&](What what, unsigned r, What other, unsigned s) {
+    const unsigned first = frame.find(what, 0, r);
+    const unsigned second = frame.find(other, 0, s);
+    if (std::max(first, second) < frame.count()) frame.precede(first, second);  // no mistake made
+  };
+  for (unsigned r = 0; r < early; ++r) {
+    schedule(What::reader_opens, r, apart);
+    if (r == 0) continue;
+    in_order(What::reader_opens, r - 1, What::reader_opens, r);
+    in_order(What::reader_opens, r, What::reader_opens, r - 1);
+  }
+  for (unsigned r = 0; r < early && !opens_at_once(); ++r) {
+    schedule(What::writer_opens, r, apart);
+    if (r > 0) in_order(What::writer_opens, r - 1, What::writer_opens, r);
+  }
+  if (early == readers) return;
+  if (!opens_at_once()) schedule(What::writer_opens, early, late);
+  schedule(What::reader_opens, early, late);
+  in_order(What::writer_opens, early, What::reader_opens, early);
+  in_order(What::reader_opens, early, What::writer_opens, early);
+}
+
+template <class Packing, unsigned readers>
+void RelationWorld<Packing, readers>::fire(State& state, Frame& frame, const Slot& slot) {
   const State before = state;
   host_.go_on_with(state, frame);
   happen(slot);
-  check_descriptors<C>(before, state, frame, suppression_ns_);
+  for (unsigned r = 0; r < readers; ++r) {
+    check_descriptors<C>(before, state, frame, r, suppression_ns_);
+  }
   if (frame.pending(What::heartbeat_expiry) > 1) frame.object(Claim::single_heartbeat);
+  if constexpr (readers > 1) {
+    // Completion counts from the last opening.
+    const bool opens = slot.what == What::reader_opens || slot.what == What::writer_opens;
+    if (!opens || frame.find(What::opened) == frame.count()) return;
+    frame.erase_marks(What::opened, 0);
+    frame.mark({What::opened});
+  }
 }
 
-template <class Packing>
-void RelationWorld<Packing>::happen(const Slot& slot) {
+template <class Packing, unsigned readers>
+void RelationWorld<Packing, readers>::happen(const Slot& slot) {
   switch (slot.what) {
     case What::reader_opens:
-      host_.template run_rule<comp::Happens<comp::ReaderOpens>>();
-      if (opens_at_once()) open_writer();
+      host_.template run_rule<comp::Happens<comp::ReaderOpens>>(slot);
+      if (opens_at_once()) open_writer(slot);
       break;
     case What::writer_opens:
-      open_writer();
+      open_writer(slot);
       break;
     case What::creation:
       host_.packing().create(host_, slot);
       break;
     case What::data:
-      note_copies(host_.state(), host_.frame(), slot.set);
-      host_.template run_rule<comp::Received<typename Composition::Data>>(&slot);
+      note_copies(host_.state(), host_.frame(), slot.reader, slot.set);
+      host_.template run_rule<comp::Received<typename Composition::Data>>(slot);
       break;
     case What::heartbeat:
-      host_.template run_rule<comp::Received<typename Composition::Heartbeat>>(&slot);
+      host_.template run_rule<comp::Received<typename Composition::Heartbeat>>(slot);
       break;
     case What::acknack: {
       const Slot arrived = live_bitmaps_ ? host_.said_now(slot) : slot;
       host_.acknack_is_as_emitted(arrived == slot);
-      host_.template run_rule<comp::Received<typename Composition::AckNack>>(&arrived);
+      host_.template run_rule<comp::Received<typename Composition::AckNack>>(arrived);
       break;
     }
     case What::source_completion:
       if constexpr (Packing::repairs_leave_later) {
         for (unsigned left = slot.set; left != 0; left &= left - 1) {
-          note_left(host_.frame(), static_cast<Members>(left & -left));
+          note_left(host_.frame(), slot.reader, static_cast<Members>(left & -left));
         }
-        host_.template run_rule<comp::LeftSource<typename Composition::Data>>(&slot);
+        host_.template run_rule<comp::LeftSource<typename Composition::Data>>(slot);
       }
       break;
     default:
-      host_.run_due(slot.what);
+      host_.run_due(slot);
   }
 }
 
-template <class Packing>
-std::string RelationWorld<Packing>::describe(const State& state) const {
+template <class Packing, unsigned readers>
+std::string RelationWorld<Packing, readers>::describe(const State& state) const {
+  if constexpr (readers == 1) return describe(state, 0);
+  std::string text;
+  for (unsigned r = 0; r < readers; ++r) {
+    text += fmt::format("{}reader {}: {}", r == 0 ? "" : "; ", r, describe(state, r));
+  }
+  return text;
+}
+
+template <class Packing, unsigned readers>
+std::string RelationWorld<Packing, readers>::describe(const State& state, unsigned reader) const {
   std::string letters;
   std::string bits;
   std::string each;
   for (unsigned d = 0; d < descriptors(); ++d) {
     const std::string_view name =
-        fsm::Reflect<typename C::Machine>::state_names[state.template state<C>(d)];
-    const char bit = (received(state) & member(d)) != 0 ? '1' : '0';
+        fsm::Reflect<typename C::Machine>::state_names[state.template state<C>(d, reader)];
+    const char bit = (state.template get<comp::X>(reader) & member(d)) != 0 ? '1' : '0';
     each += fmt::format("{}d{}: C = {}, X = {}", d == 0 ? "" : "; ", d, name, bit);
     letters += name == "Absent" ? "-" : name;
     bits += bit;

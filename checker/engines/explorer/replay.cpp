@@ -19,7 +19,8 @@ namespace {
 using model::Nanoseconds;
 using model::PacketKind;
 
-/// Notes the packets of the relation from participant 0 to participant 1, and the announcements.
+/// Notes the packets of the relations from participant 0 to the readers, and the announcements.
+/// Reader r is participant r + 1.
 class PacketList final : public model::Probe {
  public:
   struct Entry {
@@ -28,29 +29,46 @@ class PacketList final : public model::Probe {
     PacketKind kind{};
     std::uint16_t set = 0;
     std::uint32_t source = 0;
+    std::uint32_t reader = 0;  ///< of an announcement of participant 0: of a copy to one
   };
-  std::vector<Entry> of_relation;
+  std::vector<Entry> of_relations;
   std::vector<Entry> announcements;
 
+  explicit PacketList(unsigned readers) : readers_{readers} {}
+
   void emitted(const model::Packet& packet, std::uint32_t source,
-               std::span<const std::uint32_t>) override {
-    const Entry entry{packet.number, packet.emitted, packet.kind,
-                      static_cast<std::uint16_t>(packet.descriptors.word(0)), source};
+               std::span<const std::uint32_t> destinations) override {
+    Entry entry{packet.number, packet.emitted, packet.kind,
+                static_cast<std::uint16_t>(packet.descriptors.word(0)), source};
     switch (packet.kind) {
       case PacketKind::spdp_multicast:
-      case PacketKind::spdp_unicast:
         announcements.push_back(entry);
+        break;
+      case PacketKind::spdp_unicast:
+        for (const std::uint32_t destination : destinations) {
+          entry.reader = destination == 0 ? 0 : destination - 1;
+          announcements.push_back(entry);
+          ++entry.number;
+        }
         break;
       case PacketKind::data:
       case PacketKind::heartbeat:
       case PacketKind::acknack:
-        // Pair 0 goes from participant 0 to participant 1.
-        if (packet.pair == 0 && packet.stream == model::Stream::pub) of_relation.push_back(entry);
+        // The first pairs go from participant 0 to all others.
+        if (packet.pair >= readers_ || packet.stream != model::Stream::pub) break;
+        for (const std::uint32_t destination : destinations) {
+          entry.reader = (packet.to_writer() ? source : destination) - 1;
+          of_relations.push_back(entry);
+          ++entry.number;
+        }
         break;
       default:
         break;
     }
   }
+
+ private:
+  unsigned readers_;
 };
 
 /// When the world starts, in the time of the run.
@@ -89,7 +107,14 @@ model::Scenario bare_scenario(const ReplayRequest& request, const ConcretePath& 
     scenario.dds.descriptors.default_publications = 0;
     scenario.dds.descriptors.default_subscriptions = 0;
   }
-  scenario.deployment.participants = {writer, {model::HostId{1}, 0, 0, {}, {}}};
+  scenario.deployment.participants = {writer};
+  for (unsigned r = 0; r < request.scope.readers; ++r) {
+    const bool joins = r > 0 && request.scope.joins_within.count() > 0;
+    const Nanoseconds begin =
+        joins ? start + path.time_of(What::reader_opens, r).value_or(Nanoseconds{0})
+              : Nanoseconds{0};
+    scenario.deployment.participants.push_back({model::HostId{r + 1}, 0, 0, begin, begin});
+  }
   scenario.wireless.kind = model::ServiceKind::constant_delay;
   scenario.wireless.one_way = Nanoseconds{0};
   scenario.run_until = model::RunUntil::time_limit;
@@ -112,17 +137,18 @@ void assign(const ReplayRequest& request, const ConcretePath& path, const Packet
   auto& lost = scenario.wireless.lost_packets;
   delays.clear();
   lost.clear();
-  const Nanoseconds reader = path.time_of(What::reader_opens).value_or(Nanoseconds{0});
-  const Nanoseconds writer = path.time_of(What::writer_opens).value_or(reader);
   for (const PacketList::Entry& packet : list.announcements) {
-    const Nanoseconds arrival =
-        std::max(packet.emitted, start + (packet.source == 0 ? reader : writer));
+    const bool by_writer = packet.source == 0;
+    const std::uint32_t of = by_writer ? packet.reader : packet.source - 1;
+    const Nanoseconds reader = path.time_of(What::reader_opens, of).value_or(Nanoseconds{0});
+    const Nanoseconds writer = path.time_of(What::writer_opens, of).value_or(reader);
+    const Nanoseconds arrival = std::max(packet.emitted, start + (by_writer ? reader : writer));
     delays.push_back({packet.number, Nanoseconds{0}, arrival - packet.emitted});
   }
-  const std::size_t known = std::min(path.packets.size(), list.of_relation.size());
+  const std::size_t known = std::min(path.packets.size(), list.of_relations.size());
   for (std::size_t k = 0; k < known; ++k) {
     const ConcretePath::Packet& packet = path.packets[k];
-    const std::uint64_t number = list.of_relation[k].number;
+    const std::uint64_t number = list.of_relations[k].number;
     if (!packet.one_way) lost.push_back(number);
     const Nanoseconds one_way = packet.one_way.value_or(packet.leaves_after);
     delays.push_back({number, std::min(packet.leaves_after, one_way), one_way});
@@ -136,13 +162,13 @@ std::string difference(const ConcretePath& path, const PacketList& list, Nanosec
   for (std::size_t k = 0; k < path.packets.size(); ++k) {
     const ConcretePath::Packet& expected = path.packets[k];
     const Nanoseconds time = start + expected.emitted;
-    if (k == list.of_relation.size()) {
+    if (k == list.of_relations.size()) {
       return fmt::format("The simulator emits only {} of the path's {} packets.", k,
                          path.packets.size());
     }
-    const PacketList::Entry& entry = list.of_relation[k];
+    const PacketList::Entry& entry = list.of_relations[k];
     if (entry.kind == kind_of(expected.slot.what) && entry.emitted == time &&
-        entry.set == expected.slot.set) {
+        entry.set == expected.slot.set && entry.reader == expected.slot.reader) {
       continue;
     }
     return fmt::format(
@@ -164,7 +190,7 @@ std::optional<model::Scenario> scenario_of(const ReplayRequest& request, const C
   const Nanoseconds start = start_of_world(request, path);
   // Each round settles at least one more packet, and announcements settle with them.
   for (std::size_t round = 0; round < path.packets.size() + 20; ++round) {
-    PacketList list;
+    PacketList list{request.scope.readers};
     model::RunOptions options;
     options.probe = &list;
     options.mutation = request.mutation;
@@ -213,7 +239,9 @@ ReplayOutcome replay(const ReplayRequest& request, const ConcretePath& path,
                                 violation.time,        violation.reason, {}};
   const Nanoseconds start = start_of_world(request, path);
   for (const ConcretePath::Step& step : path.steps) {
-    if (start + step.time <= violation.time) example.steps.push_back(step_text(step));
+    if (start + step.time <= violation.time) {
+      example.steps.push_back(step_text(step, request.scope.readers));
+    }
   }
   outcome.counterexample = std::move(example);
   return outcome;

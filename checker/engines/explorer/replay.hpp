@@ -1,8 +1,8 @@
 // A path of the explorer becomes a scenario, and the simulator decides: a counterexample counts
-// only if the property's monitor objects in a run of the simulator. The scenario has two hosts with
-// one participant each, constant delay, and the path's delay or loss for each packet of the
-// relation. A packet's number is known only once everything before it has been emitted, so the
-// simulator runs again and again until each packet of the path has its delay.
+// only if the property's monitor objects in a run of the simulator. The scenario has a host with
+// one participant for the writer and for each reader, constant delay, and the path's delay or loss
+// for each packet of the relations. A packet's number is known only once everything before it has
+// been emitted, so the simulator runs again and again until each packet of the path has its delay.
 #pragma once
 
 #include <functional>

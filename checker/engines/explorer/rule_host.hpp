@@ -1,11 +1,14 @@
 // The host of rules (model/engine/running_world.hpp) in the explorer, whatever the composition: its
 // state is a small one that can be copied, its clock a frame of pending events. What is scheduled
 // becomes a slot of the frame, what is emitted a packet that may be late or lost. There is one
-// relation, whose number, like that of all else, is 0.
+// writer, of stream 0 of participant 0, with one or several readers: reader r is participant r + 1,
+// its relation has number 2·r, and open relations stand in ascending order. In Fast DDS that is the
+// order in which they have opened, which the world keeps.
 //
 // `Packing` says which composition it is, and does what its rules leave to a host. It has
 //   Composition, WriterOpens      the rules, and the occasion that opens the writer side
 //   State                         flags and numbers that it needs besides the composition's
+//   SharedState                   and those that it needs only if there are several readers
 //   max_descriptors, receives_separately
 //   one_event_opens_both          the receiver of an announcement opens both sides
 //   repairs_leave_later           suppression begins when a repair leaves the source, for each of
@@ -16,6 +19,7 @@
 //   answer(tag), fact(tag, world), perform(step, world, …)   steps without one run their contract
 #pragma once
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -58,6 +62,26 @@ class Machines<fsm::TypeList<Ps...>> : public PartMachines<Ps>... {
   explicit Machines(std::span<const fsm::TableMutation> tables) : PartMachines<Ps>{tables}... {}
 };
 
+/// All subsets of the numbers 0, step, 2·step, …, each in ascending order.
+template <unsigned count>
+class Subsets {
+ public:
+  explicit constexpr Subsets(std::uint32_t step) {
+    for (unsigned set = 0; set < sizes_.size(); ++set) {
+      for (unsigned k = 0; k < count; ++k) {
+        if ((set >> k & 1) != 0) members_[set][sizes_[set]++] = k * step;
+      }
+    }
+  }
+  [[nodiscard]] std::span<const std::uint32_t> of(unsigned set) const {
+    return {members_[set].data(), sizes_[set]};
+  }
+
+ private:
+  std::array<std::array<std::uint32_t, count>, std::size_t{1} << count> members_{};
+  std::array<unsigned, std::size_t{1} << count> sizes_{};
+};
+
 /// The part of which each descriptor has one: the writer's view of it.
 template <class... Ps>
 auto descriptor_part(fsm::TypeList<Ps...>) {
@@ -66,18 +90,22 @@ auto descriptor_part(fsm::TypeList<Ps...>) {
 }
 }  // namespace detail
 
-template <class Packing_>
+template <class Packing_, unsigned readers_ = 1>
 class RuleHost {
  public:
   using Packing = Packing_;
+  static constexpr unsigned reader_count = readers_;
   using Composition = typename Packing::Composition;
   using Packet = Slot;
   /// The writer's view of a descriptor, the paper's letter.
   using C = decltype(detail::descriptor_part(typename Composition::Parts{}));
-  using State = WorldState<comp::Joined<typename Composition::Parts, typename Composition::Timers,
-                                        typename Composition::State, typename Packing::State,
-                                        fsm::TypeList<Asked, Generated>>,
-                           Packing::max_descriptors>;
+  using State =
+      WorldState<comp::Joined<typename Composition::Parts, typename Composition::Timers,
+                              typename Composition::State, typename Packing::State,
+                              std::conditional_t<(readers_ > 1), typename Packing::SharedState,
+                                                 fsm::TypeList<>>,
+                              fsm::TypeList<Asked, Generated>>,
+                 Packing::max_descriptors, readers_>;
 
   RuleHost(const model::Scenario& running, const Scope& scope, const model::Mutation& mutation)
       : packing_{running, scope},
@@ -97,22 +125,34 @@ class RuleHost {
   [[nodiscard]] Frame& frame() { return *frame_; }
   [[nodiscard]] Packing& packing() { return packing_; }
   [[nodiscard]] unsigned descriptors() const { return count_; }
+  /// For the relation or writer that the slot is about.
   template <class Trigger>
-  void run_rule(const Slot* packet = nullptr, std::uint32_t descriptor = 0) {
-    model::run_rule<Trigger>(*this, 0, packet, descriptor);
+  void run_rule(const Slot& slot, std::uint32_t descriptor = 0) {
+    model::run_rule<Trigger>(*this, relation_of(slot.reader), &slot, descriptor);
   }
   /// Runs the rule of the timer that the slot is.
-  void run_due(What what) {
+  void run_due(const Slot& slot) {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       if constexpr (what_of<T>().has_value()) {
-        if (what_of<T>() != what) return;
+        if (what_of<T>() != slot.what) return;
         if constexpr (T::counted) {
           const std::uint8_t scheduled = state_->template get<T>();
           if (scheduled > 0) state_->template set<T>(scheduled - 1);  // 0: it was scheduled twice
         }
-        run_rule<comp::Due<T>>();
+        run_rule<comp::Due<T>>(slot);
       }
     });
+  }
+  /// The number of the relation to a reader, and the reader of what has a number in `owner`.
+  static constexpr std::uint32_t relation_of(unsigned reader) { return 2 * reader; }
+  template <comp::Owner owner = comp::owner::relation>
+  static constexpr unsigned reader_of(std::uint32_t number) {
+    if constexpr (reader_count == 1 || (owner.indices & comp::owner::peer_index) == 0) return 0;
+    return number / 2;
+  }
+  template <class World>
+  static std::uint8_t reader_at(const World& w) {
+    return static_cast<std::uint8_t>(reader_of(w.template number<comp::owner::relation>()));
   }
   void send(const Slot& packet) {
     if (said_ != nullptr) {
@@ -125,7 +165,7 @@ class RuleHost {
   [[nodiscard]] Slot said_now(const Slot& acknack) {
     Slot said;
     said_ = &said;
-    model::RunningWorld<RuleHost, comp::owner::relation> w{*this, 0};
+    model::RunningWorld<RuleHost, comp::owner::relation> w{*this, relation_of(acknack.reader)};
     if (acknack.has(Slot::initial)) {
       Composition::emit_initial(w);
     } else {
@@ -139,14 +179,17 @@ class RuleHost {
 
   // What a RunningWorld asks of its host.
   [[nodiscard]] comp::Watcher* watcher() { return mutator_.is_needed() ? &mutator_ : nullptr; }
-  struct OneRelation {
+  struct OneWriter {
     unsigned descriptors;
-    [[nodiscard]] static model::Pair pair(std::uint32_t) { return {0, 1, 1, true}; }
+    /// There is nothing in the reverse direction.
+    [[nodiscard]] static model::Pair pair(std::uint32_t number) {
+      return {0, number + 1, number, true};
+    }
     [[nodiscard]] std::uint32_t descriptor_count(std::uint32_t, model::Stream) const {
       return descriptors;
     }
   };
-  [[nodiscard]] OneRelation topology() const { return {count_}; }
+  [[nodiscard]] OneWriter topology() const { return {count_}; }
   [[nodiscard]] static std::int64_t now() { return 0; }
   template <class Knob>
   [[nodiscard]] auto knob(Knob knob) const {
@@ -174,35 +217,37 @@ class RuleHost {
     return static_cast<detail::PartMachines<P>&>(machines_);
   }
   template <class P>
-  [[nodiscard]] fsm::StateId& state(P, std::uint32_t) {
-    return state_->template state<P>();
+  [[nodiscard]] fsm::StateId& state(P, std::uint32_t n) {
+    return state_->template state<P>(0, reader_of<P::owner>(n));
   }
   auto& bits(C) { return *this; }
   static constexpr auto lane_order(C) { return nullptr; }
   static void moved(C, std::uint32_t, fsm::StateId, fsm::StateId, std::uint64_t) {}
 
-  [[nodiscard]] std::uint64_t in_state(std::uint32_t, std::uint32_t, fsm::StateId wanted) const {
-    return state_->template in_state<C>(wanted);
+  [[nodiscard]] std::uint64_t in_state(std::uint32_t relation, std::uint32_t,
+                                       fsm::StateId wanted) const {
+    return state_->template in_state<C>(wanted, reader_of(relation));
   }
-  [[nodiscard]] fsm::StateId state_of(std::uint32_t, std::uint32_t d) const {
-    return state_->template state<C>(d);
+  [[nodiscard]] fsm::StateId state_of(std::uint32_t relation, std::uint32_t d) const {
+    return state_->template state<C>(d, reader_of(relation));
   }
   template <class Event, class Effect>
-  void step(std::uint32_t, std::uint32_t, std::uint64_t members,
+  void step(std::uint32_t relation, std::uint32_t, std::uint64_t members,
             const typename fsm::Stepper<typename C::Machine>::Input& input, Effect&& effect) {
     for (std::uint64_t left = members; left != 0; left &= left - 1) {
-      fsm::StateId& state =
-          state_->template state<C>(static_cast<unsigned>(std::countr_zero(left)));
+      fsm::StateId& state = state_->template state<C>(static_cast<unsigned>(std::countr_zero(left)),
+                                                      reader_of(relation));
       const fsm::StateId before = state;
       const auto output = driver(C{}).template step<Event>(state, input);
       effect(left & -left, output, before, state);
     }
   }
   template <class Event, class LaneInput, class Order, class Effect>
-  void step_each(std::uint32_t, std::uint32_t, std::uint64_t members, const LaneInput& lanes,
-                 const Order&, Effect&& effect) {
+  void step_each(std::uint32_t relation, std::uint32_t, std::uint64_t members,
+                 const LaneInput& lanes, const Order&, Effect&& effect) {
     if constexpr (requires { lanes.listed; }) {
-      note_asked(*state_, *frame_, static_cast<Members>(lanes.listed.bits & members), as_emitted_);
+      note_asked(*state_, *frame_, reader_of(relation),
+                 static_cast<Members>(lanes.listed.bits & members), as_emitted_);
     }
     for (std::uint64_t left = members; left != 0; left &= left - 1) {
       typename fsm::Stepper<typename C::Machine>::Input input;
@@ -210,36 +255,37 @@ class RuleHost {
         ((boost::pfr::get<I>(input) = (boost::pfr::get<I>(lanes).bits & left & -left) != 0), ...);
       }
       (std::make_index_sequence<boost::pfr::tuple_size_v<LaneInput>>{});
-      step<Event>(0, 0, left & -left, input, effect);
+      step<Event>(relation, 0, left & -left, input, effect);
     }
   }
 
   // Flags, numbers and what packets say.
   template <class V>
-  [[nodiscard]] auto value(V, std::uint32_t) const {
-    return state_->template get<V>();
+  [[nodiscard]] auto value(V, std::uint32_t n) const {
+    return state_->template get<V>(reader_of<V::owner>(n));
   }
   template <class V, class Value>
-  void assign(V, std::uint32_t, Value value) {
-    state_->template set<V>(value);
+  void assign(V, std::uint32_t n, Value value) {
+    state_->template set<V>(value, reader_of<V::owner>(n));
   }
   /// Doubling without end, the explored world would never come back to a state.
-  void assign(comp::LastDelay, std::uint32_t, std::int64_t delay) {
+  void assign(comp::LastDelay, std::uint32_t relation, std::int64_t delay) {
     if (delay > knob(comp::InitialDelay{}) << last_doubling) return;
-    state_->template set<comp::LastDelay>(delay);
+    state_->template set<comp::LastDelay>(delay, reader_of(relation));
   }
   template <class V>
-  void assign(V, std::uint32_t, std::uint32_t d, bool holds) {
-    const Members others = state_->template get<V>() & static_cast<Members>(~member(d));
-    state_->template set<V>(others | (holds ? member(d) : Members{0}));
+  void assign(V, std::uint32_t n, std::uint32_t d, bool holds) {
+    const unsigned reader = reader_of<V::owner>(n);
+    const Members others = state_->template get<V>(reader) & static_cast<Members>(~member(d));
+    state_->template set<V>(others | (holds ? member(d) : Members{0}), reader);
   }
   template <class V>
-  void assign_each(V, std::uint32_t, const model::DescriptorSet& set) {
-    state_->template set<V>(members_of(set));
+  void assign_each(V, std::uint32_t n, const model::DescriptorSet& set) {
+    state_->template set<V>(members_of(set), reader_of<V::owner>(n));
   }
   template <class V>
-  [[nodiscard]] std::uint64_t word(V, std::uint32_t, std::uint32_t) const {
-    return state_->template get<V>();
+  [[nodiscard]] std::uint64_t word(V, std::uint32_t n, std::uint32_t) const {
+    return state_->template get<V>(reader_of<V::owner>(n));
   }
   template <class Field>
   [[nodiscard]] static std::uint64_t word(Field, const Slot& packet, std::uint32_t) {
@@ -252,10 +298,12 @@ class RuleHost {
 
   // Effects.
   template <class T>
-  void schedule(T, std::uint32_t, std::int64_t time) {
+  void schedule(T, std::uint32_t n, std::int64_t time) {
     if constexpr (what_of<T>().has_value()) {
       if constexpr (T::counted) state_->template set<T>(state_->template get<T>() + 1);
-      frame_->schedule({*what_of<T>()}, time);
+      Slot slot{*what_of<T>()};
+      slot.reader = static_cast<std::uint8_t>(reader_of<T::owner>(n));
+      frame_->schedule(slot, time);
     }
   }
   template <class T>
@@ -270,6 +318,7 @@ class RuleHost {
   template <class P, class World, class... Sayings>
   void emit(P, World& w, const std::tuple<Sayings...>& sayings) {
     Slot packet{std::is_same_v<P, typename Composition::AckNack> ? What::acknack : What::heartbeat};
+    packet.reader = reader_at(w);
     std::apply([&](const auto&... each) { (say(packet, each, w), ...); }, sayings);
     send(packet);
   }
@@ -284,16 +333,21 @@ class RuleHost {
   /// The periodic policy has no cycle.
   template <class World>
   static void perform(comp::PlanBatches, World&, std::int64_t) {}
-  /// Relation 0, if its writer side is open.
+  /// The relations whose writer sides are open.
   [[nodiscard]] std::span<const std::uint32_t> readers(std::uint32_t) const {
-    static constexpr std::uint32_t only = 0;
-    return {&only, state_->template get<typename Composition::IsOpen>() ? 1U : 0U};
+    static constexpr detail::Subsets<reader_count> subsets{2};
+    unsigned open = 0;
+    for (unsigned r = 0; r < reader_count; ++r) {
+      open |= static_cast<unsigned>(state_->template get<typename Composition::IsOpen>(r)) << r;
+    }
+    return subsets.of(open);
   }
   [[nodiscard]] std::span<const std::uint32_t> readers_by_number(std::uint32_t writer) const {
     return readers(writer);
   }
   template <class Visit>
   void for_queue(std::uint32_t, Visit&& visit) {
+    if constexpr (reader_count > 1) return packing_.for_queue(*this, visit);
     const unsigned queue = state_->template get<typename Composition::IsQueued>();
     for (unsigned left = queue; left != 0; left &= left - 1) {
       visit(0, static_cast<std::uint32_t>(std::countr_zero(left)));

@@ -9,6 +9,9 @@
 
 namespace stormproof::explorer {
 
+/// Readers of one writer that can be explored together.
+inline constexpr unsigned most_readers = 2;
+
 struct Scope {
   unsigned descriptors = 1;        ///< D, 1 … 3 (paper); the 9 default publications with Fast DDS
   unsigned losses = 0;             ///< k, at most this many packets are lost
@@ -18,7 +21,11 @@ struct Scope {
       leaves_within;    ///< Δ_s: repair DATA leave the source at most this long after generation
   bool fifo = false;    ///< packets of one source arrive in the order of their generation
   unsigned pushed = 0;  ///< Fast DDS: this many descriptors are created after the match
-  bool side_by_side = false;  ///< the two sides of the relation open apart, at most Δ
+  bool side_by_side = false;  ///< the two sides of a relation open apart, at most Δ
+  unsigned readers = 1;       ///< of the one writer, 1 … most_readers
+  /// With several readers: the last one joins at most this long after the others, which learn of
+  /// the writer together. Not with `side_by_side`.
+  model::Nanoseconds joins_within;
 };
 
 /// "D = 2, delays in [0 ms, 250 ms], at most 1 loss, any interleaving".

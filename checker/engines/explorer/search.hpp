@@ -1,7 +1,7 @@
 // Breadth-first search over the zone states of a world: the first objection that it meets needs the
 // fewest events. A world is a class with
 //   State start(Frame&), fire(State&, Frame&, const Slot&), complete(State), received(State),
-//   descriptors(), scope(), rules(),
+//   deliveries() (how many bits that has), scope(), rules(),
 // and knows nothing of searching; the search knows nothing of the protocol.
 //
 // Three claims are the search's own, because they are not about one state of the protocol:
@@ -47,7 +47,8 @@ struct SearchResult {
   std::uint64_t steps = 0;  ///< fired events
   std::uint32_t depth = 0;  ///< all paths up to this many events have been tried
   bool exhausted = false;   ///< all paths have been tried
-  bool overflowed = false;  ///< some state had more pending events than fit; not expanded
+  /// Some state had more pending events, or some step emitted more packets, than fit.
+  bool overflowed = false;
   model::Nanoseconds latest_completion;  ///< with a bound: the latest time found
 };
 
@@ -71,6 +72,8 @@ class Search {
 
  private:
   static constexpr std::uint64_t check_interval = 1U << 10U;
+  /// Packets of one step of which each may be lost: the bits of a label's mask.
+  static constexpr unsigned most_lost = 8;
 
   [[nodiscard]] bool wants(Claim claim) const { return (wanted_ & bit(claim)) != 0; }
 
@@ -100,7 +103,8 @@ class Search {
     for (unsigned k = 0; k < frame.count(); ++k) {
       if (is_mark(frame.slot(k).what) || !frame.can_be_next(k)) continue;
       const unsigned packets = follow(node, frame, {static_cast<std::uint8_t>(k), 0});
-      const unsigned variants = frame.losses_left() > 0 ? 1U << packets : 1U;
+      const unsigned variants = frame.losses_left() > 0 ? 1U << std::min(packets, most_lost) : 1U;
+      if (frame.losses_left() > 0 && packets > most_lost) result_.overflowed = true;
       for (unsigned mask = 1; mask < variants; ++mask) {
         if (static_cast<unsigned>(std::popcount(mask)) > frame.losses_left()) continue;
         follow(node, frame, {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(mask)});
@@ -122,7 +126,7 @@ class Search {
     }
     if (options_.bounds.completion && world_.complete(state) &&
         !world_.complete(store_.state(node))) {
-      const unsigned mark = frame.find_mark(What::opened, 0);
+      const unsigned mark = frame.find(What::opened);
       result_.latest_completion =
           std::max(result_.latest_completion, model::Nanoseconds{frame.zone().bound(0, mark + 1)});
     }
@@ -138,24 +142,26 @@ class Search {
     const bool missing = !world.complete(state);
     const Slot slot = frame.advance(label.slot, label.loss_mask);
     if (bounds.completion && missing) {
-      const unsigned mark = frame.find_mark(What::opened, 0);
+      const unsigned mark = frame.find(What::opened);
       frame.object_if(Claim::completion, mark + 1, 0, -(bounds.completion->count() + 1));
     }
     world.fire(state, frame, slot);
     if (!frame.any_pending() && !world.complete(state)) frame.object(Claim::no_stall);
-    if (!bounds.quiescence || !world.complete(state)) return;
-    if (missing) {
-      frame.mark({What::completed});
-    } else {
-      watch_quiet(frame, *bounds.quiescence);
+    if (bounds.quiescence && world.complete(state)) {
+      if (missing) {
+        frame.mark({What::completed});
+      } else {
+        watch_quiet(frame, *bounds.quiescence);
+      }
     }
+    if constexpr (World::sorts_slots) frame.sort();
   }
 
  private:
   /// After completion: traffic that comes too late. A loss ends the claim, and so does an
   /// objection; there must be no mark left that makes each state differ from all others.
   static void watch_quiet(Frame& frame, model::Nanoseconds bound) {
-    const unsigned mark = frame.find_mark(What::completed, 0);
+    const unsigned mark = frame.find(What::completed);
     if (mark == frame.count()) return;
     const Claims before = frame.objections();
     if (frame.emitted() > 0 && !frame.lost_something()) {
@@ -186,7 +192,7 @@ class Search {
 
   void decide_on_graph() {
     graph_.finish(store_.size());
-    for (unsigned d = 0; d < world_.descriptors() && wants(Claim::no_stall); ++d) {
+    for (unsigned d = 0; d < world_.deliveries() && wants(Claim::no_stall); ++d) {
       const auto received = [&](std::uint32_t node) {
         return (world_.received(store_.state(node)) >> d & 1) != 0;
       };

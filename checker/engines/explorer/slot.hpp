@@ -1,9 +1,10 @@
-// What a variable of a zone stands for: a pending event of the relation, a packet in flight, or a
+// What a variable of a zone stands for: a pending event of the relations, a packet in flight, or a
 // mark in the past. The slots of a state stand in the order of their insertion, which decides
 // between same-time events of one class.
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "model/engine/event_queue.hpp"
 
@@ -43,12 +44,18 @@ enum class What : std::uint8_t {
 [[nodiscard]] constexpr bool is_packet(What what) { return what <= What::acknack; }
 [[nodiscard]] constexpr bool from_writer(What what) { return what <= What::heartbeat; }
 
+/// It belongs to the relation with one reader; otherwise to the writer or its participant.
+[[nodiscard]] constexpr bool is_of_reader(What what) {
+  return !is_mark(what) && what != What::heartbeat_expiry && what != What::nack_response &&
+         what != What::async_run && what != What::creation;
+}
+
 struct Slot {
   What what{};
   std::uint8_t flags = 0;
   std::uint16_t set = 0;    ///< descriptors, bit d is descriptor d
   std::uint8_t number = 0;  ///< what a HEARTBEAT announces; the base of an ACKNACK
-  std::uint8_t unused = 0;  ///< no padding: slots are compared and hashed bytewise
+  std::uint8_t reader = 0;  ///< whose relation it belongs to; 0 for what is the writer's own
 
   static constexpr std::uint8_t carries_heartbeat = 1;  ///< DATA with a piggybacked HEARTBEAT
   static constexpr std::uint8_t initial = 2;            ///< ACKNACK marked initial
@@ -57,6 +64,14 @@ struct Slot {
   [[nodiscard]] bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   bool operator==(const Slot&) const = default;
 };
+// Slots are compared and hashed bytewise.
+static_assert(std::has_unique_object_representations_v<Slot>);
+
+/// Two packets.
+[[nodiscard]] constexpr bool have_one_source(const Slot& a, const Slot& b) {
+  if (from_writer(a.what) != from_writer(b.what)) return false;
+  return from_writer(a.what) || a.reader == b.reader;
+}
 
 /// The simulator's kind of event. Packets are received after the constant delay of their own.
 [[nodiscard]] constexpr model::EventKind kind_of(What what, bool receives_separately) {

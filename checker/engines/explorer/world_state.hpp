@@ -1,7 +1,7 @@
 // The state of an explored world, laid out from what a composition declares: a byte for each
 // machine, flag and count of scheduled events, a set for each flag of descriptors, eight bytes for
-// each number. It is plain memory without padding, because states are kept by the hundred thousand,
-// compared and hashed.
+// each number, and all of these once for each reader if each has one. It is plain memory without
+// padding, because states are kept by the hundred thousand, compared and hashed.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ using Members = std::uint16_t;
 struct Asked : comp::Flag<comp::owner::descriptor> {};
 struct Generated : comp::Flag<comp::owner::descriptor> {};
 
-/// The explored relation is open from outside, its writer keeps the periodic policy, and it has no
-/// topics.
+/// The explored relations are opened from outside, their writer keeps the periodic policy, and they
+/// have no topics.
 using LeftOut = comp::Joined<
     fsm::TypeList<comp::AnnouncementTimer, comp::AnnouncementsSent, comp::Recognised,
                   comp::CycleStart, comp::CycleEnd, comp::BatchDue, comp::CycleBegan,
@@ -40,6 +40,8 @@ constexpr bool is_among(fsm::TypeList<Ts...>) {
 }
 template <class T>
 inline constexpr bool is_of_descriptors = (T::owner.indices & comp::owner::descriptor_index) != 0;
+template <class T>
+inline constexpr bool is_of_readers = (T::owner.indices & comp::owner::peer_index) != 0;
 template <class T>
 constexpr auto kept_as() {
   if constexpr (requires { typename T::Machine; }) {
@@ -58,8 +60,9 @@ template <class T>
 using KeptAs = decltype(detail::kept_as<T>());
 
 /// `Things` are parts, timers, flags and numbers; a machine of descriptors is there for each of
-/// `descriptors`. What is left out is false or 0, whatever it is set to.
-template <class Things, unsigned descriptors>
+/// `descriptors`, what belongs to a relation for each of `readers`. What is left out is false or 0,
+/// whatever it is set to.
+template <class Things, unsigned descriptors, unsigned readers = 1>
 class WorldState {
  public:
   bool operator==(const WorldState& other) const {
@@ -69,36 +72,38 @@ class WorldState {
     return true;
   }
 
+  /// Of what belongs to a relation, that of `reader`.
   template <class T>
-  [[nodiscard]] KeptAs<T> get() const {
+  [[nodiscard]] KeptAs<T> get(unsigned reader = 0) const {
     KeptAs<T> value{};
-    if constexpr (size<T>() > 0) std::memcpy(&value, bytes() + offset<T>(), sizeof value);
+    if constexpr (size<T>() > 0) std::memcpy(&value, bytes() + offset<T>(reader), sizeof value);
     return value;
   }
   template <class T>
-  void set(KeptAs<T> value) {
-    if constexpr (size<T>() > 0) std::memcpy(bytes() + offset<T>(), &value, sizeof value);
+  void set(KeptAs<T> value, unsigned reader = 0) {
+    if constexpr (size<T>() > 0) std::memcpy(bytes() + offset<T>(reader), &value, sizeof value);
   }
   /// The state of a machine, of descriptor d if each of them has one.
   template <class P>
-  [[nodiscard]] fsm::StateId& state(unsigned d = 0) {
-    return bytes()[offset<P>() + d];
+  [[nodiscard]] fsm::StateId& state(unsigned d = 0, unsigned reader = 0) {
+    return bytes()[offset<P>(reader) + d];
   }
   template <class P>
-  [[nodiscard]] fsm::StateId state(unsigned d = 0) const {
-    return bytes()[offset<P>() + d];
+  [[nodiscard]] fsm::StateId state(unsigned d = 0, unsigned reader = 0) const {
+    return bytes()[offset<P>(reader) + d];
   }
   /// The descriptors whose machines are in a state.
   template <class P>
-  [[nodiscard]] Members in_state(fsm::StateId wanted) const {
+  [[nodiscard]] Members in_state(fsm::StateId wanted, unsigned reader = 0) const {
     unsigned members = 0;
     for (unsigned d = 0; d < descriptors; ++d) {
-      members |= static_cast<unsigned>(state<P>(d) == wanted) << d;
+      members |= static_cast<unsigned>(state<P>(d, reader) == wanted) << d;
     }
     return static_cast<Members>(members);
   }
 
  private:
+  /// Bytes of one of them.
   template <class T>
   static constexpr std::size_t size() {
     if constexpr (detail::is_among<T>(LeftOut{})) return 0;
@@ -114,14 +119,16 @@ class WorldState {
   static constexpr std::size_t offset_in(fsm::TypeList<Ts...>) {
     std::size_t sum = 0;
     bool found = false;
-    ((found = found || std::is_same_v<T, Ts>, sum += found ? 0 : size<Ts>()), ...);
+    ((found = found || std::is_same_v<T, Ts>,
+      sum += found ? 0 : size<Ts>() * (detail::is_of_readers<Ts> ? readers : 1)),
+     ...);
     return sum;
   }
   template <class T>
-  static constexpr std::size_t offset() {
+  static constexpr std::size_t offset(unsigned reader) {
     constexpr std::size_t k = offset_in<T>(Things{});
     static_assert(k < offset_in<void>(Things{}), "this is not part of the state");
-    return k;
+    return detail::is_of_readers<T> && readers > 1 ? k + reader * size<T>() : k;
   }
   [[nodiscard]] unsigned char* bytes() { return reinterpret_cast<unsigned char*>(words_.data()); }
   [[nodiscard]] const unsigned char* bytes() const {

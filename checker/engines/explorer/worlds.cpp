@@ -6,5 +6,7 @@ namespace stormproof::explorer {
 
 template class RelationWorld<PaperPacking>;
 template class RelationWorld<FastDdsPacking>;
+template class RelationWorld<PaperPacking, most_readers>;
+template class RelationWorld<FastDdsPacking, most_readers>;
 
 }  // namespace stormproof::explorer

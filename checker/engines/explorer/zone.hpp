@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace stormproof::explorer {
 
@@ -80,6 +81,12 @@ class Zone {
     for (unsigned i = 0; i < size_; ++i) {
       for (unsigned j = 0; j < size_; ++j) d_[i][j] = d_[i < v ? i : i + 1][j < v ? j : j + 1];
     }
+  }
+
+  /// Two variables take each other's numbers.
+  void exchange(unsigned a, unsigned b) {
+    for (unsigned i = 0; i < size_; ++i) std::swap(d_[a][i], d_[b][i]);
+    for (unsigned i = 0; i < size_; ++i) std::swap(d_[i][a], d_[i][b]);
   }
 
   /// No limit in `Limits`: nothing is said about this variable.

@@ -47,6 +47,7 @@ class Packing {
   using Composition = push_once::PushOnce;
   using WriterOpens = push_once::WriterOpens;
   using State = fsm::TypeList<>;
+  using SharedState = fsm::TypeList<>;
   static constexpr unsigned max_descriptors = 3;
   static constexpr bool receives_separately = false;
   static constexpr bool one_event_opens_both = true;
@@ -61,8 +62,9 @@ class Packing {
   template <class W>
   void perform(push_once::Push, W& w) {
     const auto all = static_cast<explorer::Members>(explorer::member(count_) - 1);
-    explorer::note_generated(w.host().state(), w.host().frame(), all, false);
-    w.host().send({explorer::What::data, 0, all});
+    const std::uint8_t reader = w.host().reader_at(w);
+    explorer::note_generated(w.host().state(), w.host().frame(), reader, all, false);
+    w.host().send({explorer::What::data, 0, all, 0, reader});
   }
 
  private:

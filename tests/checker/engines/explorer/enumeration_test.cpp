@@ -26,28 +26,30 @@ struct Outcomes {
 };
 
 /// The paper's world with counts of repairs and packets, which notes its outcomes.
+template <class World>
 class CountingWorld {
  public:
+  static constexpr bool sorts_slots = World::sorts_slots;
   struct State {
-    PaperWorld::State paper;
+    typename World::State paper;
     std::uint32_t repairs = 0;
     std::uint32_t packets = 0;
     bool operator==(const State&) const = default;
   };
-  CountingWorld(PaperWorld& world, Outcomes& outcomes) : world_{world}, outcomes_{outcomes} {}
+  CountingWorld(World& world, Outcomes& outcomes) : world_{world}, outcomes_{outcomes} {}
 
   State start(Frame& frame) { return {world_.start(frame), 0, 0}; }
   void fire(State& state, Frame& frame, const Slot& slot) {
     const bool missing = !complete(state);
-    const PaperWorld::State before = state.paper;
+    const typename World::State before = state.paper;
     world_.fire(state.paper, frame, slot);
     state.packets += frame.emitted();
     for (unsigned d = 0; d < world_.descriptors(); ++d) {
       const bool queued = slot.what == What::repair_generation;
-      if (queued && view_of(state.paper, d) != view_of(before, d)) ++state.repairs;
+      if (queued && view_of(state.paper, d, slot) != view_of(before, d, slot)) ++state.repairs;
     }
     if (missing && complete(state)) {
-      const unsigned mark = frame.find_mark(What::opened, 0) + 1;
+      const unsigned mark = frame.find(What::opened) + 1;
       for (auto t = -frame.zone().bound(mark, 0); t <= frame.zone().bound(0, mark); ++t) {
         outcomes_.completions.insert({t, state.repairs});
       }
@@ -56,29 +58,34 @@ class CountingWorld {
     if (!frame.any_pending()) outcomes_.ends.insert({state.repairs, state.packets});
   }
   [[nodiscard]] bool complete(const State& state) const { return world_.complete(state.paper); }
-  [[nodiscard]] std::uint16_t received(const State& s) const { return world_.received(s.paper); }
-  [[nodiscard]] unsigned descriptors() const { return world_.descriptors(); }
+  [[nodiscard]] std::uint32_t received(const State& s) const { return world_.received(s.paper); }
+  [[nodiscard]] unsigned deliveries() const { return world_.deliveries(); }
   [[nodiscard]] const Scope& scope() const { return world_.scope(); }
   [[nodiscard]] const EventRules& rules() const { return world_.rules(); }
 
  private:
-  static fsm::StateId view_of(const PaperWorld::State& state, unsigned d) {
-    return state.state<PaperWorld::C>(d);
+  static fsm::StateId view_of(const typename World::State& state, unsigned d, const Slot& slot) {
+    return state.template state<typename World::C>(d, slot.reader);
   }
 
-  PaperWorld& world_;
+  World& world_;
   Outcomes& outcomes_;
 };
 
-Outcomes explored(const model::Scenario& scenario, const Scope& scope) {
-  PaperWorld paper{scenario, scenario, scope, {}};
+template <class World>
+Outcomes explored_in(const model::Scenario& scenario, const Scope& scope) {
+  World paper{scenario, scenario, scope, {}};
   Outcomes outcomes;
-  CountingWorld world{paper, outcomes};
+  CountingWorld<World> world{paper, outcomes};
   SearchOptions options;
   options.mark_opening = true;
-  const SearchResult result = Search<CountingWorld>{world, options}.run();
+  const SearchResult result = Search<CountingWorld<World>>{world, options}.run();
   EXPECT_TRUE(result.exhausted);
   return outcomes;
+}
+Outcomes explored(const model::Scenario& scenario, const Scope& scope) {
+  return scope.readers == 1 ? explored_in<PaperWorld>(scenario, scope)
+                            : explored_in<SharedPaperWorld>(scenario, scope);
 }
 
 class RelationPackets final : public model::Probe {
@@ -89,6 +96,8 @@ class RelationPackets final : public model::Probe {
   };
   std::vector<Entry> list;
   std::uint64_t repairs_at_completion = 0;
+
+  explicit RelationPackets(unsigned readers) : readers_{readers} {}
   void event_finished(const model::Depths& depths) override {
     if (depths.missing == 0 && !complete_) repairs_at_completion = repairs_;
     complete_ = depths.missing == 0;
@@ -98,13 +107,16 @@ class RelationPackets final : public model::Probe {
     const bool sedp = packet.kind == model::PacketKind::data ||
                       packet.kind == model::PacketKind::heartbeat ||
                       packet.kind == model::PacketKind::acknack;
-    if (sedp && packet.pair == 0 && packet.stream == model::Stream::pub) {
-      list.push_back({packet.number, packet.from_repair});
+    if (sedp && packet.pair < readers_ && packet.stream == model::Stream::pub) {
+      for (std::uint32_t copy = 0; copy < packet.copies; ++copy) {
+        list.push_back({packet.number + copy, packet.from_repair});
+      }
       if (packet.from_repair) repairs_ += packet.descriptors.count();
     }
   }
 
  private:
+  unsigned readers_;  // the first pairs go to them
   std::uint64_t repairs_ = 0;
   bool complete_ = false;
 };
@@ -114,8 +126,10 @@ class Enumeration {
  public:
   Enumeration(const model::Scenario& scenario, const Scope& scope) : scope_{scope} {
     scenario_ = scenario;
-    scenario_.deployment.participants = {{model::HostId{0}, scope.descriptors, 0, {}, {}},
-                                         {model::HostId{1}, 0, 0, {}, {}}};
+    scenario_.deployment.participants = {{model::HostId{0}, scope.descriptors, 0, {}, {}}};
+    for (unsigned r = 1; r <= scope.readers; ++r) {
+      scenario_.deployment.participants.push_back({model::HostId{r}, 0, 0, {}, {}});
+    }
     scenario_.dds.descriptors.default_publications = 0;
     scenario_.dds.descriptors.default_subscriptions = 0;
     scenario_.wireless.one_way = model::Nanoseconds{0};
@@ -127,7 +141,7 @@ class Enumeration {
 
  private:
   void descend(std::size_t decided, unsigned losses_left) {
-    RelationPackets packets;
+    RelationPackets packets{scope_.readers};
     model::RunOptions options;
     options.probe = &packets;
     const model::RunResult result = model::simulate(scenario_, options);
@@ -176,6 +190,7 @@ struct Case {
   model::Grouping grouping;
   std::uint64_t least_runs;  ///< so that the test is not about next to nothing
   model::InitialAckNackInterval interval = model::InitialAckNackInterval::doubling;
+  unsigned readers = 1;
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -193,6 +208,7 @@ TEST_P(AllRuns, OfTheSimulatorHaveTheOutcomesOfTheExplorer) {
   Scope scope;
   scope.descriptors = c.descriptors;
   scope.losses = c.losses;
+  scope.readers = c.readers;
   scope.least_delay = model::Nanoseconds{1};
   scope.largest_delay = model::Nanoseconds{c.delay};
   scope.leaves_within = model::Nanoseconds{std::min<std::int64_t>(c.delay, 1)};
@@ -216,7 +232,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"one_loss_asks_early", 2, 1, 3, 1, model::Grouping::message, 200},
                     Case{"one_loss_asks_again_and_again", 2, 1, 2, 1, model::Grouping::message, 200,
                          model::InitialAckNackInterval::constant},
-                    Case{"two_packets", 3, 0, 0, 2, model::Grouping::single, 100}),
+                    Case{"two_packets", 3, 0, 0, 2, model::Grouping::single, 100},
+                    Case{"two_readers", 2, 0, 0, 1, model::Grouping::message, 100,
+                         model::InitialAckNackInterval::doubling, 2},
+                    Case{"two_readers_one_loss", 1, 1, 0, 1, model::Grouping::message, 10,
+                         model::InitialAckNackInterval::doubling, 2}),
     [](const auto& test) { return std::string{test.param.name}; });
 
 }  // namespace enumeration_test

@@ -18,10 +18,10 @@ using explorer::Slot;
 using explorer::What;
 
 /// A path of the explored world, with what the systems know of the past.
-template <class Packing>
+template <class Packing, unsigned readers>
 class Walk {
  public:
-  using World = explorer::RelationWorld<Packing>;
+  using World = explorer::RelationWorld<Packing, readers>;
   using Composition = typename Packing::Composition;
 
   Walk(World& world, std::mt19937_64& dice)
@@ -50,7 +50,7 @@ class Walk {
     note_state();
     for (std::size_t k = emitted; k < log_.emissions.size(); ++k) note(log_.emissions[k].packet);
     note_timers(slot, scheduled);
-    comp::Place place;
+    comp::Place place{0, slot.reader, 0};
     place.descriptor = slot.what == What::creation ? std::countr_zero(slot.set) : 0;
     with_rule(slot.what, [&]<class Rule>() { visit(name<Rule>(), Rule::owner, place); });
     return true;
@@ -64,33 +64,39 @@ class Walk {
   template <class T, class Value>
   void note_value(Value&& value_of) {
     const bool each = (T::owner.indices & comp::owner::descriptor_index) != 0;
-    for (unsigned d = 0; d < (each ? world_.descriptors() : 1); ++d) {
-      seen_.values[{name<T>(), {0, 0, static_cast<int>(d)}}] = value_of(d);
+    constexpr unsigned count = explorer::detail::is_of_readers<T> ? readers : 1;
+    for (unsigned r = 0; r < count; ++r) {
+      for (unsigned d = 0; d < (each ? world_.descriptors() : 1); ++d) {
+        seen_.values[{name<T>(), {0, static_cast<int>(r), static_cast<int>(d)}}] = value_of(d, r);
+      }
     }
   }
   void note_state() {
     comp::for_each_type(typename Composition::Parts{}, [&]<class P>() {
       if constexpr (!explorer::detail::is_among<P>(explorer::LeftOut{})) {
-        note_value<P>([&](unsigned d) { return state_.template state<P>(d); });
+        note_value<P>([&](unsigned d, unsigned r) { return state_.template state<P>(d, r); });
       }
     });
     comp::for_each_type(typename Composition::State{}, [&]<class V>() {
       if constexpr (requires { typename V::IsFlag; }) {
-        note_value<V>([&](unsigned d) { return state_.template get<V>() >> d & 1; });
+        note_value<V>([&](unsigned d, unsigned r) { return state_.template get<V>(r) >> d & 1; });
       }
     });
   }
   void note_timers(const Slot& due, std::size_t scheduled) {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
-      const comp::Key key{name<T>(), {}};
+      const auto key_of = [](const Slot& slot) {
+        return comp::Key{name<T>(), {0, slot.reader, 0}};
+      };
       if constexpr (T::counted) {
-        seen_.pending[key] = state_.template get<T>();
+        seen_.pending[key_of({})] = state_.template get<T>();
       } else {
-        if (explorer::what_of<T>() == due.what) seen_.surely_pending.erase(key);
+        if (explorer::what_of<T>() == due.what) seen_.surely_pending.erase(key_of(due));
         for (std::size_t k = scheduled; k < log_.scheduled.size(); ++k) {
-          if (explorer::what_of<T>() != log_.scheduled[k].slot.what) continue;
-          seen_.surely_pending.insert(key);
-          seen_.started.insert(key);
+          const Slot& started = log_.scheduled[k].slot;
+          if (explorer::what_of<T>() != started.what) continue;
+          seen_.surely_pending.insert(key_of(started));
+          seen_.started.insert(key_of(started));
         }
       }
     });
@@ -102,7 +108,7 @@ class Walk {
   }
   template <class P>
   void note_packet(const Slot& packet) {
-    comp::SentPacket sent{name<P>(), {}, {}};
+    comp::SentPacket sent{name<P>(), {0, packet.reader, 0}, {}};
     comp::for_each_type(typename P::Fields{}, [&]<class F>() {
       std::uint32_t& said = sent.says[name<F>()];
       if constexpr (std::derived_from<F, comp::PacketField>) {
@@ -160,7 +166,7 @@ struct Crossing {
   std::vector<std::string> refused;
 };
 
-template <class Packing>
+template <class Packing, unsigned readers = 1>
 Crossing cross(const model::DdsProfile& dds, explorer::Scope scope, Unsound unsound) {
   z3::context context;
   const smt::SymbolicContext current{context};
@@ -173,18 +179,20 @@ Crossing cross(const model::DdsProfile& dds, explorer::Scope scope, Unsound unso
   scope.largest_delay = model::Nanoseconds{dds.sedp.heartbeat_period.count() / 4};
   scope.leaves_within = scope.largest_delay;
   scope.side_by_side = true;
-  explorer::RelationWorld<Packing> world{scenario, scenario, scope, {}};
+  scope.readers = readers;
+  explorer::RelationWorld<Packing, readers> world{scenario, scenario, scope, {}};
   Crossing crossing;
   std::set<std::tuple<std::string, Values, Values>> known;
   std::mt19937_64 dice{1};
   for (unsigned walk = 0; walk < 30; ++walk) {
-    Walk<Packing> path{world, dice};
+    Walk<Packing, readers> path{world, dice};
     comp::SmallState before = path.seen();
     for (unsigned k = 0; k < 60; ++k) {
       const bool happened =
           path.step([&](const std::string& rule, comp::Owner owner, comp::Place where) {
-            for (unsigned d = 0; d < world.descriptors(); ++d) {
-              const comp::Place place{0, 0, static_cast<int>(d)};
+            for (unsigned it = 0; it < world.deliveries(); ++it) {
+              const comp::Place place{0, static_cast<int>(it / world.descriptors()),
+                                      static_cast<int>(it % world.descriptors())};
               const Values from = seen_from<typename Packing::Composition>(before, place);
               const Values to = seen_from<typename Packing::Composition>(path.seen(), place);
               const std::string name = step_name(rule, owner, where, place);
@@ -230,6 +238,22 @@ TEST(ExploredBridge, EveryStepOfFastDdssWorldIsDerived) {
   dds.implementation = model::ImplementationKind::fastdds;
   const Crossing crossing =
       cross<explorer::FastDdsPacking>(dds, of_descriptors(9, 2), Unsound::none);
+  EXPECT_GT(crossing.distinct, 100U);
+  EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
+}
+
+TEST(ExploredBridge, EveryStepWithSeveralReadersIsDerived) {
+  model::DdsProfile single;
+  single.sedp.grouping = model::Grouping::single;
+  single.sedp.piggyback_threshold_bytes = model::Bytes{500};
+  Crossing crossing = cross<explorer::PaperPacking, explorer::most_readers>(
+      single, of_descriptors(2, 0), Unsound::none);
+  EXPECT_GT(crossing.distinct, 100U);
+  EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
+  model::DdsProfile dds;
+  dds.implementation = model::ImplementationKind::fastdds;
+  crossing = cross<explorer::FastDdsPacking, explorer::most_readers>(dds, of_descriptors(9, 2),
+                                                                     Unsound::none);
   EXPECT_GT(crossing.distinct, 100U);
   EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
 }
