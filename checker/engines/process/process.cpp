@@ -17,6 +17,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// A group of its own, and signals as if nobody had ignored or blocked them.
+void set_attributes(posix_spawnattr_t& attributes) {
+  posix_spawnattr_init(&attributes);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) sigaddset(&signals, signal);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+}
+
 /// Starts the program with its output into `write_end`. Returns 0 or the error.
 int start(const Program& program, int write_end, pid_t& child) {
   std::vector<char*> argv;
@@ -36,22 +49,31 @@ int start(const Program& program, int write_end, pid_t& child) {
   if (!program.folder.empty()) {
     posix_spawn_file_actions_addchdir_np(&actions, program.folder.c_str());
   }
-  const int error = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawnattr_t attributes;
+  set_attributes(attributes);
+  const int error = posix_spawnp(&child, argv[0], &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return error;
 }
 
 constexpr std::size_t largest_output = 1 << 24;
 
-/// Reads until the end. Returns false if the deadline or the largest output comes first.
-bool read_until(int read_end, Clock::time_point deadline, std::string& text) {
+/// How often `stop` is asked.
+constexpr long long glance_milliseconds = 50;
+
+/// Reads until the end. Returns false if something else comes first: the deadline, the largest
+/// output, or that the program is to stop.
+bool read_until(int read_end, Clock::time_point deadline, const std::function<bool()>& stop,
+                std::string& text) {
   char buffer[4096];
-  while (text.size() < largest_output) {
+  const long long most = stop ? glance_milliseconds : 1000;
+  while (text.size() < largest_output && !(stop && stop())) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return false;
     pollfd ready{read_end, POLLIN, 0};
-    const int polled = poll(&ready, 1, static_cast<int>(std::min<long long>(left, 1000)));
+    const int polled = poll(&ready, 1, static_cast<int>(std::min<long long>(left, most)));
     if (polled == 0 || (polled < 0 && errno == EINTR)) continue;
     const ssize_t count = polled < 0 ? -1 : read(read_end, buffer, sizeof buffer);
     if (count < 0 && errno == EINTR) continue;
@@ -78,15 +100,16 @@ Run run(const Program& program) {
     result.failure = std::string{"cannot be started: "} + std::strerror(error);
     return result;
   }
-  const bool ended = read_until(ends[0], Clock::now() + program.limit, result.output);
+  const bool ended = read_until(ends[0], Clock::now() + program.limit, program.stop, result.output);
   close(ends[0]);
-  if (!ended) kill(child, SIGKILL);
+  if (!ended) kill(-child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!ended) {
-    result.failure = result.output.size() < largest_output ? "was stopped after its time-out"
-                                                           : "printed more than 16 MB";
+    result.failure = program.stop && program.stop()          ? "interrupted"
+                     : result.output.size() < largest_output ? "was stopped after its time-out"
+                                                             : "printed more than 16 MB";
   } else if (WIFSIGNALED(status)) {
     result.failure = "ended by signal " + std::to_string(WTERMSIG(status));
   } else {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct Program {
   std::filesystem::path folder{};      ///< where it runs; empty: here
   bool errors = false;                 ///< standard error belongs to the output, too
   std::chrono::milliseconds limit = std::chrono::hours{24 * 365};  ///< it is stopped then
+  std::function<bool()> stop{};  ///< asked now and then: whether to stop it; empty: never
 };
 
 struct Run {
@@ -25,7 +27,8 @@ struct Run {
   [[nodiscard]] bool succeeded() const { return failure.empty() && status == 0; }
 };
 
-/// Starts the program and waits for its end.
+/// Starts the program and waits for its end. Ctrl-C at the terminal is not for it, but for us: it
+/// is in a process group of its own.
 [[nodiscard]] Run run(const Program& program);
 
 }  // namespace stormproof::process

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -97,8 +99,8 @@ z3::solver make_solver(const z3::expr_vector& assertions, unsigned seed) {
   return solver;
 }
 
-void check(z3::solver& solver, std::chrono::milliseconds limit, Decision& decision) {
-  Deadline deadline{solver.ctx(), limit};
+void check(z3::solver& solver, const Options& options, Decision& decision) {
+  Deadline deadline{solver.ctx(), options.timeout, options.interrupted};
   switch (solver.check()) {
     case z3::unsat:
       decision.answer = Answer::unsat;
@@ -108,9 +110,13 @@ void check(z3::solver& solver, std::chrono::milliseconds limit, Decision& decisi
       decision.model = solver.get_model();
       break;
     case z3::unknown:
-      decision.why = deadline.expired() ? "time-out" : solver.reason_unknown();
+      decision.why = deadline.expired() ? deadline.why() : solver.reason_unknown();
       break;
   }
+}
+
+void stop_if_interrupted(const Options& options) {
+  if (options.interrupted && options.interrupted()) throw Interrupted{};
 }
 
 /// A file that disappears with this object.
@@ -139,16 +145,20 @@ class TemporaryFile {
   std::string path_;
 };
 
-/// Writes the export; returns what went wrong, or nothing.
+/// Writes the export; returns what went wrong, or nothing. What is cut off is not left.
 std::string write_export(const std::string& folder, std::string_view property,
                          const std::string& text) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   const auto path = std::filesystem::path{folder} / file_name(property);
+  errno = 0;
   std::ofstream file{path, std::ios::binary};
   file << text;
   file.close();
-  return file ? std::string{} : "cannot write " + path.string();
+  if (file) return {};
+  const std::string why = errno == 0 ? "" : std::string{": "} + std::strerror(errno);
+  std::filesystem::remove(path, error);
+  return "cannot write " + path.string() + why;
 }
 
 /// Compares the answers; returns the first difference, or nothing.
@@ -187,6 +197,7 @@ struct Claims::State {
   std::mutex mutex;
   std::map<std::string, std::vector<Query>, std::less<>> queries;  // by property
   std::optional<std::string> second_solver;                        // its name, once looked for
+  std::optional<std::string> export_error;                         // the first
 
   [[nodiscard]] bool keeps_text() const {
     return options.second_solver || !options.export_dir.empty();
@@ -201,6 +212,11 @@ Claims::~Claims() = default;
 
 const Options& Claims::options() const { return state_->options; }
 
+std::optional<std::string> Claims::export_error() const {
+  const std::lock_guard lock{state_->mutex};
+  return state_->export_error;
+}
+
 std::string Claims::solver_name() const {
   unsigned major = 0;
   unsigned minor = 0;
@@ -213,17 +229,19 @@ std::string Claims::solver_name() const {
 Decision Claims::decide(std::string_view property, std::string_view query,
                         const z3::expr_vector& assertions) {
   const auto start = Clock::now();
+  stop_if_interrupted(state_->options);
   Decision decision;
   Query asked{std::string{query}, {}, Answer::unknown};
   try {
     z3::solver solver = make_solver(assertions, state_->options.seed);
     if (state_->keeps_text()) asked.text = declarations_and_assertions(solver);
-    check(solver, state_->options.timeout, decision);
+    check(solver, state_->options, decision);
   } catch (const z3::exception& error) {
     decision.answer = Answer::unknown;
     decision.model.reset();
     decision.why = error.msg();
   }
+  stop_if_interrupted(state_->options);
   decision.seconds = seconds_since(start);
   asked.answer = decision.answer;
   const std::lock_guard lock{state_->mutex};
@@ -241,6 +259,7 @@ SecondOpinion Claims::second_opinion(std::string_view property) {
   const std::string text = script(property, found->second);
   if (!options.export_dir.empty()) {
     opinion.problem = write_export(options.export_dir, property, text);
+    if (!opinion.problem.empty() && !state_->export_error) state_->export_error = opinion.problem;
   }
   if (options.second_solver) {
     if (!state_->second_solver) state_->second_solver = second_solver_name();
@@ -252,8 +271,8 @@ SecondOpinion Claims::second_opinion(std::string_view property) {
     if (file.path().empty()) {
       opinion.difference = "no temporary file for " + opinion.solver;
     } else {
-      const SolverRun run =
-          ask_second_solver(file.path(), found->second.size(), options.timeout, options.seed);
+      const SolverRun run = ask_second_solver(file.path(), found->second.size(), options);
+      stop_if_interrupted(options);
       opinion.difference = difference(found->second, run, opinion.solver);
       opinion.contradicts = contradiction(found->second, run);
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@ struct Options {
   unsigned seed = 0;
   std::string export_dir{};   ///< where queries are written as <property>.smt2; empty: nowhere
   bool second_solver = true;  ///< ask cvc5, too, if it is installed
+  std::function<bool()>
+      interrupted{};  ///< asked now and then, by any thread; true: no query any more
 };
 
 struct Decision;  // checker/engines/smt/decision.hpp
@@ -53,9 +56,14 @@ class Claims {
 
   /// Asks Z3 whether the conjunction is satisfiable. `property` and `query` name it in exports; the
   /// query is remembered for `second_opinion`. Plain conditions only: no fixed points, no
-  /// optimisation. Never throws because of Z3: its errors are `unknown` with the reason.
+  /// optimisation. Never throws because of Z3: its errors are `unknown` with the reason. Throws
+  /// `Interrupted` (checker/engines/smt/deadline.hpp) if `Options::interrupted` says so; so does
+  /// `second_opinion`.
   Decision decide(std::string_view property, std::string_view query,
                   const z3::ast_vector_tpl<z3::expr>& assertions);
+
+  /// The first export that could not be written; nothing if there is none.
+  [[nodiscard]] std::optional<std::string> export_error() const;
 
   /// Puts all queries of the property to the second solver and compares. Writes the export file.
   SecondOpinion second_opinion(std::string_view property);

@@ -36,13 +36,16 @@ std::string second_solver_name() {
 }
 
 SolverRun ask_second_solver(const std::string& path, std::size_t questions,
-                            std::chrono::milliseconds timeout, unsigned seed) {
+                            const Options& options) {
   // The time-out per query is the solver's own; should it ignore it, it is stopped a little later.
-  const auto all = timeout * (static_cast<long long>(questions) + 1) + std::chrono::seconds{2};
-  const process::Run run = process::run(
-      {.arguments = {"cvc5", "--lang=smt2", "--incremental", "--seed=" + std::to_string(seed),
-                     "--tlimit-per=" + std::to_string(timeout.count()), path},
-       .limit = all});
+  const auto all =
+      options.timeout * (static_cast<long long>(questions) + 1) + std::chrono::seconds{2};
+  const process::Run run =
+      process::run({.arguments = {"cvc5", "--lang=smt2", "--incremental",
+                                  "--seed=" + std::to_string(options.seed),
+                                  "--tlimit-per=" + std::to_string(options.timeout.count()), path},
+                    .limit = all,
+                    .stop = options.interrupted});
   SolverRun result;
   result.failure = failure_of(run);
   std::istringstream lines{run.output};

@@ -2,7 +2,6 @@
 // absent, crashes, hangs or prints nonsense is an ordinary outcome: it just gives no answers.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -18,8 +17,8 @@ struct SolverRun {
 /// "cvc5 1.0.3", or empty if no cvc5 that runs is on PATH.
 [[nodiscard]] std::string second_solver_name();
 
-/// Asks cvc5 all `questions` of the file, each with the time-out and this seed.
+/// Asks cvc5 all `questions` of the file, each with the options' time-out and seed.
 [[nodiscard]] SolverRun ask_second_solver(const std::string& path, std::size_t questions,
-                                          std::chrono::milliseconds timeout, unsigned seed);
+                                          const Options& options);
 
 }  // namespace stormproof::smt

@@ -75,7 +75,7 @@ class Liveness {
     std::vector<bool> is_mark(moving.variables.size(), false);
     for (std::size_t m = 0; m < effect_of_mark.size(); ++m) is_mark[m] = true;
     const smt::Options& options = proof_.request().claims.options();
-    const Witnesses witnesses = find_witnesses(moving, is_mark, options.seed, options.timeout);
+    const Witnesses witnesses = find_witnesses(moving, is_mark, options);
     tell(witnesses, effect_of_mark);
     for (std::size_t m = 0; m < effect_of_mark.size(); ++m) {
       const std::size_t e = effect_of_mark[m];

@@ -125,7 +125,8 @@ class Explanation {
       }
       z3::solver solver{proof_.context(), z3::solver::simple()};
       solver.add(all_of(kept) && unmarked && any_of(happens));
-      const smt::Deadline deadline{proof_.context(), proof_.request().claims.options().timeout};
+      const smt::Options& options = proof_.request().claims.options();
+      const smt::Deadline deadline{proof_.context(), options.timeout, options.interrupted};
       never[e] = solver.check() == z3::unsat;
     }
   }

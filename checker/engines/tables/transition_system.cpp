@@ -78,13 +78,14 @@ SpacerAnswer ask_spacer(const TransitionSystem& original, const smt::Options& op
   SpacerAnswer answer;
   z3::func_decl_vector queries{context};
   queries.push_back(broken);
-  smt::Deadline deadline{context, options.timeout / 2};  // what is left is for unrolling
+  // What is left of the time is for unrolling.
+  smt::Deadline deadline{context, options.timeout / 2, options.interrupted};
   z3::check_result result = z3::unknown;
   try {
     result = engine.query(queries);
   } catch (const z3::exception& error) {
     if (!deadline.expired()) throw;
-    answer.why = "time-out";
+    answer.why = deadline.why();
     return answer;
   }
   switch (result) {
@@ -98,7 +99,7 @@ SpacerAnswer ask_spacer(const TransitionSystem& original, const smt::Options& op
       break;
     }
     case z3::unknown:
-      answer.why = deadline.expired() ? "time-out" : engine.reason_unknown();
+      answer.why = deadline.expired() ? deadline.why() : engine.reason_unknown();
       break;
   }
   return answer;
@@ -169,8 +170,9 @@ std::vector<bool> inductive_together(Proof& proof, const TransitionSystem& syste
   const auto possible = [&](const Expr& condition) {
     z3::solver solver{smt::SymbolicContext::current(), z3::solver::simple()};
     solver.add(condition);
-    const smt::Deadline deadline{smt::SymbolicContext::current(),
-                                 proof.request().claims.options().timeout};
+    const smt::Options& options = proof.request().claims.options();
+    const smt::Deadline deadline{smt::SymbolicContext::current(), options.timeout,
+                                 options.interrupted};
     return solver.check() != z3::unsat;
   };
   for (bool stable = false; !stable;) {

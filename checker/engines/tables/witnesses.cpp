@@ -38,13 +38,13 @@ class NoveltySearch {
     add_state(start);
   }
 
-  Witnesses run(std::chrono::milliseconds limit) {
-    smt::Deadline deadline{context_of_search(), limit};
+  Witnesses run(const smt::Options& options) {
+    smt::Deadline deadline{context_of_search(), options.timeout, options.interrupted};
     while (marks_are_open()) {
       const z3::check_result answer = advance();
       if (answer == z3::unsat) break;
       if (answer == z3::unknown) {
-        result_.gap = deadline.expired() ? "time-out" : "no answer";
+        result_.gap = deadline.expired() ? deadline.why() : "no answer";
         break;
       }
     }
@@ -221,8 +221,8 @@ class NoveltySearch {
 }  // namespace
 
 Witnesses find_witnesses(const TransitionSystem& system, const std::vector<bool>& is_mark,
-                         unsigned seed, std::chrono::milliseconds limit) {
-  return NoveltySearch{system, is_mark, seed}.run(limit);
+                         const smt::Options& options) {
+  return NoveltySearch{system, is_mark, options.seed}.run(options);
 }
 
 }  // namespace stormproof::tables

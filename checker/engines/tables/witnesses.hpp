@@ -29,7 +29,7 @@ struct Witnesses {
 
 /// The variables for which `is_mark` are marks: false at first, and read by nothing.
 [[nodiscard]] Witnesses find_witnesses(const TransitionSystem& system,
-                                       const std::vector<bool>& is_mark, unsigned seed,
-                                       std::chrono::milliseconds limit);
+                                       const std::vector<bool>& is_mark,
+                                       const smt::Options& options);
 
 }  // namespace stormproof::tables

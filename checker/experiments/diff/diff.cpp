@@ -82,7 +82,8 @@ class DiffStudy {
                                  static_cast<std::uint32_t>(std::min<std::size_t>(
                                      request_.samples.value_or(request_.policy.samples), 100)),
                                  request_.threads,
-                                 [this](std::string_view what) { return progress(what); }};
+                                 [this](std::string_view what) { return progress(what); },
+                                 request_.interrupted};
     VerdictAnswer answer = compare_verdicts(request, request_.policy);
     report_.verdicts = std::move(answer.comparison);
     report_.interrupted = answer.interrupted;

@@ -264,6 +264,7 @@ struct DiffRequest {
   bool tell_apart = true;
   std::size_t threads = 0;
   std::function<bool(std::string_view what)> on_progress;  ///< false interrupts
+  std::function<bool()> interrupted;                       ///< the same, asked by any thread
 };
 
 /// Errors: a grid or scenario that cannot be read, a grid that sweeps the DDS profile.

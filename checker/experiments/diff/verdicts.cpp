@@ -30,6 +30,7 @@ checker::CheckReport check_one(const VerdictRequest& request, const model::Scena
   smt::Options solver;
   solver.seed = static_cast<unsigned>(request.seed);
   solver.second_solver = false;
+  solver.interrupted = request.interrupted;
   smt::Claims claims{solver};
   const checker::CheckRequest check{
       scenario, claims, nullptr, static_cast<unsigned>(request.seed), request.samples, on_progress};

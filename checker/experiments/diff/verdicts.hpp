@@ -16,6 +16,7 @@ struct VerdictRequest {
   std::uint32_t samples = 12;
   std::size_t threads = 0;
   std::function<bool(std::string_view what)> on_progress;  ///< false interrupts
+  std::function<bool()> interrupted;                       ///< the same, asked by any thread
 };
 
 struct VerdictAnswer {

@@ -134,14 +134,16 @@ CheckReport check(const std::vector<std::string_view>& properties, const CheckRe
       runs.push_back(exact::health_of(scenario, result));
   };
   std::vector<Findings> answers;
+  const auto goes_on = [&](Engine engine) {
+    report.interrupted = request.on_progress && !request.on_progress(props::name_of(engine));
+    return !report.interrupted;
+  };
   for (const auto& [engine, function] : engines) {
     const std::vector<std::string_view> own = for_engine(engine, ids);
     if (own.empty()) continue;
-    if (request.on_progress && !request.on_progress(props::name_of(engine))) {
-      report.interrupted = true;
-      break;
-    }
+    if (!goes_on(engine)) break;
     answers.push_back(function(own, watched));
+    if (!goes_on(engine)) break;  // it may have stopped in the middle
   }
   if (!runs.empty()) report.outlook.emplace(std::move(runs));
   for (const std::string_view id : ids) report.results.push_back(result_of(id, answers));

@@ -27,7 +27,7 @@ void run(const model::Scenario& scenario, const model::Mutation* mutation, model
 
 std::vector<EffectTrials::Correct>& EffectTrials::drawn(model::ImplementationKind implementation) {
   std::vector<Correct>& list = drawn_[model::index_of(implementation)];
-  for (std::uint64_t seed = 1; list.size() < runs; ++seed) {
+  for (std::uint64_t seed = 1; list.size() < runs && !stopped(); ++seed) {
     Correct& correct = list.emplace_back();
     correct.scenario = props::draw_scenario(seed, size, {.implementation = implementation});
     run(correct.scenario, nullptr, correct.log);
@@ -37,6 +37,7 @@ std::vector<EffectTrials::Correct>& EffectTrials::drawn(model::ImplementationKin
 
 bool EffectTrials::are_followed(const CatalogueEntry& entry) {
   return std::ranges::none_of(drawn(entry.concerns.front()), [&](const Correct& correct) {
+    if (stopped()) return false;
     const auto monitor = props::make_monitor("composition.followed", correct.scenario);
     run(correct.scenario, &entry.mutant.rules, *monitor);
     return monitor->violation().has_value();
@@ -45,6 +46,7 @@ bool EffectTrials::are_followed(const CatalogueEntry& entry) {
 
 bool EffectTrials::makes_a_difference(const CatalogueEntry& entry) {
   return std::ranges::any_of(drawn(entry.concerns.front()), [&](const Correct& correct) {
+    if (stopped()) return false;
     props::RunLog log;
     run(correct.scenario, &entry.mutant.rules, log);
     return props::first_difference(log, correct.log).has_value();

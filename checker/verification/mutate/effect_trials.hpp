@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "checker/verification/mutate/mutants.hpp"
@@ -16,6 +18,9 @@ namespace stormproof::mutate {
 class EffectTrials {
  public:
   static constexpr std::uint64_t runs = 40;
+
+  /// `goes_on` is asked now and then; once it says no, what is returned means nothing.
+  explicit EffectTrials(std::function<bool()> goes_on = {}) : goes_on_{std::move(goes_on)} {}
 
   /// Whether all runs of the mutant are what the rules say.
   [[nodiscard]] bool are_followed(const CatalogueEntry& entry);
@@ -30,6 +35,9 @@ class EffectTrials {
   /// The random scenarios of an implementation, and their correct runs.
   std::vector<Correct>& drawn(model::ImplementationKind implementation);
 
+  [[nodiscard]] bool stopped() const { return goes_on_ && !goes_on_(); }
+
+  std::function<bool()> goes_on_;
   std::array<std::vector<Correct>, model::implementations.size()> drawn_;
 };
 

@@ -40,6 +40,7 @@ std::vector<LawTrials::Ground>& LawTrials::grounds(model::ImplementationKind imp
   for (Trial& trial : trials(implementation)) {
     Ground ground{std::move(trial), {}};
     for (const props::Law& law : props::laws()) {
+      if (goes_on_ && !goes_on_()) return list;
       const model::Scenario& scenario = ground.trial.scenario;
       ground.holds.push_back(law.applies(scenario) && !law.broken(scenario, correct));
     }
@@ -56,6 +57,7 @@ std::vector<std::string> LawTrials::killers(const CatalogueEntry& entry) {
     for (const Ground& ground : grounds(implementation)) {
       for (std::size_t k = 0; k < laws.size(); ++k) {
         if (kills[k] || !ground.holds[k]) continue;
+        if (goes_on_ && !goes_on_()) return {};
         kills[k] = laws[k].broken(ground.trial.scenario, simulate).has_value();
       }
     }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "checker/verification/mutate/mutants.hpp"
@@ -19,6 +21,9 @@ namespace stormproof::mutate {
 
 class LawTrials {
  public:
+  /// `goes_on` is asked now and then; once it says no, what is returned means nothing.
+  explicit LawTrials(std::function<bool()> goes_on = {}) : goes_on_{std::move(goes_on)} {}
+
   /// Ids of the laws that are broken with the mutant on one of the trial scenarios, and hold there
   /// without it; in the order of `props::laws()`.
   [[nodiscard]] std::vector<std::string> killers(const CatalogueEntry& entry);
@@ -31,6 +36,7 @@ class LawTrials {
   };
   std::vector<Ground>& grounds(model::ImplementationKind implementation);
 
+  std::function<bool()> goes_on_;
   std::array<std::vector<Ground>, model::implementations.size()> grounds_;
 };
 

@@ -84,7 +84,12 @@ class Mutator {
         report.interrupted = true;
         break;
       }
-      report.mutants.push_back(entry.kind == Kind::effect ? try_effect(entry) : try_out(entry));
+      MutantResult result = entry.kind == Kind::effect ? try_effect(entry) : try_out(entry);
+      if (!progress(entry.mutant.id)) {  // then it is not known what would have noticed it
+        report.interrupted = true;
+        break;
+      }
+      report.mutants.push_back(std::move(result));
     }
     report.seconds = std::chrono::duration<double>(Clock::now() - started).count();
     return report;
@@ -102,6 +107,11 @@ class Mutator {
     return !options_.on_progress || options_.on_progress(what);
   }
 
+  /// For trials, which have nothing to say.
+  [[nodiscard]] std::function<bool()> goes_on() const {
+    return [this] { return progress("runs"); };
+  }
+
   [[nodiscard]] std::vector<CatalogueEntry> wanted() const {
     std::vector<CatalogueEntry> list = mutants();
     const auto wanted = [](const auto& chosen, const auto& value) {
@@ -114,7 +124,7 @@ class Mutator {
   }
 
   CheckRequest request(const Trial& trial, const checker::Mutant* mutant) {
-    return {trial.scenario, claims_, mutant, 0, 1, {}};
+    return {trial.scenario, claims_, mutant, 0, 1, options_.on_progress};
   }
 
   /// The grounds of an implementation; what holds there is found out once.
@@ -202,8 +212,8 @@ class Mutator {
   const MutateOptions& options_;
   smt::Claims claims_;
   std::array<std::vector<Ground>, model::implementations.size()> grounds_;
-  LawTrials laws_;
-  EffectTrials effects_;
+  LawTrials laws_{goes_on()};
+  EffectTrials effects_{goes_on()};
 };
 
 }  // namespace

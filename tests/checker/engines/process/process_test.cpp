@@ -2,6 +2,7 @@
 #include "checker/engines/process/process.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -42,6 +43,20 @@ TEST(Process, AProgramThatTakesTooLongIsStopped) {
   const auto ran = run({.arguments = {"sleep", "600"}, .limit = 100ms});
   EXPECT_EQ(ran.failure, "was stopped after its time-out");
   EXPECT_LT(std::chrono::steady_clock::now() - start, 300s);
+}
+
+TEST(Process, AProgramIsStoppedOnRequestWithThoseThatItStarted) {
+  int asked = 0;
+  const auto ran =
+      run({.arguments = {"sh", "-c", "sleep 600 & wait"}, .stop = [&] { return ++asked > 2; }});
+  EXPECT_EQ(ran.failure, "interrupted");
+}
+
+TEST(Process, SignalsAreAsUsualForIt) {
+  const auto previous = std::signal(SIGPIPE, SIG_IGN);
+  const auto ran = run({.arguments = {"sh", "-c", "kill -PIPE $$; echo ignored"}});
+  std::signal(SIGPIPE, previous);
+  EXPECT_EQ(ran.failure, "ended by signal 13");
 }
 
 TEST(Process, AProgramThatPrintsTooMuchIsStopped) {

@@ -1,8 +1,11 @@
 // Z3's side of the claims: answers, models, time-outs, errors.
 #include "checker/engines/smt/claims.hpp"
 
+#include <atomic>
+
 #include <gtest/gtest.h>
 
+#include "checker/engines/smt/deadline.hpp"
 #include "checker/engines/smt/decision.hpp"
 
 namespace stormproof::smt {
@@ -59,6 +62,16 @@ TEST(Claims, AForcedTimeOutIsUnknownAndNeverHolds) {
     EXPECT_FALSE(decision.why.empty());
     EXPECT_LT(decision.seconds, 5.0);
   }
+}
+
+TEST(Claims, AnInterruptionIsNoAnswer) {
+  z3::context context;
+  std::atomic<int> asked = 0;
+  Claims claims{{.timeout = std::chrono::hours{1}, .interrupted = [&] { return ++asked > 3; }}};
+  EXPECT_THROW((void)claims.decide("p", "cubes", open_question(context)), Interrupted);
+  const int before = asked;
+  EXPECT_THROW((void)claims.decide("p", "cubes", open_question(context)), Interrupted);
+  EXPECT_EQ(asked, before + 1);  // it does not even begin
 }
 
 TEST(Claims, AnErrorOfTheSolverIsUnknownWithItsReason) {

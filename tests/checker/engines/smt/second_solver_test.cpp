@@ -157,8 +157,7 @@ TEST(Export, TheFileIsDecidedByTheSecondSolverOnItsOwn) {
   Claims claims{{.export_dir = folder.path().string(), .second_solver = false}};
   ask_three(claims);
   (void)claims.second_opinion("some.property");
-  const SolverRun run = ask_second_solver((folder.path() / "some.property.smt2").string(), 3,
-                                          std::chrono::seconds{10}, 0);
+  const SolverRun run = ask_second_solver((folder.path() / "some.property.smt2").string(), 3, {});
   EXPECT_EQ(run.answers, (std::vector{Answer::unsat, Answer::sat, Answer::unsat}));
   EXPECT_TRUE(run.failure.empty()) << run.failure;
 }
