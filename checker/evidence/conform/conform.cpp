@@ -33,6 +33,7 @@ class Check {
 
   Conformance run() {
     for (const std::size_t k : dialogue_.strange) strange(k);
+    for (const Beyond& one : dialogue_.beyond) beyond(one);
     const std::size_t all = dialogue_.participants() + dialogue_.relations.size();
     std::size_t done = 0;
     bool goes_on = true;
@@ -86,8 +87,12 @@ class Check {
     at({place.source, {}, place.writer}, [&](Ledger& ledger) {
       return explain_heartbeats(dialogue_, writer, sedp, request_.bounds, heartbeat_timer_, ledger);
     });
-    const WriterContext context{dialogue_, sedp, request_.bounds, announced,
-                                last - first == 1 && !dialogue_.has_neighbour[place.source]};
+    const WriterContext context{dialogue_,
+                                sedp,
+                                request_.bounds,
+                                announced,
+                                last - first == 1 && !dialogue_.has_neighbour[place.source],
+                                request_.interrupted};
     for (std::size_t r = first; r < last; ++r) {
       const Relation& relation = dialogue_.relations[r];
       at(relation.place, [&](Ledger& ledger) {
@@ -118,6 +123,30 @@ class Check {
     at(place, [&](Ledger&) -> std::optional<Unexplained> {
       return Unexplained{
           k, Fault::no_such_rule, place, what, "no rule of the profile sends it", {}, {k}};
+    });
+  }
+
+  /// An event with a number that its writer cannot have reached; the first of each relation.
+  void beyond(const Beyond& one) {
+    const auto is_known = [&](const Unexplained& other) {
+      return other.place == one.place && other.fault == Fault::number_beyond;
+    };
+    if (std::ranges::any_of(result_.unexplained, is_known)) return;
+    const capture::Event& event = request_.conversation.events[one.event];
+    const char* what = event.data() != nullptr        ? "DATA of sample"
+                       : event.heartbeat() != nullptr ? "a HEARTBEAT that announces sample"
+                                                      : "an ACKNACK about sample";
+    at(one.place, [&](Ledger&) -> std::optional<Unexplained> {
+      return Unexplained{
+          one.event,
+          Fault::number_beyond,
+          one.place,
+          fmt::format("{} {}", what, one.number),
+          fmt::format("by what else the capture shows of this writer, no number beyond {} is "
+                      "believed; is the capture damaged?",
+                      one.most),
+          {{"numbers that the writer can have reached", {}, {}}},
+          {one.event}};
     });
   }
 

@@ -69,9 +69,10 @@ enum class Fault : std::uint8_t {
   initial_late,             ///< initial ACKNACK after its time
   initial_after_heartbeat,  ///< initial ACKNACK although a HEARTBEAT was answered before
   unanswered,               ///< received, and not answered in time (only without losses)
+  number_beyond,            ///< a sequence number beyond all belief; such an event is set aside
   no_such_rule  ///< the profile has nothing that sends this (GAP, DATA_FRAG, another vendor's)
 };
-inline constexpr std::size_t fault_count = 20;
+inline constexpr std::size_t fault_count = 21;
 [[nodiscard]] std::string_view name_of(Fault fault);
 
 /// A relation, or a participant's own affairs if there is no destination.
@@ -163,6 +164,7 @@ struct Request {
   Bounds bounds{};
   /// Called before each relation; false stops.
   std::function<bool(std::size_t done, std::size_t all)> progress{};
+  std::function<bool()> interrupted{};  ///< the same, asked by any thread during long searches
 };
 
 /// An error if the capture holds no discovery between hosts, or the profile describes an

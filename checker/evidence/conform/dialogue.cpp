@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace stormproof::conform {
 
@@ -15,6 +17,14 @@ using capture::Traffic;
 std::uint32_t descriptor_of(std::int64_t sequence_number) {
   return static_cast<std::uint32_t>(
       std::clamp<std::int64_t>(sequence_number - 1, 0, std::int64_t{UINT32_MAX} - 1));
+}
+
+/// The highest sequence number that an SEDP event speaks of.
+std::int64_t number_in(const Event& event) {
+  if (const auto* data = event.data()) return data->sequence_number;
+  if (const auto* heartbeat = event.heartbeat()) return std::max(heartbeat->first, heartbeat->last);
+  const auto& missing = event.acknack()->missing;
+  return missing.base > INT64_MAX - 256 ? missing.base : missing.base + missing.num_bits - 1;
 }
 
 class Sorter {
@@ -32,6 +42,14 @@ class Sorter {
         }
       }
     }
+  }
+
+  /// Before anything is added: what the capture shows of each writer.
+  void look_at(const Event& event) {
+    const auto source = index_.find(event.source);
+    if (source == index_.end() || event.traffic() != Traffic::sedp || event.data() == nullptr)
+      return;
+    shown_[{source->second, event.writer}].insert(event.data()->sequence_number);
   }
 
   void add(std::size_t k) {
@@ -86,6 +104,14 @@ class Sorter {
 
   void add_sedp(std::size_t k, std::size_t source, std::size_t destination) {
     const Event& event = conversation_.events[k];
+    const bool is_answer = event.acknack() != nullptr;
+    const Place place{is_answer ? destination : source, is_answer ? source : destination,
+                      event.writer};
+    const std::int64_t most = believable(shown_[{place.source, event.writer}].size());
+    if (number_in(event) > most) {
+      dialogue_.beyond.push_back({k, place, number_in(event), most});
+      return;
+    }
     if (event.acknack() != nullptr) {
       add_answer(k, relation(destination, source, event.writer));
       return;
@@ -122,6 +148,8 @@ class Sorter {
   const Conversation& conversation_;
   std::map<capture::GuidPrefix, std::size_t> index_;
   std::map<Place, Relation> relations_;
+  /// By participant and writer: the sequence numbers of its DATA.
+  std::map<std::pair<std::size_t, capture::EntityId>, std::set<std::int64_t>> shown_;
 };
 
 }  // namespace
@@ -140,6 +168,7 @@ std::optional<std::int64_t> Dialogue::first_announced(std::size_t from, std::siz
 Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns) {
   Dialogue dialogue{conversation};
   Sorter sorter{dialogue};
+  for (const Event& event : conversation.events) sorter.look_at(event);
   for (std::size_t k = 0; k < conversation.events.size(); ++k) {
     const Event& event = conversation.events[k];
     if (event.time_ns > until_ns) break;

@@ -53,6 +53,22 @@ struct Announcement {
   std::optional<std::size_t> destination{};  ///< nothing: multicast
 };
 
+/// An event that names a sequence number which its writer cannot have reached: a damaged capture,
+/// or a forged message. It belongs to no relation: what it claims would have to be followed.
+struct Beyond {
+  std::size_t event = 0;
+  Place place{};
+  std::int64_t number = 0;
+  std::int64_t most = 0;  ///< that is believed of this writer
+};
+
+/// The highest sequence number that is believed of a writer of which the capture shows DATA with so
+/// many different numbers. Participants have tens of endpoints; the capture need not show all of
+/// them (a late reader, an early end), but not so few of so many.
+[[nodiscard]] constexpr std::int64_t believable(std::size_t shown) {
+  return 10'000 + 10 * static_cast<std::int64_t>(shown);
+}
+
 struct Dialogue {
   const capture::Conversation& conversation;
   std::vector<Relation>
@@ -60,6 +76,7 @@ struct Dialogue {
   std::vector<std::vector<Announcement>> announcements{};  ///< by participant, in time order
   std::vector<bool> has_neighbour{};                       ///< another participant on the same host
   std::vector<std::size_t> strange{};        ///< events that no rule can send, by time
+  std::vector<Beyond> beyond{};              ///< by time
   std::vector<std::uint32_t> descriptors{};  ///< 2·participant + stream: most that was announced
   std::uint64_t checked = 0;
   std::uint64_t not_checked = 0;

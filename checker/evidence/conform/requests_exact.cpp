@@ -39,12 +39,14 @@ class Question {
     solver_.add(z3::mk_or(ways));
   }
 
-  z3::check_result solve(std::chrono::milliseconds limit) {
-    smt::Deadline deadline{context_, limit};
+  z3::check_result solve(const SearchLimits& limits) {
     try {
+      const smt::Deadline deadline{context_, limits.time, limits.interrupted};
       return solver_.check();
     } catch (const z3::exception&) {
-      return z3::unknown;  // interrupted
+      return z3::unknown;  // out of time
+    } catch (const smt::Interrupted&) {
+      return z3::unknown;
     }
   }
 
@@ -88,11 +90,11 @@ class Question {
 }  // namespace
 
 ExactAnswer decide(const Relation& relation, const Requests& requests,
-                   const std::vector<Demand>& demands, std::chrono::milliseconds limit) {
+                   const std::vector<Demand>& demands, const SearchLimits& limits) {
   ExactAnswer answer;
   Question question{relation, requests};
   for (const Demand& one : demands) question.demand(relation, one);
-  switch (question.solve(limit)) {
+  switch (question.solve(limits)) {
     case z3::unsat:
       answer.kind = ExactAnswer::Kind::impossible;
       return answer;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -19,10 +20,15 @@ struct ExactAnswer {
   std::vector<std::size_t> request{};
 };
 
+/// What ends the search without an answer.
+struct SearchLimits {
+  std::chrono::milliseconds time;
+  std::function<bool()> interrupted{};  ///< asked now and then, by another thread; may be empty
+};
+
 /// Whether all `demands` can be served. Each ACKNACK is lost or arrives in its window of `requests`
 /// (which nobody has asked yet), in the order in which they were sent.
 [[nodiscard]] ExactAnswer decide(const Relation& relation, const Requests& requests,
-                                 const std::vector<Demand>& demands,
-                                 std::chrono::milliseconds limit);
+                                 const std::vector<Demand>& demands, const SearchLimits& limits);
 
 }  // namespace stormproof::conform

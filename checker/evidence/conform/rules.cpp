@@ -39,7 +39,7 @@ constexpr std::array<std::string_view, fault_count> faults{
     "data_cause",       "data_early",      "data_acknowledged",
     "acknack_cause",    "acknack_early",   "acknack_content",
     "initial_early",    "initial_late",    "initial_after_heartbeat",
-    "unanswered",       "no_such_rule"};
+    "unanswered",       "number_beyond",   "no_such_rule"};
 
 constexpr std::array<std::string_view, 6> kinds{"received",        "lost",       "dropped",
                                                 "still_under_way", "recognised", "timer"};

@@ -128,7 +128,8 @@ class WriterSide {
     for (; count <= all.size(); ++count) {
       const std::vector<Demand> first{all.begin(),
                                       all.begin() + static_cast<std::ptrdiff_t>(count)};
-      const ExactAnswer answer = decide(relation_, requests, first, solver_limit);
+      const ExactAnswer answer =
+          decide(relation_, requests, first, {solver_limit, context_.interrupted});
       if (answer.kind == ExactAnswer::Kind::impossible) return unexplained(first.back());
       if (answer.kind == ExactAnswer::Kind::unknown) break;
       if (count < all.size()) continue;

@@ -25,6 +25,7 @@ struct WriterContext {
   /// The writer has no reader but this one, not even on its own host, so that no other request can
   /// have armed its nack response before.
   bool is_only_reader = false;
+  std::function<bool()> interrupted{};  ///< `Request::interrupted`
 
   /// From the arrival of a request to the transmission, at least, ns.
   [[nodiscard]] std::int64_t response_ns() const {

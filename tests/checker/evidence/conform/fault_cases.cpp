@@ -245,6 +245,21 @@ std::vector<Case> other_cases() {
              return add(c, data, data.time_ns);
            },
            "delay", 2, false},
+          {Fault::number_beyond, "data_with_a_damaged_number",
+           [](Conversation& c) {
+             const std::size_t last = find_last(c, both(sent(c, 0, 1), is_data));
+             Event damaged = c.events[last];
+             std::get<capture::DataEvent>(damaged.content).sequence_number += 1 << 30;
+             return add(c, damaged, damaged.time_ns + 50 * ms);
+           },
+           ""},
+          {Fault::number_beyond, "heartbeat_with_a_damaged_number",
+           [](Conversation& c) {
+             Event damaged = c.events[find_last(c, both(sent(c, 0, 1), is_heartbeat))];
+             std::get<capture::HeartbeatEvent>(damaged.content).last += 1 << 29;
+             return add(c, damaged, damaged.time_ns + 50 * ms);
+           },
+           ""},
           {Fault::no_such_rule, "gap",
            [](Conversation& c) {
              const std::size_t last = find_last(c, both(sent(c, 0, 1), is_heartbeat));
