@@ -32,6 +32,8 @@ std::string quoted(std::string text) {
 /// was observed is off by more than any comparison needs; it counts as incomplete.
 constexpr std::int64_t longest_run_factor = 5;
 constexpr std::int64_t longest_run_least_s = 5;
+/// As long as the time limit of a scenario may be.
+constexpr std::int64_t longest_run_most_s = 1'000'000;
 
 std::int64_t longest_run_s(const capture::Conversation& conversation, const Request& request) {
   constexpr std::int64_t ns_per_s = 1'000'000'000;
@@ -53,6 +55,12 @@ Result<model::Scenario> scenario_of(const Request& request, const CapturedDeploy
                         "the capture gives the deployment; expected a key of dds or wireless, "
                         "deployment.loopback_delay or time_limit"};
     }
+  }
+  if (time_limit_s > longest_run_most_s) {
+    return InputError{"capture",
+                      fmt::format("from its first to its last packet more than {} s pass; are its "
+                                  "times damaged? --until INSTANT looks at a part of it",
+                                  longest_run_most_s / longest_run_factor)};
   }
   // Apart, so that an error names the profile.
   const auto specs = model::config::SpecPath::standard();
