@@ -99,9 +99,15 @@ model::config::Result<Database> Database::open(const std::string& path, std::str
   Database database;
   database.path_ = path;
   database.version_ = std::move(version);
-  sqlite3* connection = nullptr;
   // A name such as ":memory:" is a file like any other.
   const std::string file = path.starts_with(':') ? "./" + path : path;
+  database.lock_ = FileLock{file};
+  if (database.lock_.refused()) {
+    return model::config::InputError{path,
+                                     "another sweep works on this database; expected one at "
+                                     "a time, or another file"};
+  }
+  sqlite3* connection = nullptr;
   const int code = sqlite3_open_v2(file.c_str(), &connection,
                                    SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   database.connection_.reset(connection);

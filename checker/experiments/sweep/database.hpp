@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checker/experiments/grids/digest.hpp"
+#include "checker/experiments/sweep/file_lock.hpp"
 #include "checker/experiments/sweep/outcome.hpp"
 #include "model/config/tree/result.hpp"
 
@@ -26,7 +27,7 @@ inline constexpr int schema_version = 1;
 class Database {
  public:
   /// Opens the file, which is made if it does not exist or is empty. Errors: it cannot be opened,
-  /// it is not a database of sweeps, it has a newer schema.
+  /// it is not a database of sweeps, it has a newer schema, another sweep works on it.
   [[nodiscard]] static model::config::Result<Database> open(const std::string& path,
                                                             std::string program_version);
 
@@ -60,6 +61,7 @@ class Database {
 
   std::string path_;
   std::string version_;
+  FileLock lock_;  ///< closed after the connection
   std::unique_ptr<sqlite3, Closer> connection_;
   Statement find_;
   Statement add_;
