@@ -8,6 +8,7 @@
 #include "checker/experiments/diff/summary.hpp"
 #include "checker/experiments/diff/words.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/verification/counterexample/chart.hpp"
 #include "checker/verification/counterexample/stepper.hpp"
@@ -105,7 +106,7 @@ Table verdict_table(const VerdictComparison& verdicts, const Files& files, bool 
         facts.rows.emplace_back("because", change.counterexample->reason);
         const auto file = files.find(change.property);
         if (file != files.end()) {
-          facts.rows.emplace_back("replay", code("stormproof replay " + file->second));
+          facts.rows.emplace_back("replay", code(report::command_line({"replay", file->second})));
         }
       }
       row.details.emplace_back(std::move(facts));

@@ -7,6 +7,7 @@
 #include "checker/experiments/diff/judging.hpp"
 #include "checker/experiments/diff/summary.hpp"
 #include "checker/experiments/diff/words.hpp"
+#include "checker/presentation/text/command_line.hpp"
 
 namespace stormproof::diff {
 
@@ -105,7 +106,7 @@ class Findings {
   void add(const VerdictChange& change) {
     const auto file = files_.find(change.property);
     const std::string replay =
-        file == files_.end() ? std::string{} : "stormproof replay " + file->second;
+        file == files_.end() ? std::string{} : report::command_line({"replay", file->second});
     Finding& one = test("verdict", change.property, change.judgment);
     one.message =
         fmt::format("{} with the base, {} with the candidate, on {}", props::name_of(change.before),

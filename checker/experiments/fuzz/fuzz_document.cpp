@@ -7,6 +7,7 @@
 
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/config/tree/quantities.hpp"
@@ -172,7 +173,10 @@ Section counterexample(const FuzzReport& report, const Judgment& judgment,
     facts.rows.emplace_back("files", report::code(stem->second + ".yaml") +
                                          " (scenario), .txt (story), .svg and .mmd "
                                          "(chart)");
-    facts.rows.emplace_back("replay", report::code("stormproof replay " + stem->second + ".jsonl"));
+  }
+  if (const auto trace = context.traces.find(judgment.id); trace != context.traces.end()) {
+    facts.rows.emplace_back("replay",
+                            report::code(report::command_line({"replay", trace->second})));
   }
   facts.rows.emplace_back("run it", report::code(context.single(report, judgment.first_broken)));
   return {fmt::format("VIOLATED {}, first by run {}", judgment.id, judgment.first_broken),

@@ -42,7 +42,8 @@ Json shrunk_json(const Shrunk& shrunk, const Judgment& judgment, const FuzzConte
   v("accepted", shrunk.accepted);
   v("finished", shrunk.finished);
   v.or_null("scenario_file", file(".yaml"));
-  v.or_null("counterexample_file", file(".jsonl"));
+  const auto trace = context.traces.find(judgment.id);
+  v.or_null("counterexample_file", trace == context.traces.end() ? std::string{} : trace->second);
   return std::move(v).take();
 }
 

@@ -16,7 +16,8 @@ struct FuzzContext {
   std::string name;  ///< what the user called the scenario
   const model::Scenario& scenario;
   std::string command;  ///< `stormproof fuzz …` with everything but --runs, --seed and --first
-  std::map<std::string_view, std::string> stems;  ///< by id: files STEM.jsonl, STEM.yaml, …
+  std::map<std::string_view, std::string> stems;     ///< by id: files STEM.yaml, STEM.txt, …
+  std::map<std::string_view, std::string> traces{};  ///< by id: those that could be written
 
   /// The command that repeats the whole report, or one run of it.
   [[nodiscard]] std::string whole(const FuzzReport& report) const;

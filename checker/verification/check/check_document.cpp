@@ -8,6 +8,7 @@
 
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/document/verdicts.hpp"
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/check_answer.hpp"
 #include "checker/verification/check/check_findings.hpp"
@@ -205,7 +206,7 @@ Section violation(const PropertyResult& result, const CheckContext& context, std
                               story.empty() ? Audience::terminal : Audience::explained);
   const auto file = context.counterexamples.find(id);
   if (file != context.counterexamples.end()) {
-    const std::string command = "stormproof replay " + file->second;
+    const std::string command = report::command_line({"replay", file->second});
     section.blocks.emplace_back(Paragraph{"replay it: " + report::code(command)},
                                 Audience::terminal);
     section.blocks.emplace_back(Paragraph{"Replay it through the state machines:"},

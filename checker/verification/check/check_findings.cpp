@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/verification/check/origins.hpp"
 
 namespace stormproof::checker {
@@ -77,7 +78,8 @@ report::Finding ci_finding(const PropertyResult& result, Standing standing,
     }
   }
   const auto file = context.counterexamples.find(result.property->id);
-  if (file != context.counterexamples.end()) one.command = "stormproof replay " + file->second;
+  if (file != context.counterexamples.end())
+    one.command = report::command_line({"replay", file->second});
   one.locations.push_back(location_of(one.id, context.places, context.name));
   if (one.outcome != Outcome::passed) {
     one.related = related_to(one.id, context, one.locations.front());

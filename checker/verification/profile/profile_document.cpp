@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/verification/profile/profile_report.hpp"
 
 namespace stormproof::report {
@@ -131,7 +132,7 @@ Document document_of(const ProfileReport& report) {
     document.blocks.emplace_back(
         Paragraph{(report.remarks == 1 ? "There is more" : "There are more") +
                   std::string{" to say about this file:"}});
-    document.blocks.emplace_back(Command{"stormproof profile lint " + report.reference});
+    document.blocks.emplace_back(Command{command_line({"profile", "lint", report.reference})});
   }
   return document;
 }
