@@ -23,6 +23,7 @@ struct Answer {
   std::string csv = {};                 ///< of verbs that offer `--format csv`
   std::vector<std::string> notes = {};  ///< lines on standard error, after the answer
   std::vector<std::pair<std::string, report::Format>> files = {};  ///< written by the frame: paths
+  std::vector<std::string> listing = {};  ///< of files that nobody asked for: ends the answer
   std::string complaint = {};  ///< what failed after the work; the exit code is bad_input
 };
 

@@ -28,9 +28,6 @@ Outcome run(CaptureArguments& arguments, Session& session) {
   Answer answer;
   answer.document = document_of(summary);
   answer.json = to_json(summary);
-  if (Session::interrupted()) {
-    answer.notes.emplace_back("stormproof: interrupted; this is what was read until then");
-  }
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(summary);
   const bool complete = !Session::interrupted() && counting.last_initial_ns;
   answer.document.complete = !Session::interrupted();

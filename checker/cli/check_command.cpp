@@ -34,7 +34,7 @@ struct CheckArguments {
   bool update_baseline = false;
   double timeout_seconds = 10;   ///< of each query, for each solver
   std::string export_directory;  ///< for SMT-LIB 2 files; empty: none
-  std::string counterexamples = "counterexamples";
+  std::string counterexamples;   ///< a folder; empty: the usual one
   OutputFile emit_test;
   unsigned seed = 0;
   std::uint32_t samples = 12;
@@ -82,17 +82,21 @@ std::optional<std::string> update_baseline(const CheckArguments& arguments,
 }
 
 checker::CheckReport run_check(const CheckArguments& arguments, const model::Scenario& scenario,
-                               Session& session) {
+                               Session& session, Answer& answer) {
   smt::Options solver;
   solver.timeout =
       std::chrono::milliseconds{static_cast<std::int64_t>(arguments.timeout_seconds * 1000)};
   solver.seed = arguments.seed;
   solver.export_dir = arguments.export_directory;
   solver.second_solver = !arguments.single_solver;
+  solver.interrupted = Session::interrupted;
   smt::Claims claims{solver};
-  return checker::check({arguments.properties.begin(), arguments.properties.end()},
-                        {scenario, claims, nullptr, arguments.seed, arguments.samples,
-                         session.on_steps("checking, "), arguments.readers});
+  checker::CheckReport report =
+      checker::check({arguments.properties.begin(), arguments.properties.end()},
+                     {scenario, claims, nullptr, arguments.seed, arguments.samples,
+                      session.on_steps("checking, "), arguments.readers});
+  if (const auto error = claims.export_error()) answer.complaint = "--export: " + *error;
+  return report;
 }
 
 Outcome run(CheckArguments& arguments, Session& session) {
@@ -108,8 +112,11 @@ Outcome run(CheckArguments& arguments, Session& session) {
     const auto error = make_folder("--export", arguments.export_directory);
     if (error) return Complaint{*error};
   }
-  const checker::CheckReport report = run_check(arguments, traced->value, session);
+  OutputFolder folder{
+      "--counterexamples", arguments.counterexamples, "check", {arguments.scenario}};
+  if (const auto error = folder.prepare()) return Complaint{*error};
   Answer answer;
+  const checker::CheckReport report = run_check(arguments, traced->value, session, answer);
   if (const auto known = baseline->find(arguments.scenario); known != baseline->end()) {
     arguments.rules.baseline = known->second;
   }
@@ -126,9 +133,9 @@ Outcome run(CheckArguments& arguments, Session& session) {
                                 traced->places,
                                 std::move(gate),
                                 checker::words_of(arguments.scenario, arguments.overrides)};
-  if (const auto error = write_counterexamples(arguments.counterexamples, report, context)) {
-    answer.complaint = *error;
-  }
+  write_counterexamples(folder, report, context);
+  if (folder.error()) answer.complaint = *folder.error();
+  answer.listing = folder.listing();
   if (arguments.emit_test.wanted()) {
     std::vector<props::Counterexample> all;
     for (const checker::PropertyResult& result : report.results) {
@@ -161,7 +168,7 @@ void declare(Options& options, CheckArguments& arguments) {
       .needs(baseline);
   options.timeout(arguments.timeout_seconds);
   options.folder("--counterexamples", arguments.counterexamples,
-                 "Where counterexamples are written (default: counterexamples/)");
+                 usual_folder_help("Where counterexamples are written", "check-SCENARIO"));
   options.output("--emit-test", arguments.emit_test,
                  "Write the counterexamples as GoogleTest cases");
   options.folder("--export", arguments.export_directory,

@@ -1,18 +1,16 @@
 // How a command refuses its input: one line on standard error, and the exit code for it.
 #pragma once
 
-#include <cstdio>
 #include <string>
 
-#include <fmt/core.h>
-
 #include "checker/cli/exit_code.hpp"
+#include "checker/cli/streams.hpp"
 
 namespace stormproof::cli {
 
 /// Says what is wrong, with its place and what was expected; returns ExitCode::bad_input.
 inline int complain(const std::string& message) {
-  fmt::print(stderr, "stormproof: {}\n", message);
+  say("stormproof: " + message);
   return bad_input;
 }
 

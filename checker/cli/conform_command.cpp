@@ -106,7 +106,8 @@ Outcome run(ConformArguments& arguments, Session& session) {
   const auto on_progress = [&session](std::size_t done, std::size_t all) {
     return session.proceed([&] { return fmt::format("relation {} of {}", done, all); });
   };
-  const auto result = conform::conform({*conversation, *until, *dds, *bounds, on_progress});
+  const auto result =
+      conform::conform({*conversation, *until, *dds, *bounds, on_progress, Session::interrupted});
   if (!result) return result.error();
   const conform::Report report{*conversation, *result, *dds, profile_name(arguments), *until};
   Answer answer{document_of(report), to_json(report)};

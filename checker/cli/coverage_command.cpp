@@ -39,9 +39,6 @@ model::config::Result<Observations> read(const std::string& path,
 std::string write_charts(const std::string& folder, const prediction::Study& study,
                          Answer& answer) {
   namespace fs = std::filesystem;
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed) return folder + ": " + failed.message();
   answer.files.emplace_back((fs::path{folder} / "coverage.html").string(), report::Format::html);
   for (const prediction::ProfileStudy& profile : study.profiles) {
     for (const prediction::ChartFile& chart : prediction::charts(profile)) {
@@ -65,6 +62,9 @@ Outcome run(CoverageArguments& arguments, Session& session) {
   if (!arguments.baseline_select.empty()) {
     baseline = read(arguments.observations, {arguments.read.completion, arguments.baseline_select});
     if (!baseline) return baseline.error();
+  }
+  if (!arguments.output.empty()) {
+    if (const auto error = make_folder("--output", arguments.output)) return Complaint{*error};
   }
   request.predict.on_progress = session.on_runs();
   const auto study = prediction::study(measured->rows, baseline->rows, request);

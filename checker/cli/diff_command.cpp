@@ -20,7 +20,7 @@ struct DiffArguments {
   std::optional<std::uint64_t> seed;
   bool no_check = false;
   bool no_telling_apart = false;
-  std::string directory = "diff";
+  std::string directory;  ///< empty: the usual one
   std::size_t jobs = 0;
 };
 
@@ -47,6 +47,7 @@ model::config::Result<diff::DiffRequest> request_of(const DiffArguments& argumen
   request.tell_apart = !arguments.no_telling_apart;
   request.threads = arguments.jobs;
   request.on_progress = session.on_steps();
+  request.interrupted = Session::interrupted;
   return request;
 }
 
@@ -54,11 +55,16 @@ Outcome run(DiffArguments& arguments, Session& session) {
   const model::config::SpecPath specs = model::config::SpecPath::standard();
   const auto request = request_of(arguments, specs, session);
   if (!request) return request.error();
+  OutputFolder folder{
+      "--output", arguments.directory, "diff", {arguments.base, arguments.candidate}};
+  if (const auto error = folder.prepare()) return Complaint{*error};
   const auto report = diff::diff(*request, specs);
   if (!report) return report.error();
   diff::Files files;
   Answer answer;
-  answer.complaint = write_diff_files(arguments.directory, *report, files).value_or("");
+  write_diff_files(folder, *report, files);
+  answer.complaint = folder.error().value_or("");
+  answer.listing = folder.listing();
   answer.document = document_of(*report, files);
   answer.json = to_json(*report, files);
   return answer;
@@ -86,7 +92,8 @@ void declare(Options& options, DiffArguments& arguments) {
                "Do not look for the smallest scenario that tells the profiles apart");
   options.jobs(arguments.jobs);
   options.folder("-o,--output", arguments.directory,
-                 "Where runs, charts and counterexamples are written (default: diff/)");
+                 usual_folder_help("Where runs, charts and counterexamples are written",
+                                   "diff-BASE-CANDIDATE"));
 }
 
 }  // namespace

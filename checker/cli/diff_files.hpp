@@ -3,19 +3,14 @@
 // counterexamples of changed verdicts.
 #pragma once
 
-#include <optional>
-#include <string>
-
+#include "checker/cli/output_folder.hpp"
 #include "checker/experiments/diff/diff_report.hpp"
 
 namespace stormproof::cli {
 
-/// Writes into `directory`, which is made if there is anything to write, and notes in `files` what
-/// was written: "telling-apart.base", "telling-apart.candidate" (traces),
+/// Notes in `files` what was written: "telling-apart.base", "telling-apart.candidate" (traces),
 /// "telling-apart.base.scenario", "telling-apart.candidate.scenario", "telling-apart.chart",
-/// property ids (traces of counterexamples). Returns what could not be written, or nothing.
-[[nodiscard]] std::optional<std::string> write_diff_files(const std::string& directory,
-                                                          const diff::DiffReport& report,
-                                                          diff::Files& files);
+/// property ids (traces of counterexamples).
+void write_diff_files(OutputFolder& folder, const diff::DiffReport& report, diff::Files& files);
 
 }  // namespace stormproof::cli

@@ -10,6 +10,7 @@
 #include "checker/cli/draw_composition.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
+#include "checker/cli/streams.hpp"
 #include "checker/presentation/diagrams/draw_machine.hpp"
 #include "fsm/machines.hpp"
 #include "model/config/tree/suggestion.hpp"
@@ -65,7 +66,7 @@ Outcome write_each(const std::string& directory, const std::vector<MachineInfo>&
     if (!error) file.stream() << draw_machine(machine, format);
     if (!error) error = file.commit();
     if (error) return Complaint{*error};
-    fmt::print("{}\n", path);
+    print(path + "\n");
   }
   return established;
 }
@@ -74,7 +75,7 @@ Outcome show(const std::string& drawn, OutputFile& file) {
   if (file.wanted()) {
     file.stream() << drawn;
   } else {
-    fmt::print("{}", drawn);
+    print(drawn);
   }
   return established;
 }

@@ -10,7 +10,10 @@
 #include <unistd.h>
 
 #include "checker/cli/complain.hpp"
+#include "checker/cli/memory_limit.hpp"
+#include "checker/cli/overwriting.hpp"
 #include "checker/cli/report_files.hpp"
+#include "checker/cli/streams.hpp"
 #include "checker/cli/terminal.hpp"
 #include "checker/presentation/json/dumped.hpp"
 #include "model/config/tree/suggestion.hpp"
@@ -40,6 +43,11 @@ std::vector<NamedFormat> formats_of(Formats formats) {
 void complete(Answer& answer, const std::string& command) {
   report::Document& document = answer.document;
   if (document.command.empty()) document.command = command;
+  if (!answer.listing.empty()) {
+    report::Bullets files;
+    for (const std::string& line : answer.listing) files.items.emplace_back(line);
+    document.blocks.emplace_back(report::Section{"Files", "files", {std::move(files)}});
+  }
   answer.json =
       with_head(std::move(answer.json), document.command, document.exit_code, !document.complete);
 }
@@ -73,6 +81,15 @@ std::optional<std::string> refuse_folder(const std::string& option, const std::s
   return fmt::format("{} {}: is no folder", option, folder);
 }
 
+/// Why an answer is not complete, if the work was stopped.
+void say_why_not() {
+  if (InterruptGuard::short_of_memory()) {
+    complain(needs_more_memory());
+  } else if (InterruptGuard::interrupted()) {
+    say("stormproof: interrupted; this is what was known by then");
+  }
+}
+
 }  // namespace
 
 ordered_json with_head(ordered_json content, const std::string& command, int exit_code,
@@ -96,14 +113,19 @@ struct Frame::Command {
   std::deque<ReportFile> reports{};
   bool verbose = false;
   std::optional<bool> progress{};  ///< not given: when stderr is a terminal
+  std::string max_memory{};        ///< as written; empty: what the machine has
 
   void declare_own(Options& options);
   int execute();
 
  private:
+  using Errors = std::vector<std::string>;
+
+  [[nodiscard]] std::optional<std::string> refuse_overwriting() const;
   std::optional<std::string> open_files();
-  std::optional<std::string> write_files(const Answer& answer);
-  std::optional<std::string> commit_declared();
+  void write_files(const Answer& answer, Errors& errors);
+  void commit_declared(Errors& errors);
+  int show(Answer& answer, const std::vector<Given>& given);
 };
 
 void Frame::Command::declare_own(Options& options) {
@@ -129,6 +151,26 @@ void Frame::Command::declare_own(Options& options) {
       .flag(
           "--no-progress", [this] { progress = false; }, "Show no progress")
       .not_repeated();
+  options
+      .text("--max-memory", max_memory,
+            "Stop before more memory than this is used: 500MB, 4GiB (default: three quarters of "
+            "the machine's)",
+            "SIZE")
+      .not_repeated();
+}
+
+/// Before any file is made.
+std::optional<std::string> Frame::Command::refuse_overwriting() const {
+  std::vector<Target> targets;
+  std::vector<const CLI::Option*> written = declared.not_repeated;
+  const auto add = [&](const CLI::Option* option, const std::string& path) {
+    written.push_back(option);
+    if (!path.empty()) targets.push_back({option->get_name(), path});
+  };
+  for (const Declared::Place& place : declared.places) add(place.option, *place.path);
+  for (const Declared::File& file : declared.files) add(file.option, file.path);
+  for (const ReportFile& report : reports) targets.push_back({"--report", report.path});
+  return overwriting(targets, given_to(*parsed, written));
 }
 
 std::optional<std::string> Frame::Command::open_files() {
@@ -136,45 +178,67 @@ std::optional<std::string> Frame::Command::open_files() {
     if (const auto error = parse_report_files(report_arguments, formats_of(verb.formats), reports))
       return to_string(*error);
   }
-  for (const auto& [option, path] : declared.folders) {
-    if (auto error = refuse_folder(option, *path)) return error;
-  }
   if (!verb.writes()) return std::nullopt;
-  for (const auto& [file, path] : declared.files) {
-    file->open(path);
+  if (auto error = refuse_overwriting()) return error;
+  for (const auto& [option, path, is_folder] : declared.places) {
+    if (!is_folder || path->empty()) continue;
+    if (auto error = refuse_folder(option->get_name(), *path)) return error;
+  }
+  for (auto& [file, option, path] : declared.files) {
+    file->open(path, option->get_name() + " " + path);
     if (auto error = file->open_error()) return error;
   }
   for (ReportFile& report : reports) {
-    report.file.open(report.path);
+    report.file.open(report.path, "--report " + report.path);
     if (auto error = report.file.open_error()) return error;
   }
   return std::nullopt;
 }
 
-std::optional<std::string> Frame::Command::write_files(const Answer& answer) {
-  const report::Terminal file{.verbose = verbose};
-  for (ReportFile& report : reports) {
-    report.file.stream() << render(answer, report.format, file);
-    if (auto error = report.file.commit()) return error;
-  }
+/// Each file for itself: one that cannot be written keeps no other from it.
+void Frame::Command::write_files(const Answer& answer, Errors& errors) {
+  const report::Terminal terminal{.verbose = verbose};
+  const auto commit = [&](OutputFile& file, Format in) {
+    auto error = file.open_error();
+    if (!error) file.stream() << render(answer, in, terminal);
+    if (!error) error = file.commit();
+    if (error) errors.push_back(*error);
+  };
+  for (ReportFile& report : reports) commit(report.file, report.format);
   for (const auto& [path, in] : answer.files) {
-    OutputFile written{path};
-    if (auto error = written.open_error()) return error;
-    written.stream() << render(answer, in, file);
-    if (auto error = written.commit()) return error;
+    OutputFile file{path};
+    commit(file, in);
   }
-  return commit_declared();
+  commit_declared(errors);
 }
 
 /// The files that the command itself has written to.
-std::optional<std::string> Frame::Command::commit_declared() {
-  for (const auto& [file, path] : declared.files) {
-    if (auto error = file->commit()) return error;
+void Frame::Command::commit_declared(Errors& errors) {
+  for (auto& [file, option, path] : declared.files) {
+    if (auto error = file->commit()) errors.push_back(*error);
   }
-  return std::nullopt;
+}
+
+/// Prints the answer and writes its files; the exit code, which says if something of it was lost.
+int Frame::Command::show(Answer& answer, const std::vector<Given>& given) {
+  complete(answer, shell_line(given));
+  report::Terminal terminal = standard_output();
+  terminal.verbose = verbose;
+  print(render(answer, format, terminal));
+  for (const std::string& note : answer.notes) say(note);
+  if (!answer.document.complete) say_why_not();
+  Errors errors;
+  write_files(answer, errors);
+  if (!answer.complaint.empty()) errors.insert(errors.begin(), answer.complaint);
+  for (const std::string& error : errors) complain(error);
+  return errors.empty() ? answer.document.exit_code : bad_input;
 }
 
 int Frame::Command::execute() {
+  const auto limit = memory_limit(max_memory);
+  if (!limit) return complain(limit.error());
+  limit_memory(*limit);
+  const InterruptGuard guard;
   if (const auto error = open_files()) return complain(*error);
   const std::vector<Given> given = given_to(*parsed, declared.not_repeated);
   Outcome outcome = [&] {
@@ -183,19 +247,13 @@ int Frame::Command::execute() {
   }();
   if (const auto* complaint = std::get_if<Complaint>(&outcome)) return complain(complaint->message);
   if (const auto* code = std::get_if<ExitCode>(&outcome)) {
-    if (const auto error = commit_declared()) return complain(*error);
-    return *code;
+    say_why_not();
+    Errors errors;
+    commit_declared(errors);
+    for (const std::string& error : errors) complain(error);
+    return errors.empty() ? *code : bad_input;
   }
-  Answer& answer = std::get<Answer>(outcome);
-  complete(answer, shell_line(given));
-  report::Terminal terminal = standard_output();
-  terminal.verbose = verbose;
-  fmt::print("{}", render(answer, format, terminal));
-  for (const std::string& note : answer.notes) fmt::print(stderr, "{}\n", note);
-  const auto error = write_files(answer);
-  if (!answer.complaint.empty()) return complain(answer.complaint);
-  if (error) return complain(*error);
-  return answer.document.exit_code;
+  return show(std::get<Answer>(outcome), given);
 }
 
 struct Frame::Parser {

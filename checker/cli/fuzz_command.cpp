@@ -1,14 +1,12 @@
 // `stormproof fuzz SCENARIO`: runs many variants of a scenario, drawn within ranges, and looks for
 // one that breaks a property or a limit. What breaks is shrunk and written.
-#include <filesystem>
-
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
 #include "checker/cli/counterexample_files.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/fuzz_input.hpp"
-#include "checker/cli/output_file.hpp"
+#include "checker/cli/output_folder.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/verification/counterexample/story.hpp"
 #include "model/config/knobs/effective.hpp"
@@ -20,27 +18,24 @@ namespace {
 constexpr std::size_t usual_runs = 200;
 constexpr std::size_t most_runs = 1'000'000;
 
-/// Writes STEM.yaml, .jsonl, .svg, .mmd and .txt of every shrunk counterexample.
-std::optional<std::string> write_shrunk(const FuzzArguments& arguments,
-                                        const fuzz::FuzzReport& report,
-                                        fuzz::FuzzContext& context) {
+/// Writes ID.yaml, .txt, .mmd, .svg and .jsonl of every shrunk counterexample.
+void write_shrunk(OutputFolder& folder, const fuzz::FuzzReport& report,
+                  fuzz::FuzzContext& context) {
   for (const fuzz::Judgment& judgment : report.judgments) {
     if (!judgment.shrunk) continue;
-    if (auto failure = make_folder("--counterexamples", arguments.output_directory)) return failure;
-    const std::string stem =
-        (std::filesystem::path{arguments.output_directory} / std::string{judgment.id}).string();
     const props::Counterexample& found = judgment.shrunk->counterexample;
-    if (auto failure = write_counterexample(found, stem)) return failure;
+    const std::string id{judgment.id};
     const std::string description = fmt::format("# {}\n# found by: {}\n", found.reason,
                                                 context.single(report, judgment.first_broken));
-    if (auto failure = write_text(stem + ".yaml",
-                                  description + model::config::effective_yaml(found.scenario))) {
-      return failure;
-    }
-    if (auto failure = write_text(stem + ".txt", counterexample::story(found))) return failure;
-    context.stems.emplace(judgment.id, stem);
+    const auto scenario =
+        folder.write(id + ".yaml", description + model::config::effective_yaml(found.scenario));
+    folder.write(id + ".txt", counterexample::story(found));
+    const auto trace = write_counterexample(folder, found, id);
+    if (trace) context.traces.emplace(judgment.id, *trace);
+    if (!scenario) continue;
+    const std::size_t ending = std::string_view{".yaml"}.size();
+    context.stems.emplace(judgment.id, scenario->substr(0, scenario->size() - ending));
   }
-  return std::nullopt;
 }
 
 fuzz::FuzzOptions options_of(const FuzzArguments& arguments, std::vector<std::string> ids,
@@ -76,15 +71,21 @@ Outcome run(FuzzArguments& arguments, Session& session) {
     if (!range) return range.error();
     knobs.push_back(*range);
   }
+  OutputFolder folder{
+      "--counterexamples", arguments.output_directory, "fuzz", {arguments.scenario}};
+  if (const auto error = folder.prepare()) return Complaint{*error};
   const fuzz::Ranges ranges = fuzz::ranges_around(*scenario, std::move(knobs));
   const fuzz::FuzzReport report =
       fuzz::fuzz(*scenario, ranges, options_of(arguments, *ids, session));
   fuzz::FuzzContext context{arguments.scenario,
                             *scenario,
                             session.command({"--runs", "--seconds", "--seed", "--first"}),
+                            {},
                             {}};
   Answer answer;
-  answer.complaint = write_shrunk(arguments, report, context).value_or("");
+  write_shrunk(folder, report, context);
+  answer.complaint = folder.error().value_or("");
+  answer.listing = folder.listing();
   // Its command says how many runs there was time for, which is never twice the same.
   answer.document = document_of(report, context);
   answer.json = to_json(report, context);
@@ -124,7 +125,7 @@ void declare(Options& options, FuzzArguments& arguments) {
       .within(std::int64_t{0}, std::int64_t{1'000'000'000'000});
   options.jobs(arguments.jobs);
   options.folder("--counterexamples", arguments.output_directory,
-                 "Where counterexamples are written (default: counterexamples/)");
+                 usual_folder_help("Where counterexamples are written", "fuzz-SCENARIO"));
 }
 
 }  // namespace

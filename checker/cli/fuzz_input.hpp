@@ -22,9 +22,9 @@ struct FuzzArguments {
   std::optional<std::size_t> runs;  ///< not given: 200, or as many as `seconds` allows
   std::optional<double> seconds;    ///< no run starts later
   std::uint64_t seed = 0;
-  std::uint64_t first = 0;  ///< number of the first variant
-  std::size_t jobs = 0;     ///< threads; 0: one for each core
-  std::string output_directory = "counterexamples";
+  std::uint64_t first = 0;       ///< number of the first variant
+  std::size_t jobs = 0;          ///< threads; 0: one for each core
+  std::string output_directory;  ///< empty: the usual one
 };
 
 /// The scenario with the limits and ranges of the options.

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
 namespace stormproof::cli {
@@ -13,7 +14,8 @@ std::vector<Given> given_to(const CLI::App& command,
                             const std::vector<const CLI::Option*>& left_out) {
   Given names{"", {}};
   for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
-    names.values.insert(names.values.begin(), app->get_name());
+    const bool is_root = app->get_parent() == nullptr;
+    names.values.insert(names.values.begin(), is_root ? report::program() : app->get_name());
   }
   std::vector<Given> given{names};
   for (const CLI::Option* option : command.get_options()) {

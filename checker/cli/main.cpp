@@ -1,23 +1,38 @@
 // The program: runs a command, turns what nobody expected into exit code 70.
 #include <exception>
 #include <new>
-
-#include <fmt/core.h>
+#include <string>
 
 #include "checker/cli/commands.hpp"
-#include "checker/cli/exit_code.hpp"
+#include "checker/cli/complain.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/cli/memory_limit.hpp"
+#include "checker/presentation/text/command_line.hpp"
 
-int main(int argc, char** argv) {
-  namespace cli = stormproof::cli;
+namespace {
+
+namespace cli = stormproof::cli;
+
+int run(int argc, char** argv) {
   try {
     cli::Frame frame;
     cli::declare_commands(frame);
     return frame.run(argc, argv);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "stormproof: out of memory; try a smaller deployment or a shorter limit\n");
+    cli::complain(cli::needs_more_memory());
+    return cli::inconclusive;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "stormproof: internal error: {}\n", error.what());
+    cli::complain(std::string{"internal error: "} + error.what());
   }
   return cli::internal_error;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cli::prepare_streams();
+  stormproof::report::set_program(argc > 0 ? argv[0] : "");
+  const int code = run(argc, argv);
+  const auto lost = cli::output_lost();
+  return lost ? cli::complain(*lost) : code;
 }

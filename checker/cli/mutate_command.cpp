@@ -39,6 +39,7 @@ Outcome run(MutateArguments& arguments, Session& session) {
   }
   options.solver.timeout =
       std::chrono::milliseconds{static_cast<std::int64_t>(arguments.timeout_seconds * 1000)};
+  options.solver.interrupted = Session::interrupted;
   options.on_progress = session.on_steps("trying ");
   const mutate::MutationReport report = mutate::mutate(options);
   Answer answer{document_of(report), to_json(report)};

@@ -90,15 +90,25 @@ Option Options::choice(const char* name, std::vector<std::string> words,
 }
 
 Option Options::output(const char* name, OutputFile& file, const std::string& help) {
-  declared_.files.push_back({&file, {}});
-  std::string& path = declared_.files.back().path;
-  return text(name, path, help, "FILE").not_repeated();
+  declared_.files.push_back({&file, nullptr, {}});
+  Declared::File& declared = declared_.files.back();
+  CLI::Option* option = command_.add_option(name, declared.path, help)->type_name("FILE");
+  declared.option = option;
+  return made(option).not_repeated();
 }
 
 Option Options::folder(const char* name, std::string& path, const std::string& help,
                        const char* type) {
-  declared_.folders.push_back({name, &path});
-  return text(name, path, help, type).not_repeated();
+  CLI::Option* option = command_.add_option(name, path, help)->type_name(type);
+  declared_.places.push_back({option, &path, true});
+  return made(option).not_repeated();
+}
+
+Option Options::written(const char* name, std::string& path, const std::string& help,
+                        const char* type) {
+  CLI::Option* option = command_.add_option(name, path, help)->type_name(type);
+  declared_.places.push_back({option, &path, false});
+  return made(option);
 }
 
 void Options::scenario(std::string& scenario, std::vector<std::string>& changes) {

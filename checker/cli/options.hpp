@@ -25,14 +25,16 @@ class OutputFile;
 struct Declared {
   struct File {
     OutputFile* file;
+    const CLI::Option* option;
     std::string path;  ///< empty: not asked for
   };
-  struct Folder {
-    std::string option;
+  struct Place {
+    const CLI::Option* option;
     const std::string* path;
+    bool is_folder;  ///< and nothing else
   };
   std::deque<File> files;
-  std::vector<Folder> folders;
+  std::vector<Place> places;  ///< that the command itself writes to
   std::vector<const CLI::Option*> not_repeated;
 };
 
@@ -108,6 +110,9 @@ class Options {
   /// A folder that the command writes into. The frame refuses a path that can be none.
   Option folder(const char* name, std::string& path, const std::string& help,
                 const char* type = "DIR");
+  /// What the command writes to in its own way: a database, or a folder or a file. The frame sees
+  /// to it that it is none of the files that are read or written otherwise.
+  Option written(const char* name, std::string& path, const std::string& help, const char* type);
 
   // ---- what several commands have: the same names and words everywhere --------------------------
   /// The scenario, and `--set`.

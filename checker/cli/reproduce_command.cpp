@@ -48,8 +48,7 @@ std::string write_all(const Report& report, const std::string& directory, Answer
 /// How long it took, which is never twice the same.
 std::vector<std::string> times(const reproduce::Plan& plan, const reproduce::Results& results) {
   if (!results.complete) {
-    return {fmt::format("interrupted: {} of {} cases are finished", results.outcomes.size(),
-                        plan.cases.size())};
+    return {fmt::format("{} of {} cases are finished", results.outcomes.size(), plan.cases.size())};
   }
   std::vector<std::string> lines;
   if (results.evaluation_cpu_s > 0) {
@@ -69,7 +68,7 @@ Outcome run(ReproduceArguments& arguments, Session& session) {
   const auto plan = reproduce::make_plan(*published, arguments.plan, specs);
   if (!plan) return plan.error();
   if (!arguments.directory.empty()) {
-    if (const auto error = make_folder("-o", arguments.directory)) return Complaint{*error};
+    if (const auto error = make_folder("--output", arguments.directory)) return Complaint{*error};
   }
   Report report;
   report.version = STORMPROOF_VERSION;

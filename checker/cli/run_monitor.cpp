@@ -1,40 +1,92 @@
 // Signal handling and the progress line.
 #include "checker/cli/run_monitor.hpp"
 
-#include <csignal>
-#include <cstdio>
+#include <atomic>
+#include <cstdint>
 
 #include <fmt/core.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include "checker/cli/memory_limit.hpp"
+#include "checker/cli/output_file.hpp"
+#include "checker/cli/streams.hpp"
 
 namespace stormproof::cli {
 
 namespace {
 
-volatile std::sig_atomic_t interrupt_seen = 0;
+std::atomic<bool> interrupt_seen = false;
+std::atomic<bool> memory_is_short = false;
 
-void remember(int signal) {
-  // A second Ctrl-C ends the program as usual.
-  interrupt_seen = 1;
+/// How often memory is looked at.
+constexpr int glance_milliseconds = 50;
+
+sigset_t watched_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  return set;
+}
+
+/// As if nobody had been watching.
+[[noreturn]] void end_by(int signal) {
+  OutputFile::discard_all();
   std::signal(signal, SIG_DFL);
+  const sigset_t set = watched_signals();
+  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  raise(signal);
+  _exit(128 + signal);
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
-  interrupt_seen = 0;
-  std::signal(SIGINT, remember);
-  std::signal(SIGTERM, remember);
+  interrupt_seen = false;
+  memory_is_short = false;
+  const sigset_t set = watched_signals();
+  pthread_sigmask(SIG_BLOCK, &set, &before_);
+  signals_ = signalfd(-1, &set, SFD_CLOEXEC);
+  end_ = eventfd(0, EFD_CLOEXEC);
+  watch_ = std::thread{[this] { watch(); }};
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  const std::uint64_t one = 1;
+  (void)!write(end_, &one, sizeof one);
+  watch_.join();
+  close(signals_);
+  close(end_);
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-bool InterruptGuard::interrupted() { return interrupt_seen != 0; }
+void InterruptGuard::watch() const {
+  pollfd ready[] = {{end_, POLLIN, 0}, {signals_, POLLIN, 0}};
+  while (true) {
+    const int count = poll(ready, 2, glance_milliseconds);
+    if (memory_runs_short() && !interrupt_seen) {
+      memory_is_short = true;
+      interrupt_seen = true;
+    }
+    if (count <= 0) continue;
+    if (ready[0].revents != 0) return;
+    signalfd_siginfo received{};
+    if (read(signals_, &received, sizeof received) != sizeof received) continue;
+    if (interrupt_seen && !memory_is_short) end_by(static_cast<int>(received.ssi_signo));
+    memory_is_short = false;
+    interrupt_seen = true;
+  }
+}
+
+bool InterruptGuard::interrupted() { return interrupt_seen; }
+
+bool InterruptGuard::short_of_memory() { return memory_is_short; }
 
 StatusLine::~StatusLine() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+  if (shown_) mutter("\r\033[K");
 }
 
 bool StatusLine::due() {
@@ -46,8 +98,7 @@ bool StatusLine::due() {
 }
 
 void StatusLine::show(const std::string& text) {
-  fmt::print(stderr, "\r\033[K{}", text);
-  std::fflush(stderr);
+  mutter("\r\033[K" + text);
   shown_ = true;
 }
 

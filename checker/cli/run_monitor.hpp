@@ -2,11 +2,17 @@
 #pragma once
 
 #include <chrono>
+#include <csignal>
 #include <string>
+#include <thread>
 
 namespace stormproof::cli {
 
-/// While it lives, Ctrl-C (SIGINT, SIGTERM) is remembered instead of ending the program.
+/// While it lives, Ctrl-C (SIGINT, SIGTERM) is remembered instead of ending the program; a second
+/// one ends it, without half-written files. The signals are blocked in every thread and taken from
+/// a descriptor by one of our own, so no handler that a library installs (Z3 does, around each
+/// query) can swallow them. That thread looks after memory, too: short of it, the work is stopped
+/// as by Ctrl-C, while there is some left for saying what is known.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -14,7 +20,18 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
+  /// Whether the work is to stop.
   [[nodiscard]] static bool interrupted();
+  /// Whether that is because memory runs short.
+  [[nodiscard]] static bool short_of_memory();
+
+ private:
+  void watch() const;
+
+  sigset_t before_{};  ///< the signals that were blocked
+  int signals_ = -1;
+  int end_ = -1;  ///< of the watch
+  std::thread watch_;
 };
 
 /// A line on stderr, renewed four times a second from one second on, and removed in the end.

@@ -52,7 +52,6 @@ class Session {
 
  private:
   std::vector<Given> given_;
-  InterruptGuard guard_;
   StatusLine line_;
 };
 

@@ -1,7 +1,5 @@
 // `stormproof sweep GRID -o FILE`: runs all scenarios of a grid, on all cores or under mpirun, and
 // keeps the results in SQLite; goes on where it stopped.
-#include <filesystem>
-
 #include <fmt/core.h>
 #include <sys/resource.h>
 
@@ -52,19 +50,6 @@ std::string times(const SweepArguments& arguments, const Collector& results, dou
                      report::percent(results.cpu_seconds(), all));
 }
 
-/// Whether two of the files are the same one; then one would replace the other.
-bool same_file_twice(const SweepArguments& arguments) {
-  namespace fs = std::filesystem;
-  const auto same = [](const std::string& a, const std::string& b) {
-    std::error_code ignored;
-    return !a.empty() && !b.empty() &&
-           fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
-  };
-  return same(arguments.database, arguments.csv.path()) ||
-         same(arguments.database, arguments.json.path()) ||
-         same(arguments.csv.path(), arguments.json.path());
-}
-
 /// Bar, rate and remaining time.
 std::string progress_text(const sweep::Status& status, double seconds) {
   constexpr std::size_t width = 24;
@@ -85,7 +70,6 @@ Outcome lead(SweepArguments& arguments, const Plan& plan, const sweep::MpiWorld*
     if (world != nullptr) world->dismiss();
     return complaint;
   };
-  if (same_file_twice(arguments)) return refuse(Complaint{"two outputs have the same file name"});
   auto database = sweep::Database::open(arguments.database, STORMPROOF_VERSION);
   if (!database) return refuse(database.error());
   Collector results{
@@ -142,8 +126,8 @@ Outcome run(SweepArguments& arguments, Session& session) {
 void declare(Options& options, SweepArguments& arguments) {
   options.text("grid", arguments.grid, "Grid file, or name of a shipped grid", "GRID").required();
   options
-      .text("-o,--output", arguments.database, "SQLite file of the results; made, or continued",
-            "FILE")
+      .written("-o,--output", arguments.database, "SQLite file of the results; made, or continued",
+               "FILE")
       .required();
   options.output("--csv", arguments.csv, "Write the results as CSV");
   options.output("--json", arguments.json, "Write the results as JSON");

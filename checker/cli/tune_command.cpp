@@ -10,6 +10,7 @@
 #include "checker/engines/smt/claims.hpp"
 #include "checker/experiments/tune/deploy.hpp"
 #include "checker/experiments/tune/tune_report.hpp"
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/check.hpp"
 #include "model/config/tree/quantities.hpp"
@@ -52,7 +53,7 @@ std::optional<std::string> complete(TuneArguments& arguments, const model::Scena
 /// The command that gives the numbers of a row again, from the written file.
 std::string repeat_line(const TuneArguments& arguments, const tune::Subject& subject,
                         const tune::Report& report, const std::string& file) {
-  std::string command = "stormproof simulate " + report::shell_word(arguments.scenario);
+  std::string command = report::command_line({"simulate", arguments.scenario});
   for (const std::string& change : arguments.overrides) {
     if (!change.starts_with("dds=") && !change.starts_with("dds.")) {
       command += " --set " + report::shell_word(change);
@@ -71,7 +72,9 @@ std::string repeat_line(const TuneArguments& arguments, const tune::Subject& sub
 /// set if something newly is violated.
 std::vector<std::string> check_lines(const tune::Report& report, bool& broken) {
   const auto check = [](const model::Scenario& scenario) {
-    smt::Claims claims{smt::Options{}};
+    smt::Options solver;
+    solver.interrupted = Session::interrupted;
+    smt::Claims claims{solver};
     return checker::check({}, {scenario, claims, nullptr, 0, 12,
                                [](std::string_view) { return !Session::interrupted(); }});
   };
@@ -122,7 +125,8 @@ Outcome run(TuneArguments& arguments, Session& session) {
   if (!subject) return subject.error();
   if (const auto error = complete(arguments, subject->scenario)) return Complaint{*error};
   if (const auto error = refuse_unwritable(*subject)) return *error;
-  if (const auto error = refuse_output(arguments.output)) return Complaint{*error};
+  TuneOutput output{arguments.output};
+  if (const auto error = output.prepare()) return Complaint{*error};
   arguments.options.on_progress = [&session](std::string_view doing, std::size_t runs,
                                              std::size_t about) {
     return session.proceed(
@@ -130,11 +134,12 @@ Outcome run(TuneArguments& arguments, Session& session) {
   };
   const auto report = tune::tune(*subject, arguments.options);
   if (!report) return report.error();
-  const TuneFiles written = write_files(
-      {arguments.output, arguments.scenario, arguments.options.seed}, *subject, *report);
+  const std::string origin =
+      fmt::format("stormproof tune on {} (seed {})", arguments.scenario, arguments.options.seed);
+  const TuneFiles written = write_files(output, origin, *subject, *report);
   const tune::Context context = context_of(arguments, *subject, *report, written);
   Answer answer;
-  if (written.error) answer.complaint = to_string(*written.error);
+  if (written.error) answer.complaint = *written.error;
   answer.document = document_of(*report, context);
   answer.json = to_json(*report, context);
   if (report->rows.empty()) {
@@ -168,9 +173,9 @@ void declare(Options& options, TuneArguments& arguments) {
   options.scenario(arguments.scenario, arguments.overrides);
   declare_study(options, arguments);
   options
-      .text("-o,--output", arguments.output,
-            "Write the recommended setting and the front as vendor XML: a folder, or FILE.xml",
-            "DIR|FILE.xml")
+      .written("-o,--output", arguments.output,
+               "Write the recommended setting and the front as vendor XML: a folder, or FILE.xml",
+               "DIR|FILE.xml")
       .not_repeated();
   options.svg(arguments.svg, "Plot completion against messages");
   options.flag("--check", arguments.check, "Also ask every engine about the recommended setting");

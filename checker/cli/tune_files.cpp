@@ -1,28 +1,20 @@
 // All texts are made, and read back, before the first file is written.
 #include "checker/cli/tune_files.hpp"
 
-#include <filesystem>
-
 #include <fmt/core.h>
 
-#include "checker/cli/output_file.hpp"
 #include "checker/experiments/tune/deploy.hpp"
 
 namespace stormproof::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
-using model::config::InputError;
 using model::config::SpecPath;
 
-bool is_one_file(const std::string& output) { return output.ends_with(".xml"); }
-
 /// What stands at the top of a written file.
-std::string comment_of(const TuneOutput& output, const tune::Subject& subject, const tune::Row& row,
-                       const std::vector<std::string>& prerequisites) {
-  std::string text = fmt::format("Settings for {}, chosen by stormproof tune on {} (seed {}).",
-                                 subject.preset, output.scenario, output.seed);
+std::string comment_of(const std::string& origin, const tune::Subject& subject,
+                       const tune::Row& row, const std::vector<std::string>& prerequisites) {
+  std::string text = fmt::format("Settings for {}, chosen by {}.", subject.preset, origin);
   if (row.summary.completion_ns.median) {
     text += fmt::format(" Predicted: completion {:.3f} s, {:.0f} messages (medians).",
                         *row.summary.completion_ns.median / 1e9,
@@ -32,57 +24,63 @@ std::string comment_of(const TuneOutput& output, const tune::Subject& subject, c
   return text;
 }
 
-/// "recommended.xml", "front-2.xml"; with one file, its name.
-std::string file_of(const std::string& output, const tune::Row& row, bool is_recommended) {
-  if (is_one_file(output)) return output;
+/// "recommended.xml", "front-2.xml".
+std::string file_name(const tune::Row& row, bool is_recommended) {
+  if (is_recommended) return "recommended.xml";
   std::string name = row.name;
   if (const std::size_t space = name.find(' '); space != std::string::npos) name[space] = '-';
-  return (fs::path{output} / (is_recommended ? "recommended.xml" : name + ".xml")).string();
+  return name + ".xml";
 }
+
+struct Text {
+  std::string row, name, xml;
+};
 
 }  // namespace
 
-TuneFiles write_files(const TuneOutput& wanted, const tune::Subject& subject,
+TuneOutput::TuneOutput(const std::string& path) {
+  if (path.ends_with(".xml")) {
+    file_.open(path, "--output " + path);
+  } else if (!path.empty()) {
+    folder_.emplace("--output", path, "tune", std::vector<std::string>{});
+  }
+}
+
+std::optional<std::string> TuneOutput::prepare() {
+  return folder_ ? folder_->prepare() : file_.open_error();
+}
+
+std::optional<std::string> TuneOutput::write(const std::string& name, const std::string& xml) {
+  if (folder_) return folder_->write(name, xml);
+  file_.stream() << xml;
+  error_ = file_.commit();
+  return error_ ? std::nullopt : std::optional{file_.path()};
+}
+
+std::optional<std::string> TuneOutput::error() const { return folder_ ? folder_->error() : error_; }
+
+TuneFiles write_files(TuneOutput& output, const std::string& origin, const tune::Subject& subject,
                       const tune::Report& report) {
   TuneFiles written;
-  const std::string& output = wanted.path;
   const bool better = report.answer == tune::Answer::better;
-  if (output.empty() || report.answer == tune::Answer::interrupted) return written;
-  std::vector<std::pair<std::string, std::string>> texts;  // path, XML
+  if (!output.wanted() || report.answer == tune::Answer::interrupted) return written;
+  std::vector<Text> texts;
   for (std::size_t k = 0; k < report.rows.size(); ++k) {
     const tune::Row& row = report.rows[k];
     const bool is_recommended = better && report.recommended == k;
-    if (row.kind != tune::Row::Kind::front || (is_one_file(output) && !is_recommended)) continue;
+    if (row.kind != tune::Row::Kind::front || (output.is_one_file() && !is_recommended)) continue;
     const model::DdsProfile& profile = row.scenario.dds;
     const auto needs = tune::prerequisites(subject, profile);
-    const auto xml = tune::deployable(subject, profile, comment_of(wanted, subject, row, needs),
+    const auto xml = tune::deployable(subject, profile, comment_of(origin, subject, row, needs),
                                       SpecPath::standard());
-    if (!xml) return {{}, xml.error()};
-    const std::string path = file_of(output, row, is_recommended);
-    texts.emplace_back(path, *xml);
-    written.files[row.name] = path;
+    if (!xml) return {{}, to_string(xml.error())};
+    texts.push_back({row.name, file_name(row, is_recommended), *xml});
   }
-  std::error_code failed;
-  if (!is_one_file(output) && !texts.empty()) fs::create_directories(output, failed);
-  if (failed) return {{}, InputError{output, failed.message()}};
-  for (const auto& [path, xml] : texts) {
-    OutputFile file{path};
-    auto error = file.open_error();
-    if (!error) file.stream() << xml;
-    if (!error) error = file.commit();
-    if (error) return {{}, InputError{"-o", *error}};
+  for (const auto& [row, name, xml] : texts) {
+    if (const auto path = output.write(name, xml)) written.files[row] = *path;
   }
+  written.error = output.error();
   return written;
-}
-
-std::optional<std::string> refuse_output(const std::string& output) {
-  if (output.empty()) return std::nullopt;
-  const fs::path folder = is_one_file(output) ? fs::path{output}.parent_path() : fs::path{output};
-  std::error_code ignored;
-  const auto status = fs::status(folder.empty() ? fs::path{"."} : folder, ignored);
-  if (fs::is_directory(status) || (!is_one_file(output) && !fs::exists(status)))
-    return std::nullopt;
-  return fmt::format("-o {}: {} is no folder", output, folder.string());
 }
 
 }  // namespace stormproof::cli

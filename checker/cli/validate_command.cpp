@@ -5,6 +5,7 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
+#include "checker/cli/streams.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/validate/validate.hpp"
 #include "model/config/knobs/effective.hpp"
@@ -60,7 +61,7 @@ Outcome run(ValidateArguments& arguments, Session& session) {
   const auto conversation = capture::read_conversation(arguments.files, session.on_packets());
   if (!conversation) return conversation.error();
   if (Session::interrupted()) {
-    fmt::print(stderr, "stormproof: interrupted while reading; nothing was compared\n");
+    say("stormproof: the captures were not read to the end; nothing was compared");
     return inconclusive;
   }
   if (const auto error = complete(request, arguments, conversation->first_ns)) {
@@ -77,8 +78,7 @@ Outcome run(ValidateArguments& arguments, Session& session) {
     arguments.scenario.stream() << model::config::effective_yaml(report->scenario);
   }
   if (report->interrupted()) {
-    answer.notes.push_back(fmt::format("stormproof: interrupted; {} of {} runs finished",
-                                       report->runs, report->wanted));
+    answer.notes.push_back(fmt::format("{} of {} runs finished", report->runs, report->wanted));
   }
   return answer;
 }

@@ -60,16 +60,10 @@ std::vector<Step> read_steps(const fs::path& file) {
 }
 
 Step run(const Step& expected, const fs::path& folder) {
-  std::string command = expected.command;
-  const std::string name = "stormproof";
-  for (std::size_t at = 0; (at = command.find(name + " ", at)) != std::string::npos;) {
-    const std::string program = STORMPROOF_PROGRAM;
-    command.replace(at, name.size(), program);
-    at += program.size();
-  }
-  const std::string shell = "cd '" STORMPROOF_SOURCE_DIR "' && TMP='" + folder.string() +
-                            "' && { " + command + "\n} >'" + (folder / "out").string() + "' 2>'" +
-                            (folder / "err").string() + "' </dev/null";
+  const std::string shell =
+      "cd '" STORMPROOF_SOURCE_DIR "' && TMP='" + folder.string() + "' PATH='" +
+      fs::path{STORMPROOF_PROGRAM}.parent_path().string() + "':$PATH && { " + expected.command +
+      "\n} >'" + (folder / "out").string() + "' 2>'" + (folder / "err").string() + "' </dev/null";
   Step actual{expected.comments, expected.command, {}, {}, 0};
   const int status = std::system(shell.c_str());
   actual.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -1,17 +1,23 @@
-// Ctrl-C on a long run: the program ends by itself with what is known so far, and the files that it
-// was writing are complete.
+// Ctrl-C on a long run: whatever it is doing, the program soon ends by itself with what is known so
+// far, says so, and the files that it was writing are complete. A second Ctrl-C leaves none behind.
+#include <array>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace interrupt_test {
 
 namespace fs = std::filesystem;
+
+using Words = std::vector<std::string>;
 
 class Interrupt : public testing::Test {
  protected:
@@ -22,43 +28,120 @@ class Interrupt : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// Starts a run that would take very long, waits until its trace grows, interrupts it; returns
-  /// its exit code.
-  int interrupted_run() const {
-    const std::string trace = (folder_ / "trace.jsonl").string();
-    const std::string partial = trace + ".partial";
+  /// Starts the program in the folder, with its output in the files `out` and `err`.
+  [[nodiscard]] pid_t start(const Words& arguments) const {
     const pid_t child = fork();
-    if (child == 0) {
-      (void)freopen((folder_ / "out").c_str(), "w", stdout);
-      (void)freopen((folder_ / "err").c_str(), "w", stderr);
-      execl(STORMPROOF_PROGRAM, "stormproof", "simulate", "high-load-6x30", "--set",
-            "deployment.participants_per_host=30", "--set", "time_limit=100000s", "--trace",
-            trace.c_str(), "--progress", nullptr);
-      _exit(127);
-    }
-    while (!fs::exists(partial) || fs::file_size(partial) < 100'000) usleep(10'000);
-    kill(child, SIGINT);
+    if (child != 0) return child;
+    (void)!chdir(folder_.c_str());
+    (void)freopen("out", "w", stdout);
+    (void)freopen("err", "w", stderr);
+    std::vector<const char*> argv{"stormproof"};
+    for (const std::string& word : arguments) argv.push_back(word.c_str());
+    argv.push_back(nullptr);
+    execv(STORMPROOF_PROGRAM, const_cast<char* const*>(argv.data()));
+    _exit(127);
+  }
+
+  /// Its exit code, or minus the signal that ended it.
+  static int end_of(pid_t child) {
     int status = 0;
     waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  /// The temporary file of the trace, once it has grown.
+  [[nodiscard]] fs::path growing_trace() const {
+    while (true) {
+      for (const auto& entry : fs::directory_iterator{folder_}) {
+        const bool is_partial = entry.path().extension() == ".partial";
+        if (is_partial && entry.file_size() > 100'000) return entry.path();
+      }
+      usleep(10'000);
+    }
   }
 
   [[nodiscard]] std::string content(const char* name) const {
     std::ifstream in{folder_ / name};
     return {std::istreambuf_iterator<char>{in}, {}};
   }
+  [[nodiscard]] bool says_interrupted() const {
+    return (content("out") + content("err")).find("nterrupted") != std::string::npos;
+  }
 
   fs::path folder_;
 };
 
+const Words endless{
+    "simulate",  "high-load-6x30",     "--set",   "deployment.participants_per_host=30",
+    "--set",     "time_limit=100000s", "--trace", "trace.jsonl",
+    "--progress"};
+
 TEST_F(Interrupt, ReportsWhatIsKnownAndCompletesTheTrace) {
-  EXPECT_EQ(interrupted_run(), 3);
+  const pid_t child = start(endless);
+  const fs::path partial = growing_trace();
+  kill(child, SIGINT);
+  EXPECT_EQ(end_of(child), 3);
   EXPECT_NE(content("out").find("when the run was interrupted"), std::string::npos);
-  EXPECT_FALSE(fs::exists(folder_ / "trace.jsonl.partial"));
+  EXPECT_FALSE(fs::exists(partial));
   const std::string trace = content("trace.jsonl");
   ASSERT_FALSE(trace.empty());
   EXPECT_EQ(trace.back(), '\n');
   EXPECT_NE(trace.find("\"end\":\"interrupted\""), std::string::npos);
 }
+
+TEST_F(Interrupt, ASecondOneEndsTheProgramWithoutHalfAFile) {
+  const pid_t child = start(endless);
+  const fs::path partial = growing_trace();
+  kill(child, SIGSTOP);  // so that both are there when it looks
+  kill(child, SIGINT);
+  kill(child, SIGTERM);
+  kill(child, SIGCONT);
+  const int end = end_of(child);
+  EXPECT_TRUE(end == -SIGINT || end == -SIGTERM || end == 3) << end;
+  EXPECT_FALSE(fs::exists(partial));
+}
+
+/// A verb that works for much longer than this test waits.
+struct Case {
+  const char* name;
+  Words arguments;
+};
+
+void PrintTo(const Case& tested, std::ostream* out) { *out << tested.name; }
+
+const std::array cases{
+    Case{"check", {"check", "wifi-5x20", "--timeout", "600"}},
+    Case{"check_without_cvc5", {"check", "high-load-6x30", "--single-solver"}},
+    Case{"check_of_one_proof", {"check", "wifi-5x20", "--property", "composition.live"}},
+    Case{"mutate", {"mutate"}},
+    Case{"diff", {"diff", "fastdds-2.6.11", "fastdds-2.9.1"}},
+    Case{"fuzz", {"fuzz", "wifi-5x20", "--runs", "100000"}},
+    Case{"tune", {"tune", "wifi-5x20-fastdds", "--budget", "1000000"}},
+    Case{"samples", {"simulate", "live-5x20", "--samples", "1000000"}},
+    Case{"sensitivity", {"sensitivity", "high-load-6x30"}},
+    Case{"sweep", {"sweep", "small", "-o", "runs.db"}},
+    Case{"reproduce", {"reproduce", "paper", "--samples", "1000"}}};
+
+class InterruptedVerb : public Interrupt, public testing::WithParamInterface<Case> {};
+
+/// At different instants, so at different work.
+TEST_P(InterruptedVerb, EndsSoonAndSaysSo) {
+  for (const int milliseconds : {150, 700, 2'000}) {
+    const pid_t child = start(GetParam().arguments);
+    usleep(static_cast<useconds_t>(milliseconds) * 1000);
+    const auto asked = std::chrono::steady_clock::now();
+    kill(child, milliseconds == 700 ? SIGTERM : SIGINT);
+    const int end = end_of(child);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - asked;
+    // Before the program watches, a signal ends it.
+    if (milliseconds == 150 && end < 0) continue;
+    EXPECT_EQ(end, 3) << milliseconds << " ms: " << content("out") << content("err");
+    EXPECT_TRUE(says_interrupted()) << milliseconds << " ms: " << content("out") << content("err");
+    EXPECT_LT(took.count(), 20.0) << milliseconds << " ms";  // on a loaded machine, sanitized
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Verbs, InterruptedVerb, testing::ValuesIn(cases),
+                         [](const auto& tested) { return std::string{tested.param.name}; });
 
 }  // namespace interrupt_test

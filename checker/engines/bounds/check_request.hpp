@@ -46,9 +46,9 @@ struct CheckRequest {
   std::uint32_t samples = 12;  ///< runs of a scenario whose schedule is drawn
   /// Called now and then with what is being done; returning false interrupts the check.
   std::function<bool(std::string_view)> on_progress;
+  unsigned readers = 1;  ///< of one writer that the explorer looks at together, at most
   /// Called with each run of the scenario up to the end of discovery, in the order of the seeds.
   std::function<void(const model::Scenario&, const model::RunResult&)> on_run = {};
-  unsigned readers = 1;  ///< of one writer that the explorer looks at together, at most
 };
 
 /// Answers by property id.

@@ -24,8 +24,9 @@ class FuzzCommand : public testing::Test {
 
   /// Exit code of `stormproof fuzz ARGUMENTS`, whose output goes to the file `out`.
   [[nodiscard]] int fuzz(const std::string& arguments, const std::string& out) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" STORMPROOF_PROGRAM "' fuzz " +
-                                arguments + " >" + out + " 2>err";
+    const std::string command = "cd '" + folder_.string() + "' && PATH='" +
+                                fs::path{STORMPROOF_PROGRAM}.parent_path().string() +
+                                "':$PATH stormproof fuzz " + arguments + " >" + out + " 2>err";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -43,8 +44,8 @@ TEST_F(FuzzCommand, is_the_same_on_one_thread_and_on_two) {
   EXPECT_EQ(fuzz(arguments + "2", "two"), 1);
   EXPECT_FALSE(content("one").empty());
   EXPECT_EQ(content("one"), content("two"));
-  EXPECT_TRUE(fs::exists(folder_ / "counterexamples" / "limit.completion.yaml"));
-  EXPECT_TRUE(fs::exists(folder_ / "counterexamples" / "limit.completion.svg"));
+  EXPECT_TRUE(fs::exists(folder_ / "stormproof-out" / "fuzz-smallest" / "limit.completion.yaml"));
+  EXPECT_TRUE(fs::exists(folder_ / "stormproof-out" / "fuzz-smallest" / "limit.completion.svg"));
 }
 
 TEST_F(FuzzCommand, its_commands_repeat_its_result) {
