@@ -31,8 +31,11 @@ std::optional<InputError> refuse_errors(const vendor::VendorProfile& profile) {
 }
 
 /// A file of one vendor's library does not change a preset of another's.
-std::optional<InputError> check_vendor(const vendor::VendorProfile& profile, const Node& base) {
-  const auto of_base = vendor::vendor_of_preset(base.text);
+std::optional<InputError> check_vendor(const vendor::VendorProfile& profile, const Node& base,
+                                       const SpecPath& specs) {
+  const auto file = specs.named(SpecKind::dds, base.text);  // also of a distribution
+  const auto preset = file ? specs.name_of(SpecKind::dds, *file) : std::nullopt;
+  const auto of_base = vendor::vendor_of_preset(preset.value_or(base.text));
   if (!of_base || *of_base == profile.vendor) return std::nullopt;
   return error_at(base.place,
                   fmt::format("{} is a preset of {}; expected one of {}, whose file "
@@ -89,7 +92,7 @@ class Chain {
     Node changes = profile->changes;
     if (Node* base = changes.find(base_key)) {
       base->place = reference.place;  // where the preset was chosen, or could have been
-      if (auto error = check_vendor(*profile, *base)) return *std::move(error);
+      if (auto error = check_vendor(*profile, *base, specs_)) return *std::move(error);
     }
     if (!vendor) vendor = *std::move(profile);
     return changes;

@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include "model/config/distributions.hpp"
 #include "model/config/tree/suggestion.hpp"
 #include "model/config/tree/tree.hpp"
 #include "model/config/vendor/reference.hpp"
@@ -23,6 +24,23 @@ constexpr const char* file_ending = ".yaml";
 bool file_exists(const fs::path& path) {
   std::error_code failed;
   return fs::exists(path, failed);
+}
+
+std::optional<std::string> file_named(const std::vector<std::string>& directories, SpecKind kind,
+                                      const std::string& name) {
+  for (const std::string& directory : directories) {
+    const fs::path file = fs::path{directory} / folder_name(kind) / (name + file_ending);
+    if (!name.empty() && file_exists(file)) return file.string();
+  }
+  return std::nullopt;
+}
+
+/// "; did you mean '…'?", of these names, or of a file beside it without its ending.
+std::string nearest(const std::string& reference, const std::vector<std::string>& names) {
+  if (!reference.empty() && file_exists(reference + file_ending)) {
+    return fmt::format("; did you mean {}?", quote(reference + file_ending));
+  }
+  return suggestion(reference, names);
 }
 
 }  // namespace
@@ -80,11 +98,13 @@ std::vector<std::string> SpecPath::names(SpecKind kind) const {
 }
 
 std::optional<std::string> SpecPath::named(SpecKind kind, const std::string& name) const {
-  for (const std::string& directory : directories) {
-    const fs::path file = fs::path{directory} / folder_name(kind) / (name + file_ending);
-    if (!name.empty() && file_exists(file)) return file.string();
-  }
-  return std::nullopt;
+  auto file = file_named(directories, kind, name);
+  if (file || kind != SpecKind::dds) return file;
+  const auto distributions = read_distributions(directories);
+  if (!distributions) return std::nullopt;  // `find` says what is wrong
+  const auto meant = std::ranges::find(*distributions, name, &Distribution::name);
+  if (meant == distributions->end()) return std::nullopt;
+  return file_named(directories, kind, meant->profile);
 }
 
 std::optional<std::string> SpecPath::name_of(SpecKind kind, const std::string& file) const {
@@ -113,20 +133,34 @@ Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
     return InputError{where, fmt::format("no file {}; looked for {}", quote(reference), places)};
   }
   if (const auto file = named(kind, reference)) return *file;
-  const std::vector<std::string> known = names(kind);
+  if (!reference.empty()) {
+    const fs::path beside = fs::path{from_directory} / reference;
+    if (file_exists(beside)) return beside.lexically_normal().string();
+    if (file_exists(reference)) return reference;
+  }
+  std::vector<std::string> known = names(kind);
+  if (kind == SpecKind::dds) {
+    const auto distributions = read_distributions(directories);
+    if (!distributions) return distributions.error();
+    for (const Distribution& one : *distributions) known.push_back(one.name);
+  }
   return InputError{
       where, fmt::format("no {} file named {}{}; expected one of {}, or a path", folder_name(kind),
-                         quote(reference), suggestion(reference, known), fmt::join(known, ", "))};
+                         quote(reference), nearest(reference, known), fmt::join(known, ", "))};
 }
 
 Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
                                    std::string_view noun) const {
   if (is_path(reference)) return reference;
   if (const auto file = named(kind, reference)) return *file;
-  return InputError{reference,
-                    fmt::format("no {} of this name{}; expected a file, or a name in "
-                                "specs/{}",
-                                noun, suggestion(reference, names(kind)), folder_name(kind))};
+  if (!reference.empty() && file_exists(reference)) return reference;
+  return no_such(reference, noun, names(kind));
+}
+
+InputError no_such(const std::string& reference, std::string_view noun,
+                   const std::vector<std::string>& names) {
+  return {reference, fmt::format("no {} of this name{}; expected one of {}, or a path", noun,
+                                 nearest(reference, names), fmt::join(names, ", "))};
 }
 
 }  // namespace stormproof::model::config

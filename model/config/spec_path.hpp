@@ -28,15 +28,16 @@ struct SpecPath {
   /// All names of a kind, sorted.
   [[nodiscard]] std::vector<std::string> names(SpecKind kind) const;
 
-  /// The file of this name.
+  /// The file of this name; of a DDS profile, the name may be that of a ROS 2 distribution
+  /// (distributions.hpp), if there is no file of this name.
   [[nodiscard]] std::optional<std::string> named(SpecKind kind, const std::string& name) const;
 
   /// The name of `file` if it is one of those that `find` can find by name.
   [[nodiscard]] std::optional<std::string> name_of(SpecKind kind, const std::string& file) const;
 
   /// The file that `reference` means: a path if it has a '/' or ends in .yaml, .yml or .xml
-  /// (relative to `from_directory`, then to the current directory), otherwise a name. `where`
-  /// places the error.
+  /// (relative to `from_directory`, then to the current directory), otherwise a name, or, if there
+  /// is none, a file without an ending in these directories. `where` places the error.
   [[nodiscard]] Result<std::string> find(SpecKind kind, const std::string& reference,
                                          const std::string& from_directory,
                                          const std::string& where) const;
@@ -46,5 +47,9 @@ struct SpecPath {
   [[nodiscard]] Result<std::string> find(SpecKind kind, const std::string& reference,
                                          std::string_view noun) const;
 };
+
+/// "no grid of this name; did you mean …; expected one of …, or a path".
+[[nodiscard]] InputError no_such(const std::string& reference, std::string_view noun,
+                                 const std::vector<std::string>& names);
 
 }  // namespace stormproof::model::config

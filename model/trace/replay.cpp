@@ -155,7 +155,7 @@ Result<Replay> replay(const std::string& file, const config::SpecPath& specs,
                       const WatchMaker& watch_for) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
-    return InputError{file, "is a folder; expected a file"};
+    return InputError{file, "is a directory; expected a file"};
   }
   LineReader reader{file};
   const auto header = read_header(reader, file);

@@ -2,13 +2,14 @@
 // means the same here as there.
 #include "checker/experiments/diff/reviewed_grid.hpp"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "checker/experiments/grids/plan.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/config/knobs/knob_reader.hpp"
-#include "model/config/tree/suggestion.hpp"
 #include "model/config/tree/yaml_text.hpp"
 #include "model/reference.hpp"
 
@@ -38,21 +39,22 @@ Result<grids::Grid> read_scenario_grid(const std::string& reference, const SpecP
 }
 
 Result<grids::Grid> read_any_grid(const std::string& reference, const SpecPath& specs) {
-  if (config::is_path(reference)) {
-    const Result<Node> root = config::load_yaml(reference);
-    if (!root) return root.error();
-    const bool is_scenario = root->is_map() && root->find("deployment") != nullptr;
-    return is_scenario ? read_scenario_grid(reference, specs) : grids::read_grid(reference, specs);
+  if (!config::is_path(reference)) {
+    if (specs.named(config::SpecKind::grids, reference)) return grids::read_grid(reference, specs);
+    if (specs.named(config::SpecKind::scenarios, reference)) {
+      return read_scenario_grid(reference, specs);
+    }
+    std::error_code failed;
+    if (!std::filesystem::exists(reference, failed)) {
+      std::vector<std::string> known = specs.names(config::SpecKind::grids);
+      for (std::string& name : specs.names(config::SpecKind::scenarios)) known.push_back(name);
+      return config::no_such(reference, "grid or scenario", known);
+    }
   }
-  if (specs.named(config::SpecKind::grids, reference)) return grids::read_grid(reference, specs);
-  if (specs.named(config::SpecKind::scenarios, reference)) {
-    return read_scenario_grid(reference, specs);
-  }
-  std::vector<std::string> known = specs.names(config::SpecKind::grids);
-  for (std::string& name : specs.names(config::SpecKind::scenarios)) known.push_back(name);
-  return InputError{reference, fmt::format("no grid or scenario of this name{}; expected a file, "
-                                           "or a name in specs/grids or specs/scenarios",
-                                           config::suggestion(reference, known))};
+  const Result<Node> root = config::load_yaml(reference);
+  if (!root) return root.error();
+  const bool is_scenario = root->is_map() && root->find("deployment") != nullptr;
+  return is_scenario ? read_scenario_grid(reference, specs) : grids::read_grid(reference, specs);
 }
 
 bool is_dds_key(std::string_view key) {

@@ -111,6 +111,9 @@ Document document_of(const ProfileReport& report) {
   Document document;
   document.title = "stormproof profile show " + report.reference;
   document.answer = head(report);
+  if (report.distribution) {
+    document.elaboration = model::config::statement_of(*report.distribution) + ".";
+  }
   document.blocks.emplace_back(knobs_table(report));
   const auto is_set = [](const KnobRow& row) { return is_users(row.origin); };
   Bullets legend;

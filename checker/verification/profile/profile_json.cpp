@@ -2,6 +2,19 @@
 #include "checker/presentation/json/describe.hpp"
 #include "checker/verification/profile/profile_report.hpp"
 
+namespace stormproof::model::config {
+
+template <class V>
+void describe(V& v, const Distribution& distribution) {
+  v("name", distribution.name);
+  v("ships", distribution.ships);
+  v("profile", distribution.profile);
+  v("stands_in", stands_in(distribution));
+  v("why", distribution.why);
+}
+
+}  // namespace stormproof::model::config
+
 namespace stormproof::model::config::vendor {
 
 template <class V>
@@ -57,6 +70,7 @@ template <class V>
 void describe(V& v, const ProfileReport& report) {
   v("reference", report.reference);
   v.or_null("preset", report.preset);
+  v("distribution", report.distribution);
   v("vendor", report.vendor);
   v.or_null("vendor_file", report.vendor_file);
   v.or_null("selected", report.selected);

@@ -59,6 +59,7 @@ class Describer {
   ProfileReport describe() {
     report_.reference = traced_.reference;
     report_.preset = traced_.preset;
+    find_distribution();
     find_vendor();
     if (traced_.vendor) {
       report_.selected = traced_.vendor->name;
@@ -84,6 +85,17 @@ class Describer {
   }
 
  private:
+  /// "humble", or "robots.xml@humble".
+  void find_distribution() {
+    const auto all = config::read_distributions(specs_.directories);
+    if (!all) return;
+    const std::string& given = traced_.reference;
+    for (const config::Distribution& one : *all) {
+      const bool is_named = given == one.name || given.ends_with("@" + one.name);
+      if (is_named && one.profile == traced_.preset) report_.distribution = one;
+    }
+  }
+
   void find_vendor() {
     report_.vendor =
         traced_.vendor ? traced_.vendor->vendor : vendor::vendor_of_preset(traced_.preset);

@@ -12,6 +12,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "model/config/distributions.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::report {
@@ -57,8 +58,10 @@ struct UnmodelledRow {
 };
 
 struct ProfileReport {
-  std::string reference;                                ///< as the user gave it
-  std::string preset;                                   ///< that it builds on; empty: none
+  std::string reference;  ///< as the user gave it
+  std::string preset;     ///< that it builds on; empty: none
+  /// The ROS 2 distribution by whose name it was given, or the base of a vendor's file.
+  std::optional<model::config::Distribution> distribution;
   std::optional<model::config::vendor::Vendor> vendor;  ///< whose library it describes
   std::string selected;  ///< profile or domain of a vendor's file; empty: none, or it has no name
   std::string vendor_file;                ///< a vendor's file that it is or builds on; empty: none

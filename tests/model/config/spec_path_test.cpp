@@ -45,6 +45,24 @@ TEST(SpecPath, paths_are_relative_to_the_file_that_names_them) {
             "no file 'no.yml'; looked for /x/no.yml, no.yml");
 }
 
+TEST(SpecPath, a_file_without_an_ending_is_found_if_no_name_is_meant) {
+  const TestFiles files;
+  files.write("dds/paper.yaml", "{}");
+  const std::string own = files.write("sub/mine", "{}");
+  files.write("sub/paper", "{}");
+  files.write("sub/other.yaml", "{}");
+  const SpecPath specs{{files.root()}};
+  EXPECT_EQ(*specs.find(SpecKind::dds, "mine", files.path("sub"), ""), own);
+  EXPECT_EQ(*specs.find(SpecKind::dds, "paper", files.path("sub"), ""),
+            files.path("dds/paper.yaml"));
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(files.path("sub"));
+  EXPECT_EQ(*specs.find(SpecKind::grids, "mine", "grid"), "mine");
+  EXPECT_EQ(to_string(specs.find(SpecKind::grids, "other", "grid").error()),
+            "other: no grid of this name; did you mean 'other.yaml'?; expected one of , or a path");
+  std::filesystem::current_path(before);
+}
+
 TEST(SpecPath, the_environment_comes_first) {
   setenv("STORMPROOF_SPECS", "/a:/b:", 1);
   const SpecPath specs = SpecPath::standard();

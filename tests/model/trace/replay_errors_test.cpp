@@ -39,7 +39,8 @@ TEST(ReplayErrors, FileThatIsNotThere) {
 
 TEST(ReplayErrors, Folder) {
   const TestFiles files;
-  EXPECT_TRUE(starts_with(error_of(files, files.root()), files.root() + ": is a folder"));
+  EXPECT_TRUE(starts_with(error_of(files, files.root()),
+                          files.root() + ": is a directory; expected a file"));
 }
 
 TEST(ReplayErrors, EmptyFile) {
