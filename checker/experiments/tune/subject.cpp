@@ -40,7 +40,11 @@ Result<Subject> read_subject(const std::string& reference, std::span<const std::
   std::vector<std::string> changes{overrides.begin(), overrides.end()};
   if (!preset.empty()) changes.push_back("dds=" + preset);
   auto traced = model::config::trace_scenario(reference, changes, specs);
-  if (!traced) return traced.error();
+  if (!traced) {
+    InputError error = traced.error();
+    if (!preset.empty() && error.where == "--set dds=" + preset) error.where = "--preset " + preset;
+    return error;
+  }
   const std::string& name = traced->preset;
 
   Subject subject;
