@@ -27,7 +27,10 @@ struct CoverageArguments {
 model::config::Result<Observations> read(const std::string& path,
                                          const prediction::ReadOptions& options) {
   using model::config::InputError;
-  if (!std::filesystem::is_regular_file(path)) {
+  if (std::filesystem::is_directory(path)) {
+    return InputError{path, "is a directory; expected a file"};
+  }
+  if (!std::filesystem::exists(path)) {
     return InputError{path, "no such file; expected measured runs, one JSON object per line"};
   }
   std::ifstream file{path};

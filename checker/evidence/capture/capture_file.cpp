@@ -78,6 +78,9 @@ Result<CaptureFile> CaptureFile::from_memory(std::string name, Bytes content, st
 Result<CaptureFile> CaptureFile::open(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) {
+    return InputError{path, "is a directory; expected a file"};
+  }
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     return InputError{path, "not a regular file; expected a capture (pcap or pcapng)"};
   }
