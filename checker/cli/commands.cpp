@@ -21,6 +21,8 @@ void declare_commands(Frame& frame) {
   declare_replay(frame);
   declare_draw(frame);
   declare_mutate(frame);
+  declare_list(frame);
+  declare_help(frame);
 }
 
 }  // namespace stormproof::cli

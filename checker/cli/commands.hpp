@@ -23,6 +23,8 @@ void declare_profile(Frame& frame);
 void declare_replay(Frame& frame);
 void declare_draw(Frame& frame);
 void declare_mutate(Frame& frame);
+void declare_list(Frame& frame);
+void declare_help(Frame& frame);
 
 /// All of them, in the order of the help.
 void declare_commands(Frame& frame);

@@ -10,13 +10,15 @@
 #include <unistd.h>
 
 #include "checker/cli/complain.hpp"
+#include "checker/cli/completion.hpp"
+#include "checker/cli/examples.hpp"
+#include "checker/cli/parse_error.hpp"
 #include "checker/cli/memory_limit.hpp"
 #include "checker/cli/overwriting.hpp"
 #include "checker/cli/report_files.hpp"
 #include "checker/cli/streams.hpp"
 #include "checker/cli/terminal.hpp"
 #include "checker/presentation/json/dumped.hpp"
-#include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::cli {
 
@@ -225,7 +227,7 @@ int Frame::Command::show(Answer& answer, const std::vector<Given>& given) {
   report::Terminal terminal = standard_output();
   terminal.verbose = verbose;
   print(render(answer, format, terminal));
-  for (const std::string& note : answer.notes) say(note);
+  for (const std::string& note : answer.notes) say(visible(note));
   if (!answer.document.complete) say_why_not();
   Errors errors;
   write_files(answer, errors);
@@ -283,7 +285,8 @@ void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
     name = name.substr(space + 1);
   }
   CLI::App* app = parent->add_subcommand(name, verb.help);
-  app->footer(verb.exit_codes);
+  const std::string examples = examples_text(verb.name);
+  app->footer(verb.exit_codes + (examples.empty() ? "" : "\n\n" + examples));
   parser_->commands.push_back(Command{std::move(verb), app, std::move(work)});
   Command& command = parser_->commands.back();
   Options options{*app, command.declared};
@@ -292,33 +295,41 @@ void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
   app->callback([this, &command] { parser_->chosen = &command; });
 }
 
-namespace {
-
-/// Whether the first argument is a word that is no command; says so, if it is.
-bool names_no_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return false;
-  const std::string word = argv[1];
-  std::vector<std::string> commands;
-  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
-  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return false;
-  std::string list;
-  for (const std::string& command : commands) list += (list.empty() ? "" : ", ") + command;
-  complain(fmt::format("'{}' is not a command; expected one of {}{}", word, list,
-                       model::config::suggestion(word, commands)));
-  return true;
-}
-
-}  // namespace
-
 int Frame::run(int argc, char** argv) {
   CLI::App& app = parser_->app;
-  if (names_no_command(app, argc, argv)) return bad_input;
+  std::vector<std::string> words{argv + std::min(argc, 1), argv + argc};
+  if (words.empty()) {
+    fmt::print("{}", front_page());
+    return established;
+  }
+  if (const auto complaint = refuse(words)) return complain(complaint->message);
+  std::ranges::reverse(words);  // as the parser takes them
   try {
-    app.parse(argc, argv);
+    app.parse(words);
+  } catch (const CLI::Success& asked) {  // for help or the version
+    return app.exit(asked) == 0 ? established : bad_input;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? established : bad_input;
+    return complain(said_of(app, error));
   }
   return parser_->chosen->execute();
 }
+
+std::optional<Complaint> Frame::refuse(const std::vector<std::string>& words) const {
+  const std::string why = no_command(parser_->app, words);
+  return why.empty() ? std::nullopt : std::optional{Complaint{why}};
+}
+
+std::string Frame::help_of(const std::vector<std::string>& words) const {
+  const CLI::App* app = &parser_->app;
+  std::string path = app->get_name();
+  for (const std::string& word : words) {
+    if (app->get_subcommands({}).empty()) break;
+    app = app->get_subcommand(word);
+    path += " " + word;
+  }
+  return app->get_formatter()->make_help(app, path, CLI::AppFormatMode::Normal);
+}
+
+std::string Frame::bash_completion() const { return cli::bash_completion(parser_->app); }
 
 }  // namespace stormproof::cli

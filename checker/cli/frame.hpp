@@ -5,7 +5,9 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "checker/cli/answer.hpp"
 #include "checker/cli/options.hpp"
@@ -59,15 +61,22 @@ class Frame {
         [=](Session& session) { return work(*request, session); });
   }
 
-  /// Parses, runs, shows; returns the exit code.
+  /// For a command that needs the frame itself.
+  void add(Verb verb, const std::function<void(Options&)>& declare,
+           std::function<Outcome(Session&)> work);
+
+  /// Parses, runs, shows; returns the exit code. Without any word it says what the program is for.
   [[nodiscard]] int run(int argc, char** argv);
+
+  /// Why these words name no command; of the program itself, if there are none.
+  [[nodiscard]] std::optional<Complaint> refuse(const std::vector<std::string>& words) const;
+  /// What `--help` says of this command, which `refuse` does not refuse.
+  [[nodiscard]] std::string help_of(const std::vector<std::string>& words) const;
+  [[nodiscard]] std::string bash_completion() const;
 
  private:
   struct Parser;
   struct Command;
-
-  void add(Verb verb, const std::function<void(Options&)>& declare,
-           std::function<Outcome(Session&)> work);
 
   std::unique_ptr<Parser> parser_;
 };

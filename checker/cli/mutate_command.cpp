@@ -24,7 +24,8 @@ std::optional<std::string> unknown_mutant(const std::vector<std::string>& ids) {
   for (const mutate::CatalogueEntry& entry : mutate::mutants()) known.push_back(entry.mutant.id);
   for (const std::string& id : ids) {
     if (std::find(known.begin(), known.end(), id) != known.end()) continue;
-    return fmt::format("--mutant {}: no such mutant{}", id, model::config::suggestion(id, known));
+    return fmt::format("--mutant {}: no such mutant{}; 'stormproof list mutants' has all {}", id,
+                       model::config::suggestion(id, known), known.size());
   }
   return std::nullopt;
 }

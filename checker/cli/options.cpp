@@ -1,11 +1,55 @@
 // Options in CLI11's terms, and the ones that several commands have, worded once.
 #include "checker/cli/options.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <limits>
+
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "checker/cli/output_file.hpp"
+#include "model/config/tree/suggestion.hpp"
 
 namespace stormproof::cli {
+
+namespace {
+
+constexpr const char* any_whole_number = "any whole number";
+
+/// The parser alone would take "-1" for 2⁶⁴ − 1.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+  return CLI::Validator{
+      [=](const std::string& text) {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool is_whole = !text.empty() && end == text.data() + text.size();
+        const bool fits = error == std::errc{} && value >= least && value <= most;
+        if (is_whole && fits) return std::string{};
+        const bool is_negative = text.size() > 1 && text.front() == '-';
+        return fmt::format("'{}' is {}; expected a whole number from {} to {}", text,
+                           is_negative ? "negative"
+                           : is_whole  ? "out of range"
+                                       : "not a whole number",
+                           least, most);
+      },
+      least == 0 ? std::string{} : fmt::format("{} to {}", least, most)};
+}
+
+CLI::Validator one_word_of(std::vector<std::string> words) {
+  std::string shown = fmt::format("{{{}}}", fmt::join(words, ","));
+  return CLI::Validator{[words = std::move(words)](const std::string& text) {
+                          if (std::ranges::find(words, text) != words.end()) return std::string{};
+                          return fmt::format("'{}' is not known{}; expected one of {}", text,
+                                             model::config::suggestion(text, words),
+                                             fmt::join(words, ", "));
+                        },
+                        std::move(shown)};
+}
+
+}  // namespace
 
 Option Option::required() const {
   option_->required();
@@ -23,12 +67,23 @@ Option Option::needs(const Option& other) const {
 }
 
 Option Option::within_whole(std::int64_t least, std::int64_t most) const {
-  option_->check(CLI::Range(least, most));
+  option_->get_validator(any_whole_number)->active(false);  // what it may be is said better here
+  option_->check(whole_number(static_cast<std::uint64_t>(least), static_cast<std::uint64_t>(most)));
   return *this;
 }
 
 Option Option::within_real(double least, double most) const {
-  option_->check(CLI::Range(least, most));
+  option_->check(CLI::Validator{[=](const std::string& text) {
+                                  char* end = nullptr;
+                                  const double value = std::strtod(text.c_str(), &end);
+                                  const bool is_number = !text.empty() && *end == '\0';
+                                  if (is_number && value >= least && value <= most)
+                                    return std::string{};
+                                  return fmt::format(
+                                      "'{}' is {}; expected a number from {} to {}", text,
+                                      is_number ? "out of range" : "not a number", least, most);
+                                },
+                                fmt::format("{} to {}", least, most)});
   return *this;
 }
 
@@ -38,7 +93,7 @@ Option Option::or_alone(const std::string& text) const {
 }
 
 Option Option::one_of(const std::vector<std::string>& words) const {
-  option_->check(CLI::IsMember(words));
+  option_->check(one_word_of(words));
   return *this;
 }
 
@@ -63,7 +118,16 @@ Option Options::texts(const char* name, std::vector<std::string>& values, const 
 
 template <class Number>
 Option Options::number(const char* name, Number& value, const std::string& help, const char* type) {
-  return made(command_.add_option(name, value, help)->type_name(type));
+  CLI::Option* option = command_.add_option(name, value, help)->type_name(type);
+  if constexpr (std::is_same_v<Number, std::uint32_t>) {
+    option->check(
+        whole_number(0, std::numeric_limits<std::uint32_t>::max()).name(any_whole_number));
+  } else if constexpr (!std::is_same_v<Number, double> &&
+                       !std::is_same_v<Number, std::optional<double>>) {
+    option->check(
+        whole_number(0, std::numeric_limits<std::uint64_t>::max()).name(any_whole_number));
+  }
+  return made(option);
 }
 template Option Options::number(const char*, std::uint32_t&, const std::string&, const char*);
 template Option Options::number(const char*, std::uint64_t&, const std::string&, const char*);
@@ -85,7 +149,7 @@ Option Options::choice(const char* name, std::vector<std::string> words,
                        std::function<void(const std::string&)> chosen, const std::string& help,
                        const char* type) {
   return made(command_.add_option_function<std::string>(name, std::move(chosen), help)
-                  ->check(CLI::IsMember(std::move(words)))
+                  ->check(one_word_of(words))
                   ->type_name(type));
 }
 

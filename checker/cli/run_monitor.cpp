@@ -14,12 +14,27 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/streams.hpp"
 
+#include "checker/cli/complain.hpp"
+#include "checker/cli/terminal.hpp"
+
 namespace stormproof::cli {
 
 namespace {
 
 std::atomic<bool> interrupt_seen = false;
 std::atomic<bool> memory_is_short = false;
+
+/// The first `columns` characters of `text`, the last of them "…" if there are more.
+std::string cut_to(std::string text, std::size_t columns) {
+  std::size_t width = 0;
+  std::size_t last = 0;  // where the last character that fits begins
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if ((static_cast<unsigned char>(text[k]) & 0xC0U) == 0x80U) continue;
+    if (++width <= columns) last = k;
+  }
+  if (width <= columns) return text;
+  return columns == 0 ? std::string{} : text.substr(0, last) + "…";
+}
 
 /// How often memory is looked at.
 constexpr int glance_milliseconds = 50;
@@ -98,7 +113,9 @@ bool StatusLine::due() {
 }
 
 void StatusLine::show(const std::string& text) {
-  mutter("\r\033[K" + text);
+  // A line that is broken cannot be renewed; the last column stays free for the cursor.
+  const auto columns = columns_of_errors();
+  mutter("\r\033[K" + (columns ? cut_to(visible(text), *columns - 1) : text));
   shown_ = true;
 }
 

@@ -1,0 +1,55 @@
+// `stormproof list [KIND]`: which names there are.
+#include <fmt/core.h>
+
+#include "checker/cli/commands.hpp"
+#include "checker/cli/frame.hpp"
+#include "checker/verification/listing/listing.hpp"
+
+namespace stormproof::cli {
+
+namespace {
+
+struct ListArguments {
+  std::vector<std::string> kinds;  ///< empty: all
+  bool names = false;
+};
+
+Outcome run(ListArguments& arguments, Session& /*session*/) {
+  std::vector<std::string> kinds = arguments.kinds;
+  if (kinds.empty()) kinds.assign(listing::kinds().begin(), listing::kinds().end());
+  std::vector<listing::List> lists;
+  for (const std::string& kind : kinds) {
+    lists.push_back(listing::list_of(kind, model::config::SpecPath::standard()));
+  }
+  if (arguments.names) {
+    for (const listing::List& list : lists) {
+      for (const listing::Entry& entry : list.entries) fmt::print("{}\n", entry.name);
+    }
+    return established;
+  }
+  return Answer{document_of(lists), to_json(lists)};
+}
+
+void declare(Options& options, ListArguments& arguments) {
+  options
+      .texts("kinds", arguments.kinds,
+             "scenarios, profiles, wireless, grids, policies, machines, mutants, properties, "
+             "findings, captures or vendor; without one, all",
+             "KIND")
+      .one_of({listing::kinds().begin(), listing::kinds().end()});
+  options.flag("--names", arguments.names, "Only the names, one on a line");
+}
+
+}  // namespace
+
+void declare_list(Frame& frame) {
+  frame.add<ListArguments>(
+      {.name = "list",
+       .help = "List what has a name: scenarios, profiles, grids, properties, captures, …",
+       .exit_codes = "Exit code: 0, or 2 bad input.",
+       .formats = Formats::pages,
+       .takes_long = false},
+      declare, run);
+}
+
+}  // namespace stormproof::cli
