@@ -6,7 +6,9 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "model/config/tree/suggestion.hpp"
 #include "model/deployment.hpp"
 
 namespace stormproof::prediction {
@@ -80,6 +82,22 @@ void compare(ProfileStudy& changed, const ProfileStudy& baseline, bool measured,
   }
 }
 
+/// A scope that was asked for and that no run belongs to, with those that there are.
+std::optional<InputError> refuse_scopes(const std::vector<Observation>& rows,
+                                        const std::vector<std::string>& asked) {
+  const std::vector<Configuration> measured = configurations(rows);
+  std::vector<Pairing> pairings;
+  for (const Configuration& configuration : measured) pairings.push_back({&configuration, nullptr});
+  const std::vector<std::string> known = scopes(pairings);
+  for (const std::string& scope : asked) {
+    if (std::ranges::count(known, scope) > 0) continue;
+    return InputError{"--scope " + scope,
+                      fmt::format("no measured run is in this scope{}; expected one of {}",
+                                  model::config::suggestion(scope, known), fmt::join(known, ", "))};
+  }
+  return std::nullopt;
+}
+
 /// The runs of the baseline whose deployment was measured with the intervention, too.
 std::vector<Observation> with_partner(const std::vector<Observation>& baseline_rows,
                                       const std::vector<Observation>& rows) {
@@ -143,6 +161,7 @@ std::vector<Pairing> ProfileStudy::pairings() const {
 
 Result<Study> study(const std::vector<Observation>& rows,
                     const std::vector<Observation>& baseline_rows, const StudyRequest& request) {
+  if (auto error = refuse_scopes(rows, request.scopes)) return *std::move(error);
   auto planned = plan(rows, baseline_rows, request);
   if (!planned) return planned.error();
   Study result = std::move(planned->study);
