@@ -1,12 +1,17 @@
 // `stormproof conform CAPTURE…`: reads the captures and the profile, and has them held against each
-// other.
+// other; without a profile, which shipped one fits best.
+#include <chrono>
+#include <map>
+
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
+#include "checker/evidence/conform/report/ranking_report.hpp"
 #include "checker/evidence/conform/report/report.hpp"
+#include "model/config/distributions.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
 
@@ -19,7 +24,7 @@ using model::config::Result;
 
 struct ConformArguments {
   std::vector<std::string> files;
-  std::string dds;
+  std::string dds;                     ///< empty: all shipped ones
   std::vector<std::string> overrides;  ///< key.path=value, without "dds."
   std::string until;                   ///< empty: everything
   std::string delay;                   ///< LO..HI; empty: the default, as the next three
@@ -27,6 +32,7 @@ struct ConformArguments {
   std::string lateness;
   std::string clock_error;
   bool no_loss = false;
+  double seconds_each = 20;  ///< without `dds`
   OutputFile svg;
   OutputFile assignment;
 };
@@ -93,28 +99,79 @@ void write_beside(ConformArguments& arguments, const conform::Report& report, An
   }
 }
 
-Outcome run(ConformArguments& arguments, Session& session) {
-  const auto bounds = parse_bounds(arguments);
-  if (!bounds) return Complaint{bounds.error()};
-  const auto dds = model::config::read_dds_profile(arguments.dds, arguments.overrides,
-                                                   model::config::SpecPath::standard());
-  if (!dds) return dds.error();
-  const auto conversation = capture::read_conversation(arguments.files, session.on_packets());
-  if (!conversation) return conversation.error();
-  const auto until = parse_until(arguments.until, conversation->first_ns);
-  if (!until) return Complaint{until.error()};
+/// The shipped profiles, and which distributions each stands for.
+model::config::Result<std::vector<conform::Candidate>> candidates(
+    const model::config::SpecPath& specs, std::map<std::string, std::string>& distributions) {
+  std::vector<conform::Candidate> all;
+  for (const std::string& name : specs.names(model::config::SpecKind::dds)) {
+    const auto dds = model::config::read_dds_profile(name, {}, specs);
+    if (!dds) return dds.error();
+    all.push_back({name, *dds});
+  }
+  const auto known = model::config::read_distributions(specs.directories);
+  if (!known) return known.error();
+  for (const model::config::Distribution& one : *known) {
+    std::string& names = distributions[one.profile];
+    names += (names.empty() ? "" : ", ") + one.name;
+  }
+  return all;
+}
+
+Outcome rank_all(const ConformArguments& arguments, const Bounds& bounds,
+                 const capture::Conversation& conversation, std::int64_t until, Session& session) {
+  std::map<std::string, std::string> distributions;
+  auto all = candidates(model::config::SpecPath::standard(), distributions);
+  if (!all) return all.error();
+  conform::RankingRequest request{conversation, until, bounds, *std::move(all)};
+  request.each =
+      std::chrono::milliseconds{static_cast<std::int64_t>(arguments.seconds_each * 1'000)};
+  request.progress = [&session](const std::string& name, std::size_t done, std::size_t of) {
+    return session.proceed([&] { return fmt::format("{}: relation {} of {}", name, done, of); });
+  };
+  const auto ranking = conform::rank(request);
+  if (!ranking) return ranking.error();
+  conform::RankingReport report{conversation, *ranking, bounds, until, std::move(distributions)};
+  if (!ranking->ranked.empty()) {
+    report.next = session.command({"--seconds-each"}) + " --dds " + ranking->ranked.front().name;
+  }
+  Answer answer{document_of(report), to_json(report)};
+  answer.document.complete = !Session::interrupted();
+  answer.document.exit_code = Session::interrupted() ? inconclusive : exit_code(ranking->verdict());
+  return answer;
+}
+
+Outcome hold_one(ConformArguments& arguments, const model::DdsProfile& dds, const Bounds& bounds,
+                 const capture::Conversation& conversation, std::int64_t until, Session& session) {
   const auto on_progress = [&session](std::size_t done, std::size_t all) {
     return session.proceed([&] { return fmt::format("relation {} of {}", done, all); });
   };
-  const auto result =
-      conform::conform({*conversation, *until, *dds, *bounds, on_progress, Session::interrupted});
+  const auto result = conform::conform(
+      {conversation, until, dds, bounds, on_progress, Session::interrupted});
   if (!result) return result.error();
-  const conform::Report report{*conversation, *result, *dds, profile_name(arguments), *until};
+  const conform::Report report{conversation, *result, dds, profile_name(arguments), until};
   Answer answer{document_of(report), to_json(report)};
   answer.document.exit_code = exit_code(result->verdict);
   answer.document.complete = !Session::interrupted();
   write_beside(arguments, report, answer);
   return answer;
+}
+
+Outcome run(ConformArguments& arguments, Session& session) {
+  const auto bounds = parse_bounds(arguments);
+  if (!bounds) return Complaint{bounds.error()};
+  std::optional<model::DdsProfile> dds;
+  if (!arguments.dds.empty()) {
+    const auto read = model::config::read_dds_profile(arguments.dds, arguments.overrides,
+                                                      model::config::SpecPath::standard());
+    if (!read) return read.error();
+    dds = *read;
+  }
+  const auto conversation = capture::read_conversation(arguments.files, session.on_packets());
+  if (!conversation) return conversation.error();
+  const auto until = parse_until(arguments.until, conversation->first_ns);
+  if (!until) return Complaint{until.error()};
+  return dds ? hold_one(arguments, *dds, *bounds, *conversation, *until, session)
+             : rank_all(arguments, *bounds, *conversation, *until, session);
 }
 
 void declare_bounds(Options& options, ConformArguments& arguments) {
@@ -140,14 +197,24 @@ void declare_bounds(Options& options, ConformArguments& arguments) {
 
 void declare(Options& options, ConformArguments& arguments) {
   options.captures(arguments.files);
-  options.text("--dds", arguments.dds, "DDS profile: name, YAML file or vendor XML file", "PROFILE")
-      .required();
-  options.overrides(arguments.overrides, "the profile");
+  const Option dds = options.text(
+      "--dds", arguments.dds,
+      "DDS profile: name, YAML file or vendor XML file (default: all shipped ones, ranked)",
+      "PROFILE");
+  options.overrides(arguments.overrides, "the profile").needs(dds);
+  options
+      .number("--seconds-each", arguments.seconds_each,
+              "Without --dds: at most so long for each profile (default 20)", "S")
+      .within(0.001, 86'400.0)
+      .excludes(dds);
   options.until(arguments.until, "Look at events until this instant");
   declare_bounds(options, arguments);
-  options.svg(arguments.svg, "Draw what surrounds the first unexplained event, if there is one");
-  options.output("--assignment", arguments.assignment,
-                 "Write the receptions, losses and timers that explain the capture (JSON Lines)");
+  options.svg(arguments.svg, "Draw what surrounds the first unexplained event, if there is one")
+      .needs(dds);
+  options
+      .output("--assignment", arguments.assignment,
+              "Write the receptions, losses and timers that explain the capture (JSON Lines)")
+      .needs(dds);
 }
 
 }  // namespace
@@ -156,7 +223,7 @@ void declare_conform(Frame& frame) {
   frame.add<ConformArguments>(
       {"conform", "Whether captures of real discovery are a behaviour of a DDS profile",
        "Exit code: 0 conforms within the bounds, 4 does not, 3 inconclusive or interrupted,\n"
-       "2 bad input.",
+       "2 bad input; without --dds that of the profile that fits best.",
        Formats::findings},
       declare, run);
 }

@@ -150,6 +150,16 @@ class Check {
     });
   }
 
+  /// Whether a descriptor was sent from host to host: without one nothing was discovered, and any
+  /// profile announces itself.
+  [[nodiscard]] bool has_descriptor() const {
+    return std::ranges::any_of(dialogue_.relations, [](const Relation& relation) {
+      return std::ranges::any_of(relation.sent, [](const Submessage& submessage) {
+        return submessage.descriptor.has_value();
+      });
+    });
+  }
+
   void conclude(bool is_complete) {
     std::stable_sort(result_.unexplained.begin(), result_.unexplained.end(),
                      [](const Unexplained& a, const Unexplained& b) { return a.event < b.event; });
@@ -163,6 +173,12 @@ class Check {
     readers_.reader.report(result_.rows);
     readers_.initial.report(result_.rows);
     result_.verdict = Verdict::conforms;
+    if (!has_descriptor()) {
+      result_.verdict = Verdict::inconclusive;
+      result_.why_inconclusive = fmt::format(
+          "next to nothing was checked: no descriptor (SEDP DATA) is among the {} events",
+          result_.checked);
+    }
     if (result_.not_replayed > 0) {
       result_.verdict = Verdict::inconclusive;
       result_.why_inconclusive = "the machines did not confirm every explanation";
@@ -213,6 +229,18 @@ class Check {
 
 }  // namespace
 
+std::optional<std::string> refuse_profile(const model::DdsProfile& dds) {
+  if (model::traits_of(dds).writer != model::Writer::stateful) {
+    return "a capture can be held against a profile with `implementation: fastdds`; this one has "
+           "the writer of the paper's model, which is not message for message that of any program";
+  }
+  if (dds.sedp.heartbeat_policy != model::HeartbeatPolicy::periodic) {
+    return "a capture can be held against a profile with `heartbeat_policy: periodic`; no program "
+           "sends by the adaptive one";
+  }
+  return std::nullopt;
+}
+
 model::config::Result<Conformance> conform(const Request& request) {
   const auto& topology = request.conversation.topology;
   const std::string where = request.conversation.captures.empty()
@@ -223,19 +251,7 @@ model::config::Result<Conformance> conform(const Request& request) {
                       "discovery between hosts was expected, but all participants are on "
                       "one host"};
   }
-  const model::ImplementationTraits& traits = model::traits_of(request.dds);
-  if (traits.writer != model::Writer::stateful) {
-    return InputError{
-        "--dds",
-        fmt::format("a capture can be held against a profile with `implementation: "
-                    "fastdds`; this one describes {}'s writer{}",
-                    traits.whose, traits.vendor ? "" : ", which no program sends that way")};
-  }
-  if (request.dds.sedp.heartbeat_policy != model::HeartbeatPolicy::periodic) {
-    return InputError{"--dds",
-                      "a capture can be held against a profile with `heartbeat_policy: periodic`; "
-                      "no program sends by the adaptive one"};
-  }
+  if (auto why = refuse_profile(request.dds)) return InputError{"--dds", *std::move(why)};
   return Check{request}.run();
 }
 

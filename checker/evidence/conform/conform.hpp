@@ -167,6 +167,9 @@ struct Request {
   std::function<bool()> interrupted{};  ///< the same, asked by any thread during long searches
 };
 
+/// Why no capture can be held against the profile; nothing if one can.
+[[nodiscard]] std::optional<std::string> refuse_profile(const model::DdsProfile& dds);
+
 /// An error if the capture holds no discovery between hosts, or the profile describes an
 /// implementation that cannot be held against a capture.
 [[nodiscard]] model::config::Result<Conformance> conform(const Request& request);

@@ -5,22 +5,13 @@
 
 #include "checker/evidence/capture/describe_capture.hpp"
 #include "checker/evidence/conform/report/coverage.hpp"
+#include "checker/evidence/conform/report/describe_bounds.hpp"
 #include "checker/evidence/conform/report/findings.hpp"
 #include "checker/evidence/conform/report/names.hpp"
 #include "checker/evidence/conform/report/report.hpp"
 #include "checker/presentation/json/describe.hpp"
 
 namespace stormproof::conform {
-
-template <class V>
-void describe(V& v, const Bounds& bounds) {
-  v("least_delay_ns", bounds.least_delay_ns);
-  v("most_delay_ns", bounds.most_delay_ns);
-  v("most_send_lag_ns", bounds.most_send_lag_ns);
-  v("most_lateness_ns", bounds.most_lateness_ns);
-  v("clock_error_ns", bounds.clock_error_ns);
-  v("may_lose", bounds.may_lose);
-}
 
 template <class V>
 void describe(V& v, const Place& place) {
