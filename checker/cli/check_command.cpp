@@ -74,7 +74,11 @@ std::optional<std::string> update_baseline(const CheckArguments& arguments,
   if (interrupted) return arguments.baseline + ": not written, because the check was interrupted";
   std::vector<checker::Failure>& accepted = baseline[arguments.scenario];
   accepted = gate.failures;
-  if (auto error = write_text(arguments.baseline, baseline_text(baseline))) return error;
+  OutputFile file;
+  file.open(arguments.baseline, "--baseline " + arguments.baseline);
+  if (auto error = file.open_error()) return error;
+  file.stream() << baseline_text(baseline);
+  if (auto error = file.commit()) return error;
   checker::GateRules rules = gate.rules;
   rules.baseline = accepted;
   gate = judge(report, dds, std::move(rules));
@@ -182,7 +186,7 @@ void declare(Options& options, CheckArguments& arguments) {
   options
       .number("--readers", arguments.readers,
               "Let the explorer look at several readers of one writer, too: 2 (default 1)", "N")
-      .within(1, explorer::most_readers);
+      .within(1U, explorer::most_readers);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "checker/cli/complain.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/memory_limit.hpp"
+#include "checker/cli/streams.hpp"
 #include "checker/presentation/text/command_line.hpp"
 
 namespace {
