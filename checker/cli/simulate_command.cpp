@@ -23,12 +23,14 @@ class Recorders {
  public:
   Recorders(SimulateArguments& arguments, const model::Scenario& scenario) : limits_{scenario} {
     for (model::Probe* probe : limits_.probes()) probes_.add(*probe);
+    const auto effects =
+        arguments.effects ? model::trace::Effects::named : model::trace::Effects::left_out;
     if (arguments.trace.wanted()) {
-      trace_.emplace(arguments.trace.stream(), scenario);
+      trace_.emplace(arguments.trace.stream(), scenario, effects);
       probes_.add(*trace_);
     }
     if (arguments.perfetto.wanted()) {
-      perfetto_.emplace(arguments.perfetto.stream(), scenario);
+      perfetto_.emplace(arguments.perfetto.stream(), scenario, effects);
       probes_.add(*perfetto_);
     }
     if (arguments.pcap.wanted()) {
@@ -74,6 +76,11 @@ std::vector<trials::Sample> other_draws(const model::Scenario& scenario, Session
 }
 
 Outcome run(SimulateArguments& arguments, Session& session) {
+  if (arguments.effects && !arguments.trace.wanted() && !arguments.perfetto.wanted()) {
+    return model::config::InputError{"--effects",
+                                     "it names effects in a recording; expected --trace FILE or "
+                                     "--perfetto FILE with it"};
+  }
   const auto scenario = model::config::read_scenario(arguments.scenario, arguments.overrides,
                                                      model::config::SpecPath::standard());
   if (!scenario) return scenario.error();
@@ -108,7 +115,12 @@ void declare(Options& options, SimulateArguments& arguments) {
       options.output("--trace", arguments.trace, "Write every event as JSON Lines"),
       options.output("--perfetto", arguments.perfetto, "Write a trace that ui.perfetto.dev opens"),
       options.output("--pcap", arguments.pcap,
-                     "Write the packets as a capture, for Wireshark and stormproof capture")};
+                     "Write the packets as a capture, for Wireshark and stormproof capture"),
+      options
+          .flag("--effects", arguments.effects,
+                "Name in --trace and --perfetto which effect of the rules sends each packet and "
+                "starts each timer (ids of stormproof draw composition)")
+          .not_repeated()};
   const Option samples =
       options
           .number("--samples", arguments.samples,

@@ -17,6 +17,7 @@ struct SimulateArguments {
   std::string scenario;                ///< file, or name of a shipped scenario
   std::vector<std::string> overrides;  ///< key.path=value
   OutputFile trace, perfetto, pcap;
+  bool effects = false;                  ///< named in trace and timeline
   std::optional<std::uint64_t> samples;  ///< runs of sampled schedules instead of a single run
   std::optional<std::uint64_t> seed;     ///< of the first sample; not given: the schedule's
   std::vector<std::string> compare;      ///< DDS profiles to run on the same schedules

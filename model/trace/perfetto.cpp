@@ -24,8 +24,9 @@ void add_arg(std::string& args) {
 
 }  // namespace
 
-PerfettoWriter::PerfettoWriter(std::ostream& out, const Scenario& scenario)
+PerfettoWriter::PerfettoWriter(std::ostream& out, const Scenario& scenario, Effects effects)
     : events_{out}, fragmentation_{scenario.wireless}, channels_{channel_names(scenario.wireless)} {
+  if (effects == Effects::named) effect_names_.emplace(scenario.dds);
   for (const Participant& participant : scenario.deployment.participants) {
     hosts_.push_back(participant.host);
   }
@@ -56,6 +57,7 @@ void PerfettoWriter::event_started(const Event& event) {
   transitions_.clear();
   multicast_.reset();
   informed_.clear();
+  if (effect_names_) effect_names_->event_started();
   if (event.kind == EventKind::service_finished) {
     events_.end_slice(channel_track(event.subject), now_);
     serving_[event.subject] = false;
@@ -66,6 +68,15 @@ void PerfettoWriter::event_started(const Event& event) {
   if (event.insertion() >= scheduled_before_run_) {
     slice.flows.push_back({FlowPhase::end, timer_flow, event.insertion()});
   }
+  if (!effect_names_) return;
+  const std::string_view starter = effect_names_->take_starter(event.insertion());
+  if (starter.empty()) return;
+  add_arg(slice.args);
+  append(slice.args, R"("started by":")", starter, "\"");
+}
+
+void PerfettoWriter::effect(fsm::composition::EffectKey key) {
+  if (effect_names_) effect_names_->happens(key);
 }
 
 void PerfettoWriter::scheduled(std::uint64_t insertion, Nanoseconds, EventKind kind,
@@ -74,6 +85,7 @@ void PerfettoWriter::scheduled(std::uint64_t insertion, Nanoseconds, EventKind k
   if (!in_event_ || !is_timer(kind)) return;
   Slice& slice = slice_on(timer_track(kind, subject, *topology_), timer_start_label(kind));
   slice.flows.push_back({FlowPhase::start, timer_flow, insertion});
+  if (effect_names_) effect_names_->starts_timer(insertion);
 }
 
 void PerfettoWriter::emitted(const Packet& packet, std::uint32_t source,
@@ -81,9 +93,13 @@ void PerfettoWriter::emitted(const Packet& packet, std::uint32_t source,
   const std::string label = emission_label(packet, destinations);
   Slice& slice = slice_on(sender_track(packet, source), label);
   add_arg(slice.args);
-  append(slice.args, "\"packet ", packet.number);
-  if (packet.copies > 1) append(slice.args, " to ", packet.number + packet.copies - 1);
-  append(slice.args, "\":\"", label, ", ", packet.payload_bytes, " bytes\"");
+  std::string numbers = "packet ";
+  append_part(numbers, packet.number);
+  if (packet.copies > 1) append(numbers, " to ", packet.number + packet.copies - 1);
+  append(slice.args, "\"", numbers, "\":\"", label, ", ", packet.payload_bytes, " bytes\"");
+  if (effect_names_ && !effect_names_->last().empty()) {
+    append(slice.args, ",\"effect of ", numbers, "\":\"", effect_names_->last(), "\"");
+  }
   for (std::uint32_t copy = 0; copy < packet.copies; ++copy) {
     slice.flows.push_back({FlowPhase::start, packet_flow, packet.number + copy});
   }

@@ -13,6 +13,7 @@
 #include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 #include "model/scenario.hpp"
+#include "model/trace/effect_names.hpp"
 #include "model/trace/perfetto_events.hpp"
 #include "model/trace/transition_list.hpp"
 
@@ -20,7 +21,7 @@ namespace stormproof::model::trace {
 
 class PerfettoWriter final : public Probe {
  public:
-  PerfettoWriter(std::ostream& out, const Scenario& scenario);
+  PerfettoWriter(std::ostream& out, const Scenario& scenario, Effects effects = Effects::left_out);
 
   /// Completes the document, after the run and however it ended. Call it once.
   void finish();
@@ -28,6 +29,8 @@ class PerfettoWriter final : public Probe {
   void run_started(const Topology& topology) override;
   void event_started(const Event& event) override;
   void event_finished(const Depths& depths) override;
+  [[nodiscard]] bool wants_effects() const override { return effect_names_.has_value(); }
+  void effect(fsm::composition::EffectKey key) override;
   void transition(const MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word,
                   std::uint64_t descriptors) override;
@@ -85,6 +88,7 @@ class PerfettoWriter final : public Probe {
   std::uint64_t missing_ = 0;
   bool missing_changed_ = false;
   std::uint64_t scheduled_before_run_ = 0;
+  std::optional<EffectNames> effect_names_;  // if they are wanted
 
   // The event that is being processed.
   Nanoseconds now_;

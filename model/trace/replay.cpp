@@ -91,10 +91,10 @@ Result<std::optional<TraceViolation>> read_expected(const Json& header, const st
                      Nanoseconds{at("t").get<std::int64_t>()}, at("reason").get<std::string>()}};
 }
 
-Result<Replay> run_again(const Scenario& scenario, TraceComparison& comparison,
+Result<Replay> run_again(const Scenario& scenario, Effects effects, TraceComparison& comparison,
                          std::uint64_t max_events, ViolationWatch* watch,
                          const std::function<bool(const Progress&)>& on_progress) {
-  TraceWriter writer{[&](std::string_view line) { comparison.take(line); }, scenario};
+  TraceWriter writer{[&](std::string_view line) { comparison.take(line); }, scenario, effects};
   ProbeList probes;
   probes.add(writer);
   if (watch != nullptr) probes.add(watch->probe());
@@ -173,8 +173,10 @@ Result<Replay> replay(const std::string& file, const config::SpecPath& specs,
                                          "'; expected a property that a replay can observe"};
     }
   }
+  const Effects effects =
+      header->value("effects", Json{}) == true ? Effects::named : Effects::left_out;
   TraceComparison comparison{reader, file, *header, *expected};
-  return run_again(*scenario, comparison, events_beyond(file), watch.get(), on_progress);
+  return run_again(*scenario, effects, comparison, events_beyond(file), watch.get(), on_progress);
 }
 
 }  // namespace stormproof::model::trace

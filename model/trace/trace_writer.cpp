@@ -19,15 +19,22 @@ namespace {
 
 std::string_view name_at(std::uint32_t stream) { return stream % 2 == 0 ? "pub" : "sub"; }
 
+/// Whether rules start events of this kind, not the way of a packet.
+bool is_of_rules(EventKind kind) {
+  return class_of(kind) == EventClass::protocol && kind != EventKind::source_completion;
+}
+
 }  // namespace
 
-TraceWriter::TraceWriter(std::ostream& out, const Scenario& scenario)
+TraceWriter::TraceWriter(std::ostream& out, const Scenario& scenario, Effects effects)
     : TraceWriter{[&out](std::string_view line) {
                     out.write(line.data(), static_cast<std::streamsize>(line.size()));
                   },
-                  scenario} {}
+                  scenario, effects} {}
 
-TraceWriter::TraceWriter(Sink sink, const Scenario& scenario) : sink_{std::move(sink)} {
+TraceWriter::TraceWriter(Sink sink, const Scenario& scenario, Effects effects)
+    : sink_{std::move(sink)} {
+  if (effects == Effects::named) effect_names_.emplace(scenario.dds);
   for (const std::string& name : channel_names(scenario.wireless)) {
     channels_.push_back(json_string(name));
   }
@@ -40,6 +47,7 @@ TraceWriter::TraceWriter(Sink sink, const Scenario& scenario) : sink_{std::move(
   header["format"] = "stormproof-trace";
   header["version"] = trace_version;
   header["program"] = program_name();
+  if (effect_names_) header["effects"] = true;
   header["scenario"] = config::effective_json(scenario);
   sink_(header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
@@ -69,14 +77,21 @@ void TraceWriter::event_started(const Event& event) {
   event_ = event;
   in_event_ = true;
   transitions_.clear();
-  for (std::string* text :
-       {&emitted_, &looped_back_, &service_, &left_source_, &arrived_, &received_, &packet_}) {
+  for (std::string* text : {&emitted_, &looped_back_, &service_, &left_source_, &arrived_,
+                            &received_, &packet_, &effects_}) {
     text->clear();
   }
+  if (effect_names_) effect_names_->event_started();
 }
 
-void TraceWriter::scheduled(std::uint64_t insertion, Nanoseconds, EventKind, std::uint32_t) {
+void TraceWriter::scheduled(std::uint64_t insertion, Nanoseconds, EventKind kind, std::uint32_t) {
   if (in_event_) causes_.emplace(insertion, next_number_);
+  if (effect_names_ && is_of_rules(kind)) effect_names_->starts_timer(insertion);
+}
+
+void TraceWriter::effect(fsm::composition::EffectKey key) {
+  if (!effect_names_) return;  // another observer wants them
+  append(effects_, effects_.empty() ? "\"" : ",\"", effect_names_->happens(key), "\"");
 }
 
 void TraceWriter::transition(const MachineRef& machine, std::string_view event,
@@ -90,6 +105,7 @@ void TraceWriter::emitted(const Packet& packet, std::uint32_t source,
   append(emitted_, emitted_.empty() ? "" : ",", R"({"packet":)", packet.number, ",");
   append_packet(emitted_, packet, source, destinations);
   if (packet.kind == PacketKind::data) append_generated(packet);
+  append_effect(emitted_);
   emitted_ += '}';
 }
 
@@ -113,6 +129,7 @@ void TraceWriter::append_generated(const Packet& packet) {
 void TraceWriter::looped_back(const Packet& packet, std::uint32_t receiver) {
   append(looped_back_, looped_back_.empty() ? "{" : ",{");
   append_packet(looped_back_, packet, packet_ends(packet, *topology_).from, {&receiver, 1});
+  append_effect(looped_back_);
   looped_back_ += '}';
 }
 
@@ -160,6 +177,7 @@ void TraceWriter::event_finished(const Depths& depths) {
          name_of(event_.kind), "\"");
   append_event_subject();
   append_cause();
+  append_effects();
   append_transitions();
   if (!emitted_.empty()) append(line_, R"(,"emitted":[)", emitted_, "]");
   if (!looped_back_.empty()) append(line_, R"(,"looped_back":[)", looped_back_, "]");
@@ -226,6 +244,18 @@ void TraceWriter::append_cause() {
   }
   append(line_, R"(,"cause":)", cause->second);
   causes_.erase(cause);
+}
+
+void TraceWriter::append_effects() {
+  if (!effect_names_) return;
+  const std::string_view starter = effect_names_->take_starter(event_.insertion());
+  if (!starter.empty()) append(line_, R"(,"started_by":")", starter, "\"");
+  if (!effects_.empty()) append(line_, R"(,"effects":[)", effects_, "]");
+}
+
+void TraceWriter::append_effect(std::string& out) const {
+  if (!effect_names_ || effect_names_->last().empty()) return;
+  append(out, R"(,"effect":")", effect_names_->last(), "\"");
 }
 
 void TraceWriter::append_transitions() {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "model/probe.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
+#include "model/trace/effect_names.hpp"
 #include "model/trace/event_subject.hpp"
 #include "model/trace/transition_list.hpp"
 
@@ -26,8 +28,8 @@ class TraceWriter final : public Probe {
   using Sink = std::function<void(std::string_view line)>;
 
   /// Writes the header at once. Whether everything could be written is the stream's to say.
-  TraceWriter(std::ostream& out, const Scenario& scenario);
-  TraceWriter(Sink sink, const Scenario& scenario);
+  TraceWriter(std::ostream& out, const Scenario& scenario, Effects effects = Effects::left_out);
+  TraceWriter(Sink sink, const Scenario& scenario, Effects effects = Effects::left_out);
 
   /// Writes the last line. Call it once, after the run.
   void finish(const RunResult& result);
@@ -35,6 +37,8 @@ class TraceWriter final : public Probe {
   void run_started(const Topology& topology) override;
   void event_started(const Event& event) override;
   void event_finished(const Depths& depths) override;
+  [[nodiscard]] bool wants_effects() const override { return effect_names_.has_value(); }
+  void effect(fsm::composition::EffectKey key) override;
   void transition(const MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word,
                   std::uint64_t descriptors) override;
@@ -61,6 +65,9 @@ class TraceWriter final : public Probe {
   void append_event_subject();
   void append_subject(Subject kind, std::uint32_t subject);
   void append_cause();
+  void append_effects();
+  /// The effect that sends a packet, as the last key of its object.
+  void append_effect(std::string& out) const;
   void append_transitions();
   void append_serving(std::string& out, const Serving& serving) const;
 
@@ -73,6 +80,7 @@ class TraceWriter final : public Probe {
   std::unordered_map<std::uint64_t, std::uint64_t> causes_;  // insertion → event, while scheduled
   std::vector<Serving> serving_;                             // by channel
   std::vector<std::vector<std::uint64_t>> generated_;        // by relation: descriptors sent so far
+  std::optional<EffectNames> effect_names_;                  // if they are wanted
   std::string line_;
 
   // The event that is being processed, and what it has caused so far.
@@ -86,6 +94,7 @@ class TraceWriter final : public Probe {
   std::string received_;
   std::string left_source_;  // packet numbers, or empty
   std::string packet_;
+  std::string effects_;  // elements of an array, or empty
 };
 
 }  // namespace stormproof::model::trace

@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "fsm/composition/compositions.hpp"
-#include "model/composition_of.hpp"
 #include "model/simulator.hpp"
+#include "model/trace/effect_names.hpp"
 #include "model/trace/packet_text.hpp"
 #include "model/trace/perfetto_labels.hpp"
 #include "model/trace/scenario_names.hpp"
@@ -43,11 +42,11 @@ class Recorder final : public model::Probe {
   }
 
   [[nodiscard]] bool wants_effects() const override { return true; }
-  void effect(fsm::composition::EffectKey key) override { effect_ = effects_.at(key); }
+  void effect(fsm::composition::EffectKey key) override { effects_.happens(key); }
 
   void event_started(const model::Event& event) override {
     over_ = history_.steps.size() > limit_;
-    effect_.clear();
+    effects_.event_started();
     if (over_) return;
     Step& step = history_.steps.emplace_back();
     step.event = event;
@@ -91,7 +90,7 @@ class Recorder final : public model::Probe {
       looped_.reset();
     }
     if (class_of(kind) == model::EventClass::protocol) {
-      step().timers.push_back({kind, due, subject, effect_});
+      step().timers.push_back({kind, due, subject, std::string{effects_.last()}});
     }
   }
 
@@ -103,7 +102,7 @@ class Recorder final : public model::Probe {
     log.content = content_of(packet);
     log.from = source;
     log.emitted = now();
-    log.effect = effect_;
+    log.effect = effects_.last();
     if (packet.multicast() || destinations.empty()) {
       enter(packet.number, std::move(log));
       return;
@@ -127,7 +126,7 @@ class Recorder final : public model::Probe {
     log.to = receiver;
     log.relation = relation_of(packet, log.from, receiver);
     log.emitted = now();
-    log.effect = effect_;
+    log.effect = effects_.last();
     enter(next_local_, std::move(log));
     looped_ = next_local_++;
   }
@@ -221,9 +220,7 @@ class Recorder final : public model::Probe {
 
   History& history_;
   std::uint64_t limit_;
-  const std::map<fsm::composition::EffectKey, std::string> effects_ =
-      fsm::composition::effect_ids(model::composition_of(history_.scenario.dds));
-  std::string effect_;  // the last one of the event
+  model::trace::EffectNames effects_{history_.scenario.dds};
   bool over_ = false;
   bool running_ = false;
   std::unordered_map<std::uint64_t, std::uint64_t> causes_;  // insertion → step

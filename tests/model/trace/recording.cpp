@@ -15,10 +15,10 @@ namespace stormproof::model::trace {
 
 using nlohmann::ordered_json;
 
-Recording record(const Scenario& scenario, const OnProgress& on_progress) {
+Recording record(const Scenario& scenario, const OnProgress& on_progress, Effects effects) {
   Recording recording;
   std::ostringstream out;
-  TraceWriter writer{out, scenario};
+  TraceWriter writer{out, scenario, effects};
   RunOptions options;
   options.probe = &writer;
   options.on_progress = on_progress;
@@ -35,9 +35,9 @@ Recording record(const Scenario& scenario, const OnProgress& on_progress) {
   return recording;
 }
 
-Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress) {
+Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress, Effects effects) {
   std::ostringstream out;
-  PerfettoWriter writer{out, scenario};
+  PerfettoWriter writer{out, scenario, effects};
   RunOptions options;
   options.probe = &writer;
   options.on_progress = on_progress;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/simulator.hpp"
+#include "model/trace/effect_names.hpp"
 
 namespace stormproof::model::trace {
 
@@ -23,15 +24,16 @@ struct Recording {
 
 using OnProgress = std::function<bool(const Progress&)>;
 
-[[nodiscard]] Recording record(const Scenario& scenario, const OnProgress& on_progress = {});
+[[nodiscard]] Recording record(const Scenario& scenario, const OnProgress& on_progress = {},
+                               Effects effects = Effects::left_out);
 
 /// The timeline of one run.
 struct Timeline {
   RunResult result;
   nlohmann::ordered_json document;
 };
-[[nodiscard]] Timeline record_timeline(const Scenario& scenario,
-                                       const OnProgress& on_progress = {});
+[[nodiscard]] Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress = {},
+                                       Effects effects = Effects::left_out);
 
 /// A scenario and its name, for parametrised tests.
 struct Case {

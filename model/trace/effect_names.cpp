@@ -1,0 +1,20 @@
+// Looks ids up in the recorded composition.
+#include "model/trace/effect_names.hpp"
+
+#include "fsm/composition/compositions.hpp"
+#include "model/composition_of.hpp"
+
+namespace stormproof::model::trace {
+
+EffectNames::EffectNames(const DdsProfile& dds)
+    : ids_{fsm::composition::effect_ids(composition_of(dds))} {}
+
+std::string_view EffectNames::take_starter(std::uint64_t insertion) {
+  const auto found = timers_.find(insertion);
+  if (found == timers_.end()) return {};
+  const std::string_view starter = found->second;
+  timers_.erase(found);
+  return starter;
+}
+
+}  // namespace stormproof::model::trace
