@@ -148,7 +148,8 @@ Outcome hold_one(ConformArguments& arguments, const model::DdsProfile& dds, cons
   const auto result = conform::conform(
       {conversation, until, dds, bounds, on_progress, Session::interrupted});
   if (!result) return result.error();
-  const conform::Report report{conversation, *result, dds, profile_name(arguments), until};
+  const conform::Report report{conversation,            *result, dds,
+                               profile_name(arguments), until,   tables::impossible_effects(dds)};
   Answer answer{document_of(report), to_json(report)};
   answer.document.exit_code = exit_code(result->verdict);
   answer.document.complete = !Session::interrupted();

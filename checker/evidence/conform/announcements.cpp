@@ -3,9 +3,12 @@
 #include "checker/evidence/conform/announcements.hpp"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/words.hpp"
 
 namespace stormproof::conform {
@@ -20,6 +23,9 @@ struct Way {
   std::int64_t nominal_ns = 0;   ///< of the next one, if nothing is ever late
   std::int64_t worst_ns = 0;     ///< how far one was from its nominal time, at most
   std::size_t resends = 0;
+  /// Multicasts taken as scheduled though the first copy to somebody goes with them, as it does
+  /// with a resend: of ways that are alike, those with fewer are nearer to what happened.
+  std::size_t unlikely = 0;
 
   [[nodiscard]] std::size_t scheduled() const { return is_scheduled.size() - resends; }
 };
@@ -42,6 +48,13 @@ class Announcements {
       if (const auto known = known_since(j)) recognitions_.push_back(*known);
     }
     std::sort(recognitions_.begin(), recognitions_.end());
+    has_first_copy_.resize(multicasts_.size());
+    for (const Announcement& one : dialogue.announcements[participant]) {
+      if (!one.destination || !is_first_copy(one)) continue;
+      const auto distance = nearest_multicast(one);
+      if (!distance || *distance > bounds.most_send_lag_ns + capture_resolution_ns) continue;
+      has_first_copy_[multicast_with(one)] = true;
+    }
   }
 
   std::optional<Unexplained> explain() {
@@ -50,7 +63,7 @@ class Announcements {
       if (fault && one.event >= fault->event) break;
       if (!one.destination) continue;
       if (auto copy_fault = explain_copy(one)) return copy_fault;
-      ledger_.explained(Rule::announcement_copy);
+      ledger_.explained(Rule::announcement_copy, sender_of_copy(one));
     }
     return fault;
   }
@@ -82,7 +95,10 @@ class Announcements {
     for (std::size_t k = 0; k < multicasts_.size(); ++k) {
       std::vector<Way> next;
       for (const Way& way : ways) {
-        if (const auto on = on_schedule(way, multicasts_[k].time_ns)) next.push_back(*on);
+        if (auto on = on_schedule(way, multicasts_[k].time_ns)) {
+          if (has_first_copy_[k]) ++on->unlikely;
+          next.push_back(*on);
+        }
         if (const auto resent = as_resend(way, multicasts_[k].time_ns)) next.push_back(*resent);
       }
       if (next.empty()) return unexplained(ways, multicasts_[k]);
@@ -90,8 +106,9 @@ class Announcements {
     }
     if (multicasts_.empty()) return std::nullopt;
     if (auto fault = silent(ways)) return fault;
-    replay(*std::min_element(ways.begin(), ways.end(),
-                             [](const Way& a, const Way& b) { return a.worst_ns < b.worst_ns; }));
+    replay(*std::min_element(ways.begin(), ways.end(), [](const Way& a, const Way& b) {
+      return std::pair{a.worst_ns, a.unlikely} < std::pair{b.worst_ns, b.unlikely};
+    }));
     return std::nullopt;
   }
 
@@ -159,7 +176,8 @@ class Announcements {
     for (Way& way : ways) {
       const bool known = std::any_of(different.begin(), different.end(), [&](const Way& other) {
         return other.resends == way.resends && other.due_from_ns <= way.due_from_ns &&
-               other.due_to_ns >= way.due_to_ns && other.worst_ns <= way.worst_ns;
+               other.due_to_ns >= way.due_to_ns && other.worst_ns <= way.worst_ns &&
+               other.unlikely <= way.unlikely;
       });
       if (!known) different.push_back(std::move(way));
     }
@@ -167,6 +185,7 @@ class Announcements {
   }
 
   void replay(const Way& way) {
+    is_scheduled_ = way.is_scheduled;
     fsm::StateId state = Tally<fsm::Announcer>::Fly::initial;
     std::int64_t number = 0;
     std::int64_t due = multicasts_.front().time_ns;
@@ -224,13 +243,35 @@ class Announcements {
     });
   }
 
+  /// How far the nearest multicast is.
   [[nodiscard]] std::optional<std::int64_t> nearest_multicast(const Announcement& one) const {
-    std::optional<std::int64_t> nearest;
-    for (const Announcement& multicast : multicasts_) {
-      const std::int64_t distance = std::abs(multicast.time_ns - one.time_ns);
-      if (!nearest || distance < *nearest) nearest = distance;
+    const std::size_t k = multicast_with(one);
+    if (k == multicasts_.size()) return std::nullopt;
+    return std::abs(multicasts_[k].time_ns - one.time_ns);
+  }
+  /// The multicast that a copy accompanies: the nearest, and of several at one instant the next.
+  [[nodiscard]] std::size_t multicast_with(const Announcement& one) const {
+    std::size_t nearest = multicasts_.size();
+    std::tuple<std::int64_t, bool, std::int64_t> least{};
+    for (std::size_t k = 0; k < multicasts_.size(); ++k) {
+      const Announcement& multicast = multicasts_[k];
+      const std::int64_t events =
+          static_cast<std::int64_t>(multicast.event) - static_cast<std::int64_t>(one.event);
+      const std::tuple distance{std::abs(multicast.time_ns - one.time_ns), events < 0,
+                                std::abs(events)};
+      if (nearest < multicasts_.size() && least <= distance) continue;
+      nearest = k;
+      least = distance;
     }
     return nearest;
+  }
+  /// A copy is sent because its receiver was recognised, which the first one to it always is, or
+  /// with a multicast. Of multicasts that are not explained nobody can say why.
+  [[nodiscard]] Sender sender_of_copy(const Announcement& one) const {
+    if (spdp_.resend != model::SpdpResend::none && is_first_copy(one)) return sends::copies_resent;
+    const std::size_t k = multicast_with(one);
+    if (k >= is_scheduled_.size()) return {};
+    return is_scheduled_[k] ? sends::copies_due : sends::copies_resent;
   }
 
   Unexplained unexplained(const std::vector<Way>& ways, const Announcement& one) {
@@ -285,6 +326,8 @@ class Announcements {
   Ledger& ledger_;
   std::vector<Announcement> multicasts_;
   std::vector<std::int64_t> recognitions_;  ///< when each other participant can be known
+  std::vector<bool> has_first_copy_;        ///< by multicast: the first to somebody goes with it
+  std::vector<bool> is_scheduled_;          ///< by multicast, of the way that is replayed
 };
 
 }  // namespace

@@ -13,7 +13,9 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +49,16 @@ inline constexpr std::size_t rule_count = 13;
 [[nodiscard]] std::string_view name_of(Rule rule);
 /// One sentence: when this rule sends.
 [[nodiscard]] std::string_view statement_of(Rule rule);
+
+/// What sends a packet in the composition that the profile's implementation executes.
+struct Sender {
+  std::string_view scope;   ///< a rule or procedure: "ReaderIsMatched"
+  std::string_view packet;  ///< "Heartbeat"
+
+  auto operator<=>(const Sender&) const = default;
+};
+/// What can have sent an event that the rule explains; none: what the capture does not show.
+[[nodiscard]] std::span<const Sender> senders_of(Rule rule);
 
 /// What is wrong with an event that no rule explains.
 enum class Fault : std::uint8_t {
@@ -146,6 +158,9 @@ struct Conformance {
   /// Events outside what is checked: same host, user endpoints, liveliness, unknown destinations.
   std::uint64_t not_checked = 0;
   std::array<std::uint64_t, rule_count> by_rule{};
+  /// The same by what sent them in the composition; without those that are put down to what the
+  /// capture does not show.
+  std::map<Sender, std::uint64_t> by_sender{};
   std::vector<Unexplained> unexplained{};  ///< in time order, the first of each place
   std::vector<PlaceResult> places{};       ///< by source, destination, writer
   std::vector<RowUse> rows{};              ///< of the machines that take part, in table order

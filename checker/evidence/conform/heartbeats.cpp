@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "checker/evidence/conform/piggyback_budget.hpp"
+#include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/words.hpp"
 
 namespace stormproof::conform {
@@ -17,6 +18,12 @@ namespace timer = fsm::heartbeat_timer;
 /// A HEARTBEAT that follows captured DATA this closely is put down to it, even if the writer has
 /// readers on its own host, whose DATA would explain it, too.
 constexpr std::int64_t directly_after_ns = 1'000'000;
+
+/// A rule, and what sends by it.
+struct Explanation {
+  Rule rule{};
+  Sender sender{};
+};
 
 class Heartbeats {
  public:
@@ -124,16 +131,21 @@ class Heartbeats {
     }
     if (const auto asked = initial_acknack_for(one)) {
       ledger_.hidden(Hidden::Kind::received, std::max(asked->time_ns, one.time_ns), asked->event);
-      if (is_only_reader() && may_fan_out(one)) ++exchangeable_;
+      if (is_only_reader()) {
+        if (const auto other = fan_out_rule(one)) exchangeable_.push_back(*other);
+      }
       settle(one, Rule::heartbeat_reply);
       arm(one.time_ns);
       return std::nullopt;
     }
-    if (is_only_reader() && (may_fan_out(one) || exchangeable_ == 0)) return explain_fan_out(one);
+    if (is_only_reader() && (fan_out_rule(one) || exchangeable_.empty())) {
+      return explain_fan_out(one);
+    }
     if (is_only_reader()) {
-      // An earlier one was to all readers; its initial ACKNACK is left for this one.
-      --exchangeable_;
-      settle(one, Rule::heartbeat_reply);
+      // An earlier one was to all readers; its initial ACKNACK is left for this one. It has been
+      // counted as a reply, so this one counts as what that was.
+      settle(one, exchangeable_.back());
+      exchangeable_.pop_back();
       return std::nullopt;
     }
     return fault(one, Fault::heartbeat_cause,
@@ -160,14 +172,13 @@ class Heartbeats {
   std::optional<Unexplained> explain_fan_out(const SentHeartbeat& one) {
     if (auto fault = check_copies(one)) return fault;
     const auto after = after_data(one);
-    if (after && may_piggyback(one)) {
-      ledger_.used_lag(*after);
-      settle(one, Rule::heartbeat_piggyback);
-      return std::nullopt;
-    }
-    if (is_due(one)) {
-      expire(one);
-      settle(one, Rule::heartbeat_periodic);
+    if (const auto rule = fan_out_rule(one)) {
+      if (rule->rule == Rule::heartbeat_piggyback) {
+        ledger_.used_lag(*after);
+      } else {
+        expire(one);
+      }
+      settle(one, *rule);
       return std::nullopt;
     }
     if (dialogue_.has_neighbour[source_] && sedp_.piggyback != model::Piggyback::off) {
@@ -234,9 +245,16 @@ class Heartbeats {
         state_, {.now = now, .heartbeat_period = sedp_.heartbeat_period.count()});
     if (output.schedule_expiry) due_ns_ = output.next_at;
   }
-  /// Whether `one`, to the only reader, can be one to all readers.
-  [[nodiscard]] bool may_fan_out(const SentHeartbeat& one) const {
-    return (after_data(one) && may_piggyback(one)) || is_due(one);
+  /// What sends `one` if it is one to all readers; nothing: no rule that the capture shows.
+  [[nodiscard]] std::optional<Explanation> fan_out_rule(const SentHeartbeat& one) const {
+    if (after_data(one) && may_piggyback(one)) {
+      // It rides on the DATA or follows it.
+      return Explanation{Rule::heartbeat_piggyback, budget_.last_data_is_pushed()
+                                                        ? sends::budget_of_pushed
+                                                        : sends::budget_of_requested};
+    }
+    if (is_due(one)) return Explanation{Rule::heartbeat_periodic, sends::expiry};
+    return std::nullopt;
   }
   [[nodiscard]] bool is_due(const SentHeartbeat& one) const {
     std::int64_t due = due_ns_.value_or(INT64_MAX);
@@ -264,6 +282,10 @@ class Heartbeats {
     ledger_.explained(rule, one.copies);
     budget_.refill(one);
   }
+  void settle(const SentHeartbeat& one, const Explanation& by) {
+    ledger_.explained(by.rule, by.sender, one.copies);
+    budget_.refill(one);
+  }
 
   /// Whether the writer has no other reader yet.
   [[nodiscard]] bool is_only_reader() const {
@@ -287,8 +309,8 @@ class Heartbeats {
 
   SentHeartbeats sent_;
   PiggybackBudget budget_;
-  std::optional<SentHeartbeat> highest_;  ///< by its count
-  std::size_t exchangeable_ = 0;          ///< replies that can have been something else
+  std::optional<SentHeartbeat> highest_;   ///< by its count
+  std::vector<Explanation> exchangeable_;  ///< of replies: what else they can have been
   std::vector<std::size_t> next_initial_;
   std::vector<bool> is_opened_;
   fsm::StateId state_ = Tally<fsm::HeartbeatTimer>::Fly::initial;

@@ -53,7 +53,14 @@ struct Ledger {
   Conformance& result;
   PlaceResult& place;
 
+  /// By a rule of which what sends is clear.
   void explained(Rule rule, std::uint64_t times = 1) {
+    const auto senders = senders_of(rule);
+    explained(rule, senders.empty() ? Sender{} : senders.front(), times);
+  }
+  /// By a rule that several can send by. No scope: it is not shown.
+  void explained(Rule rule, const Sender& sender, std::uint64_t times = 1) {
+    if (!sender.scope.empty()) result.by_sender[sender] += times;
     result.by_rule[static_cast<std::size_t>(rule)] += times;
     result.explained += times;
     place.explained += times;

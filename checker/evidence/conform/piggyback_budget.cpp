@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "checker/evidence/conform/requests.hpp"
+
 namespace stormproof::conform {
 
 PiggybackBudget::PiggybackBudget(const Dialogue& dialogue, const WriterRelations& writer,
@@ -18,9 +20,13 @@ PiggybackBudget::PiggybackBudget(const Dialogue& dialogue, const WriterRelations
 }
 
 void PiggybackBudget::collect(const Dialogue& dialogue, const Relation& relation, bool is_own) {
+  const std::vector<Transmission> transmissions = transmissions_of(relation);
+  auto next = transmissions.begin();
   std::optional<std::uint32_t> datagram;
   for (const Submessage& one : relation.sent) {
-    Charge charge{one.event, one.time_ns, one.datagram, 0, is_own && one.descriptor};
+    const bool is_data = one.descriptor.has_value();
+    Charge charge{one.event, one.time_ns,       one.datagram,
+                  0,         is_own && is_data, is_data && (next++)->is_pushed};
     if (datagram != one.datagram) {
       charge.bytes = dialogue.conversation.datagrams[one.datagram].payload_bytes;
     }
@@ -39,6 +45,7 @@ bool PiggybackBudget::charge(const Charge& one) {
   spent_ += bytes;
   datagram_spent_ += bytes;
   last_data_ns_ = one.time_ns;
+  last_data_is_pushed_ = one.is_pushed;
   return true;
 }
 

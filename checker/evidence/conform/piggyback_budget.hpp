@@ -34,6 +34,8 @@ class PiggybackBudget {
   [[nodiscard]] std::int64_t spent() const { return spent_; }
   /// When the writer last sent DATA.
   [[nodiscard]] std::optional<std::int64_t> last_data_ns() const { return last_data_ns_; }
+  /// Whether it pushed it, because the endpoint had just been created.
+  [[nodiscard]] bool last_data_is_pushed() const { return last_data_is_pushed_; }
 
  private:
   /// A submessage of one of the participant's SEDP writers.
@@ -43,6 +45,7 @@ class PiggybackBudget {
     std::uint32_t datagram = 0;
     std::int64_t bytes = 0;    ///< UDP payload, if it is the first of its datagram
     bool is_own_data = false;  ///< DATA of this writer
+    bool is_pushed = false;    ///< which nobody asked for
   };
 
   void collect(const Dialogue& dialogue, const Relation& relation, bool is_own);
@@ -54,6 +57,7 @@ class PiggybackBudget {
   std::vector<Charge> charges_;  ///< in order
   std::size_t charged_ = 0;
   std::optional<std::int64_t> last_data_ns_;
+  bool last_data_is_pushed_ = false;
   std::int64_t sent_bytes_ = 0;            ///< by the participant
   std::optional<std::uint32_t> datagram_;  ///< that was sent last
   std::int64_t datagram_bytes_ = 0;        ///< its payload

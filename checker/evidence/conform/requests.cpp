@@ -6,6 +6,26 @@
 
 namespace stormproof::conform {
 
+std::uint32_t existing_at_opening(const Relation& relation) {
+  if (relation.sent.empty() || !relation.sent.front().heartbeat) return 0;
+  return relation.sent.front().heartbeat->announced;
+}
+
+std::vector<Transmission> transmissions_of(const Relation& relation) {
+  const std::uint32_t existing = existing_at_opening(relation);
+  std::vector<Transmission> all;
+  std::vector<bool> seen;
+  for (const Submessage& one : relation.sent) {
+    if (!one.descriptor) continue;
+    const std::uint32_t d = *one.descriptor;
+    if (d >= seen.size()) seen.resize(d + 1);
+    const bool is_first = !seen[d];
+    all.push_back({d, one.time_ns, one.event, is_first, is_first && d >= existing});
+    seen[d] = true;
+  }
+  return all;
+}
+
 Requests::Requests(const Relation& relation, const std::vector<Transmission>& transmissions,
                    const Bounds& bounds, std::int64_t send_lag_ns)
     : relation_{relation} {

@@ -19,6 +19,12 @@ struct Transmission {
   bool is_pushed = false;
 };
 
+/// The DATA of a relation, in order. What existed when the relation opened, its first HEARTBEAT
+/// announces; the rest is pushed.
+[[nodiscard]] std::vector<Transmission> transmissions_of(const Relation& relation);
+/// How many descriptors that HEARTBEAT announces; 0 if the relation begins with something else.
+[[nodiscard]] std::uint32_t existing_at_opening(const Relation& relation);
+
 /// When an ACKNACK arrives at the writer.
 struct Arrival {
   std::int64_t from_ns = 0;

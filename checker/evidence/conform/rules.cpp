@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "checker/evidence/conform/conform.hpp"
+#include "checker/evidence/conform/senders.hpp"
 
 namespace stormproof::conform {
 
@@ -12,24 +13,40 @@ namespace {
 struct Text {
   std::string_view name;
   std::string_view statement;
+  std::array<Sender, 2> senders{};
+  std::size_t sender_count = 0;
+
+  template <class... Senders>
+  constexpr Text(std::string_view name_, std::string_view statement_, Senders... by)
+      : name{name_}, statement{statement_}, senders{by...}, sender_count{sizeof...(by)} {}
 };
 
 constexpr std::array<Text, rule_count> rules{{
-    {"announcement.scheduled", "SPDP by multicast when the announcement timer expires"},
-    {"announcement.resent", "SPDP by multicast because a participant was recognised"},
-    {"announcement.copy", "SPDP by unicast to a participant that is known"},
-    {"heartbeat.open", "to one reader, when the writer side of the relation opens"},
-    {"heartbeat.reply", "to one reader, in answer to its initial ACKNACK"},
+    {"announcement.scheduled", "SPDP by multicast when the announcement timer expires",
+     sends::announcement_due},
+    {"announcement.resent", "SPDP by multicast because a participant was recognised",
+     sends::resent},
+    {"announcement.copy", "SPDP by unicast to a participant that is known", sends::copies_due,
+     sends::copies_resent},
+    {"heartbeat.open", "to one reader, when the writer side of the relation opens", sends::opening},
+    {"heartbeat.reply", "to one reader, in answer to its initial ACKNACK",
+     sends::answer_to_initial},
     {"heartbeat.periodic",
-     "to all readers, when the writer's timer expires and something is not acknowledged"},
-    {"heartbeat.piggyback", "to all readers, when DATA has used up the piggyback budget"},
+     "to all readers, when the writer's timer expires and something is not acknowledged",
+     sends::expiry},
+    {"heartbeat.piggyback", "to all readers, when DATA has used up the piggyback budget",
+     sends::budget_of_pushed, sends::budget_of_requested},
     {"heartbeat.same_host",
      "to all readers, because of DATA to the writer's own host, which the capture does not show"},
-    {"data.push", "to all readers, when the endpoint is created after the relation opened"},
-    {"data.pull", "the first transmission of an older descriptor, after an ACKNACK asked for it"},
-    {"data.repair", "again, after an ACKNACK asked for it while it was unacknowledged"},
-    {"acknack.reply", "the heartbeat response delay after a HEARTBEAT arrived"},
-    {"acknack.initial", "the initial ACKNACK delay after the relation opened without a HEARTBEAT"},
+    {"data.push", "to all readers, when the endpoint is created after the relation opened",
+     sends::pushed},
+    {"data.pull", "the first transmission of an older descriptor, after an ACKNACK asked for it",
+     sends::requested},
+    {"data.repair", "again, after an ACKNACK asked for it while it was unacknowledged",
+     sends::requested},
+    {"acknack.reply", "the heartbeat response delay after a HEARTBEAT arrived", sends::reply},
+    {"acknack.initial", "the initial ACKNACK delay after the relation opened without a HEARTBEAT",
+     sends::initial},
 }};
 
 constexpr std::array<std::string_view, fault_count> faults{
@@ -49,6 +66,10 @@ constexpr std::array<std::string_view, 3> verdicts{"conforms", "does not conform
 
 std::string_view name_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].name; }
 std::string_view statement_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].statement; }
+std::span<const Sender> senders_of(Rule rule) {
+  const Text& text = rules[static_cast<std::size_t>(rule)];
+  return std::span{text.senders}.first(text.sender_count);
+}
 std::string_view name_of(Fault fault) { return faults[static_cast<std::size_t>(fault)]; }
 std::string_view name_of(Hidden::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 std::string_view name_of(Verdict verdict) { return verdicts[static_cast<std::size_t>(verdict)]; }

@@ -14,20 +14,6 @@ namespace stormproof::conform {
 
 namespace {
 
-std::vector<Transmission> transmissions_of(const Relation& relation, std::uint32_t existing) {
-  std::vector<Transmission> all;
-  std::vector<bool> seen;
-  for (const Submessage& one : relation.sent) {
-    if (!one.descriptor) continue;
-    const std::uint32_t d = *one.descriptor;
-    if (d >= seen.size()) seen.resize(d + 1);
-    const bool is_first = !seen[d];
-    all.push_back({d, one.time_ns, one.event, is_first, is_first && d >= existing});
-    seen[d] = true;
-  }
-  return all;
-}
-
 /// How long the solver may think about one relation.
 constexpr std::chrono::milliseconds solver_limit{10'000};
 
@@ -51,8 +37,8 @@ class WriterSide {
       return not_opened(opening);
     }
     opened_ns_ = opening.time_ns;
-    existing_ = opening.heartbeat->announced;
-    transmissions_ = transmissions_of(relation_, existing_);
+    existing_ = existing_at_opening(relation_);
+    transmissions_ = transmissions_of(relation_);
     if (auto fault = pushed_late()) return fault;
     if (auto fault = sent_after_acknowledgment()) return fault;
     std::optional<Demand> failure;

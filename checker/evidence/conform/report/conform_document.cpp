@@ -10,9 +10,11 @@
 
 #include "checker/evidence/conform/report/chart.hpp"
 #include "checker/evidence/conform/report/coverage.hpp"
+#include "checker/evidence/conform/report/effect_coverage.hpp"
 #include "checker/evidence/conform/report/findings.hpp"
 #include "checker/evidence/conform/report/names.hpp"
 #include "checker/evidence/conform/report/report.hpp"
+#include "checker/presentation/composition/composition_words.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
@@ -46,6 +48,7 @@ class ConformPage {
     all.emplace_back(events());
     all.emplace_back(rules());
     if (!result_.rows.empty()) all.emplace_back(machines());
+    all.emplace_back(composition());
     all.emplace_back(assignment());
     return all;
   }
@@ -200,6 +203,61 @@ class ConformPage {
     for (const auto& [reason, rows] : reasons) {
       facts.rows.emplace_back(
           "cannot", fmt::format("{}, because of {}", report::plural(rows, "row"), reason));
+    }
+    return facts;
+  }
+
+  /// Which rules of the composition are seen sending, and below each what it never sent.
+  [[nodiscard]] Section composition() const {
+    const CompositionCoverage coverage = effect_coverage(result_, report_.dds, report_.impossible);
+    Table table{{{"rule"},
+                 {"events", to_the_right},
+                 {"effects seen", to_the_right},
+                 {"can be seen", to_the_right}},
+                {}};
+    for (const RuleCoverage& rule : coverage.rules) {
+      std::uint64_t events = 0;
+      for (const EffectCoverage& one : rule.effects) events += one.times;
+      Table::Row row{{std::string{rule.rule}, grouped(events), grouped(rule.seen()),
+                      grouped(rule.possible())}};
+      Facts never = never_seen(rule);
+      if (!never.rows.empty()) {
+        row.summary = report::plural(rule.effects.size() - rule.seen(), "effect") + " never seen";
+        row.details = {std::move(never)};
+      }
+      table.rows.push_back(std::move(row));
+    }
+    std::string text = fmt::format(
+        "Only what sends can be seen: {} of the composition's {} effects. The others feed "
+        "machines, "
+        "set state, start timers or belong to liveliness and user topics, and are counted nowhere. "
+        "stormproof draw composition --dds {} shows all of them.",
+        coverage.observable(), coverage.observable() + coverage.unobservable.size(),
+        report_.profile.substr(0, report_.profile.find(' ')));
+    if (coverage.unattributed > 0) {
+      text +=
+          fmt::format(" {} put down to what the capture does not show, and to no effect.",
+                      coverage.unattributed == 1 ? "1 event is"
+                                                 : grouped(coverage.unattributed) + " events are");
+    }
+    return {
+        fmt::format("Rules of the composition: {} seen sending of {} that this profile can show, "
+                    "{} of {} effects",
+                    coverage.rules_seen(), coverage.rules_possible(), coverage.seen(),
+                    coverage.possible()),
+        "composition",
+        {std::move(table), Paragraph{std::move(text)}},
+        false,
+        true};
+  }
+
+  [[nodiscard]] static Facts never_seen(const RuleCoverage& rule) {
+    Facts facts;
+    for (const EffectCoverage& one : rule.effects) {
+      if (one.times > 0) continue;
+      std::string text = one.effect->id + ": " + draw::sentence(*one.effect);
+      if (!one.ruled_out_by.empty()) text += ", because of " + one.ruled_out_by;
+      facts.rows.emplace_back(one.ruled_out_by.empty() ? "never" : "cannot", std::move(text));
     }
     return facts;
   }

@@ -6,9 +6,11 @@
 #include "checker/evidence/capture/describe_capture.hpp"
 #include "checker/evidence/conform/report/coverage.hpp"
 #include "checker/evidence/conform/report/describe_bounds.hpp"
+#include "checker/evidence/conform/report/effect_coverage.hpp"
 #include "checker/evidence/conform/report/findings.hpp"
 #include "checker/evidence/conform/report/names.hpp"
 #include "checker/evidence/conform/report/report.hpp"
+#include "checker/presentation/composition/composition_words.hpp"
 #include "checker/presentation/json/describe.hpp"
 
 namespace stormproof::conform {
@@ -49,6 +51,54 @@ void describe(V& v, const MachineCoverage& machine) {
   v("fired", machine.used);
   v("possible", machine.rows.size() - machine.ruled_out);
   v("rows", machine.rows);
+}
+
+template <class V>
+void describe(V& v, const EffectCoverage& one) {
+  v("effect", one.effect->id);
+  v("text", draw::sentence(*one.effect));
+  v("condition", draw::condition_words(*one.effect));
+  v("packets", one.packets);
+  v("times", one.times);
+  v.or_null("ruled_out_by", one.ruled_out_by);
+}
+
+template <class V>
+void describe(V& v, const RuleCoverage& rule) {
+  v("rule", rule.rule);
+  v("seen", rule.seen());
+  v("possible", rule.possible());
+}
+
+/// Rules, or effects: how many of those that a capture shows, which, and which others there are.
+template <class One>
+struct Observed {
+  std::uint64_t seen = 0;
+  std::uint64_t possible = 0;
+  std::vector<One> observable;
+  const std::vector<std::string_view>& unobservable;
+};
+
+template <class V, class One>
+void describe(V& v, const Observed<One>& all) {
+  v("seen", all.seen);
+  v("possible", all.possible);
+  v("observable", all.observable);
+  v("unobservable", all.unobservable);
+}
+
+template <class V>
+void describe(V& v, const CompositionCoverage& coverage) {
+  std::vector<EffectCoverage> effects;
+  for (const RuleCoverage& rule : coverage.rules) {
+    effects.insert(effects.end(), rule.effects.begin(), rule.effects.end());
+  }
+  v("composition", coverage.composition);
+  v("rules", Observed<RuleCoverage>{coverage.rules_seen(), coverage.rules_possible(),
+                                    coverage.rules, coverage.unobservable_rules});
+  v("effects", Observed<EffectCoverage>{coverage.seen(), coverage.possible(), std::move(effects),
+                                        coverage.unobservable});
+  v("unattributed", coverage.unattributed);
 }
 
 namespace {
@@ -184,6 +234,7 @@ void describe(V& v, const Report& report) {
   }
   v("rules", rules);
   v("machines", coverage_of(result.rows, report.dds));
+  v("coverage", effect_coverage(result, report.dds, report.impossible));
   std::vector<Peer> participants;
   for (const auto& one : report.conversation.topology.participants) participants.push_back({one});
   v("participants", participants);

@@ -8,9 +8,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "checker/engines/tables/impossible_effects.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/conform/conform.hpp"
 #include "checker/presentation/document/document.hpp"
@@ -25,6 +27,8 @@ struct Report {
   const model::DdsProfile& dds;
   std::string profile{};              ///< as the user named it
   std::int64_t until_ns = INT64_MAX;  ///< as in the request
+  /// Effects that the profile rules out; of what is not in here, nobody says why it never happened.
+  std::vector<tables::ImpossibleEffects> impossible{};
 };
 
 /// Without command and exit code, which only the caller knows.

@@ -1,0 +1,31 @@
+// Effects whose marks never change under the profile, and why.
+#include "checker/engines/tables/impossible_effects.hpp"
+
+#include "checker/engines/smt/claims.hpp"
+#include "checker/engines/tables/ruled_out.hpp"
+#include "model/composition_of.hpp"
+
+namespace stormproof::tables {
+
+std::vector<ImpossibleEffects> impossible_effects(const model::DdsProfile& dds) {
+  model::Scenario scenario;
+  scenario.dds = dds;
+  smt::Claims claims;
+  const checker::CheckRequest request{scenario, claims};
+  Proof proof{"composition.live", request};
+  const EffectSystem effects = effect_system(dds, proof.mistakes(), model::composition_of(dds));
+  std::vector<bool> never =
+      never_changing(under(effects, dds, std::vector<bool>(effects.knobs.size(), true)));
+  never.resize(effects.effects.size());
+  std::vector<ImpossibleEffects> all;
+  for (const RuledOut& group : why_ruled_out(proof, effects, never)) {
+    if (group.by.empty()) continue;
+    ImpossibleEffects& named = all.emplace_back();
+    named.by = group.by;
+    for (const std::size_t effect : group.effects) named.effects.push_back(effects.effects[effect]);
+  }
+  if (proof.finish("").kind != props::VerdictKind::proved) return {};
+  return all;
+}
+
+}  // namespace stormproof::tables

@@ -1,0 +1,24 @@
+// What sends an event in the composition of Fast DDS (fsm/composition/fastdds.hpp): the rule or
+// procedure, by its id, and the packet. Which effect of it that is follows from the composition and
+// the profile (checker/evidence/conform/report/effect_coverage.hpp).
+#pragma once
+
+#include "checker/evidence/conform/conform.hpp"
+
+namespace stormproof::conform::sends {
+
+inline constexpr Sender announcement_due{"AnnouncementIsDue", "SpdpMulticast"};
+inline constexpr Sender copies_due{"AnnouncementIsDue", "SpdpUnicast"};
+inline constexpr Sender resent{"Hear", "SpdpMulticast"};
+inline constexpr Sender copies_resent{"Hear", "SpdpUnicast"};
+inline constexpr Sender opening{"ReaderIsMatched", "Heartbeat"};
+inline constexpr Sender answer_to_initial{"AckNackArrives", "Heartbeat"};
+inline constexpr Sender expiry{"ClockGoesOn", "Heartbeat"};
+inline constexpr Sender pushed{"Deliver ToAll", "Data"};
+inline constexpr Sender requested{"Deliver ToRequesters", "Data"};
+inline constexpr Sender budget_of_pushed{"Deliver ToAll", "Heartbeat"};
+inline constexpr Sender budget_of_requested{"Deliver ToRequesters", "Heartbeat"};
+inline constexpr Sender reply{"AckNackDue", "AckNack"};
+inline constexpr Sender initial{"InitialAckNackDue", "AckNack"};
+
+}  // namespace stormproof::conform::sends
