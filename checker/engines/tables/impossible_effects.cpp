@@ -11,7 +11,7 @@ std::vector<ImpossibleEffects> impossible_effects(const model::DdsProfile& dds) 
   model::Scenario scenario;
   scenario.dds = dds;
   smt::Claims claims;
-  const checker::CheckRequest request{scenario, claims};
+  const checker::CheckRequest request{scenario, claims, nullptr, 0, 1, {}};
   Proof proof{"composition.live", request};
   const EffectSystem effects = effect_system(dds, proof.mistakes(), model::composition_of(dds));
   std::vector<bool> never =

@@ -18,7 +18,7 @@ struct Text {
 
   template <class... Senders>
   constexpr Text(std::string_view name_, std::string_view statement_, Senders... by)
-      : name{name_}, statement{statement_}, senders{by...}, sender_count{sizeof...(by)} {}
+      : name{name_}, statement{statement_}, senders{{by...}}, sender_count{sizeof...(by)} {}
 };
 
 constexpr std::array<Text, rule_count> rules{{
