@@ -132,7 +132,8 @@ TEST(RequestsExact, AgreesWithBruteForce) {
   std::size_t impossible = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Puzzle puzzle = draw(seed);
-    const ExactAnswer answer = decide(puzzle.relation, puzzle.requests(), puzzle.demands, patience);
+    const ExactAnswer answer =
+        decide(puzzle.relation, puzzle.requests(), puzzle.demands, SearchLimits{patience});
     ASSERT_NE(answer.kind, ExactAnswer::Kind::unknown);
     const bool is_possible = answer.kind == ExactAnswer::Kind::possible;
     EXPECT_EQ(is_possible, brute_force(puzzle)) << seed;
@@ -153,7 +154,8 @@ TEST(RequestsExact, FindsWhatTheFastScheduleMisses) {
     EXPECT_TRUE(is_possible || !is_found) << seed;
     if (is_found || !is_possible) continue;
     ++missed;
-    const ExactAnswer answer = decide(puzzle.relation, puzzle.requests(), puzzle.demands, patience);
+    const ExactAnswer answer =
+        decide(puzzle.relation, puzzle.requests(), puzzle.demands, SearchLimits{patience});
     EXPECT_EQ(answer.kind, ExactAnswer::Kind::possible) << seed;
     check_solution(puzzle, answer);
   }
@@ -165,7 +167,7 @@ TEST(RequestsExact, ADemandThatNobodyAsksForIsImpossible) {
   puzzle.most_delay = 5;
   puzzle.relation.answers.push_back({});
   puzzle.demands.push_back({0, 1, 1, 5});
-  EXPECT_EQ(decide(puzzle.relation, puzzle.requests(), puzzle.demands, patience).kind,
+  EXPECT_EQ(decide(puzzle.relation, puzzle.requests(), puzzle.demands, SearchLimits{patience}).kind,
             ExactAnswer::Kind::impossible);
 }
 
