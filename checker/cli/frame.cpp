@@ -286,7 +286,10 @@ void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
   }
   CLI::App* app = parent->add_subcommand(name, verb.help);
   const std::string examples = examples_text(verb.name);
-  app->footer(verb.exit_codes + (examples.empty() ? "" : "\n\n" + examples));
+  app->footer(verb.exit_codes +
+              "\nAlso 2 if something could not be written, 3 if it was stopped: "
+              "Ctrl-C, --max-memory." +
+              (examples.empty() ? "" : "\n\n" + examples));
   parser_->commands.push_back(Command{std::move(verb), app, std::move(work)});
   Command& command = parser_->commands.back();
   Options options{*app, command.declared};

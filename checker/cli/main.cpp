@@ -35,5 +35,6 @@ int main(int argc, char** argv) {
   stormproof::report::set_program(argc > 0 ? argv[0] : "");
   const int code = run(argc, argv);
   const auto lost = cli::output_lost();
-  return lost ? cli::complain(*lost) : code;
+  if (!lost) return code;
+  return lost->empty() ? cli::bad_input : cli::complain(*lost);
 }

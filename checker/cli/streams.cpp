@@ -49,6 +49,7 @@ std::optional<std::string> output_lost() {
   note_failure();
   if (std::fflush(stdout) != 0) note_failure();
   if (std::ferror(stdout) == 0 && std::cout.good()) return std::nullopt;
+  if (output_errno == EPIPE) return "";
   return std::string{"standard output: could not be written completely"} +
          (output_errno == 0 ? std::string{} : std::string{": "} + std::strerror(output_errno));
 }

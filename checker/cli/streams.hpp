@@ -23,7 +23,8 @@ void mutter(std::string_view text);
 /// A line on standard error.
 void say(const std::string& line);
 
-/// Empties standard output; the reason if something of it was lost.
+/// Empties standard output. If something of it was lost, the reason; that is empty if whoever read
+/// it has gone (a pipe to `head`), who need not be told.
 [[nodiscard]] std::optional<std::string> output_lost();
 
 }  // namespace stormproof::cli
