@@ -50,6 +50,7 @@ const Case cases[] = {
     {"capture", "capture summarize \"$C\" --until 3s"},
     {"conform",
      "conform \"$C\" --dds fastdds-2.9.1 --delay 0..30s --set 'sedp.heartbeat_period=3s'"},
+    {"conform_all", "conform \"$C\" --lateness 200ms"},
     {"validate",
      "validate \"$C\" --dds fastdds-2.9.1 --wireless wifi-80211n --samples 2 --loss 5% "
      "--endpoints-done 20ms..80ms"},
@@ -59,6 +60,7 @@ const Case cases[] = {
     {"replay", "replay \"it's a trace.jsonl\""},
     {"sweep", "sweep \"it's a grid.yaml\" -o 'the runs.db'"},
     {"reproduce", "reproduce paper --samples 1 --profile paper"},
+    {"list", "list profiles findings"},
     {"mutate", "mutate --mutant repairs-unasked --timeout 5"},
 };
 

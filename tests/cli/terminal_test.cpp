@@ -10,9 +10,10 @@
 namespace stormproof::cli {
 namespace terminal_test {
 
-/// The output of `properties` on a terminal of so many columns, with a variable of the
-/// environment set.
-std::string on_a_terminal(unsigned short columns, const char* name, const char* value) {
+/// The output of `properties`, or of another command, on a terminal of so many columns, with a
+/// variable of the environment set.
+std::string on_a_terminal(unsigned short columns, const char* name, const char* value,
+                          const char* shell_line = nullptr) {
   const winsize size{24, columns, 0, 0};
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
@@ -20,6 +21,7 @@ std::string on_a_terminal(unsigned short columns, const char* name, const char* 
     setenv("TERM", "xterm", 1);
     unsetenv("NO_COLOR");
     setenv(name, value, 1);
+    if (shell_line != nullptr) execl("/bin/sh", "sh", "-c", shell_line, nullptr);
     execl(STORMPROOF_PROGRAM, "stormproof", "properties", nullptr);
     _exit(127);
   }
@@ -76,6 +78,27 @@ TEST(Terminal, ItsWidthIsUsedWithinLimits) {
   EXPECT_GT(wide, 80U);
   EXPECT_LE(wide, 110U);
   EXPECT_LE(widest(on_a_terminal(400, "UNUSED", "")), 120U);
+}
+
+/// The texts that took each other's place on the progress line.
+TEST(Terminal, TheProgressLineFits) {
+  constexpr unsigned short columns = 31;
+  const std::string shown = on_a_terminal(
+      columns, "UNUSED", "",
+      "timeout -s INT 2 " STORMPROOF_PROGRAM
+      " simulate high-load-6x30 --set "
+      "deployment.participants_per_host=30 --set time_limit=100000s >/dev/null; true");
+  const std::string renewed = "\r\033[K";
+  std::size_t texts = 0;
+  for (std::size_t at = shown.find(renewed); at != std::string::npos;) {
+    const std::size_t begin = at + renewed.size();
+    at = shown.find(renewed, begin);
+    const std::string text = shown.substr(begin, at == std::string::npos ? 0 : at - begin);
+    EXPECT_LT(widest(text), columns) << text;
+    if (!text.empty()) ++texts;
+  }
+  EXPECT_GE(texts, 2U) << shown;
+  EXPECT_NE(shown.find("…"), std::string::npos) << shown;
 }
 
 }  // namespace terminal_test

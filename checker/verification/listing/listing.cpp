@@ -166,7 +166,7 @@ constexpr Kind all_kinds[] = {
     {"mutants", "mutate --mutant", [](const SpecPath&) { return mutants(); }},
     {"properties", "check --property, fuzz --property, tune --keep",
      [](const SpecPath&) { return properties(); }},
-    {"findings", "simulate, as files", findings},
+    {"findings", "simulate, as files; those that end in .md are to read", findings},
     {"captures", "capture summarize, conform, validate, as files", captures},
     {"vendor", "wherever a DDS profile goes, as files", vendor_files}};
 

@@ -49,7 +49,7 @@ struct Fixture {
   Fixture(std::uint32_t count, std::uint32_t existing)
       : scenario{scenario_of(count)},
         probe{count},
-        run{scenario, &probe, nullptr, Protocol::same_host_pairs},
+        run{scenario, &probe, nullptr, same_host_pairs(scenario.dds)},
         network{run},
         protocol{run, network} {
     network.attach(protocol);

@@ -1,0 +1,176 @@
+// The help: every command has it, with examples that run as they stand; the same by `help COMMAND`;
+// what it lists is there; and bash completes what the parser knows.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+namespace help_test {
+
+namespace fs = std::filesystem;
+
+/// A folder with the shipped files in it, in which lines of a shell run.
+class Shell {
+ public:
+  Shell() {
+    std::string pattern = (fs::temp_directory_path() / "stormproof-help-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+    fs::create_directory_symlink(STORMPROOF_SPECS_DIR, folder_ / "specs");
+  }
+  ~Shell() { fs::remove_all(folder_); }
+  Shell(const Shell&) = delete;
+  Shell& operator=(const Shell&) = delete;
+
+  /// Standard output; the exit code is in `code`, standard error in `errors`.
+  std::string operator()(const std::string& line) {
+    std::ofstream{folder_ / "typed.sh"}
+        << "PATH='" << fs::path{STORMPROOF_PROGRAM}.parent_path().string() << "':$PATH\n"
+        << line << '\n';
+    const std::string run = "cd '" + folder_.string() + "' && bash typed.sh >out 2>err </dev/null";
+    const int status = std::system(run.c_str());
+    code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+    errors = content("err");
+    return content("out");
+  }
+
+  int code = -1;
+  std::string errors;
+
+ private:
+  [[nodiscard]] std::string content(const char* name) const {
+    std::ifstream in{folder_ / name};
+    return {std::istreambuf_iterator<char>{in}, {}};
+  }
+
+  fs::path folder_;
+};
+
+/// "simulate", …, "profile show": what the front page of the help lists.
+std::vector<std::string> commands() {
+  const auto below = [](const std::string& path) {
+    Shell shell;
+    std::istringstream help{shell("stormproof " + path + "--help")};
+    std::vector<std::string> names;
+    bool listed = false;
+    for (std::string line; std::getline(help, line);) {
+      if (line == "Subcommands:") {
+        listed = true;
+      } else if (listed && line.starts_with("  ")) {
+        names.push_back(path + line.substr(2, line.find(' ', 2) - 2));
+      }
+    }
+    return names;
+  };
+  std::vector<std::string> all;
+  for (const std::string& name : below("")) {
+    const std::vector<std::string> inner = below(name + " ");
+    all.insert(all.end(), inner.begin(), inner.end());
+    if (inner.empty()) all.push_back(name);
+  }
+  return all;
+}
+
+/// Lines of a shell in what the program prints.
+std::vector<std::string> lines_to_type(const std::string& text) {
+  std::istringstream in{text};
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("  stormproof ")) lines.push_back(line.substr(2));
+  }
+  return lines;
+}
+
+class Commands : public testing::TestWithParam<std::string> {};
+
+TEST_P(Commands, HaveExamplesThatRun) {
+  Shell shell;
+  const std::string help = shell("stormproof " + GetParam() + " --help");
+  EXPECT_EQ(shell.code, 0);
+  EXPECT_EQ(shell("stormproof help " + GetParam()), help);
+  const std::vector<std::string> lines = lines_to_type(help);
+  EXPECT_GE(lines.size(), 1U) << help;
+  EXPECT_LE(lines.size(), 3U) << help;
+  for (const std::string& line : lines) {
+    const std::string out = shell(line);
+    // A violation, a run that does not complete and a capture that does not conform are answers.
+    EXPECT_TRUE(shell.code == 0 || shell.code == 1 || shell.code == 3 || shell.code == 4)
+        << line << ": " << shell.code << '\n'
+        << shell.errors;
+    const bool to_a_file =
+        line.find(" -o ") != std::string::npos || line.find('>') != std::string::npos;
+    EXPECT_TRUE(to_a_file || !out.empty()) << line;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Help, Commands, testing::ValuesIn(commands()), [](const auto& tested) {
+  std::string name = tested.param;
+  for (char& c : name) {
+    if (c == ' ') c = '_';
+  }
+  return name;
+});
+
+TEST(FrontPage, ItsCommandsRun) {
+  Shell shell;
+  const std::vector<std::string> lines = lines_to_type(shell("stormproof"));
+  EXPECT_EQ(shell.code, 0);
+  ASSERT_EQ(lines.size(), 6U);
+  for (const std::string& line : lines) {
+    const std::string command = line.substr(0, line.find(' ', std::string{"stormproof "}.size()));
+    if (shell(command + " --help").find("  " + line + "\n") != std::string::npos) continue;
+    EXPECT_FALSE(shell(line).empty()) << line;
+    EXPECT_TRUE(shell.code == 0 || shell.code == 1) << line << '\n' << shell.errors;
+  }
+}
+
+TEST(List, HoldsWhatTheCommandsTake) {
+  Shell shell;
+  const auto json = nlohmann::json::parse(shell("stormproof list --format json"));
+  ASSERT_EQ(json.at("lists").size(), 11U);
+  for (const auto& list : json.at("lists")) {
+    EXPECT_FALSE(list.at("entries").empty()) << list.at("kind");
+    for (const auto& entry : list.at("entries")) {
+      EXPECT_FALSE(entry.at("name").get<std::string>().empty());
+      const auto what = entry.at("what").get<std::string>();
+      EXPECT_GT(what.size(), 5U) << entry;
+      EXPECT_EQ(what.find('\n'), std::string::npos) << entry;
+      EXPECT_EQ(what.find("cannot be read"), std::string::npos) << entry;
+    }
+  }
+  EXPECT_NE(shell("stormproof list profiles --names").find("\nhumble\n"), std::string::npos);
+  for (const std::string kind : {"scenarios", "findings"}) {
+    std::istringstream names{shell("stormproof list " + kind + " --names")};
+    for (std::string name; std::getline(names, name);) {
+      if (name.ends_with(".md")) continue;  // a page to read
+      shell("stormproof simulate '" + name + "' --set time_limit=1ms");
+      EXPECT_NE(shell.code, 2) << name << shell.errors;
+    }
+  }
+}
+
+/// What bash offers for a line, whose last word is the one that is completed.
+std::string completed(const std::string& line) {
+  Shell shell;
+  return shell("source <(stormproof completion bash)\nCOMP_WORDS=(" + line +
+               ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_stormproof\n"
+               "printf '%s\\n' \"${COMPREPLY[@]}\"");
+}
+
+TEST(Completion, KnowsCommandsOptionsAndNames) {
+  EXPECT_EQ(completed("stormproof simu"), "simulate\n");
+  EXPECT_EQ(completed("stormproof profile li"), "lint\n");
+  EXPECT_EQ(completed("stormproof profile show --se"), "--set\n");
+  EXPECT_EQ(completed("stormproof simulate --sam"), "--samples\n");
+  EXPECT_EQ(completed("stormproof fuzz smallest --start"), "--start-jitter\n");
+  EXPECT_EQ(completed("stormproof simulate three"), "three-hosts\n");
+  EXPECT_EQ(completed("stormproof diff humb"), "humble\n");
+  EXPECT_EQ(completed("stormproof conform spe"), "specs\n");
+}
+
+}  // namespace help_test
