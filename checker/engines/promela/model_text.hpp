@@ -56,7 +56,8 @@ class ModelText {
   /// How many different packets there can be.
   [[nodiscard]] unsigned contents(const Store& store) const;
   /// Whether there is a place for each of them: if they are few. Otherwise there are as many places
-  /// as two steps need (one, with many descriptors), and who sends more waits.
+  /// as two steps need (one, with many descriptors), and a step that sends more waits: executions
+  /// with more packets on their way are not in the model.
   [[nodiscard]] bool has_room_for_all(const Store& store) const {
     return contents(store) <= 2 * descriptors_;
   }

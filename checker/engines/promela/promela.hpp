@@ -17,7 +17,7 @@
 
 namespace stormproof::promela {
 
-/// Largest number of descriptors; the state space grows by a factor of about 20 with each.
+/// Largest number of descriptors; each multiplies the states by ten or more.
 inline constexpr unsigned max_descriptors = 4;
 /// Models with more descriptors have no `progress` claim: fairness multiplies the states again.
 inline constexpr unsigned max_descriptors_of_progress = 2;

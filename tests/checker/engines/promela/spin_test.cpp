@@ -91,6 +91,14 @@ TEST_F(Spin, FindsMistakesBetweenTheMachines) {
       wrong);
 }
 
+/// A model with three descriptors has no claim of progress.
+TEST_F(Spin, FindsARepairThatIsForgottenAsADeadlock) {
+  model::DdsProfile dds = heartbeats_only();
+  dds.sedp.initial_data = model::InitialData::pull;
+  expect_error(promela_of_paper(3, dds, at_effect("paper", "ClockGoesOn.2", Change::drop)),
+               "no deadlock: pan:1: invalid end state");
+}
+
 TEST_F(Spin, FindsADeadlock) {
   expect_error("byte x; active proctype P() { x == 1 -> skip }\n",
                "no deadlock: pan:1: invalid end state");
