@@ -145,11 +145,11 @@ Outcome hold_one(ConformArguments& arguments, const model::DdsProfile& dds, cons
   const auto on_progress = [&session](std::size_t done, std::size_t all) {
     return session.proceed([&] { return fmt::format("relation {} of {}", done, all); });
   };
-  const auto result = conform::conform(
-      {conversation, until, dds, bounds, on_progress, Session::interrupted});
+  const auto result =
+      conform::conform({conversation, until, dds, bounds, on_progress, Session::interrupted});
   if (!result) return result.error();
-  const conform::Report report{conversation,            *result, dds,
-                               profile_name(arguments), until,   tables::impossible_effects(dds)};
+  const conform::Report report{
+      conversation, *result, dds, profile_name(arguments), until, tables::impossible_effects(dds)};
   Answer answer{document_of(report), to_json(report)};
   answer.document.exit_code = exit_code(result->verdict);
   answer.document.complete = !Session::interrupted();

@@ -10,11 +10,10 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include "checker/cli/complain.hpp"
 #include "checker/cli/memory_limit.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/streams.hpp"
-
-#include "checker/cli/complain.hpp"
 #include "checker/cli/terminal.hpp"
 
 namespace stormproof::cli {
