@@ -252,14 +252,14 @@ std::vector<Case> other_cases() {
              std::get<capture::DataEvent>(damaged.content).sequence_number += 1 << 30;
              return add(c, damaged, damaged.time_ns + 50 * ms);
            },
-           ""},
+           "numbers that the writer can have reached"},
           {Fault::number_beyond, "heartbeat_with_a_damaged_number",
            [](Conversation& c) {
              Event damaged = c.events[find_last(c, both(sent(c, 0, 1), is_heartbeat))];
              std::get<capture::HeartbeatEvent>(damaged.content).last += 1 << 29;
              return add(c, damaged, damaged.time_ns + 50 * ms);
            },
-           ""},
+           "numbers that the writer can have reached"},
           {Fault::no_such_rule, "gap",
            [](Conversation& c) {
              const std::size_t last = find_last(c, both(sent(c, 0, 1), is_heartbeat));
