@@ -262,6 +262,9 @@ TEST(ExploredBridge, RefusesADerivationThatForgetsOthers) {
   EXPECT_NE(first_of(cross<explorer::PaperPacking>({}, of_descriptors(2, 0),
                                                    Unsound::packets_arrive_once)),
             "");
+  const Crossing several = cross<explorer::PaperPacking, explorer::most_readers>(
+      {}, of_descriptors(2, 0), Unsound::rules_for_us_only);
+  EXPECT_NE(first_of(several), "");
   model::DdsProfile dds;
   dds.implementation = model::ImplementationKind::fastdds;
   EXPECT_NE(first_of(cross<explorer::FastDdsPacking>(dds, of_descriptors(9, 2),
