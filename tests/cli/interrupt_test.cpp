@@ -85,7 +85,7 @@ TEST_F(Interrupt, ReportsWhatIsKnownAndCompletesTheTrace) {
   const fs::path partial = growing_trace();
   kill(child, SIGINT);
   EXPECT_EQ(end_of(child), 3);
-  EXPECT_NE(content("out").find("when the run was interrupted"), std::string::npos);
+  EXPECT_NE(content("out").find("The run was interrupted at"), std::string::npos);
   EXPECT_FALSE(fs::exists(partial));
   const std::string trace = content("trace.jsonl");
   ASSERT_FALSE(trace.empty());

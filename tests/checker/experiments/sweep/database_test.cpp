@@ -69,16 +69,18 @@ TEST_F(DatabaseTest, KeepsOutcomesByInputsAndVersion) {
     EXPECT_TRUE(database.add(digest_of("two"), "{}", failure("it's \"wrong\"")));
     EXPECT_TRUE(database.finish());
   }
-  Database database = open();
-  const auto found = database.find(one);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->end, "time_limit");
-  EXPECT_EQ(found->numbers, some_outcome().numbers);
-  EXPECT_FALSE(found->completed());
-  EXPECT_EQ(found->wall_seconds, 0.25);
-  EXPECT_EQ(found->cpu_seconds, 0.125);
-  EXPECT_EQ(database.find(digest_of("two"))->error, "it's \"wrong\"");
-  EXPECT_FALSE(database.find(digest_of("three")));
+  {
+    Database database = open();
+    const auto found = database.find(one);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->end, "time_limit");
+    EXPECT_EQ(found->numbers, some_outcome().numbers);
+    EXPECT_FALSE(found->completed());
+    EXPECT_EQ(found->wall_seconds, 0.25);
+    EXPECT_EQ(found->cpu_seconds, 0.125);
+    EXPECT_EQ(database.find(digest_of("two"))->error, "it's \"wrong\"");
+    EXPECT_FALSE(database.find(digest_of("three")));
+  }
   EXPECT_FALSE(open("1.1").find(one));
 }
 
