@@ -9,6 +9,7 @@
 
 #include "checker/presentation/diagrams/machine_svg.hpp"
 #include "checker/presentation/diagrams/mermaid_text.hpp"
+#include "fsm/state_words.hpp"
 
 namespace stormproof::draw {
 
@@ -17,6 +18,10 @@ namespace {
 std::string mermaid(const fsm::MachineInfo& machine) {
   std::string text = fmt::format("stateDiagram-v2\n  %% {}\n  [*] --> {}\n", machine.name,
                                  machine.states[machine.initial]);
+  for (const std::string_view state : machine.states) {
+    const std::string_view words = fsm::words_of_state(state);
+    if (!words.empty()) text += fmt::format("  {0} : {0} {1}\n", state, words);
+  }
   for (const fsm::RowInfo& row : machine.rows) {
     text += fmt::format("  {} --> {} : {}\n", machine.states[row.source],
                         machine.states[row.target], mermaid_text(row_text(machine, row)));
@@ -33,7 +38,9 @@ std::string dot(const fsm::MachineInfo& machine) {
       "  initial [shape=point, width=0.15, label=\"\"];\n",
       machine.name, machine.name);
   for (const std::string_view state : machine.states) {
-    text += fmt::format("  \"{}\";\n", state);
+    const std::string_view words = fsm::words_of_state(state);
+    text += words.empty() ? fmt::format("  \"{}\";\n", state)
+                          : fmt::format("  \"{0}\" [label=\"{0}\\n{1}\"];\n", state, words);
   }
   text += fmt::format("  initial -> \"{}\";\n", machine.states[machine.initial]);
   std::map<std::pair<fsm::StateId, fsm::StateId>, std::string> labels;

@@ -9,6 +9,7 @@
 #include "checker/presentation/diagrams/draw_machine.hpp"
 #include "checker/presentation/diagrams/svg.hpp"
 #include "checker/presentation/text/paragraph.hpp"
+#include "fsm/state_words.hpp"
 
 namespace stormproof::draw {
 
@@ -90,13 +91,15 @@ class Planner {
       position_[order_[k]] = k;
       MachineLayout::State state;
       state.name = machine_.states[order_[k]];
+      state.words = fsm::words_of_state(state.name);
       for (const fsm::RowInfo& row : machine_.rows) {
         if (row.source != order_[k] || row.target != order_[k]) continue;
         const auto lines = report::wrapped("↻ " + row_text(machine_, row), own_row_columns, 4);
         state.own_rows.insert(state.own_rows.end(), lines.begin(), lines.end());
       }
-      layout_.box_width = std::max({layout_.box_width, 120, width_of(state.name) + 4 * padding,
-                                    widest(state.own_rows) + 2 * padding});
+      layout_.box_width =
+          std::max({layout_.box_width, 120, width_of(state.name) + 4 * padding,
+                    width_of(state.words) + 2 * padding, widest(state.own_rows) + 2 * padding});
       layout_.states.push_back(std::move(state));
     }
   }
@@ -196,7 +199,8 @@ class Planner {
       const auto most = std::max(ports(Side::left, s).size(), ports(Side::right, s).size());
       const int rows = state.own_rows.empty() ? 0 : height_of(state.own_rows) + padding;
       state.y = y;
-      state.height = std::max(36 + rows, port_distance * static_cast<int>(most + 1));
+      const int words = state.words.empty() ? 0 : MachineLayout::line_height;
+      state.height = std::max(36 + words + rows, port_distance * static_cast<int>(most + 1));
       y += state.height + gaps[s];
       if (s + 1 == layout_.states.size()) layout_.height = state.y + state.height;
     }

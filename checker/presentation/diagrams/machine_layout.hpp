@@ -20,6 +20,7 @@ struct MachineLayout {
 
   struct State {
     std::string name;
+    std::string words;                  ///< what a letter stands for; empty: the name says it
     std::vector<std::string> own_rows;  ///< rows that lead back, broken into lines
     int y = 0;
     int height = 0;

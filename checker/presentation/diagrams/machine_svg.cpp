@@ -58,13 +58,14 @@ class Painter {
 
   void draw_state(const MachineLayout::State& state) {
     svg_.rect(layout_.left, state.y, layout_.box_width, state.height, "state", 10);
-    if (state.own_rows.empty()) {
-      svg_.text(middle(), state.y + state.height / 2 + 5, state.name, "bold", Anchor::middle);
-      return;
-    }
-    svg_.text(middle(), state.y + 22, state.name, "bold", Anchor::middle);
-    svg_.line(layout_.left, state.y + 34, layout_.left + layout_.box_width, state.y + 34, "rule");
-    int y = state.y + 34 + MachineLayout::line_height;
+    const int words = state.words.empty() ? 0 : MachineLayout::line_height;
+    int y = state.own_rows.empty() ? state.y + (state.height - words) / 2 + 5 : state.y + 22;
+    svg_.text(middle(), y, state.name, "bold", Anchor::middle);
+    if (words > 0) svg_.text(middle(), y + words, state.words, "quiet", Anchor::middle);
+    if (state.own_rows.empty()) return;
+    y += words + 12;
+    svg_.line(layout_.left, y, layout_.left + layout_.box_width, y, "rule");
+    y += MachineLayout::line_height;
     for (const std::string& line : state.own_rows) {
       svg_.text(layout_.left + 12, y, line, "own");
       y += MachineLayout::line_height;

@@ -20,6 +20,11 @@ TEST(Mermaid, DrawsTheTable) {
             R"(stateDiagram-v2
   %% DescriptorRepair
   [*] --> U
+  U : U unacknowledged
+  R : R requested
+  Q : Q queued for repair
+  S : S sent and suppressed
+  A : A acknowledged
   U --> R : AckNackReceived [Listed] / Request
   R --> Q : RepairDue / Generate
   Q --> S : RepairSent
