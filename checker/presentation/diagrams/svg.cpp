@@ -17,6 +17,7 @@ constexpr std::string_view common_style = R"(
             --packet: #7fb0ff; --block: #24406b; --timer: #e3b341; --change: #6fd19c;
             --bad: #ff6b81; --bad-fill: #4d1721; }
     }
+    svg:root { max-width: 100%; min-width: calc(.6 * var(--natural)); height: auto; }
     text { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace;
            font-size: 12px; fill: var(--ink); white-space: pre; }
     .paper { fill: var(--paper); }
@@ -123,7 +124,7 @@ void Svg::close_group() { elements_ += "  </g>\n"; }
 std::string Svg::finish(int width, int height, std::string_view style) const {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-      "viewBox=\"0 0 {0} {1}\" role=\"img\">\n"
+      "viewBox=\"0 0 {0} {1}\" style=\"--natural: {0}px\" role=\"img\">\n"
       "  <title>{2}</title>\n  <desc>{3}</desc>\n  <style>{4}{5}  </style>\n"
       "  <defs>{7}  </defs>\n"
       "  <rect width=\"{0}\" height=\"{1}\" class=\"paper\"/>\n{6}</svg>\n",

@@ -102,6 +102,11 @@ std::string figure(const std::string& svg, std::string_view caption) {
       html_text(caption), svg);
 }
 
+/// What a narrow screen, which has no room for the head of the table, writes before a cell.
+std::string head_attribute(const Column& column) {
+  return column.head.empty() ? "" : " data-head=\"" + html_text(column.head) + "\"";
+}
+
 const char* cell_class(const Column& column) {
   if (column.align == Column::Align::right) return " class=\"number\"";
   return column.wraps ? "" : " class=\"tight\"";
@@ -195,7 +200,8 @@ class Page {
     }
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
       if (!page_sees(table.columns[k].audience)) continue;
-      text += fmt::format("<td{}>{}{}</td>", cell_class(table.columns[k]),
+      text += fmt::format("<td{}{}>{}{}</td>", cell_class(table.columns[k]),
+                          head_attribute(table.columns[k]),
                           k < one.cells.size() ? html(one.cells[k]) : "", k == last ? more : "");
     }
     return text + "</tr>\n";

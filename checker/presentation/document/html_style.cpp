@@ -23,7 +23,7 @@ constexpr std::string_view style = R"(
 * { box-sizing: border-box; }
 body { background: var(--page); color: var(--text); margin: 0;
   font: 15px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
-main { max-width: 1280px; margin: 0 auto; padding: 1.2rem 1.2rem 4rem; }
+main { max-width: 1600px; margin: 0 auto; padding: 1.2rem 1.2rem 4rem; }
 h1 { font-size: 1.5rem; line-height: 1.25; margin: .4rem 9rem .8rem 0; overflow-wrap: anywhere; }
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .6rem; border-bottom: 1px solid var(--edge);
   padding-bottom: .3rem; }
@@ -75,8 +75,10 @@ details { margin: .4rem 0; }
 summary { cursor: pointer; color: var(--accent); padding: .1rem 0; }
 td details { margin: .15rem 0; font-size: 13px; }
 .plots { display: flex; flex-wrap: wrap; gap: 12px; margin: .8rem 0; align-items: flex-start; }
-.plots svg, figure svg { display: block; }
-.plots svg { max-width: 100%; height: auto; border: 1px solid var(--edge); border-radius: 6px; }
+.plots > svg, .drawing > svg { display: block; height: auto; }
+.plots > svg { flex: 1 1 auto; max-width: min(100%, calc(1.36 * var(--natural)));
+  border: 1px solid var(--edge); border-radius: 6px; }
+.drawing > svg { width: 100%; max-width: var(--natural); min-width: calc(.65 * var(--natural)); }
 figure { margin: .6rem 0; }
 figcaption { color: var(--soft); font-size: 14px; margin-bottom: .3rem; }
 .drawing { border: 1px solid var(--edge); border-radius: 6px; background: var(--page); }
@@ -114,7 +116,10 @@ kbd { border: 1px solid var(--soft); border-radius: 4px; padding: 0 .3rem; font-
   .facts { grid-template-columns: 1fr; gap: 0; } .facts dd { margin: 0 0 .3rem; }
   table.cards thead { display: none; } td.tight { white-space: normal; overflow-wrap: anywhere; }
   table.cards tr { display: block; border-bottom: 1px solid var(--edge); padding: .4rem 0; }
-  table.cards td { display: block; border: 0; padding: .1rem 0; } }
+  table.cards, table.cards tbody, table.cards caption { display: block; }
+  table.cards td { display: block; border: 0; padding: .1rem 0; max-width: none; }
+  table.cards td:empty { display: none; } table.cards td.number { text-align: left; }
+  table.cards td[data-head]::before { content: attr(data-head) ": "; color: var(--soft); } }
 @media (prefers-reduced-motion: no-preference) { .js .drawing { scroll-behavior: smooth; } }
 @page { margin: 14mm; }
 @media print { body { font-size: 12px; } main { max-width: none; padding: 0; }
@@ -122,8 +127,9 @@ kbd { border: 1px solid var(--soft); border-radius: 4px; padding: 0 .3rem; font-
   details::details-content { content-visibility: visible; display: block; height: auto; }
   summary { color: var(--text); list-style: none; }
   .js .walk .drawing, .drawing, .scroll { max-height: none; overflow: visible; }
-  figure svg, .plots svg { max-width: 100%; max-height: 255mm; width: auto; height: auto; }
-  figure, .banner, table:not(.stacked) tr, .plots svg { break-inside: avoid; }
+  .drawing > svg, .plots > svg { max-width: 100%; min-width: 0; max-height: 255mm; width: auto;
+    height: auto; }
+  figure, .banner, table:not(.stacked) tr, .plots > svg { break-inside: avoid; }
   h2, h3, figcaption { break-after: avoid; }
   table.stacked thead { display: none; }
   table.stacked tr { display: block; border-bottom: 1px solid var(--edge); padding: 2mm 0; }

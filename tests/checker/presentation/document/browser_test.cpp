@@ -97,14 +97,13 @@ std::string unescaped(std::string text) {
   return text;
 }
 
-std::string document_after(const fs::path& page, const fs::path& folder) {
+std::string document_after(const fs::path& page, const fs::path& folder, int width) {
   const std::string command =
       "chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
       "--disable-background-networking --disable-component-update --disable-sync "
-      "--disable-dev-shm-usage --window-size=1200,900 --virtual-time-budget=8000 "
-      "--user-data-dir='" +
-      (folder / "profile").string() + "' --dump-dom 'file://" + page.string() + "' 2>'" +
-      (folder / "messages").string() + "'";
+      "--disable-dev-shm-usage --virtual-time-budget=8000 --window-size=" +
+      std::to_string(width) + ",900 --user-data-dir='" + (folder / "profile").string() +
+      "' --dump-dom 'file://" + page.string() + "' 2>'" + (folder / "messages").string() + "'";
   std::string text;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return text;
@@ -117,12 +116,13 @@ std::string document_after(const fs::path& page, const fs::path& folder) {
 }
 
 /// What the script noted, by name.
-std::map<std::string, std::string> notes_of(const std::string& page) {
+std::map<std::string, std::string> notes_of(const std::string& page,
+                                            std::string_view script = driver, int width = 1200) {
   std::string folder = testing::TempDir() + "stormproof-browser-XXXXXX";
   if (mkdtemp(folder.data()) == nullptr) return {};
   const fs::path file = fs::path{folder} / "page.html";
-  std::ofstream{file} << with(with(page, "<head>", catcher), "</body>", driver);
-  const std::string document = document_after(file, folder);
+  std::ofstream{file} << with(with(page, "<head>", catcher), "</body>", script);
+  const std::string document = document_after(file, folder, width);
   std::error_code ignored;
   fs::remove_all(folder, ignored);
   const std::string open = "<pre id=\"notes\">";
@@ -181,6 +181,54 @@ TEST(Browser, StepsThroughCounterexamplesByKeysAndButtons) {
   EXPECT_EQ(notes["errors"], "");
   EXPECT_NE(notes["title"].find("<script>pwned=1</script>"), std::string::npos);
 }
+
+// What leaves the window or lies on something else, as the first such thing.
+constexpr std::string_view ruler = R"js(
+<pre id="notes"></pre><script>
+const notes = document.getElementById("notes");
+const note = (name, value) => { notes.textContent += name + "=" + value + "\n"; };
+for (const part of document.querySelectorAll("details")) part.open = true;
+const room = document.documentElement.clientWidth;
+note("window", innerWidth);
+note("page", document.documentElement.scrollWidth <= room);
+const boxes = (name) => [...document.querySelectorAll(name)].map((part) =>
+  ({ part, box: part.getBoundingClientRect() }));
+note("plots", boxes(".plots > svg").filter(({ box }) => box.right > room).length);
+const button = document.getElementById("theme").getBoundingClientRect();
+note("button", boxes(".banner, h1").filter(({ part, box }) => {
+  const text = document.createRange();
+  text.selectNodeContents(part);
+  const own = part.matches("h1") ? text.getBoundingClientRect() : box;
+  return own.left < button.right && button.left < own.right && own.top < button.bottom &&
+         button.top < own.bottom;
+}).length);
+const heads = [...document.querySelectorAll("table.cards td[data-head]")].filter((cell) =>
+  getComputedStyle(cell).display === "block" && cell.textContent !== "");
+note("stacked", heads.length > 0);
+note("without head", heads.filter((cell) =>
+  !getComputedStyle(cell, "::before").content.includes(cell.dataset.head)).length);
+note("captions", boxes("caption").filter(({ part, box }) =>
+  box.width > 0 && box.width < Math.min(200, part.textContent.length * 6)).length);
+note("errors", errors.join("; "));
+</script></body>)js";
+
+class Windows : public testing::TestWithParam<int> {};
+
+TEST_P(Windows, HoldThePage) {
+  CheckExample example;
+  auto notes =
+      notes_of(to_html(document_of(example.report(), example.context())), ruler, GetParam());
+  EXPECT_EQ(notes["window"], std::to_string(GetParam()));
+  EXPECT_EQ(notes["page"], "true");
+  EXPECT_EQ(notes["plots"], "0");
+  EXPECT_EQ(notes["button"], "0");
+  EXPECT_EQ(notes["stacked"], GetParam() < 640 ? "true" : "false");
+  EXPECT_EQ(notes["without head"], "0");
+  EXPECT_EQ(notes["captions"], "0");
+  EXPECT_EQ(notes["errors"], "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Browser, Windows, testing::Values(400, 800, 1280, 1600));
 
 }  // namespace browser_test
 }  // namespace stormproof::report
