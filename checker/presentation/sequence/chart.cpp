@@ -2,6 +2,7 @@
 #include "checker/presentation/sequence/chart.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace stormproof::sequence {
 
@@ -29,6 +30,42 @@ std::string legend_of(const Chart& chart) {
     add("dashed arrows: nobody knows whether the packet arrives");
   }
   return text;
+}
+
+std::size_t common_rows(const Chart& one, const Chart& other) {
+  const auto lanes = [](const Chart::Lane& a, const Chart::Lane& b) {
+    return a.title == b.title && a.network == b.network;
+  };
+  if (!std::ranges::equal(one.lanes, other.lanes, lanes)) return 0;
+  const auto lines = [](const Chart::Line& a, const Chart::Line& b) {
+    return a.kind == b.kind && a.lane == b.lane && words_of(a) == words_of(b);
+  };
+  const auto rows = [&](const Chart::Row& a, const Chart::Row& b) {
+    return a.kind == b.kind && a.event == b.event && a.time == b.time && a.text == b.text &&
+           a.violation == b.violation && std::ranges::equal(a.lines, b.lines, lines);
+  };
+  return static_cast<std::size_t>(std::ranges::mismatch(one.rows, other.rows, rows).in1 -
+                                  one.rows.begin());
+}
+
+void fold_start(Chart& chart, std::size_t rows, std::string text) {
+  if (rows == 0) return;
+  Chart::Row gap = chart.rows.front();
+  gap.kind = Chart::Row::Kind::gap;
+  gap.lines.clear();
+  gap.text = std::move(text);
+  chart.rows.erase(chart.rows.begin(), chart.rows.begin() + static_cast<std::ptrdiff_t>(rows));
+  chart.rows.insert(chart.rows.begin(), std::move(gap));
+  const auto place = [rows](std::size_t row) { return row < rows ? 0 : row - rows + 1; };
+  for (Chart::Packet& packet : chart.packets) {
+    std::erase_if(packet.blocks, [&](const Chart::Block& block) {
+      return block.finished && block.last_row < rows;
+    });
+    for (Chart::Block& block : packet.blocks) {
+      block.first_row = place(block.first_row);
+      block.last_row = place(block.last_row);
+    }
+  }
 }
 
 }  // namespace stormproof::sequence

@@ -86,6 +86,11 @@ struct Chart {
 /// What the notation of this chart means, dashed arrows included; may be empty.
 [[nodiscard]] std::string legend_of(const Chart& chart);
 
+/// How many rows two charts with the same lanes begin with that say the same.
+[[nodiscard]] std::size_t common_rows(const Chart& one, const Chart& other);
+/// Replaces the first `rows` rows by a gap that says `text`.
+void fold_start(Chart& chart, std::size_t rows, std::string text);
+
 /// Rows of at most 100 columns, without title, header and reason.
 [[nodiscard]] std::string text_chart(const Chart& chart);
 

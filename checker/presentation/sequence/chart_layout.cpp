@@ -16,7 +16,8 @@ namespace {
 
 using Kind = Chart::Row::Kind;
 
-constexpr std::size_t text_columns = 46;
+constexpr std::size_t text_columns = 40;
+constexpr std::size_t most_beside = 4;  // blocks of one channel
 constexpr std::size_t channel_text_columns = 30;
 constexpr int gutter = 12;    // between a lane and its texts
 constexpr int crossing = 56;  // between a participant and the channels, for arrows
@@ -107,6 +108,10 @@ class Planner {
       const auto free = std::ranges::find_if(
           columns, [&](std::size_t until) { return until <= block.first_row; });
       column_[ref.packet][ref.block] = static_cast<std::size_t>(free - columns.begin());
+      if (free == columns.end() && columns.size() == most_beside) {
+        ++undrawn_;
+        continue;
+      }
       const std::size_t until = std::max(block.last_row, block.first_row + 1);
       if (free == columns.end())
         columns.push_back(until);
@@ -155,6 +160,14 @@ class Planner {
     };
     for (const std::string& line : chart_.header) add(line);
     add(legend_of(chart_));
+    const auto waits = [](const Chart::Packet& packet) { return packet.blocks.size() > 1; };
+    if (std::ranges::any_of(chart_.packets, waits)) {
+      add("boxes: a channel serves the packet; dotted lines: it waits for the next stage");
+    }
+    if (undrawn_ > 0) {
+      add(fmt::format("a channel has room for {} packets at a time here; {} more are not drawn",
+                      most_beside, undrawn_));
+    }
     layout_.top = ChartLayout::margin + 28 +
                   ChartLayout::line_height * static_cast<int>(layout_.header.size()) + 60;
   }
@@ -201,12 +214,13 @@ class Planner {
     for (std::size_t p = 0; p < chart_.packets.size(); ++p) {
       auto& placed = layout_.blocks.emplace_back();
       for (std::size_t b = 0; b < chart_.packets[p].blocks.size(); ++b) {
+        if (column_[p][b] == most_beside) continue;
         const Chart::Block& block = chart_.packets[p].blocks[b];
         const ChartLayout::Lane& lane = layout_.lanes[block.lane];
         const int top = layout_.rows[block.first_row].y + 4;
         int bottom = block.finished ? layout_.rows[block.last_row].y + 2 : layout_.bottom;
         bottom = std::max(bottom, top + 12);
-        placed.push_back({lane.blocks_left + static_cast<int>(column_[p][b]) * lane.block_width,
+        placed.push_back({b, lane.blocks_left + static_cast<int>(column_[p][b]) * lane.block_width,
                           top, lane.block_width - 4, bottom - top});
       }
     }
@@ -217,6 +231,7 @@ class Planner {
   std::vector<std::size_t> block_columns_;        // by lane
   std::vector<std::vector<std::size_t>> column_;  // by packet and block
   std::vector<int> note_width_;                   // by network lane
+  std::size_t undrawn_ = 0;                       // blocks
 };
 
 }  // namespace

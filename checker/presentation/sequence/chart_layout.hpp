@@ -40,6 +40,7 @@ struct ChartLayout {
   };
 
   struct Block {
+    std::size_t block = 0;  ///< in `Chart::Packet::blocks`
     int x = 0;
     int y = 0;
     int width = 0;
@@ -53,7 +54,7 @@ struct ChartLayout {
   std::vector<std::string> header;  ///< lines above the lanes
   std::vector<Lane> lanes;
   std::vector<Row> rows;
-  std::vector<std::vector<Block>> blocks;  ///< as in `Chart::Packet::blocks`
+  std::vector<std::vector<Block>> blocks;  ///< by packet, without those there is no room for
 };
 
 [[nodiscard]] ChartLayout layout_of(const Chart& chart);

@@ -266,7 +266,7 @@ class Painter {
       const ChartLayout::Block& block = layout_.blocks[p][b];
       svg_.rect(block.x, block.y, block.width, block.height, fmt::format("block w{}", p), 3);
       svg_.text(block.x + block.width / 2, block.y + block.height / 2 + 4,
-                block_text(chart_.packets[p], chart_.packets[p].blocks[b]), "small",
+                block_text(chart_.packets[p], chart_.packets[p].blocks[block.block]), "small",
                 draw::Anchor::middle);
     }
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -89,7 +90,7 @@ class Narrator {
  private:
   void add(Act::Kind kind, std::uint32_t who, std::string text,
            std::vector<std::uint64_t> packets = {}, std::string effect = {}) {
-    acts_.push_back({kind, who, std::move(packets), std::move(text), std::move(effect)});
+    acts_.push_back({kind, who, std::move(packets), std::move(text), std::move(effect), false});
   }
 
   /// The acts of one party stand together, parties in the order of their first act.
@@ -218,6 +219,7 @@ class Narrator {
       else
         alike->push_back(number);
     }
+    gather_series(groups);
     for (const auto& group : groups) {
       const PacketLog& packet = history_.packets.at(group.front());
       add(Act::Kind::sent, packet.from, sending(group), group, packet.effect);
@@ -226,16 +228,36 @@ class Narrator {
     for (const auto& [source, count] : others) {
       add(Act::Kind::change, source,
           fmt::format("sends {} other packet{}", count, count == 1 ? "" : "s"));
+      acts_.back().aside = true;
+    }
+  }
+
+  /// Groups that differ in their contents alone become one if they are many: the repairs of a long
+  /// list are one thing that happens.
+  void gather_series(std::vector<std::vector<std::uint64_t>>& groups) const {
+    const auto kind = [&](const std::vector<std::uint64_t>& group) {
+      const PacketLog& packet = history_.packets.at(group.front());
+      return std::tie(packet.label, packet.from, packet.to, packet.relation, packet.effect);
+    };
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      const auto alike = [&](const auto& group) { return kind(group) == kind(groups[k]); };
+      const auto later = groups.begin() + static_cast<std::ptrdiff_t>(k) + 1;
+      if (static_cast<std::size_t>(std::count_if(later, groups.end(), alike)) < listed) continue;
+      for (auto group = later; group != groups.end(); ++group) {
+        if (alike(*group)) groups[k].insert(groups[k].end(), group->begin(), group->end());
+      }
+      groups.erase(std::remove_if(later, groups.end(), alike), groups.end());
     }
   }
 
   [[nodiscard]] std::string sending(const std::vector<std::uint64_t>& group) const {
     if (group.size() == 1) return "sends " + packet_text(history_, group.front());
-    const std::string words = packet_words(history_.packets.at(group.front()));
+    const PacketLog& last = history_.packets.at(group.back());
+    std::string words = packet_words(history_.packets.at(group.front()));
+    if (last.content != history_.packets.at(group.front()).content) words += " … " + last.content;
     if (group.front() >= first_local) {
       return fmt::format("sends {} × {} on its host", group.size(), words);
     }
-    constexpr std::size_t listed = 4;
     std::string text = "sends ";
     for (std::size_t k = 0; k < std::min(group.size(), listed); ++k) {
       text += fmt::format("{}p{}", k == 0 ? "" : ", ", group[k]);
@@ -271,6 +293,8 @@ class Narrator {
       text += ": " + packet_text(history_, *step_.arrived);
     add(Act::Kind::channel, who, text);
   }
+
+  static constexpr std::size_t listed = 4;  // of many packets
 
   const History& history_;
   const Step& step_;

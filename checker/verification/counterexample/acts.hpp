@@ -25,6 +25,7 @@ struct Act {
   std::vector<std::uint64_t> packets;  ///< usually one; several that differ in their number only
   std::string text;
   std::string effect{};  ///< of the composition, that does it; empty: not known
+  bool aside = false;    ///< only counts packets that do not matter
 };
 
 /// What of the event matters, party by party. At least one act.

@@ -3,7 +3,9 @@
 #include "checker/verification/counterexample/chart.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
+#include <regex>
 #include <set>
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "checker/verification/counterexample/acts.hpp"
 #include "checker/verification/counterexample/selection.hpp"
 #include "checker/verification/counterexample/story.hpp"
+#include "fsm/state_words.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/property.hpp"
 
@@ -60,12 +63,14 @@ class Builder {
     for (const Selected& selected : selected_) {
       if (!selected.gap) acts_[selected.step] = acts_of(history_, selected.step, relevance_);
     }
+    leave_out_repetition();
     add_lanes();
     find_packets();
     for (const Selected& selected : selected_) add_rows(selected);
     for (const auto& [number, position] : packets_) {
       if (shows_way(number)) add_blocks(number, chart_.packets[position]);
     }
+    explain_letters();
     return std::move(chart_);
   }
 
@@ -81,6 +86,40 @@ class Builder {
     chart_.header.push_back(timers_text(counterexample_.scenario));
   }
 
+  void explain_letters() {
+    const auto has_letter = [](const Chart::Line& line) {
+      const std::size_t arrow = line.text.rfind("→");
+      return line.kind == Chart::Line::Kind::change && arrow != std::string::npos &&
+             !fsm::words_of_state(line.text.substr(arrow + std::strlen("→"))).empty();
+    };
+    const auto says_one = [&](const Chart::Row& row) {
+      return std::ranges::any_of(row.lines, has_letter);
+    };
+    if (std::ranges::any_of(chart_.rows, says_one)) {
+      chart_.legend = "a writer's view of a descriptor: " + fsm::state_legend();
+    }
+  }
+
+  /// What a step is like: its acts without numbers.
+  [[nodiscard]] std::string shape_of(std::size_t step) const {
+    static const std::regex numbers{"[0-9][0-9.,]*(–[0-9]+)?"};
+    std::string shape;
+    for (const Act& act : acts_.at(step)) {
+      shape += fmt::format("{} {} {}\n", static_cast<int>(act.kind), act.who,
+                           std::regex_replace(act.text, numbers, "#"));
+    }
+    return shape;
+  }
+
+  void leave_out_repetition() {
+    selected_ = without_repetition(selected_, [this](std::size_t step) { return shape_of(step); });
+    std::set<std::size_t> kept;
+    for (const Selected& selected : selected_) {
+      if (!selected.gap) kept.insert(selected.step);
+    }
+    std::erase_if(acts_, [&](const auto& entry) { return !kept.contains(entry.first); });
+  }
+
   static bool on_network(const Act& act) {
     return act.kind == Act::Kind::channel || act.kind == Act::Kind::lost;
   }
@@ -91,9 +130,10 @@ class Builder {
     std::set<std::uint32_t> present;
     for (const auto& [step, acts] : acts_) {
       for (const Act& act : acts) {
-        if (!on_network(act)) present.insert(act.who);
+        if (!on_network(act) && !act.aside) present.insert(act.who);
       }
     }
+    say_who_is_left_out(present);
     std::uint32_t source = present.empty() ? 0 : *present.begin();
     std::uint32_t destination = to_everybody;
     if (!relevance_.relations.empty()) {
@@ -114,6 +154,24 @@ class Builder {
     for (const std::uint32_t who : left) add_participant(who);
     add_channels();
     for (const std::uint32_t who : right) add_participant(who);
+  }
+
+  /// Participants that take no part get no lane.
+  void say_who_is_left_out(const std::set<std::uint32_t>& present) {
+    std::set<std::uint32_t> others;
+    for (const auto& [step, acts] : acts_) {
+      for (const Act& act : acts) {
+        if (act.aside && !present.contains(act.who)) others.insert(act.who);
+      }
+    }
+    if (others.empty()) return;
+    std::string text;
+    for (const std::uint32_t who : others)
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", who);
+    chart_.header.push_back(
+        fmt::format("not drawn: participant{} {}, sending only what belongs to "
+                    "other relations",
+                    others.size() == 1 ? "" : "s", text));
   }
 
   void add_participant(std::uint32_t who) {
@@ -175,6 +233,7 @@ class Builder {
       Chart::Row row = row_at(selected.step, Chart::Row::Kind::event);
       row.violation = selected.step + 1 == history_.steps.size();
       for (const Act& act : acts_.at(selected.step)) {
+        if (act.aside && !participant_lane_.contains(act.who)) continue;
         const std::size_t lane =
             on_network(act) ? first_channel_ + act.who : participant_lane_.at(act.who);
         Chart::Line line{line_kind(act.kind), lane, act.text, {}, act.effect};
@@ -218,8 +277,15 @@ class Builder {
     return gap == gap_rows_.end() ? chart_.rows.size() - 1 : gap->second;
   }
 
+  /// Service that begins and ends in what one gap leaves out is left out with it.
+  [[nodiscard]] bool in_one_gap(const Service& service) const {
+    return service.last && !rows_.contains(service.first) && !rows_.contains(*service.last) &&
+           row_of(service.first) == row_of(*service.last);
+  }
+
   void add_blocks(std::uint64_t number, Chart::Packet& packet) const {
     for (const Service& service : history_.packets.at(number).services) {
+      if (in_one_gap(service)) continue;
       const auto& stages = history_.scenario.wireless.stages;
       const std::size_t last = service.last ? row_of(*service.last) : chart_.rows.size() - 1;
       packet.blocks.push_back({first_channel_ + service.channel, stages[service.stage].name,
@@ -230,7 +296,7 @@ class Builder {
   const props::Counterexample& counterexample_;
   const History history_;
   const Relevance relevance_;
-  const std::vector<Selected> selected_;
+  std::vector<Selected> selected_;
   Chart chart_;
   std::map<std::size_t, std::vector<Act>> acts_;  // by step
   std::map<std::uint32_t, std::size_t> participant_lane_;

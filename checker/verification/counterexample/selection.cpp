@@ -75,6 +75,45 @@ std::vector<Selected> select(const History& history, const Relevance& relevance,
   return selected;
 }
 
+std::vector<Selected> without_repetition(const std::vector<Selected>& selected,
+                                         const std::function<std::string(std::size_t)>& shape) {
+  std::vector<std::size_t> events;  // positions in `selected`
+  std::vector<std::string> shapes;
+  for (std::size_t k = 0; k < selected.size(); ++k) {
+    if (selected[k].gap) continue;
+    events.push_back(k);
+    shapes.push_back(shape(selected[k].step));
+  }
+  const auto length = [&](std::size_t from, std::size_t period) {
+    std::size_t end = std::min(from + period, events.size());
+    while (end < events.size() && shapes[end] == shapes[end - period]) ++end;
+    return (end - from) / period * period;  // whole turns
+  };
+  std::vector<Selected> result;
+  std::size_t copied = 0;  // of `selected`
+  for (std::size_t from = 0; from < events.size();) {
+    std::size_t period = 1;
+    constexpr std::size_t longest = 3;
+    while (period <= longest && length(from, period) < std::max<std::size_t>(4, 3 * period)) {
+      ++period;
+    }
+    if (period > longest) {
+      ++from;
+      continue;
+    }
+    const std::size_t count = length(from, period);
+    const std::size_t first = events[from + period - 1] + 1;     // that is left out
+    const std::size_t last = events[from + count - period] - 1;  // the same
+    for (; copied < first; ++copied) result.push_back(selected[copied]);
+    result.push_back({true, selected[first].step, selected[last].last});
+    copied = last + 1;
+    from += count;
+  }
+  result.insert(result.end(), selected.begin() + static_cast<std::ptrdiff_t>(copied),
+                selected.end());
+  return result;
+}
+
 std::string gap_text(const History& history, const Relevance& relevance, const Selected& gap) {
   std::size_t counts[4] = {};
   for (std::size_t n = gap.step; n <= gap.last; ++n) {

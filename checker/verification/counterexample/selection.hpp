@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,12 @@ struct Selected {
 /// last.
 [[nodiscard]] std::vector<Selected> select(const History& history, const Relevance& relevance,
                                            std::size_t limit);
+
+/// Without the middle of stretches that repeat themselves: events with the same shape one after the
+/// other, or in turns of two or three. The first and the last turn stay; what lay between them is
+/// a gap. `shape` says what an event is like, apart from its numbers.
+[[nodiscard]] std::vector<Selected> without_repetition(
+    const std::vector<Selected>& selected, const std::function<std::string(std::size_t)>& shape);
 
 /// "34 events: 20 on the channel, 4 of SPDP, 10 of other relations".
 [[nodiscard]] std::string gap_text(const History& history, const Relevance& relevance,
