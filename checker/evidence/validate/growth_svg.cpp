@@ -1,11 +1,13 @@
 // Small multiples: one panel for each class and one for all messages, the observation as a line,
-// the model's median with its band. Each panel is a chart of its own inside the outer drawing.
+// the model's median with its band. Each panel is a chart of its own on one sheet.
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "checker/evidence/validate/validate.hpp"
 #include "checker/presentation/charts/plot.hpp"
+#include "checker/presentation/diagrams/svg_sheet.hpp"
 
 namespace stormproof::validate {
 
@@ -16,6 +18,7 @@ constexpr int panel_width = 480;
 constexpr int panel_height = 300;
 constexpr int panel_pitch = 345;  // with the legend below the chart
 constexpr int panels_across = 2;
+constexpr int head_height = 64;  // title and explanation
 
 /// Steps to show: until the observation and the slowest run of the band are over.
 std::size_t steps_shown(const Report& report) {
@@ -62,6 +65,11 @@ plot::Series modelled(const Report& report, std::size_t curve, std::size_t steps
   return series;
 }
 
+const char* words_of(Cut cut) {
+  return cut == Cut::given ? "the end that was given"
+                           : "the last descriptor is sent for the first time";
+}
+
 std::string panel(const Report& report, std::size_t curve, std::size_t steps) {
   plot::Chart chart;
   const char* label = label_of(figure_of_curve(curve));
@@ -78,7 +86,7 @@ std::string panel(const Report& report, std::size_t curve, std::size_t steps) {
   chart.references.push_back(
       {.kind = plot::Reference::Kind::vertical,
        .value = static_cast<double>(report.observation.completion_ns()) / ns_per_second,
-       .label = "cut"});
+       .label = "compared so far"});
   return plot::to_svg(chart);
 }
 
@@ -86,24 +94,22 @@ std::string panel(const Report& report, std::size_t curve, std::size_t steps) {
 
 std::string to_svg(const Report& report) {
   const std::size_t steps = steps_shown(report);
-  std::string panels;
-  int rows = 0;
+  std::vector<draw::PlacedDrawing> panels;
   for (std::size_t curve = 0; curve < growth_curves; ++curve) {
     // All messages first.
     const std::size_t shown = (curve + growth_curves - 1) % growth_curves;
     const int column = static_cast<int>(curve) % panels_across;
-    rows = static_cast<int>(curve) / panels_across + 1;
-    std::string document = panel(report, shown, steps);
-    const std::size_t at = document.find("<svg") + 4;
-    document.insert(
-        at, fmt::format(" x=\"{}\" y=\"{}\"", column * panel_width, (rows - 1) * panel_pitch));
-    panels += document;
+    const int row = static_cast<int>(curve) / panels_across;
+    panels.push_back({draw::take_apart(panel(report, shown, steps)), column * panel_width,
+                      head_height + row * panel_pitch});
   }
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-      "viewBox=\"0 0 {0} {1}\" role=\"img\">\n"
-      "  <title>Discovery messages over time, model beside observation</title>\n{2}</svg>\n",
-      panels_across * panel_width, rows * panel_pitch, panels);
+  const char* title = "Discovery messages over time, model beside observation";
+  const std::string head = fmt::format(
+      "  <text x=\"12\" y=\"26\" class=\"title\">{}</text>\n"
+      "  <text x=\"12\" y=\"48\" class=\"quiet\">The upright line: {}. Messages are compared "
+      "up to there.</text>\n",
+      title, words_of(report.observation.cut));
+  return draw::svg_sheet(title, "One panel for each class of messages", panels, head);
 }
 
 }  // namespace stormproof::validate

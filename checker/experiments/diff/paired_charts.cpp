@@ -1,71 +1,37 @@
-// Two sequence charts become one drawing: each is an <svg> of its own inside the outer one. Their
-// style sheet and their arrow heads are the same, so the drawing has them once, and no id twice.
+// Two sequence charts on one sheet, without what both runs begin with.
 #include "checker/experiments/diff/paired_charts.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "checker/presentation/diagrams/svg.hpp"
+#include "checker/presentation/diagrams/svg_sheet.hpp"
+#include "checker/presentation/text/time_text.hpp"
 #include "checker/verification/counterexample/chart.hpp"
 
 namespace stormproof::diff {
 
 namespace {
 
-/// A document of `svg_chart`, taken apart.
-struct Drawing {
-  int width = 0;
-  int height = 0;
-  std::string style;     ///< the <style> element
-  std::string markers;   ///< the <defs> element
-  std::string contents;  ///< all other elements
-};
-
-std::string_view between(std::string_view text, std::string_view first, std::string_view last) {
-  const std::size_t from = text.find(first);
-  const std::size_t to = from == std::string_view::npos ? from : text.find(last, from);
-  return to == std::string_view::npos ? std::string_view{}
-                                      : text.substr(from, to + last.size() - from);
+/// What both runs begin with is one line in both, but for the last rows before they part.
+void fold_common_start(counterexample::Chart& base, counterexample::Chart& candidate) {
+  constexpr std::size_t kept = 3;
+  const std::size_t common = sequence::common_rows(base, candidate);
+  if (common < kept + 2) return;
+  const counterexample::Chart::Row& last = base.rows[common - kept - 1];
+  const std::string text = fmt::format("both runs do the same up to event {} at {} ms", last.event,
+                                       report::milliseconds(last.time));
+  for (counterexample::Chart* chart : {&base, &candidate}) {
+    sequence::fold_start(*chart, common - kept, text);
+  }
 }
 
-int attribute(std::string_view text, std::string_view name) {
-  const std::size_t at = text.find(name);
-  int value = 0;
-  if (at == std::string_view::npos) return value;
-  const std::string_view digits = text.substr(at + name.size());
-  static_cast<void>(std::from_chars(digits.data(), digits.data() + digits.size(), value));
-  return value;
-}
-
-Drawing take_apart(const std::string& document) {
-  Drawing drawing;
-  const std::string_view head = between(document, "<svg", ">");
-  drawing.width = attribute(head, " width=\"");
-  drawing.height = attribute(head, " height=\"");
-  drawing.style = between(document, "<style>", "</style>");
-  drawing.markers = between(document, "<defs>", "</defs>");
-  const std::string_view end = "</defs>";
-  const std::size_t from = document.find(end) + end.size();
-  drawing.contents = document.substr(from, document.rfind("</svg>") - from);
-  return drawing;
-}
-
-Drawing draw(const props::Counterexample& run, const std::vector<std::uint64_t>& packets,
-             std::string_view side, std::string_view name) {
-  counterexample::Chart chart = counterexample::chart_of(run, packets);
+draw::SvgParts drawn(counterexample::Chart chart, std::string_view side, std::string_view name) {
   chart.title = name.empty() ? std::string{side} : fmt::format("{}: {}", side, name);
   chart.closing = "Here the runs part";
   chart.sign = "≠";
-  return take_apart(counterexample::svg_chart(chart));
-}
-
-std::string nested(const Drawing& drawing, int y) {
-  return fmt::format(
-      "<svg x=\"0\" y=\"{0}\" width=\"{1}\" height=\"{2}\" viewBox=\"0 0 {1} {2}\">{3}</svg>\n", y,
-      drawing.width, drawing.height, drawing.contents);
+  return draw::take_apart(counterexample::svg_chart(chart));
 }
 
 }  // namespace
@@ -73,19 +39,17 @@ std::string nested(const Drawing& drawing, int y) {
 std::string paired_charts_svg(const TellingApart& apart, std::string_view base_name,
                               std::string_view candidate_name) {
   if (!apart.found) return {};
-  const Drawing above = draw(apart.base_run, apart.base_packets, "Base", base_name);
-  const Drawing below =
-      draw(apart.candidate_run, apart.candidate_packets, "Candidate", candidate_name);
-  const int width = std::max(above.width, below.width);
-  const int height = above.height + below.height;
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-      "viewBox=\"0 0 {0} {1}\" role=\"img\">\n"
-      "  <title>The least scenario that tells the profiles apart</title>\n  <desc>{2}</desc>\n"
-      "  {3}\n  {4}\n  <rect width=\"{0}\" height=\"{1}\" class=\"paper\"/>\n{5}"
-      "  <line x1=\"0\" y1=\"{6}\" x2=\"{0}\" y2=\"{6}\" class=\"lane\"/>\n{7}</svg>\n",
-      width, height, draw::xml_text(apart.difference), above.style, above.markers, nested(above, 0),
-      above.height, nested(below, above.height));
+  counterexample::Chart base = counterexample::chart_of(apart.base_run, apart.base_packets);
+  counterexample::Chart candidate =
+      counterexample::chart_of(apart.candidate_run, apart.candidate_packets);
+  fold_common_start(base, candidate);
+  const draw::SvgParts above = drawn(std::move(base), "Base", base_name);
+  const draw::SvgParts below = drawn(std::move(candidate), "Candidate", candidate_name);
+  const std::string border =
+      fmt::format("  <line x1=\"0\" y1=\"{1}\" x2=\"{0}\" y2=\"{1}\" class=\"lane\"/>\n",
+                  std::max(above.width, below.width), above.height);
+  return draw::svg_sheet("The least scenario that tells the profiles apart", apart.difference,
+                         {{above, 0, 0}, {below, 0, above.height}}, border);
 }
 
 }  // namespace stormproof::diff

@@ -184,6 +184,8 @@ TEST(ValidateReport, AllForms) {
     ++panels;
   }
   EXPECT_EQ(panels, growth_curves);
+  EXPECT_NE(svg.find("class=\"title\">Discovery messages over time"), std::string::npos);
+  EXPECT_NE(svg.find("Messages are compared up to there"), std::string::npos) << "what the line is";
 }
 
 }  // namespace simulated_test
