@@ -236,6 +236,7 @@ void add_violations(report::Document& document, const CheckReport& report,
     return {counterexample::diagrams_of(*machines)};
   };
   section.blocks.emplace_back(report::Later{diagrams}, Audience::page);
+  if (!any) section.title = "How it could break";
   document.blocks.emplace_back(std::move(section));
 }
 
