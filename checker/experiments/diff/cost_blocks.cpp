@@ -194,8 +194,10 @@ void add_plots(Blocks& blocks, const CostComparison& costs) {
   };
   for (std::string& svg : measure_plots(costs, Measure::completion)) add(std::move(svg));
   for (const Configuration* one : notable(costs)) add(classes_plot(*one));
-  add(measure_plots(costs, Measure::messages).front());
-  add(measure_plots(costs, Measure::backlog).front());
+  for (const Measure measure : {Measure::messages, Measure::backlog}) {
+    std::vector<std::string> plots = measure_plots(costs, measure);
+    if (!plots.empty()) add(std::move(plots.front()));
+  }
 }
 
 std::string about(const DiffReport& report) {

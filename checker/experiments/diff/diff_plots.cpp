@@ -50,7 +50,6 @@ plot::Chart chart_of(Configurations configurations, Measure measure, const Posit
   std::ranges::stable_sort(configurations, {},
                            [&](const Configuration* one) { return position(*one); });
   plot::Chart chart;
-  chart.width = 600;
   chart.height = 340;
   chart.description = fmt::format(
       "{}: median and 10 to 90 % range of the runs, with the base and with the candidate.",
@@ -116,7 +115,7 @@ std::vector<std::pair<std::string, Configurations>> groups_of(const CostComparis
 }  // namespace
 
 std::vector<std::string> measure_plots(const CostComparison& costs, Measure measure) {
-  if (costs.configurations.empty()) return {};
+  if (costs.configurations.size() < 2) return {};  // a point is no curve; tables say it
   Configurations all;
   for (const Configuration& one : costs.configurations) all.push_back(&one);
   plot::Chart whole = chart_of(std::move(all), measure, [](const Configuration& one) {

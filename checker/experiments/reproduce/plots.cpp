@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "checker/experiments/reproduce/measures.hpp"
 #include "checker/experiments/reproduce/plot_style.hpp"
+#include "checker/presentation/charts/axis.hpp"
 #include "checker/presentation/charts/plot.hpp"
 
 namespace stormproof::reproduce {
@@ -16,6 +19,24 @@ namespace stormproof::reproduce {
 namespace {
 
 using model::HeartbeatPolicy;
+
+/// Of all classes on all networks, a little widened: charts that stand side by side have one axis.
+std::pair<double, double> range_of_counts(const Report& report) {
+  plot::DataRange range{plot::Scale::log};
+  for (const Network network : {Network::wired, Network::wireless}) {
+    for (const Class what : table_classes) {
+      for (const double value : report.published.values(
+               fmt::format("repair_amplification.{}.{}", name_of(network), name_of(what)))) {
+        range.add(value);
+      }
+      for (std::size_t v = 0; v < report.results.plan.variants.size(); ++v) {
+        const Outcome* outcome = report.results.find(v, network, {5, 20});
+        if (outcome) range.add(outcome->messages(what).value_or(gap));
+      }
+    }
+  }
+  return {range.low() / 1.5, range.high() * 1.5};
+}
 
 }  // namespace
 
@@ -25,6 +46,7 @@ std::string counts_plot(const Report& report, Network network) {
   chart.description = "Published means and the model, on a logarithmic scale.";
   chart.value.label = "messages";
   chart.value.scale = plot::Scale::log;
+  std::tie(chart.value.min, chart.value.max) = range_of_counts(report);
   plot::BarChart::Group published{"published", {}};
   for (const Class what : table_classes) {
     chart.categories.emplace_back(name_of(what));

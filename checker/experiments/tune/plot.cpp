@@ -38,6 +38,18 @@ plot::Series points(const char* name) {
   return series;
 }
 
+/// A point that lies on another would hide it: both have one mark, which says so.
+void add_apart(plot::Chart& chart, plot::Series series) {
+  const auto same = std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& other) {
+    return other.mark == plot::Mark::points && other.x.size() == 1 && other.x == series.x &&
+           other.y == series.y;
+  });
+  if (same == chart.series.end())
+    chart.series.push_back(std::move(series));
+  else
+    same->name += " = " + series.name;
+}
+
 }  // namespace
 
 std::string to_svg(const Report& report, const Context& context) {
@@ -77,7 +89,7 @@ std::string to_svg(const Report& report, const Context& context) {
   }
   chart.series.push_back(std::move(front));
   chart.series.push_back(std::move(unchanged));
-  for (plot::Series& series : comparisons) chart.series.push_back(std::move(series));
+  for (plot::Series& series : comparisons) add_apart(chart, std::move(series));
   chart.x.scale = scale_of(chart.series, &plot::Series::x);
   chart.y.scale = scale_of(chart.series, &plot::Series::y);
   return plot::to_svg(chart);

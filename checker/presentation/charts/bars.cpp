@@ -59,16 +59,21 @@ std::string to_svg(const BarChart& chart) {
       chart.value.scale == Scale::linear ? clamped_x(axis, area, 0) : area.left * 1.0;
   std::vector<LegendEntry> legend;
   for (std::size_t g = 0; g < chart.groups.size(); ++g) {
-    legend.push_back({chart.groups[g].name, g, Mark::line, true});
+    const bool bars = axis.scale() == Scale::linear;
+    legend.push_back({chart.groups[g].name, g, bars ? Mark::line : Mark::points, bars});
     const std::size_t count = std::min(chart.categories.size(), chart.groups[g].values.size());
     for (std::size_t c = 0; c < count; ++c) {
       const double value = chart.groups[g].values[c];
       const int y = area.top + static_cast<int>(c) * row + 6 + static_cast<int>(g) * bar_height;
       if (std::isfinite(value)) {
         const double end = drawable(value, axis.scale()) ? clamped_x(axis, area, value) : base;
-        svg.path(rectangle_path(std::min(base, end), y, std::abs(end - base), bar_height - 2),
-                 fill_class(g));
-        svg.text(static_cast<int>(std::max(base, end)) + 6, y + 10,
+        if (axis.scale() == Scale::log) {
+          svg.path(mark_path({end, y + bar_height / 2.0}, g, 4), fill_class(g));
+        } else {
+          svg.path(rectangle_path(std::min(base, end), y, std::abs(end - base), bar_height - 2),
+                   fill_class(g));
+        }
+        svg.text(static_cast<int>(std::max(base, end)) + 8, y + 10,
                  si_text(value, chart.value.unit), "small halo");
       }
     }

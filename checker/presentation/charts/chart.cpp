@@ -1,6 +1,8 @@
 // Line and scatter charts.
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -63,9 +65,15 @@ class Drawing {
     }
   }
 
-  void annotations() {
+  /// Texts come last, where they find a place clear of the curves.
+  void labels() {
+    for (const Reference& reference : chart_.references) {
+      const auto line = line_of(reference);
+      if (line && !reference.label.empty()) place(beside(*line, reference), reference.label);
+    }
     for (const Annotation& note : chart_.annotations) {
-      if (x_.contains(note.x) && y_.contains(note.y)) place(at(note.x, note.y), note.text);
+      if (!x_.contains(note.x) || !y_.contains(note.y)) continue;
+      place(around(at(note.x, note.y), draw::text_width(note.text, font_size)), note.text);
     }
   }
 
@@ -94,7 +102,14 @@ class Drawing {
     return p;
   }
 
+  using Line = std::pair<Pixel, Pixel>;
+
   void draw_reference(const Reference& reference) {
+    const auto line = line_of(reference);
+    if (line) svg_.path(polyline_path({line->first, line->second}), "reference");
+  }
+
+  [[nodiscard]] std::optional<Line> line_of(const Reference& reference) const {
     double x1 = x_.low();
     double x2 = x_.high();
     double y1 = reference.value;
@@ -107,14 +122,36 @@ class Drawing {
       // Where both axes have values; on mixed scales the straight line would be wrong.
       x1 = y1 = std::max(x_.low(), y_.low());
       x2 = y2 = std::min(x_.high(), y_.high());
-      if (x1 >= x2 || x_.scale() != y_.scale()) return;
+      if (x1 >= x2 || x_.scale() != y_.scale()) return std::nullopt;
     }
-    if (!x_.contains(x1) || !y_.contains(y1) || !x_.contains(x2) || !y_.contains(y2)) return;
-    const Pixel a = at(x1, y1);
-    const Pixel b = at(x2, y2);
-    svg_.path(polyline_path({a, b}), "reference");
-    // Level lines have their labels above them, at the right end.
-    if (!reference.label.empty()) place({b.x, b.y - 10}, reference.label);
+    if (!x_.contains(x1) || !y_.contains(y1) || !x_.contains(x2) || !y_.contains(y2)) {
+      return std::nullopt;
+    }
+    return Line{at(x1, y1), at(x2, y2)};
+  }
+
+  /// Places along a line, best first: a level line has its label above it at the right end, an
+  /// upright one beside it from the top down.
+  [[nodiscard]] std::vector<Box> beside(const Line& line, const Reference& reference) const {
+    const int width = draw::text_width(reference.label, font_size);
+    if (reference.kind == Reference::Kind::diagonal) {
+      return around({line.second.x, line.second.y - 10}, width);
+    }
+    const int x = static_cast<int>(std::lround(line.second.x));
+    const int y = static_cast<int>(std::lround(line.second.y));
+    std::vector<Box> places;
+    if (reference.kind == Reference::Kind::vertical) {
+      for (int down = y + 16; down < area_.bottom(); down += line_height) {
+        places.push_back({x + 6, down, width});
+        places.push_back({x - 6 - width, down, width});
+      }
+      return places;
+    }
+    for (int end = x - 8; end - width > area_.left; end -= 24) {
+      places.push_back({end - width, y - 6, width});
+      places.push_back({end - width, y + line_height, width});
+    }
+    return places;
   }
 
   void curve(const Series& one, std::size_t color) {
@@ -132,6 +169,7 @@ class Drawing {
       Pixel a = before;
       Pixel b = here;
       if (connected && clip(a, b, area_)) {
+        strokes_.emplace_back(a, b);
         // One stroke as long as nothing is cut off, so that dashes run through.
         const std::string piece = polyline_path({a, b});
         const std::size_t next = piece.find('L');
@@ -192,23 +230,37 @@ class Drawing {
     close();
   }
 
-  /// Beside the point, where no other text is; if there is no such place, above all others.
-  void place(Pixel point, const std::string& text) {
-    const int width = draw::text_width(text, font_size);
+  /// Places beside a point.
+  [[nodiscard]] static std::vector<Box> around(Pixel point, int width) {
     const int x = static_cast<int>(std::lround(point.x));
     const int y = static_cast<int>(std::lround(point.y));
-    const std::vector<Box> places{{x + 8, y + 4, width},         {x - 8 - width, y + 4, width},
-                                  {x - width / 2, y - 8, width}, {x - width / 2, y + 18, width},
-                                  {x + 8, y + 20, width},        {x - 8 - width, y + 20, width},
-                                  {x - 8 - width, y - 12, width}};
+    return {{x + 8, y + 4, width},         {x - 8 - width, y + 4, width},
+            {x - width / 2, y - 8, width}, {x - width / 2, y + 18, width},
+            {x + 8, y + 20, width},        {x - 8 - width, y + 20, width},
+            {x - 8 - width, y - 12, width}};
+  }
+
+  /// Whether a curve runs through the text.
+  [[nodiscard]] bool struck(const Box& box) const {
+    const Area room{box.x - 2, box.y - line_height + 4, box.width + 4, line_height};
+    return std::ranges::any_of(
+        strokes_, [&](Line stroke) { return clip(stroke.first, stroke.second, room); });
+  }
+
+  /// Where no other text and no curve is; then where no other text is; else at the second place,
+  /// above all others.
+  void place(const std::vector<Box>& places, const std::string& text) {
+    if (places.empty()) return;
     const auto fits = [&](const Box& box) {
       return box.x >= area_.left && box.x + box.width <= area_.right() && box.y >= area_.top + 10 &&
              box.y <= area_.bottom() - 2 &&
              std::none_of(texts_.begin(), texts_.end(),
                           [&](const Box& other) { return box.touches(other); });
     };
-    auto box = std::find_if(places.begin(), places.end(), fits);
-    if (box == places.end()) box = places.begin() + 1;
+    auto box = std::find_if(places.begin(), places.end(),
+                            [&](const Box& one) { return fits(one) && !struck(one); });
+    if (box == places.end()) box = std::find_if(places.begin(), places.end(), fits);
+    if (box == places.end()) box = places.begin() + (places.size() > 1 ? 1 : 0);
     svg_.text(std::max(box->x, area_.left), box->y, text, "halo quiet");
     texts_.push_back(*box);
   }
@@ -219,6 +271,7 @@ class Drawing {
   const ScaledAxis& y_;
   Area area_;
   std::vector<Box> texts_;
+  std::vector<Line> strokes_;  ///< of all curves
 };
 
 DataRange range_of(const Chart& chart, bool vertical) {
@@ -258,7 +311,7 @@ std::string to_svg(const Chart& chart) {
   Drawing drawing{chart, svg, x, y, area};
   drawing.references();
   drawing.series();
-  drawing.annotations();
+  drawing.labels();
   const int end = draw_legend(svg, drawing.legend(), 12, below, width - 12);
   return svg.finish(width, std::max(height, end + 6), chart_style());
 }

@@ -75,7 +75,8 @@ struct Chart {
 };
 [[nodiscard]] std::string to_svg(const Chart& chart);
 
-/// Horizontal bars in groups: one group for each category, in it one bar for each series.
+/// Horizontal bars in groups: one group for each category, in it one bar for each series. On a log
+/// axis, which has no zero to begin at, marks instead of bars.
 struct BarChart {
   struct Group {
     std::string name{};            ///< in the legend

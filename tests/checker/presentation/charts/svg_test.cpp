@@ -189,5 +189,39 @@ TEST(HeatMapSvg, HasACellForEachValue) {
   expect_sound(to_svg(chart));
 }
 
+/// Where a text stands.
+draw::PlacedText placed(const Chart& chart, const std::string& text) {
+  const auto svg = draw::read_svg(to_svg(chart));
+  EXPECT_TRUE(svg);
+  for (const draw::PlacedText& one : svg->texts) {
+    if (one.text == text) return one;
+  }
+  ADD_FAILURE() << text;
+  return {};
+}
+
+TEST(Charts, CurvesDoNotStrikeThroughLabels) {
+  Chart chart = example();
+  chart.references.push_back({Reference::Kind::vertical, 2, "all sent"});
+  chart.series = {{"low", {1, 2, 3}, {0, 0, 4}, {}, {}, Mark::line}};
+  const draw::PlacedText free = placed(chart, "all sent");
+  // A curve right where the label was: along the top, from the line to the right.
+  chart.series.push_back({"high", {2, 2.5, 3}, {3.9, 3.9, 3.9}, {}, {}, Mark::line});
+  const draw::PlacedText moved = placed(chart, "all sent");
+  EXPECT_TRUE(moved.top > free.bottom || moved.right < free.left)
+      << moved.left << " " << moved.top << " was " << free.left << " " << free.top;
+}
+
+TEST(Bars, AreMarksOnALogAxisThatHasNoZero) {
+  BarChart chart{
+      "Messages", "For tests", {"messages"}, {"DATA", "HEARTBEAT"}, {{"model", {3, 300}}}};
+  EXPECT_EQ(count(to_svg(chart), "rx=\"0\" class=\"f0\""), 1U) << "the legend's";
+  chart.value.scale = Scale::log;
+  const std::string svg = to_svg(chart);
+  expect_sound(svg);
+  EXPECT_EQ(count(svg, "rx=\"0\" class=\"f0\""), 0U);
+  EXPECT_EQ(count(svg, "a4 4 0 1 0 8 0"), 3U) << "two values and the legend";
+}
+
 }  // namespace svg_test
 }  // namespace stormproof::plot
