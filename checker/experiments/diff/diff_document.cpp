@@ -12,6 +12,7 @@
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/verification/counterexample/chart.hpp"
 #include "checker/verification/counterexample/stepper.hpp"
+#include "model/config/shown_path.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::diff {
@@ -60,8 +61,9 @@ void add_reasons(Blocks& blocks, const DiffReport& report) {
 }
 
 std::string place_text(const KnobChange& change) {
-  if (change.after_place.source) return change.after_place.to_string();
-  return change.before_place.source ? change.before_place.to_string() : "";
+  const model::config::Place& place =
+      change.after_place.source ? change.after_place : change.before_place;
+  return place.source ? model::config::shown_place(place) : "";
 }
 
 void add_knobs(Blocks& blocks, const DiffReport& report) {

@@ -11,6 +11,7 @@
 
 #include "checker/presentation/document/render.hpp"
 #include "checker/presentation/text/plain_text.hpp"
+#include "model/config/shown_path.hpp"
 #include "model/trace/scenario_names.hpp"
 
 namespace stormproof::report {
@@ -135,7 +136,7 @@ Json driver_json(Json rules) {
 
 std::string uri_of(const std::string& path) {
   std::error_code failed;
-  fs::path shown = fs::path{path}.lexically_normal();
+  fs::path shown = fs::path{model::config::shown_path(path)}.lexically_normal();
   if (shown.is_absolute()) {
     const fs::path here = fs::current_path(failed);
     const fs::path inside = failed ? fs::path{} : shown.lexically_relative(here);

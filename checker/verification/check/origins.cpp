@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "model/config/shown_path.hpp"
 #include "model/config/spec_path.hpp"
 
 namespace stormproof::checker {
@@ -114,7 +115,8 @@ report::Location location_of(std::string_view property, const Places& places,
 
 std::string origin_text(const Place& place) {
   if (place.source == nullptr) return "–";
-  return place.line == 0 ? *place.source : fmt::format("{}:{}", *place.source, place.line);
+  const std::string source = model::config::shown_path(*place.source);
+  return place.line == 0 ? source : fmt::format("{}:{}", source, place.line);
 }
 
 }  // namespace stormproof::checker

@@ -6,6 +6,7 @@
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/verification/profile/profile_report.hpp"
+#include "model/config/shown_path.hpp"
 
 namespace stormproof::report {
 
@@ -30,7 +31,7 @@ std::string giver_text(const Origin& origin) {
   switch (origin.giver) {
     case Giver::file:
     case Giver::vendor:
-      return origin.place.to_string();
+      return model::config::shown_place(origin.place);
     case Giver::override:
       return *origin.place.source;
     case Giver::preset:
