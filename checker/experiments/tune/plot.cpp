@@ -38,16 +38,11 @@ plot::Series points(const char* name) {
   return series;
 }
 
-/// A point that lies on another would hide it: both have one mark, which says so.
-void add_apart(plot::Chart& chart, plot::Series series) {
-  const auto same = std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& other) {
-    return other.mark == plot::Mark::points && other.x.size() == 1 && other.x == series.x &&
-           other.y == series.y;
-  });
-  if (same == chart.series.end())
-    chart.series.push_back(std::move(series));
-  else
-    same->name += " = " + series.name;
+/// A point may lie on another: their names stand beside them.
+void name_points(plot::Chart& chart, const plot::Series& series) {
+  for (std::size_t k = 0; k < series.x.size(); ++k) {
+    chart.annotations.push_back({series.x[k], series.y[k], series.name});
+  }
 }
 
 }  // namespace
@@ -88,8 +83,12 @@ std::string to_svg(const Report& report, const Context& context) {
     }
   }
   chart.series.push_back(std::move(front));
+  name_points(chart, unchanged);
   chart.series.push_back(std::move(unchanged));
-  for (plot::Series& series : comparisons) add_apart(chart, std::move(series));
+  for (plot::Series& series : comparisons) {
+    name_points(chart, series);
+    chart.series.push_back(std::move(series));
+  }
   chart.x.scale = scale_of(chart.series, &plot::Series::x);
   chart.y.scale = scale_of(chart.series, &plot::Series::y);
   return plot::to_svg(chart);

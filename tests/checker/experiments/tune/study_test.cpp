@@ -79,6 +79,10 @@ TEST(TuneStudy, FindsLessOfAStorm) {
   EXPECT_TRUE(text.find("unchanged") != std::string::npos);
   const std::string svg = to_svg(report, {"small", subject, options, {}, {}, {}, {}});
   EXPECT_TRUE(svg.find("recommended") != std::string::npos);
+  // In the legend, and beside its point, which may lie on another.
+  const std::size_t named = svg.find(">adaptive HEARTBEATs<");
+  ASSERT_TRUE(named != std::string::npos);
+  EXPECT_TRUE(svg.find(">adaptive HEARTBEATs<", named + 1) != std::string::npos);
 }
 
 /// What the report says of the recommended setting is what its file gives.

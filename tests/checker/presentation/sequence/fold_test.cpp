@@ -25,6 +25,14 @@ Chart chart_with(std::size_t rows) {
   return chart;
 }
 
+Chart::Packet packet_with(std::vector<Chart::Block> blocks, std::size_t number) {
+  Chart::Packet packet;
+  packet.name = "p" + std::to_string(number);
+  packet.label = packet.name + " DATA";
+  packet.blocks = std::move(blocks);
+  return packet;
+}
+
 TEST(CommonRows, EndWhereTheChartsDiffer) {
   const Chart chart = chart_with(6);
   EXPECT_EQ(common_rows(chart, chart), 6U);
@@ -39,8 +47,7 @@ TEST(CommonRows, EndWhereTheChartsDiffer) {
 
 TEST(FoldStart, LeavesOneLineAndMovesTheRest) {
   Chart chart = chart_with(6);
-  chart.packets.push_back(
-      {"p1", "p1 DATA", {{1, "uplink", 0, 1, true}, {1, "downlink", 1, 4, true}}});
+  chart.packets.push_back(packet_with({{1, "uplink", 0, 1, true}, {1, "downlink", 1, 4, true}}, 1));
   fold_start(chart, 3, "the same in both");
   ASSERT_EQ(chart.rows.size(), 4U);
   EXPECT_EQ(chart.rows[0].kind, Chart::Row::Kind::gap);
@@ -60,8 +67,7 @@ TEST(SvgChart, IsNotWiderForEveryPacketOnTheAir) {
   const auto with_packets = [](std::size_t count) {
     Chart chart = chart_with(3);
     for (std::size_t k = 0; k < count; ++k) {
-      const std::string name = "p" + std::to_string(100 + k);
-      chart.packets.push_back({name, name + " DATA", {{1, "uplink", 0, 2, true}}});
+      chart.packets.push_back(packet_with({{1, "uplink", 0, 2, true}}, 100 + k));
     }
     return chart;
   };
