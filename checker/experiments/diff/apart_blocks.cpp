@@ -2,9 +2,9 @@
 #include <fmt/core.h>
 
 #include "checker/experiments/diff/diff_parts.hpp"
+#include "checker/experiments/diff/paired_charts.hpp"
 #include "checker/experiments/diff/words.hpp"
 #include "checker/presentation/text/numbers.hpp"
-#include "checker/verification/counterexample/chart.hpp"
 #include "checker/verification/counterexample/stepper.hpp"
 #include "checker/verification/counterexample/story.hpp"
 
@@ -35,21 +35,6 @@ Facts apart_facts(const TellingApart& apart, const Files& files) {
   return facts;
 }
 
-report::Sequence run_of(const DiffReport& report, bool candidate, std::set<std::string>& machines) {
-  const TellingApart& apart = report.telling_apart;
-  const props::Counterexample& run = candidate ? apart.candidate_run : apart.base_run;
-  counterexample::Chart chart =
-      counterexample::chart_of(run, candidate ? apart.candidate_packets : apart.base_packets);
-  chart.title =
-      candidate ? "Candidate: " + report.candidate.reference : "Base: " + report.base.reference;
-  chart.closing = "Here the runs part";
-  chart.sign = "≠";
-  return counterexample::walk(
-      run, std::move(chart), candidate ? "apart-candidate" : "apart-base",
-      fmt::format("The run of the {}, up to where the two part", candidate ? "candidate" : "base"),
-      machines);
-}
-
 }  // namespace
 
 void add_apart(report::Blocks& blocks, const DiffReport& report, const Files& files) {
@@ -60,9 +45,18 @@ void add_apart(report::Blocks& blocks, const DiffReport& report, const Files& fi
   if (apart.found) {
     section.blocks.emplace_back(apart_facts(apart, files));
     std::set<std::string> machines;
-    for (const bool candidate : {false, true}) {
-      section.blocks.emplace_back(run_of(report, candidate, machines), report::Audience::documents);
-    }
+    PairedCharts charts = paired_charts(apart, report.base.reference, report.candidate.reference,
+                                        CommonStart::in_base);
+    const auto add = [&](const props::Counterexample& run, sequence::Chart chart,
+                         const char* side) {
+      section.blocks.emplace_back(
+          counterexample::walk(run, std::move(chart), fmt::format("apart-{}", side),
+                               fmt::format("The run of the {}, up to where the two part", side),
+                               machines),
+          report::Audience::documents);
+    };
+    add(apart.base_run, std::move(charts.base), "base");
+    add(apart.candidate_run, std::move(charts.candidate), "candidate");
     if (!machines.empty()) {
       section.blocks.emplace_back(counterexample::diagrams_of(machines), report::Audience::page);
     }

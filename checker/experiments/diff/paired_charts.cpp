@@ -14,37 +14,46 @@ namespace stormproof::diff {
 
 namespace {
 
-/// What both runs begin with is one line in both, but for the last rows before they part.
-void fold_common_start(counterexample::Chart& base, counterexample::Chart& candidate) {
-  constexpr std::size_t kept = 3;
-  const std::size_t common = sequence::common_rows(base, candidate);
-  if (common < kept + 2) return;
-  const counterexample::Chart::Row& last = base.rows[common - kept - 1];
-  const std::string text = fmt::format("both runs do the same up to event {} at {} ms", last.event,
-                                       report::milliseconds(last.time));
-  for (counterexample::Chart* chart : {&base, &candidate}) {
-    sequence::fold_start(*chart, common - kept, text);
-  }
-}
+using sequence::Chart;
 
-draw::SvgParts drawn(counterexample::Chart chart, std::string_view side, std::string_view name) {
+Chart titled_chart(const props::Counterexample& run, const std::vector<std::uint64_t>& packets,
+                   std::string_view side, std::string_view name) {
+  Chart chart = counterexample::chart_of(run, packets);
   chart.title = name.empty() ? std::string{side} : fmt::format("{}: {}", side, name);
   chart.closing = "Here the runs part";
   chart.sign = "≠";
-  return draw::take_apart(counterexample::svg_chart(chart));
+  return chart;
+}
+
+/// What both runs begin with becomes one line, but for the last rows before they part.
+void fold_common_start(PairedCharts& charts, CommonStart start) {
+  constexpr std::size_t kept = 3;
+  const std::size_t common = sequence::common_rows(charts.base, charts.candidate);
+  if (common < kept + 2) return;
+  const Chart::Row& last = charts.base.rows[common - kept - 1];
+  const std::string text = fmt::format("both runs do the same up to event {} at {} ms", last.event,
+                                       report::milliseconds(last.time));
+  sequence::fold_start(charts.candidate, common - kept, text);
+  if (start == CommonStart::nowhere) sequence::fold_start(charts.base, common - kept, text);
 }
 
 }  // namespace
 
+PairedCharts paired_charts(const TellingApart& apart, std::string_view base_name,
+                           std::string_view candidate_name, CommonStart start) {
+  PairedCharts charts{
+      titled_chart(apart.base_run, apart.base_packets, "Base", base_name),
+      titled_chart(apart.candidate_run, apart.candidate_packets, "Candidate", candidate_name)};
+  fold_common_start(charts, start);
+  return charts;
+}
+
 std::string paired_charts_svg(const TellingApart& apart, std::string_view base_name,
                               std::string_view candidate_name) {
   if (!apart.found) return {};
-  counterexample::Chart base = counterexample::chart_of(apart.base_run, apart.base_packets);
-  counterexample::Chart candidate =
-      counterexample::chart_of(apart.candidate_run, apart.candidate_packets);
-  fold_common_start(base, candidate);
-  const draw::SvgParts above = drawn(std::move(base), "Base", base_name);
-  const draw::SvgParts below = drawn(std::move(candidate), "Candidate", candidate_name);
+  const PairedCharts charts = paired_charts(apart, base_name, candidate_name, CommonStart::nowhere);
+  const draw::SvgParts above = draw::take_apart(sequence::svg_chart(charts.base));
+  const draw::SvgParts below = draw::take_apart(sequence::svg_chart(charts.candidate));
   const std::string border =
       fmt::format("  <line x1=\"0\" y1=\"{1}\" x2=\"{0}\" y2=\"{1}\" class=\"lane\"/>\n",
                   std::max(above.width, below.width), above.height);

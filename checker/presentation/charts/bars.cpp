@@ -67,7 +67,7 @@ std::string to_svg(const BarChart& chart) {
       const int y = area.top + static_cast<int>(c) * row + 6 + static_cast<int>(g) * bar_height;
       if (std::isfinite(value)) {
         const double end = drawable(value, axis.scale()) ? clamped_x(axis, area, value) : base;
-        if (axis.scale() == Scale::log) {
+        if (axis.scale() == Scale::log && drawable(value, Scale::log)) {
           svg.path(mark_path({end, y + bar_height / 2.0}, g, 4), fill_class(g));
         } else {
           svg.path(rectangle_path(std::min(base, end), y, std::abs(end - base), bar_height - 2),

@@ -119,6 +119,20 @@ TEST(PairedCharts, ShowsThePacketThatDiffersWhateverItIs) {
   EXPECT_TRUE(found);
 }
 
+TEST(PairedCharts, FoldWhatBothRunsBeginWith) {
+  DdsProfile slow;
+  slow.sedp.heartbeat_response_delay = model::Nanoseconds{10'000'000};
+  const TellingApart apart = told({}, slow);
+  const PairedCharts whole = paired_charts(apart, "", "", CommonStart::in_base);
+  const PairedCharts folded = paired_charts(apart, "", "", CommonStart::nowhere);
+  EXPECT_GT(whole.base.rows.size(), folded.base.rows.size());
+  EXPECT_EQ(whole.candidate.rows.size(), folded.candidate.rows.size());
+  EXPECT_EQ(folded.base.rows.size(), 5U) << "the gap, three rows in common, and the difference";
+  EXPECT_EQ(folded.base.rows.front().text.substr(0, 21), "both runs do the same");
+  EXPECT_TRUE(folded.base.rows.back().violation);
+  EXPECT_EQ(sequence::common_rows(folded.base, folded.candidate), 4U);
+}
+
 TEST(PairedCharts, NothingForProfilesThatCannotBeToldApart) {
   EXPECT_TRUE(paired_charts_svg(told({}, {})).empty());
 }
