@@ -202,10 +202,12 @@ Finding Exploration::finding(Claim claim) const {
   finding.seconds = answer.seconds;
   const bool shared = request_.readers > 1;
   finding.assumptions = {
-      fmt::format(
-          "{}; every packet of {} has a delay of its own, whatever other relations do.",
-          shared ? fmt::format("One relation, or {} of one writer", most_readers) : "One relation",
-          shared ? "theirs" : "it"),
+      shared
+          ? fmt::format("One relation, or {} of one writer; every packet of theirs has a delay of "
+                        "its own, or the one that the scope names, whatever other relations do.",
+                        most_readers)
+          : "One relation; every packet of it has a delay of its own, whatever other relations "
+            "do.",
       delay_.origin};
   if (creates_over_time(running_)) {
     finding.assumptions.emplace_back("No HEARTBEATs ride in DATA packets.");
