@@ -47,7 +47,8 @@ void set_program(const std::string& called) {
   std::error_code ignored;
   const bool reached = !found.empty() && fs::equivalent(found, as, ignored);
   const bool looked_up = as.find('/') == std::string::npos;
-  name() = as.empty() || looked_up || reached ? own_name : as;
+  const bool absolute = as.starts_with('/');
+  name() = as.empty() || looked_up || reached || absolute ? own_name : as;
 }
 
 const std::string& program() { return name(); }

@@ -11,8 +11,8 @@ namespace stormproof::report {
 /// STORMPROOF_CALLED. Once, before anything is printed; until then it is `stormproof`.
 void set_program(const std::string& called);
 
-/// `stormproof`, if that is the program on PATH or it was found there; otherwise as it was called.
-/// Not quoted.
+/// As it was called, if that was by a relative path; otherwise `stormproof`: where a machine keeps
+/// the program is nothing for a report that others read. Not quoted.
 [[nodiscard]] const std::string& program();
 
 /// The words, quoted where that is needed, behind the program: "./stormproof replay 'a b.jsonl'".

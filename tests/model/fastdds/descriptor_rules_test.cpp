@@ -49,7 +49,7 @@ struct Fixture {
   Fixture(std::uint32_t count, std::uint32_t existing)
       : scenario{scenario_of(count)},
         probe{count},
-        run{scenario, &probe, nullptr, same_host_pairs(scenario.dds)},
+        run{scenario, &probe, nullptr, SameHostPairs::included},
         network{run},
         protocol{run, network} {
     network.attach(protocol);

@@ -17,7 +17,7 @@ constexpr std::uint32_t descriptors = 9;
 class FastddsProtocol : public testing::Test, private Probe {
  protected:
   FastddsProtocol()
-      : run_{scenario_, this, nullptr, same_host_pairs(scenario_.dds)},
+      : run_{scenario_, this, nullptr, SameHostPairs::included},
         network_{run_},
         protocol_{run_, network_} {
     network_.attach(protocol_);
