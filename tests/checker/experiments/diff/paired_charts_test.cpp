@@ -127,10 +127,10 @@ TEST(PairedCharts, FoldWhatBothRunsBeginWith) {
   const PairedCharts folded = paired_charts(apart, "", "", CommonStart::nowhere);
   EXPECT_GT(whole.base.rows.size(), folded.base.rows.size());
   EXPECT_EQ(whole.candidate.rows.size(), folded.candidate.rows.size());
-  EXPECT_EQ(folded.base.rows.size(), 5U) << "the gap, three rows in common, and the difference";
   EXPECT_EQ(folded.base.rows.front().text.substr(0, 21), "both runs do the same");
   EXPECT_TRUE(folded.base.rows.back().violation);
-  EXPECT_EQ(sequence::common_rows(folded.base, folded.candidate), 4U);
+  EXPECT_EQ(sequence::common_rows(folded.base, folded.candidate), 4U)
+      << "the gap, and three rows before the runs part";
 }
 
 TEST(PairedCharts, NothingForProfilesThatCannotBeToldApart) {
