@@ -180,7 +180,8 @@ TEST_F(Failure, NobodyAskedForTheFilesThatCannotBeWritten) {
                   "--property timer.single-heartbeat --set dds.sedp.heartbeat_timer=additive "
                   "--single-solver"),
             1);
-  EXPECT_TRUE(says("out", "timer.single-heartbeat is violated")) << content("out") << content("err");
+  EXPECT_TRUE(says("out", "timer.single-heartbeat is violated"))
+      << content("out") << content("err");
   EXPECT_TRUE(says("out", "cannot be made")) << content("out");
 }
 

@@ -11,8 +11,7 @@ std::vector<report::NextStep> next_steps(const std::string& words, const model::
                                          const exact::Outlook& outlook) {
   const std::string run = report::shell_word(report::program()) + " ";
   const bool of_a_product = model::traits_of(scenario.dds).vendor.has_value();
-  const report::NextStep which{run + "sensitivity " + words,
-                               "which knob moves it, and how far"};
+  const report::NextStep which{run + "sensitivity " + words, "which knob moves it, and how far"};
   switch (outlook.health()) {
     case exact::Health::storm:
       if (!of_a_product) return {which};
