@@ -85,9 +85,9 @@ TEST(Terminal, TheProgressLineFits) {
   constexpr unsigned short columns = 31;
   const std::string shown = on_a_terminal(
       columns, "UNUSED", "",
-      "timeout -s INT 4 " STORMPROOF_PROGRAM
+      "timeout -s INT 3 " STORMPROOF_PROGRAM
       " simulate high-load-6x30 --set "
-      "deployment.participants_per_host=30 --set time_limit=100000s >/dev/null; true");
+      "deployment.participants_per_host=90 --set time_limit=100000s >/dev/null; true");
   const std::string renewed = "\r\033[K";
   std::size_t texts = 0;
   for (std::size_t at = shown.find(renewed); at != std::string::npos;) {

@@ -27,6 +27,16 @@ std::int64_t number_in(const Event& event) {
   return missing.base > INT64_MAX - 256 ? missing.base : missing.base + missing.num_bits - 1;
 }
 
+/// Whether an SEDP event speaks of a number that no writer has: samples are numbered from 1 on, and
+/// readers and writers that know of none say 0.
+bool has_no_number(const Event& event) {
+  if (const auto* data = event.data()) return data->sequence_number < 1;
+  if (const auto* heartbeat = event.heartbeat()) {
+    return std::min(heartbeat->first, heartbeat->last) < 0;
+  }
+  return event.acknack()->missing.base < 0;
+}
+
 class Sorter {
  public:
   explicit Sorter(Dialogue& dialogue) : dialogue_{dialogue}, conversation_{dialogue.conversation} {
@@ -108,7 +118,7 @@ class Sorter {
     const Place place{is_answer ? destination : source, is_answer ? source : destination,
                       event.writer};
     const std::int64_t most = believable(shown_[{place.source, event.writer}].size());
-    if (number_in(event) > most) {
+    if (number_in(event) > most || has_no_number(event)) {
       dialogue_.beyond.push_back({k, place, number_in(event), most});
       return;
     }
