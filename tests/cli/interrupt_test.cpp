@@ -114,7 +114,7 @@ struct Case {
 void PrintTo(const Case& tested, std::ostream* out) { *out << tested.name; }
 
 const std::array cases{Case{"check", {"check", "high-load-6x30"}},
-                       Case{"check_without_cvc5", {"check", "high-load-6x30", "--single-solver"}},
+                       Case{"check_without_cvc5", {"check", "wifi-5x20-fastdds", "--single-solver"}},
                        Case{"mutate", {"mutate"}},
                        Case{"diff", {"diff", "fastdds-2.6.11", "fastdds-2.9.1"}},
                        Case{"fuzz", {"fuzz", "wifi-5x20", "--runs", "100000"}},

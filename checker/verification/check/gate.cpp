@@ -75,10 +75,14 @@ class Judge {
         gate_.outdated.push_back(accepted);
       }
     }
-    if (gate_.count(Standing::fails) > 0)
-      gate_.exit_code = 1;
-    else if (gate_.count(Standing::open) > 0 || report_.interrupted)
+    // What an interrupted check has found stands in the answer; it is not the answer.
+    if (report_.interrupted) {
       gate_.exit_code = 3;
+    } else if (gate_.count(Standing::fails) > 0) {
+      gate_.exit_code = 1;
+    } else if (gate_.count(Standing::open) > 0) {
+      gate_.exit_code = 3;
+    }
     return std::move(gate_);
   }
 
