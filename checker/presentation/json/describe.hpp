@@ -8,6 +8,7 @@
 //     v.unless_empty("unmodelled", run.settings); // left out if there are none
 //   }
 //
+// It names the same keys whatever the value: the JSON Schema follows from it, too (schema.hpp).
 // The function stands in the namespace of the struct, beside it or in a <verb>_json.cpp. A key
 // means the same in all verbs: specs/guide/output.md.
 #pragma once
@@ -21,6 +22,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
@@ -32,6 +34,11 @@ namespace stormproof::report {
 
 template <class T>
 [[nodiscard]] nlohmann::ordered_json json_of(const T& value);
+
+/// `T example_of(Type<T>)`, beside a description that cannot be shown a default T, is what the
+/// schema of T is made from.
+template <class T>
+struct Type {};
 
 /// What a description tells its members to: it collects an object.
 class JsonObject {
@@ -50,6 +57,11 @@ class JsonObject {
   /// Null instead of an empty text.
   void or_null(std::string_view key, std::string_view text) {
     json_[std::string{key}] = text.empty() ? nlohmann::ordered_json() : json_of(text);
+  }
+
+  /// What a schema beside those of the verbs describes: "../scenario.schema.json".
+  void as_in(std::string_view key, std::string_view, const nlohmann::ordered_json& value) {
+    json_[std::string{key}] = value;
   }
 
   [[nodiscard]] nlohmann::ordered_json take() && { return std::move(json_); }
@@ -95,6 +107,11 @@ concept Pair = requires(const T& value) {
 };
 
 template <class T>
+inline constexpr bool is_variant = false;
+template <class... T>
+inline constexpr bool is_variant<std::variant<T...>> = true;
+
+template <class T>
 std::string key_text(const T& key) {
   if constexpr (std::is_enum_v<T>) {
     return std::string{name_of(key)};
@@ -108,8 +125,8 @@ std::string key_text(const T& key) {
 }  // namespace json_detail
 
 /// The JSON of numbers (null if they are none), texts (what is no text becomes U+FFFD), enums by
-/// `name_of`, nanoseconds as integers, what may be absent (null), maps as objects, pairs as arrays
-/// of two, other ranges as arrays, and structs by their description.
+/// `name_of`, nanoseconds as integers, what may be absent (null), what a variant holds, maps as
+/// objects, pairs as arrays of two, other ranges as arrays, and structs by their description.
 template <class T>
 nlohmann::ordered_json json_of(const T& value) {
   using Json = nlohmann::ordered_json;
@@ -129,6 +146,8 @@ nlohmann::ordered_json json_of(const T& value) {
     return std::string{name_of(value)};
   } else if constexpr (std::convertible_to<const T&, std::string_view>) {
     return valid_text(std::string_view{value});
+  } else if constexpr (json_detail::is_variant<T>) {
+    return std::visit([](const auto& one) { return json_of(one); }, value);
   } else if constexpr (json_detail::Absent<T>) {
     return value ? json_of(*value) : Json();
   } else if constexpr (json_detail::Map<T>) {
