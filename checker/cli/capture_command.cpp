@@ -50,7 +50,8 @@ void declare_capture(Frame& frame) {
        "Count the discovery messages, by class and over time, and recover the topology",
        "Exit code: 0 every required descriptor is in the capture, 3 some are missing,\n"
        "or interrupted; 2 bad input.",
-       Formats::pages},
+       Formats::pages,
+       {capture::json_schema}},
       declare, run);
 }
 

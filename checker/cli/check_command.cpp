@@ -193,12 +193,14 @@ void declare(Options& options, CheckArguments& arguments) {
 
 void declare_check(Frame& frame) {
   frame.add<CheckArguments>(
-      {"check", "Whether discovery works in a scenario: runs, proofs, exploration, counterexamples",
+      {"check",
+       "Whether discovery works in a scenario: runs, proofs, exploration, counterexamples",
        "Exit code: 0 discovery completes within its limits and without a storm, nothing is "
        "violated\n"
        "in this deployment, and what the rules promise is established; 1 something of that fails;\n"
        "3 something promised is inconclusive or weaker than --require; 2 bad input.",
-       Formats::findings},
+       Formats::findings,
+       {checker::check_schema}},
       declare, run);
 }
 

@@ -222,10 +222,12 @@ void declare(Options& options, ConformArguments& arguments) {
 
 void declare_conform(Frame& frame) {
   frame.add<ConformArguments>(
-      {"conform", "Whether captures of real discovery are a behaviour of a DDS profile",
+      {"conform",
+       "Whether captures of real discovery are a behaviour of a DDS profile",
        "Exit code: 0 conforms within the bounds, 4 does not, 3 inconclusive or interrupted,\n"
        "2 bad input; without --dds that of the profile that fits best.",
-       Formats::findings},
+       Formats::findings,
+       {conform::json_schema}},
       declare, run);
 }
 

@@ -133,8 +133,11 @@ void declare(Options& options, CoverageArguments& arguments) {
 
 void declare_coverage(Frame& frame) {
   frame.add<CoverageArguments>(
-      {"coverage", "How well predictions fit measured runs: coverage, ratios, calibration",
-       "Exit code: 0 everything was predicted, 3 interrupted, 2 bad input.", Formats::pages},
+      {"coverage",
+       "How well predictions fit measured runs: coverage, ratios, calibration",
+       "Exit code: 0 everything was predicted, 3 interrupted, 2 bad input.",
+       Formats::pages,
+       {prediction::json_schema}},
       declare, run);
 }
 

@@ -100,10 +100,12 @@ void declare(Options& options, DiffArguments& arguments) {
 
 void declare_diff(Frame& frame) {
   frame.add<DiffArguments>(
-      {"diff", "What a change of a DDS profile does: knobs, verdicts, costs, least difference",
+      {"diff",
+       "What a change of a DDS profile does: knobs, verdicts, costs, least difference",
        "Exit code: 0 no regression, 1 a regression by the policy, 3 inconclusive or interrupted,\n"
        "2 bad input.",
-       Formats::findings},
+       Formats::findings,
+       {diff::json_schema}},
       declare, run);
 }
 

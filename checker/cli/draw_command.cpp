@@ -11,7 +11,10 @@
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/streams.hpp"
+#include "checker/presentation/composition/composition_comparison.hpp"
+#include "checker/presentation/composition/composition_drawing.hpp"
 #include "checker/presentation/diagrams/draw_machine.hpp"
+#include "checker/presentation/json/dumped.hpp"
 #include "fsm/machines.hpp"
 #include "model/config/tree/suggestion.hpp"
 
@@ -80,6 +83,16 @@ Outcome show(const std::string& drawn, OutputFile& file) {
   return established;
 }
 
+Outcome show_json(const std::vector<MachineInfo>& machines, DrawArguments& arguments,
+                  const Session& session) {
+  if (!arguments.directory.empty()) {
+    return Complaint{"--directory is for drawings; the JSON of all machines is one file: -o FILE"};
+  }
+  return show(report::dumped(
+                  with_head(draw::machines_json(machines), session.command(), established, false)),
+              arguments.file);
+}
+
 Outcome run_composition(DrawArguments& arguments, const Session& session) {
   if (!arguments.directory.empty()) {
     return Complaint{"--directory is for machines; a composition is one page: -o FILE"};
@@ -113,14 +126,16 @@ Outcome run(DrawArguments& arguments, Session& session) {
   if (!composition.dds.empty() || composition.compare || !composition.profiles.empty()) {
     return Complaint{"profiles, --dds and --compare are for `draw composition`"};
   }
+  const bool as_json = composition.format == DrawFormat::json;
   const std::optional<draw::Format> format = machine_format(composition.format);
-  if (!format) return Complaint{"a machine is drawn as mermaid, dot or svg"};
+  if (!format && !as_json) return Complaint{"a machine is drawn as mermaid, dot, svg or json"};
   std::vector<MachineInfo> machines = fsm::machines();
   if (!arguments.machine.empty()) {
     const auto wanted = std::ranges::find(machines, arguments.machine, &MachineInfo::name);
     if (wanted == machines.end()) return Complaint{unknown_machine(arguments.machine, machines)};
     machines = {MachineInfo{*wanted}};
   }
+  if (as_json) return show_json(machines, arguments, session);
   if (!arguments.directory.empty()) return write_each(arguments.directory, machines, *format);
   if (arguments.machine.empty() && *format == draw::Format::svg) {
     return Complaint{"an SVG file holds one machine; name one, or a folder with --directory DIR"};
@@ -138,15 +153,16 @@ void declare(Options& options, DrawArguments& arguments) {
   options.texts("profiles", arguments.composition.profiles, "With --compare: two DDS profiles",
                 "PROFILE");
   options
-      .choice("--format", arguments.composition.format,
-              {{"mermaid", DrawFormat::mermaid},
-               {"dot", DrawFormat::dot},
-               {"svg", DrawFormat::svg},
-               {"text", DrawFormat::text},
-               {"json", DrawFormat::json}},
-              "Of machines mermaid (default), dot or svg; of a composition text (default), svg, "
-              "mermaid or json",
-              "FORMAT")
+      .choice(
+          "--format", arguments.composition.format,
+          {{"mermaid", DrawFormat::mermaid},
+           {"dot", DrawFormat::dot},
+           {"svg", DrawFormat::svg},
+           {"text", DrawFormat::text},
+           {"json", DrawFormat::json}},
+          "Of machines mermaid (default), dot, svg or json; of a composition text (default), svg, "
+          "mermaid or json",
+          "FORMAT")
       .not_repeated();
   options.text("--dds", arguments.composition.dds,
                "Composition of this DDS profile's implementation (default: the paper's)",
@@ -166,7 +182,8 @@ void declare_draw(Frame& frame) {
       {.name = "draw",
        .help = "Draw a state machine from its transition table, all of them, or what connects them",
        .exit_codes = "Exit code: 0, or 2 bad input.",
-       .formats = Formats::none},
+       .formats = Formats::none,
+       .schemas = {draw::machines_schema, draw::composition_schema, draw::comparison_schema}},
       declare, run);
 }
 

@@ -18,7 +18,9 @@
 #include "checker/cli/report_files.hpp"
 #include "checker/cli/streams.hpp"
 #include "checker/cli/terminal.hpp"
+#include "checker/presentation/json/describe.hpp"
 #include "checker/presentation/json/dumped.hpp"
+#include "checker/presentation/json/head.hpp"
 
 namespace stormproof::cli {
 
@@ -96,13 +98,21 @@ void say_why_not() {
 
 ordered_json with_head(ordered_json content, const std::string& command, int exit_code,
                        bool interrupted) {
-  ordered_json json{{"schema", json_schema},
-                    {"command", command},
-                    {"exit_code", exit_code},
-                    {"interrupted", interrupted}};
+  ordered_json json = report::json_of(report::Head{command, exit_code, interrupted});
   for (auto& [key, value] : content.items()) json.emplace(key, std::move(value));
   return json;
 }
+
+namespace {
+
+/// As specs/schema/output has it; whatever else was given is not looked at.
+[[noreturn]] void show_schema(const Verb& verb) {
+  const std::string title = "What stormproof " + verb.name + " --format json prints";
+  fmt::print("{}", report::dumped(report::schema_of(title, verb.schemas)));
+  throw CLI::Success{};
+}
+
+}  // namespace
 
 /// A verb, with what its options were set to.
 struct Frame::Command {
@@ -295,6 +305,9 @@ void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
   Options options{*app, command.declared};
   declare(options);
   if (command.verb.formats != Formats::none) command.declare_own(options);
+  if (!command.verb.schemas.empty()) {
+    app->add_flag_callback("--json-schema", [&command] { show_schema(command.verb); })->group("");
+  }
   app->callback([this, &command] { parser_->chosen = &command; });
 }
 

@@ -12,11 +12,9 @@
 #include "checker/cli/answer.hpp"
 #include "checker/cli/options.hpp"
 #include "checker/cli/session.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::cli {
-
-/// The version of what `--format json` prints. It grows when a key gets another name or meaning.
-inline constexpr int json_schema = 2;
 
 /// `content` behind what all JSON starts with: `schema`, `command`, `exit_code`, `interrupted`.
 [[nodiscard]] nlohmann::ordered_json with_head(nlohmann::ordered_json content,
@@ -36,7 +34,8 @@ struct Verb {
   std::string help;
   std::string exit_codes;
   Formats formats = Formats::pages;
-  bool takes_long = true;  ///< has progress to show
+  std::vector<report::SchemaForm> schemas = {};  ///< of its JSON; it has at least one form
+  bool takes_long = true;                        ///< has progress to show
   /// Under mpirun: whether this process is the one that writes files.
   bool (*writes)() = [] { return true; };
 };

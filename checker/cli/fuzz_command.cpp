@@ -132,10 +132,12 @@ void declare(Options& options, FuzzArguments& arguments) {
 
 void declare_fuzz(Frame& frame) {
   frame.add<FuzzArguments>(
-      {"fuzz", "Run variants of a scenario within ranges and look for one that breaks its limits",
+      {"fuzz",
+       "Run variants of a scenario within ranges and look for one that breaks its limits",
        "Exit code: 0 no run of the sample breaks anything, 1 one does, 2 bad input,\n"
        "3 interrupted, or no run finished.",
-       Formats::findings},
+       Formats::findings,
+       {fuzz::json_schema}},
       declare, run);
 }
 

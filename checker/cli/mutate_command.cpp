@@ -60,10 +60,12 @@ void declare(Options& options, MutateArguments& arguments) {
 
 void declare_mutate(Frame& frame) {
   frame.add<MutateArguments>(
-      {"mutate", "Put mistakes into tables and rules, and see which property notices them",
+      {"mutate",
+       "Put mistakes into tables and rules, and see which property notices them",
        "Exit code: 0 at least 95 % of the mutants are noticed, 1 fewer, 2 bad input,\n"
        "3 interrupted.",
-       Formats::findings},
+       Formats::findings,
+       {mutate::json_schema}},
       declare, run);
 }
 

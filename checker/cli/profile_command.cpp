@@ -64,6 +64,7 @@ void declare_profile(Frame& frame) {
        .help = "Every knob of a profile: its value, where that came from, who can change it",
        .exit_codes = "Exit code: 0, or 2 bad input.",
        .formats = Formats::pages,
+       .schemas = {report::profile_schema},
        .takes_long = false},
       declare, run);
   frame.add<LintArguments>(
@@ -72,6 +73,7 @@ void declare_profile(Frame& frame) {
        .exit_codes = "Exit code: 0 nothing but notes, 1 warnings or errors, 2 a file cannot be "
                      "read as a profile.",
        .formats = Formats::findings,
+       .schemas = {report::lint_schema},
        .takes_long = false},
       declare, run);
 }

@@ -22,6 +22,7 @@ void declare_properties(Frame& frame) {
                                   .help = "List the properties that check knows",
                                   .exit_codes = "Exit code: 0.",
                                   .formats = Formats::pages,
+                                  .schemas = {checker::properties_schema},
                                   .takes_long = false},
                                  declare, run);
 }

@@ -52,10 +52,12 @@ void declare(Options& options, ReplayArguments& arguments) {
 
 void declare_replay(Frame& frame) {
   frame.add<ReplayArguments>(
-      {"replay", "Run the scenario of a trace or counterexample again and compare every event",
+      {"replay",
+       "Run the scenario of a trace or counterexample again and compare every event",
        "Exit code of a trace: 0 identical, 1 different, 3 the trace ends early.\n"
        "Of a counterexample: 1 the violation occurs, 3 it does not. 2 bad input.",
-       Formats::pages},
+       Formats::pages,
+       {counterexample::replay_schema}},
       declare, run);
 }
 

@@ -108,8 +108,11 @@ void declare(Options& options, ReproduceArguments& arguments) {
 
 void declare_reproduce(Frame& frame) {
   frame.add<ReproduceArguments>(
-      {"reproduce", "The paper's evaluation: every published figure beside the model's",
-       "Exit code: 0 everything was run, 3 interrupted, 2 bad input.", Formats::tables},
+      {"reproduce",
+       "The paper's evaluation: every published figure beside the model's",
+       "Exit code: 0 everything was run, 3 interrupted, 2 bad input.",
+       Formats::tables,
+       {reproduce::json_schema}},
       declare, run);
 }
 

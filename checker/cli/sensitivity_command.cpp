@@ -115,8 +115,11 @@ void declare(Options& options, SensitivityArguments& arguments) {
 
 void declare_sensitivity(Frame& frame) {
   frame.add<SensitivityArguments>(
-      {"sensitivity", "Which knob matters: change every number a little and rank the effects",
-       "Exit code: 0 all changes were run, 3 interrupted, 2 bad input.", Formats::pages},
+      {"sensitivity",
+       "Which knob matters: change every number a little and rank the effects",
+       "Exit code: 0 all changes were run, 3 interrupted, 2 bad input.",
+       Formats::pages,
+       {sensitivity::json_schema}},
       declare, run);
 }
 

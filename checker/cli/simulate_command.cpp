@@ -141,10 +141,12 @@ void declare(Options& options, SimulateArguments& arguments) {
 
 void declare_simulate(Frame& frame) {
   frame.add<SimulateArguments>(
-      {"simulate", "Predict the discovery of a scenario: completion time, messages, channel use",
+      {"simulate",
+       "Predict the discovery of a scenario: completion time, messages, channel use",
        "Exit code: 0 discovery completes (in every run), 1 a limit of the scenario is exceeded,\n"
        "3 it does not complete within the time limit, 2 bad input.",
-       Formats::findings},
+       Formats::findings,
+       {report::simulation_schema, report::sampling_schema}},
       declare, run);
 }
 

@@ -147,6 +147,7 @@ void declare_sweep(Frame& frame) {
            "Exit code: 0 all jobs complete discovery, 3 some do not or the sweep was interrupted,\n"
            "2 bad input.",
        .formats = Formats::pages,
+       .schemas = {sweep::json_schema},
        .writes = is_leader},
       declare, run);
 }

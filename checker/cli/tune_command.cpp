@@ -185,11 +185,13 @@ void declare(Options& options, TuneArguments& arguments) {
 
 void declare_tune(Frame& frame) {
   frame.add<TuneArguments>(
-      {"tune", "Search the settings that a user can change for the shortest discovery",
+      {"tune",
+       "Search the settings that a user can change for the shortest discovery",
        "Exit code: 0 something better was found, or nothing better exists (the output says "
        "which),\n"
        "1 with --check a property is newly violated, 2 bad input, 3 interrupted.",
-       Formats::pages},
+       Formats::pages,
+       {tune::json_schema}},
       declare, run);
 }
 

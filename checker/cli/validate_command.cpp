@@ -115,11 +115,13 @@ void declare(Options& options, ValidateArguments& arguments) {
 
 void declare_validate(Frame& frame) {
   frame.add<ValidateArguments>(
-      {"validate", "Predict the discovery in a capture: model beside observation",
+      {"validate",
+       "Predict the discovery in a capture: model beside observation",
        "Exit code: 0 the comparison was made, 1 it is beyond --within, 3 the capture is "
        "incomplete,\n"
        "or interrupted; 2 bad input.",
-       Formats::pages},
+       Formats::pages,
+       {validate::json_schema}},
       declare, run);
 }
 

@@ -6,6 +6,15 @@
 
 namespace stormproof::exact {
 
+struct MissingCount {
+  std::uint64_t count = 0;
+};
+
+template <class V>
+void describe(V& v, const MissingCount& missing) {
+  v("count", missing.count);
+}
+
 template <class V>
 void describe(V& v, const RunHealth& run) {
   v("health", run.health);
@@ -15,18 +24,20 @@ void describe(V& v, const RunHealth& run) {
   v("airtime_ratio", run.airtime);
   v("closed_to_open_loop", run.stretch);
   v("busy_share", run.busy);
-  v("missing", run.missing);
+  v("missing", MissingCount{run.missing});
 }
 
 template <class V>
 void describe(V& v, const Outlook& outlook) {
   v("health", outlook.health());
-  v("summary", outlook.headline() + ": " + outlook.sentence());
+  v("sentence", outlook.headline() + ": " + outlook.sentence());
   v("runs", outlook.size());
   v("completed", outlook.completed());
-  v("median", outlook.median());
-  v("best", outlook.best());
-  v("worst", outlook.worst());
+  v("median_run", outlook.median());
+  v("best_run", outlook.best());
+  v("worst_run", outlook.worst());
 }
+
+inline Outlook example_of(report::Type<Outlook>) { return Outlook{{RunHealth{}}}; }
 
 }  // namespace stormproof::exact

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "checker/evidence/capture/events.hpp"
+#include "checker/presentation/json/describe.hpp"
 
 namespace stormproof::capture {
 
@@ -11,6 +12,15 @@ void describe(V& v, const CaptureInfo& capture) {
   v("packets", capture.packets);
   v("datagrams", capture.datagrams);
   v("merged", capture.merged);
+}
+
+/// With one of each, as its parts name each other.
+inline Conversation example_of(report::Type<Conversation>) {
+  Conversation conversation;
+  conversation.captures.emplace_back();
+  conversation.datagrams.emplace_back();
+  conversation.events.emplace_back();
+  return conversation;
 }
 
 }  // namespace stormproof::capture

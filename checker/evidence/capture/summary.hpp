@@ -9,6 +9,7 @@
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::capture {
 
@@ -26,6 +27,7 @@ struct Summary {
 /// Without command and exit code, which only the caller knows.
 [[nodiscard]] report::Document document_of(const Summary& summary);
 [[nodiscard]] nlohmann::ordered_json to_json(const Summary& summary);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 /// Cumulative counts by class over the time since the first packet.
 [[nodiscard]] std::string to_svg(const Summary& summary);
 

@@ -1,15 +1,16 @@
 // The comparison as JSON; specs/guide/coverage.md explains the keys.
-#include <nlohmann/json.hpp>
+#include <cmath>
+#include <map>
 
 #include "checker/evidence/coverage/report.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::prediction {
 
 template <class V>
 void describe(V& v, const RatioEstimate& estimate) {
-  v("configurations", estimate.configurations);
-  v("median", estimate.median);
+  v("configuration_count", estimate.configurations);
+  v("estimate", estimate.median);
   v("low", estimate.low);
   v("high", estimate.high);
 }
@@ -26,14 +27,14 @@ struct OfProfile {
 template <class V>
 void describe(V& v, const OfProfile<FitRow>& one) {
   const Fit& fit = one.row.fit;
-  nlohmann::ordered_json calibration = nlohmann::ordered_json::object();
+  std::map<std::string, double> calibration;
   for (std::size_t k = 0; k < calibration_points; ++k) {
     calibration["0." + std::to_string(k + 1)] = fit.calibration[k];
   }
-  v("profile", one.profile.name);
+  v("profile_name", one.profile.name);
   v("scope", one.row.scope);
   v("class", one.row.measure);
-  v("configurations", fit.configurations);
+  v("configuration_count", fit.configurations);
   v("runs", fit.runs);
   v("incomplete_runs", fit.incomplete_runs);
   v("undecided_runs", fit.undecided_runs);
@@ -54,12 +55,22 @@ void describe(V& v, const OfProfile<FitRow>& one) {
 
 template <class V>
 void describe(V& v, const OfProfile<Effect>& one) {
-  v("profile", one.profile.name);
+  v("profile_name", one.profile.name);
   v("scope", one.row.scope);
   v("class", one.row.measure);
   v("predicted", one.row.predicted);
   v("observed", one.row.observed);
   v("verdict", one.row.verdict);
+}
+
+}  // namespace
+
+namespace {
+
+/// By measure; completion in ns.
+void add_median(std::map<std::string, double>& medians, Measure measure, double median) {
+  const bool is_time = measure == Measure::completion;
+  medians[is_time ? "t_disc_ns" : name_of(measure)] = is_time ? std::round(median * 1e6) : median;
 }
 
 }  // namespace
@@ -72,8 +83,8 @@ void describe(V& v, const Pairing& pairing) {
   for (std::size_t m = 0; m < measure_count; ++m) {
     const auto measure = static_cast<Measure>(m);
     const std::vector<double> runs = observed_values(measured, measure);
-    if (!runs.empty()) observed[name_of(measure)] = quantile(runs, 0.5);
-    predicted[name_of(measure)] = quantile(pairing.predicted->values[m], 0.5);
+    if (!runs.empty()) add_median(observed, measure, quantile(runs, 0.5));
+    add_median(predicted, measure, quantile(pairing.predicted->values[m], 0.5));
   }
   v("set", measured.set);
   v("N_H", measured.hosts);
@@ -87,7 +98,7 @@ void describe(V& v, const Pairing& pairing) {
 
 template <class V>
 void describe(V& v, const ProfileStudy& profile) {
-  v("name", profile.name);
+  v("profile_name", profile.name);
   v("baseline", profile.is_baseline);
   v("sampled", profile.sampled);
   v("skipped_runs", profile.skipped);
@@ -95,24 +106,51 @@ void describe(V& v, const ProfileStudy& profile) {
   v.unless_empty("unmodelled", profile.dds.unmodelled);
 }
 
-nlohmann::ordered_json to_json(const Heading& heading, const Study& study) {
-  report::JsonObject v;
+static Pairing example_of(report::Type<Pairing>) {
+  static const Configuration observed;
+  static const Prediction predicted = [] {
+    Prediction one;
+    one.values.fill({0});
+    return one;
+  }();
+  return {&observed, &predicted};
+}
+
+namespace {
+
+struct StudyWithHeading {
+  const Heading& heading;
+  const Study& study;
+};
+
+template <class V>
+void describe(V& v, const StudyWithHeading& shown) {
+  const Heading& heading = shown.heading;
   std::vector<OfProfile<FitRow>> rows;
   std::vector<OfProfile<Effect>> effects;
-  for (const ProfileStudy& profile : study.profiles) {
+  for (const ProfileStudy& profile : shown.study.profiles) {
     for (const FitRow& row : profile.rows) rows.push_back({profile, row});
     for (const Effect& effect : profile.effects) effects.push_back({profile, effect});
   }
   v("observations", heading.observations);
   v("wireless", heading.wireless);
-  v("samples", heading.samples);
+  v("wanted", heading.samples);
   v("seed", heading.first_seed);
   v("read", heading.rows);
   v("not_selected", heading.not_selected);
-  v("profiles", study.profiles);
+  v("profiles", shown.study.profiles);
   v("rows", rows);
   v("effects", effects);
-  return std::move(v).take();
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Heading& heading, const Study& study) {
+  return report::json_of(StudyWithHeading{heading, study});
+}
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<StudyWithHeading>(definitions);
 }
 
 }  // namespace stormproof::prediction

@@ -8,6 +8,7 @@
 
 #include "checker/evidence/coverage/study.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::prediction {
 
@@ -24,9 +25,9 @@ struct Heading {
 /// Without exit code, which only the caller knows.
 [[nodiscard]] report::Document document_of(const Heading& heading, const Study& study);
 
-/// Keys: observations, samples, seed, profiles (name, skipped runs, configurations with
-/// their measured and predicted medians), rows, effects. specs/guide/coverage.md describes them.
+/// specs/guide/coverage.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const Heading& heading, const Study& study);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 
 struct ChartFile {
   std::string name;  ///< of the file, without folder

@@ -12,7 +12,7 @@ struct Words {
   const char* label;
 };
 constexpr Words words_of_class(MessageClass one) { return {name_of(one), words_of(one)}; }
-constexpr std::array<Words, figure_count> words{{{"completion_ns", "completion"},
+constexpr std::array<Words, figure_count> words{{{"t_disc_ns", "completion"},
                                                  {"total", "messages"},
                                                  words_of_class(MessageClass::initial_data),
                                                  words_of_class(MessageClass::repair_data),

@@ -15,6 +15,7 @@
 #include "checker/evidence/validate/observation.hpp"
 #include "checker/evidence/validate/predicted_runs.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "model/config/tree/result.hpp"
 #include "model/scenario.hpp"
 
@@ -103,6 +104,7 @@ struct Heading {
 /// Without exit code, which only the caller knows.
 [[nodiscard]] report::Document document_of(const Report& report, const Heading& heading);
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Heading& heading);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 /// Cumulative messages over time, a panel for each class.
 [[nodiscard]] std::string to_svg(const Report& report);
 

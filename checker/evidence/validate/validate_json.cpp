@@ -1,8 +1,6 @@
 // The report for scripts; specs/guide/validating.md explains the keys.
-#include <nlohmann/json.hpp>
-
 #include "checker/evidence/validate/validate.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "model/config/knobs/effective.hpp"
 
 namespace stormproof::validate {
@@ -36,8 +34,8 @@ struct Range {
 template <class V>
 void describe(V& v, const Range& range) {
   v("median", range.row.median);
-  v("low", range.row.low);
-  v("high", range.row.high);
+  v("p5", range.row.low);
+  v("p95", range.row.high);
 }
 
 /// How many runs there were, and how they were drawn.
@@ -49,7 +47,7 @@ template <class V>
 void describe(V& v, const Runs& runs) {
   const Sampling& sampling = runs.report.request.sampling;
   v("wanted", runs.report.wanted);
-  v("finished", runs.report.runs);
+  v("runs", runs.report.runs);
   v("completed", runs.report.complete);
   v("seed", sampling.first_seed);
   v("loss", sampling.loss);
@@ -85,8 +83,8 @@ void describe(V& v, const Curve& curve) {
     v(key, values);
   };
   bands("median", &Band::median);
-  bands("low", &Band::low);
-  bands("high", &Band::high);
+  bands("p5", &Band::low);
+  bands("p95", &Band::high);
 }
 
 struct OverTime {
@@ -113,27 +111,44 @@ void describe(V& v, const Row& row) {
   v("observation", row.position);
 }
 
-nlohmann::ordered_json to_json(const Report& report, const Heading& heading) {
+namespace {
+
+struct ReportWithHeading {
+  const Report& report;
+  const Heading& heading;
+};
+
+template <class V>
+void describe(V& v, const ReportWithHeading& shown) {
+  const Report& report = shown.report;
   const Observation& observation = report.observation;
-  nlohmann::ordered_json figures;
-  for (const Row& row : report.rows) figures[name_of(row.figure)] = report::json_of(row);
-  report::JsonObject v;
-  v("captures", heading.captures);
+  nlohmann::ordered_map<std::string, Row> figures;
+  for (const Row& row : report.rows) figures[name_of(row.figure)] = row;
+  v("captures", shown.heading.captures);
   v("cut", observation.cut == Cut::given ? "given" : "last_initial");
   v("first_announcement_ns", observation.deployment.zero_ns);
   v("cut_ns", observation.cut_ns);
   v("completed", observation.complete);
   v("missing", Missing{observation.counting});
   v("participants", observation.deployment.participants);
-  v("runs", Runs{report});
+  v("sampling", Runs{report});
   v("figures", figures);
   v("within", report.request.within);
-  v("agreement", report.agreement);
+  v("verdict", report.agreement);
   v("over_time", OverTime{report});
   v("differences", report.differences);
   v.unless_empty("unmodelled", report.scenario.dds.unmodelled);
-  v("scenario", model::config::effective_json(report.scenario));
-  return std::move(v).take();
+  v.as_in("profile", "../scenario.schema.json", model::config::effective_json(report.scenario));
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Report& report, const Heading& heading) {
+  return report::json_of(ReportWithHeading{report, heading});
+}
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<ReportWithHeading>(definitions);
 }
 
 }  // namespace stormproof::validate

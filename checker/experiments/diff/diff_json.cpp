@@ -1,94 +1,194 @@
 // A comparison as JSON; specs/guide/output.md describes the keys. What does not exist is null, what
 // is infinite is text ("infinity"), as JSON has no number for it.
 #include <cmath>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "checker/experiments/diff/diff_report.hpp"
 #include "checker/experiments/diff/summary.hpp"
 #include "checker/experiments/statistics/quantiles_json.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "model/config/knobs/effective.hpp"
 
 namespace stormproof::diff {
 
 namespace {
 
-using report::json_of;
-using Json = nlohmann::ordered_json;
+/// A number, or which infinity.
+using Extended = std::variant<double, std::string>;
 
-Json number(double value) {
+Extended number(double value) {
   if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
-  return json_of(value);
+  return value;
 }
 
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(); }
-
-Json place_json(const model::config::Place& place) {
-  if (!place.source) return nullptr;
-  return {{"source", *place.source}, {"line", place.line}, {"column", place.column}};
+std::optional<Extended> number(const std::optional<double>& value) {
+  return value ? std::optional{number(*value)} : std::nullopt;
 }
 
 /// As the JSON of runs has it.
 std::string key_of(Measure measure) {
-  return measure == Measure::completion ? "t_disc_ns" : name_of(measure);
+  if (measure == Measure::completion) return "t_disc_ns";
+  return measure == Measure::backlog ? "peak_packets" : name_of(measure);
 }
 
-Json counterexample_json(const props::Counterexample& run) {
-  return {{"event", run.event}, {"time_ns", run.time.count()}, {"reason", run.reason}};
+/// Where a value stands.
+struct KnownPlace {
+  const model::config::Place& place;
+};
+
+template <class V>
+void describe(V& v, const KnownPlace& known) {
+  v("file", known.place.source ? std::string_view{*known.place.source} : "");
+  v("line", known.place.line);
+  v("column", known.place.column);
 }
 
-Json file_json(const Files& files, const std::string& what) {
-  const auto file = files.find(what);
-  return file == files.end() ? Json() : Json(file->second);
+std::optional<KnownPlace> known(const model::config::Place& place) {
+  std::optional<KnownPlace> answer;
+  if (place.source) answer.emplace(KnownPlace{place});
+  return answer;
 }
 
-Json profile_json(const model::config::TracedProfile& profile) {
-  report::JsonObject v;
-  v("name", profile.reference);
-  v.or_null("preset", profile.preset);
-  v("profile", model::config::effective_json(profile.value));
-  return std::move(v).take();
+struct GivenProfile {
+  const model::config::TracedProfile& profile;
+};
+
+template <class V>
+void describe(V& v, const GivenProfile& side) {
+  v("profile_name", side.profile.reference);
+  v.or_null("preset", side.profile.preset);
+  v.as_in("dds", "../dds.schema.json", model::config::effective_json(side.profile.value));
 }
 
-Json verdicts_json(const VerdictComparison& verdicts, const Files& files) {
-  if (!verdicts.done) return nullptr;
-  Json properties = Json::array();
-  for (const VerdictChange& change : verdicts.properties) {
-    report::JsonObject v;
-    v("property", change.property);
-    v("before", props::name_of(change.before));
-    v("after", props::name_of(change.after));
-    v("judgment", change.judgment);
-    v("statement", change.statement);
-    v("before_how", change.before_how);
-    v("after_how", change.after_how);
-    Json counterexample;
-    if (change.counterexample) {
-      counterexample = counterexample_json(*change.counterexample);
-      counterexample["file"] = file_json(files, change.property);
-    }
-    v("counterexample", counterexample);
-    properties.push_back(std::move(v).take());
+struct RunToEvent {
+  const props::Counterexample& run;
+};
+
+template <class V>
+void describe(V& v, const RunToEvent& shown) {
+  v("event", shown.run.event);
+  v("time_ns", shown.run.time);
+  v("reason", shown.run.reason);
+}
+
+struct WrittenCounterexample {
+  const props::Counterexample& run;
+  const std::string& property;
+  const Files& files;
+};
+
+template <class V>
+void describe(V& v, const WrittenCounterexample& shown) {
+  const auto file = shown.files.find(shown.property);
+  describe(v, RunToEvent{shown.run});
+  v.or_null("file", file == shown.files.end() ? std::string_view{} : file->second);
+}
+
+struct ChangeInContext {
+  const VerdictChange& change;
+  const Files& files;
+};
+
+template <class V>
+void describe(V& v, const ChangeInContext& shown) {
+  const VerdictChange& change = shown.change;
+  std::optional<WrittenCounterexample> counterexample;
+  if (change.counterexample) {
+    counterexample.emplace(
+        WrittenCounterexample{*change.counterexample, change.property, shown.files});
   }
-  return {{"scenario", verdicts.scenario}, {"properties", properties}};
+  v("id", change.property);
+  v("before", change.before);
+  v("after", change.after);
+  v("verdict", change.judgment);
+  v("statement", change.statement);
+  v("before_how", change.before_how);
+  v("after_how", change.after_how);
+  v("counterexample", counterexample);
 }
 
-Json telling_apart_json(const TellingApart& apart, const Files& files) {
-  Json json;
-  json["found"] = apart.found;
-  json["how"] = apart.how;
-  json["tried"] = apart.tried;
-  json["finished"] = apart.finished;
-  if (!apart.found) return json;
-  json["difference"] = apart.difference;
-  json["event"] = apart.event;
-  json["scenario"] = model::config::effective_json(apart.scenario);
-  json["candidate"] = model::config::effective_json(apart.candidate);
-  json["base_run"] = counterexample_json(apart.base_run);
-  json["candidate_run"] = counterexample_json(apart.candidate_run);
-  json["files"] = Json::object();
-  for (const auto& [what, file] : files) {
-    if (what.starts_with("telling-apart")) json["files"][what] = file;
+struct ChecksInContext {
+  const VerdictComparison& verdicts;
+  const Files& files;
+};
+
+template <class V>
+void describe(V& v, const ChecksInContext& shown) {
+  std::vector<ChangeInContext> changes;
+  for (const VerdictChange& change : shown.verdicts.properties) {
+    changes.push_back({change, shown.files});
   }
-  return json;
+  v("scenario", shown.verdicts.scenario);
+  v("verdicts", changes);
+}
+
+struct ApartInContext {
+  const TellingApart& apart;
+  const Files& files;
+};
+
+template <class V>
+void describe(V& v, const ApartInContext& shown) {
+  const TellingApart& apart = shown.apart;
+  std::map<std::string, std::string> files;
+  for (const auto& [what, file] : shown.files) {
+    if (what.starts_with("telling-apart")) files.emplace(what, file);
+  }
+  v("found", apart.found);
+  v("how", apart.how);
+  v("tried", apart.tried);
+  v("finished", apart.finished);
+  v.unless_empty("sentence", apart.difference);
+  v.unless_empty("event", apart.found ? std::optional{apart.event} : std::nullopt);
+  std::optional<nlohmann::ordered_json> scenario, candidate;
+  std::optional<RunToEvent> base_run, candidate_run;
+  if (apart.found) {
+    scenario = model::config::effective_json(apart.scenario);
+    candidate = model::config::effective_json(apart.candidate);
+    base_run.emplace(RunToEvent{apart.base_run});
+    candidate_run.emplace(RunToEvent{apart.candidate_run});
+  }
+  v.unless_empty("profile", scenario);
+  v.unless_empty("candidate_dds", candidate);
+  v.unless_empty("base_run", base_run);
+  v.unless_empty("candidate_run", candidate_run);
+  v.unless_empty("written", files);
+}
+
+struct ShownShift {
+  const Shift& shift;
+};
+
+template <class V>
+void describe(V& v, const ShownShift& shown) {
+  v("estimate", number(shown.shift.estimate));
+  v("low", number(shown.shift.low));
+  v("high", number(shown.shift.high));
+  v("confidence", shown.shift.confidence);
+  v("exact", shown.shift.exact);
+}
+
+struct Relative {
+  const MeasuredChange& change;
+};
+
+template <class V>
+void describe(V& v, const Relative& relative) {
+  v("estimate", number(relative.change.relative));
+  v("low", number(relative.change.relative_low));
+  v("high", number(relative.change.relative_high));
+}
+
+struct MedianTotal {
+  const Blame::Entry& entry;
+};
+
+template <class V>
+void describe(V& v, const MedianTotal& median) {
+  v("total", median.entry.messages_median);
 }
 
 }  // namespace
@@ -98,88 +198,83 @@ void describe(V& v, const KnobChange& change) {
   v("key", change.key);
   v("before", change.before);
   v("after", change.after);
-  v("before_place", place_json(change.before_place));
-  v("after_place", place_json(change.after_place));
-  v("matters", change.modelled ? Json(change.matters) : Json());
+  v("before_place", known(change.before_place));
+  v("after_place", known(change.after_place));
+  v("matters", change.modelled ? std::optional{change.matters} : std::nullopt);
   v("why", change.why);
 }
 
 template <class V>
-void describe(V& v, const Comparison& profiles) {
-  v("relation", profiles.relation);
-  v.or_null("proof", profiles.proof);
-  v("changes", profiles.changes);
-}
-
-static Json shift_json(const Shift& shift) {
-  return {{"estimate", number(shift.estimate)},
-          {"low", number(shift.low)},
-          {"high", number(shift.high)},
-          {"confidence", shift.confidence},
-          {"exact", shift.exact}};
-}
-
-template <class V>
 void describe(V& v, const MeasuredChange& change) {
+  std::optional<ShownShift> shift;
+  if (change.shift) shift.emplace(ShownShift{*change.shift});
+  std::optional<Relative> relative;
+  if (change.relative) relative.emplace(Relative{change});
   v("before", change.before);
   v("after", change.after);
-  v("shift", change.shift ? shift_json(*change.shift) : Json());
-  v("relative", !change.relative ? Json()
-                                 : Json{{"estimate", number(change.relative)},
-                                        {"low", number(change.relative_low)},
-                                        {"high", number(change.relative_high)}});
-  v("judgment", change.judgment);
+  v("shift", shift);
+  v("relative", relative);
+  v("verdict", change.judgment);
   v("reason", change.reason);
 }
 
 template <class V>
 void describe(V& v, const LimitCrossing& crossing) {
-  v("limit", crossing.limit);
+  v("id", crossing.limit);
   v("text", crossing.text);
   v("before", crossing.before);
   v("after", crossing.after);
-  v("judgment", crossing.judgment);
+  v("verdict", crossing.judgment);
 }
+
+namespace {
+
+struct MeasuresOf {
+  const Configuration& configuration;
+};
+
+template <class V>
+void describe(V& v, const MeasuresOf& all) {
+  for (const MeasuredChange& change : all.configuration.measures) v(key_of(change.measure), change);
+}
+
+}  // namespace
 
 template <class V>
 void describe(V& v, const Configuration& configuration) {
-  Json values = Json::object();
+  nlohmann::ordered_map<std::string, std::string> values;
   for (const auto& [key, value] : configuration.values) values[key] = value;
-  Json measures;
-  for (const MeasuredChange& change : configuration.measures) {
-    measures[key_of(change.measure)] = json_of(change);
-  }
   v("name", configuration.name);
-  v("values", values);
+  v("swept", values);
   v("hosts", configuration.hosts);
-  v("participants", configuration.participants);
-  v("descriptors", configuration.descriptors);
-  v("samples", configuration.samples);
+  v("participant_count", configuration.participants);
+  v("descriptor_count", configuration.descriptors);
+  v("runs", configuration.samples);
   v("identical_runs", configuration.identical_runs);
   v("storm_before", configuration.storm_before);
   v("storm_after", configuration.storm_after);
-  v("measures", measures);
+  v("measures", MeasuresOf{configuration});
   v("crossings", configuration.crossings);
 }
 
 template <class V>
 void describe(V& v, const PooledChange& pooled) {
   v("measure", key_of(pooled.measure));
-  v("configurations", pooled.configurations);
-  v("pairs", pooled.pairs);
+  v("configuration_count", pooled.configurations);
+  v("runs", pooled.pairs);
   v("estimate", number(pooled.estimate));
   v("low", number(pooled.low));
   v("high", number(pooled.high));
   v("confidence", pooled.confidence);
-  v("judgment", pooled.judgment);
+  v("verdict", pooled.judgment);
 }
 
 template <class V>
 void describe(V& v, const CostComparison& costs) {
   v("grid", costs.grid);
-  v("samples", costs.samples);
+  v("wanted", costs.samples);
   v("seed", costs.seed);
-  v("wanted", costs.wanted);
+  v("wanted_configurations", costs.wanted);
   v("confidence", costs.confidence);
   v("configurations", costs.configurations);
   v("pooled", costs.pooled);
@@ -198,15 +293,15 @@ template <class V>
 void describe(V& v, const MarginComparison& margin) {
   v("before", margin.before);
   v("after", margin.after);
-  v("judgment", margin.judgment);
+  v("verdict", margin.judgment);
   v("reason", margin.reason);
 }
 
 template <class V>
 void describe(V& v, const Blame::Entry& entry) {
   v("reverted", entry.reverted);
-  v("t_disc_ns", number(entry.completion_median));
-  v("messages", number(entry.messages_median));
+  v("t_disc_ns", entry.completion_median);
+  v("counts", MedianTotal{entry});
   v("cures", entry.cures);
 }
 
@@ -216,23 +311,55 @@ void describe(V& v, const Blame& blame) {
   v("entries", blame.entries);
 }
 
-Json to_json(const DiffReport& report, const Files& files) {
+namespace {
+
+struct ReportWithFiles {
+  const DiffReport& report;
+  const Files& files;
+};
+
+template <class V>
+void describe(V& v, const ReportWithFiles& shown) {
+  const DiffReport& report = shown.report;
   const bool ran = report.costs.wanted > 0;
-  report::JsonObject v;
-  v("judgment", report.judgment);
-  v("summary", std::string{headline(report)} + ": " + headline_sentence(report));
+  std::optional<ChecksInContext> checks;
+  if (report.verdicts.done) checks.emplace(ChecksInContext{report.verdicts, shown.files});
+  std::optional<ApartInContext> apart;
+  if (ran) apart.emplace(ApartInContext{report.telling_apart, shown.files});
+  v("verdict", report.judgment);
+  v("sentence", std::string{headline(report)} + ": " + headline_sentence(report));
   v("reasons", report.reasons);
   v("policy", report.policy.name);
   v("seconds", report.seconds);
-  v("base", profile_json(report.base));
-  v("candidate", profile_json(report.candidate));
-  v("knobs", report.profiles);
-  v("verdicts", verdicts_json(report.verdicts, files));
-  v("costs", ran ? json_of(report.costs) : Json());
-  v("margin", ran ? json_of(report.margin) : Json());
+  v("base", GivenProfile{report.base});
+  v("candidate", GivenProfile{report.candidate});
+  v("relation", report.profiles.relation);
+  v.or_null("proof", report.profiles.proof);
+  v("changes", report.profiles.changes);
+  v("check", checks);
+  v("costs", ran ? std::optional{report.costs} : std::nullopt);
+  v("margin", ran ? std::optional{report.margin} : std::nullopt);
   v("blame", report.blame);
-  v("telling_apart", ran ? telling_apart_json(report.telling_apart, files) : Json());
-  return std::move(v).take();
+  v("telling_apart", apart);
+}
+
+}  // namespace
+
+/// Each measure is there, by its name.
+static Configuration example_of(report::Type<Configuration>) {
+  Configuration configuration;
+  for (std::size_t k = 0; k < measure_count; ++k) {
+    configuration.measures[k].measure = static_cast<Measure>(k);
+  }
+  return configuration;
+}
+
+nlohmann::ordered_json to_json(const DiffReport& report, const Files& files) {
+  return report::json_of(ReportWithFiles{report, files});
+}
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<ReportWithFiles>(definitions);
 }
 
 }  // namespace stormproof::diff

@@ -8,6 +8,7 @@
 
 #include "checker/experiments/diff/diff.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::diff {
 
@@ -19,5 +20,6 @@ using Files = std::map<std::string, std::string, std::less<>>;
 [[nodiscard]] report::Document document_of(const DiffReport& report, const Files& files);
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const DiffReport& report, const Files& files);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 
 }  // namespace stormproof::diff

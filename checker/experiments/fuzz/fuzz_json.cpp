@@ -2,17 +2,48 @@
 // not exist is null.
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/experiments/statistics/quantiles_json.hpp"
+#include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::fuzz {
 
-using Json = nlohmann::ordered_json;
+namespace {
+
+/// Of all classes together.
+struct TotalCount {
+  std::uint64_t total = 0;
+};
+
+template <class V>
+void describe(V& v, const TotalCount& of) {
+  v("total", of.total);
+}
+
+struct TotalRatio {
+  double total = 0;
+};
+
+template <class V>
+void describe(V& v, const TotalRatio& of) {
+  v("total", of.total);
+}
+
+struct TotalQuantiles {
+  const statistics::Quantiles& total;
+};
+
+template <class V>
+void describe(V& v, const TotalQuantiles& of) {
+  v("total", of.total);
+}
+
+}  // namespace
 
 template <class V>
 void describe(V& v, const JudgedRun& run) {
   v("t_disc_ns", run.discovery_time);
-  v("messages", run.messages);
-  v("amplification", run.amplification);
-  v("backlog", run.backlog);
+  v("counts", TotalCount{run.messages});
+  v("amplification", TotalRatio{run.amplification});
+  v("peak_packets", run.backlog);
   v("packets", run.packets);
   v("lost", run.lost);
   v("events", run.events);
@@ -27,99 +58,154 @@ void describe(V& v, const Breach& breach) {
 
 namespace {
 
-Json shrunk_json(const Shrunk& shrunk, const Judgment& judgment, const FuzzContext& context) {
-  const auto stem = context.stems.find(judgment.id);
-  const auto file = [&](const char* extension) {
-    return stem == context.stems.end() ? std::string{} : stem->second + extension;
-  };
-  report::JsonObject v;
-  v("participants", shrunk.counterexample.scenario.deployment.size());
-  v("event", shrunk.counterexample.event);
-  v("time_ns", shrunk.counterexample.time);
-  v("reason", shrunk.counterexample.reason);
-  v("differences", differences(shrunk.counterexample.scenario, context.scenario));
-  v("tried", shrunk.tried);
-  v("accepted", shrunk.accepted);
-  v("finished", shrunk.finished);
-  v.or_null("scenario_file", file(".yaml"));
-  const auto trace = context.traces.find(judgment.id);
-  v.or_null("counterexample_file", trace == context.traces.end() ? std::string{} : trace->second);
-  return std::move(v).take();
+struct NumberedRun {
+  const JudgedRun& run;
+};
+
+template <class V>
+void describe(V& v, const NumberedRun& numbered) {
+  v("run", numbered.run.number);
+  describe(v, numbered.run);
 }
 
-Json judgment_json(const FuzzReport& report, const Judgment& judgment, const FuzzContext& context) {
-  const bool known = judgment.runs > 0;
-  Json violating = Json::array();
-  for (const JudgedRun& run : report.runs) {
-    const Breach* breach = run.breach(judgment.id);
-    if (breach == nullptr) continue;
-    report::JsonObject one;
-    one("run", run.number);
-    describe(one, *breach);
-    violating.push_back(std::move(one).take());
+struct BreachOfRun {
+  std::uint64_t run = 0;
+  const Breach& breach;
+};
+
+template <class V>
+void describe(V& v, const BreachOfRun& one) {
+  v("run", one.run);
+  describe(v, one.breach);
+}
+
+struct ShrunkInContext {
+  const Shrunk& shrunk;
+  const Judgment& judgment;
+  const FuzzContext& context;
+};
+
+template <class V>
+void describe(V& v, const ShrunkInContext& shown) {
+  const props::Counterexample& counterexample = shown.shrunk.counterexample;
+  const auto stem = shown.context.stems.find(shown.judgment.id);
+  v("participant_count", counterexample.scenario.deployment.size());
+  v("event", counterexample.event);
+  v("time_ns", counterexample.time);
+  v("reason", counterexample.reason);
+  v("differences", differences(counterexample.scenario, shown.context.scenario));
+  v("tried", shown.shrunk.tried);
+  v("accepted", shown.shrunk.accepted);
+  v("finished", shown.shrunk.finished);
+  v.or_null("scenario_file",
+            stem == shown.context.stems.end() ? std::string{} : stem->second + ".yaml");
+  const auto trace = shown.context.traces.find(shown.judgment.id);
+  v.or_null("counterexample_file",
+            trace == shown.context.traces.end() ? std::string{} : trace->second);
+}
+
+struct Rate {
+  const Judgment& judgment;
+};
+
+template <class V>
+void describe(V& v, const Rate& rate) {
+  const Judgment& judgment = rate.judgment;
+  v("estimate", static_cast<double>(judgment.broken) / static_cast<double>(judgment.runs));
+  v("low", judgment.rate.low);
+  v("high", judgment.rate.high);
+  v("confidence", statistics::confidence_level);
+}
+
+struct JudgmentInContext {
+  const Judgment& judgment;
+  const FuzzReport& report;
+  const FuzzContext& context;
+};
+
+template <class V>
+void describe(V& v, const JudgmentInContext& shown) {
+  const Judgment& judgment = shown.judgment;
+  std::vector<BreachOfRun> violating;
+  for (const JudgedRun& run : shown.report.runs) {
+    const Breach* const breach = run.breach(judgment.id);
+    if (breach != nullptr) violating.push_back({run.number, *breach});
   }
-  report::JsonObject v;
+  std::optional<ShrunkInContext> shrunk;
+  if (judgment.shrunk) shrunk.emplace(ShrunkInContext{*judgment.shrunk, judgment, shown.context});
+  std::optional<Rate> rate;
+  if (judgment.runs > 0) rate.emplace(Rate{judgment});
   v("id", judgment.id);
   v("statement", judgment.statement);
-  v("verdict", props::name_of(judgment.verdict));
+  v("verdict", judgment.verdict);
   v("unperturbed", judgment.in_base);
   v("sampled", judgment.sampled);
   v("runs", judgment.runs);
   v("violations", judgment.broken);
-  v("rate", known ? Json(static_cast<double>(judgment.broken) / static_cast<double>(judgment.runs))
-                  : Json());
-  v("rate_interval", known ? Json::array({judgment.rate.low, judgment.rate.high}) : Json());
+  v("rate", rate);
   v("violating_runs", violating);
-  v.or_null("first_command",
-            judgment.broken > 0 ? context.single(report, judgment.first_broken) : std::string{});
-  v("shrunk", judgment.shrunk ? shrunk_json(*judgment.shrunk, judgment, context) : Json());
-  return std::move(v).take();
+  v.or_null("first_command", judgment.broken > 0
+                                 ? shown.context.single(shown.report, judgment.first_broken)
+                                 : std::string{});
+  v("shrunk", shrunk);
 }
 
-Json quantiles_json(const FuzzReport& report) {
-  report::JsonObject v;
+struct Summary {
+  const FuzzReport& report;
+};
+
+template <class V>
+void describe(V& v, const Summary& summary) {
+  const FuzzReport& report = summary.report;
+  v("runs", report.runs.size());
+  v("completed", report.runs.size() - report.incomplete);
   v("t_disc_ns", report.completion_ns);
-  v("messages", report.messages);
-  v("amplification", report.amplification);
-  v("backlog", report.backlog);
-  return std::move(v).take();
+  v("counts", TotalQuantiles{report.messages});
+  v("amplification", TotalQuantiles{report.amplification});
+  v("peak_packets", report.backlog);
 }
 
-}  // namespace
+struct ReportInContext {
+  const FuzzReport& report;
+  const FuzzContext& context;
+};
 
-Json to_json(const FuzzReport& report, const FuzzContext& context) {
-  Json ranges;
-  for (const RangeText& range : describe(report.ranges, context.scenario)) {
+template <class V>
+void describe(V& v, const ReportInContext& shown) {
+  const FuzzReport& report = shown.report;
+  nlohmann::ordered_map<std::string, std::string> ranges;
+  for (const RangeText& range : describe(report.ranges, shown.context.scenario)) {
     ranges[range.name] = range.text;
   }
-  Json results = Json::array();
+  std::vector<JudgmentInContext> verdicts;
   for (const Judgment& judgment : report.judgments) {
-    results.push_back(judgment_json(report, judgment, context));
+    verdicts.push_back({judgment, report, shown.context});
   }
-  Json samples = Json::array();
-  for (const JudgedRun& run : report.runs) {
-    report::JsonObject one;
-    one("run", run.number);
-    describe(one, run);
-    samples.push_back(std::move(one).take());
-  }
-  report::JsonObject v;
-  v("scenario", context.name);
+  std::vector<NumberedRun> samples;
+  for (const JudgedRun& run : report.runs) samples.push_back({run});
+  v("scenario", shown.context.name);
   v("seed", report.seed);
   v("first", report.first);
   v("wanted", report.wanted);
   v("runs", report.runs.size());
-  v("incomplete", report.incomplete);
   v("rejected_draws", report.rejected);
   v("usual_ranges", report.ranges.usual);
   v("ranges", ranges);
-  v.unless_empty("unmodelled", context.scenario.dds.unmodelled);
-  v("confidence", statistics::confidence_level);
-  v("unperturbed", report.base_known ? report::json_of(report.base) : Json());
-  v("results", results);
-  v("quantiles", quantiles_json(report));
+  v.unless_empty("unmodelled", shown.context.scenario.dds.unmodelled);
+  v("base", report.base_known ? std::optional{report.base} : std::nullopt);
+  v("verdicts", verdicts);
+  v("summary", Summary{report});
   v("samples", samples);
-  return std::move(v).take();
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const FuzzReport& report, const FuzzContext& context) {
+  return report::json_of(ReportInContext{report, context});
+}
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<ReportInContext>(definitions);
 }
 
 }  // namespace stormproof::fuzz

@@ -8,6 +8,7 @@
 
 #include "checker/experiments/fuzz/fuzz.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::fuzz {
 
@@ -28,5 +29,6 @@ struct FuzzContext {
 
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const FuzzReport& report, const FuzzContext& context);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 
 }  // namespace stormproof::fuzz

@@ -1,134 +1,191 @@
 // The report as JSON.
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "checker/experiments/reproduce/measures.hpp"
 #include "checker/experiments/reproduce/reproduce_report.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "model/config/knobs/dds_knobs.hpp"
 #include "model/config/knobs/wireless_knobs.hpp"
 
 namespace stormproof::reproduce {
 
+template <class V>
+void describe(V& v, const Variant& variant) {
+  v("id", variant.id);
+  v("title", variant.title);
+  v("start", variant.staggered ? "drawn" : "simultaneous");
+  v("runs", variant.runs);
+}
+
+template <class V>
+void describe(V& v, const Run& run) {
+  v("t_disc_ns", run.completion);
+}
+
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json number(std::optional<double> value) {
-  if (!value || !std::isfinite(*value)) return nullptr;
-  return *value;
-}
-
-ordered_json numbers(const std::vector<double>& values) {
-  if (values.empty()) return nullptr;
-  if (values.size() == 1) return number(values.front());
-  ordered_json list = ordered_json::array();
-  for (const double value : values) list.push_back(number(value));
-  return list;
-}
-
-ordered_json reason_texts(const Report& report, const std::vector<std::size_t>& positions) {
-  ordered_json texts = ordered_json::array();
+std::vector<std::string> reason_texts(const Report& report,
+                                      const std::vector<std::size_t>& positions) {
+  std::vector<std::string> texts;
   for (const std::size_t k : positions) texts.push_back(report.published.reasons[k].text);
   return texts;
 }
 
-ordered_json figure_json(const Report& report, const Figure& figure) {
-  ordered_json json{{"id", figure.published.id},
-                    {"published", numbers(figure.published.values)},
-                    {"unit", figure.published.unit},
-                    {"kind", name_of(figure.kind)},
-                    {"quantity", figure.quantity}};
-  ordered_json models = ordered_json::array();
-  for (std::size_t v = 0; v < figure.models.size(); ++v) {
-    const ModelValue& model = figure.models[v];
-    ordered_json ratios = ordered_json::array();
-    for (const auto& ratio : model.ratios) ratios.push_back(number(ratio));
-    ordered_json one{{"variant", report.results.plan.variants[v].id},
-                     {"value", numbers(model.values)}};
-    one["ratio"] = ratios.empty() ? ordered_json(nullptr) : ratios.size() == 1 ? ratios[0] : ratios;
-    one["agreement"] = name_of(model.agreement);
-    one["reasons"] = reason_texts(report, model.reasons);
-    models.push_back(std::move(one));
-  }
-  json["models"] = std::move(models);
-  json["reasons"] = reason_texts(report, figure.reasons);
-  return json;
+std::optional<std::int64_t> in_ns(std::optional<double> seconds) {
+  if (!seconds) return std::nullopt;
+  return std::llround(*seconds * 1e9);
 }
 
-ordered_json case_json(const Report& report, const Case& which, const Outcome& outcome) {
-  ordered_json json{{"variant", report.results.plan.variants[which.variant].id},
-                    {"network", name_of(which.network)},
-                    {"heartbeat_policy", model::config::name_of(which.policy)},
-                    {"order", model::config::name_of(which.order)},
-                    {"participants_per_host", which.configuration.participants_per_host},
-                    {"endpoints_per_participant", which.configuration.endpoints_per_participant},
-                    {"runs", outcome.runs.size()},
-                    {"completed", outcome.completed()},
-                    {"completion_s", number(outcome.completion_s())}};
-  ordered_json times = ordered_json::array();
-  for (const Run& run : outcome.runs) {
-    times.push_back(run.completion ? ordered_json(run.completion->count()) : ordered_json(nullptr));
-  }
-  json["t_disc_ns"] = std::move(times);
-  ordered_json counts;
-  for (const Class one : table_classes) counts[name_of(one)] = number(outcome.messages(one));
-  counts["spdp_multicast"] = number(outcome.messages(Class::spdp_multicast));
-  counts["spdp_unicast"] = number(outcome.messages(Class::spdp_unicast));
-  json["counts"] = std::move(counts);
-  return json;
+struct ModelOfVariant {
+  const Report& report;
+  const Variant& variant;
+  const ModelValue& model;
+};
+
+template <class V>
+void describe(V& v, const ModelOfVariant& one) {
+  v("variant", one.variant.id);
+  v("values", one.model.values);
+  v("ratios", one.model.ratios);
+  v("verdict", one.model.agreement);
+  v("reasons", reason_texts(one.report, one.model.reasons));
 }
 
-ordered_json configuration_json(const Report& report, std::size_t variant,
-                                const Configuration& one) {
-  const Measures measures{report.results};
-  ordered_json json{
-      {"variant", report.results.plan.variants[variant].id},
-      {"participants_per_host", one.participants_per_host},
-      {"endpoints_per_participant", one.endpoints_per_participant},
-      {"high_load", report.results.plan.high_load(one)},
-      {"open_loop_s", measures.open_loop_s(variant, one)},
-      {"wireless_to_wired", number(measures.wireless_to_wired(variant, one))},
-      {"completion_spread", number(measures.completion_spread(variant, one))},
-      {"message_spread", number(measures.message_spread(variant, Class::total, one))}};
-  ordered_json reference;
-  ordered_json loopback;
+struct FigureOfReport {
+  const Report& report;
+  const Figure& figure;
+};
+
+template <class V>
+void describe(V& v, const FigureOfReport& one) {
+  const Figure& figure = one.figure;
+  std::vector<ModelOfVariant> models;
+  for (std::size_t k = 0; k < figure.models.size(); ++k) {
+    models.push_back({one.report, one.report.results.plan.variants[k], figure.models[k]});
+  }
+  v("id", figure.published.id);
+  v("published", figure.published.values);
+  v("unit", figure.published.unit);
+  v("kind", figure.kind);
+  v("quantity", figure.quantity);
+  v("models", models);
+  v("reasons", reason_texts(one.report, figure.reasons));
+}
+
+struct MeanCounts {
+  const Outcome& outcome;
+};
+
+template <class V>
+void describe(V& v, const MeanCounts& means) {
+  for (const Class one : table_classes) v(name_of(one), means.outcome.messages(one));
+  v("spdp_multicast", means.outcome.messages(Class::spdp_multicast));
+  v("spdp_unicast", means.outcome.messages(Class::spdp_unicast));
+}
+
+struct CaseOfReport {
+  const Variant& variant;
+  const Case& which;
+  const Outcome& outcome;
+};
+
+template <class V>
+void describe(V& v, const CaseOfReport& one) {
+  const Case& which = one.which;
+  v("variant", one.variant.id);
+  v("network", which.network);
+  v("heartbeat_policy", model::config::name_of(which.policy));
+  v("order", model::config::name_of(which.order));
+  v("participants_per_host", which.configuration.participants_per_host);
+  v("endpoints_per_participant", which.configuration.endpoints_per_participant);
+  v("runs", one.outcome.runs.size());
+  v("completed", one.outcome.completed());
+  v("t_disc_ns", in_ns(one.outcome.completion_s()));
+  v("samples", one.outcome.runs);
+  v("counts", MeanCounts{one.outcome});
+}
+
+/// Of a variant.
+struct ConfigurationOf {
+  const Report& report;
+  std::size_t variant = 0;
+  const Configuration& configuration;
+};
+
+struct ReferenceCounts {
+  const ConfigurationOf& of;
+};
+
+template <class V>
+void describe(V& v, const ReferenceCounts& counts) {
+  const Measures measures{counts.of.report.results};
   for (const Class what : table_classes) {
-    reference[name_of(what)] = measures.reference_messages(variant, what, one);
-    loopback[name_of(what)] = number(measures.loopback_messages(variant, what, one));
+    v(name_of(what), measures.reference_messages(counts.of.variant, what, counts.of.configuration));
   }
-  json["failure_free"] = std::move(reference);
-  json["loopback_normalised"] = std::move(loopback);
-  return json;
+}
+
+struct LoopbackCounts {
+  const ConfigurationOf& of;
+};
+
+template <class V>
+void describe(V& v, const LoopbackCounts& counts) {
+  const Measures measures{counts.of.report.results};
+  for (const Class what : table_classes) {
+    v(name_of(what), measures.loopback_messages(counts.of.variant, what, counts.of.configuration));
+  }
+}
+
+template <class V>
+void describe(V& v, const ConfigurationOf& one) {
+  const Measures measures{one.report.results};
+  const Plan& plan = one.report.results.plan;
+  const Configuration& configuration = one.configuration;
+  v("variant", plan.variants[one.variant].id);
+  v("participants_per_host", configuration.participants_per_host);
+  v("endpoints_per_participant", configuration.endpoints_per_participant);
+  v("high_load", plan.high_load(configuration));
+  v("open_loop_ns", in_ns(measures.open_loop_s(one.variant, configuration)));
+  v("wireless_to_wired", measures.wireless_to_wired(one.variant, configuration));
+  v("completion_spread", measures.completion_spread(one.variant, configuration));
+  v("message_spread", measures.message_spread(one.variant, Class::total, configuration));
+  v("failure_free", ReferenceCounts{one});
+  v("loopback_normalised", LoopbackCounts{one});
 }
 
 }  // namespace
 
-nlohmann::ordered_json to_json(const Report& report) {
+template <class V>
+void describe(V& v, const Report& report) {
   const Plan& plan = report.results.plan;
-  ordered_json json{{"version", report.version}, {"close_share", close_share}};
-  json["variants"] = ordered_json::array();
-  for (const Variant& variant : plan.variants) {
-    json["variants"].push_back({{"id", variant.id},
-                                {"title", variant.title},
-                                {"start", variant.staggered ? "drawn" : "simultaneous"},
-                                {"runs", variant.runs}});
+  std::vector<FigureOfReport> figures;
+  for (const Figure& figure : report.figures) figures.push_back({report, figure});
+  std::vector<ConfigurationOf> configurations;
+  for (std::size_t k = 0; k < plan.variants.size(); ++k) {
+    for (const Configuration& one : plan.configurations) configurations.push_back({report, k, one});
   }
-  json["figures"] = ordered_json::array();
-  for (const Figure& figure : report.figures) {
-    json["figures"].push_back(figure_json(report, figure));
-  }
-  json["configurations"] = ordered_json::array();
-  for (std::size_t v = 0; v < plan.variants.size(); ++v) {
-    for (const Configuration& one : plan.configurations) {
-      json["configurations"].push_back(configuration_json(report, v, one));
-    }
-  }
-  json["cases"] = ordered_json::array();
+  std::vector<CaseOfReport> cases;
   for (const auto& [which, outcome] : report.results.outcomes) {
-    json["cases"].push_back(case_json(report, which, outcome));
+    cases.push_back({plan.variants[which.variant], which, outcome});
   }
-  return json;
+  v("version", report.version);
+  v("close_share", close_share);
+  v("variants", plan.variants);
+  v("published_figures", figures);
+  v("configurations", configurations);
+  v("cases", cases);
+}
+
+static Report example_of(report::Type<Report>) {
+  Report report;
+  report.results.plan.variants.emplace_back();
+  return report;
+}
+
+nlohmann::ordered_json to_json(const Report& report) { return report::json_of(report); }
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<Report>(definitions);
 }
 
 }  // namespace stormproof::reproduce

@@ -7,6 +7,7 @@
 
 #include "checker/experiments/reproduce/figures.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::reproduce {
 
@@ -22,6 +23,7 @@ struct Report {
 
 /// Everything, exact times in nanoseconds included. A value that does not exist is null.
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 
 /// One line for each published figure and variant.
 [[nodiscard]] std::string figures_csv(const Report& report);

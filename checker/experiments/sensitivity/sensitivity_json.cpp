@@ -1,9 +1,10 @@
 // Everything the report knows, with ranks for both measures.
 #include <algorithm>
 #include <map>
+#include <vector>
 
 #include "checker/experiments/sensitivity/sensitivity_report.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::sensitivity {
 
@@ -25,32 +26,47 @@ std::map<std::string, std::size_t> ranks(const Report& report, Measure measure) 
 
 template <class V>
 void describe(V& v, const Effect& effect) {
-  v("median", effect.median);
+  v("estimate", effect.median);
   v("low", effect.low);
   v("high", effect.high);
   v("confidence", effect.confidence);
   v("exactly_zero", effect.exactly_zero);
 }
 
+namespace {
+
 /// On both measures.
+struct OnBoth {
+  const Effects& effects;
+};
+
 template <class V>
-void describe_effects(V& v, const Effects& effects) {
-  v("t_disc_ns", of(effects, Measure::completion));
-  v("messages", of(effects, Measure::messages));
+void describe(V& v, const OnBoth& both) {
+  v("t_disc_ns", of(both.effects, Measure::completion));
+  v("messages", of(both.effects, Measure::messages));
 }
 
-static nlohmann::ordered_json effects_json(const Effects& effects) {
-  report::JsonObject v;
-  describe_effects(v, effects);
-  return std::move(v).take();
+struct DirectedLevel {
+  Direction direction{};
+  const LevelResult& level;
+};
+
+template <class V>
+void describe(V& v, const DirectedLevel& one) {
+  v("direction", one.direction);
+  v("value", one.level.value);
+  describe(v, OnBoth{one.level.effects});
+  v("incomplete", one.level.incomplete);
 }
+
+}  // namespace
 
 template <class V>
 void describe(V& v, const PairResult& pair) {
   v("keys", pair.keys);
   v("directions", pair.directions);
-  v("joint", effects_json(pair.joint));
-  v("interaction", effects_json(pair.interaction));
+  v("joint", OnBoth{pair.joint});
+  v("interaction", OnBoth{pair.interaction});
 }
 
 /// What is known of a knob before it is varied.
@@ -59,56 +75,89 @@ void describe(V& v, const KnobResult& knob) {
   v("key", knob.key);
   v("value", knob.value);
   v("doc", knob.doc);
-  if (!knob.obstacle.empty()) v("obstacle", knob.obstacle);
+  v.unless_empty("obstacle", knob.obstacle);
 }
 
-static nlohmann::ordered_json levels_json(const KnobResult& knob) {
-  nlohmann::ordered_json levels = nlohmann::ordered_json::array();
+namespace {
+
+struct RankedKnob {
+  const KnobResult& knob;
+  std::size_t rank_completion = 0, rank_messages = 0;
+};
+
+template <class V>
+void describe(V& v, const RankedKnob& ranked) {
+  std::vector<DirectedLevel> levels;
   for (const Direction direction : directions) {
-    const auto& level = knob.levels[static_cast<std::size_t>(direction)];
-    if (!level) continue;
-    report::JsonObject v;
-    v("direction", direction);
-    v("value", level->value);
-    describe_effects(v, level->effects);
-    v("incomplete", level->incomplete);
-    levels.push_back(std::move(v).take());
+    const auto& level = ranked.knob.levels[static_cast<std::size_t>(direction)];
+    if (level) levels.push_back({direction, *level});
   }
-  return levels;
+  describe(v, ranked.knob);
+  v("rank_completion", ranked.rank_completion);
+  v("rank_messages", ranked.rank_messages);
+  v("levels", levels);
 }
 
-nlohmann::ordered_json to_json(const Report& report, const Description& description) {
-  const Options& options = description.options;
-  report::JsonObject base;
-  base("t_disc_ns", report.base[0]);
-  base("messages", report.base[1]);
-  base("incomplete", report.incomplete);
-  nlohmann::ordered_json knobs = nlohmann::ordered_json::array();
+/// The medians of the unchanged scenario.
+struct Base {
+  const Report& report;
+};
+
+struct TotalOfBase {
+  const Report& report;
+};
+
+template <class V>
+void describe(V& v, const TotalOfBase& base) {
+  v("total", base.report.base[1]);
+}
+
+template <class V>
+void describe(V& v, const Base& base) {
+  v("t_disc_ns", base.report.base[0]);
+  v("counts", TotalOfBase{base.report});
+  v("incomplete", base.report.incomplete);
+}
+
+struct DescribedReport {
+  const Report& report;
+  const Description& description;
+};
+
+template <class V>
+void describe(V& v, const DescribedReport& shown) {
+  const Report& report = shown.report;
+  const Options& options = shown.description.options;
   const auto by_completion = ranks(report, Measure::completion);
   const auto by_messages = ranks(report, Measure::messages);
+  std::vector<RankedKnob> knobs;
   for (const KnobResult& knob : report.knobs) {
-    report::JsonObject entry;
-    describe(entry, knob);
-    entry("rank_completion", by_completion.at(knob.key));
-    entry("rank_messages", by_messages.at(knob.key));
-    entry("levels", levels_json(knob));
-    knobs.push_back(std::move(entry).take());
+    knobs.push_back({knob, by_completion.at(knob.key), by_messages.at(knob.key)});
   }
-  report::JsonObject v;
-  v("scenario", description.scenario);
+  v("scenario", shown.description.scenario);
   v("range", options.range);
-  v("samples", report.samples);
+  v("wanted", options.samples);
+  v("runs_each", report.samples);
   v("seed", options.first_seed);
   v("start_jitter_ns", options.start_jitter);
-  v("sampled", description.is_sampled());
+  v("sampled", shown.description.is_sampled());
   v("by", options.by);
   v("runs", report.runs);
-  v("base", std::move(base).take());
-  v.unless_empty("unmodelled", description.dds.unmodelled);
+  v("base", Base{report});
+  v.unless_empty("unmodelled", shown.description.dds.unmodelled);
   v("knobs", knobs);
   v("not_varied", report.unvaried);
   v("pairs", report.pairs);
-  return std::move(v).take();
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Report& report, const Description& description) {
+  return report::json_of(DescribedReport{report, description});
+}
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<DescribedReport>(definitions);
 }
 
 }  // namespace stormproof::sensitivity

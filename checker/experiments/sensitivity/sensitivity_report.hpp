@@ -7,6 +7,7 @@
 
 #include "checker/experiments/sensitivity/sensitivity.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::sensitivity {
 
@@ -24,6 +25,7 @@ struct Description {
 
 [[nodiscard]] report::Document document_of(const Report& report, const Description& description);
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Description& description);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 /// A bar for each of the first knobs that have an effect on `description.options.by`.
 [[nodiscard]] std::string to_svg(const Report& report, const Description& description);
 

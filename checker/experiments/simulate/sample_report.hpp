@@ -11,6 +11,7 @@
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "checker/experiments/trials/sample_runs.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::report {
 
@@ -52,5 +53,6 @@ struct SampleSummary {
 /// profiles also compare, an array of {profile_name, samples, summary, profile}.
 /// specs/guide/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Sampling& sampling);
+[[nodiscard]] nlohmann::ordered_json sampling_schema(SchemaDefinitions& definitions);
 
 }  // namespace stormproof::report

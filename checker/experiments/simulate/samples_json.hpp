@@ -12,13 +12,11 @@ namespace stormproof::trials {
 
 template <class V>
 void describe(V& v, const Sample& sample) {
-  nlohmann::ordered_json counts = report::json_of(sample.counts);
-  counts["user_control"] = sample.user_control;
   v("seed", sample.seed);
   v("completed", sample.discovery_time.has_value());
   v("end", sample.end);
   v("t_disc_ns", sample.discovery_time);
-  v("counts", counts);
+  v("counts", model::AllCounts{sample.counts, sample.user_control});
   v("user_control", sample.user_control);
   v("events", sample.events);
   v("health", sample.health.health);
@@ -29,20 +27,25 @@ void describe(V& v, const Sample& sample) {
 
 namespace stormproof::report {
 
+struct SummaryOfCounts {
+  const SampleSummary& summary;
+};
+
+template <class V>
+void describe(V& v, const SummaryOfCounts& counts) {
+  const auto entries = model::Counts{}.entries();
+  for (std::size_t k = 0; k < entries.size(); ++k) v(entries[k].name, counts.summary.counts[k]);
+  v("total", counts.summary.total);
+}
+
 template <class V>
 void describe(V& v, const SampleSummary& summary) {
-  nlohmann::ordered_json counts;
-  const auto entries = model::Counts{}.entries();
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    counts[entries[k].name] = json_of(summary.counts[k]);
-  }
-  counts["total"] = json_of(summary.total);
   const auto runs = static_cast<double>(std::max<std::size_t>(summary.runs, 1));
   v("runs", summary.runs);
   v("completed", summary.completed);
   v("completed_share", static_cast<double>(summary.completed) / runs);
   v("t_disc_ns", summary.discovery_time_ns);
-  v("counts", counts);
+  v("counts", SummaryOfCounts{summary});
   v("user_control", summary.user_control);
 }
 

@@ -1,9 +1,12 @@
 // The JSON form of a simulation. Times are integers in ns, sizes in bytes; what does not exist is
 // null.
+#include <map>
+#include <variant>
+
 #include "checker/experiments/simulate/samples_json.hpp"
 #include "checker/experiments/simulate/simulate_report.hpp"
-#include "checker/presentation/json/describe.hpp"
 #include "checker/presentation/json/describe_model.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/reference.hpp"
 
@@ -36,11 +39,26 @@ void describe(V& v, const Latency& latency) {
 
 }  // namespace stormproof::model
 
+namespace stormproof::props {
+
+template <class V>
+void describe(V& v, const LimitReading& reading) {
+  using Number = std::variant<std::uint64_t, double>;
+  const auto number = [&](double value) {
+    const bool is_ratio = reading.id == "limit.amplification";
+    return is_ratio ? Number{value} : Number{static_cast<std::uint64_t>(value)};
+  };
+  v("limit", number(reading.limit));
+  v("reached", reading.reached ? std::optional{number(*reading.reached)} : std::nullopt);
+  v("exceeded", reading.exceeded);
+}
+
+}  // namespace stormproof::props
+
 namespace stormproof::report {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using model::Counts;
 using model::RunResult;
 
@@ -49,69 +67,102 @@ std::optional<double> quotient(std::uint64_t value, std::uint64_t base) {
   return static_cast<double>(value) / static_cast<double>(base);
 }
 
-/// An object with a value for each class of traffic.
-template <class Values>
-Json by_class(const Values& values) {
-  JsonObject v;
+/// A value for each class of traffic.
+template <class V, class Values>
+void describe_by_class(V& v, const Values& values) {
   for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
     v(name_of(static_cast<model::TrafficClass>(k)), values[k]);
   }
-  return std::move(v).take();
 }
 
-Json amplification_json(const Counts& counts, const Counts& reference) {
-  JsonObject v;
-  const auto values = counts.entries();
-  const auto bases = reference.entries();
+struct BusyByClass {
+  const model::ChannelUse& channel;
+};
+
+template <class V>
+void describe(V& v, const BusyByClass& one) {
+  describe_by_class(v, one.channel.busy);
+}
+
+struct LatencyByClass {
+  const RunResult& result;
+};
+
+template <class V>
+void describe(V& v, const LatencyByClass& all) {
+  describe_by_class(v, all.result.latency);
+}
+
+struct Amplification {
+  const Counts& counts;
+  const Counts& reference;
+};
+
+template <class V>
+void describe(V& v, const Amplification& one) {
+  const auto values = one.counts.entries();
+  const auto bases = one.reference.entries();
   for (std::size_t k = 0; k < values.size(); ++k) {
     v(values[k].name, quotient(values[k].value, bases[k].value));
   }
-  v("total", quotient(counts.total(), reference.total()));
-  return std::move(v).take();
+  v("total", quotient(one.counts.total(), one.reference.total()));
 }
 
-Json channels_json(const RunResult& result) {
-  Json list = Json::array();
-  for (const model::ChannelUse& channel : result.channels) {
-    const std::int64_t busy = channel.total_busy().count();
-    JsonObject v;
-    v("name", channel.name);
-    v("busy_ns", busy);
-    v("busy_share", quotient(static_cast<std::uint64_t>(busy),
-                             static_cast<std::uint64_t>(result.end_time.count())));
-    v("busy_ns_by_class", by_class(channel.busy));
-    list.push_back(std::move(v).take());
-  }
-  return list;
+struct ChannelOfRun {
+  const model::ChannelUse& channel;
+  const RunResult& result;
+};
+
+template <class V>
+void describe(V& v, const ChannelOfRun& one) {
+  const std::int64_t busy = one.channel.total_busy().count();
+  v("name", one.channel.name);
+  v("busy_ns", busy);
+  v("busy_share", quotient(static_cast<std::uint64_t>(busy),
+                           static_cast<std::uint64_t>(one.result.end_time.count())));
+  v("busy_ns_by_class", BusyByClass{one.channel});
 }
 
-Json backlog_json(const RunResult& result) {
-  Json list = Json::array();
-  for (const model::BacklogPeak& peak : result.backlog) {
-    JsonObject v;
-    v("participant", list.size());
-    v("peak_packets", peak.packets);
-    v("peak_at_ns", peak.at);
-    v("packets_at_end", peak.packets_at_end);
-    list.push_back(std::move(v).take());
-  }
-  return list;
+struct BacklogOfParticipant {
+  std::size_t participant = 0;
+  const model::BacklogPeak& peak;
+};
+
+template <class V>
+void describe(V& v, const BacklogOfParticipant& one) {
+  v("participant", one.participant);
+  v("peak_packets", one.peak.packets);
+  v("peak_at_ns", one.peak.at);
+  v("packets_at_end", one.peak.packets_at_end);
 }
 
-/// In ns, messages, a ratio, packets.
-Json limits_json(const std::vector<props::LimitReading>& limits) {
-  Json json;
+struct Missing {
+  const RunResult& result;
+};
+
+template <class V>
+void describe(V& v, const Missing& missing) {
+  v("count", missing.result.missing_count);
+  v("descriptors", missing.result.missing);
+}
+
+struct Deliveries {
+  const RunResult& result;
+};
+
+template <class V>
+void describe(V& v, const Deliveries& deliveries) {
+  v("useful", deliveries.result.useful_deliveries);
+  v("duplicate", deliveries.result.duplicate_deliveries);
+}
+
+/// By name, without "limit.".
+std::map<std::string, props::LimitReading> by_name(const std::vector<props::LimitReading>& limits) {
+  std::map<std::string, props::LimitReading> all;
   for (const props::LimitReading& reading : limits) {
-    const auto number = [&](double value) {
-      const bool is_ratio = reading.id == "limit.amplification";
-      return is_ratio ? Json(value) : Json(static_cast<std::uint64_t>(value));
-    };
-    const std::string name{reading.id.substr(reading.id.find('.') + 1)};
-    json[name] = {{"limit", number(reading.limit)},
-                  {"reached", reading.reached ? number(*reading.reached) : Json(nullptr)},
-                  {"exceeded", reading.exceeded}};
+    all.emplace(reading.id.substr(reading.id.find('.') + 1), reading);
   }
-  return json;
+  return all;
 }
 
 }  // namespace
@@ -126,43 +177,47 @@ exact::Outlook Simulation::outlook() const {
   return exact::Outlook{std::vector{exact::health_of(scenario, result)}};
 }
 
-Json to_json(const Simulation& s) {
+template <class V>
+void describe(V& v, const Simulation& s) {
   const RunResult& result = s.result;
-  Json counts = json_of(result.counts);
-  counts["user_control"] = result.user_control;
+  std::vector<ChannelOfRun> channels;
+  for (const model::ChannelUse& channel : result.channels) channels.push_back({channel, result});
+  std::vector<BacklogOfParticipant> backlog;
+  for (const model::BacklogPeak& peak : result.backlog) backlog.push_back({backlog.size(), peak});
   std::optional<double> closed_to_open_loop;
   if (s.open_loop && result.discovery_time) {
     closed_to_open_loop = exact::health_of(s.scenario, result).stretch;
   }
-  JsonObject v;
   v("scenario", s.name);
   v("outlook", s.outlook());
   v("completed", result.completed());
   v("end", result.end);
   v("t_disc_ns", result.discovery_time);
   v("end_ns", result.end_time);
-  v("counts", counts);
+  v("counts", model::AllCounts{result.counts, result.user_control});
   v("failure_free", s.failure_free);
-  v("amplification", amplification_json(result.counts, s.failure_free));
+  v("amplification", Amplification{result.counts, s.failure_free});
   v("user_control", result.user_control);
   v("events", result.events);
   v("open_loop_ns", s.open_loop);
   v("closed_to_open_loop", closed_to_open_loop);
-  if (!s.limits.empty()) v("limits", limits_json(s.limits));
-  v("missing", Json{{"count", result.missing_count}, {"descriptors", json_of(result.missing)}});
-  v("channels", channels_json(result));
-  v("backlog", backlog_json(result));
-  v("latency", by_class(result.latency));
-  v("deliveries",
-    Json{{"useful", result.useful_deliveries}, {"duplicate", result.duplicate_deliveries}});
+  v.unless_empty("limits", by_name(s.limits));
+  v("missing", Missing{result});
+  v("channels", channels);
+  v("backlog", backlog);
+  v("latency", LatencyByClass{result});
+  v("deliveries", Deliveries{result});
   v("last_delivery", result.last_delivery);
-  if (!s.samples.empty()) {
-    v("samples", s.samples);
-    v("summary", summarize(s.samples));
-  }
+  v.unless_empty("samples", s.samples);
+  v.unless_empty("summary", s.samples.empty() ? std::nullopt : std::optional{summarize(s.samples)});
   v.unless_empty("unmodelled", s.scenario.dds.unmodelled);
-  v("profile", model::config::effective_json(s.scenario));
-  return std::move(v).take();
+  v.as_in("profile", "../scenario.schema.json", model::config::effective_json(s.scenario));
+}
+
+nlohmann::ordered_json to_json(const Simulation& simulation) { return json_of(simulation); }
+
+nlohmann::ordered_json simulation_schema(SchemaDefinitions& definitions) {
+  return schema_form<Simulation>(definitions);
 }
 
 }  // namespace stormproof::report

@@ -10,6 +10,7 @@
 
 #include "checker/experiments/trials/sample_runs.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "model/counts.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
@@ -42,5 +43,6 @@ struct Simulation {
 /// events, open_loop_ns, closed_to_open_loop, limits (if the scenario has any), missing, channels,
 /// backlog, latency, deliveries, last_delivery, profile. specs/guide/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Simulation& simulation);
+[[nodiscard]] nlohmann::ordered_json simulation_schema(SchemaDefinitions& definitions);
 
 }  // namespace stormproof::report

@@ -7,7 +7,7 @@
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "checker/experiments/sweep/sweep_report.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
@@ -134,22 +134,39 @@ report::Document document_of(const Plan& plan, const Collector& results,
   return document;
 }
 
+namespace {
+
+struct SweepAnswer {
+  std::string grid, database;
+  Status status;
+  Totals totals;
+  std::map<std::string, std::string> unmodelled;
+};
+
+template <class V>
+void describe(V& v, const SweepAnswer& answer) {
+  v("grid", answer.grid);
+  v("database", answer.database);
+  v("jobs", answer.status.jobs);
+  v("already_done", answer.status.already_done);
+  v("run_now", answer.status.finished);
+  v("completed", answer.totals.completed);
+  v("incomplete", answer.totals.incomplete);
+  v("failed", answer.totals.failed);
+  v.or_null("first_error", answer.totals.first_error);
+  v.unless_empty("unmodelled", answer.unmodelled);
+}
+
+}  // namespace
+
 nlohmann::ordered_json to_json(const Plan& plan, const Collector& results,
                                const std::string& database) {
-  const Status& status = results.status();
-  const Totals totals = count(plan, results);
-  report::JsonObject v;
-  v("grid", plan.grid().source);
-  v("database", database);
-  v("jobs", status.jobs);
-  v("already_done", status.already_done);
-  v("finished", status.finished);
-  v("completed", totals.completed);
-  v("incomplete", totals.incomplete);
-  v("failed", totals.failed);
-  v.or_null("first_error", totals.first_error);
-  v.unless_empty("unmodelled", unmodelled_in(plan));
-  return std::move(v).take();
+  return report::json_of(SweepAnswer{plan.grid().source, database, results.status(),
+                                     count(plan, results), unmodelled_in(plan)});
+}
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<SweepAnswer>(definitions);
 }
 
 }  // namespace stormproof::sweep

@@ -3,11 +3,9 @@
 
 #include "checker/experiments/statistics/quantiles_json.hpp"
 #include "checker/experiments/tune/tune_report.hpp"
+#include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::tune {
-
-using report::json_of;
-using Json = nlohmann::ordered_json;
 
 static const char* name_of(Row::Kind kind) {
   switch (kind) {
@@ -33,21 +31,30 @@ static const char* name_of(Answer answer) {
   return "";
 }
 
-static Json ratio_json(const Shift& shift) {
-  report::JsonObject v;
-  v("ratio", std::exp(shift.estimate));
+namespace {
+
+/// A shift of a logarithm.
+struct Ratio {
+  const Shift& shift;
+};
+
+template <class V>
+void describe(V& v, const Ratio& ratio) {
+  const Shift& shift = ratio.shift;
+  v("estimate", std::exp(shift.estimate));
   v("low", std::exp(shift.low));
   v("high", std::exp(shift.high));
   v("confidence", shift.confidence);
   v("exact", shift.exact);
   v("clear", shift.is_less() || shift.is_more());
-  return std::move(v).take();
 }
+
+}  // namespace
 
 template <class V>
 void describe(V& v, const Difference& difference) {
-  v("t_disc_ns", ratio_json(difference.completion));
-  v("messages", ratio_json(difference.messages));
+  v("t_disc_ns", Ratio{difference.completion});
+  v("messages", Ratio{difference.messages});
 }
 
 template <class V>
@@ -75,60 +82,68 @@ void describe(V& v, const Fixed& fixed) {
   v("why", fixed.why);
 }
 
-template <class V>
-void describe(V& v, const Space& space) {
-  v("searched", space.dimensions);
-  v("fixed", space.fixed);
-}
-
-template <class V>
-void describe(V& v, const Seeds& seeds) {
-  v("first", seeds.first);
-  v("count", seeds.count);
-}
-
 namespace {
 
-Json to_json(const Row& row, const Context& context) {
-  const Summary& s = row.summary;
-  Json counts;
-  counts["heartbeat"] = json_of(s.heartbeat);
-  counts["repair_data"] = json_of(s.repair_data);
-  counts["acknack"] = json_of(s.acknack);
-  counts["spdp"] = json_of(s.spdp);
-  counts["total"] = json_of(s.messages);
-  const auto file = context.files.find(row.name);
-  report::JsonObject v;
+/// SPDP in one.
+struct CountsOfRow {
+  const Summary& summary;
+};
+
+template <class V>
+void describe(V& v, const CountsOfRow& counts) {
+  const Summary& s = counts.summary;
+  v("heartbeat", s.heartbeat);
+  v("repair_data", s.repair_data);
+  v("acknack", s.acknack);
+  v("spdp", s.spdp);
+  v("total", s.messages);
+}
+
+struct RowInContext {
+  const Row& row;
+  const Context& context;
+};
+
+template <class V>
+void describe(V& v, const RowInContext& shown) {
+  const Row& row = shown.row;
+  const auto file = shown.context.files.find(row.name);
   v("kind", row.kind);
   v("name", row.name);
   v("changes", row.changes);
-  v("runs", s.runs);
-  v("completed", s.completed);
-  v("t_disc_ns", s.completion_ns);
-  v("counts", counts);
+  v("runs", row.summary.runs);
+  v("completed", row.summary.completed);
+  v("t_disc_ns", row.summary.completion_ns);
+  v("counts", CountsOfRow{row.summary});
   v("against_unchanged", row.against_unchanged);
   v("recommended_against", row.recommended_against);
   v("broken", row.broken);
   v.or_null("note", row.note);
-  v.or_null("file", file != context.files.end() ? std::string_view{file->second} : "");
-  return std::move(v).take();
+  v.or_null("file", file != shown.context.files.end() ? std::string_view{file->second} : "");
 }
 
-}  // namespace
+struct ReportInContext {
+  const Report& report;
+  const Context& context;
+};
 
-Json to_json(const Report& report, const Context& context) {
-  Json rows = Json::array();
-  for (const Row& row : report.rows) rows.push_back(to_json(row, context));
-  report::JsonObject v;
+template <class V>
+void describe(V& v, const ReportInContext& shown) {
+  const Report& report = shown.report;
+  const Context& context = shown.context;
+  std::vector<RowInContext> rows;
+  for (const Row& row : report.rows) rows.push_back({row, context});
   v("scenario", context.scenario);
   v("preset", context.subject.preset);
-  v("vendor", model::config::vendor::name_of(context.subject.vendor));
-  v("answer", report.answer);
-  v("knobs", report.space);
+  v("vendor", context.subject.vendor);
+  v("verdict", report.answer);
+  v("knobs", report.space.dimensions);
+  v("fixed", report.space.fixed);
   v("sampled", report.is_sampled);
-  v("seeds", report.basis);
+  v("seed", report.basis.first);
+  v("wanted", report.basis.count);
   v("runs", report.runs);
-  v("settings", report.settings);
+  v("tried", report.settings);
   v("rejected", report.found.rejected);
   v("rejected_by", report.found.rejected_by);
   v("changes_set_back", report.undone);
@@ -140,9 +155,18 @@ Json to_json(const Report& report, const Context& context) {
   v("rows", rows);
   v("prerequisites", context.prerequisites);
   v.or_null("repeat", context.repeat);
-  v("check", context.check);
+  v("check_lines", context.check);
   v.unless_empty("unmodelled", context.subject.scenario.dds.unmodelled);
-  return std::move(v).take();
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Report& report, const Context& context) {
+  return report::json_of(ReportInContext{report, context});
+}
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<ReportInContext>(definitions);
 }
 
 }  // namespace stormproof::tune

@@ -8,6 +8,7 @@
 
 #include "checker/experiments/tune/tune.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::tune {
 
@@ -27,6 +28,7 @@ struct Context {
 [[nodiscard]] report::Document document_of(const Report& report, const Context& context);
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Context& context);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 [[nodiscard]] std::string to_svg(const Report& report, const Context& context);
 
 /// The setting in one line: "sendBufferSize 4000000, maxMessageSize 1400".

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "fsm/composition/composition_info.hpp"
 
 namespace stormproof::draw {
@@ -50,5 +51,6 @@ struct CompositionComparison {
 
 [[nodiscard]] report::Document comparison_document(const CompositionComparison& comparison);
 [[nodiscard]] nlohmann::ordered_json comparison_json(const CompositionComparison& comparison);
+[[nodiscard]] nlohmann::ordered_json comparison_schema(report::SchemaDefinitions& definitions);
 
 }  // namespace stormproof::draw

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "checker/presentation/composition/composition_comparison.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::draw {
 
@@ -119,15 +119,22 @@ void describe(V& v, const RuleComparison& rule) {
   v.unless_empty("effects", rule.ids);
 }
 
+template <class V>
+void describe(V& v, const CompositionComparison& comparison) {
+  v("first", comparison.first);
+  v("second", comparison.second);
+  v("rules", comparison.count("rule"));
+  v("same", comparison.count("rule", Is::same));
+  v("comparisons", comparison.rules);
+  v("things", comparison.things);
+}
+
 nlohmann::ordered_json comparison_json(const CompositionComparison& comparison) {
-  report::JsonObject object;
-  object("first", comparison.first);
-  object("second", comparison.second);
-  object("rules", comparison.count("rule"));
-  object("same", comparison.count("rule", Is::same));
-  object("comparisons", comparison.rules);
-  object("things", comparison.things);
-  return std::move(object).take();
+  return report::json_of(comparison);
+}
+
+nlohmann::ordered_json comparison_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<CompositionComparison>(definitions);
 }
 
 }  // namespace stormproof::draw

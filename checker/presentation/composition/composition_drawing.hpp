@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "fsm/composition/composition_info.hpp"
 
 namespace stormproof::draw {
@@ -19,6 +20,7 @@ namespace stormproof::draw {
 /// `steps`.
 [[nodiscard]] nlohmann::ordered_json composition_json(
     const fsm::composition::CompositionInfo& composition);
+[[nodiscard]] nlohmann::ordered_json composition_schema(report::SchemaDefinitions& definitions);
 
 /// A self-contained SVG document: the sides, then a band for each rule; names lead to their rules.
 [[nodiscard]] std::string composition_svg(const fsm::composition::CompositionInfo& composition);

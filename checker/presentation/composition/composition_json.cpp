@@ -3,7 +3,7 @@
 
 #include "checker/presentation/composition/composition_drawing.hpp"
 #include "checker/presentation/composition/composition_words.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::fsm::composition {
 
@@ -38,12 +38,25 @@ void describe(V& v, const EffectInfo& effect) {
 template <class V>
 void describe(V& v, const RuleInfo& rule) {
   v("id", rule.id);
-  if (!rule.trigger.empty()) {
-    v("trigger", rule.trigger);
-    v("cause", rule.cause);
-    v("owner", rule.owner);
-  }
+  v.unless_empty("trigger", rule.trigger);
+  v.unless_empty("cause", rule.cause);
+  v.unless_empty("owner", rule.owner);
   v("effects", rule.effects);
+}
+
+template <class V>
+void describe(V& v, const CompositionInfo& composition) {
+  nlohmann::ordered_map<std::string, std::string> facts;
+  for (const auto& [name, definition] : composition.facts) facts[std::string{name}] = definition;
+  v("composition", composition.name);
+  v("machines", composition.parts);
+  v("packets", composition.packets);
+  v("timers", composition.timers);
+  v("state", composition.state);
+  v("facts", facts);
+  v("rules", composition.rules);
+  v("procedures", composition.procedures);
+  v("steps", composition.steps);
 }
 
 }  // namespace stormproof::fsm::composition
@@ -51,19 +64,11 @@ void describe(V& v, const RuleInfo& rule) {
 namespace stormproof::draw {
 
 nlohmann::ordered_json composition_json(const fsm::composition::CompositionInfo& composition) {
-  report::JsonObject object;
-  object("composition", composition.name);
-  object("machines", composition.parts);
-  object("packets", composition.packets);
-  object("timers", composition.timers);
-  object("state", composition.state);
-  nlohmann::ordered_json facts = nlohmann::ordered_json::object();
-  for (const auto& [name, definition] : composition.facts) facts[std::string{name}] = definition;
-  object("facts", facts);
-  object("rules", composition.rules);
-  object("procedures", composition.procedures);
-  object("steps", composition.steps);
-  return std::move(object).take();
+  return report::json_of(composition);
+}
+
+nlohmann::ordered_json composition_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<fsm::composition::CompositionInfo>(definitions);
 }
 
 }  // namespace stormproof::draw

@@ -12,4 +12,16 @@ void describe(V& v, const Counts& counts) {
   v("total", counts.total());
 }
 
+/// With the HEARTBEATs and ACKNACKs that are in no class.
+struct AllCounts {
+  const Counts& counts;
+  std::uint64_t user_control = 0;
+};
+
+template <class V>
+void describe(V& v, const AllCounts& all) {
+  describe(v, all.counts);
+  v("user_control", all.user_control);
+}
+
 }  // namespace stormproof::model

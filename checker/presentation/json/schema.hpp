@@ -90,7 +90,7 @@ T& example() {
     static T value = example_of(Type<T>{});
     return value;
   } else if constexpr (std::default_initializable<T>) {
-    static T value{};
+    static T value;  // static: zero, then its defaults
     return value;
   } else {
     return aggregate<T>(std::make_index_sequence<most_members>{});

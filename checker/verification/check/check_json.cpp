@@ -1,6 +1,6 @@
 // The JSON of a check.
 #include "checker/engines/exact/health_json.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "checker/verification/check/check_report.hpp"
 #include "model/implementations.hpp"
 
@@ -28,23 +28,50 @@ void describe(V& v, const Failure& failure) {
   v("reach", failure.reach);
 }
 
+struct Standings {
+  const Gate& gate;
+};
+
+template <class V>
+void describe(V& v, const Standings& standings) {
+  for (const Standing one :
+       {Standing::fails, Standing::accepted, Standing::open, Standing::possible, Standing::holds}) {
+    v(name_of(one), standings.gate.count(one));
+  }
+}
+
 template <class V>
 void describe(V& v, const Gate& gate) {
   v("passes", gate.exit_code == 0);
   v("require", gate.rules.require);
   v("strict", gate.rules.strict);
-  nlohmann::ordered_json standings;
-  for (const Standing one :
-       {Standing::fails, Standing::accepted, Standing::open, Standing::possible, Standing::holds}) {
-    standings[name_of(one)] = gate.count(one);
-  }
-  v("standings", standings);
+  v("standings", Standings{gate});
   v("storm", gate.storm);
   v("failures", gate.failures);
   v("outdated", gate.outdated);
 }
 
+static PropertyResult example_of(report::Type<PropertyResult>) {
+  PropertyResult result;
+  result.property = &props::catalogue().front();
+  result.findings.emplace_back();
+  return result;
+}
+
 namespace {
+
+/// What each of the three questions is answered.
+struct VerdictByReach {
+  const PropertyResult& result;
+};
+
+template <class V>
+void describe(V& v, const VerdictByReach& by) {
+  for (const props::Reach reach : props::reaches) {
+    const props::Finding* const answer = answer_to(reach, by.result);
+    v(name_of(reach), answer == nullptr ? std::nullopt : std::optional{answer->kind});
+  }
+}
 
 struct ResultInContext {
   const PropertyResult& result;
@@ -60,10 +87,7 @@ void describe(V& v, const ResultInContext& shown) {
   v("statement", statement_of(*result.property, shown.context.scenario.dds.implementation));
   v("verdict", result.verdict);
   v("standing", shown.standing);
-  for (const props::Reach reach : props::reaches) {
-    const props::Finding* const answer = answer_to(reach, result);
-    v(name_of(reach), answer == nullptr ? std::nullopt : std::optional{answer->kind});
-  }
+  v("reaches", VerdictByReach{result});
   v.or_null("weakness", result.property->weakness_of(shown.context.scenario.dds.implementation));
   v("engine", decisive.engine);
   v("how", decisive.how);
@@ -74,22 +98,22 @@ void describe(V& v, const ResultInContext& shown) {
   v.or_null("solver", decisive.solver);
   v("seed", decisive.seed);
   const auto file = shown.context.counterexamples.find(result.property->id);
-  v.or_null("counterexample", file == shown.context.counterexamples.end() ? "" : file->second);
+  v.or_null("counterexample_file", file == shown.context.counterexamples.end() ? "" : file->second);
   const props::Counterexample* counterexample = result.counterexample();
   v.or_null("reason", counterexample == nullptr ? "" : counterexample->reason);
   v("findings", result.findings);
 }
 
-struct Summary {
+struct Totals {
   const CheckReport& report;
 };
 
 template <class V>
-void describe(V& v, const Summary& summary) {
+void describe(V& v, const Totals& totals) {
   using props::VerdictKind;
   for (const VerdictKind kind : {VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled,
                                  VerdictKind::violated, VerdictKind::inconclusive}) {
-    v(name_of(kind), summary.report.count(kind));
+    v(name_of(kind), totals.report.count(kind));
   }
 }
 
@@ -104,7 +128,7 @@ void describe(V& v, const ReportInContext& shown) {
   v("scenario", shown.context.name);
   v("implementation", model::traits_of(dds).name);
   v("seconds", shown.report.seconds);
-  v("summary", Summary{shown.report});
+  v("totals", Totals{shown.report});
   v("gate", shown.context.gate);
   v("outlook", shown.report.outlook);
   v.unless_empty("unmodelled", dds.unmodelled);
@@ -119,6 +143,10 @@ void describe(V& v, const ReportInContext& shown) {
 
 nlohmann::ordered_json to_json(const CheckReport& report, const CheckContext& context) {
   return report::json_of(ReportInContext{report, context});
+}
+
+nlohmann::ordered_json check_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<ReportInContext>(definitions);
 }
 
 }  // namespace stormproof::checker

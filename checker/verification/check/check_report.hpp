@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "checker/verification/check/check.hpp"
 #include "checker/verification/check/gate.hpp"
 #include "model/config/tree/tree.hpp"
@@ -28,9 +29,9 @@ struct CheckContext {
 /// and its counterexamples once more, for what they draw.
 [[nodiscard]] report::Document document_of(const CheckReport& report, const CheckContext& context);
 
-/// Keys: scenario, implementation, seconds, summary, unmodelled, verdicts.
-/// specs/guide/output.md describes them.
+/// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const CheckReport& report,
                                              const CheckContext& context);
+[[nodiscard]] nlohmann::ordered_json check_schema(report::SchemaDefinitions& definitions);
 
 }  // namespace stormproof::checker

@@ -1,5 +1,5 @@
 // The JSON of the catalogue.
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "checker/verification/check/properties_report.hpp"
 #include "model/implementations.hpp"
 #include "props/property.hpp"
@@ -15,19 +15,31 @@ void describe(V& v, const Property& property) {
     if (kind == model::default_implementation) continue;
     v(model::traits_of(kind).name, statement_of(property, kind));
   }
-  v("assumptions", property.assumptions);
+  v("assumptions", property.assumptions.empty() ? std::vector<std::string_view>{}
+                                                : std::vector{property.assumptions});
   v("engines", property.engines);
-  v("source", property.source);
+  v("reference", property.source);
 }
 
 }  // namespace stormproof::props
 
 namespace stormproof::checker {
 
-nlohmann::ordered_json properties_json() {
-  nlohmann::ordered_json json;
-  json["properties"] = report::json_of(props::catalogue());
-  return json;
+namespace {
+
+struct Catalogue {};
+
+template <class V>
+void describe(V& v, const Catalogue&) {
+  v("properties", props::catalogue());
+}
+
+}  // namespace
+
+nlohmann::ordered_json properties_json() { return report::json_of(Catalogue{}); }
+
+nlohmann::ordered_json properties_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<Catalogue>(definitions);
 }
 
 }  // namespace stormproof::checker

@@ -1,5 +1,5 @@
 // The JSON of a replay.
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "checker/verification/counterexample/replay_report.hpp"
 
 namespace stormproof::model::trace {
@@ -8,7 +8,7 @@ template <class V>
 void describe(V& v, const TraceViolation& violation) {
   v("property", violation.property);
   v("event", violation.event);
-  v("t", violation.time);
+  v("time_ns", violation.time);
   v("reason", violation.reason);
 }
 
@@ -41,7 +41,7 @@ void describe(V& v, const ReplayOfFile& shown) {
   v("recorded_by", replay.recorded_by);
   v("lines_that_agree", replay.lines);
   v("events_that_agree", replay.events);
-  v("last_event_ns", replay.last_time);
+  v("end_ns", replay.last_time);
   v("t_disc_ns", replay.discovery_time);
   v("expected", replay.expected);
   v("violation", replay.violation);
@@ -52,6 +52,10 @@ void describe(V& v, const ReplayOfFile& shown) {
 
 nlohmann::ordered_json to_json(const std::string& file, const model::trace::Replay& replay) {
   return report::json_of(ReplayOfFile{file, replay});
+}
+
+nlohmann::ordered_json replay_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<ReplayOfFile>(definitions);
 }
 
 }  // namespace stormproof::counterexample

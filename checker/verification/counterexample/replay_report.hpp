@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "model/trace/replay.hpp"
 
 namespace stormproof::counterexample {
@@ -17,5 +18,6 @@ namespace stormproof::counterexample {
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const std::string& file,
                                              const model::trace::Replay& replay);
+[[nodiscard]] nlohmann::ordered_json replay_schema(report::SchemaDefinitions& definitions);
 
 }  // namespace stormproof::counterexample

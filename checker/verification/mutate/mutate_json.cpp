@@ -1,5 +1,5 @@
 // The JSON of the mutants.
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "checker/verification/mutate/mutate_report.hpp"
 #include "props/laws/law.hpp"
 #include "props/property.hpp"
@@ -9,7 +9,7 @@ namespace stormproof::mutate {
 template <class V>
 void describe(V& v, const MutantResult& mutant) {
   v("id", mutant.id);
-  v("kind", name_of(mutant.kind));
+  v("kind", mutant.kind);
   v("description", mutant.description);
   v("killed_by", mutant.killed_by);
   v.or_null("reason", mutant.noticed() ? "" : mutant.reason);
@@ -17,26 +17,46 @@ void describe(V& v, const MutantResult& mutant) {
   v("makes_a_difference", mutant.makes_a_difference);
 }
 
+namespace {
+
+struct ByProperty {
+  const MutationReport& report;
+};
+
+template <class V>
+void describe(V& v, const ByProperty& killed) {
+  for (const props::Property& property : props::catalogue()) {
+    v(property.id, killed.report.killed_by(property.id));
+  }
+}
+
+struct ByLaw {
+  const MutationReport& report;
+};
+
+template <class V>
+void describe(V& v, const ByLaw& killed) {
+  for (const props::Law& law : props::laws()) v(law.id, killed.report.killed_by_law(law.id));
+}
+
+}  // namespace
+
 template <class V>
 void describe(V& v, const MutationReport& report) {
-  nlohmann::ordered_json properties;
-  for (const props::Property& property : props::catalogue()) {
-    properties[std::string{property.id}] = report.killed_by(property.id);
-  }
-  nlohmann::ordered_json laws;
-  for (const props::Law& law : props::laws()) {
-    laws[std::string{law.id}] = report.killed_by_law(law.id);
-  }
   v("mutants", report.mutants);
   v("killed", report.killed());
   v("harmless", report.harmless());
-  v("properties", properties);
-  v("killed_by_laws", report.killed_by_laws());
+  v("killed_by_property", ByProperty{report});
+  v("killed_by_any_law", report.killed_by_laws());
   v("tried_on_laws", report.tried_on_laws());
-  v("laws", laws);
+  v("killed_by_law", ByLaw{report});
   v("seconds", report.seconds);
 }
 
 nlohmann::ordered_json to_json(const MutationReport& report) { return report::json_of(report); }
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<MutationReport>(definitions);
+}
 
 }  // namespace stormproof::mutate

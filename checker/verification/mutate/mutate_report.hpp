@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "checker/verification/mutate/mutate.hpp"
 
 namespace stormproof::mutate {
@@ -12,7 +13,8 @@ namespace stormproof::mutate {
 [[nodiscard]] report::Document document_of(const MutationReport& report);
 
 /// Keys: mutants (id, kind, description, killed_by, reason, killed_by_laws, makes_a_difference),
-/// killed, harmless, properties, killed_by_laws, tried_on_laws, laws, seconds, interrupted.
+/// killed, harmless, killed_by_property, killed_by_any_law, tried_on_laws, killed_by_law, seconds.
 [[nodiscard]] nlohmann::ordered_json to_json(const MutationReport& report);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 
 }  // namespace stormproof::mutate

@@ -1,5 +1,5 @@
 // The JSON of `profile lint`.
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "checker/verification/profile/lint_report.hpp"
 
 namespace stormproof::model::config {
@@ -46,11 +46,26 @@ void describe(V& v, const LintCounts& counts) {
   v("unreadable", counts.unreadable);
 }
 
+namespace {
+
+struct LintedFiles {
+  const std::vector<LintedFile>& files;
+};
+
+template <class V>
+void describe(V& v, const LintedFiles& all) {
+  v("files", all.files);
+  v("totals", count(all.files));
+}
+
+}  // namespace
+
 nlohmann::ordered_json to_json(const std::vector<LintedFile>& files) {
-  nlohmann::ordered_json json;
-  json["files"] = json_of(files);
-  json["summary"] = json_of(count(files));
-  return json;
+  return json_of(LintedFiles{files});
+}
+
+nlohmann::ordered_json lint_schema(SchemaDefinitions& definitions) {
+  return schema_form<LintedFiles>(definitions);
 }
 
 }  // namespace stormproof::report

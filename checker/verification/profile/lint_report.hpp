@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::report {
@@ -37,5 +38,6 @@ struct LintCounts {
 
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<LintedFile>& files);
+[[nodiscard]] nlohmann::ordered_json lint_schema(SchemaDefinitions& definitions);
 
 }  // namespace stormproof::report

@@ -1,5 +1,5 @@
 // The JSON of `profile show`.
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "checker/verification/profile/profile_report.hpp"
 
 namespace stormproof::model::config {
@@ -34,11 +34,10 @@ namespace stormproof::report {
 template <class V>
 void describe(V& v, const Origin& origin) {
   v("by", origin.giver);
-  if (origin.place.source) v("source", *origin.place.source);
-  if (origin.place.line > 0) {
-    v("line", origin.place.line);
-    v("column", origin.place.column);
-  }
+  const auto known = [](int number) { return number > 0 ? std::optional{number} : std::nullopt; };
+  v.unless_empty("file", origin.place.source ? std::string_view{*origin.place.source} : "");
+  v.unless_empty("line", known(origin.place.line));
+  v.unless_empty("column", known(origin.place.column));
   v.unless_empty("preset", origin.preset);
   v.unless_empty("evidence", origin.evidence);
   v.unless_empty("element", origin.element);
@@ -68,7 +67,7 @@ void describe(V& v, const UnmodelledRow& row) {
 
 template <class V>
 void describe(V& v, const ProfileReport& report) {
-  v("reference", report.reference);
+  v("profile_name", report.reference);
   v.or_null("preset", report.preset);
   v("distribution", report.distribution);
   v("vendor", report.vendor);
@@ -76,10 +75,14 @@ void describe(V& v, const ProfileReport& report) {
   v.or_null("selected", report.selected);
   v("knobs", report.knobs);
   v("settings", report.others);
-  v("unmodelled", report.unmodelled);
-  v("remarks", report.remarks);
+  v("unmodelled_settings", report.unmodelled);
+  v("remark_count", report.remarks);
 }
 
 nlohmann::ordered_json to_json(const ProfileReport& report) { return json_of(report); }
+
+nlohmann::ordered_json profile_schema(SchemaDefinitions& definitions) {
+  return schema_form<ProfileReport>(definitions);
+}
 
 }  // namespace stormproof::report

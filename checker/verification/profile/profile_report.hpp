@@ -12,6 +12,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "model/config/distributions.hpp"
 #include "model/config/scenario_file.hpp"
 
@@ -81,5 +82,6 @@ struct ProfileReport {
 
 /// specs/guide/output.md describes the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const ProfileReport& report);
+[[nodiscard]] nlohmann::ordered_json profile_schema(SchemaDefinitions& definitions);
 
 }  // namespace stormproof::report

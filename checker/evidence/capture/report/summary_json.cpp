@@ -1,13 +1,11 @@
 // The summary as JSON; specs/guide/captures.md explains the keys.
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
 #include "checker/evidence/capture/describe_capture.hpp"
 #include "checker/evidence/capture/summary.hpp"
 #include "checker/evidence/capture/timeline.hpp"
-#include "checker/presentation/json/describe.hpp"
 #include "checker/presentation/json/describe_model.hpp"
+#include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::capture {
 
@@ -52,7 +50,7 @@ template <class V>
 void describe(V& v, const Remark& remark) {
   v("what", remark.what);
   v("count", remark.count);
-  v("first", remark.first);
+  v("first_place", remark.first);
 }
 
 namespace {
@@ -207,5 +205,9 @@ void describe(V& v, const Summary& summary) {
 }
 
 nlohmann::ordered_json to_json(const Summary& summary) { return report::json_of(summary); }
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<Summary>(definitions);
+}
 
 }  // namespace stormproof::capture

@@ -1,8 +1,6 @@
 // The report as JSON; specs/guide/conforming.md explains the keys.
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
 #include "checker/evidence/capture/describe_capture.hpp"
 #include "checker/evidence/conform/report/coverage.hpp"
 #include "checker/evidence/conform/report/describe_bounds.hpp"
@@ -11,7 +9,7 @@
 #include "checker/evidence/conform/report/names.hpp"
 #include "checker/evidence/conform/report/report.hpp"
 #include "checker/presentation/composition/composition_words.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::conform {
 
@@ -34,7 +32,7 @@ void describe(V& v, const PlaceResult& result) {
   describe(v, result.place);
   v("explained", result.explained);
   v("lost", result.lost);
-  v("unexplained", result.unexplained);
+  v("unexplained_count", result.unexplained);
 }
 
 template <class V>
@@ -43,6 +41,11 @@ void describe(V& v, const RowCoverage& row) {
   v("text", row.use->text);
   v("times", row.use->times);
   v.or_null("ruled_out_by", row.ruled_out_by);
+}
+
+static RowCoverage example_of(report::Type<RowCoverage>) {
+  static const RowUse use;
+  return {.use = &use};
 }
 
 template <class V>
@@ -61,6 +64,11 @@ void describe(V& v, const EffectCoverage& one) {
   v("packets", one.packets);
   v("times", one.times);
   v.or_null("ruled_out_by", one.ruled_out_by);
+}
+
+static EffectCoverage example_of(report::Type<EffectCoverage>) {
+  static const fsm::composition::EffectInfo effect;
+  return {.effect = &effect};
 }
 
 template <class V>
@@ -99,6 +107,11 @@ void describe(V& v, const CompositionCoverage& coverage) {
   v("effects", Observed<EffectCoverage>{coverage.seen(), coverage.possible(), std::move(effects),
                                         coverage.unobservable});
   v("unattributed", coverage.unattributed);
+}
+
+static Names example_of(report::Type<Names>) {
+  static const auto conversation = example_of(report::Type<capture::Conversation>{});
+  return Names{conversation};
 }
 
 namespace {
@@ -185,12 +198,35 @@ template <class V>
 void describe_head(V& v, const Report& report) {
   const Conformance& result = report.result;
   v("verdict", verdict_token(result.verdict));
-  v("profile", report.profile);
+  v("profile_name", report.profile);
   v("captures", report.conversation.captures);
   v("first_ns", report.conversation.first_ns);
   v("until_ns", std::min(report.until_ns, report.conversation.last_ns));
   v("bounds", result.bounds);
-  if (result.verdict == Verdict::inconclusive) v("why_inconclusive", result.why_inconclusive);
+  v.unless_empty("why_inconclusive", result.why_inconclusive);
+}
+
+/// What explaining took of the bounds.
+struct UsedBounds {
+  const Conformance& result;
+};
+
+template <class V>
+void describe(V& v, const UsedBounds& used) {
+  v("send_lag_ns", used.result.used_send_lag_ns);
+  v("lateness_ns", used.result.used_lateness_ns);
+}
+
+/// How many events each rule explains.
+struct ByRule {
+  const Conformance& result;
+};
+
+template <class V>
+void describe(V& v, const ByRule& by) {
+  for (std::size_t k = 0; k < rule_count; ++k) {
+    v(name_of(static_cast<Rule>(k)), by.result.by_rule[k]);
+  }
 }
 
 /// The first line of an assignment.
@@ -201,7 +237,7 @@ struct AssignmentHead {
 template <class V>
 void describe(V& v, const AssignmentHead& head) {
   v("format", "stormproof-assignment");
-  v("version", 1);
+  v("version", 2);
   describe_head(v, head.report);
 }
 
@@ -212,8 +248,7 @@ void describe(V& v, const Report& report) {
   const Conformance& result = report.result;
   const Names names{report.conversation};
   describe_head(v, report);
-  v("bounds_used", nlohmann::ordered_json{{"send_lag_ns", result.used_send_lag_ns},
-                                          {"lateness_ns", result.used_lateness_ns}});
+  v("bounds_used", UsedBounds{result});
   v("checked", result.checked);
   v("explained", result.explained);
   v("not_checked", result.not_checked);
@@ -223,16 +258,12 @@ void describe(V& v, const Report& report) {
   std::vector<NamedFault> unexplained;
   for (const Unexplained& one : result.unexplained) unexplained.push_back({names, one});
   v("unexplained", unexplained);
-  nlohmann::ordered_json faults = nlohmann::ordered_json::object();
+  nlohmann::ordered_map<std::string, std::uint64_t> faults;
   for (const FaultGroup& group : by_fault(result)) {
     faults[std::string{name_of(group.fault)}] = group.places;
   }
   v("faults", faults);
-  nlohmann::ordered_json rules;
-  for (std::size_t k = 0; k < rule_count; ++k) {
-    rules[std::string{name_of(static_cast<Rule>(k))}] = result.by_rule[k];
-  }
-  v("rules", rules);
+  v("rules", ByRule{result});
   v("machines", coverage_of(result.rows, report.dds));
   v("coverage", effect_coverage(result, report.dds, report.impossible));
   std::vector<Peer> participants;
@@ -244,6 +275,10 @@ void describe(V& v, const Report& report) {
 }
 
 nlohmann::ordered_json to_json(const Report& report) { return json_of(report); }
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<Report>(definitions);
+}
 
 std::string assignment_lines(const Report& report) {
   const Names names{report.conversation};

@@ -16,6 +16,7 @@
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/conform/conform.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "model/dds_profile.hpp"
 
 namespace stormproof::conform {
@@ -34,6 +35,7 @@ struct Report {
 /// Without command and exit code, which only the caller knows.
 [[nodiscard]] report::Document document_of(const Report& report);
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 
 /// The context of the first unexplained event as a message sequence chart; empty if there is none.
 [[nodiscard]] std::string to_svg(const Report& report);

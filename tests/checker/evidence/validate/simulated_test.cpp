@@ -172,7 +172,7 @@ TEST(ValidateReport, AllForms) {
   EXPECT_NE(words.find("WITHIN a factor of 1.001"), std::string::npos) << words;
   EXPECT_NE(words.find("  stormproof validate a.pcap"), std::string::npos);
   const auto json = to_json(report, heading);
-  EXPECT_EQ(json["agreement"], "within");
+  EXPECT_EQ(json["verdict"], "within");
   EXPECT_EQ(json["figures"].size(), figure_count);
   EXPECT_EQ(json["figures"]["total"]["ratio"], 1.0);
   EXPECT_EQ(json["over_time"]["heartbeat"]["observed"].size(), observed_steps);

@@ -155,8 +155,8 @@ TEST(Diff, Verdicts) {
   EXPECT_TRUE(changed->counterexample);
   EXPECT_EQ(report.judgment, Judgment::regression);
   const auto json = to_json(report, {{"timer.single-heartbeat", "d/timer.jsonl"}});
-  EXPECT_EQ(json["judgment"], "regression");
-  EXPECT_EQ(json["verdicts"]["properties"].size(), report.verdicts.properties.size());
+  EXPECT_EQ(json["verdict"], "regression");
+  EXPECT_EQ(json["check"]["verdicts"].size(), report.verdicts.properties.size());
   EXPECT_NE(json.dump().find("d/timer.jsonl"), std::string::npos);
 }
 

@@ -59,12 +59,12 @@ TEST_F(FuzzCommand, its_commands_repeat_its_result) {
   ASSERT_TRUE(command.starts_with(program)) << command;
   EXPECT_EQ(fuzz(command.substr(program.size()) + " --format json", "again"), 1);
   EXPECT_EQ(content("again"), content("first"));
-  const auto& limit = report["results"][0];
+  const auto& limit = report["verdicts"][0];
   ASSERT_EQ(limit["id"], "limit.completion");
   command = limit["first_command"];
   EXPECT_EQ(fuzz(command.substr(program.size()) + " --format json", "single"), 1);
   const auto single = nlohmann::json::parse(content("single"));
-  EXPECT_EQ(single["results"][0]["violating_runs"][0], limit["violating_runs"][0]);
+  EXPECT_EQ(single["verdicts"][0]["violating_runs"][0], limit["violating_runs"][0]);
 }
 
 TEST_F(FuzzCommand, ends_after_the_time_that_it_was_given) {

@@ -115,9 +115,9 @@ TEST(MutateReport, ShowsLawsBesideProperties) {
   EXPECT_EQ(json["mutants"][0]["killed_by_laws"].size(), 2U);
   EXPECT_EQ(json["mutants"][1]["killed_by_laws"].size(), 0U);
   EXPECT_TRUE(json["mutants"][2]["killed_by_laws"].is_null());
-  EXPECT_EQ(json["killed_by_laws"], 1);
+  EXPECT_EQ(json["killed_by_any_law"], 1);
   EXPECT_EQ(json["tried_on_laws"], 2);
-  EXPECT_EQ(json["laws"]["law.counts"], 1);
+  EXPECT_EQ(json["killed_by_law"]["law.counts"], 1);
 }
 
 /// Several hundred, one for each mistake that the rules allow. Those that nobody notices change
