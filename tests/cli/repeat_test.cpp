@@ -1,5 +1,6 @@
 // The line "repeat it with" keeps its word: for every verb, the printed command goes through a
-// shell and gives the same answer again. The scenario's path has a space and a quote in it.
+// shell and gives the same answer again. The scenario's path has a space and a quote in it. And the
+// JSON is what the verb's schema in specs/schema/output says, no more and no less.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
+
+#include "tests/checker/presentation/json/schema_errors.hpp"
 
 namespace repeat_test {
 
@@ -66,12 +69,24 @@ const Case cases[] = {
 
 /// Without what is never twice the same.
 void drop_times(Json& json) {
-  for (const char* key : {"seconds", "already_done", "finished", "counterexample"}) {
+  for (const char* key : {"seconds", "already_done", "run_now", "counterexample_file"}) {
     if (json.is_object()) json.erase(key);
   }
   for (Json& value : json) {
     if (value.is_structured()) drop_times(value);
   }
+}
+
+/// Of the verb that the arguments begin with, "profile show" or "check".
+Json schema_of(const std::string& arguments) {
+  const std::string first = arguments.substr(0, arguments.find(' '));
+  std::string verb = first;
+  if (first == "profile" || first == "capture") {
+    verb = arguments.substr(0, arguments.find(' ', first.size() + 1));
+    verb[first.size()] = '-';
+  }
+  std::ifstream file{STORMPROOF_SPECS_DIR "/schema/output/" + verb + ".schema.json"};
+  return Json::parse(file, nullptr, false);
 }
 
 class Repeat : public testing::TestWithParam<Case> {
@@ -118,9 +133,11 @@ TEST_P(Repeat, TheCommandGivesTheSameAnswer) {
   const int first_code = exit_code_;
   ASSERT_NE(first_code, 2) << content("first.err");
   Json first = Json::parse(content("first.json"));
-  EXPECT_EQ(first.at("schema"), 2);
+  EXPECT_EQ(first.at("schema"), 3);
   EXPECT_EQ(first.at("exit_code"), first_code);
   EXPECT_EQ(first.at("interrupted"), false);
+  EXPECT_EQ(stormproof::report::SchemaErrors(schema_of(GetParam().arguments), first).found(),
+            std::vector<std::string>{});
   const auto command = first.at("command").get<std::string>();
   EXPECT_NE(printed.find(command), std::string::npos) << printed;
 
