@@ -2,7 +2,7 @@
 #pragma once
 
 #include "checker/engines/exact/health.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/type.hpp"
 
 namespace stormproof::exact {
 

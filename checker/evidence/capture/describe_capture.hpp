@@ -2,7 +2,7 @@
 #pragma once
 
 #include "checker/evidence/capture/events.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/type.hpp"
 
 namespace stormproof::capture {
 

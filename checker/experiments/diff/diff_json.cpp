@@ -1,38 +1,18 @@
 // A comparison as JSON; specs/guide/output.md describes the keys. What does not exist is null, what
 // is infinite is text ("infinity"), as JSON has no number for it.
-#include <cmath>
 #include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "checker/experiments/diff/costs_json.hpp"
 #include "checker/experiments/diff/diff_report.hpp"
 #include "checker/experiments/diff/summary.hpp"
-#include "checker/experiments/statistics/quantiles_json.hpp"
 #include "checker/presentation/json/schema.hpp"
 #include "model/config/knobs/effective.hpp"
 
 namespace stormproof::diff {
 
 namespace {
-
-/// A number, or which infinity.
-using Extended = std::variant<double, std::string>;
-
-Extended number(double value) {
-  if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
-  return value;
-}
-
-std::optional<Extended> number(const std::optional<double>& value) {
-  return value ? std::optional{number(*value)} : std::nullopt;
-}
-
-/// As the JSON of runs has it.
-std::string key_of(Measure measure) {
-  if (measure == Measure::completion) return "t_disc_ns";
-  return measure == Measure::backlog ? "peak_packets" : name_of(measure);
-}
 
 /// Where a value stands.
 struct KnownPlace {
@@ -158,30 +138,6 @@ void describe(V& v, const ApartInContext& shown) {
   v.unless_empty("written", files);
 }
 
-struct ShownShift {
-  const Shift& shift;
-};
-
-template <class V>
-void describe(V& v, const ShownShift& shown) {
-  v("estimate", number(shown.shift.estimate));
-  v("low", number(shown.shift.low));
-  v("high", number(shown.shift.high));
-  v("confidence", shown.shift.confidence);
-  v("exact", shown.shift.exact);
-}
-
-struct Relative {
-  const MeasuredChange& change;
-};
-
-template <class V>
-void describe(V& v, const Relative& relative) {
-  v("estimate", number(relative.change.relative));
-  v("low", number(relative.change.relative_low));
-  v("high", number(relative.change.relative_high));
-}
-
 struct MedianTotal {
   const Blame::Entry& entry;
 };
@@ -202,82 +158,6 @@ void describe(V& v, const KnobChange& change) {
   v("after_place", known(change.after_place));
   v("matters", change.modelled ? std::optional{change.matters} : std::nullopt);
   v("why", change.why);
-}
-
-template <class V>
-void describe(V& v, const MeasuredChange& change) {
-  std::optional<ShownShift> shift;
-  if (change.shift) shift.emplace(ShownShift{*change.shift});
-  std::optional<Relative> relative;
-  if (change.relative) relative.emplace(Relative{change});
-  v("before", change.before);
-  v("after", change.after);
-  v("shift", shift);
-  v("relative", relative);
-  v("verdict", change.judgment);
-  v("reason", change.reason);
-}
-
-template <class V>
-void describe(V& v, const LimitCrossing& crossing) {
-  v("id", crossing.limit);
-  v("text", crossing.text);
-  v("before", crossing.before);
-  v("after", crossing.after);
-  v("verdict", crossing.judgment);
-}
-
-namespace {
-
-struct MeasuresOf {
-  const Configuration& configuration;
-};
-
-template <class V>
-void describe(V& v, const MeasuresOf& all) {
-  for (const MeasuredChange& change : all.configuration.measures) v(key_of(change.measure), change);
-}
-
-}  // namespace
-
-template <class V>
-void describe(V& v, const Configuration& configuration) {
-  nlohmann::ordered_map<std::string, std::string> values;
-  for (const auto& [key, value] : configuration.values) values[key] = value;
-  v("name", configuration.name);
-  v("swept", values);
-  v("hosts", configuration.hosts);
-  v("participant_count", configuration.participants);
-  v("descriptor_count", configuration.descriptors);
-  v("runs", configuration.samples);
-  v("identical_runs", configuration.identical_runs);
-  v("storm_before", configuration.storm_before);
-  v("storm_after", configuration.storm_after);
-  v("measures", MeasuresOf{configuration});
-  v("crossings", configuration.crossings);
-}
-
-template <class V>
-void describe(V& v, const PooledChange& pooled) {
-  v("measure", key_of(pooled.measure));
-  v("configuration_count", pooled.configurations);
-  v("runs", pooled.pairs);
-  v("estimate", number(pooled.estimate));
-  v("low", number(pooled.low));
-  v("high", number(pooled.high));
-  v("confidence", pooled.confidence);
-  v("verdict", pooled.judgment);
-}
-
-template <class V>
-void describe(V& v, const CostComparison& costs) {
-  v("grid", costs.grid);
-  v("wanted", costs.samples);
-  v("seed", costs.seed);
-  v("wanted_configurations", costs.wanted);
-  v("confidence", costs.confidence);
-  v("configurations", costs.configurations);
-  v("pooled", costs.pooled);
 }
 
 template <class V>
@@ -344,15 +224,6 @@ void describe(V& v, const ReportWithFiles& shown) {
 }
 
 }  // namespace
-
-/// Each measure is there, by its name.
-static Configuration example_of(report::Type<Configuration>) {
-  Configuration configuration;
-  for (std::size_t k = 0; k < measure_count; ++k) {
-    configuration.measures[k].measure = static_cast<Measure>(k);
-  }
-  return configuration;
-}
 
 nlohmann::ordered_json to_json(const DiffReport& report, const Files& files) {
   return report::json_of(ReportWithFiles{report, files});

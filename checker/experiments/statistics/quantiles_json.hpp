@@ -2,7 +2,6 @@
 #pragma once
 
 #include "checker/experiments/statistics/quantiles.hpp"
-#include "checker/presentation/json/describe.hpp"
 
 namespace stormproof::statistics {
 

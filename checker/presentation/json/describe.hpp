@@ -35,11 +35,6 @@ namespace stormproof::report {
 template <class T>
 [[nodiscard]] nlohmann::ordered_json json_of(const T& value);
 
-/// `T example_of(Type<T>)`, beside a description that cannot be shown a default T, is what the
-/// schema of T is made from.
-template <class T>
-struct Type {};
-
 /// What a description tells its members to: it collects an object.
 class JsonObject {
  public:

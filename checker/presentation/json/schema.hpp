@@ -18,6 +18,7 @@
 #include "checker/presentation/json/describe.hpp"
 #include "checker/presentation/json/head.hpp"
 #include "checker/presentation/json/schema_form.hpp"
+#include "checker/presentation/json/type.hpp"
 
 namespace stormproof::report {
 
