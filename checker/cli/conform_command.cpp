@@ -227,7 +227,7 @@ void declare_conform(Frame& frame) {
        "Exit code: 0 conforms within the bounds, 4 does not, 3 inconclusive or interrupted,\n"
        "2 bad input; without --dds that of the profile that fits best.",
        Formats::findings,
-       {conform::json_schema}},
+       {conform::json_schema, conform::ranking_schema}},
       declare, run);
 }
 

@@ -48,6 +48,7 @@ void declare_list(Frame& frame) {
        .help = "List what has a name: scenarios, profiles, grids, properties, captures, …",
        .exit_codes = "Exit code: 0, or 2 bad input.",
        .formats = Formats::pages,
+       .schemas = {listing::json_schema},
        .takes_long = false},
       declare, run);
 }

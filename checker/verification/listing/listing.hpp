@@ -11,6 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 #include "model/config/spec_path.hpp"
 
 namespace stormproof::listing {
@@ -38,5 +39,6 @@ struct List {
 
 /// Keys: lists (kind, where, entries: name, what, file or null).
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<List>& lists);
+[[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 
 }  // namespace stormproof::listing

@@ -1,5 +1,5 @@
 // The lists for programs.
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 #include "checker/verification/listing/listing.hpp"
 
 namespace stormproof::listing {
@@ -18,10 +18,25 @@ void describe(V& v, const List& list) {
   v("entries", list.entries);
 }
 
+namespace {
+
+struct Lists {
+  const std::vector<List>& lists;
+};
+
+template <class V>
+void describe(V& v, const Lists& all) {
+  v("lists", all.lists);
+}
+
+}  // namespace
+
 nlohmann::ordered_json to_json(const std::vector<List>& lists) {
-  nlohmann::ordered_json json;
-  json["lists"] = report::json_of(lists);
-  return json;
+  return report::json_of(Lists{lists});
+}
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<Lists>(definitions);
 }
 
 }  // namespace stormproof::listing

@@ -8,7 +8,7 @@ template <class V>
 void describe(V& v, const Distribution& distribution) {
   v("name", distribution.name);
   v("ships", distribution.ships);
-  v("profile", distribution.profile);
+  v("profile_name", distribution.profile);
   v("stands_in", stands_in(distribution));
   v("why", distribution.why);
 }

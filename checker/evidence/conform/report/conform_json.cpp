@@ -61,7 +61,7 @@ void describe(V& v, const EffectCoverage& one) {
   v("effect", one.effect->id);
   v("text", draw::sentence(*one.effect));
   v("condition", draw::condition_words(*one.effect));
-  v("packets", one.packets);
+  v("sends", one.packets);
   v("times", one.times);
   v.or_null("ruled_out_by", one.ruled_out_by);
 }
@@ -102,10 +102,10 @@ void describe(V& v, const CompositionCoverage& coverage) {
     effects.insert(effects.end(), rule.effects.begin(), rule.effects.end());
   }
   v("composition", coverage.composition);
-  v("rules", Observed<RuleCoverage>{coverage.rules_seen(), coverage.rules_possible(),
-                                    coverage.rules, coverage.unobservable_rules});
-  v("effects", Observed<EffectCoverage>{coverage.seen(), coverage.possible(), std::move(effects),
-                                        coverage.unobservable});
+  v("rule_coverage", Observed<RuleCoverage>{coverage.rules_seen(), coverage.rules_possible(),
+                                            coverage.rules, coverage.unobservable_rules});
+  v("effect_coverage", Observed<EffectCoverage>{coverage.seen(), coverage.possible(),
+                                                std::move(effects), coverage.unobservable});
   v("unattributed", coverage.unattributed);
 }
 
@@ -265,7 +265,7 @@ void describe(V& v, const Report& report) {
   v("faults", faults);
   v("rules", ByRule{result});
   v("machines", coverage_of(result.rows, report.dds));
-  v("coverage", effect_coverage(result, report.dds, report.impossible));
+  v("composition_coverage", effect_coverage(result, report.dds, report.impossible));
   std::vector<Peer> participants;
   for (const auto& one : report.conversation.topology.participants) participants.push_back({one});
   v("participants", participants);

@@ -1,18 +1,29 @@
 // The ranking for programs.
 #include <algorithm>
+#include <optional>
 
 #include "checker/evidence/capture/describe_capture.hpp"
 #include "checker/evidence/conform/report/describe_bounds.hpp"
 #include "checker/evidence/conform/report/findings.hpp"
 #include "checker/evidence/conform/report/ranking_report.hpp"
-#include "checker/presentation/json/describe.hpp"
+#include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::conform {
 
 template <class V>
 void describe(V& v, const NotHeld& one) {
-  v("profile", one.name);
+  v("profile_name", one.name);
   v("why", one.why);
+}
+
+static RankingReport example_of(report::Type<RankingReport>) {
+  static const auto conversation = [] {
+    auto one = example_of(report::Type<capture::Conversation>{});
+    one.events.resize(1);
+    return one;
+  }();
+  static const Ranking ranking;
+  return {conversation, ranking};
 }
 
 namespace {
@@ -39,7 +50,7 @@ void describe(V& v, const FirstFault& one) {
 template <class V>
 void describe(V& v, const RankedRow& row) {
   const Conformance& result = row.ranked.result;
-  v("profile", row.ranked.name);
+  v("profile_name", row.ranked.name);
   const auto of = row.report.distributions.find(row.ranked.name);
   v("distributions", of == row.report.distributions.end() ? "" : of->second);
   v("verdict", verdict_token(result.verdict));
@@ -47,10 +58,11 @@ void describe(V& v, const RankedRow& row) {
   v("checked", result.checked);
   v("explained", result.explained);
   v("lost", result.lost);
-  v("unexplained_places", result.unexplained.size());
-  if (!result.unexplained.empty()) {
-    v("first_unexplained", FirstFault{row.report, result.unexplained.front()});
-  }
+  v("unexplained_count", result.unexplained.size());
+  std::optional<FirstFault> first;
+  if (!result.unexplained.empty())
+    first.emplace(FirstFault{row.report, result.unexplained.front()});
+  v.unless_empty("first_unexplained", first);
 }
 
 }  // namespace
@@ -73,5 +85,9 @@ void describe(V& v, const RankingReport& report) {
 }
 
 nlohmann::ordered_json to_json(const RankingReport& report) { return report::json_of(report); }
+
+nlohmann::ordered_json ranking_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<RankingReport>(definitions);
+}
 
 }  // namespace stormproof::conform

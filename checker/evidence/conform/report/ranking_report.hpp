@@ -8,6 +8,7 @@
 
 #include "checker/evidence/conform/ranking.hpp"
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/json/schema_form.hpp"
 
 namespace stormproof::conform {
 
@@ -25,5 +26,6 @@ struct RankingReport {
 [[nodiscard]] report::Document document_of(const RankingReport& report);
 /// specs/guide/conforming.md has the keys.
 [[nodiscard]] nlohmann::ordered_json to_json(const RankingReport& report);
+[[nodiscard]] nlohmann::ordered_json ranking_schema(report::SchemaDefinitions& definitions);
 
 }  // namespace stormproof::conform

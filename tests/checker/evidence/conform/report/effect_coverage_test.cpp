@@ -158,16 +158,16 @@ TEST_F(Reports, SayWhichRulesWereSeen) {
   good.by_rule[static_cast<std::size_t>(Rule::heartbeat_same_host)] = 2;
   Report report = report_of(good);
   report.impossible = tables::impossible_effects(dds);
-  const auto coverage = to_json(report)["coverage"];
+  const auto coverage = to_json(report)["composition_coverage"];
   EXPECT_EQ(coverage["composition"], "fastdds");
-  EXPECT_EQ(coverage["rules"]["seen"], 2);
-  EXPECT_EQ(coverage["effects"]["seen"], 2);
+  EXPECT_EQ(coverage["rule_coverage"]["seen"], 2);
+  EXPECT_EQ(coverage["effect_coverage"]["seen"], 2);
   EXPECT_EQ(coverage["unattributed"], 2);
   std::size_t uncovered = 0;
-  for (const auto& effect : coverage["effects"]["observable"]) {
+  for (const auto& effect : coverage["effect_coverage"]["observable"]) {
     if (effect["times"] == 0 && effect["ruled_out_by"].is_null()) ++uncovered;
   }
-  EXPECT_EQ(uncovered, coverage["effects"]["possible"].get<std::size_t>() - 2);
+  EXPECT_EQ(uncovered, coverage["effect_coverage"]["possible"].get<std::size_t>() - 2);
   const std::string page = report::to_html(document_of(report));
   EXPECT_TRUE(has(page, "Rules of the composition: 2 seen sending of 9"));
   EXPECT_TRUE(has(page, "AckNackArrives.3: emit Heartbeat"));
