@@ -96,6 +96,7 @@ const std::map<std::string, const char*> several = {
     {"completed", "of one run whether, of several how many"},
     {"before", "of whatever has changed"},
     {"after", "of whatever has changed"},
+    {"profile", "in the rows of `coverage` its name: others read them"},
     {"estimate", "may be infinite in `diff`, which is a text"},
     {"low", "the same"},
     {"high", "the same"},

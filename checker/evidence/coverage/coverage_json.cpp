@@ -31,7 +31,7 @@ void describe(V& v, const OfProfile<FitRow>& one) {
   for (std::size_t k = 0; k < calibration_points; ++k) {
     calibration["0." + std::to_string(k + 1)] = fit.calibration[k];
   }
-  v("profile_name", one.profile.name);
+  v("profile", one.profile.name);
   v("scope", one.row.scope);
   v("class", one.row.measure);
   v("configuration_count", fit.configurations);

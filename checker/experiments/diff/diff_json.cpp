@@ -64,7 +64,7 @@ template <class V>
 void describe(V& v, const WrittenCounterexample& shown) {
   const auto file = shown.files.find(shown.property);
   describe(v, RunToEvent{shown.run});
-  v.or_null("file", file == shown.files.end() ? std::string_view{} : file->second);
+  v.or_null("counterexample", file == shown.files.end() ? std::string_view{} : file->second);
 }
 
 struct ChangeInContext {
@@ -75,10 +75,9 @@ struct ChangeInContext {
 template <class V>
 void describe(V& v, const ChangeInContext& shown) {
   const VerdictChange& change = shown.change;
-  std::optional<WrittenCounterexample> counterexample;
+  std::optional<WrittenCounterexample> violation;
   if (change.counterexample) {
-    counterexample.emplace(
-        WrittenCounterexample{*change.counterexample, change.property, shown.files});
+    violation.emplace(WrittenCounterexample{*change.counterexample, change.property, shown.files});
   }
   v("id", change.property);
   v("before", change.before);
@@ -87,7 +86,7 @@ void describe(V& v, const ChangeInContext& shown) {
   v("statement", change.statement);
   v("before_how", change.before_how);
   v("after_how", change.after_how);
-  v("counterexample", counterexample);
+  v("violation", violation);
 }
 
 struct ChecksInContext {

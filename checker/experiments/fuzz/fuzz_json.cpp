@@ -100,8 +100,7 @@ void describe(V& v, const ShrunkInContext& shown) {
   v.or_null("scenario_file",
             stem == shown.context.stems.end() ? std::string{} : stem->second + ".yaml");
   const auto trace = shown.context.traces.find(shown.judgment.id);
-  v.or_null("counterexample_file",
-            trace == shown.context.traces.end() ? std::string{} : trace->second);
+  v.or_null("counterexample", trace == shown.context.traces.end() ? std::string{} : trace->second);
 }
 
 struct Rate {

@@ -98,7 +98,7 @@ void describe(V& v, const ResultInContext& shown) {
   v.or_null("solver", decisive.solver);
   v("seed", decisive.seed);
   const auto file = shown.context.counterexamples.find(result.property->id);
-  v.or_null("counterexample_file", file == shown.context.counterexamples.end() ? "" : file->second);
+  v.or_null("counterexample", file == shown.context.counterexamples.end() ? "" : file->second);
   const props::Counterexample* counterexample = result.counterexample();
   v.or_null("reason", counterexample == nullptr ? "" : counterexample->reason);
   v("findings", result.findings);

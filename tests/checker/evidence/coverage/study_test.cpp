@@ -78,7 +78,7 @@ TEST(Study, JsonHasTheKeysThatScriptsUse) {
   const auto json = to_json({}, *result);
   bool found = false;
   for (const auto& row : json["rows"]) {
-    found = found || (row["profile_name"] == "fastdds-2.6.11" && row["scope"] == "all" &&
+    found = found || (row["profile"] == "fastdds-2.6.11" && row["scope"] == "all" &&
                       row["class"] == "messages" && row["median_ratio"].is_number() &&
                       row["median_abs_ln_ratio"].is_number() && row["coverage"].is_number() &&
                       row["in_range"].is_number());

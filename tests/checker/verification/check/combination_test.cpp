@@ -95,9 +95,9 @@ TEST_F(Reports, JsonHasAllKeysOfTheInterface) {
     }
   }
   EXPECT_EQ(json["verdicts"][0]["verdict"], "proved");
-  EXPECT_TRUE(json["verdicts"][0]["counterexample_file"].is_null());
+  EXPECT_TRUE(json["verdicts"][0]["counterexample"].is_null());
   EXPECT_EQ(json["verdicts"][1]["verdict"], "violated");
-  EXPECT_EQ(json["verdicts"][1]["counterexample_file"], "ce/timer.single-heartbeat.jsonl");
+  EXPECT_EQ(json["verdicts"][1]["counterexample"], "ce/timer.single-heartbeat.jsonl");
   EXPECT_EQ(json["verdicts"][1]["findings"].size(), 2U);
   EXPECT_EQ(json["totals"]["inconclusive"], 1);
   EXPECT_EQ(json["totals"]["violated"], 1);
