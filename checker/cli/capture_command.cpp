@@ -7,6 +7,7 @@
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/capture/summary.hpp"
+#include "checker/presentation/text/command_line.hpp"
 
 namespace stormproof::cli {
 
@@ -28,6 +29,9 @@ Outcome run(CaptureArguments& arguments, Session& session) {
   Answer answer;
   answer.document = document_of(summary);
   answer.json = to_json(summary);
+  std::vector<std::string> who{"conform"};
+  who.insert(who.end(), arguments.files.begin(), arguments.files.end());
+  answer.document.next = {{report::command_line(who), "which library and version behaves so"}};
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(summary);
   const bool complete = !Session::interrupted() && counting.last_initial_ns;
   answer.document.complete = !Session::interrupted();

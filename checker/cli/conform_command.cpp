@@ -11,6 +11,7 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/evidence/conform/report/ranking_report.hpp"
 #include "checker/evidence/conform/report/report.hpp"
+#include "checker/presentation/text/command_line.hpp"
 #include "model/config/distributions.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
@@ -83,6 +84,27 @@ ExitCode exit_code(conform::Verdict verdict) {
   return inconclusive;
 }
 
+/// What to run after one profile was held against captures; nothing if that is not decided.
+std::optional<report::NextStep> next_of(const ConformArguments& arguments,
+                                        conform::Verdict verdict) {
+  std::vector<std::string> words{"validate"};
+  words.insert(words.end(), arguments.files.begin(), arguments.files.end());
+  switch (verdict) {
+    case conform::Verdict::conforms:
+      words.insert(words.end(), {"--dds", arguments.dds, "--wireless", "wifi-80211n"});
+      return report::NextStep{
+          report::command_line(words),
+          "how long the model takes over such a channel; list wireless has more"};
+    case conform::Verdict::does_not_conform:
+      words.front() = "conform";
+      return report::NextStep{report::command_line(words),
+                              "which shipped profile explains it best"};
+    case conform::Verdict::inconclusive:
+      break;
+  }
+  return std::nullopt;
+}
+
 /// The files beside the report.
 void write_beside(ConformArguments& arguments, const conform::Report& report, Answer& answer) {
   if (arguments.assignment.wanted()) {
@@ -153,6 +175,7 @@ Outcome hold_one(ConformArguments& arguments, const model::DdsProfile& dds, cons
   Answer answer{document_of(report), to_json(report)};
   answer.document.exit_code = exit_code(result->verdict);
   answer.document.complete = !Session::interrupted();
+  if (auto next = next_of(arguments, result->verdict)) answer.document.next = {*std::move(next)};
   write_beside(arguments, report, answer);
   return answer;
 }

@@ -5,6 +5,7 @@
 #include "checker/cli/diff_files.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/experiments/diff/diff_report.hpp"
+#include "checker/presentation/text/command_line.hpp"
 
 namespace stormproof::cli {
 
@@ -67,6 +68,8 @@ Outcome run(DiffArguments& arguments, Session& session) {
   answer.listing = folder.listing();
   answer.document = document_of(*report, files);
   answer.json = to_json(*report, files);
+  answer.document.next = {{report::command_line({"profile", "show", arguments.candidate}),
+                           "which of its values a user can set"}};
   return answer;
 }
 

@@ -152,7 +152,8 @@ void Frame::Command::declare_own(Options& options) {
       .texts("--report", report_arguments,
              "Write the answer in another format, too: html=FILE (repeatable)", "FORMAT=FILE")
       .not_repeated();
-  options.flag("-v,--verbose", verbose, "Show more in the text").not_repeated();
+  options.flag("-v,--verbose,--explain", verbose, "Show the details in the text, too")
+      .not_repeated();
   if (!verb.takes_long) return;
   options
       .flag(
@@ -236,14 +237,18 @@ int Frame::Command::show(Answer& answer, const std::vector<Given>& given) {
   complete(answer, shell_line(given));
   report::Terminal terminal = standard_output();
   terminal.verbose = verbose;
-  print(render(answer, format, terminal));
-  for (const std::string& note : answer.notes) say(visible(note));
-  if (!answer.document.complete) say_why_not();
   Errors errors;
   write_files(answer, errors);
   if (!answer.complaint.empty()) errors.insert(errors.begin(), answer.complaint);
+  if (!errors.empty()) {
+    answer.document.exit_code = bad_input;
+    answer.json["exit_code"] = bad_input;
+  }
+  print(render(answer, format, terminal));
+  for (const std::string& note : answer.notes) say(visible(note));
+  if (!answer.document.complete) say_why_not();
   for (const std::string& error : errors) complain(error);
-  return errors.empty() ? answer.document.exit_code : bad_input;
+  return answer.document.exit_code;
 }
 
 int Frame::Command::execute() {

@@ -8,6 +8,8 @@
 #include "checker/cli/fuzz_input.hpp"
 #include "checker/cli/output_folder.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
+#include "checker/presentation/text/command_line.hpp"
+#include "checker/verification/check/next_steps.hpp"
 #include "checker/verification/counterexample/story.hpp"
 #include "model/config/knobs/effective.hpp"
 
@@ -60,6 +62,20 @@ fuzz::FuzzOptions options_of(const FuzzArguments& arguments, std::vector<std::st
   return options;
 }
 
+/// The first counterexample that was written, or what a sample cannot say.
+report::NextStep next_of(const fuzz::FuzzReport& report, const fuzz::FuzzContext& context,
+                         const FuzzArguments& arguments) {
+  for (const fuzz::Judgment& judgment : report.judgments) {
+    const auto trace = context.traces.find(judgment.id);
+    if (trace == context.traces.end()) continue;
+    return {report::command_line({"replay", trace->second}),
+            "the shortest violation that was found, again, event by event"};
+  }
+  return {report::command_line({"check"}) + " " +
+              checker::words_of(arguments.scenario, arguments.overrides),
+          "what holds for all runs, not only for those that were drawn"};
+}
+
 Outcome run(FuzzArguments& arguments, Session& session) {
   const auto scenario = read_scenario(arguments);
   if (!scenario) return scenario.error();
@@ -89,6 +105,7 @@ Outcome run(FuzzArguments& arguments, Session& session) {
   // Its command says how many runs there was time for, which is never twice the same.
   answer.document = document_of(report, context);
   answer.json = to_json(report, context);
+  answer.document.next = {next_of(report, context, arguments)};
   return answer;
 }
 

@@ -76,6 +76,7 @@ OutputFolder::~OutputFolder() {
     for (; !made_.empty(); made_.pop_back()) fs::remove(made_.back(), ignored);
   }
   if (marker_ >= 0) close(marker_);
+  if (held_ >= 0) close(held_);
 }
 
 void OutputFolder::fail(const std::string& why) {
@@ -108,6 +109,9 @@ bool OutputFolder::acquire(bool create) {
     }
     if (why) fail(fmt::format("{} {}: cannot be written into: {}", option_, named_, *why));
     path_ = named_;
+    if (!failed_ && !lock_named()) {
+      fail(fmt::format("{} {}: another run writes into it", option_, named_));
+    }
     return !failed_;
   }
   constexpr int most_at_once = 100;
@@ -154,6 +158,13 @@ bool OutputFolder::lock(const std::string& folder) {
   }
   close(file);
   return false;
+}
+
+/// A named folder is locked itself: nothing is written into it that nobody asked for. False if
+/// another run holds it.
+bool OutputFolder::lock_named() {
+  held_ = open(named_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  return held_ < 0 || flock(held_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
 /// Removes what the marker lists, and nothing else.

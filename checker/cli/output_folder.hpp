@@ -1,8 +1,8 @@
 // The folder of the files that a command writes besides its answer: counterexamples, charts. Given
-// by name, it gets all of them, and what cannot be written is an error. Otherwise it is
-// stormproof-out/<verb>-<subject>/, which git ignores: what the run before wrote there is removed,
-// it takes at most 16 MB, two runs at once get two folders, and whatever keeps a file from it is
-// only noted, because nobody asked for one.
+// by name, it gets all of them, what cannot be written is an error, and a second run at once is
+// refused. Otherwise it is stormproof-out/<verb>-<subject>/, which git ignores: what the run before
+// wrote there is removed, it takes at most 16 MB, two runs at once get two folders, and whatever
+// keeps a file from it is only noted, because nobody asked for one.
 #pragma once
 
 #include <cstdint>
@@ -47,6 +47,7 @@ class OutputFolder {
   [[nodiscard]] bool is_named() const { return !named_.empty(); }
   bool acquire(bool create);
   bool lock(const std::string& folder);
+  bool lock_named();
   void clear();
   void fail(const std::string& why);
 
@@ -55,6 +56,7 @@ class OutputFolder {
   std::string usual_;
   std::string path_;  ///< where files go; empty: not decided yet
   int marker_ = -1;   ///< lists what is ours; locked while the command runs
+  int held_ = -1;     ///< a named folder, locked
   bool failed_ = false;
   std::uintmax_t bytes_ = 0;
   std::vector<std::string> made_;  ///< folders, the outermost first

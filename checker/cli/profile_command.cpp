@@ -2,6 +2,7 @@
 // vendor's own XML, really says about discovery.
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/verification/profile/lint_report.hpp"
 #include "checker/verification/profile/profile_report.hpp"
 
@@ -22,7 +23,10 @@ Outcome run(ShowArguments& arguments, Session& /*session*/) {
                                                        specs, model::config::Outside::admitted);
   if (!traced) return traced.error();
   const report::ProfileReport report = report::describe_profile(*traced, specs);
-  return Answer{document_of(report), to_json(report)};
+  Answer answer{document_of(report), to_json(report)};
+  answer.document.next = {{report::command_line({"profile", "lint", arguments.reference}),
+                           "settings without effect, or that cause storms"}};
+  return answer;
 }
 
 struct LintArguments {
@@ -39,6 +43,11 @@ Outcome run(LintArguments& arguments, Session& /*session*/) {
   const report::LintCounts counts = count(files);
   const ExitCode readable = counts.errors + counts.warnings > 0 ? violated : established;
   answer.document.exit_code = counts.unreadable > 0 ? bad_input : readable;
+  if (counts.unreadable == 0) {
+    answer.document.next = {
+        {report::command_line({"profile", "show", arguments.references.front()}),
+         "every value, where it comes from and whether a user can set it"}};
+  }
   return answer;
 }
 

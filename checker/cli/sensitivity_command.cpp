@@ -6,6 +6,9 @@
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/experiments/sensitivity/sensitivity_report.hpp"
+#include "checker/presentation/text/command_line.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+#include "checker/verification/check/next_steps.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
 
@@ -80,6 +83,12 @@ Outcome run(SensitivityArguments& arguments, Session& session) {
   Answer answer;
   answer.document = document_of(report, description);
   answer.json = to_json(report, description);
+  if (const auto change = sensitivity::best_change(report, description.options.by)) {
+    answer.document.next = {{report::command_line({"simulate"}) + " " +
+                                 checker::words_of(arguments.scenario, arguments.overrides) +
+                                 " --set " + report::shell_word(*change),
+                             "the change that helps most, alone"}};
+  }
   if (!report.finished) arguments.svg.discard();
   if (report.finished && arguments.svg.wanted()) {
     arguments.svg.stream() << to_svg(report, description);

@@ -75,6 +75,8 @@ TEST_F(Failure, FullDiskBehindAFile) {
   EXPECT_TRUE(says("err", "--report /dev/full: could not be written")) << content("err");
   EXPECT_TRUE(says("good.json", "\"schema\""));
   EXPECT_EQ(shell("stormproof draw HeartbeatTimer -o /dev/full"), 2);
+  EXPECT_EQ(shell("stormproof simulate my.yaml --format json --report html=/dev/full"), 2);
+  EXPECT_TRUE(says("out", "\"exit_code\": 2")) << content("out");
 }
 
 TEST_F(Failure, AFileSizeLimit) {
@@ -225,6 +227,17 @@ TEST_F(Failure, TwoRunsAtOnceHaveTwoFolders) {
   close(marker);
   EXPECT_TRUE(says("out", "stormproof-out/check-my-2/: ")) << content("out");
   EXPECT_TRUE(fs::exists(usual / "timer.single-heartbeat.jsonl"));
+}
+
+TEST_F(Failure, ANamedFolderHoldsOneRun) {
+  fs::create_directory(folder_ / "here");
+  const int held = open((folder_ / "here").c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(flock(held, LOCK_EX), 0);  // as a run that goes on does
+  EXPECT_EQ(shell(violated + std::string{"--counterexamples here"}), 2);
+  EXPECT_TRUE(says("err", "here: another run writes into it")) << content("err");
+  EXPECT_TRUE(fs::is_empty(folder_ / "here"));
+  close(held);
+  EXPECT_EQ(shell(violated + std::string{"--counterexamples here"}), 1);
 }
 
 TEST_F(Failure, RunsThatWriteTheSameFileAtOnceLeaveOneOfThem) {

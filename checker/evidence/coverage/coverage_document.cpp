@@ -138,11 +138,15 @@ Section section_of(const ProfileStudy& profile, const Heading& heading,
   return section;
 }
 
+/// Over all configurations, or over the first scope if somebody asked for some only.
 const Fit* overall(const ProfileStudy& profile, Measure measure) {
+  const Fit* first = nullptr;
   for (const FitRow& row : profile.rows) {
-    if (row.scope == "all" && row.measure == measure) return &row.fit;
+    if (row.measure != measure) continue;
+    if (row.scope == "all") return &row.fit;
+    if (first == nullptr) first = &row.fit;
   }
-  return nullptr;
+  return first;
 }
 
 /// One row for each profile and measure: how good it is over all configurations.

@@ -270,8 +270,9 @@ report::Document document_of(const Report& report, const Heading& heading) {
   document.answer = answer(report);
   document.blocks.emplace_back(head(report, heading));
   document.blocks.emplace_back(figures(report));
-  if (!report.bands.empty()) document.blocks.emplace_back(over_time(report));
-  document.blocks.emplace_back(compared(report));
+  if (!report.bands.empty())
+    document.blocks.emplace_back(over_time(report), report::Audience::verbose);
+  document.blocks.emplace_back(compared(report), report::Audience::verbose);
   if (!report.differences.empty()) document.blocks.emplace_back(differences(report));
   report::add_unmodelled(document, report.scenario.dds);
   document.complete = !report.interrupted();

@@ -26,8 +26,7 @@ Facts apart_facts(const TellingApart& apart, const Files& files) {
   };
   add("base", side(apart.base_run));
   add("candidate", side(apart.candidate_run));
-  add("search", fmt::format("{} ({} tried{})", apart.how, plural(apart.tried, "scenario"),
-                            apart.finished ? "" : ", the effort was spent"));
+  add("search", apart.how);
   const char* label = "files";
   for (const auto& [what, file] : files) {
     if (what.starts_with("telling-apart")) add(std::exchange(label, ""), report::code(file));

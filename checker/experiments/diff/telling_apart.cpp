@@ -13,6 +13,7 @@
 #include "checker/experiments/diff/normal_form.hpp"
 #include "checker/experiments/diff/small_scenarios.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/plain_text.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
 #include "model/implementations.hpp"
@@ -176,10 +177,10 @@ class Search {
     apart.candidate_packets = difference.candidate.packets;
     apart.tried = tried_;
     apart.finished = finished_;
-    apart.how =
-        fmt::format("{} scenarios tried, from two participants upward; {}", report::grouped(tried_),
-                    finished_ ? "nothing simpler than this one tells the profiles apart"
-                              : "the effort was spent before nothing simpler was left");
+    apart.how = fmt::format("{} tried, from two participants upward; {}",
+                            report::plural(tried_, "scenario"),
+                            finished_ ? "nothing simpler than this one tells the profiles apart"
+                                      : "the effort was spent before nothing simpler was left");
     return apart;
   }
 

@@ -139,6 +139,7 @@ class Builder {
                  {report_.samples > 1 ? "interval" : "effect", to_right},
                  {""}},
                 {}};
+    table.wide = true;
     const double greatest = report_.knobs.front().swing(options_.by);
     std::size_t hidden = 0;
     for (std::size_t k = 0; k < report_.knobs.size(); ++k) {
@@ -261,6 +262,20 @@ class Builder {
 };
 
 }  // namespace
+
+std::optional<std::string> best_change(const Report& report, Measure by) {
+  std::optional<std::string> best;
+  double least = 0;
+  for (const KnobResult& knob : report.knobs) {
+    if (!knob.key.starts_with("dds.s")) continue;  // what a descriptor holds is no choice
+    for (const auto& level : knob.levels) {
+      if (!level || of(level->effects, by).median >= least) continue;
+      least = of(level->effects, by).median;
+      best = knob.key + "=" + level->value;
+    }
+  }
+  return best;
+}
 
 Document document_of(const Report& report, const Description& description) {
   return Builder{report, description}.build();

@@ -1,6 +1,7 @@
 // The sensitivity report as a document, as JSON, and as an SVG tornado plot.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -22,6 +23,10 @@ struct Description {
   /// Whether the runs of one scenario differ in their start times.
   [[nodiscard]] bool is_sampled() const { return has_schedule || options.start_jitter.count() > 0; }
 };
+
+/// "dds.sedp.heartbeat_period=800ms": of the changes of the DDS profile the one that makes the
+/// measure least; nothing if none makes it less.
+[[nodiscard]] std::optional<std::string> best_change(const Report& report, Measure by);
 
 [[nodiscard]] report::Document document_of(const Report& report, const Description& description);
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Description& description);

@@ -292,11 +292,12 @@ Document document_of(const Simulation& s) {
         Paragraph{"user control: matched user endpoints and liveliness; in no class"});
   }
   add_channels(blocks, s.result);
-  blocks.emplace_back(delays(s.result));
-  add_backlogs(blocks, s);
-  add_last_delivery(blocks, s.result);
   add_missing(blocks, s.result);
   blocks.emplace_back(reading(s.result));
+  Section waiting{"Where packets wait", "waiting", {delays(s.result)}};
+  add_backlogs(waiting.blocks, s);
+  add_last_delivery(waiting.blocks, s.result);
+  blocks.emplace_back(std::move(waiting), Audience::verbose);
   add_footer(blocks, s);
   add_unmodelled(document, s.scenario.dds);
   return document;

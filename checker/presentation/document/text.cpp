@@ -30,6 +30,10 @@ class TextPage {
     if (!document.assumptions.empty()) {
       add(Section{"Assumptions", "", {Bullets{document.assumptions}}}, 0);
     }
+    if (!left_out_.empty()) {
+      blank_line();
+      running(0, "with -v: ", Text{fmt::format("{}", fmt::join(left_out_, ", "))});
+    }
     if (!document.command.empty()) {
       add(Section{"Repeat it", "", {Command{document.command}}}, 0);
     }
@@ -122,11 +126,20 @@ class TextPage {
     return section != nullptr && section->folded;
   }
 
+  /// What -v would show, under its title.
+  void leave_out(const Block& block) {
+    if (block.audience != Audience::verbose && block.audience != Audience::explained) return;
+    const auto* section = std::get_if<Section>(&block.content);
+    if (section != nullptr && !section->title.empty()) left_out_.push_back(section->title);
+  }
+
   /// Without blank lines between them if `dense`.
   void blocks(const Blocks& all, std::size_t indent, bool dense = false) {
     for (const bool folded : {false, true}) {
       for (const Block& block : all) {
-        if (!is_shown(block) || is_folded(block) != folded) continue;
+        if (is_folded(block) != folded) continue;
+        if (!sees(block.audience)) leave_out(block);
+        if (!is_shown(block)) continue;
         if (!dense) blank_line();
         std::visit([&](const auto& content) { add(content, indent); }, block.content);
       }
@@ -197,6 +210,7 @@ class TextPage {
   std::size_t width_;
   bool colours_;
   bool verbose_;
+  std::vector<std::string> left_out_{};  ///< titles of what only -v shows
 };
 
 }  // namespace

@@ -56,6 +56,17 @@ class TextTable {
     return std::accumulate(widths_.begin(), widths_.end(), marks_ + gaps);
   }
 
+  /// What a column needs at least: its longest word.
+  [[nodiscard]] std::size_t least(std::size_t k) const {
+    std::size_t columns = least_wide;
+    for (const Table::Row& row : table_.rows) {
+      for (const TextLine& line : broken(cell(row, k), least_wide, false)) {
+        columns = std::max(columns, line.columns);
+      }
+    }
+    return columns;
+  }
+
   /// Narrows columns until the table fits; false if it cannot.
   bool share() {
     std::vector<std::size_t> broken_columns;
@@ -69,11 +80,14 @@ class TextTable {
         return column(k).align == Column::Align::left && widths_[k] > least_wide;
       });
     }
+    std::vector<std::size_t> leasts(shown_.size());
+    for (const std::size_t k : broken_columns) leasts[k] = least(k);
     while (total() > width_) {
+      std::erase_if(broken_columns, [&](std::size_t k) { return widths_[k] <= leasts[k]; });
       // The widest gives, so that in the end they are equally wide.
       const auto widest =
           std::ranges::max_element(broken_columns, {}, [&](std::size_t k) { return widths_[k]; });
-      if (widest == broken_columns.end() || widths_[*widest] <= least_wide) return false;
+      if (widest == broken_columns.end()) return false;
       --widths_[*widest];
     }
     return true;

@@ -108,10 +108,14 @@ report::Document document_of(const MutationReport& report) {
         Paragraph{"Interrupted: the other mutants were not tried.", report::Tone::warn});
   }
   document.blocks.emplace_back(mutants_table(report));
+  const auto of_property = [&](auto id) { return report.killed_by(id); };
+  const auto of_law = [&](auto id) { return report.killed_by_law(id); };
   document.blocks.emplace_back(
-      counts_table("property", props::catalogue(), [&](auto id) { return report.killed_by(id); }));
-  document.blocks.emplace_back(
-      counts_table("law", props::laws(), [&](auto id) { return report.killed_by_law(id); }));
+      report::Section{"Who notices how many",
+                      "noticed",
+                      {counts_table("property", props::catalogue(), of_property),
+                       counts_table("law", props::laws(), of_law)}},
+      report::Audience::verbose);
   add_survivors(document, report);
   for (const MutantResult& mutant : report.mutants) {
     document.findings.push_back(finding_of(mutant));

@@ -47,8 +47,8 @@ class ConformPage {
     if (!result_.unexplained.empty()) all.emplace_back(unexplained());
     all.emplace_back(events());
     all.emplace_back(rules());
-    if (!result_.rows.empty()) all.emplace_back(machines());
-    all.emplace_back(composition());
+    if (!result_.rows.empty()) all.emplace_back(machines(), Audience::verbose);
+    all.emplace_back(composition(), Audience::verbose);
     all.emplace_back(assignment());
     return all;
   }

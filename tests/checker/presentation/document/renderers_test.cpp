@@ -89,6 +89,29 @@ TEST(TextRenderer, ShowsBlocksToThoseWhoAskForThem) {
   EXPECT_FALSE(has(verbose, "for pages"));
 }
 
+TEST(TextRenderer, NamesWhatItLeavesOut) {
+  Document document = example();
+  document.blocks.emplace_back(Section{"Many numbers", "", {Paragraph{"12 34"}}},
+                               Audience::verbose);
+  const std::string text = to_text(document, {});
+  EXPECT_FALSE(has(text, "12 34"));
+  EXPECT_TRUE(has(text, "with -v: Many numbers\n")) << text;
+  const std::string verbose = to_text(document, {.verbose = true});
+  EXPECT_TRUE(has(verbose, "12 34"));
+  EXPECT_FALSE(has(verbose, "with -v:"));
+}
+
+TEST(TextRenderer, AColumnIsAsWideAsItsLongestWord) {
+  const std::string key = "dds.descriptors.default_publications";
+  Document document;
+  document.blocks.emplace_back(Table{{{"knob"}, {"what it does"}},
+                                     {{{key, "one two three four five six seven"}},
+                                      {{"short", "one two three four five six seven"}}}});
+  const std::string text = to_text(document, {.columns = 60});
+  EXPECT_TRUE(has(text, key + "  one")) << text;
+  EXPECT_TRUE(has(text, "short" + std::string(key.size() - 3, ' ') + "one")) << text;
+}
+
 TEST(TextRenderer, FitsTheTerminal) {
   for (const std::size_t width : {20U, 60U, 80U, 100U, 500U}) {
     for (const std::string& line : lines_of(to_text(example(), {.columns = width}))) {

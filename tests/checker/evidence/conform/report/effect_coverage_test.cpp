@@ -173,7 +173,8 @@ TEST_F(Reports, SayWhichRulesWereSeen) {
   EXPECT_TRUE(has(page, "AckNackArrives.3: emit Heartbeat"));
   EXPECT_TRUE(has(page, "because of spdp.resend: all_known"));
   EXPECT_TRUE(has(page, "2 events are put down to what the capture does not show"));
-  EXPECT_TRUE(has(report::to_text(document_of(report)), "Deliver ToRequesters"));
+  EXPECT_TRUE(has(report::to_text(document_of(report), {.verbose = true}), "Deliver ToRequesters"));
+  EXPECT_TRUE(has(report::to_text(document_of(report)), "with -v: "));
 }
 
 }  // namespace effect_coverage_test
