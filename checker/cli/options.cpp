@@ -176,7 +176,9 @@ Option Options::written(const char* name, std::string& path, const std::string& 
 }
 
 void Options::scenario(std::string& scenario, std::vector<std::string>& changes) {
-  text("scenario", scenario, "Scenario file, or name of a shipped one", "SCENARIO").required();
+  text("scenario", scenario, "Scenario file, name of a shipped one, or - for standard input",
+       "SCENARIO")
+      .required();
   overrides(changes, "the scenario");
 }
 

@@ -123,6 +123,7 @@ std::optional<std::string> SpecPath::name_of(SpecKind kind, const std::string& f
 Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
                                    const std::string& from_directory,
                                    const std::string& where) const {
+  if (kind == SpecKind::scenarios && reference == "-") return std::string{"/dev/stdin"};
   if (is_path(reference) || vendor::parse_reference(reference)) {
     const fs::path beside =
         fs::path{from_directory} / reference;  // `reference` itself if it is absolute

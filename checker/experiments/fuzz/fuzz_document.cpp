@@ -200,12 +200,11 @@ report::Finding finding_of(const Judgment& judgment, const FuzzContext& context)
   return finding;
 }
 
-std::string answer_text(const FuzzReport& report, const model::Scenario& scenario) {
-  if (report.runs.empty()) return "No run finished, so nothing is known.";
+std::string breaches_text(const FuzzReport& report, const model::Scenario& scenario) {
   const auto broken = std::ranges::count_if(
       report.judgments, [](const Judgment& judgment) { return judgment.broken > 0; });
   if (broken == 0) {
-    return fmt::format("None of {} breaks anything.", plural(report.runs.size(), "run"));
+    return fmt::format("None of {} breaks a property or limit.", plural(report.runs.size(), "run"));
   }
   const auto worst = std::ranges::max_element(report.judgments, {}, [](const Judgment& judgment) {
     return static_cast<double>(judgment.broken) /
@@ -216,6 +215,23 @@ std::string answer_text(const FuzzReport& report, const model::Scenario& scenari
   if (broken > 1)
     text += fmt::format("; {} of {} properties and limits break", broken, report.judgments.size());
   return text + ".";
+}
+
+/// What the runs were like stands before what they break if it is more than a slow start.
+std::string answer_text(const FuzzReport& report, const model::Scenario& scenario) {
+  const auto outlook = report.outlook();
+  if (!outlook) return "No run finished, so nothing is known.";
+  const std::string breaches = breaches_text(report, scenario);
+  if (outlook->health() != exact::Health::storm) return breaches;
+  return fmt::format("{}: {}. {}", outlook->headline(), outlook->sentence(), breaches);
+}
+
+/// A storm breaks no property, and is nothing to be content with.
+Tone tone_of(const FuzzReport& report) {
+  if (report.violated()) return Tone::bad;
+  const auto outlook = report.outlook();
+  const bool calm = outlook && outlook->health() != exact::Health::storm;
+  return report.interrupted || !calm ? Tone::warn : Tone::good;
 }
 
 void add_reservations(Document& document, const FuzzReport& report) {
@@ -257,7 +273,7 @@ Document document_of(const FuzzReport& report, const FuzzContext& context) {
   Document document;
   document.title = "stormproof fuzz " + context.name;
   document.exit_code = report.violated() ? 1 : open ? 3 : 0;
-  document.tone = report.violated() ? Tone::bad : open ? Tone::warn : Tone::good;
+  document.tone = tone_of(report);
   document.complete = !report.interrupted;
   document.command = context.whole(report);
   document.subject =

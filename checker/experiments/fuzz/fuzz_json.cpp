@@ -1,5 +1,6 @@
 // The JSON form of a fuzz report. Times are integers in ns, sizes in bytes or packets; what does
 // not exist is null.
+#include "checker/engines/exact/health_json.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/experiments/statistics/quantiles_json.hpp"
 #include "checker/presentation/json/schema.hpp"
@@ -47,6 +48,8 @@ void describe(V& v, const JudgedRun& run) {
   v("packets", run.packets);
   v("lost", run.lost);
   v("events", run.events);
+  v("health", run.health.health);
+  v("since_last_start_ns", run.health.took);
 }
 
 template <class V>
@@ -193,6 +196,7 @@ void describe(V& v, const ReportInContext& shown) {
   v.unless_empty("unmodelled", shown.context.scenario.dds.unmodelled);
   v("base", report.base_known ? std::optional{report.base} : std::nullopt);
   v("verdicts", verdicts);
+  v("outlook", report.outlook());
   v("summary", Summary{report});
   v("samples", samples);
 }

@@ -66,6 +66,7 @@ JudgedRun summary(const model::Scenario& scenario, const model::RunResult& resul
     run.backlog = std::max(run.backlog, peak.packets);
   }
   run.events = result.events;
+  run.health = exact::health_of(scenario, result);
   return run;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/engines/exact/health.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
 #include "props/verdict.hpp"
@@ -36,6 +37,7 @@ struct JudgedRun {
   std::uint64_t packets = 0;  ///< emitted
   std::uint64_t lost = 0;     ///< of them
   std::uint64_t events = 0;
+  exact::RunHealth health{};     ///< storm, slow link, fine
   std::vector<Breach> breaches;  ///< in the order of the ids
 
   [[nodiscard]] const Breach* breach(std::string_view id) const;
