@@ -12,6 +12,7 @@
 
 #include "checker/cli/output_file.hpp"
 #include "model/config/tree/suggestion.hpp"
+#include "model/config/vendor/variables.hpp"
 
 namespace stormproof::cli {
 
@@ -183,9 +184,15 @@ void Options::scenario(std::string& scenario, std::vector<std::string>& changes)
 }
 
 Option Options::overrides(std::vector<std::string>& overrides, const char* whose) {
+  from_environment();
   return texts("--set", overrides,
                "Override a key of " + std::string{whose} + ": key.path=value (repeatable)",
                "KEY=VALUE");
+}
+
+void Options::from_environment() {
+  flag("--from-environment", model::config::vendor::take_variables_from_environment,
+       "Take ${VARIABLE} in Cyclone DDS files from the environment (default: what the file says)");
 }
 
 Option Options::captures(std::vector<std::string>& files) {

@@ -83,6 +83,8 @@ class Options {
   /// For std::size_t, std::uint32_t, double, and std::optional of the first and last.
   template <class Number>
   Option number(const char* name, Number& value, const std::string& help, const char* type);
+  /// --from-environment, for whatever reads vendors' files; `overrides` has it.
+  void from_environment();
   Option flag(const char* name, bool& value, const std::string& help);
   Option flag(const char* name, std::function<void()> given, const std::string& help);
   /// One of some words, each of which stands for a value.

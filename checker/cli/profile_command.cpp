@@ -37,7 +37,9 @@ Outcome run(LintArguments& arguments, Session& /*session*/) {
   const SpecPath specs = SpecPath::standard();
   std::vector<report::LintedFile> files;
   for (const std::string& reference : arguments.references) {
-    files.push_back(report::lint_profile(reference, specs));
+    for (const std::string& part : report::parts_of(reference, specs)) {
+      files.push_back(report::lint_profile(part, specs));
+    }
   }
   Answer answer{document_of(files), to_json(files)};
   const report::LintCounts counts = count(files);
@@ -62,6 +64,7 @@ void declare(Options& options, ShowArguments& arguments) {
 
 void declare(Options& options, LintArguments& arguments) {
   options.texts("profile", arguments.references, reference_help, "PROFILE...").required();
+  options.from_environment();
 }
 
 }  // namespace

@@ -80,11 +80,10 @@ class Chain {
   }
 
   Result<Node> read_xml(const Node& reference, const vendor::FileReference& parts) {
-    const auto file = enter(reference, parts.file, parts.selection.profile);
-    if (!file) return file.error();
-    const Result<vendor::XmlElement> root = vendor::load_xml(*file);
-    if (!root) return root.error();
-    Result<vendor::VendorProfile> profile = vendor::read_vendor_profile(*root, parts.selection);
+    auto document = load(reference, parts);
+    if (!document) return document.error();
+    Result<vendor::VendorProfile> profile =
+        vendor::read_vendor_profile(*std::move(document), parts.selection);
     if (!profile) return profile.error();
     if (outside_ == Outside::refused) {
       if (auto error = refuse_errors(*profile)) return *std::move(error);
@@ -96,6 +95,17 @@ class Chain {
     }
     if (!vendor) vendor = *std::move(profile);
     return changes;
+  }
+
+  Result<vendor::XmlDocument> load(const Node& reference, const vendor::FileReference& parts) {
+    if (parts.file.empty()) {
+      auto document = vendor::parse_vendor_xml(parts.text, "CYCLONEDDS_URI");
+      if (document) document->is_variable = true;
+      return document;
+    }
+    const auto file = enter(reference, parts.file, parts.selection.profile);
+    if (!file) return file.error();
+    return vendor::load_xml(*file);
   }
 
   /// The file that stands in `reference`; it, or the part of it with this name, is in the chain

@@ -57,9 +57,9 @@ void check_settings(const vendor::VendorProfile& profile) {
 }  // namespace
 
 Outcome vendor_xml(std::string_view input) {
-  const auto root = vendor::parse_xml(input, "input.xml");
-  const auto profile = root ? vendor::read_vendor_profile(*root, {})
-                            : config::Result<vendor::VendorProfile>{root.error()};
+  const auto document = vendor::parse_vendor_xml(input, "input.xml");
+  const auto profile = document ? vendor::read_vendor_profile(*document, {})
+                                : config::Result<vendor::VendorProfile>{document.error()};
   if (!profile) {
     require(!profile.error().where.empty(), "an error has a place");
     require(!profile.error().message.empty(), "an error says what is wrong");

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "model/config/vendor/reference.hpp"
+
 namespace stormproof::report {
 
 namespace config = model::config;
@@ -57,6 +59,22 @@ void add_unmodelled(const config::TracedProfile& traced, const config::SpecPath&
 }
 
 }  // namespace
+
+std::vector<std::string> parts_of(const std::string& reference, const config::SpecPath& specs) {
+  const auto parts = vendor::parse_reference(reference);
+  if (!parts || parts->file.empty() || !parts->selection.profile.empty()) return {reference};
+  const auto file = specs.find(config::SpecKind::dds, parts->file, "", reference);
+  if (!file) return {reference};
+  const auto document = vendor::load_xml(*file);
+  if (!document) return {reference};
+  std::vector<std::string> all = vendor::domains_of(*document);
+  if (all.size() < 2) return {reference};
+  const std::string& base = parts->selection.base;
+  for (std::string& domain : all) {
+    domain = parts->file + "#" + domain + (base.empty() ? "" : "@" + base);
+  }
+  return all;
+}
 
 LintedFile lint_profile(const std::string& reference, const config::SpecPath& specs) {
   LintedFile linted;

@@ -22,6 +22,11 @@ struct LintedFile {
   std::size_t unmodelled_below = 0;  ///< settings that the model has not got, of its bases
 };
 
+/// What a reference stands for when nothing of it was chosen: one reference for each domain of a
+/// Cyclone DDS file with settings for several, otherwise the reference itself.
+[[nodiscard]] std::vector<std::string> parts_of(const std::string& reference,
+                                                const model::config::SpecPath& specs);
+
 /// Reads a profile and takes its remarks: of a vendor's file those that its reader makes, and a
 /// note for each setting that the model has not got.
 [[nodiscard]] LintedFile lint_profile(const std::string& reference,

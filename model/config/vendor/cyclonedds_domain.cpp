@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "model/config/tree/suggestion.hpp"
+#include "model/config/vendor/variables.hpp"
 
 namespace stormproof::model::config::vendor {
 namespace {
@@ -198,9 +199,34 @@ void CycloneDomainReader::read_text(const XmlElement& element, std::string_view 
   }
 }
 
-void CycloneDomainReader::read_value(std::string_view path, const std::string& text,
+std::optional<std::string> CycloneDomainReader::expanded(std::string_view path,
+                                                         const std::string& text,
+                                                         const Place& place) {
+  if (text.find("${") == std::string::npos) return text;
+  auto value = expand_variables(text);
+  if (!value) {
+    fail(place, fmt::format("{}: {}: {}", path, quote(text), value.error()));
+    return std::nullopt;
+  }
+  constexpr const char* hint = "--from-environment reads variables where stormproof runs";
+  const std::string names = fmt::format("{}", fmt::join(value->variables, ", "));
+  if (value->text.empty()) {
+    remark(Severity::warning, "variable", place,
+           fmt::format("{}: {} has no value and no default, so nothing is read", path, names),
+           hint);
+    return std::nullopt;
+  }
+  remark(Severity::note, "variable", place,
+         fmt::format("{}: {} is read as {}", path, quote(text), quote(value->text)), hint);
+  return std::move(value->text);
+}
+
+void CycloneDomainReader::read_value(std::string_view path, const std::string& written,
                                      const Place& place) {
   if (failure_) return;
+  const std::optional<std::string> value = expanded(path, written, place);
+  if (!value) return;
+  const std::string& text = *value;
   const CycloneOption* option = find_option(path);
   if (!is_repeatable(path) && !seen_.insert(path).second) {
     return fail(place, fmt::format("{} stands twice in one Domain; expected it once", path));

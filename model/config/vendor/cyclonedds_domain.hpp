@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "model/config/vendor/cyclonedds_settings.hpp"
 
@@ -13,6 +14,9 @@ namespace stormproof::model::config::vendor {
 
 /// Whether version 0.10 has a group (or an old name of one) like this in a Domain.
 [[nodiscard]] bool is_cyclone_group(std::string_view name);
+
+/// The ids of the Domain elements below a root, each once, without "any".
+[[nodiscard]] std::vector<std::string> domain_ids(const XmlElement& root);
 
 /// Collects settings and remarks of one Domain element after the other.
 class CycloneDomainReader {
@@ -35,7 +39,10 @@ class CycloneDomainReader {
   void resolve_alias(std::string& path, const XmlElement& element);
   void read_attributes(const XmlElement& element, std::string_view path);
   void read_text(const XmlElement& element, std::string_view path);
-  void read_value(std::string_view path, const std::string& text, const Place& place);
+  /// With the values of environment variables; nothing, and a remark, if they have none.
+  std::optional<std::string> expanded(std::string_view path, const std::string& text,
+                                      const Place& place);
+  void read_value(std::string_view path, const std::string& written, const Place& place);
   void read_opaque(const XmlElement& element, const CycloneGroup& group);
   void refuse(const Place& place, const std::string& path, std::string_view parent,
               const std::string& name, bool is_attribute);

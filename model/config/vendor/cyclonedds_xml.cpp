@@ -158,6 +158,17 @@ class Choice {
 
 }  // namespace
 
+std::vector<std::string> domain_ids(const XmlElement& root) {
+  std::vector<std::string> ids;
+  for (const XmlElement& child : root.children) {
+    if (!is_same_word(child.name, "Domain")) continue;
+    const Result<std::string> id = domain_id(child);
+    if (!id || *id == any || std::ranges::find(ids, *id) != ids.end()) continue;
+    ids.push_back(*id);
+  }
+  return ids;
+}
+
 Result<VendorProfile> read_cyclonedds_profile(const XmlElement& root, const Selection& selection) {
   if (!is_same_word(root.name, "CycloneDDS")) {
     return error_at(root.place, fmt::format("root element <{}>; expected <CycloneDDS>", root.name));

@@ -193,7 +193,11 @@ Value read_list(const XmlElement& element, std::string_view name, std::size_t mi
       refuse(child.place, "nothing in <transport_id>; expected the id of a transport descriptor");
     }
   }
-  if (value.items.size() < minimum) {
+  if (value.items.empty() && name == "locator") {
+    add_remark(profile, Severity::error, "fastdds.empty-list", element.place,
+               fmt::format("no <locator> in <{}>; the library refuses the file", element.name),
+               "leave the list out");
+  } else if (value.items.size() < minimum) {
     refuse(element.place, fmt::format("no <{}> in <{}>; expected one at least, or leave it out",
                                       name, element.name));
   }

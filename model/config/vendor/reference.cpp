@@ -29,10 +29,13 @@ std::size_t file_length(std::string_view reference) {
 }  // namespace
 
 std::optional<FileReference> parse_reference(const std::string& reference) {
-  const std::size_t length = file_length(reference);
+  const bool is_inline = reference.starts_with('<') && reference.find('>') != std::string::npos;
+  const std::size_t length = is_inline ? reference.rfind('>') + 1 : file_length(reference);
   if (length == 0) return std::nullopt;
   FileReference parts;
-  parts.file = reference.substr(0, length);
+  (is_inline ? parts.text : parts.file) = reference.substr(0, length);
+  constexpr std::string_view scheme = "file://";  // as in CYCLONEDDS_URI
+  if (parts.file.starts_with(scheme)) parts.file.erase(0, scheme.size());
   std::string rest = reference.substr(length);
   if (const std::size_t at = rest.rfind('@'); at != std::string::npos) {
     parts.selection.base = rest.substr(at + 1);

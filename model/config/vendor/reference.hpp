@@ -1,6 +1,7 @@
 // A reference to a vendor's XML file where a profile may be named: "FILE.xml", with "#PROFILE" to
 // choose one of several participant profiles (or Cyclone DDS domains) in it and "@PRESET" to say
-// which version of the library reads it: "robots.xml#lidar@fastdds-2.14.5".
+// which version of the library reads it: "robots.xml#lidar@fastdds-2.14.5". A Cyclone DDS
+// configuration may also be given itself, as CYCLONEDDS_URI may have it: "<General>…</>@PRESET".
 #pragma once
 
 #include <optional>
@@ -11,7 +12,8 @@
 namespace stormproof::model::config::vendor {
 
 struct FileReference {
-  std::string file;
+  std::string file;  ///< empty: `text` is it
+  std::string text = {};
   Selection selection;
 };
 

@@ -87,6 +87,10 @@ struct Selection {
 /// `Effect::outside`, is no error here but a remark with `Severity::error`.
 [[nodiscard]] Result<VendorProfile> read_vendor_profile(const XmlElement& root,
                                                         const Selection& selection);
+/// The same of a text that may be odd: what the vendor's own parser takes is read, with a remark;
+/// what it does not take is an error.
+[[nodiscard]] Result<VendorProfile> read_vendor_profile(XmlDocument document,
+                                                        const Selection& selection);
 
 /// Of one vendor. `root` is `dds`, `profiles` or `participant` for Fast DDS, `CycloneDDS` for
 /// Cyclone DDS. Fast DDS files are read as v2.6.11 reads them; a base of a later version
@@ -95,6 +99,10 @@ struct Selection {
                                                          const Selection& selection);
 [[nodiscard]] Result<VendorProfile> read_cyclonedds_profile(const XmlElement& root,
                                                             const Selection& selection);
+
+/// The domains for which a Cyclone DDS file has settings of its own, without those for any; none of
+/// another file.
+[[nodiscard]] std::vector<std::string> domains_of(XmlDocument document);
 
 /// The vendor whose files have this root element, or nothing.
 [[nodiscard]] std::optional<Vendor> vendor_of(const XmlElement& root);

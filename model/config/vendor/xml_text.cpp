@@ -18,9 +18,6 @@
 namespace stormproof::model::config::vendor {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
-constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
-
 std::string_view local_name(std::string_view name) {
   if (name.ends_with(':')) return name;     // no prefix, though expat takes it for a name
   return name.substr(name.rfind(':') + 1);  // npos + 1 is 0
@@ -60,8 +57,10 @@ class LineCounter {
 /// Receives expat's events and builds the tree of them.
 class XmlBuilder {
  public:
-  XmlBuilder(std::string_view text, const std::string& source)
+  /// `mended`: what is parsed in place of `text`, in which the places are.
+  XmlBuilder(std::string_view text, const std::string& source, const MendedXml* mended = nullptr)
       : text_{text},
+        mended_{mended},
         source_{std::make_shared<const std::string>(source)},
         lines_{text},
         is_wide_{text.size() >= 2 &&
@@ -84,8 +83,9 @@ class XmlBuilder {
         parser_.get(), [](void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
           static_cast<XmlBuilder*>(self)->refuse_doctype();
         });
+    const std::string_view input = mended_ == nullptr ? text_ : mended_->text;
     const XML_Status status =
-        XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), XML_TRUE);
+        XML_Parse(parser_.get(), input.data(), static_cast<int>(input.size()), XML_TRUE);
     if (refused_) return *refused_;
     if (status != XML_STATUS_OK) return syntax_error();
     return std::move(root_);
@@ -93,7 +93,9 @@ class XmlBuilder {
 
  private:
   std::size_t offset() const {
-    return static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get())));
+    const auto parsed =
+        static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get())));
+    return mended_ == nullptr ? parsed : mended_->original(parsed);
   }
 
   Place here() {
@@ -201,6 +203,7 @@ class XmlBuilder {
   }
 
   std::string_view text_;
+  const MendedXml* mended_;
   std::shared_ptr<const std::string> source_;
   LineCounter lines_;
   bool is_wide_;  ///< UTF-16: columns are characters
@@ -230,10 +233,37 @@ Result<XmlElement> parse_xml(std::string_view text, const std::string& source) {
   return XmlBuilder{text, source}.parse();
 }
 
-Result<XmlElement> load_xml(const std::string& path) {
+Result<XmlDocument> parse_vendor_xml(std::string_view text, const std::string& source) {
+  Result<XmlElement> strict = parse_xml(text, source);
+  if (strict) return XmlDocument{{*std::move(strict)}};
+  const MendedXml mended = text.size() > max_xml_bytes ? MendedXml{} : mend_xml(text);
+  if (mended.oddities.empty()) return strict.error();
+  Result<XmlElement> root = XmlBuilder{text, source, &mended}.parse();
+  const bool ends = std::ranges::none_of(mended.oddities, [](const MendedXml::Found& one) {
+    return one.oddity == XmlOddity::missing_end;
+  });
+  if (!root) return ends ? root.error() : strict.error();
+  XmlDocument document;
+  document.not_well_formed = strict.error();
+  if (mended.is_wrapped) {
+    document.roots = std::move(root->children);
+  } else {
+    document.roots.push_back(*std::move(root));
+  }
+  const auto name = std::make_shared<const std::string>(source);
+  for (const auto& [oddity, offset] : mended.oddities) {
+    Place place{name, 1, 1};
+    LineCounter{text}.place_at(offset, place);
+    document.oddities.push_back({oddity, place});
+    if (document.oddities.size() == max_xml_oddities) break;
+  }
+  return document;
+}
+
+Result<XmlDocument> load_xml(const std::string& path) {
   const auto text = file_text(path, max_xml_bytes);
   if (!text) return text.error();
-  return parse_xml(*text, path);
+  return parse_vendor_xml(*text, path);
 }
 
 }  // namespace stormproof::model::config::vendor

@@ -3,11 +3,13 @@
 // looked at: a document type declaration, and with it every entity of its own, is refused.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "model/config/tree/tree.hpp"
+#include "model/config/vendor/xml_mend.hpp"
 
 namespace stormproof::model::config::vendor {
 
@@ -40,7 +42,27 @@ struct XmlElement {
 /// document type declaration, a text, name, depth or number of elements over the limits.
 [[nodiscard]] Result<XmlElement> parse_xml(std::string_view text, const std::string& source);
 
+/// At most so many are named.
+inline constexpr std::size_t max_xml_oddities = 20;
+
+/// A text that a vendor's own parser may take although it is not well-formed XML (xml_mend.hpp).
+struct XmlDocument {
+  struct Odd {
+    XmlOddity oddity{};
+    Place place;
+  };
+
+  std::vector<XmlElement> roots;                   ///< one at least
+  std::vector<Odd> oddities{};                     ///< in the order of the text
+  bool is_variable = false;                        ///< it is what CYCLONEDDS_URI holds, not a file
+  std::optional<InputError> not_well_formed = {};  ///< what a strict parser says; if odd
+};
+
+/// As `parse_xml`, but for the oddities. An error: of what is wrong beyond them.
+[[nodiscard]] Result<XmlDocument> parse_vendor_xml(std::string_view text,
+                                                   const std::string& source);
+
 /// Reads a file; in addition: not readable, a directory, longer than `max_xml_bytes`.
-[[nodiscard]] Result<XmlElement> load_xml(const std::string& path);
+[[nodiscard]] Result<XmlDocument> load_xml(const std::string& path);
 
 }  // namespace stormproof::model::config::vendor

@@ -164,7 +164,7 @@ TEST(XmlText, files_are_read_and_what_is_none_is_refused) {
   const std::string good = files.write("good.xml", "<a/>");
   const auto root = load_xml(good);
   ASSERT_TRUE(root);
-  EXPECT_EQ(root->place.to_string(), good + ":1:1");
+  EXPECT_EQ(root->roots.front().place.to_string(), good + ":1:1");
 
   const auto refused = [](const std::string& path) {
     const auto read = load_xml(path);
