@@ -31,6 +31,8 @@ struct ConformArguments {
   std::string delay;                   ///< LO..HI; empty: the default, as the next three
   std::string send_lag;
   std::string lateness;
+  std::string clock_age;
+  std::string same_host;
   std::string clock_error;
   bool no_loss = false;
   double seconds_each = 20;  ///< without `dds`
@@ -57,6 +59,8 @@ Result<Bounds, std::string> parse_bounds(const ConformArguments& arguments) {
   };
   auto error = read("--send-lag", arguments.send_lag, bounds.most_send_lag_ns);
   if (!error) error = read("--lateness", arguments.lateness, bounds.most_lateness_ns);
+  if (!error) error = read("--clock-age", arguments.clock_age, bounds.most_clock_age_ns);
+  if (!error) error = read("--same-host", arguments.same_host, bounds.most_same_host_ns);
   if (!error) error = read("--clock-error", arguments.clock_error, bounds.clock_error_ns);
   if (error) return *error;
   bounds.may_lose = !arguments.no_loss;
@@ -214,6 +218,12 @@ void declare_bounds(Options& options, ConformArguments& arguments) {
       printed(defaults.most_send_lag_ns), "DURATION");
   add("--lateness", arguments.lateness, "How late a timer may act, at most",
       printed(defaults.most_lateness_ns), "DURATION");
+  add("--clock-age", arguments.clock_age,
+      "How old the clock may be from which the first initial ACKNACK waits, at most",
+      printed(defaults.most_clock_age_ns), "DURATION");
+  add("--same-host", arguments.same_host,
+      "From the last cause to the end of what participants of one host exchange, at most",
+      printed(defaults.most_same_host_ns), "DURATION");
   add("--clock-error", arguments.clock_error, "How far the clocks of the captures may be apart",
       printed(defaults.clock_error_ns), "DURATION");
   options.flag("--no-loss", arguments.no_loss, "Every captured datagram arrives");

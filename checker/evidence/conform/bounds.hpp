@@ -18,6 +18,12 @@ struct Bounds {
   /// A timer never acts early, but up to this much late, ns: one thread serves all of a
   /// participant's.
   std::int64_t most_lateness_ns = 150'000'000;
+  /// How old the clock may be from which the first initial ACKNACK waits, ns: the thread that
+  /// serves the timers reads it, and may be kept waiting before it takes the timer up.
+  std::int64_t most_clock_age_ns = 10'000'000;
+  /// How long what participants of one host exchange goes on after the last endpoint was created
+  /// and the last of them was announced, ns. A capture between hosts does not show it.
+  std::int64_t most_same_host_ns = 1'000'000'000;
   /// How far the clocks of captures on different hosts may be apart, ns.
   std::int64_t clock_error_ns = 0;
   /// Whether a datagram may be lost after its capture.

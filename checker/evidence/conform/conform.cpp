@@ -12,6 +12,7 @@
 #include "checker/evidence/conform/heartbeats.hpp"
 #include "checker/evidence/conform/ledger.hpp"
 #include "checker/evidence/conform/reader_side.hpp"
+#include "checker/evidence/conform/to_everybody.hpp"
 #include "checker/evidence/conform/words.hpp"
 #include "checker/evidence/conform/writer_side.hpp"
 #include "model/implementations.hpp"
@@ -87,11 +88,14 @@ class Check {
     at({place.source, {}, place.writer}, [&](Ledger& ledger) {
       return explain_heartbeats(dialogue_, writer, sedp, request_.bounds, heartbeat_timer_, ledger);
     });
+    const std::set<std::size_t> to_everybody =
+        sent_to_everybody(dialogue_, messages_of(dialogue_, place.source), request_.bounds);
     const WriterContext context{dialogue_,
                                 sedp,
                                 request_.bounds,
                                 announced,
                                 last - first == 1 && !dialogue_.has_neighbour[place.source],
+                                to_everybody,
                                 request_.interrupted};
     for (std::size_t r = first; r < last; ++r) {
       const Relation& relation = dialogue_.relations[r];
@@ -209,7 +213,8 @@ class Check {
         dialogue_.has_neighbour.end()) {
       all.emplace_back(
           "participants on one host exchange what no capture between hosts shows: where such "
-          "traffic can arm a timer or use up the piggyback budget, it is assumed to");
+          "traffic can arm a timer or use up the piggyback budget, it is assumed to; on their own "
+          "host nothing is lost");
     }
     for (const auto& [setting, effect] : request_.dds.unmodelled) {
       all.push_back(fmt::format("{} is not modelled: {}", setting, effect));

@@ -41,10 +41,11 @@ enum class Rule : std::uint8_t {
   data_push,               ///< the endpoint was created after the relation opened
   data_pull,               ///< first transmission, asked for by an ACKNACK
   data_repair,             ///< a later one, asked for while the descriptor is unacknowledged
+  data_to_everybody,       ///< nobody asked here, but a reader was matched meanwhile
   acknack_reply,           ///< a HEARTBEAT arrived τ_A ago
   acknack_initial          ///< no HEARTBEAT arrived for τ_I, doubled or constant
 };
-inline constexpr std::size_t rule_count = 13;
+inline constexpr std::size_t rule_count = 14;
 /// "heartbeat.open", as reports write it.
 [[nodiscard]] std::string_view name_of(Rule rule);
 /// One sentence: when this rule sends.
@@ -165,9 +166,10 @@ struct Conformance {
   std::vector<PlaceResult> places{};       ///< by source, destination, writer
   std::vector<RowUse> rows{};              ///< of the machines that take part, in table order
   std::uint64_t lost = 0;                  ///< datagrams that the assignment loses
-  /// What explaining took of the bounds: the longest send lag and lateness that were needed.
+  /// What explaining took of the bounds: the longest that were needed.
   std::int64_t used_send_lag_ns = 0;
   std::int64_t used_lateness_ns = 0;
+  std::int64_t used_clock_age_ns = 0;
   std::vector<Hidden> hidden{};  ///< the assignment, in time order
   std::vector<std::string> assumptions{};
 };

@@ -29,7 +29,7 @@ const Answer* DataReplay::run(const Plan& plan, std::int64_t lag) {
   for (const Step& step : steps) {
     end_suppression(step.time_ns);
     if (step.is_transmission) {
-      transmit(step);
+      transmit(step, plan.to_everybody[step.index]);
     } else if (!arrive(step, plan.arrivals[step.index])) {
       return &relation_.answers[step.index];
     }
@@ -94,7 +94,11 @@ bool DataReplay::is_unanswered(const Answer& answer, std::int64_t now) const {
   });
 }
 
-void DataReplay::transmit(const Step& step) {
+void DataReplay::transmit(const Step& step, bool to_everybody) {
+  if (to_everybody) {
+    ledger_.explained(Rule::data_to_everybody);  // the machines of this reader do not notice
+    return;
+  }
   const Transmission& one = transmissions_[step.index];
   fsm::StateId& state = states_[one.descriptor];
   if (one.is_pushed) changes_.step<change::Created>(state, {});

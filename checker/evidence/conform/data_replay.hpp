@@ -15,6 +15,7 @@ namespace stormproof::conform {
 struct Plan {
   std::vector<Arrival> arrivals{};
   std::vector<std::optional<std::size_t>> request{};
+  std::vector<bool> to_everybody{};  ///< transmissions that nobody asked for here
 };
 
 class DataReplay {
@@ -48,7 +49,7 @@ class DataReplay {
   bool arrive(const Step& step, const Arrival& arrival);
   /// Whether it asks for something unacknowledged that is never sent again.
   [[nodiscard]] bool is_unanswered(const Answer& answer, std::int64_t now) const;
-  void transmit(const Step& step);
+  void transmit(const Step& step, bool to_everybody);
   void end_suppression(std::int64_t now);
 
   const WriterContext& context_;

@@ -15,10 +15,6 @@ namespace {
 
 namespace timer = fsm::heartbeat_timer;
 
-/// A HEARTBEAT that follows captured DATA this closely is put down to it, even if the writer has
-/// readers on its own host, whose DATA would explain it, too.
-constexpr std::int64_t directly_after_ns = 1'000'000;
-
 /// A rule, and what sends by it.
 struct Explanation {
   Rule rule{};
@@ -38,7 +34,7 @@ class Heartbeats {
         ledger_{ledger},
         source_{writer.place().source},
         sent_{sent_heartbeats(writer)},
-        budget_{dialogue, writer, sedp},
+        budget_{dialogue, writer, sedp, bounds},
         next_initial_(writer.relations.size()),
         is_opened_(writer.relations.size()) {}
 
@@ -181,7 +177,8 @@ class Heartbeats {
       settle(one, *rule);
       return std::nullopt;
     }
-    if (dialogue_.has_neighbour[source_] && sedp_.piggyback != model::Piggyback::off) {
+    if (const auto data = by_own_host(one)) {
+      budget_.suppose_on_own_host(*data);
       settle(one, Rule::heartbeat_same_host);
       return std::nullopt;
     }
@@ -195,7 +192,7 @@ class Heartbeats {
     }
     if (after) {
       nearest += fmt::format(", and DATA has used at most {} of {} bytes of the piggyback budget",
-                             budget_.spent(), sedp_.piggyback_threshold_bytes.count());
+                             budget_.spent_before(one), sedp_.piggyback_threshold_bytes.count());
     }
     return fault(one, Fault::heartbeat_cause,
                  fmt::format("HEARTBEAT {} to all readers", one.heartbeat.count), nearest,
@@ -224,18 +221,19 @@ class Heartbeats {
     const auto data = budget_.last_data_ns();
     if (!data) return std::nullopt;
     const std::int64_t after = std::max<std::int64_t>(one.time_ns - *data, 0);
-    const std::int64_t longest = dialogue_.has_neighbour[source_]
-                                     ? std::min(directly_after_ns, bounds_.most_send_lag_ns)
-                                     : bounds_.most_send_lag_ns;
-    if (after > longest) return std::nullopt;
+    if (after > bounds_.most_send_lag_ns) return std::nullopt;
     return after;
   }
 
-  /// What is sent to readers on the same host is charged, too; without such readers the captured
-  /// DATA must have used up the budget.
   [[nodiscard]] bool may_piggyback(const SentHeartbeat& one) const {
-    if (sedp_.piggyback == model::Piggyback::off) return false;
-    return dialogue_.has_neighbour[source_] || budget_.can_be_used_up(one);
+    return sedp_.piggyback != model::Piggyback::off && budget_.can_be_used_up(one);
+  }
+
+  /// How many DATA to readers on the own host would have used up the budget; nothing: there cannot
+  /// have been so many.
+  [[nodiscard]] std::optional<std::int64_t> by_own_host(const SentHeartbeat& one) const {
+    if (sedp_.piggyback == model::Piggyback::off) return std::nullopt;
+    return budget_.needed_on_own_host(one);
   }
 
   /// The timer: armed by the opening, by answers, and by itself. Where readers on the same host can
@@ -267,14 +265,16 @@ class Heartbeats {
     return due <= one.time_ns + bounds_.most_send_lag_ns + capture_resolution_ns;
   }
   void expire(const SentHeartbeat& one) {
-    has_expired_ = true;
     if (!due_ns_) arm(one.time_ns - sedp_.heartbeat_period.count());
     const auto output =
         machine_.step<timer::Expired>(state_, {.now = one.time_ns,
                                                .heartbeat_period = sedp_.heartbeat_period.count(),
                                                .unacknowledged = true});
-    // It may have been sent that much before its capture.
-    if (output.schedule_expiry) due_ns_ = output.next_at - bounds_.most_send_lag_ns;
+    // It may have been sent that much before its capture. If the own host explains it, too, the
+    // timer need not have expired yet.
+    has_expired_ = has_expired_ || !by_own_host(one);
+    if (output.schedule_expiry && !by_own_host(one))
+      due_ns_ = output.next_at - bounds_.most_send_lag_ns;
     ledger_.hidden(Hidden::Kind::timer, one.time_ns, one.event, "HeartbeatTimer");
   }
 

@@ -78,6 +78,9 @@ struct Ledger {
   void used_lag(std::int64_t ns) {
     result.used_send_lag_ns = std::max(result.used_send_lag_ns, ns);
   }
+  void used_clock_age(std::int64_t ns) {
+    result.used_clock_age_ns = std::max(result.used_clock_age_ns, ns);
+  }
   void used_lateness(std::int64_t ns) {
     result.used_lateness_ns = std::max(result.used_lateness_ns, ns);
   }

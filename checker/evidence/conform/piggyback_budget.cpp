@@ -1,57 +1,84 @@
 // Charges captured DATA against the piggyback budget.
 #include "checker/evidence/conform/piggyback_budget.hpp"
 
-#include <algorithm>
-
-#include "checker/evidence/conform/requests.hpp"
+#include "model/fastdds/endpoints.hpp"
 
 namespace stormproof::conform {
 
+namespace fastdds = model::fastdds;
+
 PiggybackBudget::PiggybackBudget(const Dialogue& dialogue, const WriterRelations& writer,
-                                 const model::SedpProfile& sedp)
+                                 const model::SedpProfile& sedp, const Bounds& bounds)
     : is_cumulative_{sedp.piggyback == model::Piggyback::cumulative},
-      threshold_{sedp.piggyback_threshold_bytes.count()} {
-  for (const Relation& relation : dialogue.relations) {
-    if (relation.place.source != writer.place().source) continue;
-    collect(dialogue, relation, relation.place.writer == writer.place().writer);
+      threshold_{sedp.piggyback_threshold_bytes.count()},
+      writer_{writer.place().writer},
+      same_host_{dialogue, writer.place().source, sedp, bounds},
+      messages_{messages_of(dialogue, writer.place().source)} {}
+
+bool PiggybackBudget::charge_next() {
+  const Message& message = messages_[message_];
+  const MessagePart& part = message.parts[part_];
+  if (part_ == 0) {
+    message_bytes_ =
+        fastdds::message_header_bytes + (message.is_named ? fastdds::destination_bytes : 0);
+    message_spent_ = 0;
   }
-  std::sort(charges_.begin(), charges_.end(),
-            [](const Charge& a, const Charge& b) { return a.event < b.event; });
+  const bool is_own_data = part.descriptor && message.writer == writer_;
+  const std::int64_t bytes = part.bytes + (part.descriptor ? fastdds::timestamp_bytes : 0);
+  message_bytes_ += bytes;
+  if (is_own_data) {
+    const std::int64_t charge = is_cumulative_ && !message.is_pushed
+                                    ? before_message() + message_bytes_
+                                    : fastdds::message_header_bytes + bytes;
+    spent_ += charge;
+    message_spent_ += charge;
+    last_data_ns_ = message.time_ns;
+    last_data_is_pushed_ = message.is_pushed;
+  }
+  if (!part.descriptor) {
+    same_host_.heartbeat(stream_index(message.writer), part.count, surely_sent_);
+  }
+  if (++part_ == message.parts.size()) end_message(message);
+  return is_own_data;
 }
 
-void PiggybackBudget::collect(const Dialogue& dialogue, const Relation& relation, bool is_own) {
-  const std::vector<Transmission> transmissions = transmissions_of(relation);
-  auto next = transmissions.begin();
-  std::optional<std::uint32_t> datagram;
-  for (const Submessage& one : relation.sent) {
-    const bool is_data = one.descriptor.has_value();
-    Charge charge{one.event, one.time_ns,       one.datagram,
-                  0,         is_own && is_data, is_data && (next++)->is_pushed};
-    if (datagram != one.datagram) {
-      charge.bytes = dialogue.conversation.datagrams[one.datagram].payload_bytes;
-    }
-    datagram = one.datagram;
-    charges_.push_back(charge);
-  }
+void PiggybackBudget::end_message(const Message& message) {
+  if (!message.is_pushed) sent_bytes_ += message.payload_bytes;
+  if (message.has_data() && !message.is_pushed && !message.may_be_copy)
+    surely_sent_ += message_bytes_;
+  ++message_;
+  part_ = 0;
 }
 
-bool PiggybackBudget::charge(const Charge& one) {
-  sent_bytes_ += one.bytes;
-  if (one.datagram != datagram_) datagram_spent_ = 0;
-  datagram_ = one.datagram;
-  if (one.bytes > 0) datagram_bytes_ = one.bytes;
-  if (!one.is_own_data) return false;
-  const std::int64_t bytes = is_cumulative_ ? sent_bytes_ : datagram_bytes_;
-  spent_ += bytes;
-  datagram_spent_ += bytes;
-  last_data_ns_ = one.time_ns;
-  last_data_is_pushed_ = one.is_pushed;
-  return true;
+std::int64_t PiggybackBudget::before_message() const {
+  return sent_bytes_ + same_host_.most_sent_bytes();
+}
+
+void PiggybackBudget::refill(const SentHeartbeat& one) {
+  const std::uint32_t count = one.heartbeat.count;
+  if (const auto later = overtaking_.upper_bound(count); later != overtaking_.end()) {
+    later->second = 0;
+    return;
+  }
+  if (count > count_ + 1) overtaking_[count] = spent_;
+  count_ = count;
+  // DATA behind it in its message is charged anew.
+  spent_ = one.is_behind_data ? message_spent_ : 0;
+}
+
+std::int64_t PiggybackBudget::spent_before(const SentHeartbeat& one) const {
+  const auto later = overtaking_.upper_bound(one.heartbeat.count);
+  return spent_ + (later == overtaking_.end() ? 0 : later->second);
 }
 
 bool PiggybackBudget::can_be_used_up(const SentHeartbeat& one) const {
   // A datagram may hold several HEARTBEATs, between or behind its DATA.
-  return spent_ > threshold_ || (one.is_behind_data && datagram_spent_ > threshold_);
+  return spent_before(one) > threshold_ || (one.is_behind_data && message_spent_ > threshold_);
+}
+
+std::optional<std::int64_t> PiggybackBudget::needed_on_own_host(const SentHeartbeat& one) const {
+  return same_host_.needed(stream_index(writer_), one.time_ns, threshold_ - spent_before(one),
+                           is_cumulative_ ? before_message() : 0);
 }
 
 }  // namespace stormproof::conform

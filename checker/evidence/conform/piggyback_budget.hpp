@@ -1,13 +1,17 @@
-// How much of its piggyback budget a writer can have used up, at most: what captured DATA is
-// charged. A capture does not show which DATA went the asynchronous way, nor how bytes were grouped
-// when they were charged, so the sum is never less than the writer's. Rule: cumulative charges each
-// DATA with all bytes that its participant has ever sent, linear with its own message.
+// How much of its piggyback budget a writer can have used up, at most, as the sender charges it
+// (specs/guide/fastdds.md): a DATA with its own bytes; cumulative, and if it was asked for, with
+// all bytes that the participant has sent for requests, each message once, and those of its own
+// message until then. What went to the participant's own host is not in the capture; how much that
+// can have been is bounded (same_host.hpp).
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
+#include "checker/evidence/conform/messages.hpp"
+#include "checker/evidence/conform/same_host.hpp"
 #include "checker/evidence/conform/sent_heartbeats.hpp"
 #include "model/dds_profile.hpp"
 
@@ -16,53 +20,55 @@ namespace stormproof::conform {
 class PiggybackBudget {
  public:
   PiggybackBudget(const Dialogue& dialogue, const WriterRelations& writer,
-                  const model::SedpProfile& sedp);
+                  const model::SedpProfile& sedp, const Bounds& bounds);
 
   /// Charges the DATA that was sent before `event`; calls `sent_data` with the time of each.
   void charge_until(std::size_t event, const auto& sent_data) {
-    for (; charged_ < charges_.size() && charges_[charged_].event < event; ++charged_) {
-      if (charge(charges_[charged_])) sent_data(charges_[charged_].time_ns);
+    while (message_ < messages_.size() && next_event() < event) {
+      if (charge_next()) sent_data(*last_data_ns_);
     }
   }
   /// A HEARTBEAT of the writer was sent: the budget is full again.
-  void refill(const SentHeartbeat& one) {
-    // DATA behind it in its message is charged anew.
-    spent_ = one.is_behind_data ? datagram_spent_ : 0;
-  }
+  void refill(const SentHeartbeat& one);
 
+  /// By captured DATA.
   [[nodiscard]] bool can_be_used_up(const SentHeartbeat& one) const;
-  [[nodiscard]] std::int64_t spent() const { return spent_; }
+  /// By that and so many DATA to the own host; nothing: there cannot have been so many.
+  [[nodiscard]] std::optional<std::int64_t> needed_on_own_host(const SentHeartbeat& one) const;
+  void suppose_on_own_host(std::int64_t data) { same_host_.suppose(stream_index(writer_), data); }
+
+  [[nodiscard]] std::int64_t spent_before(const SentHeartbeat& one) const;
   /// When the writer last sent DATA.
   [[nodiscard]] std::optional<std::int64_t> last_data_ns() const { return last_data_ns_; }
   /// Whether it pushed it, because the endpoint had just been created.
   [[nodiscard]] bool last_data_is_pushed() const { return last_data_is_pushed_; }
 
  private:
-  /// A submessage of one of the participant's SEDP writers.
-  struct Charge {
-    std::size_t event = 0;
-    std::int64_t time_ns = 0;
-    std::uint32_t datagram = 0;
-    std::int64_t bytes = 0;    ///< UDP payload, if it is the first of its datagram
-    bool is_own_data = false;  ///< DATA of this writer
-    bool is_pushed = false;    ///< which nobody asked for
-  };
-
-  void collect(const Dialogue& dialogue, const Relation& relation, bool is_own);
+  [[nodiscard]] std::size_t next_event() const { return messages_[message_].parts[part_].event; }
   /// Whether it is DATA of this writer.
-  bool charge(const Charge& one);
+  bool charge_next();
+  void end_message(const Message& message);
+  /// What a DATA that is asked for is charged for what was sent before its message, at most.
+  [[nodiscard]] std::int64_t before_message() const;
 
   bool is_cumulative_;
   std::int64_t threshold_;
-  std::vector<Charge> charges_;  ///< in order
-  std::size_t charged_ = 0;
+  capture::EntityId writer_;
+  SameHost same_host_;
+  std::vector<Message> messages_;
+  std::size_t message_ = 0;  ///< the next submessage to charge
+  std::size_t part_ = 0;
   std::optional<std::int64_t> last_data_ns_;
   bool last_data_is_pushed_ = false;
-  std::int64_t sent_bytes_ = 0;            ///< by the participant
-  std::optional<std::uint32_t> datagram_;  ///< that was sent last
-  std::int64_t datagram_bytes_ = 0;        ///< its payload
-  std::int64_t datagram_spent_ = 0;        ///< what its DATA is charged
+  std::int64_t sent_bytes_ = 0;     ///< by the participant, for requests, at most
+  std::int64_t surely_sent_ = 0;    ///< and at least
+  std::int64_t message_bytes_ = 0;  ///< of the message so far
+  std::int64_t message_spent_ = 0;  ///< what its DATA is charged
   std::int64_t spent_ = 0;
+  std::uint32_t count_ = 0;  ///< of the HEARTBEAT that filled it last
+  /// What was used up before a HEARTBEAT, by its count, if not all before it had been captured: one
+  /// may have been kept waiting after it was made.
+  std::map<std::uint32_t, std::int64_t> overtaking_;
 };
 
 }  // namespace stormproof::conform

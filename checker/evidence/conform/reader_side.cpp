@@ -73,18 +73,21 @@ class ReaderSide {
     }
     Window sent{answer.time_ns - bounds_.most_send_lag_ns, answer.time_ns + capture_resolution_ns};
     if (!replay_.is_open()) {
-      open(answer.time_ns - sedp_.initial_acknack_delay.count());
+      open(std::max(answer.time_ns - sedp_.initial_acknack_delay.count(), opens_from_ns_));
       if (next_delay_ns_ == 0) {
         return fault(answer, Fault::no_such_rule, "initial ACKNACK",
                      "the profile has no initial ACKNACKs", {});
       }
-      attempt_ = {opens_from_ns_, answer.time_ns - next_delay_ns_ + capture_resolution_ns};
+      attempt_ = {opens_from_ns_ - bounds_.most_clock_age_ns,
+                  answer.time_ns - next_delay_ns_ + capture_resolution_ns};
     }
     const Window due{attempt_.from_ns + next_delay_ns_, attempt_.to_ns + next_delay_ns_};
     if (due.from_ns > sent.to_ns) return initial_early(answer, due.from_ns - answer.time_ns);
     const std::int64_t overdue = sent.from_ns - due.to_ns - bounds_.most_lateness_ns;
     if (attempts_ > 0 && overdue > 0) return initial_late(answer, overdue);
-    if (attempts_ > 0) {
+    if (attempts_ == 0) {
+      ledger_.used_clock_age(opens_from_ns_ + next_delay_ns_ - answer.time_ns);
+    } else {
       const std::int64_t waited = answer.time_ns - last_initial_ns_;
       ledger_.used_lateness(answer.time_ns - due.to_ns);
       ledger_.used_lag(next_delay_ns_ - waited - capture_resolution_ns);
@@ -114,6 +117,10 @@ class ReaderSide {
     } else {
       needs.push_back(
           {"clock error", bounds_.clock_error_ns + from_opening, bounds_.clock_error_ns});
+      if (attempts_ == 0) {
+        needs.push_back(
+            {"clock age", bounds_.most_clock_age_ns + from_opening, bounds_.most_clock_age_ns});
+      }
     }
     needs.push_back({"a delay before this attempt of at most", after, next_delay_ns_});
     return fault(answer, Fault::initial_early,
@@ -230,7 +237,7 @@ class ReaderSide {
   // Shared.
 
   void open(std::int64_t now) {
-    at_least_ns_ = opens_from_ns_;
+    at_least_ns_ = opens_from_ns_ - bounds_.most_clock_age_ns;
     next_delay_ns_ = replay_.open(now);
   }
   [[nodiscard]] std::span<const Submessage> window(std::size_t end) const {

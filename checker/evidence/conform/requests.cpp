@@ -1,4 +1,4 @@
-// Each demand takes the latest ACKNACK that is used already and fits, otherwise the earliest unused
+// Each demand takes the first ACKNACK that is used already and fits, otherwise the first unused
 // one that fits. Windows only shrink; used ACKNACKs arrive in the order in which they were sent.
 #include "checker/evidence/conform/requests.hpp"
 
@@ -39,6 +39,7 @@ Requests::Requests(const Relation& relation, const std::vector<Transmission>& tr
   std::vector<std::int64_t> prefix = last;
   for (std::size_t d = 1; d < prefix.size(); ++d) prefix[d] = std::max(prefix[d], prefix[d - 1]);
   asking_.resize(last.size());
+  served_.resize(last.size());
   for (std::size_t k = 0; k < relation.answers.size(); ++k) {
     const Answer& answer = relation.answers[k];
     Arrival arrival{answer.time_ns + bounds.least_delay_ns - bounds.clock_error_ns,
@@ -73,13 +74,21 @@ Arrival Requests::fitted(std::size_t k, const Demand& demand) const {
 }
 
 std::optional<std::size_t> Requests::serve(const Demand& demand) {
-  std::optional<std::size_t> chosen;  // the latest used one that fits, or the first unused one
-  for (const std::size_t k : asking_[demand.descriptor]) {
+  std::optional<std::size_t> chosen;  // the first used one that fits, or the first unused one
+  const std::vector<std::size_t>& asking = asking_[demand.descriptor];
+  std::size_t& served = served_[demand.descriptor];
+  std::size_t next = served;
+  for (std::size_t at = served; at < asking.size(); ++at) {
+    const std::size_t k = asking[at];
     if (chosen && !arrivals_[k].is_used) continue;
     const Arrival window = fitted(k, demand);
-    if (window.from_ns <= window.to_ns) chosen = k;
+    if (window.from_ns > window.to_ns) continue;
+    chosen = k;
+    next = at + 1;
+    if (arrivals_[k].is_used) break;
   }
   if (!chosen) return chosen;
+  served = next;
   arrivals_[*chosen] = fitted(*chosen, demand);
   arrivals_[*chosen].is_used = true;
   // Used ones keep their order: windows shrink on both sides.

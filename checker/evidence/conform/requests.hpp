@@ -47,7 +47,8 @@ class Requests {
            const Bounds& bounds, std::int64_t send_lag_ns);
 
   /// The ACKNACK (index of the answer) that serves this demand together with all earlier ones;
-  /// nothing if none fits.
+  /// nothing if none fits. An ACKNACK causes one transmission of what it asks for: the next one of
+  /// the same descriptor needs a later ACKNACK.
   [[nodiscard]] std::optional<std::size_t> serve(const Demand& demand);
   [[nodiscard]] const std::vector<Arrival>& arrivals() const { return arrivals_; }
 
@@ -58,6 +59,7 @@ class Requests {
   std::vector<Arrival> arrivals_;  ///< by answer
   /// By descriptor: the answers that ask for it, ascending.
   std::vector<std::vector<std::size_t>> asking_;
+  std::vector<std::size_t> served_;  ///< by descriptor: how many of these are no longer to be had
 };
 
 }  // namespace stormproof::conform

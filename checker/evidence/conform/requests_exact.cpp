@@ -2,6 +2,7 @@
 // needs may be lost, so they do not occur.
 #include "checker/evidence/conform/requests_exact.hpp"
 
+#include <map>
 #include <string>
 
 #include "checker/engines/smt/deadline.hpp"
@@ -29,14 +30,26 @@ class Question {
     order();
   }
 
+  /// The next demand. An ACKNACK causes one transmission of what it asks for, so the demands of a
+  /// descriptor are served by ever later ones.
   void demand(const Relation& relation, const Demand& one) {
+    const z3::expr by = context_.int_const(("by_" + std::to_string(by_.size())).c_str());
     z3::expr_vector ways{context_};
     for (std::size_t k = 0; k < relation.answers.size(); ++k) {
       if (!relation.answers[k].asks_for(one.descriptor)) continue;
-      ways.push_back(is_received_[k] && arrives_[k] >= number(one.from_ns) &&
-                     arrives_[k] <= number(one.to_ns));
+      ways.push_back(by == context_.int_val(std::uint64_t{k}) && is_received_[k] &&
+                     arrives_[k] >= number(one.from_ns) && arrives_[k] <= number(one.to_ns));
     }
     solver_.add(z3::mk_or(ways));
+    const auto [before, is_first] = last_of_.try_emplace(one.descriptor, by_.size());
+    if (!is_first) solver_.add(by > by_[before->second]);
+    before->second = by_.size();
+    by_.push_back(by);
+  }
+
+  /// The answer that serves the n-th demand in the solution.
+  std::size_t served_by(std::size_t n) {
+    return static_cast<std::size_t>(solution().eval(by_[n], true).get_numeral_uint64());
   }
 
   z3::check_result solve(const SearchLimits& limits) {
@@ -52,12 +65,15 @@ class Question {
 
   /// When answer `k` arrives in the solution; nothing if it is lost.
   std::optional<std::int64_t> arrival(std::size_t k) {
-    if (!model_) model_ = solver_.get_model();
-    if (!model_->eval(is_received_[k], true).is_true()) return std::nullopt;
-    return origin_ns_ + model_->eval(arrives_[k], true).get_numeral_int64();
+    if (!solution().eval(is_received_[k], true).is_true()) return std::nullopt;
+    return origin_ns_ + solution().eval(arrives_[k], true).get_numeral_int64();
   }
 
  private:
+  const z3::model& solution() {
+    if (!model_) model_ = solver_.get_model();
+    return *model_;
+  }
   z3::expr number(std::int64_t time_ns) { return context_.int_val(time_ns - origin_ns_); }
 
   void within(const z3::expr& condition, std::size_t k, std::int64_t from_ns, std::int64_t to_ns) {
@@ -83,6 +99,8 @@ class Question {
   z3::solver solver_;
   std::vector<z3::expr> arrives_;
   std::vector<z3::expr> is_received_;
+  std::vector<z3::expr> by_;                      ///< by demand: the answer that serves it
+  std::map<std::uint32_t, std::size_t> last_of_;  ///< by descriptor: its last demand so far
   std::optional<z3::model> model_;
   std::int64_t origin_ns_ = 0;
 };
@@ -105,15 +123,11 @@ ExactAnswer decide(const Relation& relation, const Requests& requests,
   }
   answer.kind = ExactAnswer::Kind::possible;
   answer.arrivals = requests.arrivals();
-  for (const Demand& one : demands) {
-    for (std::size_t k = 0; k < answer.arrivals.size(); ++k) {
-      if (!relation.answers[k].asks_for(one.descriptor)) continue;
-      const auto at = question.arrival(k);
-      if (!at || *at < one.from_ns || *at > one.to_ns) continue;
-      answer.arrivals[k] = {*at, *at, true};
-      answer.request.push_back(k);
-      break;
-    }
+  for (std::size_t n = 0; n < demands.size(); ++n) {
+    const std::size_t k = question.served_by(n);
+    const std::int64_t at = question.arrival(k).value_or(demands[n].to_ns);
+    answer.arrivals[k] = {at, at, true};
+    answer.request.push_back(k);
   }
   return answer;
 }

@@ -44,6 +44,8 @@ constexpr std::array<Text, rule_count> rules{{
      sends::requested},
     {"data.repair", "again, after an ACKNACK asked for it while it was unacknowledged",
      sends::requested},
+    {"data.to_everybody",
+     "to a reader that did not ask, with a message during which another reader was matched"},
     {"acknack.reply", "the heartbeat response delay after a HEARTBEAT arrived", sends::reply},
     {"acknack.initial", "the initial ACKNACK delay after the relation opened without a HEARTBEAT",
      sends::initial},

@@ -41,6 +41,7 @@ class WriterSide {
     transmissions_ = transmissions_of(relation_);
     if (auto fault = pushed_late()) return fault;
     if (auto fault = sent_after_acknowledgment()) return fault;
+    if (auto fault = sent_while_suppressed()) return fault;
     std::optional<Demand> failure;
     for (const std::int64_t lag : lags()) {
       Plan plan;
@@ -72,6 +73,7 @@ class WriterSide {
     std::int64_t suppressed_until = INT64_MIN;
     for (std::size_t k = 0; k < transmissions_.size(); ++k) {
       const Transmission& one = transmissions_[k];
+      if (!exact && needs_no_request(one)) continue;
       const std::int64_t serialized = one.time_ns - lag;
       if (one.descriptor >= unacknowledged.size()) {
         unacknowledged.resize(one.descriptor + 1, opened_ns_ - lag);
@@ -91,13 +93,20 @@ class WriterSide {
     return all;
   }
 
+  [[nodiscard]] bool needs_no_request(const Transmission& one) const {
+    return !one.is_pushed && context_.to_everybody.contains(one.event);
+  }
+
   /// The greedy schedule; what it cannot serve, if anything.
   std::optional<Demand> search(std::int64_t lag, Plan& plan) const {
     Requests requests{relation_, transmissions_, context_.bounds, lag};
     plan.request.resize(transmissions_.size());
+    plan.to_everybody.resize(transmissions_.size());
     for (const Demand& demand : demands(lag, true)) {
       plan.request[demand.transmission] = requests.serve(demand);
-      if (!plan.request[demand.transmission]) return demand;
+      if (plan.request[demand.transmission]) continue;
+      if (!needs_no_request(transmissions_[demand.transmission])) return demand;
+      plan.to_everybody[demand.transmission] = true;
     }
     plan.arrivals = requests.arrivals();
     return std::nullopt;
@@ -109,26 +118,46 @@ class WriterSide {
     const std::int64_t lag = context_.bounds.most_send_lag_ns;
     const Requests requests{relation_, transmissions_, context_.bounds, lag};
     const std::vector<Demand> all = demands(lag, false);
-    std::size_t count = 0;
-    while (count < all.size() && all[count].transmission <= failure.transmission) ++count;
-    for (; count <= all.size(); ++count) {
+    std::size_t failing = 0;
+    while (failing < all.size() && all[failing].transmission <= failure.transmission) ++failing;
+    const auto with = [&](std::size_t count) {
       const std::vector<Demand> first{all.begin(),
                                       all.begin() + static_cast<std::ptrdiff_t>(count)};
-      const ExactAnswer answer =
-          decide(relation_, requests, first, {solver_limit, context_.interrupted});
-      if (answer.kind == ExactAnswer::Kind::impossible) return unexplained(first.back());
-      if (answer.kind == ExactAnswer::Kind::unknown) break;
-      if (count < all.size()) continue;
-      Plan plan{answer.arrivals, {}};
-      plan.request.resize(transmissions_.size());
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        plan.request[all[k].transmission] = answer.request[k];
-      }
-      ledger_.used_lag(lag);
-      return replay(plan, lag);
+      return decide(relation_, requests, first, {solver_limit, context_.interrupted});
+    };
+    if (failing < all.size() && with(failing).kind == ExactAnswer::Kind::impossible) {
+      return unexplained(all[failing - 1]);
+    }
+    const ExactAnswer answer = with(all.size());
+    if (answer.kind == ExactAnswer::Kind::possible) return replay(plan_of(answer, all), lag);
+    if (answer.kind == ExactAnswer::Kind::impossible) {
+      return unexplained(all[first_impossible(with, failing, all.size()) - 1]);
     }
     ledger_.undecided();
     return std::nullopt;
+  }
+
+  /// The least number of demands that cannot be served; `possible` can, `impossible` cannot.
+  static std::size_t first_impossible(const auto& with, std::size_t possible,
+                                      std::size_t impossible) {
+    while (possible + 1 < impossible) {
+      const std::size_t middle = possible + (impossible - possible) / 2;
+      const bool is_impossible = with(middle).kind == ExactAnswer::Kind::impossible;
+      (is_impossible ? impossible : possible) = middle;
+    }
+    return impossible;
+  }
+
+  [[nodiscard]] Plan plan_of(const ExactAnswer& answer, const std::vector<Demand>& all) const {
+    Plan plan{answer.arrivals, {}, {}};
+    plan.request.resize(transmissions_.size());
+    for (const Transmission& one : transmissions_) {
+      plan.to_everybody.push_back(needs_no_request(one));
+    }
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      plan.request[all[k].transmission] = answer.request[k];
+    }
+    return plan;
   }
 
   std::optional<Unexplained> replay(const Plan& plan, std::int64_t lag) {
@@ -205,6 +234,37 @@ class WriterSide {
                      {{"delay", one.time_ns - answer.time_ns, context_.bounds.most_delay_ns}},
                      answer.event);
       }
+    }
+    return std::nullopt;
+  }
+
+  /// Between two transmissions of a descriptor a suppression ends, and from one end to the next it
+  /// takes τ_S: so between n + 1 transmissions at least (n − 1)·τ_S, but for the send lag.
+  std::optional<Unexplained> sent_while_suppressed() {
+    const std::int64_t suppression = context_.sedp.nack_suppression_duration.count();
+    const std::int64_t slack = context_.bounds.most_send_lag_ns + capture_resolution_ns;
+    struct Chain {
+      std::int64_t count = 0;
+      std::int64_t latest_ns = 0;  ///< most of time − count·τ_S, over the transmissions
+    };
+    std::map<std::uint32_t, Chain> chains;
+    for (const Transmission& one : transmissions_) {
+      if (needs_no_request(one)) continue;
+      Chain& chain = chains[one.descriptor];
+      const std::int64_t since = one.time_ns - opened_ns_;
+      const std::int64_t early = (chain.count - 1) * suppression - since + chain.latest_ns - slack;
+      if (chain.count > 1 && early > 0) {
+        return fault(one.event, Fault::data_early,
+                     fmt::format("{} sent {} times too soon one after the other",
+                                 transmission_text(one), chain.count + 1),
+                     fmt::format("a suppression lasts {}: it is sent at the earliest {} later",
+                                 duration(suppression), duration(early)),
+                     {{"send lag", context_.bounds.most_send_lag_ns + early,
+                       context_.bounds.most_send_lag_ns}});
+      }
+      const std::int64_t latest = since - chain.count * suppression;
+      chain.latest_ns = chain.count == 0 ? latest : std::max(chain.latest_ns, latest);
+      ++chain.count;
     }
     return std::nullopt;
   }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include "checker/evidence/conform/ledger.hpp"
 #include "fsm/change_for_reader.hpp"
@@ -25,7 +26,8 @@ struct WriterContext {
   /// The writer has no reader but this one, not even on its own host, so that no other request can
   /// have armed its nack response before.
   bool is_only_reader = false;
-  std::function<bool()> interrupted{};  ///< `Request::interrupted`
+  const std::set<std::size_t>& to_everybody;  ///< events that need no request (to_everybody.hpp)
+  std::function<bool()> interrupted{};        ///< `Request::interrupted`
 
   /// From the arrival of a request to the transmission, at least, ns.
   [[nodiscard]] std::int64_t response_ns() const {

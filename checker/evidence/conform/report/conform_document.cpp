@@ -271,6 +271,7 @@ class ConformPage {
     };
     add("longest send lag", result_.used_send_lag_ns, result_.bounds.most_send_lag_ns);
     add("latest timer", result_.used_lateness_ns, result_.bounds.most_lateness_ns);
+    add("oldest clock", result_.used_clock_age_ns, result_.bounds.most_clock_age_ns);
     return {"The assignment", "assignment", {std::move(table)}};
   }
 

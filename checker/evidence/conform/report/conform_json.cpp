@@ -215,6 +215,7 @@ template <class V>
 void describe(V& v, const UsedBounds& used) {
   v("send_lag_ns", used.result.used_send_lag_ns);
   v("lateness_ns", used.result.used_lateness_ns);
+  v("clock_age_ns", used.result.used_clock_age_ns);
 }
 
 /// How many events each rule explains.

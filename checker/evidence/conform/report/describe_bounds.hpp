@@ -11,6 +11,8 @@ void describe(V& v, const Bounds& bounds) {
   v("most_delay_ns", bounds.most_delay_ns);
   v("most_send_lag_ns", bounds.most_send_lag_ns);
   v("most_lateness_ns", bounds.most_lateness_ns);
+  v("most_clock_age_ns", bounds.most_clock_age_ns);
+  v("most_same_host_ns", bounds.most_same_host_ns);
   v("clock_error_ns", bounds.clock_error_ns);
   v("may_lose", bounds.may_lose);
 }

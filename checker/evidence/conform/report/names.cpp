@@ -96,13 +96,17 @@ std::string_view rule_broken_by(Fault fault) {
 }
 
 std::string bounds_text(const Bounds& bounds) {
-  return fmt::format("delay {} to {}, send lag up to {}, timers up to {} late, {}, {}",
-                     duration_text(bounds.least_delay_ns), duration_text(bounds.most_delay_ns),
-                     duration_text(bounds.most_send_lag_ns), duration_text(bounds.most_lateness_ns),
-                     bounds.clock_error_ns == 0
-                         ? std::string{"clocks equal"}
-                         : "clocks up to " + duration_text(bounds.clock_error_ns) + " apart",
-                     bounds.may_lose ? "losses allowed" : "no losses");
+  return fmt::format(
+      "delay {} to {}, send lag up to {}, timers up to {} late, clock up to {} old, same host done "
+      "within "
+      "{}, {}, {}",
+      duration_text(bounds.least_delay_ns), duration_text(bounds.most_delay_ns),
+      duration_text(bounds.most_send_lag_ns), duration_text(bounds.most_lateness_ns),
+      duration_text(bounds.most_clock_age_ns), duration_text(bounds.most_same_host_ns),
+      bounds.clock_error_ns == 0
+          ? std::string{"clocks equal"}
+          : "clocks up to " + duration_text(bounds.clock_error_ns) + " apart",
+      bounds.may_lose ? "losses allowed" : "no losses");
 }
 
 std::string milliseconds(std::int64_t ns) {

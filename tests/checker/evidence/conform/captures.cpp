@@ -58,6 +58,8 @@ Bounds exact_bounds(const model::Scenario& scenario, const Simulated& run) {
   bounds.most_delay_ns = run.run.end_time.count();
   bounds.most_send_lag_ns = 0;
   bounds.most_lateness_ns = 0;
+  bounds.most_clock_age_ns = 0;
+  bounds.most_same_host_ns = run.run.end_time.count();
   bounds.may_lose = !scenario.wireless.lost_packets.empty();
   return bounds;
 }

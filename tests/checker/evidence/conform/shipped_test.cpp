@@ -29,6 +29,9 @@ const std::vector<Shipped>& fastdds_captures() {
       {"fastdds2611_veth_np3_ne10_r0", "fastdds-2.6.11"},
       {"fastdds2611like_ap_np1_ne30_r0", "fastdds-2.6.11"},
       {"fastdds2611like_pre_ap_np3_ne20_r0", "fastdds-2.6.11"},
+      // A queue of 200 frames overflows; and the sockets' receive buffers.
+      {"fastdds2611like_O250_q200_ap_np4_ne10_r0", "fastdds-2.6.11", false},
+      {"fastdds2611like_pre_veth_np5_ne20_r0", "fastdds-2.6.11", false},
       {"fastdds291_ap_np1_ne2_r0", "fastdds-2.9.1"},
       {"fastdds291_ap_np3_ne10_r0", "fastdds-2.9.1"},
       {"fastdds291_veth_np1_ne2_r0", "fastdds-2.9.1"},

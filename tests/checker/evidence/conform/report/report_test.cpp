@@ -41,17 +41,17 @@ TEST_F(Reports, TheConversationIsTheOneThatResultsAreAbout) {
 TEST_F(Reports, TheFirstLineHasVerdictProfileAndBounds) {
   const std::string bounds =
       " fastdds-2.6.11 within these bounds: delay 0 to 60s, send lag up to 20ms, timers up to "
-      "500ms late, clocks equal, losses allowed";
+      "500ms late, clock up to 0 old, same host done within 0, clocks equal, losses allowed";
   const auto answer = [&](const Conformance& result) {
     return document_of(report_of(result)).answer.plain();
   };
   EXPECT_EQ(answer(good), "CONFORMS to" + bounds);
   EXPECT_EQ(answer(bad), "DOES NOT CONFORM to" + bounds);
   EXPECT_EQ(answer(open), "INCONCLUSIVE for" + bounds);
-  good.bounds = {1'000, 2'000, 3'000, 4'000, 5'000, false};
+  good.bounds = {1'000, 2'000, 3'000, 4'000, 5'000, 6'000, 7'000, false};
   EXPECT_TRUE(has(answer(good),
-                  "delay 1us to 2us, send lag up to 3us, timers up to 4us late, clocks up to 5us "
-                  "apart, no losses"));
+                  "delay 1us to 2us, send lag up to 3us, timers up to 4us late, clock up to 5us "
+                  "old, same host done within 6us, clocks up to 7us apart, no losses"));
 }
 
 TEST_F(Reports, ConformanceIsNotCalledAProof) {
@@ -239,6 +239,8 @@ TEST(Documentation, HasTheDefaultsOfTheBounds) {
                             printed(bounds.most_delay_ns) + "` |"));
   EXPECT_TRUE(has(text, "| `--send-lag D` | `" + printed(bounds.most_send_lag_ns) + "` |"));
   EXPECT_TRUE(has(text, "| `--lateness D` | `" + printed(bounds.most_lateness_ns) + "` |"));
+  EXPECT_TRUE(has(text, "| `--clock-age D` | `" + printed(bounds.most_clock_age_ns) + "` |"));
+  EXPECT_TRUE(has(text, "| `--same-host D` | `" + printed(bounds.most_same_host_ns) + "` |"));
   EXPECT_TRUE(has(text, "| `--clock-error D` | `" + printed(bounds.clock_error_ns) + "` |"));
 }
 

@@ -35,7 +35,7 @@ inline const Place publications{0, 1, capture::entity::publications_writer};
 [[nodiscard]] inline Conformance conforming() {
   Conformance result;
   result.verdict = Verdict::conforms;
-  result.bounds = {0, 60'000'000'000, 20'000'000, 500'000'000, 0, true};
+  result.bounds = {0, 60'000'000'000, 20'000'000, 500'000'000, 0, 0, 0, true};
   result.checked = result.explained = 7;
   result.not_checked = 3;
   result.by_rule[static_cast<std::size_t>(Rule::announcement_scheduled)] = 2;
