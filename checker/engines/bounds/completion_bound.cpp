@@ -13,13 +13,8 @@ constexpr Nanoseconds year{365LL * 24 * 3'600 * 1'000'000'000};
 
 bool is_reasonable(Nanoseconds t) { return t >= Nanoseconds{0} && t <= year; }
 
-/// The reader may open after the writer and then drops what reaches it before.
-bool may_open_late(const model::SedpProfile& sedp) {
-  return sedp.relation_opening == model::RelationOpening::each_side &&
-         sedp.unmatched == model::Unmatched::drop;
-}
-
-void paper_bound(CompletionBound& b, const model::SedpProfile& sedp, const Circumstances& c) {
+void paper_bound(CompletionBound& b, const model::DdsProfile& dds, const Circumstances& c) {
+  const model::SedpProfile& sedp = dds.sedp;
   const Nanoseconds period = sedp.heartbeat_period;
   b.window = (c.delta - c.least) * 2 + c.source.value_or(c.delta) + sedp.nack_response_delay +
              sedp.nack_suppression_duration;
@@ -31,7 +26,7 @@ void paper_bound(CompletionBound& b, const model::SedpProfile& sedp, const Circu
   const std::string where = ", W = 2(Δ − μ) + σ + τ_N + τ_S, s = ⌊W/τ_H⌋";
   b.further_loss = loss;
   b.second_loss = loss;
-  if (may_open_late(sedp)) {
+  if (may_open_late(dds)) {
     b.no_loss = b.exchange + period;
     b.one_loss = b.no_loss + loss;
     b.formula = "B(k) = 3Δ + τ_A + τ_N + τ_H + k·(1 + s)·τ_H" + where;
@@ -49,12 +44,12 @@ void paper_bound(CompletionBound& b, const model::SedpProfile& sedp, const Circu
   }
 }
 
-void stateful_bound(CompletionBound& b, const model::SedpProfile& sedp, const Circumstances& c) {
-  // Here a repair that is lost spoils no fixed window: the timer dies and is armed again.
-  b.window = c.delta * 2 + sedp.heartbeat_response_delay + sedp.nack_response_delay +
-             sedp.nack_suppression_duration;
-  const Nanoseconds loss = sedp.heartbeat_period + b.window;
-  b.no_loss = b.exchange + sedp.nack_suppression_duration + sedp.heartbeat_period;
+/// Here a repair that is lost spoils no fixed window: the timer dies and is armed again.
+void stateful_bound(CompletionBound& b, const model::DdsProfile& dds, const Circumstances& c) {
+  const Losses<fsm::Plain> losses = loss_bound(dds, c);
+  const Nanoseconds loss{losses.loss};
+  b.window = loss - dds.sedp.heartbeat_period;
+  b.no_loss = b.exchange + Nanoseconds{losses.first};
   b.one_loss = b.no_loss + loss;
   b.second_loss = loss;
   b.further_loss = loss;
@@ -62,6 +57,16 @@ void stateful_bound(CompletionBound& b, const model::SedpProfile& sedp, const Ci
 }
 
 }  // namespace
+
+Losses<fsm::Plain> loss_bound(const model::DdsProfile& dds, const Circumstances& c) {
+  const model::SedpProfile& sedp = dds.sedp;
+  return losses<fsm::Plain>(dds, {.period = sedp.heartbeat_period.count(),
+                                  .response = sedp.heartbeat_response_delay.count(),
+                                  .nack = sedp.nack_response_delay.count(),
+                                  .suppression = sedp.nack_suppression_duration.count(),
+                                  .delta = c.delta.count(),
+                                  .source = c.source.value_or(c.delta).count()});
+}
 
 std::optional<Nanoseconds> CompletionBound::after(unsigned losses) const {
   if (losses == 0) return no_loss;
@@ -89,14 +94,13 @@ std::optional<CompletionBound> completion_bound(const model::DdsProfile& dds,
     return std::nullopt;
   }
   CompletionBound bound;
-  bound.exchange =
-      circumstances.delta * 3 + sedp.heartbeat_response_delay + sedp.nack_response_delay;
+  bound.exchange = Nanoseconds{loss_bound(dds, circumstances).exchange};
   switch (model::traits_of(dds).writer) {
     case model::Writer::of_the_paper:
-      paper_bound(bound, sedp, circumstances);
+      paper_bound(bound, dds, circumstances);
       break;
     case model::Writer::stateful:
-      stateful_bound(bound, sedp, circumstances);
+      stateful_bound(bound, dds, circumstances);
       break;
   }
   return bound;

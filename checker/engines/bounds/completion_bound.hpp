@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "checker/engines/bounds/loss_bound.hpp"
 #include "model/dds_profile.hpp"
 
 namespace stormproof::timeline {
@@ -37,6 +38,10 @@ struct CompletionBound {
   /// B(k); nothing if it exceeds what a time can hold.
   [[nodiscard]] std::optional<model::Nanoseconds> after(unsigned losses) const;
 };
+
+/// The looser bound that the rules give for both writers, in ns.
+[[nodiscard]] Losses<fsm::Plain> loss_bound(const model::DdsProfile& dds,
+                                            const Circumstances& circumstances);
 
 /// Nothing for `heartbeat_policy: adaptive`, whose periods vary, and for delays beyond a year.
 [[nodiscard]] std::optional<CompletionBound> completion_bound(const model::DdsProfile& dds,

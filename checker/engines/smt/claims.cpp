@@ -249,6 +249,14 @@ Decision Claims::decide(std::string_view property, std::string_view query,
   return decision;
 }
 
+void Claims::export_certificate(std::string_view property, const std::string& text) {
+  const std::lock_guard lock{state_->mutex};
+  if (state_->options.export_dir.empty()) return;
+  const auto folder = std::filesystem::path{state_->options.export_dir} / "certificates";
+  std::string problem = write_export(folder.string(), property, text);
+  if (!problem.empty() && !state_->export_error) state_->export_error = std::move(problem);
+}
+
 SecondOpinion Claims::second_opinion(std::string_view property) {
   const auto start = Clock::now();
   const std::lock_guard lock{state_->mutex};

@@ -62,6 +62,10 @@ class Claims {
   Decision decide(std::string_view property, std::string_view query,
                   const z3::ast_vector_tpl<z3::expr>& assertions);
 
+  /// Writes a certificate as certificates/<property>.smt2 among the exports; nothing if there are
+  /// none. Every answer that it asks for is unsat.
+  void export_certificate(std::string_view property, const std::string& text);
+
   /// The first export that could not be written; nothing if there is none.
   [[nodiscard]] std::optional<std::string> export_error() const;
 

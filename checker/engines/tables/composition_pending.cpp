@@ -3,10 +3,9 @@
 // (checker/engines/tables/descriptor_system.hpp), one for each state that something must end.
 // Together they are an invariant; if a mutant's rules break one, Spacer says which.
 #include <algorithm>
-#include <map>
 
 #include "checker/engines/tables/descriptor_system.hpp"
-#include "checker/engines/tables/machine_step.hpp"
+#include "checker/engines/tables/houdini.hpp"
 #include "checker/engines/tables/properties.hpp"
 #include "model/implementations.hpp"
 
@@ -81,39 +80,16 @@ class Statements {
   Exprs facts_;
 };
 
-/// Counts are not negative, and a machine is in exactly one of its states.
-Exprs facts_of(const TransitionSystem& system) {
-  Exprs facts;
-  std::map<std::string, OneHot> machines;
-  for (const Expr& variable : system.variables) {
-    const std::string name = variable.decl().name().str();
-    const std::size_t end = name.find('=');
-    if (!variable.is_bool()) facts.push_back(variable >= 0);
-    if (end != std::string::npos) machines[name.substr(0, end)].push_back(variable);
-  }
-  for (const auto& [name, states] : machines) facts.push_back(exactly_one(states));
-  return facts;
-}
-
 /// Which of the statements are kept together by every step; with correct rules all of them.
 std::vector<bool> kept_together(Proof& proof, const DescriptorSystem& descriptor,
                                 const Statements& statements) {
-  const TransitionSystem whole = descriptor.whole();
-  const std::vector<bool> never = never_changing(whole);
-  const TransitionSystem system = without(never, whole);
-  Exprs from;
-  Exprs to;
-  for (std::size_t v = 0; v < never.size(); ++v) {
-    if (!never[v]) continue;
-    from.push_back(whole.variables[v]);
-    to.push_back(whole.initial.arg(static_cast<unsigned>(v)).arg(1));
-  }
-  Exprs candidates = facts_of(system);
-  const auto add = [&](const Expr& one) { candidates.push_back(with(one, from, to).simplify()); };
+  const Moving moving{descriptor.whole()};
+  Exprs candidates = facts_of(moving.system);
+  const auto add = [&](const Expr& one) { candidates.push_back(moving(one)); };
   for (const Expr& fact : statements.facts()) add(fact);
   const std::size_t facts = candidates.size();
   for (const Statement& statement : statements.list()) add(!statement.broken);
-  const std::vector<bool> kept = inductive_together(proof, system, candidates);
+  const std::vector<bool> kept = inductive_together(proof, moving.system, candidates);
   return {kept.begin() + static_cast<std::ptrdiff_t>(facts), kept.end()};
 }
 

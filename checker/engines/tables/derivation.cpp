@@ -166,6 +166,19 @@ TransitionSystem without(const std::vector<bool>& never_changing, const Transiti
   return result;
 }
 
+Moving::Moving(const TransitionSystem& whole) : Moving{whole, never_changing(whole)} {}
+
+Moving::Moving(const TransitionSystem& whole, const std::vector<bool>& never)
+    : system{without(never, whole)} {
+  for (std::size_t v = 0; v < never.size(); ++v) {
+    if (!never[v]) continue;
+    from_.push_back(whole.variables[v]);
+    to_.push_back(initial_value(whole, v));
+  }
+}
+
+Expr Moving::operator()(const Expr& expr) const { return with(expr, from_, to_).simplify(); }
+
 std::vector<bool> reasons(const TransitionSystem& system, const std::vector<bool>& never_changing,
                           std::vector<bool> of) {
   ConstantsOf constants;

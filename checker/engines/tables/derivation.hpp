@@ -80,6 +80,21 @@ class Derivation {
 /// The same system with the initial values in place of those variables.
 [[nodiscard]] TransitionSystem without(const std::vector<bool>& never_changing,
                                        const TransitionSystem& system);
+/// A system of a derivation without what never changes, and expressions about it.
+class Moving {
+ public:
+  explicit Moving(const TransitionSystem& whole);
+
+  TransitionSystem system;
+  /// An expression over the variables of the whole system as one over those that change.
+  [[nodiscard]] Expr operator()(const Expr& expr) const;
+
+ private:
+  Moving(const TransitionSystem& whole, const std::vector<bool>& never);
+
+  Exprs from_;
+  Exprs to_;
+};
 /// The same system with values in place of constants that are no variables.
 [[nodiscard]] TransitionSystem with(const TransitionSystem& system, const Exprs& constants,
                                     const Exprs& values);

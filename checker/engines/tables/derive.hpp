@@ -3,8 +3,30 @@
 #pragma once
 
 #include "checker/engines/tables/derived_world.hpp"
+#include "fsm/composition/watched_world.hpp"
+#include "model/engine/effect_mutator.hpp"
 
 namespace stormproof::tables {
+
+/// Whether a rule waits for the packet's having left its source.
+template <class P, class Rules>
+bool waits_for_source() {
+  bool waits = false;
+  composition::for_each_type(Rules{}, [&]<class R>() {
+    waits = waits || std::is_same_v<typename R::Trigger, composition::LeftSource<P>>;
+  });
+  return waits;
+}
+
+/// Runs the rule, as it is or with a mistake at an effect.
+template <class R, class Composition>
+void run_rule(DerivedWorld<Composition>& world, const model::Mutation& mistakes) {
+  model::EffectMutator watcher{&mistakes};
+  if (!watcher.is_needed()) return R::run(world);
+  composition::WatchedWorld watched{world, watcher, composition::Trail{fsm::name_of<R>()}};
+  R::run(watched);
+  watcher.go_on();
+}
 
 /// Declares the variables of the composition.
 template <class Composition>
@@ -29,11 +51,14 @@ void declare(Derived& derived) {
       derivation.declare("pending " + tag_name<T>(), false);
       derivation.declare("started " + tag_name<T>(), comes_from_outside<T, Composition>());
     }
+    if (derived.time != nullptr) derived.time->declare_timer(tag_name<T>(), T::counted);
   });
   composition::for_each_type(typename Composition::Packets{}, [&]<class P>() {
     for (const auto& content : World::template all_contents<P>()) {
       derivation.declare(content.first, false);
     }
+    if (derived.time == nullptr) return;
+    derived.time->declare_packet(tag_name<P>(), waits_for_source<P, typename Composition::Rules>());
   });
   if (!derived.happens) return;
   composition::for_each_type(typename Composition::Occasions{}, [&]<class O>() {
@@ -54,7 +79,7 @@ void derive_steps(Derived& derived, Rules rules) {
       derived.number = 0;
       World world{derived, foreign};
       world.template trigger<typename R::Trigger>();
-      R::run(world);
+      run_rule<R>(world, derived.mistakes);
       if (derived.ended) {
         World us{derived, 0};
         derived.ended(us.template contents<typename Composition::AckNack>(Composition::bitmap())
@@ -83,6 +108,7 @@ void derive(Derived& derived) {
   } else {
     derive_steps<Composition>(derived, typename Composition::Exchange{});
   }
+  if (derived.time != nullptr) derived.time->derive_passing();
 }
 
 }  // namespace stormproof::tables

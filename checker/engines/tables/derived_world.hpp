@@ -1,8 +1,8 @@
 // The world that derives: it runs the rules of a composition over solver expressions, for one
 // generic descriptor, once for us and once for every kind of other, and makes each a step of a
 // transition system (checker/engines/tables/derivation.hpp says by which rules). See
-// fsm/composition/vocabulary.hpp for what a world is. Delays play no part; numbers and what only a
-// host knows are unknowns.
+// fsm/composition/vocabulary.hpp for what a world is. Delays play no part unless time does
+// (checker/engines/tables/derived_time.hpp); numbers and what only a host knows are unknowns.
 #pragma once
 
 #include <functional>
@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "checker/engines/tables/derivation.hpp"
+#include "checker/engines/tables/derived_time.hpp"
 #include "checker/engines/tables/effect_system.hpp"
 #include "checker/engines/tables/machine_step.hpp"
 #include "model/engine/composition_knobs.hpp"
@@ -36,6 +37,8 @@ struct Derived {
   std::function<void(const std::string&, const Expr&)> happens{};
   /// Called for each knob that is read: what stands for it; without it, the knob's value does.
   std::function<Expr(const Knob&)> knob{};
+  /// With it, things under way have deadlines.
+  DerivedTime* time = nullptr;
 
   /// Effects are counted as the recorder does (fsm/composition/recorder.hpp): within a rule,
   /// procedure or step, each once, however often it runs.
@@ -55,9 +58,12 @@ bool comes_from_outside() {
                              [](const auto& cause) { return cause.name == fsm::name_of<T>(); });
 }
 
-template <class Composition>
+template <class Composition_>
 class DerivedWorld {
  public:
+  using Composition = Composition_;
+  /// Where rules for which that matters stand: those with a mistake that reaches other readers.
+  static constexpr composition::Owner place = composition::owner::relation;
   using D = smt::Symbolic;
   using Bool = smt::SymbolicBool;
   using Int = smt::SymbolicInt;
@@ -86,6 +92,7 @@ class DerivedWorld {
                          std::derived_from<Tag, PacketField>) {
       return Bool{packet_->at(tag_name<Tag>())};
     } else if constexpr (std::derived_from<Tag, Amount>) {
+      if (std::is_same_v<Tag, Now> && derived_->time != nullptr) return Int{derived_->time->now()};
       return Int{derivation().unknown_count()};
     } else {
       static_assert(std::derived_from<Tag, Answer>);
@@ -234,14 +241,15 @@ class DerivedWorld {
     d.template assign<V>(Bool{term(d)});
   }
   template <class Wait, class T>
-  void after(Wait, T) {
+  void after(Wait wait, T) {
     effect(path_);
-    start<T>();
+    if (derived_->time == nullptr) return start<T>({});
+    start<T>(Int{derived_->time->now()} + (*this)(wait));
   }
   template <class T>
-  void at(const Int&, T) {
+  void at(const Int& due, T) {
     effect(path_);
-    start<T>();
+    start<T>(due);
   }
   template <class T>
   void cancel(T) {
@@ -257,6 +265,7 @@ class DerivedWorld {
     if (is_foreign(P::owner)) return;
     const std::map<std::string, Expr> says = contents<P>(sayings);
     if (derived_->emitted) derived_->emitted(tag_name<P>(), path_, says);
+    if (derived_->time != nullptr) derived_->time->emitted(tag_name<P>(), path_, says);
     for (const auto& [name, content] : all_contents<P>()) {
       Expr is = path_;
       for (const auto& [field, value] : content) {
@@ -445,10 +454,23 @@ class DerivedWorld {
     }
     return copies;
   }
+  /// How much later than the rules say, ns: 0 without a mistake.
   template <class T>
-  void start() {
+  [[nodiscard]] Int late() const {
+    Int late = 0;
+    for (const model::EventMutation& mistake : derived_->mistakes.events) {
+      if (mistake.kind != model::event_kind_of<T>) continue;
+      if (mistake.change == model::EventMutation::Change::shift) late = mistake.by.count();
+    }
+    return late;
+  }
+  template <class T>
+  void start(const Int& due) {
     if (is_foreign(T::owner)) return;
     const std::string pending = "pending " + tag_name<T>();
+    if (derived_->time != nullptr && copies<T>() > 0) {
+      derived_->time->started(tag_name<T>(), path_, (due + late<T>()).expr());
+    }
     if constexpr (T::counted) {
       derivation().assign(pending, path_, derivation().now(pending) + copies<T>());
       if (counter<T>() != pending) {
@@ -518,15 +540,20 @@ class DerivedWorld {
   template <class P>
   void trigger_of(composition::Received<P>) {
     arrives<P>();
+    if (derived_->time == nullptr || is_foreign(P::owner)) return;
+    derived_->time->arrived(tag_name<P>(), *packet_);
   }
   template <class P>
   void trigger_of(composition::LeftSource<P>) {
     arrives<P>();
+    if (derived_->time == nullptr || is_foreign(P::owner)) return;
+    derived_->time->left(tag_name<P>(), *packet_);
   }
   template <class T>
   void trigger_of(composition::Due<T>) {
     if (is_foreign(T::owner)) return;
     const std::string pending = "pending " + tag_name<T>();
+    if (derived_->time != nullptr) derived_->time->fires(tag_name<T>());
     if constexpr (T::counted) {
       derivation().require(derivation().now(pending) >= 1);
       derivation().now(pending) = derivation().now(pending) - 1;

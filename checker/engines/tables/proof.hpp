@@ -28,6 +28,7 @@ class Proof {
   Proof(std::string_view property, const checker::CheckRequest& request);
 
   [[nodiscard]] z3::context& context() { return context_; }
+  [[nodiscard]] const std::string& property() const { return property_; }
   [[nodiscard]] const checker::CheckRequest& request() const { return request_; }
   /// The mistakes of the mutant; none without one.
   [[nodiscard]] const model::Mutation& mistakes() const;

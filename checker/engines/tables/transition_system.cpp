@@ -105,18 +105,6 @@ SpacerAnswer ask_spacer(const TransitionSystem& original, const smt::Options& op
   return answer;
 }
 
-/// The plain conditions that make `invariant` a proof. Whether all of them hold.
-bool certify(Proof& proof, const TransitionSystem& system, const Expr& invariant) {
-  bool holds = !proof.possible("initially: the invariant fails", {system.initial, !invariant});
-  for (const SystemStep& step : system.steps) {
-    const Expr after = with(invariant, system.variables, step.next);
-    holds =
-        !proof.possible(step.name + ": the invariant is lost", {invariant, step.guard, !after}) &&
-        holds;
-  }
-  return !proof.possible("the invariant admits a bad state", {invariant, system.bad}) && holds;
-}
-
 std::string number(std::size_t k) { return std::to_string(k); }
 
 /// Looks for the shortest sequence of steps to a bad state: none, if none is found.
@@ -139,6 +127,17 @@ Expr with(const Expr& expr, const Exprs& variables, const Exprs& values) {
   return copy.substitute(as_vector(variables), as_vector(values));
 }
 
+bool certify(Proof& proof, const TransitionSystem& system, const Expr& invariant) {
+  bool holds = !proof.possible("initially: the invariant fails", {system.initial, !invariant});
+  for (const SystemStep& step : system.steps) {
+    const Expr after = with(invariant, system.variables, step.next);
+    holds =
+        !proof.possible(step.name + ": the invariant is lost", {invariant, step.guard, !after}) &&
+        holds;
+  }
+  return !proof.possible("the invariant admits a bad state", {invariant, system.bad}) && holds;
+}
+
 Reached reach_bad(Proof& proof, const TransitionSystem& system) {
   const SpacerAnswer answer = ask_spacer(system, proof.request().claims.options());
   if (answer.reachable == smt::Answer::unsat) {
@@ -155,48 +154,6 @@ Reached reach_bad(Proof& proof, const TransitionSystem& system) {
       smt::Answer::unknown,
       {},
       "Spacer reaches a bad state, but no trace of up to " + number(longest_trace) + " steps does"};
-}
-
-std::vector<bool> inductive_together(Proof& proof, const TransitionSystem& system,
-                                     const Exprs& candidates) {
-  std::vector<bool> kept(candidates.size(), true);
-  const auto all_kept = [&] {
-    Exprs parts;
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      if (kept[k]) parts.push_back(candidates[k]);
-    }
-    return all_of(parts);
-  };
-  const auto possible = [&](const Expr& condition) {
-    z3::solver solver{smt::SymbolicContext::current(), z3::solver::simple()};
-    solver.add(condition);
-    const smt::Options& options = proof.request().claims.options();
-    const smt::Deadline deadline{smt::SymbolicContext::current(), options.timeout,
-                                 options.interrupted};
-    return solver.check() != z3::unsat;
-  };
-  for (bool stable = false; !stable;) {
-    stable = true;
-    for (const SystemStep& step : system.steps) {
-      if (!possible(all_kept() && step.guard && !with(all_kept(), system.variables, step.next))) {
-        continue;
-      }
-      for (std::size_t k = 0; k < kept.size(); ++k) {
-        if (!kept[k]) continue;
-        const Expr after = with(candidates[k], system.variables, step.next);
-        kept[k] = !possible(system.initial && !candidates[k]) &&
-                  !possible(all_kept() && step.guard && !after);
-        stable = stable && kept[k];
-      }
-    }
-  }
-  const Expr invariant = all_kept();
-  TransitionSystem safe = system;
-  safe.bad = !invariant;
-  if (!certify(proof, safe, invariant)) {
-    proof.give_up("an invariant that was found does not pass its check");
-  }
-  return kept;
 }
 
 std::string prove_unreachable(Proof& proof, const TransitionSystem& system,

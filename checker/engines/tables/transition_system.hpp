@@ -38,10 +38,9 @@ struct Reached {
 };
 [[nodiscard]] Reached reach_bad(Proof& proof, const TransitionSystem& system);
 
-/// The largest set of `candidates` that hold initially and that every step keeps together, which
-/// both solvers then check. About the others that says nothing.
-[[nodiscard]] std::vector<bool> inductive_together(Proof& proof, const TransitionSystem& system,
-                                                   const Exprs& candidates);
+/// The plain conditions that make `invariant` a proof that `bad` is never reached: it holds
+/// initially, every step keeps it, and it excludes `bad`. Whether all of them hold.
+bool certify(Proof& proof, const TransitionSystem& system, const Expr& invariant);
 
 /// Decides whether `bad` can be reached. Proved: the invariant goes into the details. Violated: the
 /// shortest sequence of steps does, headed by `breaks`. Returns the method, for `Proof::finish`.

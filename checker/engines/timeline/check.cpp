@@ -43,6 +43,19 @@ void leave_open(props::Finding& finding, const std::string& why) {
   finding.how += "; inconclusive: " + why;
 }
 
+void rest_on(props::Finding& finding, const props::Finding& certificate) {
+  finding.how += "; what it takes from the rules: " + certificate.how;
+  finding.assumptions.insert(finding.assumptions.end(), certificate.assumptions.begin(),
+                             certificate.assumptions.end());
+  finding.details.push_back("taken from the rules:");
+  for (const std::string& line : certificate.details) finding.details.push_back("  " + line);
+  finding.disputed = finding.disputed || certificate.disputed;
+  finding.seconds += certificate.seconds;
+  if (certificate.kind != props::VerdictKind::proved) {
+    leave_open(finding, "the rules are not known to do what the theorem starts from");
+  }
+}
+
 std::string measured_text(const exact::Measured& measured) {
   return fmt::format("in the run of this scenario the largest delay is {}, and {} packets are lost",
                      props::time_text(measured.largest_delay), measured.lost);

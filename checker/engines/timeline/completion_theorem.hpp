@@ -1,5 +1,7 @@
-// live.completion as a theorem: the conditions of the proof in specs/guide/bounds.md, for all
-// values of all parameters. The bound itself is in checker/engines/bounds/completion_bound.hpp.
+// live.completion as a theorem: the conditions of the proof in specs/guide/bounds.md for the
+// paper's writer, for all values of all parameters. The bound itself is in
+// checker/engines/bounds/completion_bound.hpp. What is proved of both writers from their rules is
+// in checker/engines/tables/completion_certificate.hpp.
 #pragma once
 
 #include "checker/engines/timeline/theorem.hpp"
@@ -14,9 +16,7 @@ struct Tightening {
   int opening = 0;   ///< what the first loss costs
 };
 
-/// Decides the conditions for the paper's writer.
+/// Decides the conditions.
 void prove_completion(Theorem& theorem, const Tightening& tighter = {});
-/// Decides the conditions for Fast DDS's writer.
-void prove_completion_fastdds(Theorem& theorem, const Tightening& tighter = {});
 
 }  // namespace stormproof::timeline

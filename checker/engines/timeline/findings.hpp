@@ -34,6 +34,10 @@ struct Question {
 /// Turns a finding into one without an answer.
 void leave_open(props::Finding& finding, const std::string& why);
 
+/// Adds what a theorem takes from a certificate about the rules: its assumptions, and how it is
+/// known. Without that certificate there is no proof.
+void rest_on(props::Finding& finding, const props::Finding& certificate);
+
 /// What the run of the scenario says about "no packet takes longer than Δ" and "nothing is lost".
 [[nodiscard]] std::string measured_text(const exact::Measured& measured);
 

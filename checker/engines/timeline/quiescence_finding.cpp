@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/engines/tables/completion_certificate.hpp"
 #include "checker/engines/timeline/directed_check.hpp"
 #include "checker/engines/timeline/findings.hpp"
 #include "checker/engines/timeline/needless_repair.hpp"
@@ -92,6 +93,9 @@ props::Finding quiescence_finding(const Question& question) {
       "initial_acknack: heartbeat at least τ_H + 3Δ + τ_A; counted from the last loss if that "
       "comes "
       "after completion, and then attained");
+  if (theorem.is_asked_for()) {
+    rest_on(finding, tables::expiry_certificate(question.request, "live.quiescence.rules"));
+  }
   if (asks_by_itself(question.sedp())) {
     finding.details.push_back(fmt::format(
         "Q is proved for relations whose reader has seen a HEARTBEAT; one that has not may go on "

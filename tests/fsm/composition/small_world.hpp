@@ -1,9 +1,10 @@
 // A world that executes: one participant with a few streams, readers and descriptors, for tests of
-// what is derived from the same rules. It has no clock: what is scheduled may happen at any time,
+// what is derived from the same rules. Without a clock, what is scheduled may happen at any time,
 // and what was sent may arrive at any time, any number of times. Choices and what only a host knows
 // are drawn at random.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -55,6 +56,13 @@ struct SmallState {
   std::set<SentPacket> sent;
 };
 
+/// The time, and who is told of what is started and sent.
+struct SmallClock {
+  std::int64_t now = 0;
+  std::function<void(const Key& timer, bool counted, std::int64_t due)> started;
+  std::function<void(const SentPacket& packet)> sent;
+};
+
 /// Descriptors, one bit each.
 struct Members {
   std::uint32_t bits = 0;
@@ -79,8 +87,14 @@ class SmallWorld {
   using Set = Members;
   using Dice = std::mt19937_64;
 
-  SmallWorld(SmallState& state, const model::DdsProfile& dds, Dice& dice, Place place)
-      : state_{&state}, dds_{&dds}, dice_{&dice}, place_{place}, subject_{place.descriptor} {}
+  SmallWorld(SmallState& state, const model::DdsProfile& dds, Dice& dice, Place place,
+             SmallClock* clock = nullptr)
+      : state_{&state},
+        dds_{&dds},
+        dice_{&dice},
+        clock_{clock},
+        place_{place},
+        subject_{place.descriptor} {}
 
   template <class T>
   static std::string tag() {
@@ -103,6 +117,7 @@ class SmallWorld {
     } else if constexpr (std::derived_from<Tag, PacketField>) {
       return packet_->says.at(tag<Tag>()) != 0;
     } else if constexpr (std::derived_from<Tag, Amount>) {
+      if (std::is_same_v<Tag, Now> && clock_ != nullptr) return clock_->now;
       return std::int64_t{draw(4)};
     } else {
       return draw(2) == 1;
@@ -246,12 +261,12 @@ class SmallWorld {
     each([&](SmallWorld& d) { d.set(flag, d.is_in(set)); });
   }
   template <class Wait, class T>
-  void after(Wait, T) {
-    start<T>();
+  void after(Wait wait, T) {
+    start<T>((*this)(Now{}) + (*this)(wait));
   }
   template <class T>
-  void at(std::int64_t, T) {
-    start<T>();
+  void at(std::int64_t due, T) {
+    start<T>(due);
   }
   template <class T>
   void cancel(T) {
@@ -263,6 +278,7 @@ class SmallWorld {
     for_each_type(typename P::Fields{}, [&]<class F>() { packet.says[tag<F>()] = 0; });
     std::apply([&](const auto&... each) { (say(packet, each), ...); }, sayings);
     state_->sent.insert(packet);
+    if (clock_ != nullptr) clock_->sent(packet);
   }
   template <class O>
   void raise(O) {}
@@ -309,8 +325,9 @@ class SmallWorld {
   }
   static void merge(MemberDomain::Int&, std::int64_t, int) {}
   template <class T>
-  void start() {
+  void start(std::int64_t due) {
     const Key key{tag<T>(), place_.of(T::owner)};
+    if (clock_ != nullptr) clock_->started(key, T::counted, due);
     ++state_->pending[key];
     state_->started.insert(key);
     state_->surely_pending.insert(key);
@@ -328,6 +345,7 @@ class SmallWorld {
   SmallState* state_;
   const model::DdsProfile* dds_;
   Dice* dice_;
+  SmallClock* clock_;
   Place place_;
   int subject_;
   const SentPacket* packet_ = nullptr;

@@ -1,0 +1,46 @@
+// A certificate: an invariant of a derived system, clause by clause in words, and what follows from
+// it. What is stated is what a proof is about; what else it needs is found among candidates
+// (checker/engines/tables/houdini.hpp). Z3 and cvc5 decide one condition for each step, and an
+// export has the whole as SMT-LIB in which every answer must be unsat.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "checker/engines/tables/transition_system.hpp"
+
+namespace stormproof::tables {
+
+struct Clause {
+  std::string words;
+  Expr holds;
+};
+
+/// A step of this name that is taken where `before` holds leads to where `after` holds.
+struct StepClause {
+  std::string words;
+  std::string step;
+  Expr before;
+  Expr after;
+};
+
+struct Certificate {
+  TransitionSystem system;
+  Exprs constants;                     ///< unknowns that are no variables
+  std::vector<Clause> given;           ///< what is assumed of them
+  std::vector<Clause> invariant;       ///< what is stated
+  Exprs candidates;                    ///< of what else holds
+  std::vector<Clause> conclusions;     ///< in every state
+  std::vector<StepClause> on_steps{};  ///< of steps
+};
+
+/// Decides it, and gives up at the first clause that a step does not keep. What is stated goes into
+/// the details. Whether all of it holds.
+bool prove(Proof& proof, const Certificate& certificate);
+
+/// The certificate with this invariant as SMT-LIB, to be read and checked by others.
+[[nodiscard]] std::string certificate_text(const Certificate& certificate,
+                                           const std::vector<Clause>& invariant,
+                                           std::string_view property);
+
+}  // namespace stormproof::tables

@@ -1,0 +1,32 @@
+// Two certificates from the rules (checker/engines/tables/certificate.hpp), for all timers, Δ and
+// σ, any number of descriptors, readers and losses. The first is a lemma: a descriptor that its
+// writer waits for has an expiry within τ_H that sends to its reader. The second is
+// live.completion: while a descriptor is missing, something is under way that brings it in time.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "checker/engines/bounds/check_request.hpp"
+
+namespace stormproof::tables {
+
+/// By how many nanoseconds the parts of the bound (checker/engines/bounds/loss_bound.hpp) are
+/// claimed to be smaller than they are: none, except to show that they cannot be.
+struct Tighter {
+  int first = 0;
+  int loss = 0;
+  int exchange = 0;
+};
+
+/// Why the certificates do not say anything about a profile; empty: they do.
+[[nodiscard]] std::string not_certified(const model::DdsProfile& dds);
+
+/// The lemma, with the mutant's mistakes. `property` names it in exports.
+[[nodiscard]] props::Finding expiry_certificate(const checker::CheckRequest& request,
+                                                std::string_view property);
+/// The same and completion.
+[[nodiscard]] props::Finding completion_certificate(const checker::CheckRequest& request,
+                                                    const Tighter& tighter = {});
+
+}  // namespace stormproof::tables

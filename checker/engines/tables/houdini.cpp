@@ -1,0 +1,125 @@
+// Each model of "the candidates hold, a step is taken, and one of them does not hold any more"
+// removes all candidates that do not hold after it, until there is none.
+#include "checker/engines/tables/houdini.hpp"
+
+#include <map>
+
+#include "checker/engines/smt/deadline.hpp"
+#include "checker/engines/tables/machine_step.hpp"
+
+namespace stormproof::tables {
+namespace {
+
+class Search {
+ public:
+  Search(Proof& proof, const TransitionSystem& system, const Exprs& candidates)
+      : proof_{proof},
+        system_{system},
+        candidates_{candidates},
+        result_{std::vector<bool>(candidates.size(), true),
+                std::vector<std::string>(candidates.size())} {}
+
+  Kept run() {
+    remove("initially", {system_.initial}, candidates_);
+    for (bool stable = false; !stable && !stopped_;) {
+      stable = true;
+      for (const SystemStep& step : system_.steps) stable = keep(step) && stable;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// Whether the step breaks none that is kept.
+  bool keep(const SystemStep& step) {
+    Exprs after;
+    for (const Expr& candidate : candidates_) {
+      after.push_back(with(candidate, system_.variables, step.next));
+    }
+    bool all = true;
+    while (!stopped_ && remove(step.name, {holding(candidates_), step.guard}, after)) all = false;
+    return all;
+  }
+  [[nodiscard]] Expr holding(const Exprs& these) const {
+    Exprs parts;
+    for (std::size_t k = 0; k < these.size(); ++k) {
+      if (result_.kept[k]) parts.push_back(these[k]);
+    }
+    return all_of(parts);
+  }
+  /// Removes what does not hold `after` in one case in which the conditions do; false: there is no
+  /// such case.
+  bool remove(const std::string& where, Exprs conditions, const Exprs& after) {
+    z3::solver solver{smt::SymbolicContext::current(), z3::solver::simple()};
+    conditions.push_back(!holding(after));
+    for (const Expr& condition : conditions) solver.add(condition);
+    const smt::Options& options = proof_.request().claims.options();
+    const smt::Deadline deadline{smt::SymbolicContext::current(), options.timeout,
+                                 options.interrupted};
+
+    const z3::check_result result = solver.check();
+
+    if (result == z3::unsat) return false;
+    if (result == z3::unknown) {
+      stop(where + ": no answer in the search for an invariant");
+      return false;
+    }
+    const z3::model model = solver.get_model();
+    bool removes = false;
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      if (!result_.kept[k] || is_true_in(model, after[k])) continue;
+      result_.kept[k] = false;
+      result_.lost_at[k] = where;
+      removes = true;
+    }
+    if (!removes) stop(where + ": a model in the search for an invariant breaks none of them");
+    return removes;
+  }
+
+  void stop(const std::string& why) {
+    stopped_ = true;
+    proof_.give_up(why);
+  }
+
+  Proof& proof_;
+  const TransitionSystem& system_;
+  const Exprs& candidates_;
+  Kept result_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+Exprs facts_of(const TransitionSystem& system) {
+  Exprs facts;
+  std::map<std::string, OneHot> machines;
+  for (const Expr& variable : system.variables) {
+    const std::string name = variable.decl().name().str();
+    const std::size_t end = name.find('=');
+    if (!variable.is_bool()) facts.push_back(variable >= 0);
+    if (end != std::string::npos) machines[name.substr(0, end)].push_back(variable);
+  }
+  for (const auto& [name, states] : machines) facts.push_back(exactly_one(states));
+  return facts;
+}
+
+Kept houdini(Proof& proof, const TransitionSystem& system, const Exprs& candidates) {
+  return Search{proof, system, candidates}.run();
+}
+
+std::vector<bool> inductive_together(Proof& proof, const TransitionSystem& system,
+                                     const Exprs& candidates) {
+  const std::vector<bool> kept = houdini(proof, system, candidates).kept;
+  Exprs parts;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (kept[k]) parts.push_back(candidates[k]);
+  }
+  const Expr invariant = all_of(parts);
+  TransitionSystem safe = system;
+  safe.bad = !invariant;
+  if (!certify(proof, safe, invariant)) {
+    proof.give_up("an invariant that was found does not pass its check");
+  }
+  return kept;
+}
+
+}  // namespace stormproof::tables

@@ -1,0 +1,30 @@
+// Houdini: of many candidates, the largest set that is an invariant. Whoever states an invariant
+// writes down what the proof is about; what else it needs, about which state goes with which, is
+// found.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "checker/engines/tables/transition_system.hpp"
+
+namespace stormproof::tables {
+
+struct Kept {
+  std::vector<bool> kept;            ///< by candidate
+  std::vector<std::string> lost_at;  ///< the step that breaks it, or "initially"; empty if kept
+};
+
+/// The largest set of `candidates` that hold initially and that every step keeps together. About
+/// the others that says nothing. Z3 alone looks for it: what is made of it is to be certified.
+[[nodiscard]] Kept houdini(Proof& proof, const TransitionSystem& system, const Exprs& candidates);
+
+/// Candidates that need no thought: counts are not negative, and a machine is in exactly one of its
+/// states.
+[[nodiscard]] Exprs facts_of(const TransitionSystem& system);
+
+/// The largest set, which both solvers then check.
+[[nodiscard]] std::vector<bool> inductive_together(Proof& proof, const TransitionSystem& system,
+                                                   const Exprs& candidates);
+
+}  // namespace stormproof::tables

@@ -1,0 +1,112 @@
+// The unknowns, which packets are looked at, and when the limit starts to count.
+#include "checker/engines/tables/timed_descriptor.hpp"
+
+#include "checker/engines/tables/derived_world.hpp"
+
+namespace stormproof::tables {
+namespace {
+
+using Says = DerivedTime::Says;
+using smt::SymbolicInt;
+
+/// What a packet says of a field; what it does not say is false.
+Expr said(const Says& says, const char* field) {
+  const auto found = says.find(field);
+  if (found != says.end()) return found->second;
+  return smt::SymbolicContext::current().bool_val(false);
+}
+
+/// A HEARTBEAT that tells of the descriptor, an ordinary ACKNACK that asks for it, DATA that
+/// carries it.
+Expr is_of_an_exchange(std::string_view packet, const Says& says) {
+  if (packet == "Heartbeat") {
+    return says.contains("Announces") ? says.at("Announces")
+                                      : smt::SymbolicContext::current().bool_val(true);
+  }
+  if (packet == "Data") return said(says, "Carries");
+  if (packet != "AckNack") return smt::SymbolicContext::current().bool_val(false);
+  return said(says, "Listed") && !said(says, "BelowBase") && !said(says, "IsInitial");
+}
+Expr is_repair(std::string_view packet, const Says& says) {
+  return is_of_an_exchange(packet, says) && said(says, "IsRepair");
+}
+
+timeline::Delays<smt::Symbolic> unknown_delays() {
+  return {.period = SymbolicInt::named("HeartbeatPeriod"),
+          .response = SymbolicInt::named("ResponseDelay"),
+          .nack = SymbolicInt::named("NackResponseDelay"),
+          .suppression = SymbolicInt::named("SuppressionDuration"),
+          .delta = SymbolicInt::named("Delta"),
+          .source = SymbolicInt::named("Sigma")};
+}
+
+/// What stands for a knob: one of the unknowns, or its value.
+Expr knob_or_unknown(const Knob& knob, const model::DdsProfile& dds) {
+  for (const char* name :
+       {"HeartbeatPeriod", "ResponseDelay", "NackResponseDelay", "SuppressionDuration"}) {
+    if (knob.name == name) return SymbolicInt::named(name).expr();
+  }
+  return knob.value(dds);
+}
+
+Expr opened(model::Of<fsm::composition::paper::Paper>, const model::DdsProfile& dds,
+            const std::function<Expr(const char*)>& at) {
+  if (model::knob_value(fsm::composition::AcceptsUnmatched{}, dds)) return at("WriterOpen");
+  return at("WriterOpen") && (at("Reader=Recognised") || at("Reader=Complete"));
+}
+Expr opened(model::Of<fsm::composition::fastdds::FastDds>, const model::DdsProfile&,
+            const std::function<Expr(const char*)>& at) {
+  return !at("C=Absent") && (at("Reader=Recognised") || at("Reader=Complete"));
+}
+
+}  // namespace
+
+Expr can_be_asked_for(const model::DdsProfile& dds, const std::function<Expr(const char*)>& at) {
+  return model::visit_composition(dds,
+                                  [&](auto composition) { return opened(composition, dds, at); });
+}
+
+TimedDescriptor::TimedDescriptor(const model::DdsProfile& dds, const model::Mutation& mistakes,
+                                 const std::function<void(Bound&)>& tighten, Unsound unsound)
+    : delays_{unknown_delays()},
+      bound_{timeline::losses<smt::Symbolic>(dds, delays_)},
+      derivation_{unsound} {
+  if (tighten) tighten(bound_);
+  Derivation& system = derivation_;
+  DerivedTime time{system,
+                   {.delay = delays_.delta.expr(),
+                    .source = delays_.source.expr(),
+                    .loss = bound_.loss.expr(),
+                    .matters = is_of_an_exchange,
+                    .matters_at_source = is_repair}};
+  system.declare(watched::counting, false);
+  system.declare_count(watched::heartbeat_sent);
+  Derived derived{dds, mistakes, system};
+  derived.time = &time;
+  derived.knob = [&dds](const Knob& knob) { return knob_or_unknown(knob, dds); };
+  derived.emitted = [&](std::string_view packet, const Expr& when, const Says& says) {
+    if (packet != "Heartbeat") return;
+    system.assign(watched::heartbeat_sent, when && is_of_an_exchange(packet, says), time.now());
+  };
+  derived.ended = [&](const Expr&) {
+    const auto at = [&](const char* name) { return system.now(name); };
+    const Expr starts = can_be_asked_for(dds, at) && !system.now(watched::counting);
+    const Expr lost_now = system.now(timed::limit) - system.variable(timed::limit);
+    system.assign(timed::limit, starts, time.now() + bound_.first.expr() + lost_now);
+    system.assign(watched::counting, starts, smt::SymbolicContext::current().bool_val(true));
+  };
+  derive_composition(derived);
+}
+
+Exprs TimedDescriptor::unknowns() const {
+  return {delays_.period.expr(),      delays_.response.expr(), delays_.nack.expr(),
+          delays_.suppression.expr(), delays_.delta.expr(),    delays_.source.expr()};
+}
+
+Exprs TimedDescriptor::assumptions() const {
+  return {delays_.period.expr() >= 1, delays_.response.expr() >= 0,
+          delays_.nack.expr() >= 0,   delays_.suppression.expr() >= 0,
+          delays_.source.expr() >= 0, delays_.source.expr() <= delays_.delta.expr()};
+}
+
+}  // namespace stormproof::tables

@@ -1,0 +1,52 @@
+// One generic descriptor of one generic relation, in time: the system that is derived from the
+// rules of the composition with deadlines (checker/engines/tables/derived_time.hpp), and the same
+// assumptions about others as checker/engines/tables/descriptor_system.hpp. The timers of a
+// profile, Δ and σ are unknowns; its other knobs have their values. The ghost `limit` counts from
+// when both sides are open and the descriptor exists, and grows with each loss.
+#pragma once
+
+#include "checker/engines/bounds/completion_bound.hpp"
+#include "checker/engines/smt/symbolic.hpp"
+#include "checker/engines/tables/descriptor_system.hpp"
+
+namespace stormproof::tables {
+
+namespace watched {
+/// Both sides are open, and the descriptor exists, or they have been.
+inline constexpr const char* counting = "counting";
+/// When a HEARTBEAT was sent last that tells our reader of the descriptor.
+inline constexpr const char* heartbeat_sent = "HEARTBEAT sent";
+}  // namespace watched
+
+class TimedDescriptor {
+ public:
+  using Bound = timeline::Losses<smt::Symbolic>;
+
+  /// `tighten`: changes the bound that the limit is made of, for tests.
+  TimedDescriptor(const model::DdsProfile& dds, const model::Mutation& mistakes,
+                  const std::function<void(Bound&)>& tighten = {}, Unsound unsound = Unsound::none);
+
+  [[nodiscard]] const Expr& operator[](const std::string& name) const {
+    return derivation_.variable(name);
+  }
+  [[nodiscard]] const timeline::Delays<smt::Symbolic>& delays() const { return delays_; }
+  [[nodiscard]] const Bound& bound() const { return bound_; }
+  /// τ_H, τ_A, τ_N, τ_S, Δ, σ.
+  [[nodiscard]] Exprs unknowns() const;
+  /// What is assumed of the unknowns: none is negative, τ_H ≥ 1, σ ≤ Δ.
+  [[nodiscard]] Exprs assumptions() const;
+  /// All steps.
+  [[nodiscard]] TransitionSystem whole() const { return derivation_.system(); }
+
+ private:
+  timeline::Delays<smt::Symbolic> delays_;
+  Bound bound_;
+  Derivation derivation_;
+};
+
+/// Whether both sides of the relation are open and the descriptor exists; `at` gives the value of a
+/// variable.
+[[nodiscard]] Expr can_be_asked_for(const model::DdsProfile& dds,
+                                    const std::function<Expr(const char*)>& at);
+
+}  // namespace stormproof::tables
