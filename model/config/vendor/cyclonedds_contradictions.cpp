@@ -1,4 +1,5 @@
-// Settings of one file that contradict each other or do nothing beside each other.
+// Settings of one file that contradict each other or do nothing beside each other, and limits that
+// users run into.
 #include <fmt/core.h>
 
 #include "model/config/vendor/cyclonedds_settings.hpp"
@@ -26,17 +27,43 @@ class Contradictions {
             "the low watermark is above the high one");
     needs("Internal/RetransmitMergingPeriod", "Internal/RetransmitMerging", "never",
           "it acts with RetransmitMerging adaptive or always only");
-    const CycloneReading* most = settings_.find("Discovery/MaxAutoParticipantIndex");
-    if (most != nullptr && settings_.value("Discovery/ParticipantIndex").word != "auto") {
-      warn("no-effect", *most,
-           "MaxAutoParticipantIndex has no effect: ParticipantIndex is not auto");
-    }
+    look_at_indices();
+    look_at_receive_buffer();
   }
 
  private:
   void warn(std::string_view rule, const CycloneReading& reading, std::string message) {
     profile_.remarks.push_back({Severity::warning, fmt::format("cyclonedds.{}", rule),
                                 reading.place, std::move(message), ""});
+  }
+
+  void look_at_indices() {
+    constexpr std::string_view path = "Discovery/MaxAutoParticipantIndex";
+    const CycloneReading* most = settings_.find(path);
+    const CycloneReading* index = settings_.find("Discovery/ParticipantIndex");
+    if (settings_.value("Discovery/ParticipantIndex").word != "auto") {
+      if (most == nullptr) return;
+      return warn("no-effect", *most,
+                  "MaxAutoParticipantIndex has no effect: ParticipantIndex is not auto");
+    }
+    profile_.remarks.push_back(
+        {Severity::note, "cyclonedds.participant-limit", (most != nullptr ? most : index)->place,
+         fmt::format("a host can have {} participants in this domain; the next one does not start",
+                     settings_.value(path).number + 1),
+         "MaxAutoParticipantIndex raises it, and with it the ports that peers are asked at"});
+  }
+
+  /// The library does not start without a minimum that somebody set.
+  void look_at_receive_buffer() {
+    constexpr std::int64_t usual_rmem_max = 212'992;  // net.core.rmem_max of Linux
+    const CycloneReading* least = settings_.find("Internal/SocketReceiveBufferSize[@min]");
+    if (least == nullptr || least->value.number <= usual_rmem_max) return;
+    profile_.remarks.push_back(
+        {Severity::warning, "cyclonedds.kernel-buffer", least->place,
+         fmt::format("Cyclone DDS does not start where Linux grants less than {} bytes; it grants "
+                     "{} unless net.core.rmem_max is raised",
+                     least->value.number, usual_rmem_max),
+         fmt::format("sysctl -w net.core.rmem_max={}", least->value.number)});
   }
 
   /// A remark if `low` is above `high`, which one of the two settings in the file causes.

@@ -4,6 +4,7 @@
 #include "model/config/vendor/fastdds_discovery.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include <fmt/core.h>
 
@@ -95,6 +96,7 @@ void interpret_protocol(Reading& reading) {
     }
   }
   const Found* protocol = find_discovery(reading, "discoveryProtocol");
+  if (protocol != nullptr) remark_super_client(reading, *protocol);
   if (protocol == nullptr || protocol->value.shown == "SIMPLE") {
     for (const std::string_view name : {"clientAnnouncementPeriod", "discoveryServersList"}) {
       const Found* found = find_discovery(reading, name);
@@ -135,8 +137,47 @@ void interpret_throughput(Reading& reading) {
              "it delays announcements and user data only");
 }
 
+/// A peer that is no multicast group and has no port.
+bool is_bare_host(std::string_view locator) {
+  const std::size_t space = locator.find(' ');
+  const std::string_view address = locator.substr(space == std::string_view::npos ? 0 : space + 1);
+  const bool has_port = address.find(':') != std::string_view::npos && !address.ends_with(":0");
+  int first = 0;
+  (void)std::from_chars(address.data(), address.data() + address.size(), first);
+  return locator.starts_with("udpv4") && !has_port && (first < 224 || first > 239);
+}
+
+/// What users of unicast peers run into.
+void remark_peers(Reading& reading, const Found& peers) {
+  if (std::ranges::none_of(peers.value.items, is_bare_host)) return;
+  std::string range = "4";
+  for (const Transport& transport : reading.transports) {
+    const Found* given = transport.section.find("maxInitialPeersRange");
+    if (transport.is_used && given != nullptr) range = given->value.shown;
+  }
+  add_remark(
+      reading.profile, Severity::note, "fastdds.peer-ports", peers.value.place,
+      fmt::format("a peer without a port is asked at the ports of its first {} participants; "
+                  "later ones on that host are not found from here",
+                  range),
+      "maxInitialPeersRange of the transport raises it");
+}
+
+void remark_super_client(Reading& reading, const Found& protocol) {
+  const std::string* is_default = reading.participant->attribute("is_default_profile");
+  if (protocol.value.shown != "SUPER_CLIENT" || is_default == nullptr || *is_default != "true") {
+    return;
+  }
+  add_remark(reading.profile, Severity::warning, "fastdds.super-client", protocol.value.place,
+             "as the default profile it makes every participant a super client, which is told of "
+             "every endpoint of the system",
+             "CLIENT for nodes; SUPER_CLIENT for tools that list the system");
+}
+
 void interpret_peers(Reading& reading) {
-  if (reading.section.find("rtps/builtin/initialPeersList") == nullptr) return;
+  const Found* peers = reading.section.find("rtps/builtin/initialPeersList");
+  if (peers == nullptr) return;
+  remark_peers(reading, *peers);
   for (const Transport& transport : reading.transports) {
     const Found* range = transport.section.find("maxInitialPeersRange");
     if (!transport.is_used || range == nullptr || range->value.shown == "4") continue;

@@ -142,6 +142,20 @@ TEST(CycloneLint, contradictions) {
             Remarks{"warning cyclonedds.no-effect 2"});
 }
 
+TEST(CycloneLint, limits_that_users_run_into) {
+  const auto found = [](const std::string& text) { return remarks(read(text)); };
+  EXPECT_EQ(found(discovery("<ParticipantIndex>auto</ParticipantIndex>")),
+            Remarks{"note cyclonedds.participant-limit 2"});
+  const VendorProfile raised =
+      read(discovery("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>30"
+                     "</MaxAutoParticipantIndex>"));
+  EXPECT_TRUE(raised.remarks.front().message.starts_with("a host can have 31 participants"));
+  EXPECT_EQ(found(discovery("<ParticipantIndex>3</ParticipantIndex>")), Remarks{});
+  EXPECT_EQ(found(internal("<SocketReceiveBufferSize min=\"10 MB\"/>")),
+            Remarks{"warning cyclonedds.kernel-buffer 2"});
+  EXPECT_EQ(found(internal("<SocketReceiveBufferSize min=\"100 kB\"/>")), Remarks{});
+}
+
 TEST(CycloneLint, message_sizes_that_do_not_fit) {
   const auto limit = [](const char* size) {
     return remarks(read(

@@ -1,5 +1,6 @@
 // Every remark about a Fast DDS file: a document that earns it, with the place, and one beside it
 // that does not.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -278,6 +279,32 @@ INSTANTIATE_TEST_SUITE_P(
                          "</historyMemoryPolicy></data_writer>"),
                {}}),
     name_of_case);
+
+std::string peer(const std::string& locator) {
+  return document("<builtin><initialPeersList><locator>" + locator +
+                  "</locator></initialPeersList></builtin>");
+}
+
+TEST(FastddsLint, limits_that_users_run_into) {
+  const auto has = [](const std::string& text, const std::string& rule) {
+    const VendorProfile profile = profile_of(text);
+    return std::ranges::find(profile.remarks, rule, &Remark::rule) != profile.remarks.end();
+  };
+  const std::string ports = "fastdds.peer-ports";
+  EXPECT_TRUE(has(peer("<udpv4><address>10.0.0.7</address></udpv4>"), ports));
+  EXPECT_TRUE(has(peer("<udpv4><address>10.0.0.7</address><port>0</port></udpv4>"), ports));
+  EXPECT_FALSE(has(peer("<udpv4><address>10.0.0.7</address><port>7412</port></udpv4>"), ports));
+  EXPECT_FALSE(has(peer("<udpv4><address>239.255.0.1</address></udpv4>"), ports));
+  const std::string super = "fastdds.super-client";
+  const std::string client = "<discoveryProtocol>SUPER_CLIENT</discoveryProtocol>";
+  const auto everybody = [&](const char* is_default) {
+    return "<profiles><participant profile_name='p' is_default_profile='" +
+           std::string{is_default} + "'><rtps><builtin><discovery_config>" + client +
+           "</discovery_config></builtin></rtps></participant></profiles>";
+  };
+  EXPECT_TRUE(has(everybody("true"), super));
+  EXPECT_FALSE(has(everybody("false"), super));
+}
 
 TEST(FastddsLint, messages_name_the_thing_and_hints_the_way_out) {
   const auto first = [](const std::string& text) { return profile_of(text).remarks.at(0); };
