@@ -185,7 +185,8 @@ void declare(Options& options, CheckArguments& arguments) {
       .within(1, 1'000'000);
   options
       .number("--readers", arguments.readers,
-              "Let the explorer look at several readers of one writer, too: 2 (default 1)", "N")
+              "Let the explorer look at several readers of one writer, too: 2 or 3 (default 1)",
+              "N")
       .within(1U, explorer::most_readers);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <string_view>
 
 #include "checker/engines/explorer/frame.hpp"
@@ -16,6 +17,7 @@ namespace stormproof::explorer {
 /// These descriptors are generated for the reader, in answer to an ACKNACK if it is a repair.
 template <class State>
 void note_generated(State& state, Frame& frame, unsigned reader, Members members, bool repair) {
+  frame.count_generated(static_cast<unsigned>(std::popcount(members)));
   const Members asked = state.template get<Asked>(reader);
   const Members generated = state.template get<Generated>(reader);
   if (repair && (members & ~asked) != 0) frame.object(Claim::repair_only_if_asked);

@@ -12,8 +12,9 @@
 
 namespace stormproof::explorer {
 
-/// Answers about those of `properties` that are about one relation. Takes at most about 10 s, twice
-/// that with several readers; an interrupted or unfinished search says how far it came.
+/// Answers about those of `properties` that are about one relation. Searches end after so many
+/// states that a check takes about 5 s, several times that with several readers; an unfinished
+/// search says how far it came.
 [[nodiscard]] checker::Findings check(std::span<const std::string_view> properties,
                                       const checker::CheckRequest& request);
 
@@ -22,7 +23,7 @@ struct Request {
   const model::Scenario& scenario;  ///< the specification
   const checker::Mutant* mutant = nullptr;
   std::function<bool(std::string_view)> on_progress;  ///< false interrupts
-  /// 1: one relation only; most_readers: several readers of one writer, too.
+  /// 1: one relation only; 2 … most_readers: up to so many readers of one writer, too.
   unsigned readers = 1;
 };
 [[nodiscard]] checker::Findings explore(std::span<const std::string_view> properties,

@@ -1,7 +1,7 @@
 // What Fast DDS's rules (fsm/composition/fastdds.hpp) leave to a host, for a default participant's
 // nine publications, of which the last ones may be created after the match. What is sent at once
-// to the same readers is one message. Piggybacked HEARTBEATs are left out, because they depend on
-// everything that the participant sends.
+// to the same readers is one message, as long as there is room. Piggybacked HEARTBEATs are left
+// out, because they depend on everything that the participant sends.
 #pragma once
 
 #include <bit>
@@ -9,6 +9,7 @@
 
 #include "checker/engines/explorer/plan.hpp"
 #include "checker/engines/explorer/relation_world.hpp"
+#include "model/fastdds/endpoints.hpp"
 
 namespace stormproof::explorer {
 
@@ -22,7 +23,7 @@ class FastDdsPacking {
   struct Queue : comp::Number<comp::owner::participant> {};
   using SharedState = fsm::TypeList<Queue>;
   /// Publications of a default participant.
-  static constexpr unsigned max_descriptors = 9;
+  static constexpr unsigned max_descriptors = model::fastdds::default_publications;
   static constexpr bool receives_separately = true;
   static constexpr bool one_event_opens_both = false;
   static constexpr bool repairs_leave_later = false;
@@ -30,7 +31,8 @@ class FastDdsPacking {
   FastDdsPacking(const model::Scenario& running, const Scope& scope)
       : pushed_{scope.pushed},
         largest_delay_{scope.largest_delay},
-        distance_{creation_distance(running)} {}
+        distance_{creation_distance(running)},
+        limit_bytes_{running.dds.sedp.grouping_limit_bytes.count()} {}
 
   [[nodiscard]] static constexpr unsigned descriptors() { return max_descriptors; }
 
@@ -90,9 +92,17 @@ class FastDdsPacking {
     w.for_readers([&](auto& r) {
       if (To::serves(r)) served |= 1U << host.reader_at(r);
     });
-    if (message_ != 0 && (served != served_ || (message_ & it) != 0)) flush(host);
+    const std::int64_t added = model::fastdds::timestamp_bytes +
+                               model::fastdds::submessage_bytes(model::Stream::pub, w.descriptor());
+    const bool fits = served == served_ && (message_ & it) == 0 && bytes_ + added <= limit_bytes_;
+    if (message_ != 0 && !fits) flush(host);
+    if (message_ == 0) {
+      bytes_ = model::fastdds::message_header_bytes +
+               (std::has_single_bit(served) ? model::fastdds::destination_bytes : 0);
+    }
     served_ = served;
     message_ |= it;
+    bytes_ += added;
     for_each_served([&](unsigned reader) {
       note_generated(host.state(), host.frame(), reader, it, To::repairs);
     });
@@ -131,14 +141,17 @@ class FastDdsPacking {
   const unsigned pushed_;
   const model::Nanoseconds largest_delay_;
   const model::Nanoseconds distance_;  ///< between two creations
+  const std::int64_t limit_bytes_;     ///< of a message
   // The message that is open; between events none is.
-  Members message_ = 0;  ///< what it carries
-  unsigned served_ = 0;  ///< to which readers it goes, one bit each
+  Members message_ = 0;     ///< what it carries
+  unsigned served_ = 0;     ///< to which readers it goes, one bit each
+  std::int64_t bytes_ = 0;  ///< UDP payload so far
 };
 
 using FastDdsWorld = RelationWorld<FastDdsPacking>;
-using SharedFastDdsWorld = RelationWorld<FastDdsPacking, most_readers>;
+using SharedFastDdsWorld = RelationWorld<FastDdsPacking, 2>;
 extern template class RelationWorld<FastDdsPacking>;
+extern template class RelationWorld<FastDdsPacking, 2>;
 extern template class RelationWorld<FastDdsPacking, most_readers>;
 
 }  // namespace stormproof::explorer

@@ -33,13 +33,6 @@ EventRules::EventRules(std::span<const model::EventMutation> mutations, bool rec
   }
 }
 
-void Frame::restore(const Slot* slots, unsigned count, const std::int64_t* bounds,
-                    unsigned losses_left) {
-  zone_.assign(count + 1, bounds);
-  std::copy(slots, slots + count, slots_.begin());
-  losses_left_ = losses_left;
-}
-
 /// Of two events at the same time the one of lower rank comes first: class, then insertion.
 std::uint64_t Frame::rank(unsigned k) const {
   return static_cast<std::uint64_t>(rules_->of(slots_[k].what).event_class) << 32 | k;
@@ -77,6 +70,7 @@ Slot Frame::advance(unsigned k, unsigned loss_mask) {
   }
   loss_mask_ = loss_mask;
   emitted_ = 0;
+  generated_ = 0;
   objections_ = 0;
   losses_left_ -= static_cast<unsigned>(std::popcount(loss_mask));
   return slot;

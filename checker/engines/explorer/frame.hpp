@@ -3,6 +3,7 @@
 // keep a log of all constraints, from which checker/engines/explorer/path.hpp finds concrete times.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -87,8 +88,15 @@ class Frame {
   [[nodiscard]] const Zone& zone() const { return zone_; }
   [[nodiscard]] bool overflowed() const { return overflowed_; }
 
+  /// How many packets may still be lost.
+  void set_losses(unsigned losses) { losses_left_ = losses; }
   /// Rebuilds a stored frame.
-  void restore(const Slot* slots, unsigned count, const std::int64_t* bounds, unsigned losses_left);
+  template <class Bound>
+  void restore(const Slot* slots, unsigned count, const Bound* bounds, unsigned losses_left) {
+    zone_.assign(count + 1, bounds);
+    std::copy(slots, slots + count, slots_.begin());
+    losses_left_ = losses_left;
+  }
 
   /// Whether slot k can be the next event.
   [[nodiscard]] bool can_be_next(unsigned k) const;
@@ -128,6 +136,9 @@ class Frame {
   [[nodiscard]] unsigned losses_left() const { return losses_left_; }
   [[nodiscard]] bool no_losses_yet() const { return losses_left_ == scope_->losses; }
   [[nodiscard]] unsigned emitted() const { return emitted_; }
+  /// Descriptors that this step puts into DATA.
+  void count_generated(unsigned descriptors) { generated_ += descriptors; }
+  [[nodiscard]] unsigned generated() const { return generated_; }
 
   /// Logs from now on; the frame must be a start.
   void log_to(PathLog& log) { log_ = &log; }
@@ -152,13 +163,11 @@ class Frame {
   PathLog* log_ = nullptr;
   unsigned loss_mask_ = 0;
   unsigned emitted_ = 0;
+  unsigned generated_ = 0;
   unsigned losses_left_ = 0;
   Claims objections_ = 0;
   Claims kept_ = 0;
   bool overflowed_ = false;
-
- public:
-  void set_losses(unsigned losses) { losses_left_ = losses; }
 };
 
 }  // namespace stormproof::explorer

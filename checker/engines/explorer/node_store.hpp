@@ -1,13 +1,18 @@
-// The states that the search has reached, each with the zone of times that it stands for, packed
-// behind each other. A state that is reached again with times that are all known already is not
-// kept a second time; that is what makes the search end.
+// The states that the search has reached, each with the zone of times that it stands for. A state
+// that is reached again with times that are all known already is not kept a second time; that is
+// what makes the search end. Nodes that differ in their times only are a group and share the rest;
+// bounds take four bytes each if all of a zone's do.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
-#include <unordered_map>
+#include <limits>
+#include <utility>
 #include <vector>
 
+#include "checker/engines/explorer/arena.hpp"
 #include "checker/engines/explorer/frame.hpp"
 
 namespace stormproof::explorer {
@@ -24,12 +29,14 @@ class NodeStore {
  public:
   static constexpr std::uint32_t none = UINT32_MAX;
 
+  NodeStore() : groups_by_hash_(std::size_t{1} << 10, none) {}
+
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
   [[nodiscard]] std::size_t bytes() const {
-    return nodes_.size() * sizeof(Node) + slots_.size() * sizeof(Slot) +
-           zones_.size() * sizeof(std::int64_t);
+    return nodes_.size() * sizeof(Node) + groups_.size() * sizeof(Group) + slots_.bytes() +
+           narrow_.bytes() + wide_.bytes();
   }
-  [[nodiscard]] const State& state(std::uint32_t node) const { return nodes_[node].state; }
+  [[nodiscard]] const State& state(std::uint32_t node) const { return group_of(node).state; }
   [[nodiscard]] std::uint32_t parent(std::uint32_t node) const { return nodes_[node].parent; }
   [[nodiscard]] Label label(std::uint32_t node) const { return nodes_[node].label; }
   [[nodiscard]] std::uint32_t depth(std::uint32_t node) const { return nodes_[node].depth; }
@@ -38,26 +45,18 @@ class NodeStore {
   /// whether it is new.
   std::pair<std::uint32_t, bool> add(const State& state, const Frame& frame, std::uint32_t parent,
                                      Label label) {
-    const std::uint64_t hash = hash_of(state, frame);
-    const auto [first, fresh] = by_hash_.try_emplace(hash, none);
-    for (std::uint32_t k = first->second; k != none; k = nodes_[k].next) {
-      if (same(nodes_[k], state, frame) && covers(nodes_[k], frame.zone())) return {k, false};
-    }
     Node node;
-    node.state = state;
-    node.first_slot = slots_.size();
-    node.first_bound = zones_.size();
+    node.group = find_group(state, frame);
+    std::uint32_t& newest = groups_[node.group].newest;
+    for (std::uint32_t k = newest; k != none; k = nodes_[k].next) {
+      if (covers(nodes_[k], frame.zone())) return {k, false};
+    }
+    keep(frame.zone(), node);
     node.parent = parent;
-    node.next = first->second;
+    node.next = newest;
     node.depth = parent == none ? 0 : nodes_[parent].depth + 1;
     node.label = label;
-    node.count = static_cast<std::uint8_t>(frame.count());
-    node.losses_left = static_cast<std::uint8_t>(frame.losses_left());
-    for (unsigned k = 0; k < frame.count(); ++k) slots_.push_back(frame.slot(k));
-    for (unsigned i = 0; i <= frame.count(); ++i) {
-      for (unsigned j = 0; j <= frame.count(); ++j) zones_.push_back(frame.zone().bound(i, j));
-    }
-    first->second = size();
+    newest = size();
     nodes_.push_back(node);
     return {size() - 1, true};
   }
@@ -65,28 +64,42 @@ class NodeStore {
   /// Fills `frame` with the pending events of the node.
   void load(std::uint32_t number, Frame& frame) const {
     const Node& node = nodes_[number];
-    frame.restore(slots_.data() + node.first_slot, node.count, zones_.data() + node.first_bound,
-                  node.losses_left);
+    const Group& group = groups_[node.group];
+    if (node.narrow != nullptr) {
+      frame.restore(group.slots, group.count, node.narrow, group.losses_left);
+    } else {
+      frame.restore(group.slots, group.count, node.wide, group.losses_left);
+    }
   }
 
  private:
-  struct Node {
+  /// What nodes have in common that differ in their times only.
+  struct Group {
     State state;
-    std::size_t first_slot = 0;
-    std::size_t first_bound = 0;
-    std::uint32_t parent = none;
-    std::uint32_t next = none;  // with the same hash
-    std::uint32_t depth = 0;
-    Label label;
+    const Slot* slots = nullptr;
+    std::uint64_t hash = 0;
+    std::uint32_t newest = none;  ///< node
     std::uint8_t count = 0;
     std::uint8_t losses_left = 0;
   };
+  struct Node {
+    const std::int32_t* narrow = nullptr;  ///< bounds, row by row; or
+    const std::int64_t* wide = nullptr;    ///< these
+    std::uint32_t group = 0;
+    std::uint32_t parent = none;
+    std::uint32_t next = none;  ///< of the group
+    std::uint32_t depth = 0;
+    Label label;
+  };
+
+  [[nodiscard]] const Group& group_of(std::uint32_t node) const {
+    return groups_[nodes_[node].group];
+  }
 
   static std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
     hash = (hash ^ word) * 0x9E3779B97F4A7C15U;
     return hash ^ hash >> 29;
   }
-
   static std::uint64_t hash_of(const State& state, const Frame& frame) {
     static_assert(sizeof(State) % 8 == 0 && sizeof(Slot) == 6);
     std::uint64_t hash = frame.losses_left();
@@ -100,30 +113,88 @@ class NodeStore {
     }
     return hash;
   }
-
-  [[nodiscard]] bool same(const Node& node, const State& state, const Frame& frame) const {
-    if (node.count != frame.count() || node.losses_left != frame.losses_left()) return false;
-    if (!(node.state == state)) return false;
-    for (unsigned k = 0; k < node.count; ++k) {
-      if (!(slots_[node.first_slot + k] == frame.slot(k))) return false;
+  static bool same(const Group& group, const State& state, const Frame& frame) {
+    if (group.count != frame.count() || group.losses_left != frame.losses_left()) return false;
+    if (!(group.state == state)) return false;
+    for (unsigned k = 0; k < group.count; ++k) {
+      if (!(group.slots[k] == frame.slot(k))) return false;
     }
     return true;
   }
 
-  [[nodiscard]] bool covers(const Node& node, const Zone& zone) const {
-    const std::int64_t* bound = &zones_[node.first_bound];
-    for (unsigned i = 0; i <= node.count; ++i) {
-      for (unsigned j = 0; j <= node.count; ++j) {
-        if (zone.bound(i, j) > *bound++) return false;
-      }
+  /// The group of the state, which may be new and empty.
+  std::uint32_t find_group(const State& state, const Frame& frame) {
+    const std::uint64_t hash = hash_of(state, frame);
+    std::size_t place = hash & (groups_by_hash_.size() - 1);
+    for (std::uint32_t g = groups_by_hash_[place]; g != none; g = groups_by_hash_[place]) {
+      if (groups_[g].hash == hash && same(groups_[g], state, frame)) return g;
+      place = (place + 1) & (groups_by_hash_.size() - 1);
+    }
+    const auto number = static_cast<std::uint32_t>(groups_.size());
+    groups_by_hash_[place] = number;
+    Slot* const slots = slots_.allocate(frame.count());
+    for (unsigned k = 0; k < frame.count(); ++k) slots[k] = frame.slot(k);
+    groups_.push_back({state, slots, hash, none, static_cast<std::uint8_t>(frame.count()),
+                       static_cast<std::uint8_t>(frame.losses_left())});
+    if (2 * groups_.size() > groups_by_hash_.size()) grow();
+    return number;
+  }
+  void grow() {
+    groups_by_hash_.assign(2 * groups_by_hash_.size(), none);
+    for (std::uint32_t g = 0; g < groups_.size(); ++g) {
+      std::size_t place = groups_[g].hash & (groups_by_hash_.size() - 1);
+      while (groups_by_hash_[place] != none) place = (place + 1) & (groups_by_hash_.size() - 1);
+      groups_by_hash_[place] = g;
+    }
+  }
+
+  template <class Bound>
+  static bool covers(const Bound* known, const Zone& zone) {
+    for (unsigned i = 0; i < zone.size(); ++i, known += zone.size()) {
+      const std::int64_t* const row = zone.row(i);
+      bool exceeds = false;
+      for (unsigned j = 0; j < zone.size(); ++j) exceeds |= row[j] > known[j];
+      if (exceeds) return false;
     }
     return true;
+  }
+  static bool covers(const Node& node, const Zone& zone) {
+    return node.narrow != nullptr ? covers(node.narrow, zone) : covers(node.wide, zone);
+  }
+
+  static bool is_narrow(const Zone& zone) {
+    using Limits = std::numeric_limits<std::int32_t>;
+    bool narrow = true;
+    for (unsigned i = 0; i < zone.size(); ++i) {
+      const std::int64_t* const row = zone.row(i);
+      for (unsigned j = 0; j < zone.size(); ++j) {
+        narrow &= row[j] >= Limits::min() && row[j] <= Limits::max();
+      }
+    }
+    return narrow;
+  }
+  void keep(const Zone& zone, Node& node) {
+    const auto copy = [&]<class Bound>(Arena<Bound>& arena) {
+      Bound* const bounds = arena.allocate(std::size_t{zone.size()} * zone.size());
+      for (unsigned i = 0; i < zone.size(); ++i) {
+        std::transform(zone.row(i), zone.row(i) + zone.size(), bounds + i * zone.size(),
+                       [](std::int64_t bound) { return static_cast<Bound>(bound); });
+      }
+      return bounds;
+    };
+    if (is_narrow(zone)) {
+      node.narrow = copy(narrow_);
+    } else {
+      node.wide = copy(wide_);
+    }
   }
 
   std::vector<Node> nodes_;
-  std::vector<Slot> slots_;
-  std::vector<std::int64_t> zones_;
-  std::unordered_map<std::uint64_t, std::uint32_t> by_hash_;
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> groups_by_hash_;  // open addressing
+  Arena<Slot> slots_;
+  Arena<std::int32_t> narrow_;
+  Arena<std::int64_t> wide_;
 };
 
 }  // namespace stormproof::explorer

@@ -1,7 +1,7 @@
 // What the paper's rules (fsm/composition/paper.hpp) leave to a host: DATA packets are filled up to
 // the grouping limit, and each descriptor is charged against the piggyback budget; a budget that is
 // used up sends a HEARTBEAT in the packet, or after it to every open relation if there are several
-// (model/paper/data.cpp).
+// (model/paper/data.cpp). Where the scope says that the budget is not used up, it is not counted.
 #pragma once
 
 #include "checker/engines/explorer/relation_world.hpp"
@@ -18,7 +18,7 @@ class PaperPacking {
   using WriterOpens = comp::paper::WriterOpens;
   using State = fsm::TypeList<Budget, SentBytes>;
   using SharedState = fsm::TypeList<>;
-  static constexpr unsigned max_descriptors = 3;
+  static constexpr unsigned max_descriptors = most_descriptors;
   static constexpr bool receives_separately = false;
   static constexpr bool one_event_opens_both = true;
   static constexpr bool repairs_leave_later = true;
@@ -26,6 +26,7 @@ class PaperPacking {
   PaperPacking(const model::Scenario& running, const Scope& scope)
       : sedp_{running.dds.sedp},
         count_{scope.descriptors},
+        counts_bytes_{scope.counts_bytes && sedp_.piggyback != model::Piggyback::off},
         sizes_{without_defaults(running.dds.descriptors)} {}
 
   [[nodiscard]] unsigned descriptors() const { return count_; }
@@ -87,13 +88,13 @@ class PaperPacking {
   }
   template <class State>
   void refill(State& state) const {
-    if (sedp_.piggyback == model::Piggyback::off) return;
+    if (!counts_bytes_) return;
     state.template set<Budget>(sedp_.piggyback_threshold_bytes.count());
   }
   /// Charges the bytes, and those of the HEARTBEAT that follows from that; whether it does.
   template <class State>
   [[nodiscard]] bool is_used_up(State& state, std::int64_t added, bool rides) const {
-    if (sedp_.piggyback == model::Piggyback::off) return false;
+    if (!counts_bytes_) return false;
     const bool cumulative = sedp_.piggyback == model::Piggyback::cumulative;
     const std::int64_t sent = state.template get<SentBytes>() + added;
     if (cumulative) state.template set<SentBytes>(sent);
@@ -111,12 +112,14 @@ class PaperPacking {
 
   const model::SedpProfile sedp_;
   const unsigned count_;
+  const bool counts_bytes_;
   const model::DescriptorSizes sizes_;
 };
 
 using PaperWorld = RelationWorld<PaperPacking>;
-using SharedPaperWorld = RelationWorld<PaperPacking, most_readers>;
+using SharedPaperWorld = RelationWorld<PaperPacking, 2>;
 extern template class RelationWorld<PaperPacking>;
+extern template class RelationWorld<PaperPacking, 2>;
 extern template class RelationWorld<PaperPacking, most_readers>;
 
 }  // namespace stormproof::explorer

@@ -6,8 +6,9 @@
 #include <fmt/core.h>
 
 #include "checker/engines/bounds/completion_bound.hpp"
-#include "model/descriptor_sizes.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
+#include "model/packet_sizes.hpp"
 #include "model/simulator.hpp"
 #include "props/monitors/describe.hpp"
 
@@ -23,8 +24,23 @@ bool has_one_delay(const model::Scenario& scenario) {
          scenario.wireless.packet_delays.empty() && scenario.wireless.one_way.count() > 0;
 }
 
-/// The publications of a default participant of Fast DDS.
-constexpr unsigned default_publications = 9;
+constexpr unsigned default_publications = model::fastdds::default_publications;
+
+/// DATA packets that the first descriptors of a stream need if they are sent at once to one reader.
+std::uint32_t packets_of(const model::PacketSizes& sizes, model::Stream stream,
+                         std::uint32_t count) {
+  std::uint32_t packets = 0;
+  std::int64_t payload = 0;
+  for (std::uint32_t d = 0; d < count; ++d) {
+    const std::int64_t bytes = sizes.descriptor(stream, d);
+    if (packets == 0 || sizes.is_full(payload, bytes)) {
+      ++packets;
+      payload = sizes.header + sizes.destination;
+    }
+    payload += bytes;
+  }
+  return packets;
+}
 
 Scope scope_of(const model::Scenario& scenario, Nanoseconds delay, unsigned descriptors,
                unsigned losses) {
@@ -85,10 +101,48 @@ Nanoseconds creation_distance(const model::Scenario& scenario) {
   return Nanoseconds{std::max<std::int64_t>(1, suppression / 2)};
 }
 
-bool splits_packets(const model::Scenario& scenario) {
+Splitting splitting(const model::Scenario& scenario) {
+  const model::PacketSizes sizes = model::packet_sizes(scenario.dds);
+  const model::DescriptorProfile& defaults = scenario.dds.descriptors;
+  std::uint32_t publications = 0;
+  std::uint32_t subscriptions = 0;
+  for (const model::Participant& participant : scenario.deployment.participants) {
+    publications = std::max(publications, participant.publications);
+    subscriptions = std::max(subscriptions, participant.subscriptions);
+  }
+  Splitting splitting;
+  splitting.in_scenario = std::max(
+      packets_of(sizes, model::Stream::pub, defaults.default_publications + publications),
+      packets_of(sizes, model::Stream::sub, defaults.default_subscriptions + subscriptions));
+  model::DdsProfile explored = scenario.dds;
+  unsigned least = default_publications;
+  unsigned most = default_publications;
+  if (!creates_over_time(scenario)) {
+    explored.descriptors.default_publications = 0;
+    least = 2;
+    most = most_descriptors;
+  }
+  for (unsigned count = least; count <= most && !splitting.descriptors; ++count) {
+    const bool splits = packets_of(model::packet_sizes(explored), model::Stream::pub, count) > 1;
+    if (splits) splitting.descriptors = count;
+  }
+  return splitting;
+}
+
+std::optional<std::uint32_t> generated_before_heartbeat(const model::Scenario& scenario) {
+  const model::SedpProfile& sedp = scenario.dds.sedp;
+  if (sedp.piggyback == model::Piggyback::off || creates_over_time(scenario)) return std::nullopt;
+  constexpr std::uint32_t enough = 10'000;
   const std::int64_t bytes = scenario.dds.descriptors.user_bytes.count();
-  return packet_is_full(scenario.dds.sedp, bytes,
-                        bytes - scenario.dds.sedp.shared_header_bytes.count());
+  const bool cumulative = sedp.piggyback == model::Piggyback::cumulative;
+  // As if each were alone in its packet, and nothing filled the budget again.
+  std::int64_t budget = sedp.piggyback_threshold_bytes.count();
+  std::uint32_t count = 0;
+  for (; count < enough; ++count) {
+    budget -= cumulative ? bytes * (count + 1) : bytes;
+    if (budget < 0) break;
+  }
+  return count;
 }
 
 bool creates_over_time(const model::Scenario& scenario) {
@@ -111,23 +165,27 @@ std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
     list.back().side_by_side = true;
     return list;
   }
+  const Splitting split = splitting(scenario);
+  const bool splits = split.in_scenario > 1 && split.descriptors;
   add(1, 0, 0);
-  if (splits_packets(scenario)) add(2, 0, 0);
+  if (splits) add(*split.descriptors, 0, 0);
   add(1, 1, 0);
   add(1, 2, 0);
-  add(2, 1, 0);
+  // Two that share a packet where the scenario's relations fit into one.
+  if (splits || split.descriptors != 2) add(splits ? *split.descriptors : 2, 1, 0);
   return list;
 }
 
 // With delays of their own for all packets of two relations there are too many interleavings to try
 // all of them; with one delay for all there are few, and several losses are possible.
-std::vector<Scope> shared_scopes(const model::Scenario& scenario, Nanoseconds delay) {
+std::vector<Scope> shared_scopes(const model::Scenario& scenario, Nanoseconds delay,
+                                 unsigned readers) {
   const bool created = creates_over_time(scenario);
   std::vector<Scope> list;
   const auto add = [&](unsigned losses, bool one_delay) -> Scope& {
     Scope& scope =
         list.emplace_back(scope_of(scenario, delay, created ? default_publications : 1, losses));
-    scope.readers = most_readers;
+    scope.readers = readers;
     if (one_delay) {
       scope.least_delay = delay;
       scope.leaves_within = Nanoseconds{0};

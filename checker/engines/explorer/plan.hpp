@@ -2,6 +2,7 @@
 // on times that the claims about completion and quiescence refer to.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -28,9 +29,9 @@ struct DelayBound {
 /// The scopes of one relation to explore, cheap ones first.
 [[nodiscard]] std::vector<Scope> scopes(const model::Scenario& scenario, model::Nanoseconds delay);
 
-/// Those of several relations of one writer, cheap ones first.
+/// Those of the relations of one writer with so many readers, 2 … most_readers, cheap ones first.
 [[nodiscard]] std::vector<Scope> shared_scopes(const model::Scenario& scenario,
-                                               model::Nanoseconds delay);
+                                               model::Nanoseconds delay, unsigned readers);
 
 /// Whether descriptors of the world come into being one after the other. There, HEARTBEATs that
 /// ride in DATA are left out.
@@ -39,8 +40,23 @@ struct DelayBound {
 /// If so: the time between the creations of two descriptors that are created after the match.
 [[nodiscard]] model::Nanoseconds creation_distance(const model::Scenario& scenario);
 
-/// Whether the first two user descriptors travel in different packets.
-[[nodiscard]] bool splits_packets(const model::Scenario& scenario);
+/// How descriptors that are sent at once are split over packets. Splitting matters: what happens to
+/// one packet need not happen to the other.
+struct Splitting {
+  /// Packets that the scenario's largest relation needs.
+  std::uint32_t in_scenario = 1;
+  /// With how many descriptors the explored relation needs two; absent: with none that it can have.
+  std::optional<unsigned> descriptors;
+
+  /// The explored relation cannot be split as the scenario's are.
+  [[nodiscard]] bool cannot_follow() const { return in_scenario > 1 && !descriptors; }
+};
+[[nodiscard]] Splitting splitting(const model::Scenario& scenario);
+
+/// How many descriptors can be put into DATA, whatever else happens, before a HEARTBEAT has to ride
+/// in one. Absent if none ever rides, or if those that do are left out.
+[[nodiscard]] std::optional<std::uint32_t> generated_before_heartbeat(
+    const model::Scenario& scenario);
 
 /// B(k) for the scope (checker/engines/bounds/completion_bound.hpp): no later than this after the
 /// start of the world everything is received. Absent where that bound counts from something else:

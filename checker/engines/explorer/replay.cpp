@@ -71,18 +71,6 @@ class PacketList final : public model::Probe {
   unsigned readers_;
 };
 
-/// When the world starts, in the time of the run.
-Nanoseconds start_of_world(const ReplayRequest& request, const ConcretePath& path) {
-  if (!creates_over_time(request.running)) return Nanoseconds{0};
-  const std::int64_t margin = 1'000;  // what exists at the match has been created before
-  const std::int64_t creation = path.time_of(What::creation).value_or(Nanoseconds{0}).count();
-  if (request.scope.pushed == 0) return Nanoseconds{margin};
-  // The last publication is the 16th of 17 endpoints that are created at equal distances, the last
-  // but one is the 15th. Both must be the only ones after the start of the world.
-  if (request.scope.pushed == 1) return Nanoseconds{16 * creation + margin};
-  return Nanoseconds{15 * creation_distance(request.running).count() - creation};
-}
-
 /// When participant 0 has created its last endpoint.
 Nanoseconds endpoints_done(const ReplayRequest& request, const ConcretePath& path,
                            Nanoseconds start) {
@@ -180,9 +168,29 @@ std::string difference(const ConcretePath& path, const PacketList& list, Nanosec
   return {};
 }
 
-constexpr std::uint64_t most_events = 200'000;  // of a run; a replay needs a few hundred
-
 }  // namespace
+
+Nanoseconds start_of_world(const ReplayRequest& request, const ConcretePath& path) {
+  if (!creates_over_time(request.running)) return Nanoseconds{0};
+  const std::int64_t margin = 1'000;  // what exists at the match has been created before
+  const std::int64_t creation = path.time_of(What::creation).value_or(Nanoseconds{0}).count();
+  if (request.scope.pushed == 0) return Nanoseconds{margin};
+  // The last publication is the 16th of 17 endpoints that are created at equal distances, the last
+  // but one is the 15th. Both must be the only ones after the start of the world.
+  if (request.scope.pushed == 1) return Nanoseconds{16 * creation + margin};
+  return Nanoseconds{15 * creation_distance(request.running).count() - creation};
+}
+
+model::RunResult run(const ReplayRequest& request, const model::Scenario& scenario,
+                     model::Probe& probe) {
+  constexpr std::uint64_t most_events = 200'000;  // a replay needs a few hundred
+  model::RunOptions options;
+  options.probe = &probe;
+  options.mutation = request.mutation;
+  options.max_events = most_events;
+  return request.maker == nullptr ? model::simulate(scenario, options)
+                                  : model::simulate(scenario, options, *request.maker);
+}
 
 std::optional<model::Scenario> scenario_of(const ReplayRequest& request, const ConcretePath& path,
                                            std::string& why_not) {
@@ -191,11 +199,7 @@ std::optional<model::Scenario> scenario_of(const ReplayRequest& request, const C
   // Each round settles at least one more packet, and announcements settle with them.
   for (std::size_t round = 0; round < path.packets.size() + 20; ++round) {
     PacketList list{request.scope.readers};
-    model::RunOptions options;
-    options.probe = &list;
-    options.mutation = request.mutation;
-    options.max_events = most_events;
-    static_cast<void>(model::simulate(scenario, options));
+    run(request, scenario, list);
     const model::Scenario before = scenario;
     assign(request, path, list, scenario);
     if (scenario == before) {
@@ -224,11 +228,7 @@ ReplayOutcome replay(const ReplayRequest& request, const ConcretePath& path,
     outcome.why_not = "There is no monitor that could confirm the violation.";
     return outcome;
   }
-  model::RunOptions options;
-  options.probe = monitor.get();
-  options.mutation = request.mutation;
-  options.max_events = most_events;
-  const model::RunResult result = model::simulate(*scenario, options);
+  const model::RunResult result = run(request, *scenario, *monitor);
   monitor->finish(model::trace::known_until(result, *scenario));
   if (!monitor->violation()) {
     outcome.why_not = "The monitor does not object to the simulator's run of the path.";

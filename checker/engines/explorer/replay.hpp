@@ -10,7 +10,13 @@
 #include <string>
 
 #include "checker/engines/explorer/path.hpp"
+#include "model/probe.hpp"
+#include "model/run_result.hpp"
 #include "props/verdict.hpp"
+
+namespace stormproof::model {
+struct ImplementationMaker;  // model/engine/implementation_maker.hpp
+}  // namespace stormproof::model
 
 namespace stormproof::explorer {
 
@@ -20,6 +26,8 @@ struct ReplayRequest {
   const model::Mutation* mutation = nullptr;
   const Scope& scope;
   Bounds bounds;
+  /// Who executes the rules, if not the implementation that the profile names.
+  const model::ImplementationMaker* maker = nullptr;
 };
 
 struct ReplayOutcome {
@@ -27,8 +35,16 @@ struct ReplayOutcome {
   std::string why_not;  ///< one sentence; empty if there is a counterexample
 };
 
+/// The simulator's run of a scenario of a path.
+model::RunResult run(const ReplayRequest& request, const model::Scenario& scenario,
+                     model::Probe& probe);
+
 [[nodiscard]] ReplayOutcome replay(const ReplayRequest& request, const ConcretePath& path,
                                    std::string_view property);
+
+/// When the explored world starts, in the time of the run.
+[[nodiscard]] model::Nanoseconds start_of_world(const ReplayRequest& request,
+                                                const ConcretePath& path);
 
 /// The scenario of the path, with the delay of every packet of the path; or why there is none.
 [[nodiscard]] std::optional<model::Scenario> scenario_of(const ReplayRequest& request,

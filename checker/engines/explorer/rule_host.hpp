@@ -19,7 +19,6 @@
 //   answer(tag), fact(tag, world), perform(step, world, …)   steps without one run their contract
 #pragma once
 
-#include <array>
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -28,67 +27,14 @@
 #include <type_traits>
 #include <utility>
 
-#include <boost/pfr.hpp>
-
 #include "checker/engines/explorer/claims.hpp"
+#include "checker/engines/explorer/host_parts.hpp"
 #include "checker/engines/explorer/slot_fields.hpp"
-#include "fsm/stepper.hpp"
 #include "model/engine/effect_mutator.hpp"
 #include "model/engine/running_world.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::explorer {
-
-namespace detail {
-/// The machines of a part.
-template <class P>
-class PartMachines {
- public:
-  explicit PartMachines(std::span<const fsm::TableMutation> tables) : machines_{tables} {}
-  template <class Event>
-  auto step(fsm::StateId& state, const typename fsm::Stepper<typename P::Machine>::Input& input,
-            std::uint32_t = 0) {
-    return machines_.template step<Event>(state, input);
-  }
-
- private:
-  fsm::Stepper<typename P::Machine> machines_;
-};
-template <class Parts>
-class Machines;
-template <class... Ps>
-class Machines<fsm::TypeList<Ps...>> : public PartMachines<Ps>... {
- public:
-  explicit Machines(std::span<const fsm::TableMutation> tables) : PartMachines<Ps>{tables}... {}
-};
-
-/// All subsets of the numbers 0, step, 2·step, …, each in ascending order.
-template <unsigned count>
-class Subsets {
- public:
-  explicit constexpr Subsets(std::uint32_t step) {
-    for (unsigned set = 0; set < sizes_.size(); ++set) {
-      for (unsigned k = 0; k < count; ++k) {
-        if ((set >> k & 1) != 0) members_[set][sizes_[set]++] = k * step;
-      }
-    }
-  }
-  [[nodiscard]] std::span<const std::uint32_t> of(unsigned set) const {
-    return {members_[set].data(), sizes_[set]};
-  }
-
- private:
-  std::array<std::array<std::uint32_t, count>, std::size_t{1} << count> members_{};
-  std::array<unsigned, std::size_t{1} << count> sizes_{};
-};
-
-/// The part of which each descriptor has one: the writer's view of it.
-template <class... Ps>
-auto descriptor_part(fsm::TypeList<Ps...>) {
-  return std::get<0>(std::tuple_cat(
-      std::conditional_t<Ps::owner == comp::owner::descriptor, std::tuple<Ps>, std::tuple<>>{}...));
-}
-}  // namespace detail
 
 template <class Packing_, unsigned readers_ = 1>
 class RuleHost {
@@ -99,13 +45,7 @@ class RuleHost {
   using Packet = Slot;
   /// The writer's view of a descriptor, the paper's letter.
   using C = decltype(detail::descriptor_part(typename Composition::Parts{}));
-  using State =
-      WorldState<comp::Joined<typename Composition::Parts, typename Composition::Timers,
-                              typename Composition::State, typename Packing::State,
-                              std::conditional_t<(readers_ > 1), typename Packing::SharedState,
-                                                 fsm::TypeList<>>,
-                              fsm::TypeList<Asked, Generated>>,
-                 Packing::max_descriptors, readers_>;
+  using State = detail::StateOf<Packing, readers_>;
 
   RuleHost(const model::Scenario& running, const Scope& scope, const model::Mutation& mutation)
       : packing_{running, scope},
@@ -179,17 +119,7 @@ class RuleHost {
 
   // What a RunningWorld asks of its host.
   [[nodiscard]] comp::Watcher* watcher() { return mutator_.is_needed() ? &mutator_ : nullptr; }
-  struct OneWriter {
-    unsigned descriptors;
-    /// There is nothing in the reverse direction.
-    [[nodiscard]] static model::Pair pair(std::uint32_t number) {
-      return {0, number + 1, number, true};
-    }
-    [[nodiscard]] std::uint32_t descriptor_count(std::uint32_t, model::Stream) const {
-      return descriptors;
-    }
-  };
-  [[nodiscard]] OneWriter topology() const { return {count_}; }
+  [[nodiscard]] detail::OneWriter topology() const { return {count_}; }
   [[nodiscard]] static std::int64_t now() { return 0; }
   template <class Knob>
   [[nodiscard]] auto knob(Knob knob) const {
@@ -250,12 +180,8 @@ class RuleHost {
                  static_cast<Members>(lanes.listed.bits & members), as_emitted_);
     }
     for (std::uint64_t left = members; left != 0; left &= left - 1) {
-      typename fsm::Stepper<typename C::Machine>::Input input;
-      [&]<std::size_t... I>(std::index_sequence<I...>) {
-        ((boost::pfr::get<I>(input) = (boost::pfr::get<I>(lanes).bits & left & -left) != 0), ...);
-      }
-      (std::make_index_sequence<boost::pfr::tuple_size_v<LaneInput>>{});
-      step<Event>(relation, 0, left & -left, input, effect);
+      using Input = typename fsm::Stepper<typename C::Machine>::Input;
+      step<Event>(relation, 0, left & -left, detail::input_of<Input>(left & -left, lanes), effect);
     }
   }
 

@@ -10,12 +10,15 @@
 namespace stormproof::explorer {
 
 /// Readers of one writer that can be explored together.
-inline constexpr unsigned most_readers = 2;
+inline constexpr unsigned most_readers = 3;
+/// Descriptors of a writer whose implementation does not say how many there are.
+inline constexpr unsigned most_descriptors = 8;
 
 struct Scope {
-  unsigned descriptors = 1;        ///< D, 1 … 3 (paper); the 9 default publications with Fast DDS
-  unsigned losses = 0;             ///< k, at most this many packets are lost
-  model::Nanoseconds least_delay;  ///< of a packet, from generation to reception
+  /// D, 1 … most_descriptors; with Fast DDS the 9 default publications.
+  unsigned descriptors = 1;
+  unsigned losses = 0;               ///< k, at most this many packets are lost
+  model::Nanoseconds least_delay;    ///< of a packet, from generation to reception
   model::Nanoseconds largest_delay;  ///< Δ
   model::Nanoseconds
       leaves_within;    ///< Δ_s: repair DATA leave the source at most this long after generation
@@ -26,6 +29,8 @@ struct Scope {
   /// With several readers: the last one joins at most this long after the others, which learn of
   /// the writer together. Not with `side_by_side`.
   model::Nanoseconds joins_within;
+  /// The piggyback budget is part of the state; otherwise it is never used up.
+  bool counts_bytes = true;
 };
 
 /// "D = 2, delays in [0 ms, 250 ms], at most 1 loss, any interleaving".

@@ -5,9 +5,10 @@
 // and knows nothing of searching; the search knows nothing of the protocol.
 //
 // Three claims are the search's own, because they are not about one state of the protocol:
-//   no stall: from every state some path without further loss leads to X_d = 1. Decided backwards
-//     over the explored graph, which must be exhausted for that; a state that is stuck (nothing
-//     pending, something missing) is reported at once;
+//   no stall: from every state, paths without further loss lead to X_d = 1. Decided backwards over
+//     the explored graph (checker/engines/explorer/state_graph.hpp), which must be exhausted for
+//     that; a state that is stuck (nothing pending, something missing) is reported at once. What is
+//     pending counts for nothing by itself: an event that leads nowhere does not prevent a stall;
 //   completion: nothing is missing any more at time B;
 //   quiescence: nothing is emitted later than Q after nothing is missing, if nothing is lost then.
 #pragma once
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <functional>
 #include <optional>
 
@@ -32,12 +32,22 @@ struct Bounds {
 struct SearchOptions {
   bool mark_opening = false;  ///< keeps the mark `opened` even if no bound refers to it
   Claims claims = 0;          ///< what is looked for; the search ends when all of it is found
+  // Limits that are the same on every machine.
   std::uint64_t max_states = 1'000'000;
-  std::size_t max_bytes = std::size_t{512} << 20;
-  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  std::size_t max_bytes = std::size_t{512} << 20;  ///< for states
   Bounds bounds;
   bool stop_when_complete = false;  ///< states in which nothing is missing are not expanded
-  std::function<bool()> go_on;      ///< called now and then; false ends the search
+  /// How far the descriptors that are put into DATA along one path are counted; 0: not at all.
+  std::uint32_t count_generated = 0;
+  std::function<bool()> go_on;  ///< called now and then; false ends the search
+};
+
+/// Why not all paths have been tried.
+enum class CutShort : std::uint8_t {
+  no,
+  by_limit,        ///< of states or bytes
+  by_overflow,     ///< some state has more pending events, or some step more packets, than fit
+  by_interruption  ///< or everything that was asked for has been objected to
 };
 
 struct SearchResult {
@@ -46,10 +56,14 @@ struct SearchResult {
   std::uint64_t states = 0;
   std::uint64_t steps = 0;  ///< fired events
   std::uint32_t depth = 0;  ///< all paths up to this many events have been tried
-  bool exhausted = false;   ///< all paths have been tried
-  /// Some state had more pending events, or some step emitted more packets, than fit.
-  bool overflowed = false;
+  CutShort cut_short = CutShort::no;
+  /// States, after all paths have been tried, of which it is open whether they stall.
+  std::uint32_t undecided = 0;
+  std::uint32_t most_generated = 0;      ///< along one path, as far as was to be counted
   model::Nanoseconds latest_completion;  ///< with a bound: the latest time found
+
+  /// All paths have been tried.
+  [[nodiscard]] bool exhausted() const { return cut_short == CutShort::no; }
 };
 
 template <class World>
@@ -62,11 +76,17 @@ class Search {
   SearchResult run() {
     start();
     std::uint32_t next = 0;
-    while (next < store_.size() && !finished() && !interrupted(next)) expand(next++);
+    while (next < store_.size() && goes_on(next)) expand(next++);
     result_.states = store_.size();
-    result_.exhausted = next == store_.size() && !result_.overflowed;
-    result_.depth = store_.depth(std::min(next, store_.size() - 1));
-    if (result_.exhausted) decide_on_graph();
+    result_.depth = store_.depth(std::min({next, first_overflow_, store_.size() - 1}));
+    if (result_.exhausted() && first_overflow_ != store_.none) {
+      result_.cut_short = CutShort::by_overflow;
+    }
+    graph_.finish(store_.size());
+    if (options_.count_generated > 0) {
+      result_.most_generated = graph_.most_generated(options_.count_generated);
+    }
+    if (result_.exhausted()) decide_on_stalls();
     return result_;
   }
 
@@ -77,14 +97,16 @@ class Search {
 
   [[nodiscard]] bool wants(Claim claim) const { return (wanted_ & bit(claim)) != 0; }
 
-  /// Everything that was asked for has been objected to.
-  [[nodiscard]] bool finished() const { return options_.claims != 0 && wanted_ == 0; }
-
-  bool interrupted(std::uint32_t next) {
-    if (store_.size() > options_.max_states || store_.bytes() > options_.max_bytes) return true;
-    if (next % check_interval != check_interval - 1) return false;
-    if (std::chrono::steady_clock::now() > options_.deadline) return true;
-    return options_.go_on && !options_.go_on();
+  /// Whether state `next` is expanded; if not, the result says why.
+  bool goes_on(std::uint32_t next) {
+    const bool all_found = options_.claims != 0 && wanted_ == 0;
+    if (store_.size() > options_.max_states || store_.bytes() > options_.max_bytes) {
+      result_.cut_short = CutShort::by_limit;
+    } else if (all_found || (next % check_interval == check_interval - 1 && options_.go_on &&
+                             !options_.go_on())) {
+      result_.cut_short = CutShort::by_interruption;
+    }
+    return result_.exhausted();
   }
 
   void start() {
@@ -104,7 +126,7 @@ class Search {
       if (is_mark(frame.slot(k).what) || !frame.can_be_next(k)) continue;
       const unsigned packets = follow(node, frame, {static_cast<std::uint8_t>(k), 0});
       const unsigned variants = frame.losses_left() > 0 ? 1U << std::min(packets, most_lost) : 1U;
-      if (frame.losses_left() > 0 && packets > most_lost) result_.overflowed = true;
+      if (frame.losses_left() > 0 && packets > most_lost) note_overflow(node);
       for (unsigned mask = 1; mask < variants; ++mask) {
         if (static_cast<unsigned>(std::popcount(mask)) > frame.losses_left()) continue;
         follow(node, frame, {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(mask)});
@@ -121,7 +143,7 @@ class Search {
     const Claims fresh = frame.objections() & wanted_;
     if (fresh != 0) note(fresh, node, label);
     if (frame.overflowed()) {
-      result_.overflowed = true;
+      note_overflow(node);
       return frame.emitted();
     }
     if (options_.bounds.completion && world_.complete(state) &&
@@ -131,7 +153,10 @@ class Search {
           std::max(result_.latest_completion, model::Nanoseconds{frame.zone().bound(0, mark + 1)});
     }
     const auto [target, added] = store_.add(state, frame, node, label);
-    if (wants(Claim::no_stall) && label.loss_mask == 0) graph_.add_edge(node, target);
+    if (wants(Claim::no_stall) || options_.count_generated > 0) {
+      graph_.add(
+          {node, target, static_cast<std::uint16_t>(frame.generated()), label.loss_mask != 0});
+    }
     return frame.emitted();
   }
 
@@ -190,14 +215,20 @@ class Search {
     return path;
   }
 
-  void decide_on_graph() {
-    graph_.finish(store_.size());
+  /// Not all steps from `node` have been taken as far as they go.
+  void note_overflow(std::uint32_t node) { first_overflow_ = std::min(first_overflow_, node); }
+
+  void decide_on_stalls() {
     for (unsigned d = 0; d < world_.deliveries() && wants(Claim::no_stall); ++d) {
       const auto received = [&](std::uint32_t node) {
         return (world_.received(store_.state(node)) >> d & 1) != 0;
       };
-      if (const auto stuck = graph_.first_that_cannot_reach(received))
+      const std::uint32_t open = graph_.count_not_bound_to_reach(received);
+      if (open == 0) continue;
+      if (const auto stuck = graph_.first_that_cannot_reach(received)) {
         note_node(Claim::no_stall, *stuck);
+      }
+      result_.undecided = std::max(result_.undecided, open);
     }
   }
 
@@ -212,6 +243,7 @@ class Search {
   StateGraph graph_;
   SearchResult result_;
   Claims wanted_ = 0;
+  std::uint32_t first_overflow_ = NodeStore<State>::none;
 };
 
 }  // namespace stormproof::explorer

@@ -6,6 +6,8 @@ namespace stormproof::explorer {
 
 template class RelationWorld<PaperPacking>;
 template class RelationWorld<FastDdsPacking>;
+template class RelationWorld<PaperPacking, 2>;
+template class RelationWorld<FastDdsPacking, 2>;
 template class RelationWorld<PaperPacking, most_readers>;
 template class RelationWorld<FastDdsPacking, most_readers>;
 

@@ -39,8 +39,12 @@ class Zone {
   /// The largest value of x_a - x_b, ns.
   [[nodiscard]] std::int64_t bound(unsigned a, unsigned b) const { return d_[a][b]; }
 
+  /// The largest values of x_a - x_b for all b.
+  [[nodiscard]] const std::int64_t* row(unsigned a) const { return d_[a].data(); }
+
   /// Takes `size` variables, the present included, with these bounds, row by row.
-  void assign(unsigned size, const std::int64_t* bounds) {
+  template <class Bound>
+  void assign(unsigned size, const Bound* bounds) {
     size_ = size;
     for (unsigned i = 0; i < size; ++i) {
       std::copy(bounds + i * size, bounds + (i + 1) * size, d_[i].begin());
@@ -79,7 +83,9 @@ class Zone {
   void remove(unsigned v) {
     --size_;
     for (unsigned i = 0; i < size_; ++i) {
-      for (unsigned j = 0; j < size_; ++j) d_[i][j] = d_[i < v ? i : i + 1][j < v ? j : j + 1];
+      const auto& from = d_[i < v ? i : i + 1];
+      if (i >= v) std::copy(from.begin(), from.begin() + v, d_[i].begin());
+      std::copy(from.begin() + v + 1, from.begin() + size_ + 1, d_[i].begin() + v);
     }
   }
 

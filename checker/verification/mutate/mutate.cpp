@@ -68,6 +68,7 @@ struct Ground {
   Trial trial;
   EngineFunction engine;
   Ids hold;
+  unsigned readers = 1;  ///< of one writer, for the explorer
 };
 
 class Mutator {
@@ -123,8 +124,8 @@ class Mutator {
     return list;
   }
 
-  CheckRequest request(const Trial& trial, const checker::Mutant* mutant) {
-    return {trial.scenario, claims_, mutant, 0, 1, options_.on_progress};
+  CheckRequest request(const Trial& trial, const checker::Mutant* mutant, unsigned readers = 1) {
+    return {trial.scenario, claims_, mutant, 0, 1, options_.on_progress, readers};
   }
 
   /// The grounds of an implementation; what holds there is found out once.
@@ -149,6 +150,19 @@ class Mutator {
     return list;
   }
 
+  /// Those on which the explorer looks at several readers of one writer.
+  std::vector<Ground>& shared_grounds(model::ImplementationKind implementation) {
+    std::vector<Ground>& list = shared_grounds_[model::index_of(implementation)];
+    if (!list.empty()) return list;
+    for (const Trial& trial : trials(implementation)) {
+      if (!trial.all_engines) continue;
+      constexpr unsigned two = 2;
+      const Ids broken = violated(explorer::check, whole_catalogue(), request(trial, nullptr, two));
+      list.push_back({trial, explorer::check, without(whole_catalogue(), broken), two});
+    }
+    return list;
+  }
+
   MutantResult try_out(const CatalogueEntry& entry) {
     Ids killers;
     for (const auto implementation : entry.concerns) {
@@ -163,16 +177,21 @@ class Mutator {
     return result_of(entry, killers, std::move(laws));
   }
 
-  /// Runs first, then laws, the recorded composition and the search, until somebody notices.
+  /// Runs first, then laws, the recorded composition and the search, with several readers if one
+  /// shows nothing, until somebody notices.
   MutantResult try_effect(const CatalogueEntry& entry) {
     Ids killers;
-    const auto ask = [&](EngineFunction engine, const Ids& properties) {
-      for (const Ground& ground : grounds(entry.concerns.front())) {
+    const auto ask_on = [&](std::vector<Ground>& list, EngineFunction engine,
+                            const Ids& properties) {
+      for (const Ground& ground : list) {
         if (ground.engine != engine || !killers.empty()) continue;
         Ids asked;
         std::ranges::set_intersection(ground.hold, properties, std::inserter(asked, asked.end()));
-        killers = violated(engine, asked, request(ground.trial, &entry.mutant));
+        killers = violated(engine, asked, request(ground.trial, &entry.mutant, ground.readers));
       }
+    };
+    const auto ask = [&](EngineFunction engine, const Ids& properties) {
+      ask_on(grounds(entry.concerns.front()), engine, properties);
     };
     const Ids all = whole_catalogue();
     ask(exact::check, all);
@@ -181,6 +200,9 @@ class Mutator {
     if (killers.empty()) laws = laws_.killers(entry);
     if (laws && laws->empty()) ask(tables::check, {"composition.total"});
     if (laws && laws->empty()) ask(explorer::check, all);
+    if (laws && laws->empty() && killers.empty()) {
+      ask_on(shared_grounds(entry.concerns.front()), explorer::check, all);
+    }
     if (laws && laws->empty()) laws.reset();
     MutantResult result = result_of(entry, killers, std::move(laws));
     if (result.noticed()) return result;
@@ -212,6 +234,7 @@ class Mutator {
   const MutateOptions& options_;
   smt::Claims claims_;
   std::array<std::vector<Ground>, model::implementations.size()> grounds_;
+  std::array<std::vector<Ground>, model::implementations.size()> shared_grounds_;
   LawTrials laws_{goes_on()};
   EffectTrials effects_{goes_on()};
 };

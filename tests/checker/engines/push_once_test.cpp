@@ -10,8 +10,11 @@
 #include "checker/engines/smt/claims.hpp"
 #include "checker/engines/tables/derive.hpp"
 #include "checker/engines/tables/descriptor_system.hpp"
+#include "model/engine/implementation_maker.hpp"
+#include "tests/checker/engines/explorer/enumeration.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
 #include "tests/checker/engines/promela/run_in_test.hpp"
+#include "tests/model/push_once/push_once_host.hpp"
 
 namespace stormproof {
 namespace push_once_test {
@@ -83,8 +86,19 @@ bool stalls(unsigned losses) {
   explorer::SearchOptions options;
   options.claims = explorer::bit(explorer::Claim::no_stall);
   const explorer::SearchResult result = explorer::Search<World>{world, options}.run();
-  EXPECT_TRUE(result.exhausted || losses > 0);
+  EXPECT_TRUE(result.exhausted() || losses > 0);
   return result.objections[static_cast<std::size_t>(explorer::Claim::no_stall)].has_value();
+}
+
+TEST(PushOnceExplorer, DoesWhatTheSimulatorDoes) {
+  const auto maker = model::maker_of<model::PushOnceHost>(model::SameHostPairs::left_out);
+  explorer::Scope scope;
+  scope.descriptors = 2;
+  scope.losses = 1;
+  scope.least_delay = model::Nanoseconds{1};
+  scope.largest_delay = model::Nanoseconds{3};
+  const model::Scenario scenario = explorer::tiny_scenario();
+  EXPECT_GT(explorer::expect_equal_outcomes<World>(scenario, scope, &maker), 20U);
 }
 
 TEST(PushOnceExplorer, StallsExactlyIfSomethingIsLost) {

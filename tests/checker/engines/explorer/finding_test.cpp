@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "checker/engines/explorer/explorer.hpp"
@@ -92,7 +93,7 @@ TEST(Explorer, ARepairIsPossibleOnlyIfDataTakeLongerThanTheResponseDelay) {
     scenario.dds.sedp.heartbeat_response_delay = Nanoseconds{response};
     scope.largest_delay = Nanoseconds{response};
     SearchResult result = search_paper(scenario, scope, Claim::free_threshold);
-    EXPECT_TRUE(result.exhausted);
+    EXPECT_TRUE(result.exhausted());
     EXPECT_FALSE(result.objections[static_cast<std::size_t>(Claim::free_threshold)]);
     scope.largest_delay = Nanoseconds{response + 1};
     result = search_paper(scenario, scope, Claim::free_threshold);
@@ -107,7 +108,7 @@ TEST(Explorer, NoRepairIsPossibleAsLongAsNothingOvertakesData) {
   scope.largest_delay = Nanoseconds{5};
   scope.fifo = true;
   SearchResult result = search_paper(scenario, scope, Claim::free_threshold);
-  EXPECT_TRUE(result.exhausted);
+  EXPECT_TRUE(result.exhausted());
   EXPECT_FALSE(result.objections[static_cast<std::size_t>(Claim::free_threshold)]);
   scope.fifo = false;
   result = search_paper(scenario, scope, Claim::free_threshold);
@@ -146,7 +147,7 @@ TEST(Explorer, CompletionBoundIsAttainedButNotExceeded) {
   options.stop_when_complete = true;
   options.bounds.completion = bound;
   SearchResult result = Search<PaperWorld>{world, options}.run();
-  EXPECT_TRUE(result.exhausted);
+  EXPECT_TRUE(result.exhausted());
   EXPECT_FALSE(result.objections[static_cast<std::size_t>(Claim::completion)]);
   EXPECT_EQ(result.latest_completion, *bound);
 
@@ -200,14 +201,97 @@ TEST(Explorer, AnUnfinishedSearchSaysHowFarItCame) {
   options.claims = bit(Claim::no_stall);
   options.max_states = 2'000;
   SearchResult result = Search<PaperWorld>{world, options}.run();
-  EXPECT_FALSE(result.exhausted);
+  EXPECT_EQ(result.cut_short, CutShort::by_limit);
   EXPECT_GT(result.depth, 2U);
   EXPECT_LT(result.depth, 50U);
 
   options.max_states = 1'000'000;
   options.go_on = [] { return false; };
   result = Search<PaperWorld>{world, options}.run();
-  EXPECT_FALSE(result.exhausted);
+  EXPECT_EQ(result.cut_short, CutShort::by_interruption);
+}
+
+TEST(Explorer, WhatDoesNotFitIntoAStateIsNotOverlooked) {
+  // Hundreds of HEARTBEATs are under way when the first one arrives.
+  model::Scenario scenario = wired(100'000'000);
+  scenario.wireless.packet_delays.clear();
+  scenario.dds.sedp.heartbeat_period = Nanoseconds{1'000'000};
+  scenario.dds.sedp.initial_data = model::InitialData::pull;
+  Scope scope;
+  scope.least_delay = scope.largest_delay = scenario.wireless.one_way;
+  PaperWorld world{scenario, scenario, scope, {}};
+  SearchOptions options;
+  options.claims = bit(Claim::no_stall);
+  const SearchResult result = Search<PaperWorld>{world, options}.run();
+  EXPECT_EQ(result.cut_short, CutShort::by_overflow);
+  // Every step before has been taken, and there are no more.
+  EXPECT_EQ(result.states, result.depth + 1);
+  const Finding finding = find(scenario, "live.no-stall");
+  EXPECT_EQ(finding.kind, VerdictKind::inconclusive) << finding.how;
+  EXPECT_NE(finding.how.find(fmt::format("all paths of up to {} events", result.depth)),
+            std::string::npos)
+      << finding.how;
+}
+
+TEST(Explorer, ASearchThatIsCutShortIsNoVerdict) {
+  const model::Scenario scenario = wired(250'000'000);  // thousands of states
+  const std::array<std::string_view, 1> ids{"live.no-stall"};
+  const auto stop = [](std::string_view what) { return !what.starts_with("exploring"); };
+  const Finding finding = explore(ids, {scenario, nullptr, stop}).at(0).second;
+  EXPECT_EQ(finding.kind, VerdictKind::inconclusive);
+  EXPECT_EQ(finding.how, "interrupted");
+}
+
+TEST(Explorer, GivesTheSameAnswerTwice) {
+  const model::Scenario scenario = wired(100'000);
+  const Finding first = find(scenario, "timer.suppression-honoured");
+  const Finding second = find(scenario, "timer.suppression-honoured");
+  EXPECT_EQ(first.how, second.how);
+  EXPECT_EQ(first.details, second.details);
+}
+
+TEST(Explorer, DescriptorsAreSplitOverPacketsAsInTheScenario) {
+  model::Scenario scenario = wired(100'000);
+  EXPECT_EQ(splitting(scenario).in_scenario, 1U);
+  scenario.dds.sedp.grouping = model::Grouping::mtu;
+  scenario.dds.descriptors.user_bytes = model::Bytes{300};
+  // 36 bytes are shared, 5 of 264 bytes fit beside them.
+  EXPECT_GT(splitting(scenario).in_scenario, 1U);
+  EXPECT_EQ(splitting(scenario).descriptors, 6U);
+  const Finding finding = find(scenario, "timer.suppression-honoured");
+  ASSERT_EQ(finding.kind, VerdictKind::violated) << finding.how;
+  EXPECT_EQ(finding.counterexample->scenario.deployment.participants[0].publications, 6U);
+
+  // Nothing is split where there is one descriptor.
+  scenario.dds.descriptors.default_publications = 0;
+  scenario.dds.descriptors.default_subscriptions = 0;
+  scenario.dds.sedp.grouping = model::Grouping::single;
+  for (model::Participant& participant : scenario.deployment.participants) {
+    participant.publications = 1;
+    participant.subscriptions = 0;
+  }
+  EXPECT_EQ(splitting(scenario).in_scenario, 1U);
+  EXPECT_EQ(find(scenario, "timer.suppression-honoured").kind, VerdictKind::bounded);
+
+  // So many share a packet that the explored relation has not enough.
+  scenario.dds.sedp.grouping = model::Grouping::message;
+  for (model::Participant& participant : scenario.deployment.participants) {
+    participant.publications = 1'000;
+  }
+  EXPECT_TRUE(splitting(scenario).cannot_follow());
+  const Finding unlike = find(scenario, "timer.suppression-honoured");
+  EXPECT_TRUE(std::ranges::any_of(unlike.assumptions, [](const std::string& assumption) {
+    return assumption.find("largest relation takes") != std::string::npos;
+  }));
+}
+
+TEST(Explorer, FastDdssDescriptorsAreSplitOverMessages) {
+  model::Scenario scenario = wired(100'000);
+  scenario.dds.implementation = model::ImplementationKind::fastdds;
+  EXPECT_EQ(splitting(scenario).in_scenario, 1U);
+  scenario.dds.sedp.grouping_limit_bytes = model::Bytes{1'456};
+  EXPECT_GT(splitting(scenario).in_scenario, 2U);
+  EXPECT_FALSE(splitting(scenario).cannot_follow());
 }
 
 }  // namespace finding_test

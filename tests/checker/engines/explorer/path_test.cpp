@@ -27,15 +27,34 @@ TEST(EarliestTimes, AContradictionHasNone) {
 
 TEST(StateGraph, FindsWhatCannotReachTheGoal) {
   StateGraph graph;  // 0 → 1 → 2 (goal), 0 → 3 ⇄ 4
-  graph.add_edge(0, 1);
-  graph.add_edge(1, 2);
-  graph.add_edge(0, 3);
-  graph.add_edge(3, 4);
-  graph.add_edge(4, 3);
+  graph.add({0, 1});
+  graph.add({1, 2});
+  graph.add({0, 3});
+  graph.add({3, 4});
+  graph.add({4, 3});
   graph.finish(5);
   EXPECT_EQ(graph.first_that_cannot_reach([](std::uint32_t k) { return k == 2; }), 3U);
   EXPECT_EQ(graph.first_that_cannot_reach([](std::uint32_t k) { return k == 2 || k == 4; }),
             std::nullopt);
+}
+
+TEST(StateGraph, TellsWhatMustHappenFromWhatCan) {
+  const auto is_last = [](std::uint32_t state) { return state == 2; };
+  StateGraph graph;
+  graph.add({0, 1, 3, false});
+  graph.add({1, 2, 1, false});
+  graph.add({1, 3, 0, true});  // a loss
+  graph.add({3, 3, 0, false});
+  graph.finish(4);
+  EXPECT_EQ(graph.first_that_cannot_reach(is_last), 3U);
+  EXPECT_EQ(graph.count_not_bound_to_reach(is_last), 1U);
+  EXPECT_EQ(graph.most_generated(10), 4U);
+  graph.add({3, 2, 0, false});  // it can, but some of its times may go round for ever
+  graph.add({2, 0, 1, false});  // and there is no end of DATA
+  graph.finish(4);
+  EXPECT_FALSE(graph.first_that_cannot_reach(is_last));
+  EXPECT_EQ(graph.count_not_bound_to_reach(is_last), 1U);
+  EXPECT_EQ(graph.most_generated(10), 11U);
 }
 
 /// A path in which a repair happens without a loss.

@@ -49,6 +49,17 @@ TEST(SeveralReaders, AreExploredOnlyOnDemandAndNamedInTheVerdict) {
   EXPECT_EQ(two.assumptions.front().find("One relation, or 2 of one writer;"), 0U);
 }
 
+TEST(SeveralReaders, MayBeThree) {
+  for (const auto implementation :
+       {model::ImplementationKind::paper, model::ImplementationKind::fastdds}) {
+    const Finding three = find(wired(implementation), "live.no-stall", 3);
+    EXPECT_EQ(three.kind, VerdictKind::bounded) << three.how;
+    EXPECT_NE(three.how.find("k = 2, 3 readers, each packet 100 µs"), std::string::npos)
+        << three.how;
+    EXPECT_EQ(three.assumptions.front().find("One relation, or 3 of one writer;"), 0U);
+  }
+}
+
 TEST(SeveralReaders, CorrectRulesKeepWhatTheyKeepForOne) {
   for (const auto implementation :
        {model::ImplementationKind::paper, model::ImplementationKind::fastdds}) {
@@ -151,7 +162,7 @@ TEST(SeveralReaders, ThePapersWorldDoesWhatTheSimulatorDoes) {
     scenario.dds.sedp.piggyback = piggyback;
     scenario.dds.sedp.piggyback_threshold_bytes = model::Bytes{500};
     scenario.dds.sedp.grouping = model::Grouping::single;
-    for (Scope scope : shared_scopes(scenario, Nanoseconds{200'000'000})) {
+    for (Scope scope : shared_scopes(scenario, Nanoseconds{200'000'000}, 2)) {
       scope.descriptors = 2;
       const Walks walks = walk<SharedPaperWorld>(scenario, scope);
       EXPECT_EQ(walks.refused, 0U) << to_text(scope) << ": " << walks.why;
@@ -162,7 +173,7 @@ TEST(SeveralReaders, ThePapersWorldDoesWhatTheSimulatorDoes) {
 TEST(SeveralReaders, FastDdssWorldDoesWhatTheSimulatorDoes) {
   model::Scenario scenario = wired(model::ImplementationKind::fastdds);
   scenario.wireless.packet_delays = {{0, Nanoseconds{0}, Nanoseconds{1}}};
-  for (const Scope& scope : shared_scopes(scenario, Nanoseconds{200'000'000})) {
+  for (const Scope& scope : shared_scopes(scenario, Nanoseconds{200'000'000}, 2)) {
     const Walks walks = walk<SharedFastDdsWorld>(scenario, scope);
     EXPECT_EQ(walks.refused, 0U) << to_text(scope) << ": " << walks.why;
   }

@@ -246,14 +246,12 @@ TEST(ExploredBridge, EveryStepWithSeveralReadersIsDerived) {
   model::DdsProfile single;
   single.sedp.grouping = model::Grouping::single;
   single.sedp.piggyback_threshold_bytes = model::Bytes{500};
-  Crossing crossing = cross<explorer::PaperPacking, explorer::most_readers>(
-      single, of_descriptors(2, 0), Unsound::none);
+  Crossing crossing = cross<explorer::PaperPacking, 2>(single, of_descriptors(2, 0), Unsound::none);
   EXPECT_GT(crossing.distinct, 100U);
   EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
   model::DdsProfile dds;
   dds.implementation = model::ImplementationKind::fastdds;
-  crossing = cross<explorer::FastDdsPacking, explorer::most_readers>(dds, of_descriptors(9, 2),
-                                                                     Unsound::none);
+  crossing = cross<explorer::FastDdsPacking, 2>(dds, of_descriptors(9, 2), Unsound::none);
   EXPECT_GT(crossing.distinct, 100U);
   EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
 }
@@ -262,8 +260,8 @@ TEST(ExploredBridge, RefusesADerivationThatForgetsOthers) {
   EXPECT_NE(first_of(cross<explorer::PaperPacking>({}, of_descriptors(2, 0),
                                                    Unsound::packets_arrive_once)),
             "");
-  const Crossing several = cross<explorer::PaperPacking, explorer::most_readers>(
-      {}, of_descriptors(2, 0), Unsound::rules_for_us_only);
+  const Crossing several =
+      cross<explorer::PaperPacking, 2>({}, of_descriptors(2, 0), Unsound::rules_for_us_only);
   EXPECT_NE(first_of(several), "");
   model::DdsProfile dds;
   dds.implementation = model::ImplementationKind::fastdds;
