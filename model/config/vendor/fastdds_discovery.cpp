@@ -82,6 +82,17 @@ void interpret_lease(Reading& reading) {
              "announce several times within a lease");
 }
 
+void remark_super_client(Reading& reading, const Found& protocol) {
+  const std::string* is_default = reading.participant->attribute("is_default_profile");
+  if (protocol.value.shown != "SUPER_CLIENT" || is_default == nullptr || *is_default != "true") {
+    return;
+  }
+  add_remark(reading.profile, Severity::warning, "fastdds.super-client", protocol.value.place,
+             "as the default profile it makes every participant a super client, which is told of "
+             "every endpoint of the system",
+             "CLIENT for nodes; SUPER_CLIENT for tools that list the system");
+}
+
 void interpret_protocol(Reading& reading) {
   for (const std::string_view name : {"discoveryProtocol", "EDP", "simpleEDP/PUBWRITER_SUBREADER",
                                       "simpleEDP/PUBREADER_SUBWRITER"}) {
@@ -161,17 +172,6 @@ void remark_peers(Reading& reading, const Found& peers) {
                   "later ones on that host are not found from here",
                   range),
       "maxInitialPeersRange of the transport raises it");
-}
-
-void remark_super_client(Reading& reading, const Found& protocol) {
-  const std::string* is_default = reading.participant->attribute("is_default_profile");
-  if (protocol.value.shown != "SUPER_CLIENT" || is_default == nullptr || *is_default != "true") {
-    return;
-  }
-  add_remark(reading.profile, Severity::warning, "fastdds.super-client", protocol.value.place,
-             "as the default profile it makes every participant a super client, which is told of "
-             "every endpoint of the system",
-             "CLIENT for nodes; SUPER_CLIENT for tools that list the system");
 }
 
 void interpret_peers(Reading& reading) {
