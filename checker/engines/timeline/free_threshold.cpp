@@ -208,8 +208,10 @@ FreeThreshold free_threshold(const model::SedpProfile& sedp, bool constant_delay
     // suppression end sets the descriptors of another free.
     return {false, false, {}, "none that holds for several packets"};
   }
+  // A side that opens alone drops DATA, or asks for it before the other side has opened: its
+  // initial ACKNACK can arrive just after the DATA has left.
   if (sedp.relation_opening == model::RelationOpening::each_side &&
-      sedp.unmatched == model::Unmatched::drop) {
+      (sedp.unmatched == model::Unmatched::drop || asks)) {
     return {false, false, {}, "none"};
   }
   if (constant_delay) {

@@ -42,6 +42,11 @@ TEST(FreeThreshold, OfProfiles) {
   model::SedpProfile sedp;
   EXPECT_EQ(free_threshold(sedp, false).delta, Nanoseconds{10'000});
   EXPECT_EQ(free_threshold(sedp, true).delta, Nanoseconds{70'090'000});
+  sedp.relation_opening = model::RelationOpening::each_side;
+  EXPECT_FALSE(free_threshold(sedp, true).exists);
+  sedp.unmatched = model::Unmatched::accept;  // an initial ACKNACK can meet the opening
+  EXPECT_FALSE(free_threshold(sedp, true).exists);
+  sedp.relation_opening = model::RelationOpening::receiver;
   sedp.initial_acknack_delay = Nanoseconds{5'000};
   EXPECT_EQ(free_threshold(sedp, false).delta, Nanoseconds{5'000});
   sedp.initial_acknack = model::InitialAckNackReply::heartbeat;
