@@ -79,4 +79,30 @@ class MemoizedRate {
           stage.rate_unicast.value_or(wireless.rate_unicast).count()};
 }
 
+/// Airtime of whole packets over all stages of the route.
+class RouteAirtime {
+ public:
+  explicit RouteAirtime(const WirelessProfile& wireless)
+      : wireless_{wireless}, fragmentation_{wireless} {}
+
+  [[nodiscard]] std::int64_t packet_ns(std::int64_t payload_bytes, bool multicast) const {
+    std::int64_t sum = 0;
+    for (const Stage& stage : wireless_.stages) {
+      const ServiceRate rate = service_rate(wireless_, stage, multicast);
+      for (std::int64_t k = 0; k < fragments(payload_bytes); ++k) {
+        sum += rate.airtime_ns(fragmentation_.bytes(payload_bytes, k));
+      }
+    }
+    return sum;
+  }
+  [[nodiscard]] std::int64_t fragments(std::int64_t payload_bytes) const {
+    return fragmentation_.count(payload_bytes);
+  }
+  [[nodiscard]] std::size_t stages() const { return wireless_.stages.size(); }
+
+ private:
+  const WirelessProfile& wireless_;
+  Fragmentation fragmentation_;
+};
+
 }  // namespace stormproof::model

@@ -10,28 +10,6 @@ namespace stormproof::model {
 
 namespace {
 
-/// Airtime of whole packets over all stages of the route.
-class RouteAirtime {
- public:
-  explicit RouteAirtime(const WirelessProfile& wireless)
-      : wireless_{wireless}, fragmentation_{wireless} {}
-
-  [[nodiscard]] std::int64_t packet_ns(std::int64_t payload_bytes, bool multicast) const {
-    std::int64_t sum = 0;
-    for (const Stage& stage : wireless_.stages) {
-      const ServiceRate rate = service_rate(wireless_, stage, multicast);
-      for (std::int64_t k = 0; k < fragmentation_.count(payload_bytes); ++k) {
-        sum += rate.airtime_ns(fragmentation_.bytes(payload_bytes, k));
-      }
-    }
-    return sum;
-  }
-
- private:
-  const WirelessProfile& wireless_;
-  Fragmentation fragmentation_;
-};
-
 /// All `count` descriptors of one stream, grouped into packets without piggybacked HEARTBEATs.
 std::int64_t data_ns(const RouteAirtime& route, const PacketSizes& sizes, Stream s,
                      std::uint32_t count) {

@@ -181,6 +181,18 @@ const std::array properties{
              "packets take longer than the timers wait; what exists at the match is pulled, and "
              "asked for again before it arrives",
              true},
+    Property{"storm.cannot-start",
+             "This deployment, over this channel, never repairs without a loss, whenever its "
+             "participants start.",
+             "∀ start times, no losses: □ (each D is generated at most once for each receiver); "
+             "from: no packet of the open-loop traffic waits longer than Δ*",
+             "Also for descriptors that are pulled: none is sent twice.",
+             "no loss",
+             {calculus, exact_run},
+             "specs/guide/cannot-start.md",
+             "the load makes packets take longer than the timers wait",
+             "the load makes packets take longer than the timers wait",
+             true},
     Property{"composition.followed",
              "What a run does is what the rules say.",
              "∀ event: (transitions, scheduled events, packets) = those of its rules in "
@@ -203,6 +215,8 @@ const char* name_of(Engine engine) {
       return "timelines";
     case exact_run:
       return "exact run";
+    case calculus:
+      return "network calculus";
   }
   return "";
 }

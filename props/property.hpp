@@ -13,7 +13,7 @@
 namespace stormproof::props {
 
 /// The ways to decide a property.
-enum class Engine : unsigned char { tables, explorer, timelines, exact_run };
+enum class Engine : unsigned char { tables, explorer, timelines, exact_run, calculus };
 
 [[nodiscard]] const char* name_of(Engine engine);
 

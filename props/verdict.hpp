@@ -36,8 +36,8 @@ struct Counterexample {
 /// The answer of one engine about one property.
 struct Finding {
   VerdictKind kind = VerdictKind::inconclusive;
-  std::string engine;                    ///< "tables", "explorer", "timelines" or "exact run"
-  std::string how;                       ///< method and bounds, one sentence
+  std::string engine;  ///< "tables", "explorer", "timelines", …: `name_of(Engine)`
+  std::string how;     ///< method and bounds, one sentence
   std::vector<std::string> assumptions;  ///< one sentence each
   std::vector<std::string> details;  ///< invariants, matrices, witnesses, numbers; lines of text
   double seconds = 0;

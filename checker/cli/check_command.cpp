@@ -40,6 +40,7 @@ struct CheckArguments {
   std::uint32_t samples = 12;
   std::uint32_t readers = 1;  ///< of one writer that the explorer looks at together, at most
   bool single_solver = false;
+  bool frontier = false;
 };
 
 /// What is wrong with the ids on the command line, or nothing.
@@ -99,6 +100,7 @@ checker::CheckReport run_check(const CheckArguments& arguments, const model::Sce
       checker::check({arguments.properties.begin(), arguments.properties.end()},
                      {scenario, claims, nullptr, arguments.seed, arguments.samples,
                       session.on_steps("checking, "), arguments.readers});
+  if (arguments.frontier) report.frontiers = calculus::frontier_of(scenario);
   if (const auto error = claims.export_error()) answer.complaint = "--export: " + *error;
   return report;
 }
@@ -177,6 +179,8 @@ void declare(Options& options, CheckArguments& arguments) {
                  "Write the counterexamples as GoogleTest cases");
   options.folder("--export", arguments.export_directory,
                  "Write the queries in SMT-LIB 2, one file for each property");
+  options.flag("--frontier", arguments.frontier,
+               "Say, too, up to which load storm.cannot-start is proved");
   options.flag("--single-solver", arguments.single_solver, "Do not ask cvc5 for a second opinion");
   options.number("--seed", arguments.seed, "Seed of solvers and of drawn schedules", "S");
   options

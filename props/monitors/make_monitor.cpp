@@ -23,7 +23,10 @@ constexpr Entry makers[] = {
     {"live.completion", [](const model::Scenario& s) { return watch_completion(s); }},
     {"live.quiescence", watch_quiescence},
     {"storm.single-copy", watch_single_copies},
-    {"storm.free-threshold", watch_needless_repairs},
+    {"storm.free-threshold",
+     [](const model::Scenario& s) { return watch_needless_repairs(s, "storm.free-threshold"); }},
+    {"storm.cannot-start",
+     [](const model::Scenario& s) { return watch_needless_repairs(s, "storm.cannot-start"); }},
     {"composition.followed", watch_composition},
 };
 

@@ -25,7 +25,8 @@ using MonitorPtr = std::unique_ptr<Monitor>;
                                           std::optional<model::Nanoseconds> bound = {});
 [[nodiscard]] MonitorPtr watch_quiescence(const model::Scenario&);
 [[nodiscard]] MonitorPtr watch_single_copies(const model::Scenario&);
-[[nodiscard]] MonitorPtr watch_needless_repairs(const model::Scenario&);
+/// Of storm.free-threshold or storm.cannot-start.
+[[nodiscard]] MonitorPtr watch_needless_repairs(const model::Scenario&, std::string_view property);
 [[nodiscard]] MonitorPtr watch_composition(const model::Scenario&);
 /// Of a limit of the scenario, by its id (props/limits.hpp); null if it is not set.
 [[nodiscard]] MonitorPtr watch_limit(std::string_view id, const model::Scenario&);

@@ -1,9 +1,10 @@
-// The two properties of a discovery without a storm, both for runs in which no packet is lost:
+// The properties of a discovery without a storm, all for runs in which no packet is lost:
 // storm.single-copy: no descriptor reaches a receiver that has it already; what a reader side drops
 //   because it is not open does not count, a complete reader that has no use for it does;
-// storm.free-threshold: no descriptor is generated a second time for a receiver. Under push the
-// first generation is the initial DATA; under pull, and with Fast DDS, it may answer an ACKNACK.
-// From the first loss on, neither claims anything. Only cross-host relations count.
+// storm.free-threshold, storm.cannot-start: no descriptor is generated a second time for a
+//   receiver. Under push the first generation is the initial DATA; under pull, and with Fast DDS,
+//   it may answer an ACKNACK.
+// From the first loss on, none claims anything. Only cross-host relations count.
 #include <fmt/core.h>
 
 #include "props/monitors/delay_meter.hpp"
@@ -95,8 +96,8 @@ class SingleCopies final : public LossAware {
 
 class NeedlessRepairs final : public LossAware {
  public:
-  explicit NeedlessRepairs(const model::Scenario& scenario)
-      : LossAware{"storm.free-threshold", scenario} {}
+  NeedlessRepairs(std::string_view property, const model::Scenario& scenario)
+      : LossAware{property, scenario} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -126,8 +127,8 @@ MonitorPtr watch_single_copies(const model::Scenario& scenario) {
   return std::make_unique<SingleCopies>(scenario);
 }
 
-MonitorPtr watch_needless_repairs(const model::Scenario& scenario) {
-  return std::make_unique<NeedlessRepairs>(scenario);
+MonitorPtr watch_needless_repairs(const model::Scenario& scenario, std::string_view property) {
+  return std::make_unique<NeedlessRepairs>(property, scenario);
 }
 
 }  // namespace stormproof::props

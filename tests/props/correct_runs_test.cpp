@@ -51,7 +51,7 @@ bool may_violate(const Scenario& scenario, std::string_view property) {
     return !is_fastdds(scenario) && may_lose_heartbeats(scenario);
   }
   return property == "timer.suppression-honoured" || property == "storm.single-copy" ||
-         property == "storm.free-threshold";
+         property == "storm.free-threshold" || property == "storm.cannot-start";
 }
 
 void expect_only_true_findings(const Scenario& scenario, const std::string& name) {

@@ -47,7 +47,7 @@ TEST(Findings, FastDdsSuppressesTooShort) {
 
 TEST(Findings, AStormRepairsWhatIsUnderWay) {
   const MonitoredRun run = run_monitored(shipped("wifi-5x20"));
-  EXPECT_EQ(run.violated(), "storm.single-copy storm.free-threshold");
+  EXPECT_EQ(run.violated(), "storm.single-copy storm.free-threshold storm.cannot-start");
   EXPECT_EQ(run.violation("storm.free-threshold")->event, 16489U);
 }
 

@@ -62,5 +62,6 @@ using Findings = std::vector<std::pair<std::string_view, props::Finding>>;
 // The engines, each in its folder:
 //   checker/engines/tables/    Findings tables::check(properties, request)
 //   checker/engines/timeline/  Findings timeline::check(properties, request)
+//   checker/engines/calculus/  Findings calculus::check(properties, request)
 //   checker/engines/explorer/  Findings explorer::check(properties, request)
 //   checker/engines/exact/     Findings exact::check(properties, request)

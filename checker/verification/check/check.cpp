@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "checker/engines/calculus/calculus.hpp"
 #include "checker/engines/exact/exact.hpp"
 #include "checker/engines/explorer/explorer.hpp"
 #include "checker/engines/tables/tables.hpp"
@@ -22,8 +23,9 @@ using props::VerdictKind;
 using EngineFunction = Findings (*)(std::span<const std::string_view>, const CheckRequest&);
 
 /// In the order of cost: what is quick is known first.
-constexpr std::array<std::pair<Engine, EngineFunction>, 4> engines{
+constexpr std::array<std::pair<Engine, EngineFunction>, 5> engines{
     {{Engine::tables, tables::check},
+     {Engine::calculus, calculus::check},
      {Engine::exact_run, exact::check},
      {Engine::timelines, timeline::check},
      {Engine::explorer, explorer::check}}};

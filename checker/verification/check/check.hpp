@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checker/engines/bounds/check_request.hpp"
+#include "checker/engines/calculus/frontier.hpp"
 #include "checker/engines/exact/health.hpp"
 #include "props/property.hpp"
 
@@ -32,6 +33,7 @@ struct CheckReport {
   bool interrupted = false;  ///< the rest is inconclusive
   /// What the runs of the scenario were like; absent: no property needed one, or none ended.
   std::optional<exact::Outlook> outlook;
+  std::vector<calculus::Frontier> frontiers{};  ///< if they were asked for
 
   [[nodiscard]] std::size_t count(props::VerdictKind kind) const;
 };

@@ -37,13 +37,16 @@ Table::Row question_row(props::Reach reach, std::string_view question, const Che
     const PropertyResult& result = report.results[k];
     const props::Finding* const answer = answer_to(reach, result);
     if (answer == nullptr) continue;
-    const bool weak = reach != props::Reach::deployment && is_weakness(result, context);
+    const bool margin = result.property->is_margin;
+    const bool weak = (reach != props::Reach::deployment || margin) && is_weakness(result, context);
     if (answer->kind == VerdictKind::violated)
       (weak ? possible : failing).push_back(result.property->id);
     else if (answer->kind != VerdictKind::inconclusive)
       ++holding;
     else if (context.gate.standings[k] == Standing::open)
       open.push_back(result.property->id);
+    else if (reach == props::Reach::deployment && margin)
+      possible.push_back(result.property->id);
   }
   if (reach == props::Reach::deployment && context.gate.storm != Standing::holds) {
     failing.insert(failing.begin(), storm_id);

@@ -13,6 +13,7 @@
 #include "checker/verification/check/check_answer.hpp"
 #include "checker/verification/check/check_findings.hpp"
 #include "checker/verification/check/check_report.hpp"
+#include "checker/verification/check/frontier_document.hpp"
 #include "checker/verification/check/next_steps.hpp"
 #include "checker/verification/check/origins.hpp"
 #include "checker/verification/check/run_plots.hpp"
@@ -162,8 +163,8 @@ void add_verdicts(report::Document& document, const CheckReport& report,
   section.folded_in_comments = holds;
   if (standing == Standing::possible) {
     section.blocks.emplace_back(
-        Paragraph{"Under other delays or losses than those of this deployment it can break; "
-                  "--strict counts that as a failure."});
+        Paragraph{"Under other delays or losses than those of this deployment it can break, or it "
+                  "is a margin that this deployment exceeds; --strict counts that as a failure."});
   }
   section.blocks.emplace_back(std::move(table));
   // At a terminal what holds is a number in the table of questions, unless it was asked for.
@@ -298,6 +299,7 @@ report::Document document_of(const CheckReport& report, const CheckContext& cont
     document.findings.push_back(storm_finding(report, context));
   }
   for (const Standing standing : all_standings) add_verdicts(document, report, context, standing);
+  add_frontiers(document, report.frontiers);
   add_unmodelled(document, context.scenario.dds, "", &context.places);
   add_violations(document, report, context);
   add_run(document, context);

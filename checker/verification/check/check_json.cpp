@@ -20,6 +20,20 @@ void describe(V& v, const Finding& finding) {
 
 }  // namespace stormproof::props
 
+namespace stormproof::calculus {
+
+template <class V>
+void describe(V& v, const Frontier& frontier) {
+  v("load", frontier.load);
+  v("now", frontier.now);
+  v("most", frontier.most);
+  v("least_tried", frontier.least);
+  v("most_tried", frontier.limit);
+  v("longest_delay_ns", frontier.delay);
+}
+
+}  // namespace stormproof::calculus
+
 namespace stormproof::checker {
 
 template <class V>
@@ -137,6 +151,7 @@ void describe(V& v, const ReportInContext& shown) {
     verdicts.push_back({result, shown.context.gate.standings[verdicts.size()], shown.context});
   }
   v("verdicts", verdicts);
+  v.unless_empty("frontiers", shown.report.frontiers);
 }
 
 }  // namespace

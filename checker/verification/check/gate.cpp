@@ -26,10 +26,21 @@ const char* name_of(Standing standing) {
   return "";
 }
 
+namespace {
+
+/// Network calculus computes with the load of one deployment.
+bool is_about_deployment(const Property& property) {
+  return std::ranges::find(property.engines, props::Engine::calculus) != property.engines.end();
+}
+
+}  // namespace
+
 Reach reach_of(const Property& property, const Finding& finding) {
   if (finding.engine == props::name_of(props::Engine::tables)) return Reach::rules;
+  if (finding.engine == props::name_of(props::Engine::calculus)) return Reach::deployment;
   const bool ran = finding.engine == props::name_of(props::Engine::exact_run);
-  return ran && !property.is_margin ? Reach::deployment : Reach::profile;
+  const bool of_profile = property.is_margin && !is_about_deployment(property);
+  return ran && !of_profile ? Reach::deployment : Reach::profile;
 }
 
 const Finding* answer_to(Reach reach, const PropertyResult& result) {
@@ -98,7 +109,7 @@ class Judge {
     const Property& property = *result.property;
     const bool promised = gate_.rules.strict || property.weakness_of(dds_.implementation).empty();
     if (const auto where = violated_in(result)) {
-      const bool counts = promised || *where == Reach::deployment;
+      const bool counts = promised || (*where == Reach::deployment && !property.is_margin);
       return counts ? failure({std::string{property.id}, *where}) : Standing::possible;
     }
     if (result.decisive().disputed) return Standing::open;

@@ -1,7 +1,8 @@
 // When a check passes. Three questions are kept apart: does it hold in this deployment as described
-// (exact runs), does it hold for every deployment with this profile up to stated delays and losses
-// (timelines, explorer), and are the rules themselves sound (tables). What the rules are known not
-// to promise, a weakness, fails only where it happens in this deployment; elsewhere it is possible.
+// (exact runs, network calculus), does it hold for every deployment with this profile up to stated
+// delays and losses (timelines, explorer), and are the rules themselves sound (tables). What the
+// rules are known not to promise, a weakness, fails only where it happens in this deployment;
+// elsewhere it is possible.
 #pragma once
 
 #include <optional>

@@ -56,8 +56,7 @@ TEST_F(ExactRun, AnswersForEveryMonitoredPropertyAndNoOther) {
       check(wanted, CheckRequest{scenario, claims_, nullptr, 0, 12, {}});
   EXPECT_EQ(findings.size(), wanted.size() - 1);
   for (const auto& [property, finding] : findings) {
-    const bool storm = property == "storm.single-copy" || property == "storm.free-threshold";
-    const bool violated = storm && property != "storm.single-copy";
+    const bool violated = property == "storm.free-threshold" || property == "storm.cannot-start";
     EXPECT_EQ(finding.kind, violated ? VerdictKind::violated : VerdictKind::bounded) << property;
     EXPECT_FALSE(finding.how.empty());
   }

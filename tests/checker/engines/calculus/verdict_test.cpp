@@ -1,0 +1,123 @@
+// The verdict about a deployment: proved, missed and by how much, and how it depends on the
+// profile.
+#include <gtest/gtest.h>
+
+#include "checker/engines/calculus/calculus.hpp"
+#include "checker/engines/calculus/cannot_start.hpp"
+#include "checker/engines/smt/claims.hpp"
+#include "checker/engines/timeline/theorem.hpp"
+
+namespace stormproof::calculus {
+namespace verdict_test {
+
+using model::Nanoseconds;
+using props::VerdictKind;
+
+constexpr Nanoseconds second{1'000'000'000};
+
+/// Two hosts with a participant each, on Wi-Fi, with readers that wait for a second.
+model::Scenario patient_scenario() {
+  model::Scenario scenario;
+  scenario.deployment = model::Deployment::homogeneous(2, 1, 2);
+  scenario.dds.sedp.heartbeat_response_delay = second;
+  scenario.dds.sedp.initial_acknack_delay = second;
+  return scenario;
+}
+
+props::Finding finding_about(const model::Scenario& scenario,
+                             const checker::Mutant* mutant = nullptr) {
+  smt::Options options;
+  options.second_solver = false;
+  smt::Claims claims{options};
+  const checker::CheckRequest request{scenario, claims, mutant, 0, 12, {}};
+  const std::string_view ids[] = {cannot_start};
+  checker::Findings findings = check(ids, request);
+  return findings.empty() ? props::Finding{} : std::move(findings.front().second);
+}
+
+TEST(CannotStart, IsProvedFromTheDeploymentAlone) {
+  const props::Finding finding = finding_about(patient_scenario());
+  EXPECT_EQ(finding.kind, VerdictKind::proved) << finding.how;
+  EXPECT_EQ(finding.engine, "network calculus");
+  EXPECT_NE(finding.how.find("open-loop packets take at most 19.69"), std::string::npos)
+      << finding.how;
+  EXPECT_LT(finding.seconds, 5.0);
+}
+
+TEST(CannotStart, OneNanosecondDecides) {
+  model::Scenario scenario = patient_scenario();
+  const Nanoseconds longest = *judge(scenario).delay;
+  scenario.dds.sedp.heartbeat_response_delay = longest;
+  EXPECT_EQ(finding_about(scenario).kind, VerdictKind::proved);
+  scenario.dds.sedp.heartbeat_response_delay = longest - Nanoseconds{1};
+  const props::Finding missed = finding_about(scenario);
+  EXPECT_EQ(missed.kind, VerdictKind::inconclusive);
+  EXPECT_NE(missed.how.find("missed by 1 ns"), std::string::npos) << missed.how;
+}
+
+TEST(CannotStart, EveryLemmaIsProvedByTheSolver) {
+  for (const Lemma lemma : {Lemma::any_order, Lemma::in_order, Lemma::constant_delay,
+                            Lemma::patient_reader, Lemma::long_suppression}) {
+    const model::Scenario scenario;
+    smt::Options options;
+    options.second_solver = false;
+    smt::Claims claims{options};
+    const checker::CheckRequest request{scenario, claims, nullptr, 0, 12, {}};
+    timeline::Theorem theorem{cannot_start, request};
+    prove_lemmas(theorem, lemma);
+    EXPECT_TRUE(theorem.proved()) << static_cast<int>(lemma) << theorem.finish("").how;
+  }
+}
+
+TEST(CannotStart, WrongNumbersAreRefuted) {
+  const model::Scenario scenario = patient_scenario();
+  const Judged judged = judge(scenario);
+  for (const std::int64_t less : {0, 1}) {
+    smt::Options options;
+    options.second_solver = false;
+    smt::Claims claims{options};
+    const checker::CheckRequest request{scenario, claims, nullptr, 0, 12, {}};
+    timeline::Theorem theorem{cannot_start, request};
+    prove_numbers(theorem, *judged.traffic, *judged.busy - Nanoseconds{less}, *judged.delay);
+    EXPECT_EQ(theorem.proved(), less == 0);
+  }
+}
+
+TEST(CannotStart, AChannelThatKeepsTheOrderAllowsMore) {
+  model::Scenario scenario = patient_scenario();
+  scenario.dds.sedp.heartbeat_response_delay = Nanoseconds{10'000};
+  scenario.dds.sedp.piggyback = model::Piggyback::off;
+  EXPECT_EQ(judge(scenario).threshold.lemma, Lemma::any_order);
+  EXPECT_FALSE(judge(scenario).is_proved());
+  scenario.wireless.fragment_request = model::FragmentRequest::at_admission;
+  EXPECT_EQ(judge(scenario).threshold.lemma, Lemma::in_order);
+  EXPECT_TRUE(judge(scenario).is_proved());
+  scenario.dds.sedp.initial_acknack = model::InitialAckNackReply::heartbeat;
+  EXPECT_TRUE(judge(scenario).threshold.unlimited);
+  scenario.dds.sedp.piggyback = model::Piggyback::linear;
+  scenario.dds.sedp.piggyback_threshold_bytes = model::Bytes{500};
+  EXPECT_EQ(judge(scenario).threshold.lemma, Lemma::any_order);
+}
+
+TEST(CannotStart, SaysWhatItDoesNotCover) {
+  model::Scenario scenario = patient_scenario();
+  scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
+  EXPECT_NE(finding_about(scenario).how.find("adaptive"), std::string::npos);
+  scenario = patient_scenario();
+  scenario.dds.sedp.relation_opening = model::RelationOpening::each_side;
+  EXPECT_EQ(finding_about(scenario).kind, VerdictKind::inconclusive);
+  scenario = patient_scenario();
+  scenario.dds.sedp.heartbeat_period = Nanoseconds{1'000};  // more than the channel can carry
+  const props::Finding busy = finding_about(scenario);
+  EXPECT_EQ(busy.kind, VerdictKind::inconclusive);
+  EXPECT_NE(busy.how.find("without end"), std::string::npos) << busy.how;
+}
+
+TEST(CannotStart, IsSilentAboutMutants) {
+  const model::Scenario scenario = patient_scenario();
+  const checker::Mutant mutant;
+  EXPECT_TRUE(finding_about(scenario, &mutant).engine.empty());
+}
+
+}  // namespace verdict_test
+}  // namespace stormproof::calculus
