@@ -5,6 +5,7 @@
 
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/engines/explorer/scope.hpp"
 #include "checker/verification/mutate/mutate.hpp"
 #include "checker/verification/mutate/mutate_report.hpp"
 #include "model/config/tree/suggestion.hpp"
@@ -16,6 +17,7 @@ namespace {
 struct MutateArguments {
   std::vector<std::string> only;   ///< ids of mutants; empty: all
   std::vector<std::string> kinds;  ///< of mutants; empty: all
+  std::uint32_t readers = 1;       ///< that the explorer looks at together
   double timeout_seconds = 10;     ///< of each query
 };
 
@@ -34,6 +36,7 @@ Outcome run(MutateArguments& arguments, Session& session) {
   if (const auto error = unknown_mutant(arguments.only)) return Complaint{*error};
   mutate::MutateOptions options;
   options.only = arguments.only;
+  options.readers = arguments.readers;
   for (const std::string& kind : arguments.kinds) {
     const auto found = std::ranges::find(mutate::kind_names, kind);
     options.kinds.push_back(static_cast<mutate::Kind>(found - mutate::kind_names.begin()));
@@ -53,6 +56,12 @@ void declare(Options& options, MutateArguments& arguments) {
   options.texts("--mutant", arguments.only, "Try only this mutant (repeatable)", "ID");
   options.texts("--kind", arguments.kinds, "Try only mutants of this kind (repeatable)", "KIND")
       .one_of({mutate::kind_names.begin(), mutate::kind_names.end()});
+  options
+      .number("--readers", arguments.readers,
+              "Let the explorer look at several readers of one writer for effects that nobody "
+              "notices: 2 or 3 (default 1)",
+              "N")
+      .within(1U, explorer::most_readers);
   options.timeout(arguments.timeout_seconds);
 }
 

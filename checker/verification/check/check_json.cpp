@@ -24,7 +24,7 @@ namespace stormproof::calculus {
 
 template <class V>
 void describe(V& v, const Frontier& frontier) {
-  v("load", frontier.load);
+  v("grows", frontier.load);
   v("now", frontier.now);
   v("most", frontier.most);
   v("least_tried", frontier.least);

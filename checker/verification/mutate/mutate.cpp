@@ -156,9 +156,10 @@ class Mutator {
     if (!list.empty()) return list;
     for (const Trial& trial : trials(implementation)) {
       if (!trial.all_engines) continue;
-      constexpr unsigned two = 2;
-      const Ids broken = violated(explorer::check, whole_catalogue(), request(trial, nullptr, two));
-      list.push_back({trial, explorer::check, without(whole_catalogue(), broken), two});
+      const Ids broken =
+          violated(explorer::check, whole_catalogue(), request(trial, nullptr, options_.readers));
+      list.push_back(
+          {trial, explorer::check, without(whole_catalogue(), broken), options_.readers});
     }
     return list;
   }
@@ -177,8 +178,8 @@ class Mutator {
     return result_of(entry, killers, std::move(laws));
   }
 
-  /// Runs first, then laws, the recorded composition and the search, with several readers if one
-  /// shows nothing, until somebody notices.
+  /// Runs first, then laws, the recorded composition and the search, then one with several readers
+  /// if that was asked for, until somebody notices.
   MutantResult try_effect(const CatalogueEntry& entry) {
     Ids killers;
     const auto ask_on = [&](std::vector<Ground>& list, EngineFunction engine,
@@ -200,7 +201,7 @@ class Mutator {
     if (killers.empty()) laws = laws_.killers(entry);
     if (laws && laws->empty()) ask(tables::check, {"composition.total"});
     if (laws && laws->empty()) ask(explorer::check, all);
-    if (laws && laws->empty() && killers.empty()) {
+    if (options_.readers > 1 && laws && laws->empty() && killers.empty()) {
       ask_on(shared_grounds(entry.concerns.front()), explorer::check, all);
     }
     if (laws && laws->empty()) laws.reset();

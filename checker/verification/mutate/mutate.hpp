@@ -51,6 +51,7 @@ struct MutationReport {
 struct MutateOptions {
   std::vector<std::string> only;  ///< ids of mutants; empty: all
   std::vector<Kind> kinds;        ///< where the mistake is; empty: anywhere
+  unsigned readers = 1;           ///< of one writer that the explorer looks at together, at most
   smt::Options solver;            ///< the second solver is not asked
   std::function<bool(std::string_view)> on_progress;
 };
