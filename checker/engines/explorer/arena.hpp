@@ -15,8 +15,8 @@ class Arena {
   /// Room for `count` values, at most `chunk`.
   T* allocate(std::size_t count) {
     if (chunks_.empty() || used_ + count > chunk) {
-      // Not initialized: a page that is never written costs nothing.
-      chunks_.push_back(std::unique_ptr<T[]>(new T[chunk]));
+      // A page that is never written costs nothing.
+      chunks_.push_back(std::make_unique_for_overwrite<T[]>(chunk));
       used_ = 0;
     }
     T* const room = chunks_.back().get() + used_;

@@ -37,13 +37,21 @@ constexpr std::array<Entry, claim_count> entries{{
     {"storm.free-threshold", Claim::free_threshold},
 }};
 
-// Limits count states, so that an answer is the same on every machine.
-/// Most states of one search.
-constexpr std::uint64_t most_states = 400'000;
-/// Most states of all searches with the same number of readers; of a check, and of one of the many
-/// checks of `mutate`, where a mistake that matters shows early.
-constexpr std::uint64_t most_in_all = 2'000'000;
-constexpr std::uint64_t most_in_all_for_mutant = 500'000;
+/// Claims that are looked for in one search. Each bound on a time adds a mark to the states, which
+/// are more then, so what refers to one is looked for by itself. Limits count states, so that an
+/// answer is the same on every machine.
+struct Group {
+  Claims claims = 0;
+  std::uint64_t most_states = 0;  ///< of one search
+  std::uint64_t in_all = 0;       ///< of all searches with the same number of readers
+};
+constexpr std::array<Group, 3> groups{{
+    {bit(Claim::completion), 200'000, 1'000'000},
+    {static_cast<Claims>(~(bit(Claim::completion) | bit(Claim::quiescence))), 400'000, 2'000'000},
+    {bit(Claim::quiescence), 200'000, 1'000'000},
+}};
+/// In one of the many checks of `mutate`, a mistake that matters shows early: so much less.
+constexpr std::uint64_t share_of_mutant = 4;
 
 class Exploration {
  public:
@@ -74,15 +82,18 @@ class Exploration {
 
  private:
   void run(const std::vector<Scope>& list) {
-    std::uint64_t left = request_.mutant == nullptr ? most_in_all : most_in_all_for_mutant;
-    for (std::size_t k = 0; k < list.size() && !where_.interrupted && open_ != 0; ++k) {
-      // What a scope does not need of its share is left to those after it.
-      share_ = left / (list.size() - k);
-      const std::uint64_t before = share_;
-      const Scope& scope = list[k];
-      model::visit_composition(running_.dds,
-                               [&](auto composition) { explore(composition, scope); });
-      left -= before - share_;
+    for (const Group& group : groups) {
+      std::uint64_t left = group.in_all / (request_.mutant == nullptr ? 1 : share_of_mutant);
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        claims_ = open_ & group.claims;
+        if (claims_ == 0 || where_.interrupted) break;
+        // What a scope does not need of its share is left to those after it.
+        limit_ = std::min(group.most_states, left / (list.size() - k));
+        const Scope& scope = list[k];
+        model::visit_composition(running_.dds,
+                                 [&](auto composition) { explore(composition, scope); });
+        left -= std::min(left, searched_);
+      }
     }
   }
 
@@ -105,38 +116,34 @@ class Exploration {
   }
   template <class World>
   void explore(const Scope& scope) {
-    const auto rest = static_cast<Claims>(open_ & ~bit(Claim::completion));
-    if ((open_ & bit(Claim::completion)) != 0) {
-      const auto bound = completion_bound(request_.scenario.dds, scope);
-      const std::uint64_t kept = rest == 0 ? 0 : share_ / 2;
-      share_ -= kept;
-      if (bound) search<World>(scope, bit(Claim::completion), {bound, std::nullopt});
-      share_ += kept;
-    }
-    if (rest == 0 || where_.interrupted) return;
+    searched_ = 0;
     Bounds bounds;
-    if ((rest & bit(Claim::quiescence)) != 0) {
+    if ((claims_ & bit(Claim::completion)) != 0) {
+      bounds.completion = completion_bound(request_.scenario.dds, scope);
+      if (!bounds.completion) return;
+    }
+    if ((claims_ & bit(Claim::quiescence)) != 0) {
       bounds.quiescence = props::quiescence_bound(request_.scenario.dds, scope.largest_delay);
     }
-    search<World>(scope, rest, bounds);
+    search<World>(scope, bounds);
   }
 
   template <class World>
-  void search(Scope scope, Claims claims, const Bounds& bounds) {
+  void search(Scope scope, const Bounds& bounds) {
     const Clock::time_point start = Clock::now();
     // Whether a budget is used up is known afterwards: then it has to be counted.
     const auto rides_after = generated_before_heartbeat(running_);
     scope.counts_bytes = rides_after == 0U;
     auto world = std::make_unique<World>(running_, request_.scenario, scope, mutation_);
-    SearchResult result = search(*world, claims, bounds, rides_after.value_or(0));
+    SearchResult result = search(*world, bounds, rides_after.value_or(0));
     if (!scope.counts_bytes && rides_after && result.most_generated > *rides_after) {
       scope.counts_bytes = true;
       world = std::make_unique<World>(running_, request_.scenario, scope, mutation_);
-      result = search(*world, claims, bounds, 0);
+      result = search(*world, bounds, 0);
     }
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     for (const Entry& entry : entries) {
-      if ((claims & bit(entry.claim)) == 0) continue;
+      if ((claims_ & bit(entry.claim)) == 0) continue;
       Answer& answer = answers_[static_cast<std::size_t>(entry.claim)];
       answer.note_effort(result.states, seconds);
       const auto& path = result.objections[static_cast<std::size_t>(entry.claim)];
@@ -148,16 +155,16 @@ class Exploration {
     }
   }
   template <class World>
-  SearchResult search(World& world, Claims claims, const Bounds& bounds, std::uint32_t counted) {
+  SearchResult search(World& world, const Bounds& bounds, std::uint32_t counted) {
     SearchOptions options;
-    options.claims = claims;
-    options.max_states = std::min(most_states, share_);
+    options.claims = claims_;
+    options.max_states = limit_;
     options.bounds = bounds;
     options.stop_when_complete = bounds.completion.has_value();
     options.count_generated = counted;
     options.go_on = [&] { return go_on("exploring " + to_text(world.scope())); };
     SearchResult result = Search<World>{world, options}.run();
-    share_ -= std::min(share_, result.states);
+    searched_ += result.states;
     return result;
   }
 
@@ -186,7 +193,10 @@ class Exploration {
   model::Mutation mutation_;
   Claims open_;  ///< claims that nothing has broken yet
   Surroundings where_;
-  std::uint64_t share_ = 0;  ///< states that are left for the scope
+  // Of the scope that is explored: what is looked for, the limit of a search, and all states.
+  Claims claims_ = 0;
+  std::uint64_t limit_ = 0;
+  std::uint64_t searched_ = 0;
   std::array<Answer, claim_count> answers_;
 };
 
