@@ -48,7 +48,7 @@ struct Group {
 constexpr std::array<Group, 3> groups{{
     {bit(Claim::completion), 200'000, 1'000'000},
     {static_cast<Claims>(~(bit(Claim::completion) | bit(Claim::quiescence))), 400'000, 2'000'000},
-    {bit(Claim::quiescence), 200'000, 1'000'000},
+    {bit(Claim::quiescence), 100'000, 500'000},
 }};
 /// In one of the many checks of `mutate`, a mistake that matters shows early: so much less.
 constexpr std::uint64_t share_of_mutant = 4;
