@@ -97,6 +97,9 @@ void add_rules(std::vector<CatalogueEntry>& list) {
        });
   list.back().survives_because =
       "no property depends on the time between initial ACKNACKs; law.initial-attempts does";
+  knob("attempts-at-once", "an initial ACKNACK asks before any packet can have arrived",
+       where_rules_are_knobs(),
+       [](model::Scenario& s) { s.dds.sedp.initial_acknack_delay = Nanoseconds{1}; });
   knob("queue-twice-as-large", "the source queue admits twice its bytes", everywhere(),
        [](model::Scenario& s) {
          model::Bytes& w = s.wireless.source_queue_bytes;

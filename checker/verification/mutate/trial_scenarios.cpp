@@ -53,6 +53,9 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::paper::Paper>) {
   adaptive.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
   list.push_back({"adaptive", adaptive, false});
   list.push_back({"crowded", crowded(), false});
+  model::Scenario lossless = quiet({});  // a repair after discovery is needless, too
+  lossless.run_until = model::RunUntil::time_limit;
+  list.push_back({"no loss", lossless, false});
   return list;
 }
 

@@ -52,6 +52,7 @@ TEST(Mutate, EachKindOfMistakeIsNoticedByTheRightProperty) {
       {"queue-twice-as-large", "safety.conservation"},
       {"repair-a-nanosecond-late", "composition.followed"},
       {"order-pairwise", "order.total"},
+      {"attempts-at-once", "storm.cannot-start"},
       {"base-ignored", "safety.ack-implies-received"},
       {"control-writer-silent", "fsm.totality"},
       {"control-writer-closed", "fsm.reachability"}};
