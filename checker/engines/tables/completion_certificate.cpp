@@ -7,10 +7,8 @@
 
 #include <string>
 
-#include "checker/engines/tables/certificate.hpp"
 #include "checker/engines/tables/derived_time.hpp"
-#include "checker/engines/tables/houdini.hpp"
-#include "checker/engines/tables/timed_descriptor.hpp"
+#include "checker/engines/tables/timed_certificate.hpp"
 
 namespace stormproof::tables {
 namespace {
@@ -152,55 +150,9 @@ class Invariant {
   std::string waits_words_;
 };
 
-/// What else may hold: each state, packet and timer implies that the reader has the descriptor,
-/// knows of it, or is open; and nothing that is looked at is overdue.
-Exprs candidates_of(const TimedDescriptor& whole, const Moving& moving) {
-  Exprs candidates = facts_of(moving.system);
-  Exprs implied{moving(whole["Reader=Recognised"] || whole["Reader=Complete"])};
-  for (const Expr& variable : moving.system.variables) {
-    const std::string name = variable.decl().name().str();
-    for (const char* other : {"X", "Known", "Exists", "WriterOpen"}) {
-      if (name == other) implied.push_back(variable);
-    }
-  }
-  for (const Expr& variable : moving.system.variables) {
-    if (!variable.is_bool()) continue;
-    for (const Expr& other : implied) candidates.push_back(if_then(variable, other));
-    const std::string name = variable.decl().name().str();
-    for (const auto& [prefix, end] : {std::pair<std::string, std::string>{"in flight ", "arrives "},
-                                      std::pair<std::string, std::string>{"leaving ", "leaves "}}) {
-      if (!name.starts_with(prefix)) continue;
-      candidates.push_back(
-          if_then(variable, whole[timed::now] <= whole[end + name.substr(prefix.size())]));
-    }
-  }
-  return candidates;
-}
-
-/// What the timed system takes as given.
-void assume_in_time(Proof& proof) {
-  proof.assume(
-      "A packet that matters arrives within Δ, unless it is lost, and has left its source within "
-      "σ ≤ Δ; all others may be delayed, lost, duplicated and reordered without bound.");
-  proof.assume("What is scheduled happens at its time: the event queue hands out each event once.");
-  proof.assume(
-      "The numbers of descriptors and readers are arbitrary: one is looked at, and what the rules "
-      "read of the others ranges freely.");
-  proof.assume(hosts_keep_contracts);
-}
-
 Certificate certificate_of(const TimedDescriptor& descriptor, const Invariant& invariant) {
   const Moving moving{descriptor.whole()};
-  Certificate certificate{.system = moving.system,
-                          .constants = descriptor.unknowns(),
-                          .given = {},
-                          .invariant = {},
-                          .candidates = candidates_of(descriptor, moving),
-                          .conclusions = {}};
-  for (const Expr& assumption : descriptor.assumptions()) {
-    certificate.given.push_back({"given", assumption});
-    certificate.system.initial = certificate.system.initial && assumption;
-  }
+  Certificate certificate = certificate_in_time(descriptor, moving);
   const auto add = [&](const std::vector<Clause>& from, std::vector<Clause>& to) {
     for (const Clause& clause : from) to.push_back({clause.words, moving(clause.holds)});
   };
@@ -224,11 +176,11 @@ props::Finding certified(const checker::CheckRequest& request, std::string_view 
     return proof.finish(how);
   }
   assume_in_time(proof);
-  const TimedDescriptor descriptor{dds, proof.mistakes(), [&](auto& bound) {
+  const TimedDescriptor descriptor{dds, proof.mistakes(), {.tighten = [&](auto& bound) {
                                      bound.first = bound.first - tighter.first;
                                      bound.loss = bound.loss - tighter.loss;
                                      bound.exchange = bound.exchange - tighter.exchange;
-                                   }};
+                                   }}};
   prove(proof, certificate_of(descriptor, {descriptor, dds, completes}));
   return proof.finish(how + ", with all timers and delays symbolic");
 }

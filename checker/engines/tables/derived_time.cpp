@@ -13,6 +13,7 @@ Expr certainly() { return smt::SymbolicContext::current().bool_val(true); }
 
 namespace timed {
 std::string due(std::string_view timer) { return "due " + std::string{timer}; }
+std::string earliest(std::string_view timer) { return "earliest " + std::string{timer}; }
 std::string in_flight(std::string_view packet) { return "in flight " + std::string{packet}; }
 std::string arrives(std::string_view packet) { return "arrives " + std::string{packet}; }
 std::string leaving(std::string_view packet) { return "leaving " + std::string{packet}; }
@@ -28,6 +29,7 @@ DerivedTime::DerivedTime(Derivation& derivation, Network network)
 void DerivedTime::declare_timer(const std::string& timer, bool counted) {
   timers_.push_back({timer, counted});
   derivation_.declare_count(timed::due(timer));
+  if (!counted) derivation_.declare_count(timed::earliest(timer));
 }
 
 void DerivedTime::declare_packet(const std::string& packet, bool leaves) {
@@ -50,11 +52,19 @@ void DerivedTime::started(const std::string& name, const Expr& when, const Expr&
   const Expr other = derivation_.now(timed::due(name));
   const Expr stays = is_pending(timer) && (timer.counted ? other >= due : other <= due);
   derivation_.assign(timed::due(name), when && !stays, due);
+  if (timer.counted) return;
+  const Expr first =
+      !derivation_.now("started " + name) || due < derivation_.now(timed::earliest(name));
+  derivation_.assign(timed::earliest(name), when && first, due);
 }
 
 void DerivedTime::fires(const std::string& name) {
   const Timer& timer = *std::ranges::find(timers_, name, &Timer::name);
-  if (!timer.counted) return;
+  for (const std::string& packet : arriving_) {
+    derivation_.require(!derivation_.now(timed::in_flight(packet)) ||
+                        now() < derivation_.now(timed::arrives(packet)));
+  }
+  if (!timer.counted) return derivation_.require(now() >= derivation_.now(timed::earliest(name)));
   const Expr due = derivation_.now(timed::due(name));
   derivation_.require(now() <= due);
   derivation_.require(derivation_.now(pending_name(name)) >= 2 || now() == due);
@@ -69,7 +79,7 @@ void DerivedTime::look_at(const std::string& flag, const std::string& by, const 
 void DerivedTime::emitted(const std::string& packet, const Expr& when, const Says& says) {
   const Expr matters = (when && network_.matters(packet, says)).simplify();
   if (!matters.is_false()) {
-    const Expr lost = derivation_.unknown();
+    const Expr lost = network_.loses ? derivation_.unknown() : !certainly();
     const Expr looked_at = matters && !derivation_.now(timed::in_flight(packet));
     derivation_.assign(timed::limit, looked_at && lost,
                        derivation_.now(timed::limit) + network_.loss);
@@ -107,7 +117,7 @@ void DerivedTime::derive_passing() {
                         later <= derivation_.now(timed::leaves(packet)));
   }
   derivation_.assign(timed::now, certainly(), later);
-  derivation_.end("time passes");
+  derivation_.end(timed::passing);
 }
 
 }  // namespace stormproof::tables

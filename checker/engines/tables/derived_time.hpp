@@ -6,7 +6,9 @@
 //   2. of each kind of packet at most one is looked at: the first that matters and is not lost,
 //      until it arrives. It arrives within Δ, and has left its source within σ. Each loss of one
 //      that would be looked at raises the ghost "limit" by what a loss costs;
-//   3. time passes as long as nothing that is looked at is overdue.
+//   3. time passes as long as nothing that is looked at is overdue;
+//   4. no timer of a kind fires before "earliest T", when the first of them is due, and what must
+//      arrive now arrives before a timer fires: receptions come first (order.reception-first).
 // Everything else happens when it will, as without time.
 #pragma once
 
@@ -24,7 +26,9 @@ namespace stormproof::tables {
 namespace timed {
 inline constexpr const char* now = "now";
 inline constexpr const char* limit = "limit";
+inline constexpr const char* passing = "time passes";  ///< the name of that step
 [[nodiscard]] std::string due(std::string_view timer);
+[[nodiscard]] std::string earliest(std::string_view timer);
 [[nodiscard]] std::string in_flight(std::string_view packet);
 [[nodiscard]] std::string arrives(std::string_view packet);
 [[nodiscard]] std::string leaving(std::string_view packet);
@@ -39,6 +43,7 @@ class DerivedTime {
     Expr delay;   ///< Δ
     Expr source;  ///< σ
     Expr loss;    ///< by which a loss raises the limit
+    bool loses;   ///< packets can be lost
     /// Whether a packet of this name and content is looked at until it arrives.
     std::function<Expr(std::string_view packet, const Says& says)> matters;
     /// And until it has left its source.

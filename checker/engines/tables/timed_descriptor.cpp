@@ -42,8 +42,8 @@ timeline::Delays<smt::Symbolic> unknown_delays() {
 
 /// What stands for a knob: one of the unknowns, or its value.
 Expr knob_or_unknown(const Knob& knob, const model::DdsProfile& dds) {
-  for (const char* name :
-       {"HeartbeatPeriod", "ResponseDelay", "NackResponseDelay", "SuppressionDuration"}) {
+  for (const char* name : {"HeartbeatPeriod", "ResponseDelay", "NackResponseDelay",
+                           "SuppressionDuration", "InitialDelay"}) {
     if (knob.name == name) return SymbolicInt::named(name).expr();
   }
   return knob.value(dds);
@@ -67,16 +67,18 @@ Expr can_be_asked_for(const model::DdsProfile& dds, const std::function<Expr(con
 }
 
 TimedDescriptor::TimedDescriptor(const model::DdsProfile& dds, const model::Mutation& mistakes,
-                                 const std::function<void(Bound&)>& tighten, Unsound unsound)
+                                 const Options& options)
     : delays_{unknown_delays()},
+      initial_{SymbolicInt::named("InitialDelay").expr()},
       bound_{timeline::losses<smt::Symbolic>(dds, delays_)},
-      derivation_{unsound} {
-  if (tighten) tighten(bound_);
+      derivation_{options.unsound} {
+  if (options.tighten) options.tighten(bound_);
   Derivation& system = derivation_;
   DerivedTime time{system,
                    {.delay = delays_.delta.expr(),
                     .source = delays_.source.expr(),
                     .loss = bound_.loss.expr(),
+                    .loses = options.loses,
                     .matters = is_of_an_exchange,
                     .matters_at_source = is_repair}};
   system.declare(watched::counting, false);
@@ -99,14 +101,23 @@ TimedDescriptor::TimedDescriptor(const model::DdsProfile& dds, const model::Muta
 }
 
 Exprs TimedDescriptor::unknowns() const {
-  return {delays_.period.expr(),      delays_.response.expr(), delays_.nack.expr(),
-          delays_.suppression.expr(), delays_.delta.expr(),    delays_.source.expr()};
+  return {delays_.period.expr(),
+          delays_.response.expr(),
+          delays_.nack.expr(),
+          delays_.suppression.expr(),
+          delays_.delta.expr(),
+          delays_.source.expr(),
+          initial_};
 }
 
 Exprs TimedDescriptor::assumptions() const {
-  return {delays_.period.expr() >= 1, delays_.response.expr() >= 0,
-          delays_.nack.expr() >= 0,   delays_.suppression.expr() >= 0,
-          delays_.source.expr() >= 0, delays_.source.expr() <= delays_.delta.expr()};
+  return {delays_.period.expr() >= 1,
+          delays_.response.expr() >= 0,
+          delays_.nack.expr() >= 0,
+          delays_.suppression.expr() >= 0,
+          delays_.source.expr() >= 0,
+          delays_.source.expr() <= delays_.delta.expr(),
+          initial_ >= 0};
 }
 
 }  // namespace stormproof::tables

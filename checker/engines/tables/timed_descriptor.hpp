@@ -22,16 +22,22 @@ class TimedDescriptor {
  public:
   using Bound = timeline::Losses<smt::Symbolic>;
 
-  /// `tighten`: changes the bound that the limit is made of, for tests.
+  struct Options {
+    bool loses = true;                      ///< packets can be lost
+    std::function<void(Bound&)> tighten{};  ///< changes what the limit is made of, for tests
+    Unsound unsound = Unsound::none;        ///< for tests
+  };
+
   TimedDescriptor(const model::DdsProfile& dds, const model::Mutation& mistakes,
-                  const std::function<void(Bound&)>& tighten = {}, Unsound unsound = Unsound::none);
+                  const Options& options);
 
   [[nodiscard]] const Expr& operator[](const std::string& name) const {
     return derivation_.variable(name);
   }
   [[nodiscard]] const timeline::Delays<smt::Symbolic>& delays() const { return delays_; }
+  [[nodiscard]] const Expr& initial() const { return initial_; }  ///< τ_I
   [[nodiscard]] const Bound& bound() const { return bound_; }
-  /// τ_H, τ_A, τ_N, τ_S, Δ, σ.
+  /// τ_H, τ_A, τ_N, τ_S, Δ, σ, τ_I.
   [[nodiscard]] Exprs unknowns() const;
   /// What is assumed of the unknowns: none is negative, τ_H ≥ 1, σ ≤ Δ.
   [[nodiscard]] Exprs assumptions() const;
@@ -40,6 +46,7 @@ class TimedDescriptor {
 
  private:
   timeline::Delays<smt::Symbolic> delays_;
+  Expr initial_;
   Bound bound_;
   Derivation derivation_;
 };

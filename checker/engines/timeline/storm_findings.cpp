@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/engines/tables/free_certificate.hpp"
 #include "checker/engines/timeline/directed_check.hpp"
 #include "checker/engines/timeline/findings.hpp"
 #include "checker/engines/timeline/free_threshold.hpp"
@@ -92,6 +93,10 @@ props::Finding free_threshold_finding(const Question& question) {
     finding.details.push_back("  eliminated: " + part.eliminated);
   }
   judge(question, "storm.free-threshold", finding);
+  const bool within = finding.kind == props::VerdictKind::proved && !question.has_constant_delay();
+  if (within && theorem.is_asked_for() && tables::has_free_certificate(question.dds())) {
+    rest_on(finding, tables::free_certificate(question.request));
+  }
   if (question.writer() == model::Writer::of_the_paper) {
     hold_against_runs(threshold_points(question.dds()), "storm.free-threshold", question.request,
                       finding);

@@ -15,7 +15,7 @@
 #include "checker/engines/tables/timed_descriptor.hpp"
 #include "checker/engines/tables/transition_system.hpp"
 #include "checker/engines/tables/unrolling.hpp"
-#include "model/composition_of.hpp"
+#include "tests/checker/engines/tables/effect_mistake.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
 
 namespace stormproof::tables {
@@ -68,21 +68,6 @@ TEST(CompletionCertificate, SaysNothingOfOtherTimers) {
   EXPECT_NE(certified(additive).how.find("additive"), std::string::npos);
 }
 
-/// A mistake at the effect of this kind on this target in a rule or procedure.
-checker::Mutant at_effect(const model::Scenario& scenario, std::string_view rule,
-                          std::string_view what, EffectMutation::Change change) {
-  checker::Mutant mutant;
-  for (const EffectMutation& mutation :
-       fsm::composition::effect_mutations(model::composition_of(scenario.dds))) {
-    if (mutation.change != change || !mutation.what.starts_with(what)) continue;
-    if (!mutation.effect.starts_with(std::string{rule} + ".")) continue;
-    mutant.rules.effects.push_back(mutation);
-    break;
-  }
-  EXPECT_FALSE(mutant.rules.effects.empty()) << rule << ": " << what;
-  return mutant;
-}
-
 TEST(CompletionCertificate, MistakesBetweenTheMachinesBreakIt) {
   using Change = EffectMutation::Change;
   struct Mistake {
@@ -131,7 +116,7 @@ TEST(CompletionCertificate, IsAboutSystemsThatMove) {
   z3::context context;
   const smt::SymbolicContext current{context};
   for (const model::Scenario& scenario : {paper(), fastdds()}) {
-    const TimedDescriptor descriptor{scenario.dds, {}};
+    const TimedDescriptor descriptor{scenario.dds, {}, {}};
     const Moving moving{descriptor.whole()};
     TransitionSystem system = moving.system;
     for (const Expr& given : descriptor.assumptions()) system.initial = system.initial && given;

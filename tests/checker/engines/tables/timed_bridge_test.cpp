@@ -46,6 +46,8 @@ class Walk {
       const bool pending = counted ? state_.pending[key] > 0 : state_.surely_pending.contains(key);
       std::int64_t& known = due_[key];
       if (!pending || (counted ? due > known : due < known)) known = due;
+      const auto [first, fresh] = earliest_.emplace(key, due);
+      first->second = std::min(first->second, due);
     };
     clock_.sent = [this](const comp::SentPacket& packet) {
       sent_now_.push_back({number_++, packet, clock_.now, dice_() % 4 == 0});
@@ -67,6 +69,7 @@ class Walk {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       const comp::Key key{fsm::name_of<T>(), place.of(T::owner)};
       values[timed::due(fsm::name_of<T>())] = due_.contains(key) ? due_.at(key) : 0;
+      values[timed::earliest(fsm::name_of<T>())] = earliest_.contains(key) ? earliest_.at(key) : 0;
     });
     values[timed::now] = clock_.now;
     return values;
@@ -172,6 +175,10 @@ class Walk {
 
   template <class Visit>
   void timer(Visit&& visit) {
+    // Receptions come first.
+    for (const Flying& it : flying_) {
+      if (!it.lost && !it.arrived && it.sent + delta <= clock_.now) return;
+    }
     std::vector<std::size_t> due;
     for (std::size_t k = 0; k < queue_.size(); ++k) {
       if (queue_[k].second == clock_.now) due.push_back(k);
@@ -234,6 +241,7 @@ class Walk {
   comp::SmallClock clock_;
   std::vector<std::pair<comp::Key, std::int64_t>> queue_;
   std::map<comp::Key, std::int64_t> due_;
+  std::map<comp::Key, std::int64_t> earliest_;
   std::vector<Flying> flying_;
   std::vector<Flying> sent_now_;
   std::map<comp::Place, Ghost> ghosts_;
@@ -251,10 +259,11 @@ struct Wrong {
   std::int64_t delta = 0;
   std::int64_t source = 0;
   std::int64_t loss = 0;
+  std::int64_t initial = 0;  ///< by how much more
   Unsound unsound = Unsound::none;
 
   [[nodiscard]] bool is() const {
-    return response + delta + source + loss > 0 || unsound != Unsound::none;
+    return response + delta + source + loss + initial > 0 || unsound != Unsound::none;
   }
 };
 
@@ -267,16 +276,19 @@ TransitionSystem with_values(const TimedDescriptor& descriptor, const model::Dds
                number(dds.sedp.heartbeat_response_delay.count() - wrong.response),
                number(dds.sedp.nack_response_delay.count()),
                number(dds.sedp.nack_suppression_duration.count()), number(delta - wrong.delta),
-               number(source - wrong.source)});
+               number(source - wrong.source),
+               number(dds.sedp.initial_acknack_delay.count() + wrong.initial)});
 }
 
 template <class Composition>
 Crossing cross(const model::DdsProfile& dds, unsigned walks, const Wrong& wrong = {}) {
   z3::context context;
   const smt::SymbolicContext current{context};
-  const TimedDescriptor descriptor{dds, model::Mutation{},
-                                   [&](auto& bound) { bound.loss = bound.loss - wrong.loss; },
-                                   wrong.unsound};
+  const TimedDescriptor descriptor{
+      dds,
+      model::Mutation{},
+      {.tighten = [&](auto& bound) { bound.loss = bound.loss - wrong.loss; },
+       .unsound = wrong.unsound}};
   const TransitionSystem system = with_values(descriptor, dds, wrong);
   Bridge bridge{system};
   Crossing crossing;
@@ -342,8 +354,8 @@ TEST(TimedBridge, RefusesADerivationThatForgetsOthers) {
 }
 
 TEST(TimedBridge, RefusesASystemInWhichThingsTakeLess) {
-  for (const Wrong& wrong :
-       {Wrong{.response = 1}, Wrong{.delta = 1}, Wrong{.source = 1}, Wrong{.loss = 1}}) {
+  for (const Wrong& wrong : {Wrong{.response = 1}, Wrong{.delta = 1}, Wrong{.source = 1},
+                             Wrong{.loss = 1}, Wrong{.initial = 1}}) {
     EXPECT_NE(first_of(cross<comp::paper::Paper>(hasty({}), 4, wrong)), "");
   }
 }
