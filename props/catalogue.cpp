@@ -53,8 +53,9 @@ const std::array properties{
              "rules in fsm/composition/"},
     Property{
         "composition.pending",
-        "What a descriptor or a reader waits for is under way.",
-        "□ (C = R ⇒ repair generation pending) ∧ □ (C = S ⇒ end of suppression pending) ∧ "
+        "What a descriptor or a reader waits for is under way, and who lacks it is waited for.",
+        "□ (X = 0 ⇒ C ≠ A) ∧ □ (C = R ⇒ repair generation pending) ∧ □ (C = S ⇒ end of suppression "
+        "pending) ∧ "
         "□ (open ∧ C ≠ A ⇒ HEARTBEAT expiry pending) ∧ □ (no HEARTBEAT seen ⇒ initial ACKNACK "
         "pending)",
         "R waits for the writer's nack response, Q for the participant's async run, and U, not "
@@ -134,10 +135,14 @@ const std::array properties{
              "a relation has one suppression timer: what is sent while it is pending is suppressed "
              "only for the rest of it"},
     Property{"live.no-stall",
-             "While a receiver lacks a descriptor, some pending event can still bring it there.",
-             "□ (X = 0 ⇒ ∃ pending event from which X = 1 is reachable without further loss)",
+             "For every started pair that has recognised each other, or could have, while the "
+             "receiver lacks a descriptor there is a pending event or a packet in flight whose "
+             "processing can bring it there.",
+             "□ (i, j started ∧ X = 0 ⇒ ∃ pending event or packet in flight after which X = 1 is "
+             "reachable without further loss)",
              "",
-             "stated over X, what the receiver has, whatever the writer believes",
+             "stated over X, what the receiver has, whatever the writer believes; an event that "
+             "changes nothing does not count",
              {explorer, exact_run},
              "model.md, all rules of the writer and the reader"},
     Property{

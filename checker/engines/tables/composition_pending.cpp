@@ -1,7 +1,9 @@
 // composition.pending: what a state waits for is under way. Safety alone does not notice an effect
 // that is dropped; this does. Statements about one generic descriptor
 // (checker/engines/tables/descriptor_system.hpp), one for each state that something must end.
-// Together they are an invariant; if a mutant's rules break one, Spacer says which.
+// Together they are an invariant; if a mutant's rules break one, Spacer says which. They speak of
+// what the writer believes; that a receiver that lacks the descriptor is never believed to have it
+// makes them statements about the receiver, as live.no-stall is.
 #include <algorithm>
 
 #include "checker/engines/tables/descriptor_system.hpp"
@@ -111,6 +113,13 @@ Finding composition_pending(const CheckRequest& request) {
     how += "; " + statement.words + ": " +
            prove_unreachable(proof, descriptor.with_bad(statement.broken),
                              "not so: " + statement.words);
+  }
+  if (!proof.violated()) {
+    const std::string words = "the receiver lacks it: the writer does not take it as acknowledged";
+    proof.detail(words);
+    how += "; " + words + ": " +
+           prove_unreachable(proof, descriptor.with_bad(descriptor["C=A"] && !descriptor["X"]),
+                             "not so: " + words);
   }
   return proof.finish(how);
 }

@@ -37,6 +37,7 @@ class Derivation {
   // Variables.
   void declare(const std::string& name, bool start);
   void declare_count(const std::string& name);
+  [[nodiscard]] bool has(const std::string& name) const { return index_.contains(name); }
   /// The variable itself, for properties.
   [[nodiscard]] const Expr& variable(const std::string& name) const {
     return variables_.at(index_.at(name));

@@ -1,7 +1,10 @@
 // Which of the compositions, what is watched, and what every proof about it assumes.
 #include "checker/engines/tables/descriptor_system.hpp"
 
+#include <map>
+
 #include "checker/engines/tables/derived_world.hpp"
+#include "checker/engines/tables/machine_step.hpp"
 
 namespace stormproof::tables {
 
@@ -9,8 +12,8 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
                                    Unsound unsound, void (*derive)(Derived&))
     : derivation_{unsound} {
   Derivation& system = derivation_;
-  for (const char* bit : {watched::asked, watched::unasked_repair, watched::generated,
-                          watched::lists, watched::listed_at_first}) {
+  for (const char* bit : {watched::asked, watched::unasked_repair, watched::wrong_list,
+                          watched::generated, watched::lists, watched::listed_at_first}) {
     system.declare(bit, false);
   }
   const Expr yes = smt::SymbolicContext::current().bool_val(true);
@@ -22,7 +25,11 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
     if (packet == "Data" && says.contains("IsRepair")) {  // what is not said is false
       const Expr repaired = when && says.at("Carries") && says.at("IsRepair");
       system.assign(watched::unasked_repair, repaired && !system.now(watched::asked), yes);
+      system.assign(watched::asked, repaired, !yes);
     } else if (packet == "AckNack" && says.contains("Listed")) {
+      Expr missing = !system.now("X");
+      if (system.has("Known")) missing = missing && system.now("Known");
+      system.assign(watched::wrong_list, when && says.at("Listed") != missing, yes);
       const Expr taken = (when && !system.now(watched::generated)).simplify();
       for (const char* bit : {watched::lists, watched::listed_at_first}) {
         system.assign(bit, taken, says.at("Listed"));
@@ -46,6 +53,19 @@ TransitionSystem DescriptorSystem::with_bad(const Expr& bad) const {
   TransitionSystem system = derivation_.system();
   system.bad = bad;
   return what_matters(system);
+}
+
+Exprs true_of(const TransitionSystem& system) {
+  Exprs facts;
+  std::map<std::string, OneHot> machines;
+  for (const Expr& variable : system.variables) {
+    const std::string name = variable.decl().name().str();
+    const std::size_t end = name.find('=');
+    if (!variable.is_bool()) facts.push_back(variable >= 0);
+    if (end != std::string::npos) machines[name.substr(0, end)].push_back(variable);
+  }
+  for (const auto& [name, states] : machines) facts.push_back(exactly_one(states));
+  return facts;
 }
 
 void assume_for_descriptors(Proof& proof) {

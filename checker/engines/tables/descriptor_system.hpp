@@ -12,9 +12,12 @@ namespace stormproof::tables {
 
 /// What is watched besides the state of the composition.
 namespace watched {
-inline constexpr const char* asked = "asked";  ///< an ACKNACK that lists it has arrived
-/// Repair DATA has carried it though no ACKNACK that lists it had arrived.
+/// An ACKNACK that lists it has arrived since repair DATA with it was made last.
+inline constexpr const char* asked = "asked";
+/// Repair DATA has carried it though no ACKNACK had asked for it.
 inline constexpr const char* unasked_repair = "unasked repair";
+/// An ACKNACK listed what its reader had at its generation, or did not list what it lacked.
+inline constexpr const char* wrong_list = "an ACKNACK does not list what is missing";
 inline constexpr const char* generated = "ACKNACK generated";  ///< the one that is looked at
 inline constexpr const char* lists = "it lists the descriptor";
 inline constexpr const char* listed_at_first = "it listed the descriptor at its generation";
@@ -42,6 +45,10 @@ class DescriptorSystem {
  private:
   Derivation derivation_;
 };
+
+/// What holds of every derived system: counts are not negative, and a machine is in exactly one of
+/// its states.
+[[nodiscard]] Exprs true_of(const TransitionSystem& system);
 
 /// Derive all steps of one composition, each in a source file of its own.
 void derive_of(model::Of<fsm::composition::paper::Paper>, Derived& derived);

@@ -90,8 +90,12 @@ std::optional<std::string> instant_service(const model::Scenario& scenario) {
     return "loopback_delay is 0 ns";
   }
   if (wireless.kind == model::ServiceKind::constant_delay) {
-    if (wireless.one_way.count() >= 1) return std::nullopt;
-    return "one_way is 0 ns";
+    if (wireless.one_way.count() < 1) return "one_way is 0 ns";
+    for (const model::PacketDelay& delay : wireless.packet_delays) {
+      if (delay.one_way.count() >= 1) continue;
+      return "one_way of packet " + std::to_string(delay.packet) + " is 0 ns";
+    }
+    return std::nullopt;
   }
   // The smallest fragment carries one byte behind its headers.
   const std::int64_t bytes = 1 + model::ip_header_bytes + wireless.link_overhead_bytes.count();

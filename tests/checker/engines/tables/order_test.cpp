@@ -87,6 +87,10 @@ TEST(OrderReceptionFirst, AServiceThatTakesNoTimeLeavesItOpen) {
   EXPECT_TRUE(mentions(finding, "one_way is 0 ns"));
   scenario.wireless.one_way = Nanoseconds{1};
   expect_proved("order.reception-first", scenario);
+  scenario.wireless.packet_delays = {{7, Nanoseconds{0}, Nanoseconds{0}}};
+  const Finding one_packet = decide("order.reception-first", scenario);
+  EXPECT_EQ(one_packet.kind, VerdictKind::inconclusive);
+  EXPECT_TRUE(mentions(one_packet, "one_way of packet 7 is 0 ns"));
   model::Scenario same_host = fastdds();
   same_host.deployment.loopback_delay = Nanoseconds{0};
   EXPECT_EQ(decide("order.reception-first", same_host).kind, VerdictKind::inconclusive);

@@ -70,6 +70,15 @@ TEST(Pending, NoticesATimerThatIsNotAskedFor) {
                   "not so: open and not in A: the HEARTBEAT timer runs");
 }
 
+TEST(Pending, IsSaidOfTheReceiverWhateverTheWriterBelieves) {
+  // A writer that takes what it sends as acknowledged has nothing pending, and believes that it
+  // needs nothing.
+  const std::size_t row = row_of("DescriptorRepair", "U", "AckNackReceived", "A");
+  expect_violated("composition.pending", paper(),
+                  with_row("DescriptorRepair", row, fsm::TableMutation::Kind::ignore_guard),
+                  "not so: the receiver lacks it");
+}
+
 /// A proof about a system in which nothing happens would prove nothing.
 TEST(Pending, IsSaidOfStatesThatAreReached) {
   for (const auto& [scenario, state] :
