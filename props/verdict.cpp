@@ -1,4 +1,4 @@
-// Names of verdicts, as reports and `--require` spell them.
+// Names of verdicts, as reports and `--require` spell them, and what becomes of a contradiction.
 #include "props/verdict.hpp"
 
 namespace stormproof::props {
@@ -11,12 +11,21 @@ const char* name_of(VerdictKind kind) {
       return "bounded";
     case VerdictKind::sampled:
       return "sampled";
+    case VerdictKind::observed:
+      return "observed";
     case VerdictKind::violated:
       return "violated";
     case VerdictKind::inconclusive:
       return "inconclusive";
+    case VerdictKind::disputed:
+      return "disputed";
   }
   return "";
+}
+
+void dispute(Finding& finding, const std::string& why) {
+  finding.kind = VerdictKind::disputed;
+  finding.how += (finding.how.empty() ? "disputed: " : "; disputed: ") + why;
 }
 
 }  // namespace stormproof::props

@@ -1,8 +1,9 @@
 // What a check can answer. A verdict is never a bool: it says of what kind it is, how it was
-// reached, and under which assumptions. A time-out, an unknown or a disagreement of two solvers is
-// inconclusive; it is never "holds".
+// reached, and under which assumptions. A search that was cut short or an unknown is inconclusive;
+// two answers that contradict each other make a dispute. Neither is ever "holds".
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,15 +13,24 @@
 
 namespace stormproof::props {
 
+/// The kinds that establish something come first, the strongest of them before all.
 enum class VerdictKind : std::uint8_t {
-  proved,       ///< for all cases that the assumptions admit
-  bounded,      ///< for all cases up to a stated bound (one trajectory, a scope of the explorer)
-  sampled,      ///< for the cases that were drawn
-  violated,     ///< there is a counterexample
-  inconclusive  ///< no answer: time-out, unknown, solvers disagree, outside the region of a theorem
+  proved,        ///< for all cases that the assumptions admit
+  bounded,       ///< for all cases of a stated scope, which was exhausted
+  sampled,       ///< for the runs that were drawn
+  observed,      ///< on the one trajectory of this scenario
+  violated,      ///< there is a counterexample
+  inconclusive,  ///< no answer: search cut short, unknown, outside the region of a theorem
+  disputed       ///< two engines, two solvers, or engine and simulator contradict each other
 };
+/// In the order in which reports show them: what overrules the others first.
+inline constexpr std::array verdict_kinds{
+    VerdictKind::disputed, VerdictKind::violated, VerdictKind::inconclusive, VerdictKind::proved,
+    VerdictKind::bounded,  VerdictKind::sampled,  VerdictKind::observed};
 
 [[nodiscard]] const char* name_of(VerdictKind kind);
+/// Whether something is established.
+[[nodiscard]] constexpr bool holds(VerdictKind kind) { return kind <= VerdictKind::observed; }
 
 /// A run that breaks a property: a scenario whose run the property's monitor objects to. It is
 /// written as a trace and replays through the MSM machines.
@@ -44,8 +54,9 @@ struct Finding {
   std::string solver;  ///< for example "z3 4.8.12 + cvc5 1.0.3"; empty if none was asked
   unsigned seed = 0;
   std::optional<Counterexample> counterexample;
-  bool disputed =
-      false;  ///< inconclusive because two solvers disagree: no other engine overrules it
 };
+
+/// Something contradicts what the finding says: it is disputed, whatever it was.
+void dispute(Finding& finding, const std::string& why);
 
 }  // namespace stormproof::props

@@ -32,7 +32,8 @@ struct CheckArguments {
   checker::GateRules rules;
   std::string baseline;  ///< file; empty: none
   bool update_baseline = false;
-  double timeout_seconds = 10;   ///< of each query, for each solver
+  bool thorough = false;
+  double timeout_seconds = 120;  ///< of each query, for each solver
   std::string export_directory;  ///< for SMT-LIB 2 files; empty: none
   std::string counterexamples;   ///< a folder; empty: the usual one
   OutputFile emit_test;
@@ -91,6 +92,7 @@ checker::CheckReport run_check(const CheckArguments& arguments, const model::Sce
   smt::Options solver;
   solver.timeout =
       std::chrono::milliseconds{static_cast<std::int64_t>(arguments.timeout_seconds * 1000)};
+  if (arguments.thorough) solver.budget = solver.budget.times(checker::thorough);
   solver.seed = arguments.seed;
   solver.export_dir = arguments.export_directory;
   solver.second_solver = !arguments.single_solver;
@@ -98,8 +100,15 @@ checker::CheckReport run_check(const CheckArguments& arguments, const model::Sce
   smt::Claims claims{solver};
   checker::CheckReport report =
       checker::check({arguments.properties.begin(), arguments.properties.end()},
-                     {scenario, claims, nullptr, arguments.seed, arguments.samples,
-                      session.on_steps("checking, "), arguments.readers});
+                     {scenario,
+                      claims,
+                      nullptr,
+                      arguments.seed,
+                      arguments.samples,
+                      session.on_steps("checking, "),
+                      arguments.readers,
+                      {},
+                      arguments.thorough ? checker::thorough : 1U});
   if (arguments.frontier) report.frontiers = calculus::frontier_of(scenario);
   if (const auto error = claims.export_error()) answer.complaint = "--export: " + *error;
   return report;
@@ -161,8 +170,11 @@ void declare(Options& options, CheckArguments& arguments) {
   options.choice("--require", arguments.rules.require,
                  {{"proved", VerdictKind::proved},
                   {"bounded", VerdictKind::bounded},
-                  {"sampled", VerdictKind::sampled}},
-                 "Accept what the rules promise only if it is proved, bounded or sampled", "KIND");
+                  {"sampled", VerdictKind::sampled},
+                  {"observed", VerdictKind::observed}},
+                 "Accept what the rules promise only if it is at least proved, bounded, sampled or "
+                 "observed",
+                 "KIND");
   options.flag("--strict", arguments.rules.strict,
                "Fail, too, where other delays or losses could break what the rules do not promise");
   const Option baseline = options.text(
@@ -172,6 +184,8 @@ void declare(Options& options, CheckArguments& arguments) {
       .flag("--update-baseline", arguments.update_baseline,
             "Write what fails now into the baseline")
       .needs(baseline);
+  options.flag("--thorough", arguments.thorough,
+               "Search longer: more states of the explorer, more resources of the solvers");
   options.timeout(arguments.timeout_seconds);
   options.folder("--counterexamples", arguments.counterexamples,
                  usual_folder_help("Where counterexamples are written", "check-SCENARIO"));
@@ -203,7 +217,8 @@ void declare_check(Frame& frame) {
        "Exit code: 0 discovery completes within its limits and without a storm, nothing is "
        "violated\n"
        "in this deployment, and what the rules promise is established; 1 something of that fails;\n"
-       "3 something promised is inconclusive or weaker than --require; 2 bad input.",
+       "3 something promised is inconclusive or weaker than --require, or answers contradict each\n"
+       "other (disputed); 2 bad input.",
        Formats::findings,
        {checker::check_schema}},
       declare, run);

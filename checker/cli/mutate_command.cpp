@@ -18,7 +18,7 @@ struct MutateArguments {
   std::vector<std::string> only;   ///< ids of mutants; empty: all
   std::vector<std::string> kinds;  ///< of mutants; empty: all
   std::uint32_t readers = 1;       ///< that the explorer looks at together
-  double timeout_seconds = 10;     ///< of each query
+  double timeout_seconds = 120;    ///< of each query
 };
 
 std::optional<std::string> unknown_mutant(const std::vector<std::string>& ids) {

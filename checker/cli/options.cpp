@@ -226,8 +226,8 @@ Option Options::start_jitter(std::string& duration) {
 }
 
 Option Options::timeout(double& seconds) {
-  return number("--timeout", seconds, "Seconds for each query, for each solver (default 10)",
-                "SECONDS")
+  return number("--timeout", seconds,
+                "Interrupt a solver after so many seconds at one query (default 120)", "SECONDS")
       .within(0.001, 86'400.0);
 }
 

@@ -87,7 +87,7 @@ std::vector<std::string> check_lines(const tune::Report& report, bool& broken) {
     if (was == is) continue;
     lines.push_back(
         fmt::format("{}: {} → {}", after.results[k].property->id, name_of(was), name_of(is)));
-    broken = broken || is == props::VerdictKind::violated;
+    broken = broken || is == props::VerdictKind::violated || is == props::VerdictKind::disputed;
   }
   if (before.interrupted || after.interrupted) {
     lines.emplace_back("interrupted");

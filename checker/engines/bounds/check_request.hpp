@@ -49,7 +49,10 @@ struct CheckRequest {
   unsigned readers = 1;  ///< of one writer that the explorer looks at together, at most
   /// Called with each run of the scenario up to the end of discovery, in the order of the seeds.
   std::function<void(const model::Scenario&, const model::RunResult&)> on_run = {};
+  unsigned effort = 1;  ///< multiplies the states that the explorer may look at
 };
+/// What `--thorough` makes of the effort of all searches.
+inline constexpr unsigned thorough = 25;
 
 /// Answers by property id.
 using Findings = std::vector<std::pair<std::string_view, props::Finding>>;

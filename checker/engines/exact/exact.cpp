@@ -157,7 +157,7 @@ class Checker {
       answer.how = fmt::format("{} runs with drawn schedules, seeds {} to {}", judgment.runs,
                                request_.seed, request_.seed + judgment.runs - 1);
     } else {
-      answer.kind = VerdictKind::bounded;
+      answer.kind = VerdictKind::observed;
       answer.how = fmt::format("on the one trajectory of this scenario, {} events, up to {}",
                                judgment.events, time_text(judgment.until));
     }

@@ -2,7 +2,7 @@
 // ends.
 #include "checker/engines/exact/smallest_violation.hpp"
 
-#include <chrono>
+#include <algorithm>
 
 #include "checker/engines/exact/observed_run.hpp"
 #include "checker/engines/exact/smaller_deployments.hpp"
@@ -11,24 +11,24 @@ namespace stormproof::exact {
 
 namespace {
 
-constexpr std::chrono::milliseconds budget{1000};
+/// Events of all runs together: the search ends at the same place on every machine.
+constexpr std::uint64_t budget = 2'000'000;
 
 }  // namespace
 
 props::Counterexample shortest(const props::Counterexample& found, const model::Scenario& scenario,
                                std::string_view property, const std::function<bool()>& goes_on) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point end = Clock::now() + budget;
-  const auto in_time = [&] { return Clock::now() < end && (!goes_on || goes_on()); };
+  std::uint64_t left = budget;
   props::Counterexample best = found;
   model::Scenario family = found.scenario;
   family.deployment.schedule = scenario.deployment.schedule;
   for (const model::Scenario& smaller : smaller_scenarios(family)) {
-    if (!in_time() || best.event == 0) break;
-    const RunPlan plan{smaller, smaller, nullptr, best.event, in_time};
+    if (left == 0 || best.event == 0 || (goes_on && !goes_on())) break;
+    const RunPlan plan{smaller, smaller, nullptr, std::min(best.event, left), goes_on};
     const std::string_view wanted[] = {property};
     const ObservedRun run =
         property == quiescence ? run_until_quiet(plan) : run_observed(wanted, plan);
+    left -= std::min(left, run.result.events);
     const props::Monitor* const monitor = run.monitor(property);
     if (monitor == nullptr || !monitor->violation()) continue;
     const props::Violation& violation = *monitor->violation();

@@ -57,6 +57,7 @@ class Exploration {
  public:
   Exploration(const Request& request, Claims claims)
       : request_{request}, running_{request.scenario}, open_{claims} {
+    mutation_ = request.misread;
     if (request.mutant == nullptr) return;
     mutation_ = request.mutant->rules;
     if (request.mutant->knobs) request.mutant->knobs(running_);
@@ -83,12 +84,13 @@ class Exploration {
  private:
   void run(const std::vector<Scope>& list) {
     for (const Group& group : groups) {
-      std::uint64_t left = group.in_all / (request_.mutant == nullptr ? 1 : share_of_mutant);
+      std::uint64_t left = request_.mutant == nullptr ? group.in_all * request_.effort
+                                                      : group.in_all / share_of_mutant;
       for (std::size_t k = 0; k < list.size(); ++k) {
         claims_ = open_ & group.claims;
         if (claims_ == 0 || where_.interrupted) break;
         // What a scope does not need of its share is left to those after it.
-        limit_ = std::min(group.most_states, left / (list.size() - k));
+        limit_ = std::min(group.most_states * request_.effort, left / (list.size() - k));
         const Scope& scope = list[k];
         model::visit_composition(running_.dds,
                                  [&](auto composition) { explore(composition, scope); });
@@ -142,6 +144,7 @@ class Exploration {
       result = search(*world, bounds, 0);
     }
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    budget_ -= std::min(budget_, result.states);
     for (const Entry& entry : entries) {
       if ((claims_ & bit(entry.claim)) == 0) continue;
       Answer& answer = answers_[static_cast<std::size_t>(entry.claim)];
@@ -204,8 +207,8 @@ class Exploration {
 
 checker::Findings check(std::span<const std::string_view> properties,
                         const checker::CheckRequest& request) {
-  return explore(properties,
-                 {request.scenario, request.mutant, request.on_progress, request.readers});
+  return explore(properties, {request.scenario, request.mutant, request.on_progress,
+                              request.readers, request.effort});
 }
 
 checker::Findings explore(std::span<const std::string_view> properties, const Request& request) {

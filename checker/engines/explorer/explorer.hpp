@@ -1,8 +1,9 @@
 // The engine "explorer": runs the concrete machines of one relation, or of one writer with several
 // readers, along every interleaving of a small scope, with event times as difference constraints,
 // and reports what breaks first. Its counterexamples have the fewest possible events; each has been
-// replayed by the simulator before it is reported. What it does not find is bounded by the scope,
-// which the finding states.
+// replayed by the simulator before it is reported; if that does not confirm it, explorer and
+// simulator disagree, and the finding is disputed. What it does not find is bounded by the scopes
+// that it has exhausted, which the finding states; without one it is inconclusive.
 #pragma once
 
 #include <span>
@@ -25,6 +26,9 @@ struct Request {
   std::function<bool(std::string_view)> on_progress;  ///< false interrupts
   /// 1: one relation only; 2 … most_readers: up to so many readers of one writer, too.
   unsigned readers = 1;
+  unsigned effort = 1;  ///< multiplies the states that are looked at
+  /// What the explored world does wrong and runs do not: for the test that notices it.
+  model::Mutation misread = {};
 };
 [[nodiscard]] checker::Findings explore(std::span<const std::string_view> properties,
                                         const Request& request);

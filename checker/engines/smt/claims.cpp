@@ -86,12 +86,10 @@ std::string script(std::string_view property, const std::vector<Query>& queries)
 
 /// Z3's solver without tactics: it answers small queries several times faster than the default one,
 /// and it starts no timers (checker/engines/smt/deadline.hpp).
-z3::solver make_solver(const z3::expr_vector& assertions, unsigned seed) {
+z3::solver make_solver(const z3::expr_vector& assertions, const Options& options) {
   z3::context& context = assertions.ctx();
   z3::solver solver{context, z3::solver::simple()};
-  z3::params params{context};
-  params.set("random_seed", seed);
-  solver.set(params);
+  solver.set(solver_parameters(context, options));
   for (const z3::expr& assertion : assertions) {
     if (!assertion.is_bool()) throw z3::exception{"an assertion that is not a truth value"};
     solver.add(assertion);
@@ -161,9 +159,22 @@ std::string write_export(const std::string& folder, std::string_view property,
   return "cannot write " + path.string() + why;
 }
 
-/// Compares the answers; returns the first difference, or nothing.
-std::string difference(const std::vector<Query>& queries, const SolverRun& run,
-                       const std::string& solver) {
+/// The first query to which one solver says sat and the other unsat; nothing if there is none.
+std::string contradiction(const std::vector<Query>& queries, const SolverRun& run,
+                          const std::string& solver) {
+  for (std::size_t k = 0; k < std::min(queries.size(), run.answers.size()); ++k) {
+    const Answer first = queries[k].answer;
+    const Answer second = run.answers[k];
+    if (first == Answer::unknown || second == Answer::unknown || first == second) continue;
+    return one_line(queries[k].name) + ": z3 says " + text_of(first) + ", " + solver + " says " +
+           text_of(second);
+  }
+  return {};
+}
+
+/// The first query that one of the solvers leaves without an answer; nothing if there is none.
+std::string gap(const std::vector<Query>& queries, const SolverRun& run,
+                const std::string& solver) {
   for (std::size_t k = 0; k < queries.size(); ++k) {
     const std::string where = one_line(queries[k].name) + ": ";
     if (k >= run.answers.size()) {
@@ -171,23 +182,10 @@ std::string difference(const std::vector<Query>& queries, const SolverRun& run,
       return where + solver + " gives no answer" + why;
     }
     if (queries[k].answer == Answer::unknown) return where + "z3 gives no answer";
-    if (queries[k].answer != run.answers[k]) {
-      return where + "z3 says " + text_of(queries[k].answer) + ", " + solver + " says " +
-             text_of(run.answers[k]);
-    }
+    if (run.answers[k] == Answer::unknown) return where + solver + " gives no answer";
   }
   if (run.answers.size() > queries.size()) return solver + " answers more than it was asked";
   return {};
-}
-
-/// Whether one solver says sat and the other unsat.
-bool contradiction(const std::vector<Query>& queries, const SolverRun& run) {
-  for (std::size_t k = 0; k < std::min(queries.size(), run.answers.size()); ++k) {
-    const Answer first = queries[k].answer;
-    const Answer second = run.answers[k];
-    if (first != Answer::unknown && second != Answer::unknown && first != second) return true;
-  }
-  return false;
 }
 
 }  // namespace
@@ -233,7 +231,7 @@ Decision Claims::decide(std::string_view property, std::string_view query,
   Decision decision;
   Query asked{std::string{query}, {}, Answer::unknown};
   try {
-    z3::solver solver = make_solver(assertions, state_->options.seed);
+    z3::solver solver = make_solver(assertions, state_->options);
     if (state_->keeps_text()) asked.text = declarations_and_assertions(solver);
     check(solver, state_->options, decision);
   } catch (const z3::exception& error) {
@@ -281,8 +279,9 @@ SecondOpinion Claims::second_opinion(std::string_view property) {
     } else {
       const SolverRun run = ask_second_solver(file.path(), found->second.size(), options);
       stop_if_interrupted(options);
-      opinion.difference = difference(found->second, run, opinion.solver);
-      opinion.contradicts = contradiction(found->second, run);
+      opinion.difference = contradiction(found->second, run, opinion.solver);
+      opinion.contradicts = !opinion.difference.empty();
+      if (!opinion.contradicts) opinion.difference = gap(found->second, run, opinion.solver);
     }
     opinion.agrees = opinion.difference.empty();
   }

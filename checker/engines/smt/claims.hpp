@@ -1,5 +1,7 @@
-// Decides queries: Z3 first, with a time-out on every query; then, if cvc5 is installed, the same
-// query in SMT-LIB 2 once more. Only two solvers that agree, or one that is alone, give an answer.
+// Decides queries: Z3 first, then, if cvc5 is installed, the same query in SMT-LIB 2 once more.
+// Only two solvers that agree, or one that is alone, give an answer. What a query may cost is
+// counted in the solvers' own resource units, so that the answer is the same on every machine; the
+// clock only interrupts what does not count them.
 #pragma once
 
 #include <chrono>
@@ -19,8 +21,22 @@ namespace stormproof::smt {
 
 enum class Answer : unsigned char { unsat, sat, unknown };
 
+/// What a query may cost: some hundred times what those of the catalogue need, and about as long in
+/// both solvers.
+struct Budget {
+  unsigned z3 = 20'000'000;   ///< units of Z3's `rlimit`
+  unsigned cvc5 = 1'000'000;  ///< units of cvc5's `--rlimit-per`
+
+  /// For longer searches.
+  [[nodiscard]] constexpr Budget times(unsigned effort) const {
+    return {z3 * effort, cvc5 * effort};
+  }
+};
+
 struct Options {
-  std::chrono::milliseconds timeout{10'000};  ///< of each query, for each solver
+  /// By the clock, of each query, for each solver: an interruption, no budget.
+  std::chrono::milliseconds timeout{120'000};
+  Budget budget{};
   unsigned seed = 0;
   std::string export_dir{};   ///< where queries are written as <property>.smt2; empty: nowhere
   bool second_solver = true;  ///< ask cvc5, too, if it is installed
@@ -36,7 +52,8 @@ struct SecondOpinion {
   bool agrees = true;        ///< it gave the same answer to every query
   bool contradicts = false;  ///< it answered one of them the other way round
   std::string solver;        ///< for example "cvc5 1.0.3"
-  std::string difference;    ///< the first query on which it does not agree, or has no answer
+  /// The first query that it contradicts; if there is none, the first without an answer.
+  std::string difference;
   std::string problem;  ///< why the export could not be written; empty: it was, or none was asked
   double seconds = 0;
 };

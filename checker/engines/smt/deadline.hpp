@@ -1,7 +1,9 @@
-// A time-out for work that Z3 does. Z3 4.8.10 to 4.8.12 have timers of their own (the parameter
-// `timeout`, and some tactics of the default solver), but one that expires keeps a lock, and the
-// next one may wait for it for ever (Z3 pull request 5369). So nothing here uses them: a watch of
-// our own interrupts the context, and solvers are made without tactics.
+// What Z3's work may cost, and a watch that interrupts it. The budget is Z3's own count of
+// resources; where Z3 does not count them, and when nobody wants the answer any more, the watch
+// ends the work. Z3 4.8.10 to 4.8.12 have timers of their own (the parameter `timeout`, and some
+// tactics of the default solver), but one that expires keeps a lock, and the next one may wait for
+// it for ever (Z3 pull request 5369). So nothing here uses them: a watch of our own interrupts the
+// context, and solvers are made without tactics.
 #pragma once
 
 #include <chrono>
@@ -13,7 +15,17 @@
 
 #include <z3++.h>
 
+#include "checker/engines/smt/claims.hpp"
+
 namespace stormproof::smt {
+
+/// The seed and the budget of a solver.
+[[nodiscard]] inline z3::params solver_parameters(z3::context& context, const Options& options) {
+  z3::params parameters{context};
+  parameters.set("random_seed", options.seed);
+  parameters.set("rlimit", options.budget.z3);
+  return parameters;
+}
 
 /// Nobody wants the answer any more. Thrown through an engine to its border, so that no question
 /// after the first costs time; never further.

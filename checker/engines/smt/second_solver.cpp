@@ -37,12 +37,14 @@ std::string second_solver_name() {
 
 SolverRun ask_second_solver(const std::string& path, std::size_t questions,
                             const Options& options) {
-  // The time-out per query is the solver's own; should it ignore it, it is stopped a little later.
+  // Budget and time-out per query are the solver's own; should it ignore them, it is stopped a
+  // little later.
   const auto all =
       options.timeout * (static_cast<long long>(questions) + 1) + std::chrono::seconds{2};
   const process::Run run =
       process::run({.arguments = {"cvc5", "--lang=smt2", "--incremental",
                                   "--seed=" + std::to_string(options.seed),
+                                  "--rlimit-per=" + std::to_string(options.budget.cvc5),
                                   "--tlimit-per=" + std::to_string(options.timeout.count()), path},
                     .limit = all,
                     .stop = options.interrupted});

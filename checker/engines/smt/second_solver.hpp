@@ -17,7 +17,7 @@ struct SolverRun {
 /// "cvc5 1.0.3", or empty if no cvc5 that runs is on PATH.
 [[nodiscard]] std::string second_solver_name();
 
-/// Asks cvc5 all `questions` of the file, each with the options' time-out and seed.
+/// Asks cvc5 all `questions` of the file, each with the options' budget, time-out and seed.
 [[nodiscard]] SolverRun ask_second_solver(const std::string& path, std::size_t questions,
                                           const Options& options);
 

@@ -29,6 +29,10 @@ void Proof::give_up(std::string why) {
   if (gap_.empty()) gap_ = std::move(why);
 }
 
+void Proof::dispute(std::string why) {
+  if (dispute_.empty()) dispute_ = std::move(why);
+}
+
 void Proof::violate(std::string line) {
   violated_ = true;
   detail(std::move(line));
@@ -45,8 +49,8 @@ props::Finding Proof::finish(std::string how) {
   if (opinion.asked) {
     finding_.solver += " + " + opinion.solver;
     if (opinion.agrees) finding_.how += " and " + opinion.solver.substr(0, 4);
-    if (!opinion.agrees) give_up("the solvers do not agree: " + opinion.difference);
-    finding_.disputed = opinion.contradicts;
+    const std::string difference = "the solvers do not agree: " + opinion.difference;
+    if (!opinion.agrees) opinion.contradicts ? dispute(difference) : give_up(difference);
   }
   if (!opinion.problem.empty()) detail("export: " + opinion.problem);
   finding_.kind = violated_ ? props::VerdictKind::violated : props::VerdictKind::proved;
@@ -54,6 +58,10 @@ props::Finding Proof::finish(std::string how) {
     finding_.kind = props::VerdictKind::inconclusive;
     finding_.how += "; inconclusive: " + gap_;
     detail("inconclusive: " + gap_);
+  }
+  if (!dispute_.empty()) {
+    props::dispute(finding_, dispute_);
+    detail("disputed: " + dispute_);
   }
   const auto elapsed = std::chrono::steady_clock::now() - start_;
   finding_.seconds = std::chrono::duration<double>(elapsed).count();

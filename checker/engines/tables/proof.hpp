@@ -1,6 +1,6 @@
 // The work on one property: its solver context, the questions asked about it, and the verdict they
-// add up to. A question without an answer, or one on which the solvers disagree, makes the verdict
-// inconclusive here, so that no property can forget it.
+// add up to. A question without an answer makes the verdict inconclusive here, and one to which the
+// solvers give opposite answers makes it disputed, so that no property can forget it.
 #pragma once
 
 #include <chrono>
@@ -43,6 +43,8 @@ class Proof {
   }
   /// Something went wrong that makes a proof worthless.
   void give_up(std::string why);
+  /// Two answers contradict each other: no verdict counts.
+  void dispute(std::string why);
 
   void assume(std::string sentence) { finding_.assumptions.push_back(std::move(sentence)); }
   void detail(std::string line) { finding_.details.push_back(std::move(line)); }
@@ -50,8 +52,8 @@ class Proof {
   void violate(std::string line);
   [[nodiscard]] bool violated() const { return violated_; }
 
-  /// The verdict: violated, inconclusive, or else proved; `how` names the method. To be called
-  /// once, at the end.
+  /// The verdict: disputed, inconclusive, violated, or else proved; `how` names the method. To be
+  /// called once, at the end.
   [[nodiscard]] props::Finding finish(std::string how);
 
  private:
@@ -62,7 +64,8 @@ class Proof {
   z3::context context_;
   smt::SymbolicContext current_{context_};
   props::Finding finding_;
-  std::string gap_;  ///< why nothing is proved; empty: every question was answered
+  std::string gap_;      ///< why nothing is proved; empty: every question was answered
+  std::string dispute_;  ///< what contradicts what; empty: nothing
   std::size_t asked_ = 0;
   bool violated_ = false;
 };

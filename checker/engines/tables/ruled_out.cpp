@@ -123,9 +123,10 @@ class Explanation {
         if (!z3::eq(step.next[e], system.variables[e]))
           happens.push_back(step.guard && step.next[e]);
       }
-      z3::solver solver{proof_.context(), z3::solver::simple()};
-      solver.add(all_of(kept) && unmarked && any_of(happens));
       const smt::Options& options = proof_.request().claims.options();
+      z3::solver solver{proof_.context(), z3::solver::simple()};
+      solver.set(smt::solver_parameters(proof_.context(), options));
+      solver.add(all_of(kept) && unmarked && any_of(happens));
       const smt::Deadline deadline{proof_.context(), options.timeout, options.interrupted};
       never[e] = solver.check() == z3::unsat;
     }

@@ -2,7 +2,7 @@
 // a bad state can be reached in any number of steps. Spacer (Z3's fixed-point engine) looks for an
 // invariant; what it finds is not believed but checked again with three kinds of plain conditions,
 // by both solvers: it holds initially, every step keeps it, and it excludes the bad states. If
-// there is no invariant, or Spacer has none in half of the time, the shortest sequence of steps is
+// there is no invariant, or Spacer finds none within its budget, the shortest sequence of steps is
 // looked for by unrolling.
 #pragma once
 
@@ -41,6 +41,10 @@ struct Reached {
 /// The plain conditions that make `invariant` a proof that `bad` is never reached: it holds
 /// initially, every step keeps it, and it excludes `bad`. Whether all of them hold.
 bool certify(Proof& proof, const TransitionSystem& system, const Expr& invariant);
+
+/// The plain conditions that make `invariant` a proof that `bad` cannot be reached. Whether all of
+/// them hold; one that is refuted contradicts whoever found the invariant, and makes a dispute.
+[[nodiscard]] bool certify(Proof& proof, const TransitionSystem& system, const Expr& invariant);
 
 /// Decides whether `bad` can be reached. Proved: the invariant goes into the details. Violated: the
 /// shortest sequence of steps does, headed by `breaks`. Returns the method, for `Proof::finish`.

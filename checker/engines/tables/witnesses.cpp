@@ -23,11 +23,13 @@ struct Novelty {
 
 class NoveltySearch {
  public:
-  NoveltySearch(const TransitionSystem& system, const std::vector<bool>& is_mark, unsigned seed)
-      : system_{system}, is_mark_{is_mark}, solver_{context_of_search(), z3::solver::simple()} {
-    z3::params params{context_of_search()};
-    params.set("random_seed", seed);
-    solver_.set(params);
+  NoveltySearch(const TransitionSystem& system, const std::vector<bool>& is_mark,
+                const smt::Options& options)
+      : system_{system},
+        is_mark_{is_mark},
+        options_{options},
+        solver_{context_of_search(), z3::solver::simple()} {
+    solver_.set(smt::solver_parameters(context_of_search(), options));
     Exprs start;
     for (std::size_t v = 0; v < system.variables.size(); ++v) {
       start.push_back(start_of(v));
@@ -38,8 +40,8 @@ class NoveltySearch {
     add_state(start);
   }
 
-  Witnesses run(const smt::Options& options) {
-    smt::Deadline deadline{context_of_search(), options.timeout, options.interrupted};
+  Witnesses run() {
+    smt::Deadline deadline{context_of_search(), options_.timeout, options_.interrupted};
     while (marks_are_open()) {
       const z3::check_result answer = advance();
       if (answer == z3::unsat) break;
@@ -154,6 +156,7 @@ class NoveltySearch {
     Unrolling unrolling{ahead};
     for (std::size_t k = 0; k < length; ++k) unrolling.extend();
     z3::solver solver{context_of_search(), z3::solver::simple()};
+    solver.set(smt::solver_parameters(context_of_search(), options_));
     for (const Expr& condition : unrolling.ends_badly()) solver.add(condition);
     const z3::check_result answer = solver.check();
     if (answer != z3::sat) return answer;
@@ -210,6 +213,7 @@ class NoveltySearch {
 
   const TransitionSystem& system_;
   const std::vector<bool>& is_mark_;
+  const smt::Options& options_;
   z3::solver solver_;
   std::vector<Novelty> novelties_;
   std::vector<Exprs> states_;  ///< values by variable
@@ -222,7 +226,7 @@ class NoveltySearch {
 
 Witnesses find_witnesses(const TransitionSystem& system, const std::vector<bool>& is_mark,
                          const smt::Options& options) {
-  return NoveltySearch{system, is_mark, options.seed}.run(options);
+  return NoveltySearch{system, is_mark, options}.run();
 }
 
 }  // namespace stormproof::tables

@@ -39,6 +39,7 @@ props::Finding guarded(Decide decide, const Question& question) {
 }  // namespace
 
 void leave_open(props::Finding& finding, const std::string& why) {
+  if (finding.kind == props::VerdictKind::disputed) return;
   finding.kind = props::VerdictKind::inconclusive;
   finding.how += "; inconclusive: " + why;
 }
@@ -53,6 +54,15 @@ void rest_on(props::Finding& finding, const props::Finding& certificate) {
   finding.seconds += certificate.seconds;
   if (certificate.kind != props::VerdictKind::proved) {
     leave_open(finding, "the rules are not known to do what the theorem starts from");
+  }
+}
+
+void run_contradicts(props::Finding& finding, const checker::CheckRequest& request,
+                     const std::string& why) {
+  if (request.mutant == nullptr) {
+    dispute(finding, why);
+  } else {
+    finding.kind = props::VerdictKind::violated;
   }
 }
 

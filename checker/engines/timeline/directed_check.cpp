@@ -1,8 +1,14 @@
 // Comparison of runs with the encoding, and confirmation of counterexamples.
 #include "checker/engines/timeline/directed_check.hpp"
 
-#include <fmt/core.h>
+#include <map>
+#include <set>
 
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "checker/engines/timeline/findings.hpp"
+#include "model/config/knobs/effective.hpp"
 #include "model/implementations.hpp"
 #include "model/simulator.hpp"
 #include "props/monitor.hpp"
@@ -48,6 +54,29 @@ std::string difference(const BoundaryPoint& point, const std::optional<DirectedR
                      text(predicted));
 }
 
+/// The knobs whose values in the boundary runs are not those of the scenario's profile.
+std::string altered_text(const std::vector<BoundaryPoint>& points, const model::DdsProfile& dds) {
+  const auto knobs_of = [](const model::DdsProfile& profile) {
+    return model::config::effective_json(profile).flatten();  // "/sedp/heartbeat_timer"
+  };
+  const nlohmann::ordered_json own = knobs_of(dds);
+  std::map<std::string, std::set<std::string>> altered;
+  for (const BoundaryPoint& point : points) {
+    const nlohmann::ordered_json knobs = knobs_of(point.setting.dds);
+    for (const auto& [path, value] : knobs.items()) {
+      if (own.contains(path) && own[path] == value) continue;
+      altered[path.substr(path.rfind('/') + 1)].insert(value.is_string() ? value.get<std::string>()
+                                                                         : value.dump());
+    }
+  }
+  std::string text;
+  for (const auto& [knob, values] : altered) {
+    text += (text.empty() ? "; unlike the scenario's profile they have " : ", ") + knob;
+    text += values.size() == 1 ? ": " + *values.begin() : " at other values";
+  }
+  return text;
+}
+
 }  // namespace
 
 model::DdsProfile encoded_profile(const model::DdsProfile& dds) {
@@ -73,7 +102,7 @@ void hold_against_runs(const std::vector<BoundaryPoint>& points, std::string_vie
       ++agree;
       continue;
     }
-    finding.kind = props::VerdictKind::violated;
+    run_contradicts(finding, request, "boundary run \"" + point.name + "\": " + why);
     finding.details.push_back("boundary run \"" + point.name + "\": " + why);
     if (run && !finding.counterexample) {
       finding.counterexample =
@@ -86,8 +115,8 @@ void hold_against_runs(const std::vector<BoundaryPoint>& points, std::string_vie
     }
   }
   finding.details.push_back(fmt::format(
-      "{} of {} boundary runs of the machines agree with the encoding to the nanosecond", agree,
-      points.size()));
+      "{} of {} boundary runs of the machines agree with the encoding to the nanosecond{}", agree,
+      points.size(), altered_text(points, request.scenario.dds)));
 }
 
 std::optional<props::Counterexample> confirmed_counterexample(std::string_view property,

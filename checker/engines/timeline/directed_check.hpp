@@ -26,8 +26,9 @@ struct BoundaryPoint {
 [[nodiscard]] model::DdsProfile encoded_profile(const model::DdsProfile& dds);
 
 /// Runs every point under the request's mutant, if it has one. A point at which run, encoding and
-/// closed form differ makes the finding violated, with the run as counterexample; otherwise a line
-/// says how many agree.
+/// closed form differ makes the finding disputed, or violated by the mutant, with the run as
+/// counterexample. A line says how many agree, and with what else than the scenario's profile they
+/// run.
 void hold_against_runs(const std::vector<BoundaryPoint>& points, std::string_view property,
                        const checker::CheckRequest& request, props::Finding& finding);
 

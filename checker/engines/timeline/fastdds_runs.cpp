@@ -78,7 +78,7 @@ void hold_fastdds_against_bound(const Question& question, props::Finding& findin
       ++kept;
       continue;
     }
-    finding.kind = props::VerdictKind::violated;
+    run_contradicts(finding, question.request, "a run of the machines exceeds the bound");
     if (!outcome.run || finding.counterexample) continue;
     const std::string took = outcome.run->completion
                                  ? props::time_text(*outcome.run->completion)

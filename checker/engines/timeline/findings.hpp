@@ -31,12 +31,16 @@ struct Question {
 [[nodiscard]] props::Finding single_copy_finding(const Question& question);
 [[nodiscard]] props::Finding free_threshold_finding(const Question& question);
 
-/// Turns a finding into one without an answer.
+/// Turns a finding into one without an answer, unless it is disputed.
 void leave_open(props::Finding& finding, const std::string& why);
 
 /// Adds what a theorem takes from a certificate about the rules: its assumptions, and how it is
 /// known. Without that certificate there is no proof.
 void rest_on(props::Finding& finding, const props::Finding& certificate);
+/// A run of the machines does what was proved to be impossible: a dispute between this engine and
+/// the simulator; a mutant has been noticed.
+void run_contradicts(props::Finding& finding, const checker::CheckRequest& request,
+                     const std::string& why);
 
 /// What the run of the scenario says about "no packet takes longer than Δ" and "nothing is lost".
 [[nodiscard]] std::string measured_text(const exact::Measured& measured);

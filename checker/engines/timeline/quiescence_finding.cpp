@@ -102,7 +102,9 @@ props::Finding quiescence_finding(const Question& question) {
         "asking for ever, at {} distances",
         is_doubling(question.sedp()) ? "doubling" : "equal"));
     if (auto example = endless_attempts(question.request.scenario)) {
-      finding.kind = props::VerdictKind::violated;
+      if (finding.kind != props::VerdictKind::disputed) {
+        finding.kind = props::VerdictKind::violated;
+      }
       finding.details.push_back(
           "if every HEARTBEAT until then is lost, an initial ACKNACK confirms everything, the "
           "writer falls silent, and the reader never sees a HEARTBEAT: " +

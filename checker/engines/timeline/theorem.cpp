@@ -71,13 +71,16 @@ props::Finding Theorem::finish(std::string how) {
     if (opinion.agrees) {
       finding.how += " and " + opinion.solver.substr(0, opinion.solver.find(' '));
     } else {
-      finding.disputed = opinion.contradicts;
       give_up("the solvers do not agree: " + opinion.difference);
     }
   }
   if (!opinion.problem.empty()) finding.details.push_back("export: " + opinion.problem);
   finding.kind = proved() ? props::VerdictKind::proved : props::VerdictKind::inconclusive;
-  if (!proved()) finding.how += "; inconclusive: " + gap_;
+  if (opinion.contradicts) {
+    props::dispute(finding, "the solvers do not agree: " + opinion.difference);
+  } else if (!proved()) {
+    finding.how += "; inconclusive: " + gap_;
+  }
   const auto elapsed = std::chrono::steady_clock::now() - start_;
   finding.seconds = std::chrono::duration<double>(elapsed).count();
   return finding;

@@ -1,6 +1,6 @@
 // A theorem over linear-integer timelines: its parameters, its conditions, each decided by Z3 and
-// cvc5, and the verdict that they add up to. A condition without an answer, or one on which the
-// solvers disagree, makes the verdict inconclusive.
+// cvc5, and the verdict that they add up to. A condition without an answer makes the verdict
+// inconclusive, and one to which the solvers give opposite answers makes it disputed.
 #pragma once
 
 #include <chrono>

@@ -1,9 +1,9 @@
 // Both checks run side by side, each with a solver of its own. One solver is enough here: the
 // theorems are those of `stormproof check`, where a second one is asked.
 //
-// That a property is violated needs a counterexample, so it does not depend on the speed of the
-// machine; that an answer is inconclusive may. So a lost answer is shown, and decides nothing
-// unless the policy is strict.
+// That a property is violated needs a counterexample; that an answer is inconclusive says how far a
+// search came. So a lost answer is shown, and decides nothing unless the policy is strict. A
+// dispute leaves nothing to compare.
 #include "checker/experiments/diff/verdicts.hpp"
 
 #include <array>
@@ -19,11 +19,6 @@ namespace stormproof::diff {
 namespace {
 
 using props::VerdictKind;
-
-bool holds(VerdictKind kind) {
-  return kind == VerdictKind::proved || kind == VerdictKind::bounded ||
-         kind == VerdictKind::sampled;
-}
 
 checker::CheckReport check_one(const VerdictRequest& request, const model::Scenario& scenario,
                                const std::function<bool(std::string_view)>& on_progress) {
@@ -62,6 +57,7 @@ VerdictChange change_of(const checker::PropertyResult& before, const checker::Pr
 }  // namespace
 
 Judgment judge_verdicts(VerdictKind before, VerdictKind after, const Policy& policy) {
+  if (before == VerdictKind::disputed || after == VerdictKind::disputed) return Judgment::unclear;
   if (holds(before) && after == VerdictKind::violated) {
     return policy.verdicts ? Judgment::regression : Judgment::worse;
   }

@@ -205,9 +205,10 @@ struct Location {
 struct Finding {
   enum class Outcome : std::uint8_t {
     passed,
-    failed,   ///< it does not hold
-    unknown,  ///< nobody knows: inconclusive, interrupted
-    note      ///< neither: an assumption, a remark. Not a test case, but among a suite's notes
+    failed,    ///< it does not hold
+    unknown,   ///< nobody knows: inconclusive, interrupted
+    disputed,  ///< answers contradict each other
+    note  ///< none of these: an assumption, a remark. Not a test case, but among a suite's notes
   };
   /// What CI systems count and what they show beside the code may differ.
   enum class Shown : std::uint8_t { everywhere, tests, code };

@@ -1,4 +1,5 @@
-// JUnit XML, as CI systems read it: what does not hold is a failure, what nobody knows an error.
+// JUnit XML, as CI systems read it: what does not hold is a failure, what nobody knows or what is
+// disputed an error.
 #include <algorithm>
 
 #include <fmt/core.h>
@@ -25,6 +26,10 @@ bool is_test(const Finding& finding) {
   return finding.outcome != Outcome::note && finding.shown != Finding::Shown::code;
 }
 
+bool is_error(const Finding& finding) {
+  return finding.outcome == Outcome::unknown || finding.outcome == Outcome::disputed;
+}
+
 std::string lines_of(const Finding& finding) {
   std::string text = finding.details;
   if (finding.outcome == Outcome::passed && !finding.word.empty()) {
@@ -48,7 +53,7 @@ std::string test_case(const Finding& finding, const std::string& title) {
   if (finding.outcome == Outcome::passed) {
     return head + fmt::format("            <system-out>{}</system-out>\n", text) + foot;
   }
-  const char* element = finding.outcome == Outcome::failed ? "failure" : "error";
+  const char* element = is_error(finding) ? "error" : "failure";
   return head +
          fmt::format("            <{0}{1}{2}>{3}</{0}>\n", element,
                      xml_attribute("type", finding.word), xml_attribute("message", finding.message),
@@ -79,7 +84,7 @@ std::string to_junit(const Document& document) {
     if (!is_test(finding)) continue;
     ++tests;
     if (finding.outcome == Outcome::failed) ++failures;
-    if (finding.outcome == Outcome::unknown) ++errors;
+    if (is_error(finding)) ++errors;
     cases += test_case(finding, document.title);
   }
   const std::string notes = notes_of(document);

@@ -29,6 +29,8 @@ const char* level_of(const Finding& finding) {
       return "note";
     case Finding::Outcome::unknown:
       return "warning";
+    case Finding::Outcome::disputed:
+      return "error";
     case Finding::Outcome::failed:
       break;
   }

@@ -1,4 +1,5 @@
-// A colour and a sign for each verdict: a bound and a sample look alike, but are not the same.
+// A colour and a sign for each verdict: what covers less than everything looks alike, but is not
+// the same.
 #include "checker/presentation/document/verdicts.hpp"
 
 namespace stormproof::report {
@@ -11,8 +12,10 @@ Tone tone_of(VerdictKind kind) {
       return Tone::good;
     case VerdictKind::bounded:
     case VerdictKind::sampled:
+    case VerdictKind::observed:
       return Tone::info;
     case VerdictKind::violated:
+    case VerdictKind::disputed:
       return Tone::bad;
     case VerdictKind::inconclusive:
       break;
@@ -21,7 +24,11 @@ Tone tone_of(VerdictKind kind) {
 }
 
 Text badge(VerdictKind kind) {
-  return badge(tone_of(kind), name_of(kind), kind == VerdictKind::bounded ? "≤" : "");
+  const char* const sign = kind == VerdictKind::bounded    ? "≤"
+                           : kind == VerdictKind::observed ? "·"
+                           : kind == VerdictKind::disputed ? "≠"
+                                                           : "";
+  return badge(tone_of(kind), name_of(kind), sign);
 }
 
 }  // namespace stormproof::report

@@ -8,7 +8,8 @@ namespace stormproof::report {
 
 [[nodiscard]] Tone tone_of(props::VerdictKind kind);
 
-/// "✓ proved", "≤ bounded", "≈ sampled", "✗ violated", "? inconclusive".
+/// "✓ proved", "≤ bounded", "≈ sampled", "· observed", "✗ violated", "? inconclusive", "≠
+/// disputed".
 [[nodiscard]] Text badge(props::VerdictKind kind);
 
 }  // namespace stormproof::report

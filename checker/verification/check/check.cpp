@@ -1,4 +1,4 @@
-// Runs the engines one after the other and combines what they found.
+// Runs the engines one after the other.
 #include "checker/verification/check/check.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "checker/engines/explorer/explorer.hpp"
 #include "checker/engines/tables/tables.hpp"
 #include "checker/engines/timeline/timeline.hpp"
-#include "checker/verification/counterexample/write.hpp"
+#include "checker/verification/check/combination.hpp"
 #include "props/limits.hpp"
 
 namespace stormproof::checker {
@@ -29,23 +29,6 @@ constexpr std::array<std::pair<Engine, EngineFunction>, 5> engines{
      {Engine::exact_run, exact::check},
      {Engine::timelines, timeline::check},
      {Engine::explorer, explorer::check}}};
-
-/// Strength of what a finding establishes; a violation and a dispute overrule all.
-int rank(const Finding& finding) {
-  switch (finding.kind) {
-    case VerdictKind::violated:
-      return 5;
-    case VerdictKind::inconclusive:
-      return finding.disputed ? 4 : 0;
-    case VerdictKind::proved:
-      return 3;
-    case VerdictKind::bounded:
-      return 2;
-    case VerdictKind::sampled:
-      return 1;
-  }
-  return 0;
-}
 
 std::vector<std::string_view> selected(const std::vector<std::string_view>& wanted,
                                        const model::Scenario& scenario) {
@@ -68,34 +51,15 @@ std::vector<std::string_view> for_engine(Engine engine,
   return ids;
 }
 
-/// A counterexample that the simulator does not confirm is none: the finding says so instead.
-void confirm(Finding& finding) {
-  if (!finding.counterexample) return;
-  const auto error = counterexample::refuted(*finding.counterexample);
-  if (!error) return;
-  finding.kind = VerdictKind::inconclusive;
-  finding.how = "a violation was found that does not happen in the simulator: " + *error;
-  finding.counterexample.reset();
-}
-
-PropertyResult result_of(std::string_view id, const std::vector<Findings>& answers) {
-  PropertyResult result;
-  result.property = props::find_property(id);
+PropertyResult result_of(std::string_view id, const std::vector<Findings>& answers,
+                         const CheckRequest& request) {
+  std::vector<Finding> about;
   for (const Findings& findings : answers) {
     for (const auto& [property, finding] : findings) {
-      if (property != id) continue;
-      result.findings.push_back(finding);
-      confirm(result.findings.back());
+      if (property == id) about.push_back(finding);
     }
   }
-  if (result.findings.empty()) {
-    Finding none;
-    none.how = "no engine has looked at it";
-    result.findings.push_back(none);
-  }
-  result.deciding = deciding_finding(result.findings);
-  result.verdict = result.decisive().kind;
-  return result;
+  return combined(*props::find_property(id), std::move(about), request);
 }
 
 }  // namespace
@@ -115,13 +79,6 @@ std::size_t CheckReport::count(VerdictKind kind) const {
   return static_cast<std::size_t>(
       std::count_if(results.begin(), results.end(),
                     [&](const PropertyResult& result) { return result.verdict == kind; }));
-}
-
-std::size_t deciding_finding(const std::vector<Finding>& findings) {
-  const auto best =
-      std::max_element(findings.begin(), findings.end(),
-                       [](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
-  return static_cast<std::size_t>(best - findings.begin());
 }
 
 CheckReport check(const std::vector<std::string_view>& properties, const CheckRequest& request) {
@@ -148,7 +105,7 @@ CheckReport check(const std::vector<std::string_view>& properties, const CheckRe
     if (!goes_on(engine)) break;  // it may have stopped in the middle
   }
   if (!runs.empty()) report.outlook.emplace(std::move(runs));
-  for (const std::string_view id : ids) report.results.push_back(result_of(id, answers));
+  for (const std::string_view id : ids) report.results.push_back(result_of(id, answers, request));
   report.seconds = std::chrono::duration<double>(Clock::now() - started).count();
   return report;
 }

@@ -20,7 +20,9 @@ struct PropertyResult {
   props::VerdictKind verdict = props::VerdictKind::inconclusive;
   /// Position in `findings` of the one that decides; the verdict is its kind.
   std::size_t deciding = 0;
-  std::vector<props::Finding> findings;  ///< in the order of `Property::engines`; never empty
+  /// One of each engine, in the order in which they were asked, and perhaps one more about what
+  /// they say of each other; never empty.
+  std::vector<props::Finding> findings;
 
   [[nodiscard]] const props::Finding& decisive() const { return findings[deciding]; }
   /// The counterexample with the fewest events, or null.
@@ -42,9 +44,5 @@ struct CheckReport {
 /// catalogue, and what the scenario is held against (props::limits_of).
 [[nodiscard]] CheckReport check(const std::vector<std::string_view>& properties,
                                 const CheckRequest& request);
-
-/// The verdict of several findings about one property, and which of them decides: a violation
-/// before all, then a dispute between solvers, then the strongest that holds.
-[[nodiscard]] std::size_t deciding_finding(const std::vector<props::Finding>& findings);
 
 }  // namespace stormproof::checker

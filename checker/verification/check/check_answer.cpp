@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/presentation/document/verdicts.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/implementations.hpp"
 
@@ -31,7 +32,7 @@ bool is_weakness(const PropertyResult& result, const CheckContext& context) {
 /// The answers to one question: what is violated, what nobody knows, how many hold.
 Table::Row question_row(props::Reach reach, std::string_view question, const CheckReport& report,
                         const CheckContext& context) {
-  std::vector<std::string_view> failing, possible, open;
+  std::vector<std::string_view> disputed, failing, possible, open;
   std::size_t holding = 0;
   for (std::size_t k = 0; k < report.results.size(); ++k) {
     const PropertyResult& result = report.results[k];
@@ -39,9 +40,11 @@ Table::Row question_row(props::Reach reach, std::string_view question, const Che
     if (answer == nullptr) continue;
     const bool margin = result.property->is_margin;
     const bool weak = (reach != props::Reach::deployment || margin) && is_weakness(result, context);
-    if (answer->kind == VerdictKind::violated)
+    if (result.verdict == VerdictKind::disputed)
+      disputed.push_back(result.property->id);
+    else if (answer->kind == VerdictKind::violated)
       (weak ? possible : failing).push_back(result.property->id);
-    else if (answer->kind != VerdictKind::inconclusive)
+    else if (holds(answer->kind))
       ++holding;
     else if (context.gate.standings[k] == Standing::open)
       open.push_back(result.property->id);
@@ -55,6 +58,7 @@ Table::Row question_row(props::Reach reach, std::string_view question, const Che
   const auto add = [&](const char* word, const std::vector<std::string_view>& ids) {
     if (!ids.empty()) text += fmt::format("{}: {}; ", word, ids_of(ids));
   };
+  add("disputed", disputed);
   add("violated", failing);
   add("not established", open);
   add("possible", possible);
@@ -65,8 +69,10 @@ Table::Row question_row(props::Reach reach, std::string_view question, const Che
   } else {
     text = "not asked";
   }
-  const bool nothing = failing.empty() && open.empty() && possible.empty() && holding == 0;
-  const Text badge = !failing.empty()    ? report::badge(report::Tone::bad, "no")
+  const bool nothing =
+      disputed.empty() && failing.empty() && open.empty() && possible.empty() && holding == 0;
+  const Text badge = !disputed.empty()   ? report::badge(VerdictKind::disputed)
+                     : !failing.empty()  ? report::badge(report::Tone::bad, "no")
                      : nothing           ? report::badge(report::Tone::plain, "–")
                      : !open.empty()     ? report::badge(report::Tone::warn, "open")
                      : !possible.empty() ? report::badge(report::Tone::info, "not promised")
@@ -88,6 +94,7 @@ void add_questions(report::Document& document, const CheckReport& report,
 
 /// What a CI job wants to know.
 const char* word_of(const Gate& gate) {
+  if (gate.count(Standing::disputed) > 0) return "DISPUTED";
   return gate.exit_code == 0 ? "PASS" : gate.exit_code == 1 ? "FAIL" : "OPEN";
 }
 
@@ -107,9 +114,9 @@ void say_whether_it_passes(report::Document& document, const CheckReport& report
                            const CheckContext& context) {
   const Gate& gate = context.gate;
   document.exit_code = gate.exit_code;
-  document.tone = gate.exit_code == 1   ? report::Tone::bad
-                  : gate.exit_code == 0 ? report::Tone::good
-                                        : report::Tone::warn;
+  document.tone = gate.exit_code == 1 || gate.count(Standing::disputed) > 0 ? report::Tone::bad
+                  : gate.exit_code == 0                                     ? report::Tone::good
+                                                                            : report::Tone::warn;
   std::string answer = word_of(gate);
   if (report.outlook) {
     const bool fine = report.outlook->health() == exact::Health::fine;
@@ -121,8 +128,11 @@ void say_whether_it_passes(report::Document& document, const CheckReport& report
                                      name_of(report.results.front().verdict))
                        : fmt::format(": all {} properties hold", all);
   }
+  const bool disputed = gate.count(Standing::disputed) > 0;
+  answer += count_text(report, gate, Standing::disputed, "disputed");
   answer += count_text(report, gate, Standing::fails, "violated");
-  if (gate.exit_code != 1) answer += count_text(report, gate, Standing::open, "not established");
+  if (gate.exit_code != 1 && !disputed)
+    answer += count_text(report, gate, Standing::open, "not established");
   if (const std::size_t accepted = gate.count(Standing::accepted); accepted > 0) {
     answer += fmt::format("; {} accepted by the baseline", report::plural(accepted, "failure"));
   }
@@ -141,8 +151,7 @@ void say_whether_it_passes(report::Document& document, const CheckReport& report
 void add_subject(report::Document& document, const CheckReport& report,
                  const CheckContext& context) {
   std::string counts;
-  for (const VerdictKind kind : {VerdictKind::violated, VerdictKind::inconclusive,
-                                 VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled}) {
+  for (const VerdictKind kind : props::verdict_kinds) {
     if (report.count(kind) == 0) continue;
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", report.count(kind), name_of(kind));
   }

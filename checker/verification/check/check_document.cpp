@@ -1,6 +1,5 @@
 // A check as a document: whether it passes, the three questions that decide it, what fails and why,
 // what the rules are known not to promise, what holds, and how each violation comes about.
-#include <array>
 #include <memory>
 
 #include <fmt/core.h>
@@ -36,11 +35,6 @@ using report::Section;
 using report::Table;
 using report::Text;
 
-constexpr std::array all_kinds{VerdictKind::violated, VerdictKind::inconclusive,
-                               VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled};
-constexpr std::array all_standings{Standing::fails, Standing::accepted, Standing::open,
-                                   Standing::possible, Standing::holds};
-
 /// "tables: no two rows …"
 std::string method(const props::Finding& finding) {
   return finding.engine.empty() ? finding.how : finding.engine + ": " + finding.how;
@@ -75,8 +69,8 @@ Blocks findings_at_terminal(const PropertyResult& result, const CheckContext& co
   blocks.emplace_back(Listing{lines}, Audience::explained);
   for (const props::Finding& other : result.findings) {
     if (&other == &decisive) continue;
-    const Audience who =
-        result.verdict == VerdictKind::inconclusive ? Audience::terminal : Audience::explained;
+    const bool open = !holds(result.verdict) && result.verdict != VerdictKind::violated;
+    const Audience who = open ? Audience::terminal : Audience::explained;
     blocks.emplace_back(Paragraph{fmt::format("also {}, {}", name_of(other.kind), method(other))},
                         who);
     std::string more;
@@ -129,6 +123,8 @@ Table::Row row_of(const PropertyResult& result, Standing standing, const CheckCo
 
 const char* title_of(Standing standing) {
   switch (standing) {
+    case Standing::disputed:
+      return "What is disputed: answers contradict each other, and none of them counts";
     case Standing::fails:
       return "What fails";
     case Standing::accepted:
@@ -152,7 +148,7 @@ void add_verdicts(report::Document& document, const CheckReport& report,
   table.columns[2].audience = Audience::page;
   table.columns[2].wraps = true;
   table.columns[3].wraps = true;
-  for (const VerdictKind kind : all_kinds) {
+  for (const VerdictKind kind : props::verdict_kinds) {
     for (std::size_t k = 0; k < report.results.size(); ++k) {
       if (report.results[k].verdict != kind || context.gate.standings[k] != standing) continue;
       table.rows.push_back(row_of(report.results[k], standing, context));
@@ -298,7 +294,7 @@ report::Document document_of(const CheckReport& report, const CheckContext& cont
   if (context.gate.storm != Standing::holds) {
     document.findings.push_back(storm_finding(report, context));
   }
-  for (const Standing standing : all_standings) add_verdicts(document, report, context, standing);
+  for (const Standing standing : standings) add_verdicts(document, report, context, standing);
   add_frontiers(document, report.frontiers);
   add_unmodelled(document, context.scenario.dds, "", &context.places);
   add_violations(document, report, context);

@@ -31,6 +31,8 @@ report::Finding::Outcome outcome_of(Standing standing) {
       return Outcome::failed;
     case Standing::open:
       return Outcome::unknown;
+    case Standing::disputed:
+      return Outcome::disputed;
     case Standing::possible:
     case Standing::accepted:
       return Outcome::note;

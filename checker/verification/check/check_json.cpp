@@ -124,9 +124,7 @@ struct Totals {
 
 template <class V>
 void describe(V& v, const Totals& totals) {
-  using props::VerdictKind;
-  for (const VerdictKind kind : {VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled,
-                                 VerdictKind::violated, VerdictKind::inconclusive}) {
+  for (const props::VerdictKind kind : props::verdict_kinds) {
     v(name_of(kind), totals.report.count(kind));
   }
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "checker/verification/check/combination.hpp"
+
 namespace stormproof::checker {
 
 using props::Finding;
@@ -22,6 +24,8 @@ const char* name_of(Standing standing) {
       return "open";
     case Standing::fails:
       return "fails";
+    case Standing::disputed:
+      return "disputed";
   }
   return "";
 }
@@ -86,8 +90,9 @@ class Judge {
         gate_.outdated.push_back(accepted);
       }
     }
-    // What an interrupted check has found stands in the answer; it is not the answer.
-    if (report_.interrupted) {
+    // What an interrupted check has found stands in the answer; it is not the answer. Nor is what
+    // stands beside a contradiction.
+    if (report_.interrupted || gate_.count(Standing::disputed) > 0) {
       gate_.exit_code = 3;
     } else if (gate_.count(Standing::fails) > 0) {
       gate_.exit_code = 1;
@@ -107,17 +112,16 @@ class Judge {
 
   Standing standing(const PropertyResult& result) {
     const Property& property = *result.property;
+    if (result.verdict == VerdictKind::disputed) return Standing::disputed;
     const bool promised = gate_.rules.strict || property.weakness_of(dds_.implementation).empty();
     if (const auto where = violated_in(result)) {
       const bool counts = promised || (*where == Reach::deployment && !property.is_margin);
       return counts ? failure({std::string{property.id}, *where}) : Standing::possible;
     }
-    if (result.decisive().disputed) return Standing::open;
+    if (!holds(result.verdict)) return promised ? Standing::open : Standing::possible;
     // Kinds are in the order of their strength.
-    const bool unknown = result.verdict == VerdictKind::inconclusive;
-    if (!promised) return unknown ? Standing::possible : Standing::holds;
     const bool weak = result.verdict > gate_.rules.require && !is_limit(property);
-    return unknown || weak ? Standing::open : Standing::holds;
+    return promised && weak ? Standing::open : Standing::holds;
   }
 
   const CheckReport& report_;

@@ -5,6 +5,7 @@
 // elsewhere it is possible.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,9 +22,13 @@ enum class Standing : std::uint8_t {
              ///< do not
   accepted,  ///< it fails, and the baseline says so
   open,      ///< promised, and not established to the kind that is required
-  fails
+  fails,
+  disputed  ///< there are answers that contradict each other: nothing counts until that is cleared
 };
-/// "holds", "possible", "accepted", "open", "fails".
+/// In the order in which reports show them.
+inline constexpr std::array standings{Standing::disputed, Standing::fails,    Standing::accepted,
+                                      Standing::open,     Standing::possible, Standing::holds};
+/// "holds", "possible", "accepted", "open", "fails", "disputed".
 [[nodiscard]] const char* name_of(Standing standing);
 
 /// Which question a finding answers.
@@ -44,9 +49,9 @@ struct Failure {
 };
 
 struct GateRules {
-  props::VerdictKind require = props::VerdictKind::sampled;  ///< the weakest kind that is accepted
-  bool strict = false;                                       ///< weaknesses fail everywhere
-  std::vector<Failure> baseline = {};                        ///< accepted for this scenario
+  props::VerdictKind require = props::VerdictKind::observed;  ///< the weakest kind that is accepted
+  bool strict = false;                                        ///< weaknesses fail everywhere
+  std::vector<Failure> baseline = {};                         ///< accepted for this scenario
 };
 
 struct Gate {
@@ -55,7 +60,7 @@ struct Gate {
   Standing storm = Standing::holds;
   std::vector<Failure> failures;  ///< accepted or not
   std::vector<Failure> outdated;  ///< accepted, and not failing any more
-  int exit_code = 0;              ///< 0 passes, 1 something fails, 3 something is open
+  int exit_code = 0;              ///< 0 passes, 1 something fails, 3 something is disputed, or open
 
   [[nodiscard]] std::size_t count(Standing standing) const;
 };

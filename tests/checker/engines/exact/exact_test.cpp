@@ -57,14 +57,14 @@ TEST_F(ExactRun, AnswersForEveryMonitoredPropertyAndNoOther) {
   EXPECT_EQ(findings.size(), wanted.size() - 1);
   for (const auto& [property, finding] : findings) {
     const bool violated = property == "storm.free-threshold" || property == "storm.cannot-start";
-    EXPECT_EQ(finding.kind, violated ? VerdictKind::violated : VerdictKind::bounded) << property;
+    EXPECT_EQ(finding.kind, violated ? VerdictKind::violated : VerdictKind::observed) << property;
     EXPECT_FALSE(finding.how.empty());
   }
 }
 
 TEST_F(ExactRun, IsBoundedToTheTrajectory) {
   const Finding finding = ask("safety.snapshot", props::shipped("smallest"));
-  EXPECT_EQ(finding.kind, VerdictKind::bounded);
+  EXPECT_EQ(finding.kind, VerdictKind::observed);
   EXPECT_EQ(finding.how, "on the one trajectory of this scenario, 126 events, up to 16.136228 ms");
   EXPECT_EQ(finding.details, std::vector<std::string>{"4 ACKNACKs reached their writer as "
                                                       "generated."});
@@ -72,7 +72,7 @@ TEST_F(ExactRun, IsBoundedToTheTrajectory) {
 
 TEST_F(ExactRun, GoesOnBeyondCompletionForQuiescence) {
   const Finding finding = ask("live.quiescence", props::shipped("smallest"));
-  EXPECT_EQ(finding.kind, VerdictKind::bounded);
+  EXPECT_EQ(finding.kind, VerdictKind::observed);
   ASSERT_EQ(finding.details.size(), 1U) << finding.details[1];
 }
 
@@ -117,7 +117,7 @@ TEST_F(ExactRun, AnIncompleteRunSaysNothingAboutLiveness) {
   EXPECT_EQ(ask("live.completion", scenario).kind, VerdictKind::inconclusive);
   EXPECT_EQ(ask("live.quiescence", scenario).kind, VerdictKind::inconclusive);
   const Finding safety = ask("safety.snapshot", scenario);
-  EXPECT_EQ(safety.kind, VerdictKind::bounded);
+  EXPECT_EQ(safety.kind, VerdictKind::observed);
   EXPECT_NE(safety.how.find("up to 10 ms"), std::string::npos);
 }
 
@@ -139,11 +139,11 @@ TEST_F(ExactRun, RunsTheMutantAgainstTheSpecification) {
   };
   const model::Scenario scenario =
       props::shipped("smallest", {"wireless.lost_packets=[2,3,4,5,6,7,8,9,10]"});
-  EXPECT_EQ(ask("timer.single-heartbeat", scenario).kind, VerdictKind::bounded);
+  EXPECT_EQ(ask("timer.single-heartbeat", scenario).kind, VerdictKind::observed);
   EXPECT_EQ(ask("timer.single-heartbeat", scenario, &additive).kind, VerdictKind::violated);
   checker::Mutant live;
   live.rules.live_bitmaps = true;
-  EXPECT_EQ(ask("safety.snapshot", scenario).kind, VerdictKind::bounded);
+  EXPECT_EQ(ask("safety.snapshot", scenario).kind, VerdictKind::observed);
   EXPECT_EQ(ask("safety.snapshot", props::shipped("wifi-5x20"), &live).kind, VerdictKind::violated);
 }
 

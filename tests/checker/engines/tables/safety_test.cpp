@@ -81,6 +81,24 @@ TEST(RepairOnlyIfAsked, ARequestForWhatIsNotListedIsFound) {
       "QueueIsSent");
 }
 
+TEST(RepairOnlyIfAsked, ARequestCountsOnlyOnce) {
+  // A second repair for one ACKNACK: back to R when the suppression ends.
+  const std::size_t ends = row_of("DescriptorRepair", "S", "SuppressionEnded", "U");
+  expect_violated(
+      "safety.repair-only-if-asked", paper(),
+      with_row("DescriptorRepair", ends, Kind::retarget, 0, state_of("DescriptorRepair", "R")),
+      "nobody asked for");
+  const std::size_t real = row_of("ChangeForReader", "S", "SuppressionEnded", "U");
+  expect_violated(
+      "safety.repair-only-if-asked", fastdds(),
+      with_row("ChangeForReader", real, Kind::retarget, 0, state_of("ChangeForReader", "R")),
+      "nobody asked for");
+}
+
+TEST(RepairOnlyIfAsked, TheInvariantIsTheOneThatOneExpects) {
+  EXPECT_TRUE(mentions(decide("safety.repair-only-if-asked", paper()), "C=R implies asked"));
+}
+
 TEST(Snapshot, ALiveBitmapIsFound) {
   checker::Mutant mutant;
   mutant.rules.live_bitmaps = true;
@@ -139,11 +157,31 @@ TEST(SecondOpinion, BothSolversSeeEveryPropertyAndItsExport) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(SecondOpinion, ASolverThatDisagreesMakesItInconclusive) {
+TEST(SecondOpinion, ASolverThatDisagreesMakesItDisputed) {
   const smt::FakeSolver fake{"while true; do echo sat; done | head -8"};
   const Finding finding = decide("safety.ack-implies-received", paper(), nullptr, {});
-  EXPECT_EQ(finding.kind, VerdictKind::inconclusive);
+  EXPECT_EQ(finding.kind, VerdictKind::disputed);
   EXPECT_TRUE(mentions(finding, "the solvers do not agree"));
+}
+
+TEST(Certificate, AnInvariantThatIsNoneIsDisputed) {
+  const model::Scenario scenario = paper();
+  smt::Claims claims{{.second_solver = false}};
+  const checker::CheckRequest request{.scenario = scenario, .claims = claims, .on_progress = {}};
+  Proof proof{"some.property", request};
+  const Expr x = proof.context().bool_const("x");
+  const TransitionSystem wrong{{x}, !x, {{"step", {}, !x, {!x}}}, x};
+  EXPECT_FALSE(certify(proof, wrong, !x));  // a step reaches x
+  EXPECT_EQ(proof.finish("").kind, VerdictKind::disputed);
+}
+
+TEST(Budget, ThatIsUsedUpIsInconclusiveAndNeverSomethingElse) {
+  const smt::Options tiny{.budget = {.z3 = 1, .cvc5 = 1}, .second_solver = false};
+  for (const std::string_view property : decidable()) {
+    const Finding finding = decide(property, fastdds(), nullptr, tiny);
+    EXPECT_NE(finding.kind, VerdictKind::violated) << property << ": " << finding.how;
+    EXPECT_NE(finding.kind, VerdictKind::disputed) << property << ": " << finding.how;
+  }
 }
 
 TEST(TimeOut, IsNeverAVerdictAboutTheProperty) {

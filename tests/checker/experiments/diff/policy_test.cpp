@@ -124,6 +124,9 @@ TEST(Verdicts, AreJudgedByThePolicy) {
             Judgment::regression);
   EXPECT_EQ(judge_verdicts(VerdictKind::violated, VerdictKind::bounded, policy), Judgment::better);
   EXPECT_EQ(judge_verdicts(VerdictKind::proved, VerdictKind::sampled, policy), Judgment::same);
+  EXPECT_EQ(judge_verdicts(VerdictKind::proved, VerdictKind::disputed, policy), Judgment::unclear);
+  EXPECT_EQ(judge_verdicts(VerdictKind::disputed, VerdictKind::violated, policy),
+            Judgment::unclear);
   EXPECT_EQ(judge_verdicts(VerdictKind::violated, VerdictKind::violated, policy), Judgment::same);
   EXPECT_EQ(judge_verdicts(VerdictKind::proved, VerdictKind::inconclusive, policy),
             Judgment::worse);

@@ -1,10 +1,13 @@
 // Which of several findings decides a property, and what the reports say about it.
+#include "checker/verification/check/combination.hpp"
+
+#include <set>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <tinyxml2.h>
 
 #include "checker/presentation/document/render.hpp"
-#include "checker/verification/check/check.hpp"
 #include "checker/verification/check/check_report.hpp"
 
 namespace stormproof::checker {
@@ -13,49 +16,62 @@ namespace combination_test {
 using props::Finding;
 using props::VerdictKind;
 
-Finding finding(VerdictKind kind, std::string engine = "tables", bool disputed = false) {
+Finding finding(VerdictKind kind, std::string engine = "tables") {
   Finding result;
   result.kind = kind;
   result.engine = std::move(engine);
   result.how = "how";
   result.assumptions = {"an assumption"};
-  result.disputed = disputed;
   return result;
 }
 
-VerdictKind combined(const std::vector<Finding>& findings) {
+VerdictKind verdict_of(const std::vector<Finding>& findings) {
   return findings[deciding_finding(findings)].kind;
 }
 
 TEST(Combination, TheStrongestVerdictThatHoldsDecides) {
-  EXPECT_EQ(combined({finding(VerdictKind::sampled), finding(VerdictKind::bounded)}),
+  EXPECT_EQ(verdict_of({finding(VerdictKind::sampled), finding(VerdictKind::bounded)}),
             VerdictKind::bounded);
-  EXPECT_EQ(combined({finding(VerdictKind::bounded), finding(VerdictKind::proved)}),
+  EXPECT_EQ(verdict_of({finding(VerdictKind::bounded), finding(VerdictKind::proved)}),
             VerdictKind::proved);
-  EXPECT_EQ(combined({finding(VerdictKind::inconclusive), finding(VerdictKind::sampled)}),
+  EXPECT_EQ(verdict_of({finding(VerdictKind::observed), finding(VerdictKind::sampled)}),
             VerdictKind::sampled);
+  EXPECT_EQ(verdict_of({finding(VerdictKind::inconclusive), finding(VerdictKind::observed)}),
+            VerdictKind::observed);
 }
 
 TEST(Combination, OneViolationOverrulesEveryProof) {
-  EXPECT_EQ(combined({finding(VerdictKind::proved), finding(VerdictKind::violated)}),
-            VerdictKind::violated);
-  EXPECT_EQ(combined({finding(VerdictKind::violated),
-                      finding(VerdictKind::inconclusive, "tables", true)}),
+  EXPECT_EQ(verdict_of({finding(VerdictKind::proved), finding(VerdictKind::violated)}),
             VerdictKind::violated);
 }
 
-TEST(Combination, SolversThatDisagreeLeaveNothingEstablished) {
-  EXPECT_EQ(
-      combined({finding(VerdictKind::bounded), finding(VerdictKind::inconclusive, "tables", true)}),
-      VerdictKind::inconclusive);
+TEST(Combination, ADisputeOverrulesEverything) {
+  for (const VerdictKind kind : props::verdict_kinds) {
+    EXPECT_EQ(verdict_of({finding(kind), finding(VerdictKind::disputed)}), VerdictKind::disputed);
+    EXPECT_EQ(verdict_of({finding(VerdictKind::disputed), finding(kind)}), VerdictKind::disputed);
+  }
+}
+
+TEST(Combination, EveryKindHasANameAndAPlaceInReports) {
+  std::set<std::string_view> names;
+  for (const VerdictKind kind : props::verdict_kinds) names.insert(name_of(kind));
+  EXPECT_EQ(names, (std::set<std::string_view>{"proved", "bounded", "sampled", "observed",
+                                               "violated", "inconclusive", "disputed"}));
 }
 
 TEST(Combination, ATimeOutOfOneEngineDoesNotTakeAwayWhatAnotherEstablished) {
-  EXPECT_EQ(combined({finding(VerdictKind::inconclusive), finding(VerdictKind::bounded)}),
+  EXPECT_EQ(verdict_of({finding(VerdictKind::inconclusive), finding(VerdictKind::bounded)}),
             VerdictKind::bounded);
 }
 
-TEST(Combination, OfEqualFindingsTheFirstDecides) {
+TEST(Combination, OfEqualFindingsTheOneThatReachesFurtherDecides) {
+  const Finding run = finding(VerdictKind::bounded, "exact run");
+  const Finding explored = finding(VerdictKind::bounded, "explorer");
+  EXPECT_EQ(deciding_finding({run, explored}), 1U);
+  EXPECT_EQ(deciding_finding({explored, run}), 0U);
+  EXPECT_EQ(deciding_finding({finding(VerdictKind::proved, "timelines"),
+                              finding(VerdictKind::proved, "tables")}),
+            1U);
   EXPECT_EQ(deciding_finding({finding(VerdictKind::proved), finding(VerdictKind::proved)}), 0U);
 }
 
@@ -101,6 +117,31 @@ TEST_F(Reports, JsonHasAllKeysOfTheInterface) {
   EXPECT_EQ(json["verdicts"][1]["findings"].size(), 2U);
   EXPECT_EQ(json["totals"]["inconclusive"], 1);
   EXPECT_EQ(json["totals"]["violated"], 1);
+  EXPECT_EQ(json["totals"]["disputed"], 0);
+}
+
+TEST_F(Reports, ADisputeIsWhatEveryFormatSaysFirst) {
+  PropertyResult& result = report_.results.front();
+  dispute(result.findings.front(), "another engine breaks it");
+  result.verdict = VerdictKind::disputed;
+  context_.gate = judge(report_, scenario_.dds, {});
+  EXPECT_EQ(context_.gate.exit_code, 3);  // although something else is violated
+  const report::Document document = document_of(report_, context_);
+  EXPECT_EQ(document.exit_code, 3);
+  const std::string text = to_text(document);
+  EXPECT_EQ(text.find("✗ DISPUTED"), 0U) << text;
+  EXPECT_NE(text.find("≠ disputed"), std::string::npos) << text;
+  EXPECT_NE(to_junit(document).find("<error type=\"disputed\""), std::string::npos);
+  const auto sarif = to_sarif(document);
+  for (const auto& one : sarif["runs"][0]["results"]) {
+    if (one["ruleId"] == "fsm.determinism") {
+      EXPECT_EQ(one["level"], "error");
+    }
+  }
+  const auto json = to_json(report_, context_);
+  EXPECT_EQ(json["totals"]["disputed"], 1);
+  EXPECT_EQ(json["gate"]["standings"]["disputed"], 1);
+  EXPECT_EQ(json["verdicts"][0]["verdict"], "disputed");
 }
 
 TEST_F(Reports, JUnitCountsAViolationAsFailureAndAnOpenQuestionAsError) {

@@ -8,6 +8,7 @@
 
 #include "checker/engines/smt/claims.hpp"
 #include "checker/verification/check/baseline.hpp"
+#include "checker/verification/check/combination.hpp"
 #include "model/config/scenario_file.hpp"
 
 namespace stormproof::checker {
@@ -108,11 +109,31 @@ TEST(Gate, WhatIsPromisedHasToBeEstablishedAsStronglyAsRequired) {
   EXPECT_EQ(judged(limit, {.require = VerdictKind::proved}).exit_code, 0);
 }
 
-TEST(Gate, ADisputeOfSolversIsOpenEvenForAWeakness) {
-  Finding disputed = by(tables, VerdictKind::inconclusive);
-  disputed.disputed = true;
-  EXPECT_EQ(
-      judged(result_of("live.quiescence", {by(run, VerdictKind::bounded), disputed})).exit_code, 3);
+TEST(Gate, ADisputeOverrulesEverythingEvenAFailureAndAWeakness) {
+  const PropertyResult disputed = result_of(
+      "live.quiescence", {by(run, VerdictKind::violated), by(tables, VerdictKind::disputed)});
+  EXPECT_EQ(standing(disputed), Standing::disputed);
+  EXPECT_EQ(judged(disputed).exit_code, 3);
+  EXPECT_EQ(judged(disputed, {.baseline = {{"live.quiescence", Reach::deployment}}}).exit_code, 3);
+  CheckReport report;
+  report.results = {disputed, result_of("safety.snapshot", {by(run, VerdictKind::violated)})};
+  const Gate gate = judge(report, model::DdsProfile{}, {});
+  EXPECT_EQ(gate.count(Standing::fails), 1U);
+  EXPECT_EQ(gate.exit_code, 3);
+}
+
+TEST(Gate, KindsThatAreRequiredAreInTheOrderOfTheirStrength) {
+  const std::vector order{VerdictKind::proved, VerdictKind::bounded, VerdictKind::sampled,
+                          VerdictKind::observed};
+  for (std::size_t has = 0; has < order.size(); ++has) {
+    for (std::size_t required = 0; required < order.size(); ++required) {
+      EXPECT_EQ(
+          judged(result_of("safety.snapshot", {by(run, order[has])}), {.require = order[required]})
+              .exit_code,
+          has <= required ? 0 : 3)
+          << name_of(order[has]) << ", required " << name_of(order[required]);
+    }
+  }
 }
 
 TEST(Gate, AnInterruptedCheckIsOpen) {
