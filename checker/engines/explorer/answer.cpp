@@ -123,8 +123,7 @@ Finding Answer::finding(Claim claim, const Surroundings& surroundings) const {
     finding.counterexample = counterexample_;
     finding.how = "the first path that breaks it, " + found_in_ + "; replayed";
   } else if (!disputed_.empty()) {
-    finding.disputed = true;
-    finding.how = disputed_;
+    dispute(finding, disputed_);
   } else if (surroundings.interrupted) {
     finding.how = "interrupted";
   } else if (exhausted_.empty() && cut_short_.empty()) {

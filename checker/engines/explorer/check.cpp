@@ -144,7 +144,6 @@ class Exploration {
       result = search(*world, bounds, 0);
     }
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    budget_ -= std::min(budget_, result.states);
     for (const Entry& entry : entries) {
       if ((claims_ & bit(entry.claim)) == 0) continue;
       Answer& answer = answers_[static_cast<std::size_t>(entry.claim)];

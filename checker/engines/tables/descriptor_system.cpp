@@ -55,19 +55,6 @@ TransitionSystem DescriptorSystem::with_bad(const Expr& bad) const {
   return what_matters(system);
 }
 
-Exprs true_of(const TransitionSystem& system) {
-  Exprs facts;
-  std::map<std::string, OneHot> machines;
-  for (const Expr& variable : system.variables) {
-    const std::string name = variable.decl().name().str();
-    const std::size_t end = name.find('=');
-    if (!variable.is_bool()) facts.push_back(variable >= 0);
-    if (end != std::string::npos) machines[name.substr(0, end)].push_back(variable);
-  }
-  for (const auto& [name, states] : machines) facts.push_back(exactly_one(states));
-  return facts;
-}
-
 void assume_for_descriptors(Proof& proof) {
   proof.assume(
       "ACKNACKs, HEARTBEATs and DATA may be delayed, lost, duplicated and reordered without bound; "

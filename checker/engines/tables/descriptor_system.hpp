@@ -46,10 +46,6 @@ class DescriptorSystem {
   Derivation derivation_;
 };
 
-/// What holds of every derived system: counts are not negative, and a machine is in exactly one of
-/// its states.
-[[nodiscard]] Exprs true_of(const TransitionSystem& system);
-
 /// Derive all steps of one composition, each in a source file of its own.
 void derive_of(model::Of<fsm::composition::paper::Paper>, Derived& derived);
 void derive_of(model::Of<fsm::composition::fastdds::FastDds>, Derived& derived);

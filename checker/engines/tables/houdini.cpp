@@ -49,12 +49,13 @@ class Search {
   /// Removes what does not hold `after` in one case in which the conditions do; false: there is no
   /// such case.
   bool remove(const std::string& where, Exprs conditions, const Exprs& after) {
-    z3::solver solver{smt::SymbolicContext::current(), z3::solver::simple()};
+    z3::context& context = smt::SymbolicContext::current();
+    z3::solver solver{context, z3::solver::simple()};
+    const smt::Options& options = proof_.request().claims.options();
+    solver.set(smt::solver_parameters(context, options));
     conditions.push_back(!holding(after));
     for (const Expr& condition : conditions) solver.add(condition);
-    const smt::Options& options = proof_.request().claims.options();
-    const smt::Deadline deadline{smt::SymbolicContext::current(), options.timeout,
-                                 options.interrupted};
+    const smt::Deadline deadline{context, options.timeout, options.interrupted};
 
     const z3::check_result result = solver.check();
 

@@ -5,6 +5,7 @@
 // descriptor while it is on its way, against what it said when it was generated. All are about one
 // generic descriptor (checker/engines/tables/descriptor_system.hpp).
 #include "checker/engines/tables/descriptor_system.hpp"
+#include "checker/engines/tables/houdini.hpp"
 #include "checker/engines/tables/properties.hpp"
 
 namespace stormproof::tables {
@@ -29,7 +30,7 @@ Finding safety_repair_only_if_asked(const CheckRequest& request) {
   // What is requested, and what is queued because of it, has been asked for. Whoever looks for an
   // invariant without being told may look for long.
   const Expr& asked = descriptor[watched::asked];
-  Exprs candidates = true_of(system);
+  Exprs candidates = facts_of(system);
   const std::size_t told = candidates.size();
   for (const char* state : {"C=R", "C=Q"}) {
     candidates.push_back(!descriptor[state] || asked);

@@ -38,10 +38,6 @@ struct Reached {
 };
 [[nodiscard]] Reached reach_bad(Proof& proof, const TransitionSystem& system);
 
-/// The plain conditions that make `invariant` a proof that `bad` is never reached: it holds
-/// initially, every step keeps it, and it excludes `bad`. Whether all of them hold.
-bool certify(Proof& proof, const TransitionSystem& system, const Expr& invariant);
-
 /// The plain conditions that make `invariant` a proof that `bad` cannot be reached. Whether all of
 /// them hold; one that is refuted contradicts whoever found the invariant, and makes a dispute.
 [[nodiscard]] bool certify(Proof& proof, const TransitionSystem& system, const Expr& invariant);

@@ -50,8 +50,10 @@ void rest_on(props::Finding& finding, const props::Finding& certificate) {
                              certificate.assumptions.end());
   finding.details.push_back("taken from the rules:");
   for (const std::string& line : certificate.details) finding.details.push_back("  " + line);
-  finding.disputed = finding.disputed || certificate.disputed;
   finding.seconds += certificate.seconds;
+  if (certificate.kind == props::VerdictKind::disputed) {
+    dispute(finding, "so is what it takes from the rules");
+  }
   if (certificate.kind != props::VerdictKind::proved) {
     leave_open(finding, "the rules are not known to do what the theorem starts from");
   }

@@ -48,8 +48,7 @@ struct Standings {
 
 template <class V>
 void describe(V& v, const Standings& standings) {
-  for (const Standing one :
-       {Standing::fails, Standing::accepted, Standing::open, Standing::possible, Standing::holds}) {
+  for (const Standing one : checker::standings) {
     v(name_of(one), standings.gate.count(one));
   }
 }
