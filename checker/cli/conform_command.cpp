@@ -1,6 +1,7 @@
 // `stormproof conform CAPTURE…`: reads the captures and the profile, and has them held against each
 // other; without a profile, which shipped one fits best.
 #include <chrono>
+#include <filesystem>
 #include <map>
 
 #include <fmt/core.h>
@@ -9,6 +10,7 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
+#include "checker/evidence/conform/report/changes_report.hpp"
 #include "checker/evidence/conform/report/ranking_report.hpp"
 #include "checker/evidence/conform/report/report.hpp"
 #include "checker/presentation/text/command_line.hpp"
@@ -36,6 +38,7 @@ struct ConformArguments {
   std::string clock_error;
   bool no_loss = false;
   double seconds_each = 20;  ///< without `dds`
+  bool changes = false;
   OutputFile svg;
   OutputFile assignment;
 };
@@ -184,9 +187,45 @@ Outcome hold_one(ConformArguments& arguments, const model::DdsProfile& dds, cons
   return answer;
 }
 
+/// Each capture by itself, against its profile and against each change of it.
+Outcome hold_changes(const ConformArguments& arguments, const Bounds& bounds, Session& session) {
+  conform::ChangesReport report{{}, bounds, false};
+  for (const std::string& file : arguments.files) {
+    std::string name = profile_name(arguments);
+    if (arguments.dds.empty()) {
+      const auto known = conform::profile_of_capture(file);
+      if (!known) return known.error();
+      name = *known;
+    }
+    const auto dds =
+        model::config::read_dds_profile(arguments.dds.empty() ? name : arguments.dds,
+                                        arguments.overrides, model::config::SpecPath::standard());
+    if (!dds) return dds.error();
+    const auto conversation = capture::read_conversation({{file}}, session.on_packets());
+    if (!conversation) return conversation.error();
+    const std::string capture = std::filesystem::path{file}.filename().string();
+    const auto tried = conform::try_changes(
+        {*conversation, capture.substr(0, capture.find(".pcap")), name, *dds, bounds,
+         [&](const std::string& change) {
+           return session.proceed([&] { return fmt::format("{}: {}", capture, change); });
+         },
+         Session::interrupted});
+    if (!tried) return tried.error();
+    report.captures.push_back(*tried);
+    if (Session::interrupted()) break;
+  }
+  report.interrupted = Session::interrupted();
+  Answer answer{document_of(report), to_json(report)};
+  answer.document.exit_code = report.interrupted              ? inconclusive
+                              : !conform::all_conform(report) ? not_conformant
+                                                              : established;
+  return answer;
+}
+
 Outcome run(ConformArguments& arguments, Session& session) {
   const auto bounds = parse_bounds(arguments);
   if (!bounds) return Complaint{bounds.error()};
+  if (arguments.changes) return hold_changes(arguments, *bounds, session);
   std::optional<model::DdsProfile> dds;
   if (!arguments.dds.empty()) {
     const auto read = model::config::read_dds_profile(arguments.dds, arguments.overrides,
@@ -243,6 +282,9 @@ void declare(Options& options, ConformArguments& arguments) {
       .excludes(dds);
   options.until(arguments.until, "Look at events until this instant");
   declare_bounds(options, arguments);
+  options.flag("--changes", arguments.changes,
+               "Hold each capture by itself against each change of one knob of its profile (--dds, "
+               "or profiles.yaml beside it)");
   options.svg(arguments.svg, "Draw what surrounds the first unexplained event, if there is one")
       .needs(dds);
   options

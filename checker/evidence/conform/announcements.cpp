@@ -3,6 +3,7 @@
 #include "checker/evidence/conform/announcements.hpp"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -63,6 +64,7 @@ class Announcements {
       if (fault && one.event >= fault->event) break;
       if (!one.destination) continue;
       if (auto copy_fault = explain_copy(one)) return copy_fault;
+      if (auto copy_fault = one_too_many(one)) return copy_fault;
       ledger_.explained(Rule::announcement_copy, sender_of_copy(one));
     }
     return fault;
@@ -106,6 +108,7 @@ class Announcements {
     }
     if (multicasts_.empty()) return std::nullopt;
     if (auto fault = silent(ways)) return fault;
+    for (const Way& way : ways) most_scheduled_ = std::max(most_scheduled_, way.scheduled());
     replay(*std::min_element(ways.begin(), ways.end(), [](const Way& a, const Way& b) {
       return std::pair{a.worst_ns, a.unlikely} < std::pair{b.worst_ns, b.unlikely};
     }));
@@ -236,6 +239,20 @@ class Announcements {
                  {{"send lag, so that a multicast is near", distance, bounds_.most_send_lag_ns}});
   }
 
+  /// Unless resends go to all, a participant gets a copy with each scheduled multicast, and one
+  /// more when it is recognised.
+  std::optional<Unexplained> one_too_many(const Announcement& one) {
+    if (spdp_.resend == model::SpdpResend::all_known || multicasts_.empty()) return std::nullopt;
+    const std::size_t most = most_scheduled_ + (spdp_.resend == model::SpdpResend::none ? 0 : 1);
+    if (++copies_[*one.destination] <= most) return std::nullopt;
+    return fault(
+        one, Fault::announcement_extra, fmt::format("announcement {} to one participant", most + 1),
+        fmt::format("it gets a copy with each scheduled multicast, of which there are {} at "
+                    "most, and with the profile's resend not with the others",
+                    most_scheduled_),
+        {{"as many scheduled multicasts", {}, {}}});
+  }
+
   [[nodiscard]] bool is_first_copy(const Announcement& one) const {
     const auto& all = dialogue_.announcements[participant_];
     return std::none_of(all.begin(), all.end(), [&](const Announcement& other) {
@@ -325,9 +342,11 @@ class Announcements {
   Tally<fsm::Announcer>& announcer_;
   Ledger& ledger_;
   std::vector<Announcement> multicasts_;
-  std::vector<std::int64_t> recognitions_;  ///< when each other participant can be known
-  std::vector<bool> has_first_copy_;        ///< by multicast: the first to somebody goes with it
-  std::vector<bool> is_scheduled_;          ///< by multicast, of the way that is replayed
+  std::vector<std::int64_t> recognitions_;     ///< when each other participant can be known
+  std::vector<bool> has_first_copy_;           ///< by multicast: the first to somebody goes with it
+  std::size_t most_scheduled_ = 0;             ///< multicasts, of all ways to explain them
+  std::map<std::size_t, std::size_t> copies_;  ///< by destination
+  std::vector<bool> is_scheduled_;             ///< by multicast, of the way that is replayed
 };
 
 }  // namespace

@@ -21,6 +21,12 @@ struct Explanation {
   Sender sender{};
 };
 
+/// What a reply to the only reader can have been, too.
+struct Exchangeable {
+  std::size_t relation = 0;
+  Explanation other{};
+};
+
 class Heartbeats {
  public:
   Heartbeats(const Dialogue& dialogue, const WriterRelations& writer,
@@ -36,7 +42,10 @@ class Heartbeats {
         sent_{sent_heartbeats(writer)},
         budget_{dialogue, writer, sedp, bounds},
         next_initial_(writer.relations.size()),
-        is_opened_(writer.relations.size()) {}
+        is_opened_(writer.relations.size()) {
+    for (const SentHeartbeat& one : sent_.all) counts_.push_back(one.heartbeat.count);
+    std::ranges::sort(counts_);
+  }
 
   std::optional<Unexplained> explain() {
     for (const SentHeartbeat& one : sent_.all) {
@@ -127,21 +136,22 @@ class Heartbeats {
     }
     if (const auto asked = initial_acknack_for(one)) {
       ledger_.hidden(Hidden::Kind::received, std::max(asked->time_ns, one.time_ns), asked->event);
-      if (is_only_reader()) {
-        if (const auto other = fan_out_rule(one)) exchangeable_.push_back(*other);
+      if (is_only_reader(one)) {
+        if (const auto other = fan_out_rule(one)) exchangeable_.push_back({one.relation, *other});
       }
       settle(one, Rule::heartbeat_reply);
       arm(one.time_ns);
       return std::nullopt;
     }
-    if (is_only_reader() && (fan_out_rule(one) || exchangeable_.empty())) {
-      return explain_fan_out(one);
-    }
-    if (is_only_reader()) {
-      // An earlier one was to all readers; its initial ACKNACK is left for this one. It has been
-      // counted as a reply, so this one counts as what that was.
-      settle(one, exchangeable_.back());
-      exchangeable_.pop_back();
+    const auto exchangeable =
+        std::ranges::find(exchangeable_, one.relation, &Exchangeable::relation);
+    const bool can_exchange = exchangeable != exchangeable_.end();
+    if (is_only_reader(one) && (fan_out_rule(one) || !can_exchange)) return explain_fan_out(one);
+    if (can_exchange) {
+      // An earlier one was to all readers, when there was only this one; its initial ACKNACK is
+      // left for this one. It has been counted as a reply, so this one counts as what that was.
+      settle(one, exchangeable->other);
+      exchangeable_.erase(exchangeable);
       return std::nullopt;
     }
     return fault(one, Fault::heartbeat_cause,
@@ -287,9 +297,12 @@ class Heartbeats {
     budget_.refill(one);
   }
 
-  /// Whether the writer has no other reader yet.
-  [[nodiscard]] bool is_only_reader() const {
-    return !dialogue_.has_neighbour[source_] &&
+  /// Whether the writer can have no other reader yet. A relation on the own host opens with a
+  /// HEARTBEAT, too, which the capture does not show, so that a count is missing.
+  [[nodiscard]] bool is_only_reader(const SentHeartbeat& one) const {
+    const auto shown = std::ranges::lower_bound(counts_, one.heartbeat.count) - counts_.begin();
+    const bool some_are_hidden = one.heartbeat.count > static_cast<std::size_t>(shown) + 1;
+    return (!dialogue_.has_neighbour[source_] || !some_are_hidden) &&
            std::count(is_opened_.begin(), is_opened_.end(), true) == 1;
   }
 
@@ -308,9 +321,10 @@ class Heartbeats {
   std::size_t source_;
 
   SentHeartbeats sent_;
+  std::vector<std::uint32_t> counts_;  ///< of those, ascending
   PiggybackBudget budget_;
-  std::optional<SentHeartbeat> highest_;   ///< by its count
-  std::vector<Explanation> exchangeable_;  ///< of replies: what else they can have been
+  std::optional<SentHeartbeat> highest_;  ///< by its count
+  std::vector<Exchangeable> exchangeable_;
   std::vector<std::size_t> next_initial_;
   std::vector<bool> is_opened_;
   fsm::StateId state_ = Tally<fsm::HeartbeatTimer>::Fly::initial;

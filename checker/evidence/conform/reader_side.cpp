@@ -2,6 +2,8 @@
 // that cannot.
 #include "checker/evidence/conform/reader_side.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "checker/evidence/conform/reader_replay.hpp"
@@ -170,11 +172,16 @@ class ReaderSide {
   }
 
   std::optional<Unexplained> explain_replies() {
-    const ReplySearch search = search_replies(relation_, replies_, sedp_, bounds_);
+    const Announcement* opening = latest_opening();
+    const std::size_t may_be_dropped = opening == nullptr ? 0 : sent_before(*opening);
+    const ReplySearch search = search_replies(relation_, replies_, sedp_, bounds_, may_be_dropped);
     for (std::size_t k = 0; k < search.choices.size(); ++k) {
       const Choice& choice = search.choices[k];
       if (!replay_.is_open()) {
-        open(std::min(opens_from_ns_, choice.heartbeat_ns.value_or(replies_[k]->time_ns)));
+        const bool is_dropped = !bounds_.may_lose && choice.arrivals.lost > 0;
+        open(is_dropped
+                 ? opening->time_ns + bounds_.least_delay_ns
+                 : std::min(opens_from_ns_, choice.heartbeat_ns.value_or(replies_[k]->time_ns)));
       }
       replay_.reply(*replies_[k], choice);
     }
@@ -211,9 +218,9 @@ class ReaderSide {
   /// The first HEARTBEAT that must have arrived at an open reader side and is not answered at the
   /// end, if nothing is lost.
   std::optional<Unexplained> unanswered(std::int64_t announced) {
-    const std::int64_t open = replay_.is_open()
-                                  ? replay_.opened_ns()
-                                  : announced + bounds_.most_delay_ns + bounds_.clock_error_ns;
+    const std::int64_t open = replay_.is_open() ? replay_.opened_ns()
+                                                : surely_heard(announced) + bounds_.most_delay_ns +
+                                                      bounds_.clock_error_ns;
     const std::int64_t answered_within = bounds_.most_delay_ns + bounds_.clock_error_ns +
                                          sedp_.heartbeat_response_delay.count() +
                                          bounds_.most_lateness_ns + bounds_.most_send_lag_ns;
@@ -232,6 +239,34 @@ class ReaderSide {
           {{"a loss, or a longer delay", {}, {}}});
     }
     return std::nullopt;
+  }
+
+  /// The last announcement of the writer's participant that can have opened the reader side before
+  /// its first ACKNACK; what was sent before it can have been dropped. (Between two participants
+  /// datagrams arrive in order; a participant need not have been there for the first one.)
+  [[nodiscard]] const Announcement* latest_opening() const {
+    if (relation_.answers.empty()) return nullptr;
+    const Answer& first = relation_.answers.front();
+    const std::int64_t waited = first.is_initial ? sedp_.initial_acknack_delay.count() : 0;
+    const Announcement* latest = nullptr;
+    for (const Announcement& one : dialogue_.announcements[relation_.place.source]) {
+      if (one.time_ns + waited > first.time_ns + capture_resolution_ns) break;
+      if (!one.destination || one.destination == relation_.place.destination) latest = &one;
+    }
+    return latest;
+  }
+  [[nodiscard]] std::size_t sent_before(const Announcement& announcement) const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        sent_, [&](const Submessage& one) { return one.event < announcement.event; }));
+  }
+  /// The first announcement of the writer's participant that its reader was there for.
+  [[nodiscard]] std::int64_t surely_heard(std::int64_t announced) const {
+    const auto& own = dialogue_.announcements[*relation_.place.destination];
+    for (const Announcement& one : dialogue_.announcements[relation_.place.source]) {
+      if (one.destination && one.destination != relation_.place.destination) continue;
+      if (own.empty() || one.event > own.front().event) return one.time_ns;
+    }
+    return std::max(announced, dialogue_.end_ns);
   }
 
   // Shared.

@@ -39,8 +39,12 @@ struct Level {
 class Search {
  public:
   Search(const Relation& relation, std::span<const Answer* const> replies,
-         const model::SedpProfile& sedp, const Bounds& bounds)
-      : relation_{relation}, replies_{replies}, sedp_{sedp}, bounds_{bounds} {}
+         const model::SedpProfile& sedp, const Bounds& bounds, std::size_t may_be_dropped)
+      : relation_{relation},
+        replies_{replies},
+        sedp_{sedp},
+        bounds_{bounds},
+        may_be_dropped_{may_be_dropped} {}
 
   ReplySearch run() {
     std::vector<Level> levels(1);
@@ -169,7 +173,7 @@ class Search {
       effort_ += window.size();
       choice.arrivals = arrivals_for(answer, level.knowledge, window, lost);
       if (!choice.arrivals.mismatch.empty()) return false;
-      if (!bounds_.may_lose && choice.arrivals.lost > 0) return false;
+      if (!bounds_.may_lose && loses(level, choice)) return false;
       if (level.has_spare && follows_closely(reply)) return true;
       if (!choice.arrivals.heartbeat) return false;
       const std::size_t heartbeat = *choice.arrivals.heartbeat;
@@ -178,6 +182,15 @@ class Search {
       if (lost[heartbeat]) return false;  // a part of its datagram has arrived
       lost[heartbeat] = true;
     }
+  }
+
+  /// Whether something is missing that an open reader side would have received.
+  [[nodiscard]] bool loses(const Level& level, const Choice& choice) const {
+    const auto& arrived = choice.arrivals.arrived;
+    for (std::size_t k = 0; k < arrived.size(); ++k) {
+      if (!arrived[k] && level.consumed + k >= may_be_dropped_) return true;
+    }
+    return false;
   }
 
   /// Whether a HEARTBEAT that arrived during the reply before can be what this one answers.
@@ -210,6 +223,7 @@ class Search {
   std::span<const Answer* const> replies_;
   const model::SedpProfile& sedp_;
   const Bounds& bounds_;
+  std::size_t may_be_dropped_;
   std::vector<Choice> choices_;
   std::set<Key> dead_;
   std::size_t farthest_ = 0;
@@ -239,8 +253,9 @@ std::size_t expired(const Relation& relation, const Answer& answer, const Bounds
 }
 
 ReplySearch search_replies(const Relation& relation, std::span<const Answer* const> replies,
-                           const model::SedpProfile& sedp, const Bounds& bounds) {
-  return Search{relation, replies, sedp, bounds}.run();
+                           const model::SedpProfile& sedp, const Bounds& bounds,
+                           std::size_t may_be_dropped) {
+  return Search{relation, replies, sedp, bounds, may_be_dropped}.run();
 }
 
 }  // namespace stormproof::conform

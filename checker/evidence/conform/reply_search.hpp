@@ -37,10 +37,12 @@ struct ReplySearch {
   std::optional<Misplaced> misplaced{};  ///< its content would fit, but the time does not
 };
 
-/// `replies` are ACKNACKs of `relation` that are not initial, in order.
+/// `replies` are ACKNACKs of `relation` that are not initial, in order. If nothing may be lost, the
+/// first `may_be_dropped` submessages can still be missing: the reader side was not open.
 [[nodiscard]] ReplySearch search_replies(const Relation& relation,
                                          std::span<const Answer* const> replies,
-                                         const model::SedpProfile& sedp, const Bounds& bounds);
+                                         const model::SedpProfile& sedp, const Bounds& bounds,
+                                         std::size_t may_be_dropped = 0);
 
 /// How many submessages had been sent when something happened at `time_ns` at the reader.
 [[nodiscard]] std::size_t sent_until(const Relation& relation, std::int64_t time_ns,

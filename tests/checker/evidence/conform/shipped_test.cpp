@@ -25,6 +25,7 @@ const std::vector<Shipped>& fastdds_captures() {
       {"fastdds2611_ap150_np3_ne30_r0", "fastdds-2.6.11"},
       {"fastdds2611_ap150_np4_ne30_r1", "fastdds-2.6.11"},
       {"fastdds2611_ap150_np5_ne2_r0", "fastdds-2.6.11"},
+      {"fastdds2611_ap150_np6_ne30_r0", "fastdds-2.6.11"},
       {"fastdds2611_ap150_loss5_np3_ne20_r0", "fastdds-2.6.11", false},
       {"fastdds2611_veth_np3_ne10_r0", "fastdds-2.6.11"},
       {"fastdds2611like_ap_np1_ne30_r0", "fastdds-2.6.11"},

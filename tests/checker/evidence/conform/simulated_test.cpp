@@ -35,14 +35,17 @@ INSTANTIATE_TEST_SUITE_P(Vector, SimulatedVector, ::testing::ValuesIn(short_vect
 /// Deployments, starts, losses and channels of any kind, with the timers of a version. Datagrams of
 /// a participant do not overtake each other, which conformance assumes: every datagram is one
 /// fragment, and the stages serve in order.
-model::Scenario in_order(model::Scenario scenario, const std::string& version) {
-  scenario.dds = profile(version);
+model::Scenario in_order(model::Scenario scenario) {
   model::WirelessProfile& wireless = scenario.wireless;
   wireless.packet_delays.clear();
   wireless.fragment_request = model::FragmentRequest::at_admission;
   wireless.order = model::ServiceOrder::fifo;
   wireless.mtu_payload_bytes = model::Bytes{65'535};
   return scenario;
+}
+model::Scenario in_order(model::Scenario scenario, const std::string& version) {
+  scenario.dds = profile(version);
+  return in_order(std::move(scenario));
 }
 
 TEST(SimulatedScenario, ShippedOnesConform) {
@@ -81,10 +84,7 @@ bool sends_descriptors(const capture::Conversation& conversation) {
   });
 }
 
-void check_random(bool losses) {
-  const model::Scenario drawn = *props::scenarios(space(losses));
-  const model::Scenario scenario =
-      in_order(drawn, versions[*rc::gen::inRange<std::size_t>(0, std::size(versions))]);
+void check_conforms(const model::Scenario& scenario) {
   model::RunOptions options;
   options.max_events = 20'000;
   const Simulated run = simulated(scenario, options);
@@ -98,6 +98,23 @@ void check_random(bool losses) {
   }
 }
 
+void check_random(bool losses) {
+  const model::Scenario drawn = *props::scenarios(space(losses));
+  check_conforms(in_order(drawn, versions[*rc::gen::inRange<std::size_t>(0, std::size(versions))]));
+}
+
+/// With any timers, resends and budgets, but for what no program does and what captures do not
+/// resolve.
+void check_any_knobs(bool losses) {
+  model::Scenario scenario = in_order(*props::scenarios(space(losses)));
+  scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
+  if (!refuse_profile(scenario.dds)) check_conforms(scenario);
+}
+
+RC_GTEST_PROP(SimulatedRandom, ConformsWhateverTheKnobs, ()) { check_any_knobs(true); }
+RC_GTEST_PROP(SimulatedRandom, ConformsWhateverTheKnobsWithoutLosses, ()) {
+  check_any_knobs(false);
+}
 RC_GTEST_PROP(SimulatedRandom, ConformsExactly, ()) { check_random(true); }
 RC_GTEST_PROP(SimulatedRandom, ConformsWithoutAdmittingLosses, ()) { check_random(false); }
 

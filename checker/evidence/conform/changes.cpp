@@ -1,0 +1,171 @@
+// Changes one knob after the other.
+#include "checker/evidence/conform/changes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "model/config/tree/quantities.hpp"
+#include "model/config/tree/yaml_text.hpp"
+
+namespace stormproof::conform {
+
+namespace {
+
+namespace fs = std::filesystem;
+using model::config::InputError;
+using model::config::Result;
+
+/// Collects the changes of one profile.
+class Changes {
+ public:
+  explicit Changes(const model::DdsProfile& dds) : dds_{dds} {}
+
+  void add(std::string name, std::string set, std::vector<Rule> rules, const auto& apply) {
+    Change change{std::move(name), std::move(set), dds_, std::move(rules)};
+    apply(change.dds);
+    if (change.dds != dds_) all_.push_back(std::move(change));
+  }
+
+  /// A timer of SEDP, `numerator`/`denominator` times as long.
+  void timer(const char* symbol, const char* key, model::Nanoseconds model::SedpProfile::*member,
+             std::int64_t numerator, std::int64_t denominator, const std::vector<Rule>& rules) {
+    const model::Nanoseconds changed{(dds_.sedp.*member).count() * numerator / denominator};
+    add(denominator == 1 ? fmt::format("{} × {}", symbol, numerator)
+                         : fmt::format("{} / {}", symbol, denominator),
+        fmt::format("sedp.{}={}", key, model::config::print_duration(changed)), rules,
+        [&](model::DdsProfile& dds) { dds.sedp.*member = changed; });
+  }
+
+  std::vector<Change> take() && { return std::move(all_); }
+
+ private:
+  const model::DdsProfile& dds_;
+  std::vector<Change> all_;
+};
+
+void add_timers(Changes& changes) {
+  using Sedp = model::SedpProfile;
+  const std::vector<Rule> periodic{Rule::heartbeat_periodic};
+  const std::vector<Rule> initial{Rule::acknack_initial};
+  changes.timer("τ_N", "nack_response_delay", &Sedp::nack_response_delay, 10, 1,
+                {Rule::data_pull, Rule::data_repair});
+  changes.timer("τ_A", "heartbeat_response_delay", &Sedp::heartbeat_response_delay, 1'000, 1,
+                {Rule::acknack_reply});
+  changes.timer("τ_S", "nack_suppression_duration", &Sedp::nack_suppression_duration, 10'000, 1,
+                {Rule::data_repair});
+  changes.timer("τ_H", "heartbeat_period", &Sedp::heartbeat_period, 3, 1, periodic);
+  changes.timer("τ_H", "heartbeat_period", &Sedp::heartbeat_period, 1, 2, periodic);
+  changes.timer("τ_I", "initial_acknack_delay", &Sedp::initial_acknack_delay, 2, 1, initial);
+  changes.timer("τ_I", "initial_acknack_delay", &Sedp::initial_acknack_delay, 1, 2, initial);
+}
+
+void add_choices(Changes& changes) {
+  using Interval = model::InitialAckNackInterval;
+  using Resend = model::SpdpResend;
+  using Piggyback = model::Piggyback;
+  for (const auto& [word, value] :
+       {std::pair{"constant", Interval::constant}, std::pair{"doubling", Interval::doubling}}) {
+    changes.add("initial ACKNACKs: the other interval",
+                fmt::format("sedp.initial_acknack_interval={}", word), {Rule::acknack_initial},
+                [&](model::DdsProfile& dds) { dds.sedp.initial_acknack_interval = value; });
+  }
+  for (const auto& [word, value] :
+       {std::pair{"all_known", Resend::all_known}, std::pair{"new_only", Resend::new_only},
+        std::pair{"new_and_multicast", Resend::new_and_multicast},
+        std::pair{"none", Resend::none}}) {
+    changes.add(fmt::format("resend {}", word), fmt::format("spdp.resend={}", word),
+                {Rule::announcement_resent, Rule::announcement_copy},
+                [&](model::DdsProfile& dds) { dds.spdp.resend = value; });
+  }
+  const std::vector<Rule> budget{Rule::heartbeat_piggyback, Rule::heartbeat_same_host};
+  for (const auto& [word, value] :
+       {std::pair{"linear", Piggyback::linear}, std::pair{"cumulative", Piggyback::cumulative},
+        std::pair{"off", Piggyback::off}}) {
+    changes.add(fmt::format("piggyback {}", word), fmt::format("sedp.piggyback={}", word), budget,
+                [&](model::DdsProfile& dds) { dds.sedp.piggyback = value; });
+  }
+  changes.add(
+      "threshold 4 MB", "sedp.piggyback_threshold_bytes=4000000", budget,
+      [](model::DdsProfile& dds) { dds.sedp.piggyback_threshold_bytes = model::Bytes{4'000'000}; });
+}
+
+bool acts(const Change& change, const Conformance& truth) {
+  return std::ranges::any_of(
+      change.rules, [&](Rule rule) { return truth.by_rule[static_cast<std::size_t>(rule)] > 0; });
+}
+
+Tried judged(const Change& change, const Conformance& result) {
+  Tried tried{change.name, change.set, Notice::explained, {}, result.unexplained.size()};
+  if (result.verdict == Verdict::does_not_conform) {
+    tried.notice = Notice::rejected;
+    tried.fault = result.unexplained.front().fault;
+  } else if (result.verdict == Verdict::inconclusive) {
+    tried.notice = Notice::inconclusive;
+  }
+  return tried;
+}
+
+}  // namespace
+
+std::vector<Change> changes_of(const model::DdsProfile& dds) {
+  Changes changes{dds};
+  add_timers(changes);
+  add_choices(changes);
+  return std::move(changes).take();
+}
+
+const std::vector<NoKnob>& changes_without_knob() {
+  static const std::vector<NoKnob> list{
+      {"push instead of pull",
+       "no knob of an implementation that a capture can be held against: that existing descriptors "
+       "wait for a request is a rule of it, and DATA before its request is data_cause"}};
+  return list;
+}
+
+std::string_view name_of(Notice notice) {
+  constexpr std::array<std::string_view, 4> names{"rejected", "explained", "inconclusive",
+                                                  "does not act"};
+  return names[static_cast<std::size_t>(notice)];
+}
+
+Result<Sensitivity> try_changes(const ChangesRequest& request) {
+  const auto held = [&](const model::DdsProfile& dds) {
+    return conform({request.conversation, INT64_MAX, dds, request.bounds, {}, request.interrupted});
+  };
+  const auto truth = held(request.dds);
+  if (!truth) return truth.error();
+  Sensitivity all{request.capture, request.profile, truth->verdict, {}};
+  for (const Change& change : changes_of(request.dds)) {
+    if (!acts(change, *truth)) {
+      all.tried.push_back({change.name, change.set, Notice::does_not_act, {}, 0});
+      continue;
+    }
+    if (request.progress && !request.progress(change.name)) break;
+    const auto result = held(change.dds);
+    if (!result) return result.error();
+    all.tried.push_back(judged(change, *result));
+  }
+  return all;
+}
+
+Result<std::string> profile_of_capture(const std::string& file) {
+  const fs::path path{file};
+  const std::string list = (path.parent_path() / "profiles.yaml").string();
+  const auto root = model::config::load_yaml(list);
+  if (!root) return root.error();
+  std::string name = path.filename().string();
+  name.resize(std::min(name.find(".pcap"), name.size()));
+  const model::config::Node* profile = root->find(name);
+  if (profile == nullptr || !profile->is_scalar()) {
+    return InputError{file, fmt::format("{} does not say which profile it shows; expected `{}: "
+                                        "PROFILE` there, or --dds PROFILE",
+                                        list, name)};
+  }
+  return profile->text;
+}
+
+}  // namespace stormproof::conform
