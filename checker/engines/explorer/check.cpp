@@ -51,7 +51,7 @@ constexpr std::array<Group, 3> groups{{
     {bit(Claim::quiescence), 100'000, 500'000},
 }};
 /// In one of the many checks of `mutate`, a mistake that matters shows early: so much less.
-constexpr std::uint64_t share_of_mutant = 4;
+constexpr std::uint64_t share_of_mutant = 12;
 
 class Exploration {
  public:

@@ -46,7 +46,6 @@ TEST(Answer, IsNoneIfNothingWasExhausted) {
     answer.note_scope({}, Claim::snapshot, a_search(cut), {});
     const Finding finding = answer.finding(Claim::snapshot, {});
     EXPECT_EQ(finding.kind, VerdictKind::inconclusive);
-    EXPECT_FALSE(finding.disputed);
     EXPECT_TRUE(says(finding.how, "D = 1, k = 0 (all paths of up to 7 events)")) << finding.how;
   }
 }
@@ -73,8 +72,7 @@ TEST(Answer, IsDisputedIfTheSimulatorDoesNotConfirmAPath) {
   answer.note_scope({}, Claim::snapshot, a_search(CutShort::no), {});
   answer.note_dispute({}, 9, "The monitor does not object.");
   const Finding finding = answer.finding(Claim::snapshot, {});
-  EXPECT_EQ(finding.kind, VerdictKind::inconclusive);
-  EXPECT_TRUE(finding.disputed);
+  EXPECT_EQ(finding.kind, VerdictKind::disputed);
   EXPECT_TRUE(says(finding.how, "A path of 9 events")) << finding.how;
 }
 
