@@ -18,7 +18,7 @@ const Answer* DataReplay::run(const Plan& plan, std::int64_t lag) {
   for (std::size_t k = 0; k < transmissions_.size(); ++k) {
     std::int64_t serialized = transmissions_[k].time_ns - lag;
     if (const auto request = plan.request[k]) {
-      serialized = std::max(serialized, steps[*request].time_ns + context_.response_ns());
+      serialized = std::max(serialized, steps[*request].time_ns);
     }
     steps.push_back({serialized, true, k});
   }

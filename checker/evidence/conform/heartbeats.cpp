@@ -25,6 +25,7 @@ struct Explanation {
 struct Exchangeable {
   std::size_t relation = 0;
   Explanation other{};
+  std::int64_t time_ns = 0;
 };
 
 class Heartbeats {
@@ -137,7 +138,8 @@ class Heartbeats {
     if (const auto asked = initial_acknack_for(one)) {
       ledger_.hidden(Hidden::Kind::received, std::max(asked->time_ns, one.time_ns), asked->event);
       if (is_only_reader(one)) {
-        if (const auto other = fan_out_rule(one)) exchangeable_.push_back({one.relation, *other});
+        if (const auto other = fan_out_rule(one))
+          exchangeable_.push_back({one.relation, *other, one.time_ns});
       }
       settle(one, Rule::heartbeat_reply);
       arm(one.time_ns);
@@ -261,10 +263,10 @@ class Heartbeats {
                                                         ? sends::budget_of_pushed
                                                         : sends::budget_of_requested};
     }
-    if (is_due(one)) return Explanation{Rule::heartbeat_periodic, sends::expiry};
+    if (is_due(one.time_ns)) return Explanation{Rule::heartbeat_periodic, sends::expiry};
     return std::nullopt;
   }
-  [[nodiscard]] bool is_due(const SentHeartbeat& one) const {
+  [[nodiscard]] bool is_due(std::int64_t time_ns) const {
     std::int64_t due = due_ns_.value_or(INT64_MAX);
     if (dialogue_.has_neighbour[source_] && !has_expired_) {
       due = dialogue_.announcements[source_].empty()
@@ -272,19 +274,36 @@ class Heartbeats {
                 : dialogue_.announcements[source_].front().time_ns +
                       sedp_.heartbeat_period.count() - bounds_.most_send_lag_ns;
     }
-    return due <= one.time_ns + bounds_.most_send_lag_ns + capture_resolution_ns;
+    return due <= time_ns + bounds_.most_send_lag_ns + capture_resolution_ns;
+  }
+  /// When the timer expires of which `one` is the HEARTBEAT: it, or an earlier one to the only
+  /// reader, which has been counted as the reply that `one` may be.
+  [[nodiscard]] std::int64_t earliest_expiry(const SentHeartbeat& one) const {
+    std::int64_t earliest = one.time_ns;
+    for (const Exchangeable& other : exchangeable_) {
+      if (is_due(other.time_ns) && other.other.rule == Rule::heartbeat_periodic) {
+        earliest = std::min(earliest, other.time_ns);
+      }
+    }
+    return earliest;
+  }
+  /// Whether one to the only reader can be the reply to an initial ACKNACK that another one has
+  /// been counted as.
+  [[nodiscard]] bool can_be_reply(const SentHeartbeat& one) const {
+    return one.is_directed && next_initial_[one.relation] > 0;
   }
   void expire(const SentHeartbeat& one) {
+    const std::int64_t expired_ns = earliest_expiry(one);
     if (!due_ns_) arm(one.time_ns - sedp_.heartbeat_period.count());
     const auto output =
-        machine_.step<timer::Expired>(state_, {.now = one.time_ns,
+        machine_.step<timer::Expired>(state_, {.now = expired_ns,
                                                .heartbeat_period = sedp_.heartbeat_period.count(),
                                                .unacknowledged = true});
-    // It may have been sent that much before its capture. If the own host explains it, too, the
-    // timer need not have expired yet.
-    has_expired_ = has_expired_ || !by_own_host(one);
-    if (output.schedule_expiry && !by_own_host(one))
-      due_ns_ = output.next_at - bounds_.most_send_lag_ns;
+    // It may have been sent that much before its capture. If something else explains it, too,
+    // the timer need not have expired yet.
+    const bool is_certain = !by_own_host(one) && !can_be_reply(one);
+    has_expired_ = has_expired_ || is_certain;
+    if (output.schedule_expiry && is_certain) due_ns_ = output.next_at - bounds_.most_send_lag_ns;
     ledger_.hidden(Hidden::Kind::timer, one.time_ns, one.event, "HeartbeatTimer");
   }
 

@@ -79,9 +79,9 @@ class WriterSide {
         unacknowledged.resize(one.descriptor + 1, opened_ns_ - lag);
       }
       if (!one.is_pushed) {
+        const std::int64_t response = response_ns(one);
         all.push_back({k, one.descriptor, unacknowledged[one.descriptor],
-                       one.time_ns - context_.response_ns() +
-                           (context_.response_ns() > 0 ? capture_resolution_ns : 0)});
+                       one.time_ns - response + (response > 0 ? capture_resolution_ns : 0)});
       }
       // A suppression that is pending already ends for this descriptor, too.
       const bool may_be_pending =
@@ -93,6 +93,17 @@ class WriterSide {
     return all;
   }
 
+  /// From the arrival of a request for it to the transmission, at least: less than τ_N if an
+  /// ACKNACK that asks for something else can have armed the response before.
+  [[nodiscard]] std::int64_t response_ns(const Transmission& one) const {
+    const std::int64_t response = context_.response_ns();
+    const bool is_armed = std::ranges::any_of(relation_.answers, [&](const Answer& answer) {
+      return !answer.missing.empty() && !answer.asks_for(one.descriptor) &&
+             answer.time_ns + context_.bounds.least_delay_ns + response <=
+                 one.time_ns + context_.bounds.clock_error_ns + capture_resolution_ns;
+    });
+    return is_armed ? 0 : response;
+  }
   [[nodiscard]] bool needs_no_request(const Transmission& one) const {
     return !one.is_pushed && context_.to_everybody.contains(one.event);
   }

