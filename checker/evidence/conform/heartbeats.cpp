@@ -43,7 +43,8 @@ class Heartbeats {
         sent_{sent_heartbeats(writer)},
         budget_{dialogue, writer, sedp, bounds},
         next_initial_(writer.relations.size()),
-        is_opened_(writer.relations.size()) {
+        is_opened_(writer.relations.size()),
+        has_replied_(writer.relations.size()) {
     for (const SentHeartbeat& one : sent_.all) counts_.push_back(one.heartbeat.count);
     std::ranges::sort(counts_);
   }
@@ -141,6 +142,7 @@ class Heartbeats {
         if (const auto other = fan_out_rule(one))
           exchangeable_.push_back({one.relation, *other, one.time_ns});
       }
+      has_replied_[one.relation] = true;
       settle(one, Rule::heartbeat_reply);
       arm(one.time_ns);
       return std::nullopt;
@@ -290,7 +292,7 @@ class Heartbeats {
   /// Whether one to the only reader can be the reply to an initial ACKNACK that another one has
   /// been counted as.
   [[nodiscard]] bool can_be_reply(const SentHeartbeat& one) const {
-    return one.is_directed && next_initial_[one.relation] > 0;
+    return one.is_directed && has_replied_[one.relation];
   }
   void expire(const SentHeartbeat& one) {
     const std::int64_t expired_ns = earliest_expiry(one);
@@ -346,6 +348,7 @@ class Heartbeats {
   std::vector<Exchangeable> exchangeable_;
   std::vector<std::size_t> next_initial_;
   std::vector<bool> is_opened_;
+  std::vector<bool> has_replied_;  ///< to an initial ACKNACK
   fsm::StateId state_ = Tally<fsm::HeartbeatTimer>::Fly::initial;
   std::optional<std::int64_t> due_ns_;  ///< when the timer expires, earliest
   bool has_expired_ = false;
