@@ -94,11 +94,11 @@ class WriterSide {
   }
 
   /// From the arrival of a request for it to the transmission, at least: less than τ_N if an
-  /// ACKNACK that asks for something else can have armed the response before.
+  /// earlier ACKNACK can have armed the response, for something else that it asks for.
   [[nodiscard]] std::int64_t response_ns(const Transmission& one) const {
     const std::int64_t response = context_.response_ns();
     const bool is_armed = std::ranges::any_of(relation_.answers, [&](const Answer& answer) {
-      return !answer.missing.empty() && !answer.asks_for(one.descriptor) &&
+      return !answer.missing.empty() &&
              answer.time_ns + context_.bounds.least_delay_ns + response <=
                  one.time_ns + context_.bounds.clock_error_ns + capture_resolution_ns;
     });
