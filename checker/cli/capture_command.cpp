@@ -3,11 +3,11 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/cli/on_captures.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/capture/summary.hpp"
-#include "checker/presentation/text/command_line.hpp"
 
 namespace stormproof::cli {
 
@@ -29,9 +29,8 @@ Outcome run(CaptureArguments& arguments, Session& session) {
   Answer answer;
   answer.document = document_of(summary);
   answer.json = to_json(summary);
-  std::vector<std::string> who{"conform"};
-  who.insert(who.end(), arguments.files.begin(), arguments.files.end());
-  answer.document.next = {{report::command_line(who), "which library and version behaves so"}};
+  answer.document.next = {
+      {on_captures("conform", arguments.files), "which library and version behaves so"}};
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(summary);
   const bool complete = !Session::interrupted() && counting.last_initial_ns;
   answer.document.complete = !Session::interrupted();

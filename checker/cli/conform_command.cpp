@@ -9,11 +9,11 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/cli/on_captures.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/evidence/conform/report/changes_report.hpp"
 #include "checker/evidence/conform/report/ranking_report.hpp"
 #include "checker/evidence/conform/report/report.hpp"
-#include "checker/presentation/text/command_line.hpp"
 #include "model/config/distributions.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
@@ -94,17 +94,14 @@ ExitCode exit_code(conform::Verdict verdict) {
 /// What to run after one profile was held against captures; nothing if that is not decided.
 std::optional<report::NextStep> next_of(const ConformArguments& arguments,
                                         conform::Verdict verdict) {
-  std::vector<std::string> words{"validate"};
-  words.insert(words.end(), arguments.files.begin(), arguments.files.end());
   switch (verdict) {
     case conform::Verdict::conforms:
-      words.insert(words.end(), {"--dds", arguments.dds, "--wireless", "wifi-80211n"});
       return report::NextStep{
-          report::command_line(words),
+          on_captures("validate", arguments.files,
+                      {"--dds", arguments.dds, "--wireless", "wifi-80211n"}),
           "how long the model takes over such a channel; list wireless has more"};
     case conform::Verdict::does_not_conform:
-      words.front() = "conform";
-      return report::NextStep{report::command_line(words),
+      return report::NextStep{on_captures("conform", arguments.files),
                               "which shipped profile explains it best"};
     case conform::Verdict::inconclusive:
       break;

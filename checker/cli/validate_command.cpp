@@ -4,11 +4,11 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/cli/on_captures.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/streams.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/validate/validate.hpp"
-#include "checker/presentation/text/command_line.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/config/tree/quantities.hpp"
 
@@ -74,11 +74,8 @@ Outcome run(ValidateArguments& arguments, Session& session) {
   const validate::Heading heading{arguments.files};
   Answer answer{document_of(*report, heading), to_json(*report, heading)};
   answer.document.exit_code = exit_code(*report);
-  std::vector<std::string> rules{"conform"};
-  rules.insert(rules.end(), arguments.files.begin(), arguments.files.end());
-  rules.insert(rules.end(), {"--dds", request.dds});
-  answer.document.next = {
-      {report::command_line(rules), "whether the rules of this profile explain every message"}};
+  answer.document.next = {{on_captures("conform", arguments.files, {"--dds", request.dds}),
+                           "whether the rules of this profile explain every message"}};
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(*report);
   if (arguments.scenario.wanted()) {
     arguments.scenario.stream() << model::config::effective_yaml(report->scenario);

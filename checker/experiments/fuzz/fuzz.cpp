@@ -207,13 +207,6 @@ bool FuzzReport::violated() const {
   return std::ranges::any_of(judgments, [](const Judgment& j) { return j.broken > 0; });
 }
 
-std::optional<exact::Outlook> FuzzReport::outlook() const {
-  if (runs.empty()) return std::nullopt;
-  std::vector<exact::RunHealth> all;
-  for (const JudgedRun& run : runs) all.push_back(run.health);
-  return exact::Outlook{std::move(all)};
-}
-
 FuzzReport fuzz(const model::Scenario& scenario, const Ranges& ranges, const FuzzOptions& options) {
   return Fuzzer{scenario, ranges, options}.run();
 }

@@ -67,8 +67,6 @@ struct FuzzReport {
   statistics::Quantiles completion_ns, messages, amplification, backlog;
 
   [[nodiscard]] bool violated() const;
-  /// What the runs were like; nothing without a run.
-  [[nodiscard]] std::optional<exact::Outlook> outlook() const;
 };
 
 /// `scenario` is valid; its limits are those to judge by.

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "checker/experiments/fuzz/fuzz_report.hpp"
+#include "checker/experiments/trials/sample_runs.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/numbers.hpp"
@@ -218,8 +219,8 @@ std::string breaches_text(const FuzzReport& report, const model::Scenario& scena
 }
 
 /// What the runs were like stands before what they break if it is more than a slow start.
-std::string answer_text(const FuzzReport& report, const model::Scenario& scenario) {
-  const auto outlook = report.outlook();
+std::string answer_text(const FuzzReport& report, const std::optional<exact::Outlook>& outlook,
+                        const model::Scenario& scenario) {
   if (!outlook) return "No run finished, so nothing is known.";
   const std::string breaches = breaches_text(report, scenario);
   if (outlook->health() != exact::Health::storm) return breaches;
@@ -227,9 +228,8 @@ std::string answer_text(const FuzzReport& report, const model::Scenario& scenari
 }
 
 /// A storm breaks no property, and is nothing to be content with.
-Tone tone_of(const FuzzReport& report) {
+Tone tone_of(const FuzzReport& report, const std::optional<exact::Outlook>& outlook) {
   if (report.violated()) return Tone::bad;
-  const auto outlook = report.outlook();
   const bool calm = outlook && outlook->health() != exact::Health::storm;
   return report.interrupted || !calm ? Tone::warn : Tone::good;
 }
@@ -273,13 +273,14 @@ Document document_of(const FuzzReport& report, const FuzzContext& context) {
   Document document;
   document.title = "stormproof fuzz " + context.name;
   document.exit_code = report.violated() ? 1 : open ? 3 : 0;
-  document.tone = tone_of(report);
+  const auto outlook = trials::outlook_of(report.runs);
+  document.tone = tone_of(report, outlook);
   document.complete = !report.interrupted;
   document.command = context.whole(report);
   document.subject =
       fmt::format("{}: {}, {}", context.name, plural(scenario.deployment.size(), "participant"),
                   model::traits_of(scenario.dds).rules);
-  document.answer = answer_text(report, scenario);
+  document.answer = answer_text(report, outlook, scenario);
   add_ranges(document.blocks, report, scenario);
   document.blocks.emplace_back(verdicts(report, context));
   if (!report.runs.empty()) document.blocks.emplace_back(distribution(report));

@@ -3,6 +3,7 @@
 #include "checker/engines/exact/health_json.hpp"
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/experiments/statistics/quantiles_json.hpp"
+#include "checker/experiments/trials/sample_runs.hpp"
 #include "checker/presentation/json/schema.hpp"
 
 namespace stormproof::fuzz {
@@ -196,7 +197,7 @@ void describe(V& v, const ReportInContext& shown) {
   v.unless_empty("unmodelled", shown.context.scenario.dds.unmodelled);
   v("base", report.base_known ? std::optional{report.base} : std::nullopt);
   v("verdicts", verdicts);
-  v("outlook", report.outlook());
+  v("outlook", trials::outlook_of(report.runs));
   v("summary", Summary{report});
   v("samples", samples);
 }

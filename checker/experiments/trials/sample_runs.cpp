@@ -22,12 +22,4 @@ std::vector<Sample> sample_runs(const model::Scenario& scenario, const SampleOpt
   }));
 }
 
-std::optional<exact::Outlook> outlook_of(const std::vector<Sample>& samples) {
-  if (samples.empty()) return std::nullopt;
-  std::vector<exact::RunHealth> runs;
-  runs.reserve(samples.size());
-  for (const Sample& sample : samples) runs.push_back(sample.health);
-  return exact::Outlook{std::move(runs)};
-}
-
 }  // namespace stormproof::trials

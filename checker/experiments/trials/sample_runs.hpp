@@ -26,8 +26,15 @@ struct Sample {
   exact::RunHealth health{};
 };
 
-/// What the samples were like together; absent if there are none.
-[[nodiscard]] std::optional<exact::Outlook> outlook_of(const std::vector<Sample>& samples);
+/// What runs that know their `health` were like together; absent if there are none.
+template <class Run>
+[[nodiscard]] std::optional<exact::Outlook> outlook_of(const std::vector<Run>& runs) {
+  if (runs.empty()) return std::nullopt;
+  std::vector<exact::RunHealth> all;
+  all.reserve(runs.size());
+  for (const Run& run : runs) all.push_back(run.health);
+  return exact::Outlook{std::move(all)};
+}
 
 /// Samples of a scenario whose start times are drawn, unless somebody wants another number.
 inline constexpr std::size_t usual_samples = 12;

@@ -69,11 +69,12 @@ class TextTable {
 
   /// Narrows columns until the table fits; false if it cannot.
   bool share() {
+    if (total() <= width_) return true;
     std::vector<std::size_t> broken_columns;
     for (std::size_t k = 0; k < shown_.size(); ++k) {
       if (column(k).wraps) broken_columns.push_back(k);
     }
-    if (broken_columns.empty() && total() > width_) {
+    if (broken_columns.empty()) {
       std::vector<std::size_t> all(shown_.size());
       std::iota(all.begin(), all.end(), std::size_t{0});
       std::ranges::copy_if(all, std::back_inserter(broken_columns), [&](std::size_t k) {

@@ -17,11 +17,7 @@ void describe(V& v, const NotHeld& one) {
 }
 
 static RankingReport example_of(report::Type<RankingReport>) {
-  static const auto conversation = [] {
-    auto one = example_of(report::Type<capture::Conversation>{});
-    one.events.resize(1);
-    return one;
-  }();
+  static const auto conversation = example_of(report::Type<capture::Conversation>{});
   static const Ranking ranking;
   return {conversation, ranking};
 }
