@@ -18,7 +18,7 @@ TEST(StateWords, EveryLetterHasThemAndNoWordDoes) {
   for (const MachineInfo& machine : machines()) {
     for (const std::string_view state : machine.states) {
       EXPECT_EQ(words_of_state(state).empty(), state.size() > 1) << machine.name << " " << state;
-      letters += state.size() == 1 ? 1 : 0;
+      if (state.size() == 1) ++letters;
     }
   }
   EXPECT_EQ(letters, 10U) << "five of the paper, five of Fast DDS";

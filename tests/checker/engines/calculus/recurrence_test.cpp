@@ -40,7 +40,9 @@ TEST(Recurrence, OfAnnouncements) {
     const std::int64_t bound = Recurrence::announcements(spdp).most(window, 0);
     const std::int64_t most = counted(schedule, window);
     EXPECT_LE(most, bound);
-    if (spdp.period >= spdp.startup_period) EXPECT_EQ(most, bound);
+    if (spdp.period >= spdp.startup_period) {
+      EXPECT_EQ(most, bound);
+    }
   }
 }
 
