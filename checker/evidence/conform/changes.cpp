@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -63,31 +64,42 @@ void add_timers(Changes& changes) {
   changes.timer("τ_I", "initial_acknack_delay", &Sedp::initial_acknack_delay, 1, 2, initial);
 }
 
+/// One change for each value of a knob that is a word.
+template <class Value>
+void add_words(Changes& changes, const char* name, const char* key, const std::vector<Rule>& rules,
+               const std::vector<std::pair<const char*, Value>>& words,
+               const std::function<void(model::DdsProfile&, Value)>& set) {
+  for (const auto& choice : words) {
+    changes.add(fmt::format("{} {}", name, choice.first), fmt::format("{}={}", key, choice.first),
+                rules, [&](model::DdsProfile& dds) { set(dds, choice.second); });
+  }
+}
+
 void add_choices(Changes& changes) {
   using Interval = model::InitialAckNackInterval;
   using Resend = model::SpdpResend;
   using Piggyback = model::Piggyback;
-  for (const auto& [word, value] :
-       {std::pair{"constant", Interval::constant}, std::pair{"doubling", Interval::doubling}}) {
+  const std::vector<std::pair<const char*, Interval>> intervals{{"constant", Interval::constant},
+                                                                {"doubling", Interval::doubling}};
+  for (const auto& choice : intervals) {
     changes.add("initial ACKNACKs: the other interval",
-                fmt::format("sedp.initial_acknack_interval={}", word), {Rule::acknack_initial},
-                [&](model::DdsProfile& dds) { dds.sedp.initial_acknack_interval = value; });
+                fmt::format("sedp.initial_acknack_interval={}", choice.first),
+                {Rule::acknack_initial},
+                [&](model::DdsProfile& dds) { dds.sedp.initial_acknack_interval = choice.second; });
   }
-  for (const auto& [word, value] :
-       {std::pair{"all_known", Resend::all_known}, std::pair{"new_only", Resend::new_only},
-        std::pair{"new_and_multicast", Resend::new_and_multicast},
-        std::pair{"none", Resend::none}}) {
-    changes.add(fmt::format("resend {}", word), fmt::format("spdp.resend={}", word),
-                {Rule::announcement_resent, Rule::announcement_copy},
-                [&](model::DdsProfile& dds) { dds.spdp.resend = value; });
-  }
+  add_words<Resend>(changes, "resend", "spdp.resend",
+                    {Rule::announcement_resent, Rule::announcement_copy},
+                    {{"all_known", Resend::all_known},
+                     {"new_only", Resend::new_only},
+                     {"new_and_multicast", Resend::new_and_multicast},
+                     {"none", Resend::none}},
+                    [](model::DdsProfile& dds, Resend value) { dds.spdp.resend = value; });
   const std::vector<Rule> budget{Rule::heartbeat_piggyback, Rule::heartbeat_same_host};
-  for (const auto& [word, value] :
-       {std::pair{"linear", Piggyback::linear}, std::pair{"cumulative", Piggyback::cumulative},
-        std::pair{"off", Piggyback::off}}) {
-    changes.add(fmt::format("piggyback {}", word), fmt::format("sedp.piggyback={}", word), budget,
-                [&](model::DdsProfile& dds) { dds.sedp.piggyback = value; });
-  }
+  add_words<Piggyback>(changes, "piggyback", "sedp.piggyback", budget,
+                       {{"linear", Piggyback::linear},
+                        {"cumulative", Piggyback::cumulative},
+                        {"off", Piggyback::off}},
+                       [](model::DdsProfile& dds, Piggyback value) { dds.sedp.piggyback = value; });
   changes.add(
       "threshold 4 MB", "sedp.piggyback_threshold_bytes=4000000", budget,
       [](model::DdsProfile& dds) { dds.sedp.piggyback_threshold_bytes = model::Bytes{4'000'000}; });
