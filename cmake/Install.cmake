@@ -1,5 +1,6 @@
 # Installation: the program, the two libraries with their headers, the shipped specifications, and
-# the CMake package `stormproof` with the targets stormproof::fsm and stormproof::model.
+# the CMake package `stormproof`: the targets stormproof::fsm and stormproof::model, and
+# stormproof_add_test.
 include(CMakePackageConfigHelpers)
 
 set(_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stormproof")
@@ -26,6 +27,7 @@ configure_package_config_file(cmake/stormproofConfig.cmake.in
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/stormproofConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 install(FILES
+  cmake/StormproofAddTest.cmake
   "${PROJECT_BINARY_DIR}/stormproofConfig.cmake"
   "${PROJECT_BINARY_DIR}/stormproofConfigVersion.cmake"
   DESTINATION "${_package_dir}")

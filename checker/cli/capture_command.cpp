@@ -30,7 +30,7 @@ Outcome run(CaptureArguments& arguments, Session& session) {
   answer.document = document_of(summary);
   answer.json = to_json(summary);
   answer.document.next = {
-      {on_captures("conform", arguments.files), "which library and version behaves so"}};
+      {on_captures({"conform"}, arguments.files), "which library and version behaves so"}};
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(summary);
   const bool complete = !Session::interrupted() && counting.last_initial_ns;
   answer.document.complete = !Session::interrupted();

@@ -4,6 +4,7 @@
 namespace stormproof::cli {
 
 void declare_commands(Frame& frame) {
+  declare_init(frame);
   declare_simulate(frame);
   declare_check(frame);
   declare_diff(frame);
@@ -13,6 +14,7 @@ void declare_commands(Frame& frame) {
   declare_tune(frame);
   declare_reproduce(frame);
   declare_coverage(frame);
+  declare_doctor(frame);
   declare_capture(frame);
   declare_conform(frame);
   declare_validate(frame);

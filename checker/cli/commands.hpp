@@ -15,6 +15,8 @@ void declare_sweep(Frame& frame);
 void declare_tune(Frame& frame);
 void declare_reproduce(Frame& frame);
 void declare_coverage(Frame& frame);
+void declare_init(Frame& frame);
+void declare_doctor(Frame& frame);
 void declare_capture(Frame& frame);
 void declare_conform(Frame& frame);
 void declare_validate(Frame& frame);

@@ -97,11 +97,11 @@ std::optional<report::NextStep> next_of(const ConformArguments& arguments,
   switch (verdict) {
     case conform::Verdict::conforms:
       return report::NextStep{
-          on_captures("validate", arguments.files,
+          on_captures({"validate"}, arguments.files,
                       {"--dds", arguments.dds, "--wireless", "wifi-80211n"}),
           "how long the model takes over such a channel; list wireless has more"};
     case conform::Verdict::does_not_conform:
-      return report::NextStep{on_captures("conform", arguments.files),
+      return report::NextStep{on_captures({"conform"}, arguments.files),
                               "which shipped profile explains it best"};
     case conform::Verdict::inconclusive:
       break;

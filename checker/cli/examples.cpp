@@ -15,6 +15,11 @@ struct OfCommand {
 };
 
 constexpr OfCommand all_examples[] = {
+    {"init",
+     {{{"stormproof init --hosts 4 --participants 2 --endpoints 25 --ros jazzy -o fleet.yaml",
+        "a first scenario of your own robots"},
+       {"stormproof init specs/captures/fastdds291_ap_np3_ne10_r0.pcap.xz",
+        "of whoever took part in a capture"}}}},
     {"simulate",
      {{{"stormproof simulate wifi-5x20-fastdds",
         "when discovery completes, and what fills the channel until then"},
@@ -56,6 +61,9 @@ constexpr OfCommand all_examples[] = {
      {{{"stormproof coverage specs/observations/fastdds-2.6.11-ap150.jsonl --dds humble "
         "--wireless emulated-ap --samples 2 --scope np1",
         "predictions beside live measurements, one participant on each host"}}}},
+    {"doctor",
+     {{{"stormproof doctor specs/captures/fastdds2611_ap150_np2_ne20_r0.pcap.xz",
+        "who is there, is it a storm, why, and what to change"}}}},
     {"capture summarize",
      {{{"stormproof capture summarize specs/captures/fastdds2611_ap150_np2_ne20_r0.pcap.xz",
         "what was sent, by class, and whether all was delivered"}}}},
@@ -95,6 +103,10 @@ constexpr OfCommand all_examples[] = {
     {"completion bash",
      {{{"stormproof completion bash >stormproof.bash",
         "for ~/.bashrc, or /etc/bash_completion.d"}}}},
+    {"completion zsh", {{{"stormproof completion zsh >_stormproof", "for a folder of fpath"}}}},
+    {"completion fish",
+     {{{"stormproof completion fish >stormproof.fish", "for ~/.config/fish/completions"}}}},
+    {"man", {{{"stormproof man >stormproof.1", "man ./stormproof.1 shows it"}}}},
 };
 
 }  // namespace
@@ -133,6 +145,10 @@ What does this change of a DDS profile do? For reviews and CI.
   stormproof diff humble jazzy --over smallest
   stormproof profile lint specs/vendor/fastdds/without-effect.xml
 
+What is wrong on my robots? From a capture of their traffic.
+  stormproof doctor specs/captures/fastdds2611_ap150_np2_ne20_r0.pcap.xz
+
+Your own system: 'stormproof init'.
 All commands: 'stormproof help'; one of them, with examples: 'stormproof help simulate'.
 What has a name (scenarios, profiles, properties, …): 'stormproof list'.
 )";

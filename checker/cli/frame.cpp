@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "checker/cli/complain.hpp"
@@ -18,9 +19,11 @@
 #include "checker/cli/report_files.hpp"
 #include "checker/cli/streams.hpp"
 #include "checker/cli/terminal.hpp"
+#include "checker/engines/smt/claims.hpp"
 #include "checker/presentation/json/describe.hpp"
 #include "checker/presentation/json/dumped.hpp"
 #include "checker/presentation/json/head.hpp"
+#include "model/config/spec_path.hpp"
 
 namespace stormproof::cli {
 
@@ -279,9 +282,17 @@ struct Frame::Parser {
   Command* chosen = nullptr;
 };
 
+/// The program, what decides its proofs, what its JSON looks like, and the libraries it knows.
+static std::string version_text() {
+  return fmt::format(
+      "stormproof {}\n{}, JSON schema {}\nprofiles: {}", STORMPROOF_VERSION,
+      smt::Claims::solver_name(), report::json_version,
+      fmt::join(model::config::SpecPath::standard().names(model::config::SpecKind::dds), ", "));
+}
+
 Frame::Frame() : parser_{std::make_unique<Parser>()} {
   parser_->app.name("stormproof");
-  parser_->app.set_version_flag("--version", "stormproof " STORMPROOF_VERSION);
+  parser_->app.set_version_flag("--version", version_text);
   parser_->app.require_subcommand(1);
 }
 
@@ -351,6 +362,12 @@ std::string Frame::help_of(const std::vector<std::string>& words) const {
   return app->get_formatter()->make_help(app, path, CLI::AppFormatMode::Normal);
 }
 
-std::string Frame::bash_completion() const { return cli::bash_completion(parser_->app); }
+std::string Frame::completion(std::string_view shell) const {
+  if (shell == "zsh") return zsh_completion(parser_->app);
+  if (shell == "fish") return fish_completion(parser_->app);
+  return bash_completion(parser_->app);
+}
+
+std::string Frame::man_page() const { return cli::man_page(parser_->app); }
 
 }  // namespace stormproof::cli

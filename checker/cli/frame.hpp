@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "checker/cli/answer.hpp"
@@ -71,7 +72,9 @@ class Frame {
   [[nodiscard]] std::optional<Complaint> refuse(const std::vector<std::string>& words) const;
   /// What `--help` says of this command, which `refuse` does not refuse.
   [[nodiscard]] std::string help_of(const std::vector<std::string>& words) const;
-  [[nodiscard]] std::string bash_completion() const;
+  /// What completes commands in a shell: "bash", "zsh" or "fish".
+  [[nodiscard]] std::string completion(std::string_view shell) const;
+  [[nodiscard]] std::string man_page() const;
 
  private:
   struct Parser;

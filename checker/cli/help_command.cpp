@@ -1,9 +1,10 @@
-// `stormproof help COMMAND` and `stormproof completion bash`: what is known of the commands, from
-// the parser itself.
+// `stormproof help COMMAND`, `stormproof completion SHELL` and `stormproof man`: what is known of
+// the commands, from the parser itself.
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/cli/streams.hpp"
 
 namespace stormproof::cli {
 
@@ -24,16 +25,29 @@ void declare_help(Frame& frame) {
         fmt::print("{}", frame.help_of(*words));
         return established;
       });
-  frame.group("completion", "Print what completes commands in a shell: bash");
+  frame.group("completion", "Print what completes commands in a shell: bash, zsh, fish");
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    frame.add(
+        {.name = fmt::format("completion {}", shell),
+         .help = fmt::format("Print what completes commands and options in {}", shell),
+         .exit_codes = "Exit code: 0.",
+         .formats = Formats::none,
+         .takes_long = false},
+        [](Options& /*none*/) {},
+        [shell, &frame](Session& /*session*/) -> Outcome {
+          print(frame.completion(shell));
+          return established;
+        });
+  }
   frame.add(
-      {.name = "completion bash",
-       .help = "Print what completes commands and options in bash",
+      {.name = "man",
+       .help = "Print the manual page, in roff",
        .exit_codes = "Exit code: 0.",
        .formats = Formats::none,
        .takes_long = false},
       [](Options& /*none*/) {},
       [&frame](Session& /*session*/) -> Outcome {
-        fmt::print("{}", frame.bash_completion());
+        print(frame.man_page());
         return established;
       });
 }

@@ -8,11 +8,10 @@
 
 namespace stormproof::cli {
 
-/// "stormproof VERB FILE… OPTION…", quoted.
-[[nodiscard]] inline std::string on_captures(const char* verb,
+/// "stormproof VERB… FILE… OPTION…", quoted.
+[[nodiscard]] inline std::string on_captures(std::vector<std::string> words,
                                              const std::vector<std::string>& files,
                                              const std::vector<std::string>& options = {}) {
-  std::vector<std::string> words{verb};
   words.insert(words.end(), files.begin(), files.end());
   words.insert(words.end(), options.begin(), options.end());
   return report::command_line(words);

@@ -195,10 +195,11 @@ void Options::from_environment() {
        "Take ${VARIABLE} in Cyclone DDS files from the environment (default: what the file says)");
 }
 
-Option Options::captures(std::vector<std::string>& files) {
-  return texts("captures", files,
-               "pcap or pcapng, plain, .xz or .gz; several of one run are merged", "FILE")
-      .required();
+Option Options::captures(std::vector<std::string>& files, bool required) {
+  const Option option =
+      texts("captures", files, "pcap or pcapng, plain, .xz or .gz; several of one run are merged",
+            "FILE");
+  return required ? option.required() : option;
 }
 
 Option Options::until(std::string& instant, const std::string& help) {

@@ -122,7 +122,7 @@ class Options {
   /// `--set`: "a key of WHOSE".
   Option overrides(std::vector<std::string>& overrides, const char* whose);
   /// pcap files of one run.
-  Option captures(std::vector<std::string>& files);
+  Option captures(std::vector<std::string>& files, bool required = true);
   /// `--until`, for `parse_until`.
   Option until(std::string& instant, const std::string& help);
   Option svg(OutputFile& file, const std::string& help);

@@ -3,6 +3,7 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/simulate_request.hpp"
 #include "checker/evidence/capture/write/capture_probe.hpp"
+#include "checker/experiments/simulate/sample_report.hpp"
 #include "checker/experiments/simulate/simulate_report.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/verification/check/next_steps.hpp"

@@ -74,7 +74,7 @@ Outcome run(ValidateArguments& arguments, Session& session) {
   const validate::Heading heading{arguments.files};
   Answer answer{document_of(*report, heading), to_json(*report, heading)};
   answer.document.exit_code = exit_code(*report);
-  answer.document.next = {{on_captures("conform", arguments.files, {"--dds", request.dds}),
+  answer.document.next = {{on_captures({"conform"}, arguments.files, {"--dds", request.dds}),
                            "whether the rules of this profile explain every message"}};
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(*report);
   if (arguments.scenario.wanted()) {

@@ -14,13 +14,14 @@ namespace {
 
 constexpr const char* file_of_distributions = "distributions.yaml";
 constexpr const char* key_of_distributions = "distributions";
+constexpr const char* key_of_cyclonedds = "cyclonedds";
 
 /// Reads one text after the other; the first mistake wins.
 class DistributionReader {
  public:
-  DistributionReader(const Node& map, const std::string& name) : map_{map}, name_{name} {
-    const std::string path = join_path(key_of_distributions, name);
-    error_ = check_keys(map, path, {{"ships", "profile", "why"}, {}});
+  DistributionReader(const Node& map, const char* table, const std::string& name)
+      : map_{map}, path_{join_path(table, name)} {
+    error_ = check_keys(map, path_, {{"ships", "profile", "why"}, {}});
   }
 
   std::string text(std::string_view key) {
@@ -28,8 +29,8 @@ class DistributionReader {
     const Node* node = map_.find(key);
     if (node != nullptr && node->is_scalar() && !node->text.empty()) return node->text;
     const Place& place = node == nullptr ? map_.place : node->place;
-    error_ = error_at(place, fmt::format("{}.{}.{}: {}; expected text", key_of_distributions, name_,
-                                         key, node == nullptr ? "missing" : node->shown()));
+    error_ = error_at(place, fmt::format("{}.{}: {}; expected text", path_, key,
+                                         node == nullptr ? "missing" : node->shown()));
     return {};
   }
 
@@ -37,23 +38,25 @@ class DistributionReader {
 
  private:
   const Node& map_;
-  const std::string& name_;
+  std::string path_;
   std::optional<InputError> error_;
 };
 
-Result<std::vector<Distribution>> read_file(const std::string& file) {
+Result<std::vector<Distribution>> read_file(const std::string& file, const char* table) {
   const Result<Node> root = load_yaml(file);
   if (!root) return root.error();
-  if (auto error = check_keys(*root, "", {{key_of_distributions}, {}})) return *std::move(error);
-  const Node* map = root->find(key_of_distributions);
+  if (auto error = check_keys(*root, "", {{key_of_distributions, key_of_cyclonedds}, {}}))
+    return *std::move(error);
+  const Node* map = root->find(table);
+  if (map == nullptr && table != key_of_distributions) return std::vector<Distribution>{};
   if (map == nullptr || !map->is_map()) {
     return error_at(map == nullptr ? root->place : map->place,
-                    fmt::format("{}: {}; expected a map of distributions", key_of_distributions,
+                    fmt::format("{}: {}; expected a map of distributions", table,
                                 map == nullptr ? "missing" : map->shown()));
   }
   std::vector<Distribution> all;
   for (const Member& member : map->members) {
-    DistributionReader reader{member.value, member.key};
+    DistributionReader reader{member.value, table, member.key};
     Distribution one{member.key, reader.text("ships"), reader.text("profile"), reader.text("why"),
                      file};
     if (reader.error()) return *reader.error();
@@ -78,11 +81,13 @@ std::string statement_of(const Distribution& distribution) {
                      distribution.ships, distribution.profile, distribution.why);
 }
 
-Result<std::vector<Distribution>> read_distributions(const std::vector<std::string>& directories) {
+Result<std::vector<Distribution>> read_distributions(const std::vector<std::string>& directories,
+                                                     Rmw rmw) {
+  const char* table = rmw == Rmw::cyclonedds ? key_of_cyclonedds : key_of_distributions;
   for (const std::string& directory : directories) {
     const fs::path file = fs::path{directory} / file_of_distributions;
     std::error_code failed;
-    if (fs::exists(file, failed)) return read_file(file.string());
+    if (fs::exists(file, failed)) return read_file(file.string(), table);
   }
   return std::vector<Distribution>{};
 }

@@ -3,6 +3,7 @@
 // profile stands for it, which version the distribution really ships, and how the two differ.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,16 @@ struct Distribution {
 /// "ROS 2 humble ships Fast DDS 2.6.12; fastdds-2.6.11 stands for it: …".
 [[nodiscard]] std::string statement_of(const Distribution& distribution);
 
+/// Which library a distribution runs on.
+enum class Rmw : std::uint8_t {
+  of_the_distribution,  ///< rmw_fastrtps_cpp
+  cyclonedds            ///< rmw_cyclonedds_cpp, which its users choose
+};
+
 /// What distributions.yaml in the first of these folders that has one says, in its order; nothing
 /// if none has one. Errors, with their place: what is not a map of names to `ships`, `profile` and
 /// `why`, all of them text. Whether there is such a profile is not asked.
 [[nodiscard]] Result<std::vector<Distribution>> read_distributions(
-    const std::vector<std::string>& directories);
+    const std::vector<std::string>& directories, Rmw rmw = Rmw::of_the_distribution);
 
 }  // namespace stormproof::model::config

@@ -26,6 +26,17 @@ bool file_exists(const fs::path& path) {
   return fs::exists(path, failed);
 }
 
+/// PREFIX/share/stormproof/specs of a program in PREFIX/bin: a package may be installed elsewhere
+/// than it was configured for.
+std::optional<std::string> beside_program() {
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  if (failed) return std::nullopt;
+  const fs::path specs = program.parent_path().parent_path() / "share/stormproof/specs";
+  if (!fs::is_directory(specs, failed)) return std::nullopt;
+  return specs.string();
+}
+
 std::optional<std::string> file_named(const std::vector<std::string>& directories, SpecKind kind,
                                       const std::string& name) {
   for (const std::string& directory : directories) {
@@ -77,6 +88,7 @@ SpecPath SpecPath::standard() {
 #ifdef STORMPROOF_SPECS_DIR
   path.directories.emplace_back(STORMPROOF_SPECS_DIR);
 #endif
+  if (auto beside = beside_program()) path.directories.push_back(*std::move(beside));
 #ifdef STORMPROOF_INSTALLED_SPECS_DIR
   path.directories.emplace_back(STORMPROOF_INSTALLED_SPECS_DIR);
 #endif

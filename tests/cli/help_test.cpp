@@ -120,7 +120,7 @@ TEST(FrontPage, ItsCommandsRun) {
   Shell shell;
   const std::vector<std::string> lines = lines_to_type(shell("stormproof"));
   EXPECT_EQ(shell.code, 0);
-  ASSERT_EQ(lines.size(), 6U);
+  ASSERT_EQ(lines.size(), 7U);
   for (const std::string& line : lines) {
     const std::string command = line.substr(0, line.find(' ', std::string{"stormproof "}.size()));
     if (shell(command + " --help").find("  " + line + "\n") != std::string::npos) continue;
@@ -171,6 +171,37 @@ TEST(Completion, KnowsCommandsOptionsAndNames) {
   EXPECT_EQ(completed("stormproof simulate three"), "three-hosts\n");
   EXPECT_EQ(completed("stormproof diff humb"), "humble\n");
   EXPECT_EQ(completed("stormproof conform spe"), "specs\n");
+}
+
+TEST(Completion, OfOtherShellsHasEveryCommandAndOption) {
+  Shell shell;
+  const std::string zsh = shell("stormproof completion zsh");
+  EXPECT_TRUE(zsh.starts_with("#compdef stormproof\n"));
+  const std::string fish = shell("stormproof completion fish");
+  for (const std::string& command : commands()) {
+    const std::string last = command.substr(command.rfind(' ') + 1);
+    EXPECT_NE(zsh.find("'stormproof " + command + " ' '--help "), std::string::npos) << command;
+    EXPECT_NE(fish.find(" -a " + last + " -d '"), std::string::npos) << command;
+  }
+  EXPECT_NE(fish.find("'__fish_seen_subcommand_from profile; and __fish_seen_subcommand_from show' "
+                      "-l set -r -d '"),
+            std::string::npos);
+}
+
+TEST(Manual, HasEveryCommandAndNoStrayRequest) {
+  Shell shell;
+  const std::string page = shell("stormproof man");
+  for (const std::string& command : commands()) {
+    EXPECT_NE(page.find("\n.SS stormproof " + command + "\n"), std::string::npos) << command;
+  }
+  std::istringstream lines{page};
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('.')) continue;
+    const std::string request = line.substr(1, 2);
+    EXPECT_TRUE(request == "TH" || request == "SH" || request == "SS" || request == "TP" ||
+                request == "B " || request == "I " || request == "nf" || request == "fi")
+        << line;
+  }
 }
 
 }  // namespace help_test

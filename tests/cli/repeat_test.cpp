@@ -57,6 +57,7 @@ const Case cases[] = {
     {"validate",
      "validate \"$C\" --dds fastdds-2.9.1 --wireless wifi-80211n --samples 2 --loss 5% "
      "--endpoints-done 20ms..80ms"},
+    {"doctor", "doctor \"$C\" --no-advice --until 4s"},
     {"properties", "properties"},
     {"profile_show", "profile show fastdds-2.6.11 --set 'sedp.heartbeat_period=3s'"},
     {"profile_lint", "profile lint \"it's new.yaml\" fastdds-2.6.11"},

@@ -26,7 +26,7 @@ const char* const verbs[] = {
     "simulate", "check",    "fuzz",         "sensitivity",  "tune",
     "diff",     "coverage", "conform",      "validate",     "capture summarize",
     "replay",   "sweep",    "profile show", "profile lint", "reproduce",
-    "mutate",   "draw",     "properties",   "list"};
+    "mutate",   "draw",     "properties",   "list",         "doctor"};
 
 std::string output_of(const std::string& arguments) {
   FILE* pipe = popen((STORMPROOF_PROGRAM " " + arguments).c_str(), "r");
@@ -97,6 +97,7 @@ const std::map<std::string, const char*> several = {
     {"before", "of whatever has changed"},
     {"after", "of whatever has changed"},
     {"profile", "in the rows of `coverage` its name: others read them"},
+    {"storm", "in `doctor` whether it is one, in `check` how it is judged"},
     {"estimate", "may be infinite in `diff`, which is a text"},
     {"low", "the same"},
     {"high", "the same"},

@@ -215,7 +215,7 @@ std::optional<std::string> Claims::export_error() const {
   return state_->export_error;
 }
 
-std::string Claims::solver_name() const {
+std::string Claims::solver_name() {
   unsigned major = 0;
   unsigned minor = 0;
   unsigned build = 0;

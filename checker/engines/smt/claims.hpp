@@ -69,7 +69,7 @@ class Claims {
 
   [[nodiscard]] const Options& options() const;
   /// "z3 4.8.12"
-  [[nodiscard]] std::string solver_name() const;
+  [[nodiscard]] static std::string solver_name();
 
   /// Asks Z3 whether the conjunction is satisfiable. `property` and `query` name it in exports; the
   /// query is remembered for `second_opinion`. Plain conditions only: no fixed points, no

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "checker/evidence/capture/library_version.hpp"
 #include "checker/evidence/capture/parameter_list.hpp"
 
 namespace stormproof::capture {
@@ -61,7 +62,9 @@ std::optional<ParticipantData> participant_data(const DataSubmessage& data) {
   auto parameters = parameters_of_payload(data.payload);
   if (!parameters) return std::nullopt;
   ParticipantData participant;
+  VendorParameters own;
   while (const auto parameter = parameters->next()) {
+    if (parameter->of_vendor != 0) own[parameter->of_vendor] = parameter->value;
     switch (parameter->id) {
       case ParameterId::participant_guid:
         if (const auto found = guid(parameter->value)) participant.prefix = found->prefix;
@@ -82,6 +85,9 @@ std::optional<ParticipantData> participant_data(const DataSubmessage& data) {
     }
   }
   if (!parameters->ended()) return std::nullopt;
+  if (participant.vendor) {
+    participant.version = library_version(*participant.vendor, own, parameters->order());
+  }
   return participant;
 }
 

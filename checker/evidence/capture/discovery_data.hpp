@@ -19,6 +19,7 @@ struct ParticipantData {
   std::optional<VendorId> vendor{};
   std::string name{};
   std::vector<UdpEnd> metatraffic_unicast{};  ///< UDP locators only
+  std::string version{};                      ///< of its library, as far as DATA(p) shows it
 };
 
 /// DATA(w) or DATA(r).

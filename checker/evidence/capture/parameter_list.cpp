@@ -20,7 +20,8 @@ std::optional<Parameter> ParameterReader::next() {
   position_ += cursor.position();
   // A parameter of a vendor is none of those with names here.
   const bool is_of_vendor = (id & 0x8000U) != 0;
-  return Parameter{is_of_vendor ? ParameterId::pad : static_cast<ParameterId>(id & ~flags), value};
+  if (is_of_vendor) return Parameter{ParameterId::pad, value, id};
+  return Parameter{static_cast<ParameterId>(id & ~flags), value};
 }
 
 std::optional<std::size_t> parameter_list_size(Bytes bytes, ByteOrder order) {

@@ -27,6 +27,7 @@ enum class ParameterId : std::uint16_t {
 struct Parameter {
   ParameterId id = ParameterId::pad;  ///< without the flags; may be a value that has no name
   Bytes value{};
+  std::uint16_t of_vendor = 0;  ///< 0x8000 …: what it means depends on the vendor; then `id` is pad
 };
 
 class ParameterReader {

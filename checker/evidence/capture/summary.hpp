@@ -24,6 +24,10 @@ struct Summary {
   }
 };
 
+/// How the counts grow, as a table and a plot.
+[[nodiscard]] report::Section over_time(const Summary& summary);
+/// Who takes part, on which host, with which library.
+[[nodiscard]] report::Section participants(const Conversation& conversation);
 /// Without command and exit code, which only the caller knows.
 [[nodiscard]] report::Document document_of(const Summary& summary);
 [[nodiscard]] nlohmann::ordered_json to_json(const Summary& summary);

@@ -62,6 +62,7 @@ void TopologyBuilder::saw_participant(const GuidPrefix& source, const Participan
   Participant& participant = found->second;
   if (data.vendor) participant.vendor = *data.vendor;
   if (!data.name.empty()) participant.name = data.name;
+  if (!data.version.empty()) participant.version = data.version;
   for (const UdpEnd& locator : data.metatraffic_unicast) {
     participant.locators.insert(locator);
     auto& since = announcements_[locator];

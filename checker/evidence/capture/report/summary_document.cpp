@@ -190,6 +190,24 @@ Section other_traffic(const Counting& counting) {
   return section;
 }
 
+/// A name from the capture, without what a terminal might obey.
+std::string printable(std::string name) {
+  std::ranges::replace_if(
+      name, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return name;
+}
+
+Section remarks(const Conversation& conversation) {
+  report::Bullets bullets;
+  for (const Remark& one : conversation.remarks) {
+    bullets.items.emplace_back(
+        fmt::format("{} × {}; the first: {}", grouped(one.count), one.what, one.first));
+  }
+  return {"Remarks", "remarks", {std::move(bullets)}};
+}
+
+}  // namespace
+
 Section over_time(const Summary& summary) {
   constexpr std::size_t rows = 20;
   const Timeline line = timeline(summary.conversation, summary.counting, summary.end_ns(), rows);
@@ -223,19 +241,13 @@ Section over_time(const Summary& summary) {
             report::Audience::page}}};
 }
 
-/// A name from the capture, without what a terminal might obey.
-std::string printable(std::string name) {
-  std::ranges::replace_if(
-      name, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return name;
-}
-
 Section participants(const Conversation& conversation) {
   Table table{{{"participant", to_the_right},
                {"host", to_the_right},
                {"prefix"},
                {"from"},
                {"vendor"},
+               {"version"},
                {"pub", to_the_right},
                {"sub", to_the_right},
                {"name"}},
@@ -249,23 +261,12 @@ Section participants(const Conversation& conversation) {
     }
     table.rows.push_back(
         {{std::to_string(k), std::to_string(one.host), to_string(one.prefix).substr(0, 8),
-          std::move(addresses), vendor_name(one.vendor),
+          std::move(addresses), vendor_name(one.vendor), one.version,
           std::to_string(one.announced(entity::publications_writer)),
           std::to_string(one.announced(entity::subscriptions_writer)), printable(one.name)}});
   }
   return {"Participants", "participants", {std::move(table)}};
 }
-
-Section remarks(const Conversation& conversation) {
-  report::Bullets bullets;
-  for (const Remark& one : conversation.remarks) {
-    bullets.items.emplace_back(
-        fmt::format("{} × {}; the first: {}", grouped(one.count), one.what, one.first));
-  }
-  return {"Remarks", "remarks", {std::move(bullets)}};
-}
-
-}  // namespace
 
 report::Document document_of(const Summary& summary) {
   const Conversation& conversation = summary.conversation;

@@ -145,6 +145,7 @@ void describe(V& v, const Participant& participant) {
   v("guid_prefix", to_string(participant.prefix));
   v("host", participant.host);
   v("vendor", vendor_name(participant.vendor));
+  v.or_null("version", participant.version);
   v("name", participant.name);
   v("first_ns", participant.first_ns);
   v("addresses", texts(participant.addresses));

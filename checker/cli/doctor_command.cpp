@@ -1,0 +1,155 @@
+// `stormproof doctor CAPTURE…`, or `--interface NAME`: records or reads captures, and says what is
+// wrong with the discovery in them.
+#include <filesystem>
+
+#include <fmt/core.h>
+
+#include "checker/cli/commands.hpp"
+#include "checker/cli/durations.hpp"
+#include "checker/cli/frame.hpp"
+#include "checker/cli/on_captures.hpp"
+#include "checker/cli/output_file.hpp"
+#include "checker/cli/streams.hpp"
+#include "checker/evidence/capture/recording.hpp"
+#include "checker/evidence/doctor/doctor.hpp"
+#include "model/config/tree/quantities.hpp"
+
+namespace stormproof::cli {
+
+namespace {
+
+struct DoctorArguments {
+  doctor::Request request;
+  std::string interface;
+  std::string duration = "60s";
+  std::string recorded = "stormproof-doctor.pcap";
+  std::string until;
+  OutputFile xml;
+  bool no_advice = false;
+};
+
+ExitCode exit_code(const doctor::Report& report) {
+  switch (report.health) {
+    case doctor::Health::healthy:
+      return established;
+    case doctor::Health::storm:
+    case doctor::Health::incomplete:
+      return violated;
+    case doctor::Health::unknown:
+      break;
+  }
+  return inconclusive;
+}
+
+/// Records into a file that `doctor` then reads as any other; why that failed, or nothing.
+std::optional<Complaint> record(DoctorArguments& arguments, Session& session) {
+  constexpr model::Nanoseconds longest{86'400'000'000'000};
+  const auto duration = parse_duration("--for", arguments.duration, longest);
+  if (!duration) return Complaint{duration.error()};
+  const auto recorded = capture::record(
+      {arguments.interface, *duration, arguments.recorded}, [&](std::uint64_t packets) {
+        return session.proceed(
+            [&] { return fmt::format("recording {}: {} packets", arguments.interface, packets); });
+      });
+  if (!recorded) return Complaint{recorded.error()};
+  if (*recorded == 0) {
+    return Complaint{
+        fmt::format("--interface {}: no UDP packet came within {}; is it the one that "
+                    "the robots are on?",
+                    arguments.interface, arguments.duration)};
+  }
+  arguments.request.files = {arguments.recorded};
+  return std::nullopt;
+}
+
+std::vector<report::NextStep> next_of(const doctor::Report& report,
+                                      const doctor::Request& request) {
+  std::vector<report::NextStep> next;
+  if (report.basis) {
+    next.push_back({on_captures({"validate"}, request.files,
+                                {"--dds", report.basis->dds, "--wireless", report.basis->wireless}),
+                    "the model beside these captures, figure by figure"});
+  }
+  next.push_back({on_captures({"capture", "summarize"}, request.files),
+                  "every count, and the growth over time"});
+  return next;
+}
+
+Outcome run(DoctorArguments& arguments, Session& session) {
+  doctor::Request& request = arguments.request;
+  if (request.files.empty() == arguments.interface.empty()) {
+    return Complaint{"expected either captures to read, or --interface NAME to record from"};
+  }
+  if (!arguments.interface.empty()) {
+    if (auto error = record(arguments, session)) return *std::move(error);
+  }
+  const auto conversation = capture::read_conversation(request.files, session.on_packets());
+  if (!conversation) return conversation.error();
+  const auto until = parse_until(arguments.until, conversation->first_ns);
+  if (!until) return Complaint{until.error()};
+  request.until_ns = *until;
+  request.advise = !arguments.no_advice;
+  request.on_progress = session.on_steps();
+  const auto report = doctor::diagnose(*conversation, request);
+  if (!report) return report.error();
+  Answer answer{document_of(*report, request), to_json(*report)};
+  const bool interrupted = Session::interrupted();
+  answer.document.exit_code = interrupted ? inconclusive : exit_code(*report);
+  answer.document.complete = !interrupted;
+  answer.document.next = next_of(*report, request);
+  if (!arguments.interface.empty()) {
+    answer.notes.push_back("stormproof: the recording is " + arguments.recorded);
+  }
+  if (arguments.xml.wanted()) {
+    if (report->advice.empty()) {
+      answer.notes.push_back(
+          fmt::format("stormproof: {} is not written: there is no advice", arguments.xml.path()));
+      arguments.xml.discard();
+    } else {
+      arguments.xml.stream() << report->advice.front().xml;
+    }
+  }
+  return answer;
+}
+
+void declare(Options& options, DoctorArguments& arguments) {
+  doctor::Request& request = arguments.request;
+  options.captures(request.files, false);
+  const Option interface =
+      options.text("--interface", arguments.interface,
+                   "Record from this network interface first; nothing is ever sent", "NAME");
+  options.text("--for", arguments.duration, "Record so long (default 60s)", "DURATION")
+      .needs(interface);
+  options
+      .written("--recording", arguments.recorded,
+               "Where the recording is kept (default stormproof-doctor.pcap)", "FILE.pcap")
+      .needs(interface);
+  options.until(arguments.until, "Look at events until this instant");
+  options.text("--dds", request.dds,
+               "DDS profile to predict with (default: the one that explains the capture)",
+               "PROFILE");
+  options.text("--wireless", request.wireless,
+               "Wireless profile to predict with (default: the shipped one that comes nearest)",
+               "PROFILE");
+  options.flag("--no-advice", arguments.no_advice, "Do not look for settings that help");
+  options
+      .number("--budget", request.budget, "Runs of the model that look for them (default 100)", "N")
+      .within(50, 1'000'000);
+  options.output("--xml", arguments.xml, "Write the best setting as the vendor's file");
+  options.jobs(request.threads);
+}
+
+}  // namespace
+
+void declare_doctor(Frame& frame) {
+  frame.add<DoctorArguments>(
+      {"doctor",
+       "What is wrong with the discovery in a capture, why, and what to change",
+       "Exit code: 0 healthy, 1 a storm or incomplete, 3 it cannot be told, or interrupted;\n"
+       "2 bad input.",
+       Formats::pages,
+       {doctor::json_schema}},
+      declare, run);
+}
+
+}  // namespace stormproof::cli

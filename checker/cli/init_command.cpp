@@ -1,0 +1,134 @@
+// `stormproof init`: asks what is not given, drafts the scenario, writes it.
+#include <cstdlib>
+#include <iostream>
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include "checker/cli/commands.hpp"
+#include "checker/cli/frame.hpp"
+#include "checker/cli/output_file.hpp"
+#include "checker/cli/streams.hpp"
+#include "checker/evidence/init/draft.hpp"
+
+namespace stormproof::cli {
+
+namespace {
+
+struct InitArguments {
+  init::System system;
+  std::vector<std::string> captures;
+  std::optional<std::size_t> hosts, participants, endpoints;
+  std::string ros, rmw;  ///< empty: not given
+  bool from_environment = false;
+  OutputFile file;
+};
+
+/// The answer to a question, or the usual one.
+std::string ask(const std::string& question, const std::string& usual) {
+  mutter(fmt::format("{} [{}] ", question, usual));
+  std::string line;
+  std::getline(std::cin, line);
+  return line.empty() ? usual : line;
+}
+
+/// A whole number of at least 1, asked until it is one; the usual one at the end of the input.
+std::uint32_t ask_number(const std::string& question, std::uint32_t usual) {
+  for (;;) {
+    const std::string line = ask(question, std::to_string(usual));
+    char* end = nullptr;
+    const unsigned long value = std::strtoul(line.c_str(), &end, 10);
+    if (*end == '\0' && value >= 1 && value <= 1'000'000) return static_cast<std::uint32_t>(value);
+    if (!std::cin) return usual;
+    mutter("expected a whole number of at least 1\n");
+  }
+}
+
+/// Only at a terminal, and only if nothing was said at all.
+bool asks(const InitArguments& arguments) {
+  return !arguments.hosts && !arguments.participants && !arguments.endpoints &&
+         arguments.ros.empty() && arguments.rmw.empty() && arguments.captures.empty() &&
+         !arguments.from_environment && isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
+}
+
+void ask_all(init::System& system) {
+  system.hosts = ask_number("robots and other hosts?", system.hosts);
+  system.participants = ask_number(
+      "processes with ROS 2 nodes on each (a component container is one)?", system.participants);
+  system.endpoints = ask_number("publishers and subscriptions of each?", system.endpoints);
+  system.ros = ask("ROS 2 distribution?", system.ros);
+  system.rmw = ask("fastrtps or cyclonedds?", system.rmw);
+  system.wireless = ask("network (stormproof list wireless)?", system.wireless);
+}
+
+Outcome run(InitArguments& arguments, Session& session) {
+  init::System system = arguments.system;
+  if (arguments.from_environment) {
+    auto known = init::from_environment(std::move(system), [](const char* name) {
+      return static_cast<const char*>(std::getenv(name));
+    });
+    if (!known) return known.error();
+    system = *std::move(known);
+  }
+  if (!arguments.ros.empty()) system.ros = arguments.ros;
+  if (!arguments.rmw.empty()) system.rmw = arguments.rmw;
+  if (asks(arguments)) ask_all(system);
+  if (arguments.hosts) system.hosts = static_cast<std::uint32_t>(*arguments.hosts);
+  if (arguments.participants)
+    system.participants = static_cast<std::uint32_t>(*arguments.participants);
+  if (arguments.endpoints) system.endpoints = static_cast<std::uint32_t>(*arguments.endpoints);
+
+  model::config::Result<std::string> text{std::string{}};
+  if (arguments.captures.empty()) {
+    text = init::draft(system, model::config::SpecPath::standard());
+  } else {
+    const auto conversation = capture::read_conversation(arguments.captures, session.on_packets());
+    if (!conversation) return conversation.error();
+    text = init::draft_of_capture(*conversation, system);
+  }
+  if (!text) return text.error();
+  if (!arguments.file.wanted()) {
+    print(*text);
+    return established;
+  }
+  arguments.file.stream() << *text;
+  say(fmt::format("stormproof: next: stormproof simulate {}", arguments.file.path()));
+  return established;
+}
+
+void declare(Options& options, InitArguments& arguments) {
+  init::System& system = arguments.system;
+  options.captures(arguments.captures, false);
+  options.number("--hosts", arguments.hosts, "Robots and other hosts (default 2)", "N")
+      .within(1, 1'000);
+  options
+      .number("--participants", arguments.participants,
+              "Processes with nodes on each host (default 4)", "N")
+      .within(1, 1'000);
+  options
+      .number("--endpoints", arguments.endpoints,
+              "Publishers and subscriptions of each process (default 20)", "N")
+      .within(0, 100'000);
+  options.text("--ros", arguments.ros, "ROS 2 distribution (default humble)", "NAME");
+  options.text("--rmw", arguments.rmw, "fastrtps (default) or cyclonedds", "RMW");
+  options.text("--dds", system.dds, "DDS profile, or the vendor's XML file, instead of both",
+               "PROFILE");
+  options.text("--wireless", system.wireless, "Wireless profile (default wifi-80211n)", "PROFILE");
+  options.flag("--from-environment", arguments.from_environment,
+               "Take ROS_DISTRO, RMW_IMPLEMENTATION and the vendor's file from the environment");
+  options.output("-o,--output", arguments.file, "Write the scenario here, not to standard output");
+}
+
+}  // namespace
+
+void declare_init(Frame& frame) {
+  frame.add<InitArguments>(
+      {.name = "init",
+       .help = "Draft a scenario of your own system: from numbers, a capture, or questions",
+       .exit_codes = "Exit code: 0, or 2 bad input.",
+       .formats = Formats::none,
+       .takes_long = false},
+      declare, run);
+}
+
+}  // namespace stormproof::cli

@@ -1,0 +1,26 @@
+// Records what passes a network interface into a pcap file, through libpcap. It listens and never
+// sends; that takes the right to open a packet socket.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "model/config/tree/result.hpp"
+#include "model/units.hpp"
+
+namespace stormproof::capture {
+
+struct Recording {
+  std::string interface;        ///< "wlan0", "any"
+  model::Nanoseconds duration;  ///< how long
+  std::string path;             ///< the pcap file, with times in nanoseconds where they are known
+};
+
+/// Number of UDP packets and fragments recorded. `progress` is called several times a second; false
+/// ends the recording, which is then complete up to there. Errors: no such interface, no right to
+/// capture (and how to get it), a file that cannot be written.
+[[nodiscard]] model::config::Result<std::uint64_t> record(
+    const Recording& recording, const std::function<bool(std::uint64_t packets)>& progress);
+
+}  // namespace stormproof::capture

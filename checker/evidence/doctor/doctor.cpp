@@ -1,0 +1,200 @@
+// Who is there, whether everything is, and how much it took.
+#include "checker/evidence/doctor/doctor.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "checker/evidence/doctor/advise.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+
+namespace stormproof::doctor {
+
+namespace {
+
+using capture::Conversation;
+using capture::Event;
+using capture::GuidPrefix;
+using model::config::Result;
+
+/// A storm sends more than so many times what a discovery without failures needs.
+constexpr std::uint64_t storm_factor = 2;
+
+std::vector<Product> products_of(const capture::Topology& topology) {
+  std::map<std::pair<std::string, std::string>, std::size_t> count;
+  for (const capture::Participant& one : topology.participants) {
+    ++count[{capture::vendor_name(one.vendor), one.version}];
+  }
+  std::vector<Product> products;
+  for (const auto& [name, participants] : count) {
+    products.push_back({name.first, name.second, participants});
+  }
+  std::ranges::stable_sort(products, std::ranges::greater{}, &Product::participants);
+  return products;
+}
+
+/// The paper's failure-free count from the capture alone: every required key once, one HEARTBEAT
+/// and one ACKNACK for each relation, and as many announcements as introduce everybody.
+model::Counts failure_free(const capture::Topology& topology, const capture::Counting& counting) {
+  const std::uint64_t all = topology.participants.size();
+  std::uint64_t pairs = 0;
+  for (const capture::Participant& one : topology.participants) {
+    for (const capture::Participant& other : topology.participants) {
+      if (one.host != other.host || (topology.hosts == 1 && &one != &other)) ++pairs;
+    }
+  }
+  constexpr std::uint64_t streams = 2;
+  model::Counts counts;
+  counts.initial_data = counting.required;
+  counts.heartbeat = counts.acknack = streams * pairs;
+  counts.spdp_multicast = all * all;
+  counts.spdp_unicast = all * pairs / 2;
+  return counts;
+}
+
+/// Of the missing keys those whose reader says that it has them.
+std::uint64_t known_before(const Conversation& conversation, const capture::Counting& counting) {
+  std::map<std::tuple<GuidPrefix, GuidPrefix, capture::EntityId>, std::int64_t> base;
+  for (const Event& event : conversation.events) {
+    const auto* acknack = event.acknack();
+    if (acknack == nullptr || !event.destination) continue;
+    std::int64_t& known = base[{*event.destination, event.source, event.writer}];
+    known = std::max(known, acknack->missing.base);
+  }
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(counting.missing, [&](const capture::MissingKey& key) {
+        const auto found = base.find({key.source, key.destination, key.writer});
+        return found != base.end() && key.sequence_number < found->second;
+      }));
+}
+
+/// Participants of which the capture shows something before their first announcement: they were
+/// there before it began.
+std::size_t there_before(const Conversation& conversation) {
+  std::set<GuidPrefix> seen;
+  std::size_t before = 0;
+  for (const Event& event : conversation.events) {
+    if (!seen.insert(event.source).second) continue;
+    if (event.traffic() != capture::Traffic::spdp) ++before;
+  }
+  return before;
+}
+
+std::uint64_t announcements_after(const Conversation& conversation,
+                                  const capture::Counting& counting) {
+  std::uint64_t later = 0;
+  if (!counting.last_initial_ns) return later;
+  for (std::size_t k = 0; k < counting.classes.size(); ++k) {
+    const auto one = counting.classes[k];
+    const bool is_spdp =
+        one == model::MessageClass::spdp_multicast || one == model::MessageClass::spdp_unicast;
+    if (is_spdp && conversation.events[k].time_ns > *counting.last_initial_ns) ++later;
+  }
+  return later;
+}
+
+/// Each capture by itself, against all of them together.
+Result<std::vector<Heard>> who_heard_whom(const Conversation& all, const Request& request) {
+  std::vector<Heard> heard;
+  if (request.files.size() < 2) return heard;
+  std::map<capture::Address, std::size_t> host;
+  for (const capture::Participant& one : all.topology.participants) {
+    for (const capture::Address& address : one.addresses) host[address] = one.host;
+  }
+  const auto count = [&](const Conversation& conversation) {
+    std::vector<std::uint64_t> sent(all.topology.hosts, 0);
+    for (const capture::DatagramRecord& one : conversation.datagrams) {
+      if (const auto found = host.find(one.source.address); found != host.end()) {
+        ++sent[found->second];
+      }
+    }
+    return sent;
+  };
+  const std::vector<std::uint64_t> sent = count(all);
+  for (const std::string& file : request.files) {
+    const auto alone = capture::read_conversation({{file}}, {});
+    if (!alone) return alone.error();
+    const std::vector<std::uint64_t> seen = count(*alone);
+    heard.push_back({file, {}});
+    for (std::size_t h = 0; h < sent.size(); ++h)
+      heard.back().hosts.push_back({h, seen[h], sent[h]});
+  }
+  return heard;
+}
+
+void judge(Report& report) {
+  const capture::Topology& topology = report.conversation.topology;
+  const bool has_keys = report.counting.required > 0;
+  if (topology.participants.size() < 2) {
+    report.why_unknown = fmt::format("the capture shows {}; discovery takes two",
+                                     report::plural(topology.participants.size(), "participant"));
+  } else if (!has_keys) {
+    report.why_unknown =
+        "the capture shows participants and none of their endpoints: it began when "
+        "they knew each other, or they never did";
+  } else if (report.messages() > storm_factor * report.failure_free.total()) {
+    report.health = Health::storm;
+  } else if (report.there_before > 0 && report.missing + report.known_before > 0) {
+    report.why_unknown =
+        fmt::format("the capture began when {} had begun, so it does not show what was sent before",
+                    report::plural(report.there_before, "participant"));
+  } else if (report.missing > 0) {
+    report.health = Health::incomplete;
+  } else {
+    report.health = Health::healthy;
+  }
+}
+
+}  // namespace
+
+const char* name_of(Health health) {
+  switch (health) {
+    case Health::healthy:
+      return "healthy";
+    case Health::storm:
+      return "storm";
+    case Health::incomplete:
+      return "incomplete";
+    case Health::unknown:
+      return "unknown";
+  }
+  return "";
+}
+
+Result<Report> diagnose(const Conversation& conversation, const Request& request) {
+  Report report{conversation};
+  report.counting = capture::count(conversation, request.until_ns);
+  const capture::Counting& counting = report.counting;
+  report.products = products_of(conversation.topology);
+  report.failure_free = failure_free(conversation.topology, counting);
+  report.later_announcements = announcements_after(conversation, counting);
+  report.known_before = known_before(conversation, counting);
+  report.there_before = there_before(conversation);
+  report.missing = counting.missing_count - report.known_before;
+  if (counting.last_initial_ns) {
+    report.completion_ns = *counting.last_initial_ns - conversation.first_ns;
+  }
+  judge(report);
+  report.causes = causes(conversation, counting, report.failure_free);
+  auto heard = who_heard_whom(conversation, request);
+  if (!heard) return heard.error();
+  report.heard = *std::move(heard);
+  if (report.products.empty()) return report;
+  const std::vector<std::string> profiles = profiles_of(report.products.front());
+  find_presets(profiles, request, report);
+  if (report.health == Health::healthy) {
+    report.no_advice = "nothing has to change";
+  } else if (report.health == Health::unknown) {
+    report.no_advice = report.why_unknown;
+  } else if (request.advise) {
+    if (auto error = advise(profiles, request, report)) return *std::move(error);
+  } else {
+    report.no_advice = "it was not asked for";
+  }
+  return report;
+}
+
+}  // namespace stormproof::doctor

@@ -1,0 +1,227 @@
+// The page for people: the answer, who is there, what was sent, why, and what to change.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "checker/evidence/capture/summary.hpp"
+#include "checker/evidence/doctor/doctor.hpp"
+#include "checker/presentation/text/command_line.hpp"
+#include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+
+namespace stormproof::doctor {
+
+namespace {
+
+using report::Column;
+using report::grouped;
+using report::plural;
+using report::Section;
+using report::Table;
+using report::Tone;
+
+constexpr auto to_the_right = Column::Align::right;
+
+std::string time_text(const std::optional<double>& ns) {
+  if (!ns) return "not within the limit";
+  return report::duration(model::Nanoseconds{static_cast<std::int64_t>(std::llround(*ns))});
+}
+
+std::string count_text(const std::optional<double>& count) {
+  return count ? grouped(static_cast<std::uint64_t>(std::llround(*count))) : "–";
+}
+
+std::string amplification(const Report& report) {
+  return report::ratio(static_cast<double>(report.messages()),
+                       static_cast<double>(report.failure_free.total()));
+}
+
+/// "discovery took 2.231 s", or what is missing.
+std::string completeness(const Report& report) {
+  if (report.missing > 0) {
+    return fmt::format("{} of {} descriptors were never sent to somebody who needs them",
+                       grouped(report.missing), grouped(report.counting.required));
+  }
+  if (!report.completion_ns) return "every descriptor was known";
+  return "everybody was told everything after " +
+         report::duration(model::Nanoseconds{*report.completion_ns});
+}
+
+std::string answer(const Report& report) {
+  const std::string sent = fmt::format("{} messages, {} what a discovery without failures needs",
+                                       grouped(report.messages()), amplification(report));
+  switch (report.health) {
+    case Health::healthy:
+      return fmt::format("HEALTHY: {}, with {}.", completeness(report), sent);
+    case Health::storm:
+      return fmt::format("STORM: {}; {}.", sent, completeness(report));
+    case Health::incomplete:
+      return fmt::format("INCOMPLETE: {}; {}.", completeness(report), sent);
+    case Health::unknown:
+      break;
+  }
+  return fmt::format("CANNOT TELL: {}.", report.why_unknown);
+}
+
+Tone tone_of(Health health) {
+  switch (health) {
+    case Health::healthy:
+      return Tone::good;
+    case Health::storm:
+    case Health::incomplete:
+      return Tone::bad;
+    case Health::unknown:
+      break;
+  }
+  return Tone::warn;
+}
+
+report::Facts who(const Report& report) {
+  report::Facts facts;
+  const capture::Topology& topology = report.conversation.topology;
+  facts.rows.emplace_back(
+      "there", fmt::format("{} on {}", plural(topology.participants.size(), "participant"),
+                           plural(topology.hosts, "host")));
+  for (const Product& one : report.products) {
+    facts.rows.emplace_back("library",
+                            fmt::format("{}{}{}: {}", one.vendor, one.version.empty() ? "" : " ",
+                                        one.version, plural(one.participants, "participant")));
+  }
+  facts.rows.emplace_back(
+      "behaves as", report.presets.empty()
+                        ? "no shipped profile that could be held against it explains every message"
+                        : fmt::format("{}", fmt::join(report.presets, ", ")));
+  return facts;
+}
+
+Section messages(const Report& report) {
+  Table table{{{"messages"},
+               {"captured", to_the_right},
+               {"failure-free", to_the_right},
+               {"amplification", to_the_right}},
+              {}};
+  for (const model::MessageClass one : model::message_classes) {
+    const std::uint64_t needed = report.failure_free[one];
+    const std::uint64_t sent = report.counting.counts[one];
+    table.rows.push_back({{words_of(one), grouped(sent), grouped(needed),
+                           report::ratio(static_cast<double>(sent), static_cast<double>(needed))}});
+  }
+  table.rows.push_back(
+      {{"total", grouped(report.counting.counts.total()), grouped(report.failure_free.total()),
+        report::ratio(static_cast<double>(report.counting.counts.total()),
+                      static_cast<double>(report.failure_free.total()))}});
+  if (report.later_announcements > 0) {
+    table.caption = fmt::format(
+        "{} announcements after the last descriptor go on forever and do "
+        "not count as discovery",
+        grouped(report.later_announcements));
+  }
+  return {"What was sent", "messages", {std::move(table)}};
+}
+
+Section why(const Report& report) {
+  Table table{{{"cause"}, {"messages", to_the_right}, {"what the capture shows", {}, true}}, {}};
+  for (const Cause& cause : report.causes) {
+    table.rows.push_back({{cause.id, grouped(cause.messages),
+                           cause.sentence + (cause.remedy.empty() ? "" : " Helps: ") +
+                               cause.remedy + (cause.remedy.empty() ? "" : ".")}});
+  }
+  return {"Why", "causes", {std::move(table)}};
+}
+
+Section what_to_change(const Report& report) {
+  Section section{"What to change", "advice"};
+  if (report.advice.empty()) {
+    section.blocks.emplace_back(report::Paragraph{"No advice: " + report.no_advice + "."});
+    return section;
+  }
+  Table table{{{"", to_the_right},
+               {"settings", {}, true},
+               {"completion", to_the_right},
+               {"messages", to_the_right}},
+              {}};
+  table.rows.push_back({{"", "as it is", time_text(report.advice.front().before.completion_ns),
+                         count_text(report.advice.front().before.messages)}});
+  for (std::size_t k = 0; k < report.advice.size(); ++k) {
+    const Advice& one = report.advice[k];
+    Table::Row row{{std::to_string(k + 1), one.settings, time_text(one.after.completion_ns),
+                    count_text(one.after.messages)}};
+    row.summary = "the file to deploy";
+    row.details.emplace_back(report::Listing{one.xml, "xml"}, report::Audience::documents);
+    if (!one.prerequisites.empty()) {
+      report::Bullets needs;
+      for (const std::string& what : one.prerequisites) needs.items.emplace_back(what);
+      row.details.emplace_back(std::move(needs));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  table.caption =
+      "medians that the model predicts for this deployment, until the last descriptor has arrived";
+  section.blocks.emplace_back(std::move(table));
+  section.blocks.emplace_back(report::Listing{report.advice.front().xml, "xml"},
+                              report::Audience::explained);
+  return section;
+}
+
+Section heard(const Report& report) {
+  Table table{{{"capture"}}, {}};
+  for (const Heard::From& from : report.heard.front().hosts) {
+    table.columns.push_back({fmt::format("from host {}", from.host), to_the_right});
+  }
+  for (const Heard& one : report.heard) {
+    Table::Row row{{one.capture}};
+    for (const Heard::From& from : one.hosts) {
+      row.cells.emplace_back(fmt::format("{} of {}", grouped(from.datagrams), grouped(from.sent)));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  table.caption = "datagrams of each host that the capture holds, of those in any capture";
+  return {"Who heard whom", "heard", {std::move(table)}};
+}
+
+Section unknowns(const Report& report) {
+  report::Bullets list;
+  if (report.basis) {
+    const Basis& basis = *report.basis;
+    list.items.emplace_back(fmt::format(
+        "The predictions are those of {} over {}, the shipped channel over which the model comes "
+        "nearest to this capture: the last descriptor is sent first after {:.2f} × its time, with "
+        "{:.2f} × its messages in all. Trust what a change saves no further than that.",
+        basis.dds, basis.wireless, basis.completion_ratio, basis.message_ratio));
+  }
+  list.items.emplace_back(
+      "Traffic of the application, other networks on the channel, roaming, power save and busy "
+      "processors are not in the model.");
+  list.items.emplace_back(
+      "A capture shows what left an interface, not what arrived: captures of all hosts show "
+      "who heard whom.");
+  return {"What the prediction cannot know", "unknown", {std::move(list)}};
+}
+
+}  // namespace
+
+report::Document document_of(const Report& report, const Request& request) {
+  report::Document document;
+  document.title = "stormproof doctor";
+  for (const std::string& name : request.files) document.title += " " + name;
+  document.tone = tone_of(report.health);
+  document.answer = answer(report);
+  if (!report.causes.empty() && report.health == Health::storm) {
+    document.elaboration = report.causes.front().sentence;
+  }
+  const capture::Summary summary{report.conversation, report.counting};
+  document.blocks.emplace_back(who(report));
+  document.blocks.emplace_back(messages(report));
+  if (!report.causes.empty()) document.blocks.emplace_back(why(report));
+  document.blocks.emplace_back(what_to_change(report));
+  if (!report.heard.empty()) document.blocks.emplace_back(heard(report));
+  document.blocks.emplace_back(over_time(summary), report::Audience::verbose);
+  document.blocks.emplace_back(participants(report.conversation), report::Audience::verbose);
+  document.blocks.emplace_back(unknowns(report));
+  document.complete = !report.interrupted;
+  return document;
+}
+
+}  // namespace stormproof::doctor

@@ -1,0 +1,106 @@
+// The page for scripts; specs/guide/doctor.md explains the keys.
+#include "checker/evidence/capture/describe_capture.hpp"
+#include "checker/evidence/doctor/doctor.hpp"
+#include "checker/presentation/json/describe_model.hpp"
+#include "checker/presentation/json/schema.hpp"
+
+namespace stormproof::doctor {
+
+template <class V>
+void describe(V& v, const Product& product) {
+  v("vendor", product.vendor);
+  v.or_null("version", product.version);
+  v("participant_count", product.participants);
+}
+
+template <class V>
+void describe(V& v, const Cause& cause) {
+  v("id", cause.id);
+  v("messages", cause.messages);
+  v("text", cause.sentence);
+}
+
+template <class V>
+void describe(V& v, const Heard::From& from) {
+  v("host", from.host);
+  v("datagrams", from.datagrams);
+  v("sent", from.sent);
+}
+
+template <class V>
+void describe(V& v, const Heard& heard) {
+  v("capture", heard.capture);
+  v("from", heard.hosts);
+}
+
+template <class V>
+void describe(V& v, const Predicted& predicted) {
+  v("t_disc_ns", predicted.completion_ns);
+  v("messages", predicted.messages);
+}
+
+template <class V>
+void describe(V& v, const Advice& advice) {
+  v("change", advice.settings);
+  v("before", advice.before);
+  v("after", advice.after);
+  v("prerequisites", advice.prerequisites);
+  v("xml", advice.xml);
+}
+
+template <class V>
+void describe(V& v, const Basis& basis) {
+  v("dds_profile", basis.dds);
+  v("wireless_profile", basis.wireless);
+  v("t_disc_ratio", basis.completion_ratio);
+  v("message_ratio", basis.message_ratio);
+}
+
+namespace {
+
+struct Missing {
+  const Report& report;
+};
+
+template <class V>
+void describe(V& v, const Missing& missing) {
+  v("required", missing.report.counting.required);
+  v("count", missing.report.missing);
+}
+
+}  // namespace
+
+template <class V>
+void describe(V& v, const Report& report) {
+  const bool has_product = !report.products.empty();
+  v("verdict", report.health);
+  v.or_null("why_unknown", report.why_unknown);
+  v.or_null("vendor", has_product ? report.products.front().vendor : "");
+  v.or_null("version", has_product ? report.products.front().version : "");
+  v("products", report.products);
+  v("presets", report.presets);
+  v("captures", report.conversation.captures);
+  v("hosts", report.conversation.topology.hosts);
+  v("participant_count", report.conversation.topology.participants.size());
+  v("complete", report.complete());
+  v("missing", Missing{report});
+  v("known_before", report.known_before);
+  v("completion_ns", report.completion_ns);
+  v("storm", report.health == Health::storm);
+  v("counts", report.counting.counts);
+  v("failure_free", report.failure_free);
+  v("later_announcements", report.later_announcements);
+  v("causes", report.causes);
+  v("heard", report.heard);
+  v("prediction", report.basis);
+  v("advice", report.advice);
+  v.or_null("no_advice", report.no_advice);
+}
+
+nlohmann::ordered_json to_json(const Report& report) { return report::json_of(report); }
+
+nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {
+  return report::schema_form<Report>(definitions);
+}
+
+}  // namespace stormproof::doctor

@@ -1,0 +1,255 @@
+// One pass over the events for repairs and silence; the rest is in the counts.
+#include "checker/evidence/doctor/symptoms.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/plain_text.hpp"
+
+namespace stormproof::doctor {
+
+namespace {
+
+using capture::Conversation;
+using capture::Counting;
+using capture::Event;
+using capture::GuidPrefix;
+using capture::HeartbeatKind;
+using report::grouped;
+using report::percent;
+using report::plural;
+
+/// What one SEDP writer sent to one reader, and what that reader said of it.
+struct Relation {
+  std::map<std::int64_t, std::int64_t> first_sent{};  ///< by sequence number
+  std::map<std::int64_t, std::int64_t> last_sent{};
+  std::int64_t acknowledged = 0;  ///< everything below
+  std::set<std::int64_t> lost{};  ///< asked for although something later had come
+};
+
+struct Repairs {
+  std::uint64_t acknowledged = 0;  ///< of what the reader had acknowledged
+  std::uint64_t lost = 0;
+  std::uint64_t under_way = 0;
+};
+
+class RepairFinder {
+ public:
+  Repairs find(const Conversation& conversation, const Counting& counting) {
+    for (std::size_t k = 0; k < counting.classes.size(); ++k) {
+      const Event& event = conversation.events[k];
+      if (!counting.classes[k] || !event.destination) continue;
+      if (const auto* acknack = event.acknack()) heard(event, *acknack);
+      if (const auto* data = event.data()) sent(event, *data, *counting.classes[k]);
+    }
+    return repairs_;
+  }
+
+ private:
+  using Key = std::tuple<GuidPrefix, GuidPrefix, capture::EntityId>;
+
+  void heard(const Event& event, const capture::AcknackEvent& acknack) {
+    Relation& relation = relations_[{*event.destination, event.source, event.writer}];
+    const capture::SequenceNumberSet& missing = acknack.missing;
+    relation.acknowledged = std::max(relation.acknowledged, missing.base);
+    // What lies between two requests was received: the list ends with the last that is missing.
+    std::int64_t received_sent_ns = INT64_MIN;
+    for (std::uint32_t k = missing.num_bits; k-- > 0;) {
+      const std::int64_t number = missing.base + k;
+      if (missing.has(k)) {
+        const auto last = relation.last_sent.find(number);
+        if (last != relation.last_sent.end() && last->second < received_sent_ns) {
+          relation.lost.insert(number);
+        }
+      } else if (const auto first = relation.first_sent.find(number);
+                 first != relation.first_sent.end()) {
+        received_sent_ns = std::max(received_sent_ns, first->second);
+      }
+    }
+  }
+
+  void sent(const Event& event, const capture::DataEvent& data, capture::MessageClass is) {
+    if (is != capture::MessageClass::initial_data && is != capture::MessageClass::repair_data) {
+      return;
+    }
+    Relation& relation = relations_[{event.source, *event.destination, event.writer}];
+    const std::int64_t number = data.sequence_number;
+    if (is == capture::MessageClass::repair_data) {
+      if (number < relation.acknowledged) {
+        ++repairs_.acknowledged;
+      } else if (relation.lost.erase(number) > 0) {
+        ++repairs_.lost;
+      } else {
+        ++repairs_.under_way;
+      }
+    }
+    relation.first_sent.try_emplace(number, event.time_ns);
+    relation.last_sent[number] = event.time_ns;
+  }
+
+  std::map<Key, Relation> relations_;
+  Repairs repairs_;
+};
+
+/// Participants to which much was sent that asks for an answer, and that never answered anybody.
+struct Silence {
+  std::vector<std::size_t> participants{};  ///< numbers in the topology
+  std::uint64_t messages = 0;               ///< that were sent to them in vain
+};
+
+Silence find_silence(const Conversation& conversation, const Counting& counting) {
+  constexpr std::uint64_t worth_an_answer = 10;
+  std::map<GuidPrefix, std::uint64_t> told;
+  std::set<GuidPrefix> answered;
+  for (std::size_t k = 0; k < counting.classes.size(); ++k) {
+    const Event& event = conversation.events[k];
+    if (!counting.classes[k]) continue;
+    if (event.acknack() != nullptr) answered.insert(event.source);
+    const bool asks = event.heartbeat() != nullptr || event.traffic() == capture::Traffic::sedp;
+    if (asks && event.acknack() == nullptr && event.destination) ++told[*event.destination];
+  }
+  Silence silence;
+  const auto& list = conversation.topology.participants;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const auto found = told.find(list[k].prefix);
+    if (found == told.end() || found->second < worth_an_answer) continue;
+    if (answered.contains(list[k].prefix)) continue;
+    silence.participants.push_back(k);
+    silence.messages += found->second;
+  }
+  return silence;
+}
+
+/// `value` beyond `needed`.
+std::uint64_t beyond(std::uint64_t value, std::uint64_t needed) {
+  return value > needed ? value - needed : 0;
+}
+
+class Diagnosis {
+ public:
+  Diagnosis(const Conversation& conversation, const Counting& counting,
+            const model::Counts& failure_free)
+      : conversation_{conversation}, counting_{counting}, needed_{failure_free} {}
+
+  std::vector<Cause> run() {
+    heartbeats();
+    repairs();
+    readers_that_ask_again();
+    announcements();
+    silence();
+    std::ranges::stable_sort(causes_, std::ranges::greater{}, &Cause::messages);
+    return std::move(causes_);
+  }
+
+ private:
+  void add(const char* id, std::uint64_t messages, std::string sentence, std::string remedy) {
+    if (messages > 0) {
+      causes_.push_back({id, messages, std::move(sentence), std::move(remedy)});
+    }
+  }
+
+  [[nodiscard]] std::uint64_t of(HeartbeatKind kind) const { return counting_.heartbeats.of(kind); }
+
+  void heartbeats() {
+    const std::uint64_t all = counting_.counts.heartbeat;
+    const std::uint64_t piggyback =
+        of(HeartbeatKind::fan_out_piggyback) + of(HeartbeatKind::directed_piggyback);
+    add("piggyback", beyond(piggyback, needed_.heartbeat),
+        fmt::format(
+            "{} of {} HEARTBEATs ({}) were sent because DATA was sent: the writer announces "
+            "everything again to every reader each time it has filled its send buffer, and "
+            "every reader answers.",
+            grouped(piggyback), grouped(all), percent_of(piggyback, all)),
+        "a larger send buffer, so that DATA is announced by fewer HEARTBEATs");
+    const std::uint64_t timer = of(HeartbeatKind::fan_out_periodic) + of(HeartbeatKind::fan_out);
+    add("heartbeat_timer", beyond(timer, needed_.heartbeat),
+        fmt::format("{} of {} HEARTBEATs ({}) come from the writers' timers, which run as long as "
+                    "any reader has not acknowledged everything.",
+                    grouped(timer), grouped(all), percent_of(timer, all)),
+        "a longer HEARTBEAT period");
+  }
+
+  void repairs() {
+    const Repairs found = RepairFinder{}.find(conversation_, counting_);
+    const std::uint64_t all = counting_.counts.repair_data;
+    const std::uint64_t needless = found.acknowledged + found.under_way;
+    std::string sentence = fmt::format(
+        "{} of {} repairs ({}) are of DATA that had been sent to this reader before and was still "
+        "under way when it asked",
+        grouped(needless), grouped(all), percent_of(needless, all));
+    if (found.acknowledged > 0) {
+      sentence += fmt::format("; {} of them left after the reader had acknowledged it",
+                              grouped(found.acknowledged));
+    }
+    add("needless_repairs", needless, sentence + ".",
+        "a longer time until readers ask, or until the writer answers");
+    add("loss", found.lost,
+        fmt::format("{} of {} repairs ({}) replace DATA that was lost: the reader asked for it "
+                    "although it had what was sent later.",
+                    grouped(found.lost), grouped(all), percent_of(found.lost, all)),
+        "a better link; no setting of discovery");
+  }
+
+  void readers_that_ask_again() {
+    const std::uint64_t initial = counting_.acknacks.initial;
+    const std::uint64_t relations = needed_.acknack;
+    add("late_replies", beyond(initial, relations) + beyond(of(HeartbeatKind::reply), relations),
+        fmt::format("{} initial ACKNACKs for {} relations: readers repeat them because the answer "
+                    "comes late, and each repetition is answered again.",
+                    grouped(initial), grouped(relations)),
+        "a longer interval of initial ACKNACKs, or one that doubles");
+  }
+
+  void announcements() {
+    const std::uint64_t closed = counting_.unknown_destination;
+    add("closed_ports", closed,
+        fmt::format("{} went to addresses and ports that no participant in the capture listens on.",
+                    plural(closed, "message")),
+        "fewer initial peers, or a smaller range of ports");
+    const model::Counts& counts = counting_.counts;
+    const std::uint64_t sent = counts.spdp_multicast + counts.spdp_unicast;
+    const std::uint64_t known = beyond(sent, closed);
+    add("announcements", beyond(known, needed_.spdp_multicast + needed_.spdp_unicast),
+        fmt::format("{} announcements of participants; {} would introduce everybody.",
+                    grouped(known), grouped(needed_.spdp_multicast + needed_.spdp_unicast)),
+        "fewer initial announcements, or a longer period");
+  }
+
+  void silence() {
+    const Silence found = find_silence(conversation_, counting_);
+    std::string names;
+    for (const std::size_t k : found.participants) {
+      names += (names.empty() ? "" : ", ") + std::to_string(k);
+    }
+    add("deaf_participant", found.messages,
+        fmt::format("{} ({}) acknowledged nothing, though {} were sent to it: it does not hear, is "
+                    "gone, or cannot answer.",
+                    plural(found.participants.size(), "participant"), names,
+                    plural(found.messages, "message")),
+        "look at this participant's network interface, firewall and lease");
+  }
+
+  static std::string percent_of(std::uint64_t part, std::uint64_t whole) {
+    return percent(static_cast<double>(part),
+                   static_cast<double>(std::max<std::uint64_t>(whole, 1)));
+  }
+
+  const Conversation& conversation_;
+  const Counting& counting_;
+  const model::Counts& needed_;
+  std::vector<Cause> causes_;
+};
+
+}  // namespace
+
+std::vector<Cause> causes(const Conversation& conversation, const Counting& counting,
+                          const model::Counts& failure_free) {
+  return Diagnosis{conversation, counting, failure_free}.run();
+}
+
+}  // namespace stormproof::doctor

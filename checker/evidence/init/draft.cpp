@@ -1,0 +1,221 @@
+// The text of a drafted scenario.
+#include "checker/evidence/init/draft.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "checker/evidence/doctor/advise.hpp"
+#include "checker/evidence/validate/validate.hpp"
+#include "model/config/distributions.hpp"
+#include "model/config/knobs/effective.hpp"
+#include "model/config/scenario_file.hpp"
+#include "model/config/tree/quantities.hpp"
+#include "model/config/tree/suggestion.hpp"
+#include "model/implementations.hpp"
+
+namespace stormproof::init {
+
+namespace {
+
+using model::config::InputError;
+using model::config::print_duration;
+using model::config::Result;
+using model::config::Rmw;
+using model::config::SpecPath;
+
+/// How far apart the processes of one launch file start, about.
+constexpr model::Nanoseconds launch{200'000'000};
+/// How long a process takes to create one endpoint, from measurements of live runs.
+constexpr std::int64_t creation_ns = 2'500'000;
+/// Endpoints that every node of ROS 2 has: services of parameters, rosout, discovery info.
+constexpr std::int64_t defaults = 17;
+
+/// What stands for the library: the key of `dds`, and how it came about.
+struct Library {
+  std::string dds;
+  std::string why;
+};
+
+Result<Library> library_of(const System& system, const SpecPath& specs) {
+  if (!system.dds.empty()) return Library{system.dds, "as given"};
+  if (system.rmw != "fastrtps" && system.rmw != "cyclonedds") {
+    return InputError{"--rmw " + system.rmw, "expected fastrtps or cyclonedds"};
+  }
+  const Rmw rmw = system.rmw == "cyclonedds" ? Rmw::cyclonedds : Rmw::of_the_distribution;
+  const auto known = model::config::read_distributions(specs.directories, rmw);
+  if (!known) return known.error();
+  std::vector<std::string> names;
+  for (const model::config::Distribution& one : *known) {
+    if (one.name == system.ros) return Library{one.profile, statement_of(one)};
+    names.push_back(one.name);
+  }
+  return InputError{
+      "--ros " + system.ros,
+      fmt::format("no distribution with a profile for rmw_{}_cpp{}; there are: {}", system.rmw,
+                  model::config::suggestion(system.ros, names), fmt::join(names, ", "))};
+}
+
+/// `text` as a comment, in lines.
+std::string comment(const std::string& text) {
+  constexpr std::size_t width = 110;
+  std::string lines;
+  std::string line = "#";
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    if (line.size() + 1 + word.size() > width) {
+      lines += line + "\n";
+      line = "#";
+    }
+    line += " " + word;
+    at = end + 1;
+  }
+  return lines + line + "\n";
+}
+
+std::string quoted(std::string text) {
+  for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
+    text.insert(k, 1, '\'');
+  }
+  return "'" + text + "'";
+}
+
+std::string schedule(const System& system, bool creates_over_time) {
+  if (!creates_over_time) {
+    return fmt::format(
+        "  schedule:                       # drawn anew for each run of `simulate --samples`\n"
+        "    start: [0s, {}]            # assumed: when processes start\n",
+        print_duration(launch));
+  }
+  const std::int64_t creation = creation_ns * (system.endpoints + defaults);
+  return fmt::format(
+      "  loopback_delay: 60us              # assumed: a packet to a participant of the same host\n"
+      "  schedule:                         # drawn anew for each run of `simulate --samples`\n"
+      "    start: [0s, {}]              # assumed: when processes start; measure yours\n"
+      "    endpoints_done: [{}, {}]     # assumed: 2.5 ms for each endpoint, as in live runs\n",
+      print_duration(launch), print_duration(launch + model::Nanoseconds{creation}),
+      print_duration(launch + model::Nanoseconds{2 * creation}));
+}
+
+std::string head(const System& system) {
+  std::string text =
+      "# Drafted by `stormproof init`. Change what is not so on your robots, then:\n"
+      "#   stormproof simulate THIS_FILE     how long discovery takes, and whether it is a storm\n"
+      "#   stormproof check THIS_FILE        what is proved about it, and what breaks\n"
+      "#   stormproof tune THIS_FILE         which settings help\n";
+  for (const std::string& remark : system.remarks) text += comment(remark);
+  return text;
+}
+
+}  // namespace
+
+Result<System> from_environment(System system,
+                                const std::function<const char*(const char*)>& value_of) {
+  const auto value = [&](const char* name) {
+    const char* found = value_of(name);
+    return std::string{found == nullptr ? "" : found};
+  };
+  if (const std::string ros = value("ROS_DISTRO"); !ros.empty()) system.ros = ros;
+  if (const std::string rmw = value("RMW_IMPLEMENTATION"); !rmw.empty()) {
+    if (rmw == "rmw_fastrtps_cpp" || rmw == "rmw_fastrtps_dynamic_cpp") {
+      system.rmw = "fastrtps";
+    } else if (rmw == "rmw_cyclonedds_cpp") {
+      system.rmw = "cyclonedds";
+    } else {
+      return InputError{"RMW_IMPLEMENTATION=" + rmw,
+                        "there is a model of rmw_fastrtps_cpp, rmw_fastrtps_dynamic_cpp and "
+                        "rmw_cyclonedds_cpp"};
+    }
+  }
+  const bool is_cyclone = system.rmw == "cyclonedds";
+  for (const char* name : is_cyclone ? std::vector{"CYCLONEDDS_URI"}
+                                     : std::vector{"FASTDDS_DEFAULT_PROFILES_FILE",
+                                                   "FASTRTPS_DEFAULT_PROFILES_FILE"}) {
+    std::string file = value(name);
+    if (file.starts_with("file://")) file = file.substr(7);
+    if (file.empty() || !system.dds.empty()) continue;
+    system.dds = file;
+    system.remarks.push_back(fmt::format("The profile is the file that {} names.", name));
+  }
+  for (const char* name :
+       {"ROS_DISCOVERY_SERVER", "ROS_STATIC_PEERS", "ROS_AUTOMATIC_DISCOVERY_RANGE"}) {
+    const std::string setting = value(name);
+    if (setting.empty()) continue;
+    system.remarks.push_back(fmt::format(
+        "{}={} is set where this was drafted, and is not in this scenario.", name, setting));
+  }
+  return system;
+}
+
+Result<std::string> draft(const System& system, const SpecPath& specs) {
+  const auto library = library_of(system, specs);
+  if (!library) return library.error();
+  const auto dds = model::config::read_dds_profile(library->dds, {}, specs);
+  if (!dds) return dds.error();
+  const bool over_time = model::traits_of(*dds).creates_endpoints_over_time;
+  std::string text = head(system);
+  text += fmt::format(
+      "description: {} hosts with {} participants of {} endpoints each, {} over {}\n\n"
+      "deployment:\n"
+      "  hosts: {}                          # whatever has an address of its own: robots, servers\n"
+      "  participants_per_host: {}          # processes (contexts) with nodes; a container is one\n"
+      "  endpoints_per_participant: {}     # publishers and subscriptions, two for each client or\n"
+      "                                    # server of a service; each node's own are added\n",
+      system.hosts, system.participants, system.endpoints,
+      system.dds.empty() ? "ROS 2 " + system.ros : system.dds, system.wireless, system.hosts,
+      system.participants, system.endpoints);
+  text += schedule(system, over_time);
+  text += comment(library->why);
+  text += fmt::format("dds: {}\n", quoted(library->dds));
+  text += fmt::format("wireless: {}        # `stormproof list wireless` shows all\n",
+                      quoted(system.wireless));
+  text += "time_limit: 120s                    # a run that takes longer did not complete\n";
+  const auto read = model::config::parse_scenario(text, "init", {}, specs);
+  if (!read) return read.error();
+  return text;
+}
+
+Result<std::string> draft_of_capture(const capture::Conversation& conversation,
+                                     const System& system) {
+  doctor::Request look;
+  look.advise = false;
+  auto report = doctor::diagnose(conversation, look);
+  if (!report) return report.error();
+  std::string dds = system.dds;
+  std::string why = "as given";
+  if (dds.empty() && !report->presets.empty()) {
+    dds = report->presets.front();
+    why = "every message of the capture has a cause under this profile";
+  } else if (dds.empty() && !report->products.empty()) {
+    const auto profiles = doctor::profiles_of(report->products.front());
+    if (!profiles.empty()) dds = profiles.front();
+    why = fmt::format("the shipped profile nearest to {} {}", report->products.front().vendor,
+                      report->products.front().version);
+  }
+  if (dds.empty()) {
+    return InputError{"capture", "of a library of which there is no profile; give one with --dds"};
+  }
+  validate::Request request;
+  request.dds = dds;
+  request.wireless = system.wireless;
+  request.sampling.samples = 1;
+  const auto shown = validate::validate(conversation, request);
+  if (!shown) return shown.error();
+  // Only the deployment: the profiles are named, so that they can be changed.
+  const std::string all = model::config::effective_yaml(shown->scenario);
+  const std::string deployment = all.substr(0, all.find("\ndds:") + 1);
+  std::string text =
+      head(system) +
+      comment("The deployment is the one in the capture, participant by participant.") +
+      deployment + comment(fmt::format("{}: {}", dds, why)) +
+      fmt::format("dds: {}\nwireless: {}\ntime_limit: 120s\n", quoted(dds),
+                  quoted(system.wireless));
+  const auto read = model::config::parse_scenario(text, "init", {}, SpecPath::standard());
+  if (!read) return read.error();
+  return text;
+}
+
+}  // namespace stormproof::init

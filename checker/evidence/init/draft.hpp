@@ -1,0 +1,47 @@
+// `stormproof init`: the first scenario of somebody's own system, with a comment beside every
+// number that says what it means and where it comes from. What is drafted is read back before
+// anybody sees it, so it is a scenario.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "checker/evidence/capture/events.hpp"
+#include "model/config/spec_path.hpp"
+#include "model/config/tree/result.hpp"
+
+namespace stormproof::init {
+
+/// What a user knows of his system.
+struct System {
+  std::uint32_t hosts = 2;
+  std::uint32_t participants = 4;  ///< of each host
+  std::uint32_t endpoints = 20;    ///< of each participant, without those that every node has
+  std::string ros = "humble";      ///< a distribution of specs/distributions.yaml
+  std::string rmw = "fastrtps";    ///< or "cyclonedds"
+  std::string dds{};               ///< a profile or the vendor's file instead of both; may be empty
+  std::string wireless = "wifi-80211n";
+  std::vector<std::string> remarks{};  ///< written at the top, one line each
+};
+
+/// The environment of a process that runs ROS 2, as far as it decides how nodes discover each
+/// other: ROS_DISTRO, RMW_IMPLEMENTATION, FASTDDS_DEFAULT_PROFILES_FILE (and its older name
+/// FASTRTPS_…), CYCLONEDDS_URI. Of what no scenario can say (ROS_DISCOVERY_SERVER,
+/// ROS_STATIC_PEERS, ROS_AUTOMATIC_DISCOVERY_RANGE) there is a remark. `value_of` gives a
+/// variable's value, or nothing. An error if RMW_IMPLEMENTATION names no known RMW.
+[[nodiscard]] model::config::Result<System> from_environment(
+    System system, const std::function<const char*(const char*)>& value_of);
+
+/// The scenario as text. Errors: an unknown distribution, RMW or profile; numbers that no scenario
+/// takes.
+[[nodiscard]] model::config::Result<std::string> draft(const System& system,
+                                                       const model::config::SpecPath& specs);
+
+/// The deployment that a capture shows, over `system.wireless`, with `system.dds` or the shipped
+/// profile that fits the capture best.
+[[nodiscard]] model::config::Result<std::string> draft_of_capture(
+    const capture::Conversation& conversation, const System& system);
+
+}  // namespace stormproof::init

@@ -1,0 +1,59 @@
+// Records the loopback interface while something is sent over it. Where capturing is not allowed,
+// that is what the error says.
+#include "checker/evidence/capture/recording.hpp"
+
+#include <filesystem>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "checker/evidence/capture/capture_file.hpp"
+
+namespace stormproof::capture {
+namespace recording_test {
+
+std::string file() { return ::testing::TempDir() + "/recording.pcap"; }
+
+/// One datagram to the discard port of this machine.
+void send_one() {
+  const int socket_fd = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(9);
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const char text[] = "RTPS";
+  static_cast<void>(
+      sendto(socket_fd, text, sizeof text, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to));
+  close(socket_fd);
+}
+
+TEST(Recording, KeepsWhatPassesTheInterface) {
+  const auto recorded = record({"lo", model::Nanoseconds{400'000'000}, file()}, [](std::uint64_t) {
+    send_one();
+    return true;
+  });
+  if (!recorded) {
+    EXPECT_NE(to_string(recorded.error()).find("setcap"), std::string::npos)
+        << to_string(recorded.error());
+    return;
+  }
+  EXPECT_GT(*recorded, 0U);
+  auto opened = CaptureFile::open(file());
+  ASSERT_TRUE(opened) << to_string(opened.error());
+  std::uint64_t packets = 0;
+  while (opened->next()) ++packets;
+  EXPECT_EQ(packets, *recorded);
+  EXPECT_TRUE(opened->damage().empty()) << opened->damage();
+}
+
+TEST(Recording, RefusesAnInterfaceThatIsNotThere) {
+  const auto recorded = record({"nosuch0", model::Nanoseconds{1'000'000}, file()},
+                               [](std::uint64_t) { return true; });
+  ASSERT_FALSE(recorded);
+  EXPECT_EQ(recorded.error().where, "--interface nosuch0");
+}
+
+}  // namespace recording_test
+}  // namespace stormproof::capture

@@ -1,0 +1,164 @@
+// The diagnosis of every shipped capture against its sidecar and its name, and of captures that
+// were made for one symptom.
+#include "checker/evidence/doctor/doctor.hpp"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "checker/presentation/document/render.hpp"
+#include "tests/checker/evidence/capture/sidecar.hpp"
+#include "tests/checker/evidence/conform/captures.hpp"
+
+namespace stormproof::doctor {
+namespace doctor_test {
+
+using conform::testing::shipped;
+
+struct Shown {
+  capture::Conversation conversation;
+  Report report;
+};
+
+Report diagnosed(const capture::Conversation& conversation, bool advise = false) {
+  Request request;
+  request.advise = advise;
+  request.budget = 50;
+  auto report = diagnose(conversation, request);
+  EXPECT_TRUE(report) << to_string(report.error());
+  return *std::move(report);
+}
+
+const Cause* find(const Report& report, std::string_view id) {
+  const auto found = std::ranges::find(report.causes, id, &Cause::id);
+  return found == report.causes.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const auto& file : std::filesystem::directory_iterator{STORMPROOF_SPECS_DIR "/captures"}) {
+    const std::string name = file.path().filename().string();
+    if (name.ends_with(".pcap.xz")) all.push_back(name.substr(0, name.find('.')));
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+TEST(Doctor, KnowsVendorVersionAndStormOfEveryShippedCapture) {
+  ASSERT_GT(names().size(), 15U);
+  for (const std::string& name : names()) {
+    const capture::Conversation conversation = shipped(name);
+    const Report report = diagnosed(conversation);
+    ASSERT_EQ(report.products.size(), 1U) << name;
+    const bool is_fastdds = name.starts_with("fastdds");
+    EXPECT_EQ(report.products[0].vendor, is_fastdds ? "Fast DDS" : "Cyclone DDS") << name;
+    EXPECT_EQ(report.products[0].version, is_fastdds ? "2.x before 2.12" : "0.10.2") << name;
+    EXPECT_EQ(report.missing, 0U) << name;
+    EXPECT_TRUE(report.complete()) << name;
+    const std::uint64_t sent = report.counting.counts.total();
+    EXPECT_EQ(report.health == Health::storm, sent > 2 * report.failure_free.total())
+        << name << ": " << sent << " of " << report.failure_free.total();
+    EXPECT_EQ(report.health == Health::healthy, report.health != Health::storm) << name;
+    if (is_fastdds) {
+      const std::string version =
+          name.starts_with("fastdds291") ? "fastdds-2.9.1" : "fastdds-2.6.11";
+      EXPECT_NE(std::ranges::find(report.presets, version), report.presets.end()) << name;
+    }
+  }
+}
+
+TEST(Doctor, NamesWhatMadeTheStorm) {
+  const auto piggyback = shipped("fastdds2611_ap150_np6_ne30_r0");
+  const Report storm = diagnosed(piggyback);
+  EXPECT_EQ(storm.causes.front().id, "piggyback");
+  ASSERT_NE(find(storm, "needless_repairs"), nullptr);
+  EXPECT_EQ(find(storm, "needless_repairs")->messages, storm.counting.counts.repair_data)
+      << "nothing was lost";
+  EXPECT_EQ(find(storm, "loss"), nullptr);
+
+  const auto lossy = shipped("fastdds2611_ap150_loss5_np3_ne20_r0");
+  const Report with_loss = diagnosed(lossy);
+  ASSERT_NE(find(with_loss, "loss"), nullptr);
+  EXPECT_GT(find(with_loss, "loss")->messages, 10U);
+}
+
+TEST(Doctor, AHealthyDiscoveryHasNothingToChange) {
+  const auto conversation = shipped("fastdds2611_ap150_np1_ne2_r0");
+  const Report report = diagnosed(conversation, true);
+  EXPECT_EQ(report.health, Health::healthy);
+  EXPECT_TRUE(report.advice.empty());
+  EXPECT_EQ(report.no_advice, "nothing has to change");
+}
+
+TEST(Doctor, AdvisesFilesThatShortenDiscovery) {
+  const auto conversation = shipped("fastdds2611_ap150_np3_ne30_r0");
+  const Report report = diagnosed(conversation, true);
+  ASSERT_FALSE(report.advice.empty()) << report.no_advice;
+  ASSERT_TRUE(report.basis);
+  for (const Advice& one : report.advice) {
+    ASSERT_TRUE(one.after.completion_ns && one.before.completion_ns);
+    EXPECT_LT(*one.after.completion_ns, *one.before.completion_ns) << one.settings;
+    EXPECT_NE(one.xml.find("<participant"), std::string::npos) << one.xml;
+  }
+}
+
+/// The events of `conversation` from `first` to `last`.
+capture::Conversation cut(capture::Conversation conversation, std::int64_t from_ns,
+                          std::int64_t to_ns) {
+  std::erase_if(conversation.events, [&](const capture::Event& event) {
+    return event.time_ns < from_ns || event.time_ns > to_ns;
+  });
+  // Counting walks datagrams and their events together.
+  std::vector<std::uint32_t> number(conversation.datagrams.size());
+  std::vector<capture::DatagramRecord> kept;
+  for (std::size_t k = 0; k < conversation.datagrams.size(); ++k) {
+    const std::int64_t at = conversation.datagrams[k].time_ns;
+    number[k] = static_cast<std::uint32_t>(kept.size());
+    if (at >= from_ns && at <= to_ns) kept.push_back(conversation.datagrams[k]);
+  }
+  for (capture::Event& event : conversation.events) event.datagram = number[event.datagram];
+  conversation.datagrams = std::move(kept);
+  return conversation;
+}
+
+TEST(Doctor, SeesThatACaptureEndsTooEarly) {
+  const auto whole = shipped("fastdds2611_ap150_np2_ne20_r0");
+  const auto half =
+      cut(whole, whole.first_ns, whole.first_ns + (whole.last_ns - whole.first_ns) / 2);
+  const Report report = diagnosed(half);
+  EXPECT_GT(report.missing, 0U);
+  EXPECT_FALSE(report.complete());
+  EXPECT_EQ(report.health, Health::incomplete);
+}
+
+TEST(Doctor, ACaptureThatBeganTooLateIsNoVerdict) {
+  const auto whole = shipped("fastdds2611_ap150_np2_ne20_r0");
+  const capture::Counting counting = capture::count(whole, INT64_MAX);
+  ASSERT_TRUE(counting.last_initial_ns);
+  const Report late = diagnosed(cut(whole, *counting.last_initial_ns - 1'000'000, whole.last_ns));
+  EXPECT_EQ(late.health, Health::unknown) << name_of(late.health);
+  EXPECT_FALSE(late.why_unknown.empty());
+}
+
+TEST(Doctor, SaysWhoHeardWhom) {
+  const std::string file =
+      std::string{STORMPROOF_SPECS_DIR} + "/captures/fastdds291_ap_np1_ne2_r0.pcap.xz";
+  Request request;
+  request.advise = false;
+  request.files = {file, file};
+  const auto conversation = capture::read_conversation(request.files, {});
+  ASSERT_TRUE(conversation);
+  const auto report = diagnose(*conversation, request);
+  ASSERT_TRUE(report);
+  ASSERT_EQ(report->heard.size(), 2U);
+  for (const Heard& one : report->heard) {
+    ASSERT_EQ(one.hosts.size(), 2U);
+    for (const Heard::From& from : one.hosts) {
+      EXPECT_GT(from.sent, 0U);
+      EXPECT_EQ(from.datagrams, from.sent) << "both captures hold everything";
+    }
+  }
+}
+
+}  // namespace doctor_test
+}  // namespace stormproof::doctor
