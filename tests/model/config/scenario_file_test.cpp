@@ -113,7 +113,7 @@ TEST(ScenarioFile, an_override_is_the_place_of_its_mistakes) {
             "--set time_limit.x=1: 'time_limit' has no keys below it: it is '5s'");
   EXPECT_TRUE(refusal({"dds=papr"})
                   .starts_with("--set dds=papr: no dds file named 'papr'; did you mean 'paper'?; "
-                               "expected one of cyclonedds-0.10, fastdds-2.14.5, "))
+                               "expected one of cyclonedds-0.10, cyclonedds-0.10-multicast, "))
       << refusal({"dds=papr"});
   EXPECT_EQ(refusal({"dds.implementation=fastdds"}),
             "--set dds.implementation=fastdds: implementation: 'fastdds'; expected paper, as the "
