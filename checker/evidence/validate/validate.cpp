@@ -74,6 +74,11 @@ Result<model::Scenario> scenario_of(const Request& request, const CapturedDeploy
       quoted(request.dds), quoted(request.wireless), time_limit_s);
   auto scenario = model::config::parse_scenario(text, "validate", request.overrides, specs);
   if (!scenario) return scenario.error();
+  if (model::traits_of(scenario->dds).writer == model::Writer::of_cyclone) {
+    return InputError{"--dds",
+                      "runs of `implementation: cyclone` cannot be counted as captures are yet; "
+                      "expected a profile with another implementation"};
+  }
   scenario->deployment.participants = model_participants(deployment, scenario->dds.descriptors);
   if (!model::config::is_valid(*scenario)) {
     return InputError{
