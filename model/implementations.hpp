@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "model/dds_profile.hpp"
 
@@ -151,6 +152,15 @@ inline constexpr std::array<ImplementationTraits, implementations.size()> implem
 }
 [[nodiscard]] inline const ImplementationTraits& traits_of(const DdsProfile& dds) {
   return traits_of(dds.implementation);
+}
+
+/// Those whose writer engines, monitors and laws know.
+[[nodiscard]] inline std::vector<ImplementationKind> known_to_engines() {
+  std::vector<ImplementationKind> known;
+  for (const ImplementationKind kind : implementations) {
+    if (traits_of(kind).is_known_to_engines) known.push_back(kind);
+  }
+  return known;
 }
 
 /// The relation rules that run: those that are built in, or those of the profile.

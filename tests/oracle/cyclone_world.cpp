@@ -113,7 +113,8 @@ std::vector<std::pair<int, Sample>> creation_order(const World& w, Id i) {
 
 std::int64_t descriptor_bytes(int stream, Sample sample) {
   const auto& defaults = default_bytes(stream);
-  if (sample <= static_cast<Sample>(defaults.size())) return defaults.at(sample - 1);
+  if (sample <= static_cast<Sample>(defaults.size()))
+    return defaults.at(static_cast<std::size_t>(sample - 1));
   return stream == publications ? 248 : 264;
 }
 

@@ -57,13 +57,7 @@ bool has_timer(model::EventKind kind) {
 }  // namespace
 
 /// All of those whose mistakes can be noticed.
-Concerns everywhere() {
-  Concerns list;
-  for (const model::ImplementationKind kind : model::implementations) {
-    if (model::traits_of(kind).is_known_to_engines) list.push_back(kind);
-  }
-  return list;
-}
+Concerns everywhere() { return model::known_to_engines(); }
 
 Concerns where_is_fed(std::string_view machine, std::string_view event) {
   const Concerns owners = where([&](model::ImplementationKind kind) {
