@@ -37,6 +37,8 @@ struct Schedule {
   Nanoseconds endpoints_done_min;  ///< ≥ 0
   Nanoseconds endpoints_done_max;  ///< ≥ endpoints_done_min
   std::uint64_t seed = 0;          ///< of the one schedule that a single run uses
+  /// How long before its start a participant hears, ≥ 0; absent: participants keep their `open`.
+  std::optional<Nanoseconds> open_before = {};
 
   bool operator==(const Schedule&) const = default;
 };
@@ -59,8 +61,8 @@ struct Deployment {
   std::optional<Schedule> schedule;
 
   /// Draws every participant's `start` and `endpoints_done` (not before its start) uniformly from
-  /// the ranges of the schedule, which must exist. The same seed gives the same times on every
-  /// machine.
+  /// the ranges of the schedule, which must exist, and lets each hear from `open_before` before its
+  /// start on. The same seed gives the same times on every machine.
   void draw_schedule(std::uint64_t seed);
 
   /// The short form: host 0's participants first, each with ceil(E/2) publications and floor(E/2)

@@ -142,6 +142,9 @@ void draw(Deployment& deployment, const Node* list, const std::string& path,
     check_time(list->items[k], name, start_key, given[k].start, drawn.start, error);
     check_time(list->items[k], name, endpoints_done_key, given[k].endpoints_done,
                drawn.endpoints_done, error);
+    if (!deployment.schedule->open_before) continue;
+    check_time(list->items[k], name, open_key, given[k].open.value_or(*drawn.open), *drawn.open,
+               error);
   }
 }
 

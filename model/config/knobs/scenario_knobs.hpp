@@ -30,6 +30,7 @@ inline constexpr std::string_view start_key = "start";
 inline constexpr std::string_view endpoints_done_key = "endpoints_done";
 inline constexpr std::string_view open_key = "open";
 inline constexpr std::string_view ready_key = "ready";
+inline constexpr std::string_view open_before_key = "open_before";
 
 inline constexpr NumberType participant_count = count_range(1, Deployment::max_participants);
 inline constexpr NumberType endpoint_count = count_range(0, Deployment::max_endpoints);
@@ -75,6 +76,10 @@ void visit_knobs(auto& visit, Is<Schedule> auto& schedule) {
       endpoints_done_key, RangeParts{schedule.endpoints_done_min, schedule.endpoints_done_max},
       DurationRangeType{delay_range},
       "range of the participants' endpoints_done; that of start if absent", Presence::optional);
+  visit.knob(open_before_key, schedule.open_before, delay_range,
+             "how long before its start a participant hears; what reaches it before is lost; used "
+             "by implementation: cyclone",
+             Presence::optional);
   visit.knob("seed", schedule.seed, SeedType{}, "of the draw; 0 if absent", Presence::optional);
 }
 

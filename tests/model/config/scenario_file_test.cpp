@@ -239,6 +239,21 @@ TEST(ScenarioFile, ranges_of_a_schedule_have_defaults) {
   EXPECT_EQ(late.deployment.participants[1].endpoints_done, two);
 }
 
+TEST(ScenarioFile, a_schedule_says_how_long_before_their_starts_participants_hear) {
+  const Scenario read =
+      scenario(plain, {"deployment.schedule={start: [2ms, 9ms], open_before: 3ms}"});
+  for (const Participant& participant : read.deployment.participants) {
+    const Nanoseconds before = participant.start - Nanoseconds{3'000'000};
+    EXPECT_EQ(participant.open, std::max(before, Nanoseconds{0}));
+  }
+  Deployment other = read.deployment;
+  other.draw_schedule(7);
+  EXPECT_EQ(other.participants[1].open,
+            std::max(other.participants[1].start - Nanoseconds{3'000'000}, Nanoseconds{0}));
+  EXPECT_FALSE(
+      scenario(plain, {"deployment.schedule={start: [2ms, 9ms]}"}).deployment.participants[0].open);
+}
+
 TEST(ScenarioFile, an_override_can_choose_another_seed) {
   const Scenario first = scenario(plain, {"deployment.schedule={start: [0, 1s]}"});
   const Scenario second =
