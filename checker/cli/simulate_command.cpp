@@ -84,11 +84,6 @@ Outcome run(SimulateArguments& arguments, Session& session) {
   const auto scenario = model::config::read_scenario(arguments.scenario, arguments.overrides,
                                                      model::config::SpecPath::standard());
   if (!scenario) return scenario.error();
-  if (arguments.pcap.wanted()) {
-    if (auto why = capture::why_not_written(scenario->dds)) {
-      return model::config::InputError{"--pcap", *std::move(why)};
-    }
-  }
   if (arguments.samples || !arguments.compare.empty() || !arguments.start_jitter.empty()) {
     return sample(arguments, *scenario, session);
   }

@@ -10,9 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
 
 #include "checker/evidence/capture/bytes.hpp"
 #include "model/probe.hpp"
@@ -25,9 +23,6 @@ inline constexpr std::int64_t simulated_epoch_ns = 946'684'800'000'000'000;
 
 /// Vendor of the participants of an implementation that no vendor has, as the paper's: "SP".
 inline constexpr std::uint16_t simulated_vendor = 0x5350;
-
-/// Why runs of this profile cannot be written, if so.
-[[nodiscard]] std::optional<std::string> why_not_written(const model::DdsProfile& dds);
 
 class CaptureProbe final : public model::Probe {
  public:
