@@ -12,9 +12,9 @@
 
 namespace stormproof::model {
 
-/// Whose DDS the profile describes: the paper's, or Fast DDS as its source code has it. What is
-/// true of each: model/implementations.hpp.
-enum class ImplementationKind : std::uint8_t { paper, fastdds };
+/// Whose DDS the profile describes: the paper's, or Fast DDS or Cyclone DDS as their source code
+/// has them. What is true of each: model/implementations.hpp.
+enum class ImplementationKind : std::uint8_t { paper, fastdds, cyclone };
 
 /// What a participant sends when it recognises another one for the first time.
 enum class SpdpResend : std::uint8_t { all_known, new_and_multicast, new_only, none };
@@ -42,6 +42,12 @@ enum class Grouping : std::uint8_t { message, mtu, single };
 /// How DATA is charged against the byte threshold of the piggyback HEARTBEAT.
 enum class Piggyback : std::uint8_t { cumulative, linear, off };
 
+/// What `implementation: cyclone` sends by multicast: all that goes to two readers or more, or only
+/// announcements.
+enum class AllowMulticast : std::uint8_t { always, spdp };
+/// A truth value of a profile.
+enum class MergeQueued : std::uint8_t { no, yes };
+
 /// SPDP: the participant announcements.
 struct SpdpProfile {
   Nanoseconds period{3'000'000'000};        ///< τ_P
@@ -49,6 +55,9 @@ struct SpdpProfile {
   Nanoseconds startup_period{100'000'000};
   SpdpResend resend = SpdpResend::all_known;
   Bytes payload_bytes{420};
+  // `implementation: cyclone` only.
+  std::uint32_t directed_replies = 4;  ///< to a participant that is recognised
+  Nanoseconds directed_reply_interval{1'000'000'000};
 
   bool operator==(const SpdpProfile&) const = default;
 };
@@ -92,6 +101,20 @@ struct SedpProfile {
   Bytes piggyback_heartbeat_bytes{32};  ///< what a HEARTBEAT adds to a DATA packet
   Bytes shared_header_bytes{36};        ///< RTPS header and INFO_DST, once per packet
 
+  // `implementation: cyclone` only, by the names of its configuration file.
+  Nanoseconds heartbeat_interval{100'000'000};
+  Nanoseconds heartbeat_interval_max{8'000'000'000};  ///< which the interval stays below
+  Nanoseconds match_heartbeat_delay{1'000'000};
+  Nanoseconds ack_delay{10'000'000};    ///< between two ACKNACKs that say the same
+  Nanoseconds nack_delay{100'000'000};  ///< between two requests for the same
+  Nanoseconds auto_resched_nack_delay{3'000'000'000};
+  Nanoseconds preemptive_ack_delay{10'000'000};
+  Bytes max_message_size{14'720};        ///< UDP payload
+  Bytes max_rexmit_message_size{1'456};  ///< of a packet with a retransmission
+  std::uint32_t max_queued_rexmit_messages = 200;
+  /// Whether a request for a retransmission that is queued for another reader makes it one to all.
+  MergeQueued merge_queued_rexmit = MergeQueued::yes;
+
   bool operator==(const SedpProfile&) const = default;
 };
 
@@ -112,6 +135,7 @@ struct DdsProfile {
   SpdpProfile spdp;
   SedpProfile sedp;
   DescriptorProfile descriptors;
+  AllowMulticast allow_multicast = AllowMulticast::always;  ///< `implementation: cyclone` only
   /// What the described system has and this model has not: the setting, and what it would do. No
   /// run depends on it; every report of a run has to name it as an assumption.
   std::map<std::string, std::string> unmodelled;

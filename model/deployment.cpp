@@ -31,6 +31,12 @@ void Deployment::draw_schedule(std::uint64_t seed) {
     participant.start = draw(schedule->start_min, schedule->start_max);
     participant.endpoints_done = std::max(
         participant.start, draw(schedule->endpoints_done_min, schedule->endpoints_done_max));
+    if (schedule->open_before) {
+      participant.open = std::max(Nanoseconds{0}, participant.start - *schedule->open_before);
+    } else if (participant.open) {
+      participant.open = std::min(*participant.open, participant.start);
+    }
+    if (participant.ready) participant.ready = std::max(*participant.ready, participant.start);
   }
 }
 

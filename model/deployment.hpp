@@ -18,7 +18,12 @@ struct Participant {
   std::uint32_t publications = 0;   ///< user publications, 0 … Deployment::max_endpoints
   std::uint32_t subscriptions = 0;  ///< user subscriptions, 0 … Deployment::max_endpoints
   Nanoseconds start;           ///< ≥ 0; before it the participant ignores all that reaches it
-  Nanoseconds endpoints_done;  ///< ≥ start; all endpoints created (`implementation: fastdds` only)
+  Nanoseconds endpoints_done;  ///< ≥ start; all endpoints created (not of `implementation: paper`)
+  /// `implementation: cyclone` only. What reaches the participant before `open` is lost (≤ start,
+  /// which it is if absent); what reaches it from then on and before `ready` is received at that
+  /// time (≥ start, which it is if absent).
+  std::optional<Nanoseconds> open = {};
+  std::optional<Nanoseconds> ready = {};
 
   bool operator==(const Participant&) const = default;
 };
@@ -32,6 +37,8 @@ struct Schedule {
   Nanoseconds endpoints_done_min;  ///< ≥ 0
   Nanoseconds endpoints_done_max;  ///< ≥ endpoints_done_min
   std::uint64_t seed = 0;          ///< of the one schedule that a single run uses
+  /// How long before its start a participant hears, ≥ 0; absent: participants keep their `open`.
+  std::optional<Nanoseconds> open_before = {};
 
   bool operator==(const Schedule&) const = default;
 };
@@ -42,16 +49,20 @@ struct Deployment {
   static constexpr std::uint32_t max_endpoints = 100'000;
 
   std::vector<Participant> participants;  ///< numbered in this order
-  /// Delay of same-host packets, ≥ 0 (`implementation: fastdds` only).
+  /// Delay of same-host packets, ≥ 0 (not of `implementation: paper`).
   Nanoseconds loopback_delay{2'000'000};
+  /// Between two packets that a participant sends, ≥ 0 (`implementation: cyclone` only).
+  std::optional<Nanoseconds> send_time = {};
+  /// `send_time`, or what was measured on the machine of the live runs.
+  [[nodiscard]] Nanoseconds time_to_send() const { return send_time.value_or(Nanoseconds{50'000}); }
 
   /// The ranges that `start` and `endpoints_done` of the participants were drawn from, if they were
   /// drawn.
   std::optional<Schedule> schedule;
 
   /// Draws every participant's `start` and `endpoints_done` (not before its start) uniformly from
-  /// the ranges of the schedule, which must exist. The same seed gives the same times on every
-  /// machine.
+  /// the ranges of the schedule, which must exist, and lets each hear from `open_before` before its
+  /// start on. The same seed gives the same times on every machine.
   void draw_schedule(std::uint64_t seed);
 
   /// The short form: host 0's participants first, each with ceil(E/2) publications and floor(E/2)

@@ -7,11 +7,13 @@ namespace stormproof::model {
 
 const char* name_of(EventKind kind) {
   static constexpr std::array<const char*, event_kind_count> names{
-      "service_finished", "delayed_reception",  "reception",       "announcement_due",
-      "heartbeat_expiry", "acknack_generation", "initial_acknack", "repair_generation",
-      "suppression_end",  "source_completion",  "cycle_start",     "cycle_end",
-      "batch_due",        "endpoint_creation",  "nack_response",   "async_run",
-      "control_initial",  "control_reply",      "dispatch"};
+      "service_finished", "delayed_reception",  "reception",         "announcement_due",
+      "heartbeat_expiry", "acknack_generation", "initial_acknack",   "repair_generation",
+      "suppression_end",  "source_completion",  "cycle_start",       "cycle_end",
+      "batch_due",        "endpoint_creation",  "nack_response",     "async_run",
+      "control_initial",  "control_reply",      "participant_start", "spdp_time",
+      "reply_time",       "heartbeat_time",     "ack_time",          "thread_run",
+      "dispatch"};
   return names[static_cast<std::size_t>(kind)];
 }
 

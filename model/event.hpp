@@ -32,6 +32,12 @@ enum class EventKind : std::uint8_t {
   async_run,            ///< subject: participant
   control_initial_due,  ///< subject: control-only relation
   control_reply_due,    ///< subject: control-only relation
+  participant_start,    ///< subject: participant
+  spdp_time,            ///< subject: participant
+  reply_time,           ///< subject: pair
+  heartbeat_time,       ///< subject: writer of Cyclone DDS
+  ack_time,             ///< subject: relation of Cyclone DDS
+  thread_run,           ///< subject: participant
   dispatch,             ///< subject: channel
 };
 inline constexpr std::size_t event_kind_count = static_cast<std::size_t>(EventKind::dispatch) + 1;

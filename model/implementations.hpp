@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "model/dds_profile.hpp"
 
@@ -18,6 +20,9 @@ struct Paper;  // fsm/composition/paper.hpp
 }
 namespace fastdds {
 struct FastDds;  // fsm/composition/fastdds.hpp
+}
+namespace cyclone {
+struct Cyclone;  // fsm/composition/cyclone.hpp
 }
 }  // namespace stormproof::fsm::composition
 
@@ -36,14 +41,17 @@ struct RelationRules {
 /// bounds and theorems: those of these two say nothing about it.
 enum class Writer : std::uint8_t {
   of_the_paper,  ///< each ACKNACK and each repair starts a timer of its own
-  stateful       ///< Fast DDS's StatefulWriter: one nack response for all requests, one suppression
+  stateful,      ///< Fast DDS's StatefulWriter: one nack response for all requests, one suppression
                  ///< for all repairs of a reader, an asynchronous thread that sends
+  of_cyclone     ///< it repeats whatever is asked for, and it is the reader who limits that; it has
+                 ///< knobs of its own (`DdsProfile::cyclone`)
 };
 
 /// RTPS vendor ids: the two bytes of a vendor, as one number.
 namespace vendor {
 inline constexpr std::uint16_t fastdds = 0x010f;
-}
+inline constexpr std::uint16_t cyclonedds = 0x0110;
+}  // namespace vendor
 
 struct ImplementationTraits {
   std::string_view name;   ///< in profiles, lists and data: "fastdds"
@@ -81,10 +89,14 @@ struct ImplementationTraits {
   /// What follows a repair counts from the instant when its packet has left the source queue;
   /// otherwise from its generation.
   bool waits_for_source = false;
+  /// Engines, monitors and laws that are about descriptors know its writer. Otherwise only what is
+  /// about machines, the network or results says something of it (props/applicability.hpp).
+  bool is_known_to_engines = true;
   Writer writer = Writer::of_the_paper;
 };
 
-inline constexpr std::array implementations{ImplementationKind::paper, ImplementationKind::fastdds};
+inline constexpr std::array implementations{ImplementationKind::paper, ImplementationKind::fastdds,
+                                            ImplementationKind::cyclone};
 
 /// Of a profile that does not say its implementation.
 inline constexpr ImplementationKind default_implementation{};
@@ -116,13 +128,39 @@ inline constexpr std::array<ImplementationTraits, implementations.size()> implem
       .receives_separately = true,
       .acknacks_have_bases = true,
       .answers_heartbeats_together = true,
-      .writer = Writer::stateful}}};
+      .writer = Writer::stateful},
+     {.name = "cyclone",
+      .whose = "Cyclone DDS",
+      .rules = "Cyclone DDS's own rules",
+      .guide = "specs/guide/cyclone.md",
+      .vendor = vendor::cyclonedds,
+      .fixed_rules = RelationRules{.relation_opening = RelationOpening::each_side,
+                                   .unmatched = Unmatched::drop,
+                                   .initial_acknack = InitialAckNackReply::heartbeat,
+                                   .heartbeat_timer = HeartbeatTimerKind::single},
+      .creates_endpoints_over_time = true,
+      .discovers_same_host = true,
+      .has_control_relations = true,
+      .receives_separately = true,
+      .acknacks_have_bases = true,
+      .answers_heartbeats_together = true,
+      .is_known_to_engines = false,
+      .writer = Writer::of_cyclone}}};
 
 [[nodiscard]] constexpr const ImplementationTraits& traits_of(ImplementationKind kind) {
   return implementation_traits[index_of(kind)];
 }
 [[nodiscard]] inline const ImplementationTraits& traits_of(const DdsProfile& dds) {
   return traits_of(dds.implementation);
+}
+
+/// Those whose writer engines, monitors and laws know.
+[[nodiscard]] inline std::vector<ImplementationKind> known_to_engines() {
+  std::vector<ImplementationKind> known;
+  for (const ImplementationKind kind : implementations) {
+    if (traits_of(kind).is_known_to_engines) known.push_back(kind);
+  }
+  return known;
 }
 
 /// The relation rules that run: those that are built in, or those of the profile.
@@ -147,13 +185,26 @@ decltype(auto) visit_composition(ImplementationKind kind, Visit&& visit) {
     case ImplementationKind::paper:
       return visit(Of<fsm::composition::paper::Paper>{});
     case ImplementationKind::fastdds:
+      return visit(Of<fsm::composition::fastdds::FastDds>{});
+    case ImplementationKind::cyclone:
       break;
   }
-  return visit(Of<fsm::composition::fastdds::FastDds>{});
+  return visit(Of<fsm::composition::cyclone::Cyclone>{});
 }
 template <class Visit>
 decltype(auto) visit_composition(const DdsProfile& dds, Visit&& visit) {
   return visit_composition(dds.implementation, visit);
+}
+
+/// The same for engines, of implementations that they know (`is_known_to_engines`). Asking for
+/// another one is a mistake of the program: std::logic_error.
+template <class Visit>
+decltype(auto) visit_engine_composition(const DdsProfile& dds, Visit&& visit) {
+  if (!traits_of(dds).is_known_to_engines) throw std::logic_error{"no engine knows this writer"};
+  if (dds.implementation == ImplementationKind::paper) {
+    return visit(Of<fsm::composition::paper::Paper>{});
+  }
+  return visit(Of<fsm::composition::fastdds::FastDds>{});
 }
 
 }  // namespace stormproof::model

@@ -1,6 +1,7 @@
 // The knobs of the paper's profiles, and the constants of Fast DDS's source code.
 #include "model/packet_sizes.hpp"
 
+#include "model/cyclone/endpoints.hpp"
 #include "model/descriptor_sizes.hpp"
 #include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
@@ -38,6 +39,29 @@ PacketSizes sizes_of(Of<fsm::composition::fastdds::FastDds>, const DdsProfile& d
             return fastdds::timestamp_bytes + fastdds::submessage_bytes(s, d);
           },
       .is_full = [limit = dds.sedp.grouping_limit_bytes.count()](
+                     std::int64_t payload, std::int64_t added) { return payload + added > limit; }};
+}
+
+/// Of packets with one submessage.
+PacketSizes sizes_of(Of<fsm::composition::cyclone::Cyclone>, const DdsProfile& dds) {
+  const bool multicast = dds.allow_multicast == AllowMulticast::always;
+  return {
+      .announcement =
+          cyclone::header_bytes +
+          (multicast ? cyclone::announcement_with_multicast_bytes : cyclone::announcement_bytes),
+      .heartbeat = cyclone::header_bytes + cyclone::destination_bytes + cyclone::heartbeat_bytes,
+      .acknack = cyclone::header_bytes + cyclone::destination_bytes + cyclone::acknack_bytes +
+                 cyclone::bitmap_word_bytes,
+      .header = cyclone::header_bytes,
+      .destination = cyclone::destination_bytes,
+      .heartbeat_in_data = cyclone::heartbeat_bytes,
+      .descriptor =
+          [](Stream s, std::uint32_t d) {
+            return cyclone::data_bytes(
+                s == Stream::pub ? cyclone::writer::publications : cyclone::writer::subscriptions,
+                d);
+          },
+      .is_full = [limit = dds.sedp.max_rexmit_message_size.count()](
                      std::int64_t payload, std::int64_t added) { return payload + added > limit; }};
 }
 

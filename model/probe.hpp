@@ -16,10 +16,20 @@ namespace stormproof::model {
 struct Packet;   // model/engine/packet.hpp
 class Topology;  // model/engine/topology.hpp
 
-/// Which machine has moved. `subject` is a relation, writer (2·participant + stream), participant
-/// or channel, as `kind` says.
+/// Which machine has moved. `subject` is a relation, writer (2·participant + stream), participant,
+/// channel or pair, as `kind` says. Participants of Cyclone DDS have more writers, and the
+/// relations of these: numbered with another stride (model/cyclone/endpoints.hpp).
 struct MachineRef {
-  enum class Kind : std::uint8_t { relation, writer, participant, channel, control_relation };
+  enum class Kind : std::uint8_t {
+    relation,
+    writer,
+    participant,
+    channel,
+    control_relation,
+    pair,
+    endpoint_relation,
+    endpoint_writer
+  };
   std::string_view machine;
   Kind kind{};
   std::uint32_t subject = 0;

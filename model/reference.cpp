@@ -76,16 +76,20 @@ Counts failure_free_reference(const Scenario& scenario) {
   counts.heartbeat = topology.relation_count();
   counts.acknack = topology.relation_count();
   const bool same_host = traits_of(scenario.dds).discovers_same_host;
+  // Cyclone DDS answers the one who has announced itself, and does not announce itself to all.
+  const SpdpResend resend = traits_of(scenario.dds).writer == Writer::of_cyclone
+                                ? SpdpResend::new_only
+                                : scenario.dds.spdp.resend;
   for (std::uint32_t i = 0; i < topology.participant_count(); ++i) {
     const std::uint64_t peers = topology.peer_count(i);
-    add_spdp(counts, scenario.dds.spdp.resend, same_host ? topology.participant_count() - 1 : peers,
-             peers);
+    add_spdp(counts, resend, same_host ? topology.participant_count() - 1 : peers, peers);
   }
   return counts;
 }
 
 std::optional<Nanoseconds> open_loop_airtime(const Scenario& scenario) {
   if (scenario.wireless.kind == ServiceKind::constant_delay) return std::nullopt;
+  if (traits_of(scenario.dds).writer == Writer::of_cyclone) return std::nullopt;  // not defined
   const Topology topology{scenario.deployment, scenario.dds.descriptors};
   const RouteAirtime route{scenario.wireless};
   return Nanoseconds{everything_once_ns(topology, route, packet_sizes(scenario.dds))};

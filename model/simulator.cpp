@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "model/cyclone/protocol.hpp"
 #include "model/engine/implementation_maker.hpp"
 #include "model/engine/network.hpp"
 #include "model/engine/run_state.hpp"
@@ -25,6 +26,9 @@ ImplementationMaker maker_for(Of<comp::paper::Paper>, SameHostPairs same_host) {
 }
 ImplementationMaker maker_for(Of<comp::fastdds::FastDds>, SameHostPairs same_host) {
   return maker_of<fastdds::Protocol>(same_host);
+}
+ImplementationMaker maker_for(Of<comp::cyclone::Cyclone>, SameHostPairs same_host) {
+  return maker_of<cyclone::Protocol>(same_host);
 }
 
 class Simulator {

@@ -51,5 +51,7 @@ class Monitor : public model::Probe {
 
 /// Ids of all properties that have a monitor.
 [[nodiscard]] std::vector<std::string_view> monitored_properties();
+/// Those of them that apply to the implementation (props/applicability.hpp).
+[[nodiscard]] std::vector<std::string_view> monitored_properties(model::ImplementationKind);
 
 }  // namespace stormproof::props

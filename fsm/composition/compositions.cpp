@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fsm/composition/cyclone.hpp"
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/paper.hpp"
 #include "fsm/composition/recorder.hpp"
@@ -20,8 +21,8 @@ std::string_view label(Owner owner) {
 }
 
 const std::vector<CompositionInfo>& compositions() {
-  static const std::vector<CompositionInfo> all{recorded<paper::Paper>(),
-                                                recorded<fastdds::FastDds>()};
+  static const std::vector<CompositionInfo> all{
+      recorded<paper::Paper>(), recorded<fastdds::FastDds>(), recorded<cyclone::Cyclone>()};
   return all;
 }
 

@@ -108,6 +108,10 @@ class Recorder {
     return said("some reader: ", term);
   }
   template <class Term>
+  Said count_readers(Term&& term) {
+    return said("number of readers: ", term);
+  }
+  template <class Term>
   Said some_entry(Term&& term) {
     return said("some entry: ", term);
   }

@@ -19,8 +19,9 @@
 //                                        outbox of sets
 //   w.set_of(term), w.any(set), w.some(term), w.all(term), w.count(term)   over the descriptors of
 //                                        the stream
-//   w.some_reader(term), w.some_entry(term)   over the open relations of the writer, the entries of
-//                                             the participant
+//   w.some_reader(term), w.count_readers(term), w.some_entry(term)   over the open relations of the
+//                                             writer, the entries of the participant
+//   w.in(part, state)          the machine is in this state
 //   w.set(flag or number, value), w.set_each(flag, term)
 //   w.after(delay, timer), w.at(time, timer), w.cancel(timer)
 //   w.emit(packet, says(…))
@@ -120,11 +121,12 @@ struct Delay {};
 struct Answer {};
 struct Amount {};
 
-/// What a packet says of each descriptor of its stream, and of itself: the fields that a receiver
-/// reads. What is not said is false. A packet may be said to be more than that, which only
-/// observers hear.
+/// What a packet says of each descriptor of its stream, and of itself, a truth value or a number:
+/// the fields that a receiver reads. What is not said is false or 0. A packet may be said to be
+/// more than that, which only observers hear.
 struct DescriptorField {};
 struct PacketField {};
+struct PacketNumber {};
 template <Owner owner_, class... Fields_>
 struct Packet {
   static constexpr Owner owner = owner_;

@@ -94,6 +94,10 @@ class WatchedWorld {
     return world_.some_reader(term);
   }
   template <class Term>
+  auto count_readers(Term&& term) {
+    return world_.count_readers(term);
+  }
+  template <class Term>
   auto some_entry(Term&& term) {
     return world_.some_entry(term);
   }

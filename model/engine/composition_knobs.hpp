@@ -2,6 +2,7 @@
 // the event queue. Every world that runs scenarios reads them here.
 #pragma once
 
+#include "fsm/composition/cyclone.hpp"
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/paper.hpp"
 #include "model/dds_profile.hpp"
@@ -102,6 +103,48 @@ inline std::int64_t value(comp::fastdds::SuppressionDuration, const DdsProfile& 
 }
 inline std::int64_t value(comp::Immediately, const DdsProfile&) { return 0; }
 inline std::int64_t value(comp::control::ControlReplyDelay, const DdsProfile&) { return 5'000'000; }
+
+// Cyclone DDS.
+inline bool value(comp::cyclone::MergesQueued, const DdsProfile& dds) {
+  return dds.sedp.merge_queued_rexmit == MergeQueued::yes;
+}
+inline std::int64_t value(comp::cyclone::HeartbeatInterval, const DdsProfile& dds) {
+  return dds.sedp.heartbeat_interval.count();
+}
+inline std::int64_t value(comp::cyclone::HeartbeatIntervalMax, const DdsProfile& dds) {
+  return dds.sedp.heartbeat_interval_max.count();
+}
+inline std::int64_t value(comp::cyclone::MatchHeartbeatDelay, const DdsProfile& dds) {
+  return dds.sedp.match_heartbeat_delay.count();
+}
+inline std::int64_t value(comp::cyclone::AckDelay, const DdsProfile& dds) {
+  return dds.sedp.ack_delay.count();
+}
+inline std::int64_t value(comp::cyclone::NackDelay, const DdsProfile& dds) {
+  return dds.sedp.nack_delay.count();
+}
+inline std::int64_t value(comp::cyclone::AutoReschedNackDelay, const DdsProfile& dds) {
+  return dds.sedp.auto_resched_nack_delay.count();
+}
+inline std::int64_t value(comp::cyclone::PreEmptiveAckDelay, const DdsProfile& dds) {
+  return dds.sedp.preemptive_ack_delay.count();
+}
+inline std::int64_t value(comp::cyclone::PreEmptiveRepeatDelay, const DdsProfile&) {
+  return 1'000'000'000;
+}
+inline std::int64_t value(comp::cyclone::CountWindow, const DdsProfile&) { return 500'000'000; }
+inline std::int64_t value(comp::cyclone::SpdpStartupPeriod, const DdsProfile& dds) {
+  return dds.spdp.startup_period.count();
+}
+inline std::int64_t value(comp::cyclone::SpdpPeriod, const DdsProfile& dds) {
+  return dds.spdp.period.count();
+}
+inline std::int64_t value(comp::cyclone::DirectedReplies, const DdsProfile& dds) {
+  return dds.spdp.directed_replies;
+}
+inline std::int64_t value(comp::cyclone::DirectedReplyInterval, const DdsProfile& dds) {
+  return dds.spdp.directed_reply_interval.count();
+}
 }  // namespace knobs_of_composition
 
 /// The value of a switch, or of a delay in ns.
@@ -145,5 +188,16 @@ inline constexpr EventKind event_kind_of<comp::control::ControlInitialAttempt> =
 template <>
 inline constexpr EventKind event_kind_of<comp::control::ControlReplyDue> =
     EventKind::control_reply_due;
+
+template <>
+inline constexpr EventKind event_kind_of<comp::cyclone::AckTime> = EventKind::ack_time;
+template <>
+inline constexpr EventKind event_kind_of<comp::cyclone::HeartbeatTime> = EventKind::heartbeat_time;
+template <>
+inline constexpr EventKind event_kind_of<comp::cyclone::SpdpTime> = EventKind::spdp_time;
+template <>
+inline constexpr EventKind event_kind_of<comp::cyclone::ReplyTime> = EventKind::reply_time;
+template <>
+inline constexpr EventKind event_kind_of<comp::cyclone::ThreadRun> = EventKind::thread_run;
 
 }  // namespace stormproof::model

@@ -3,6 +3,7 @@
 // come back through this interface. Another vendor's writer is another class behind it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "model/engine/event_queue.hpp"
@@ -26,6 +27,10 @@ class Implementation {
   [[nodiscard]] virtual bool receives_separately() const = 0;
   /// The participants that a packet reaches over the network, in the order of these events.
   [[nodiscard]] virtual std::vector<std::uint32_t> receivers(const Packet& packet) const = 0;
+  /// When the participant receives what reaches it now, if that is later.
+  [[nodiscard]] virtual std::optional<Nanoseconds> receives_later(std::uint32_t) const {
+    return {};
+  }
   /// The packet has arrived completely, and was not lost. `receiver` means something only if
   /// `receives_separately`.
   virtual void received(const Packet& packet, std::uint32_t receiver) = 0;

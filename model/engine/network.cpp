@@ -174,6 +174,12 @@ void Network::handle(const Event& event) {
       release(event.subject);
       break;
     case EventKind::reception:
+      if (const auto later = implementation_->receives_later(event.detail)) {
+        flights_[event.subject].uses +=
+            run_.schedule(*later, EventKind::reception, event.subject, event.detail);
+        release(event.subject);
+        break;
+      }
       renew_bitmap(flights_[event.subject]);
       note_journey(flights_[event.subject]);
       if (run_.probe != nullptr) {

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "model/engine/descriptor_set.hpp"
 #include "model/run_result.hpp"
@@ -20,10 +22,13 @@ enum class PacketKind : std::uint8_t {
   heartbeat,
   acknack,
   user_heartbeat,  ///< of a control-only relation
-  user_acknack     ///< of a control-only relation
+  user_acknack,    ///< of a control-only relation
+  rtps_message     ///< of Cyclone DDS, with submessages of any kind
 };
 
 [[nodiscard]] const char* name_of(PacketKind kind);
+
+struct Submessage;  // model/engine/submessage.hpp
 
 struct Packet {
   std::uint64_t number = 0;   ///< position in emission order, from 0; of the first copy
@@ -44,8 +49,11 @@ struct Packet {
   bool carries_heartbeat = false;  ///< DATA with a piggybacked HEARTBEAT
   std::uint16_t heartbeats = 0;  ///< how many HEARTBEATs ride in it; the receiver sees them as one
   bool initial_acknack = false;  ///< ACKNACK marked initial
+  bool to_group = false;         ///< a message that goes to the multicast group
+  TrafficClass use{};            ///< of a message: what it is for
+  std::shared_ptr<const std::vector<Submessage>> submessages;  ///< of a message
 
-  [[nodiscard]] bool multicast() const { return kind == PacketKind::spdp_multicast; }
+  [[nodiscard]] bool multicast() const { return to_group || kind == PacketKind::spdp_multicast; }
   /// Whether it goes from the reader side to the writer side of its pair.
   [[nodiscard]] bool to_writer() const {
     return kind == PacketKind::acknack || kind == PacketKind::user_acknack;
@@ -70,6 +78,8 @@ struct Packet {
     case PacketKind::user_heartbeat:
     case PacketKind::user_acknack:
       return TrafficClass::user_control;
+    case PacketKind::rtps_message:
+      return packet.use;
   }
   return TrafficClass::spdp;
 }

@@ -19,6 +19,8 @@
 //   perform(step, world, …)              an opaque step
 //   watcher()                            who watches the effects, or nobody
 //   readers(w), readers_by_number(w)     the open relations of a writer
+//   writer_layout(), samples_of(w)       if participants have other writers than one for each
+//                                        stream: how they are numbered, how much each has
 //   for_queue(i, visit)                  visit(writer, descriptor) until the queue is empty
 //
 // The simulator's hosts are model/paper and model/fastdds, the explorer's is
@@ -114,6 +116,14 @@ class DescriptorLanes {
   std::uint32_t k_;
 };
 
+/// How writers and relations are numbered: with `stride` writers of each participant, writer c of
+/// participant i has number i·stride + c, and its relation on a pair pair·stride + c. Loops over
+/// streams are about the first `streams` of them.
+struct WriterLayout {
+  std::uint32_t stride = 2;
+  std::uint32_t streams = 2;
+};
+
 template <class Host_, Owner place_>
 class RunningWorld {
  public:
@@ -149,12 +159,13 @@ class RunningWorld {
     if constexpr (wanted == here) {
       return subject_;
     } else if constexpr (here == own::relation.indices) {
-      const std::uint32_t source = host_.topology().pair(subject_ / 2).source;
-      if constexpr (wanted == own::pair.indices) return subject_ / 2;
-      if constexpr (wanted == own::writer.indices) return 2 * source + subject_ % 2;
+      const std::uint32_t stride = layout().stride;
+      const std::uint32_t source = host_.topology().pair(subject_ / stride).source;
+      if constexpr (wanted == own::pair.indices) return subject_ / stride;
+      if constexpr (wanted == own::writer.indices) return stride * source + subject_ % stride;
       if constexpr (wanted == own::participant.indices) return source;
     } else if constexpr (here == own::writer.indices) {
-      return subject_ / 2;
+      return subject_ / layout().stride;
     } else {
       static_assert(here == own::pair.indices);
       return host_.topology().pair(subject_).source;
@@ -174,6 +185,8 @@ class RunningWorld {
       }
     } else if constexpr (std::derived_from<Tag, comp::PacketField>) {
       return static_cast<bool>(host_.said(tag, *packet_));
+    } else if constexpr (std::derived_from<Tag, comp::PacketNumber>) {
+      return static_cast<Int>(host_.said(tag, *packet_));
     } else if constexpr (std::derived_from<Tag, comp::Answer>) {
       return static_cast<bool>(host_.answer(tag, *this));
     } else if constexpr (std::derived_from<Tag, comp::Amount>) {
@@ -190,8 +203,12 @@ class RunningWorld {
   }
   template <class P, class S>
   bool in(P part, comp::Is<S>) {
-    return host_.bits(part).state_of(number<P::owner>(), descriptor_) ==
-           fsm::Reflect<typename P::Machine>::template id<S>;
+    constexpr fsm::StateId wanted = fsm::Reflect<typename P::Machine>::template id<S>;
+    if constexpr (has_descriptor<P>()) {
+      return host_.bits(part).state_of(number<P::owner>(), descriptor_) == wanted;
+    } else {
+      return host_.state(part, number<P::owner>()) == wanted;
+    }
   }
   static bool any(const Set& set) { return !set.empty(); }
   template <class Term>
@@ -225,6 +242,16 @@ class RunningWorld {
       if (term(r)) return true;
     }
     return false;
+  }
+
+  template <class Term>
+  Int count_readers(Term&& term) {
+    Int total = 0;
+    for (const std::uint32_t relation : host_.readers(number<comp::owner::writer>())) {
+      Reader r{host_, relation, packet_, descriptor_};
+      if (term(r)) ++total;
+    }
+    return total;
   }
 
   // Conditions and loops.
@@ -263,8 +290,10 @@ class RunningWorld {
   }
   template <class Body>
   void for_streams(Body&& body) {
-    for (std::uint32_t s = 0; s < 2; ++s) {
-      RunningWorld<Host, comp::owner::relation> relation{host_, 2 * subject_ + s, packet_};
+    const WriterLayout writers = layout();
+    for (std::uint32_t s = 0; s < writers.streams; ++s) {
+      RunningWorld<Host, comp::owner::relation> relation{host_, writers.stride * subject_ + s,
+                                                         packet_};
       body(relation);
     }
   }
@@ -272,7 +301,8 @@ class RunningWorld {
   void reverse(Body&& body) {
     constexpr bool pair = place == comp::owner::pair;
     const std::uint32_t back = host_.topology().pair(number<comp::owner::pair>()).reverse;
-    RunningWorld world{host_, pair ? back : 2 * back + subject_ % 2, packet_};
+    const std::uint32_t stride = layout().stride;
+    RunningWorld world{host_, pair ? back : stride * back + subject_ % stride, packet_};
     body(world);
   }
 
@@ -380,9 +410,21 @@ class RunningWorld {
   static constexpr bool has_descriptor() {
     return (Tag::owner.indices & comp::owner::descriptor_index) != 0;
   }
+  /// Constant where writers are those of the two streams.
+  [[nodiscard]] constexpr WriterLayout layout() const {
+    if constexpr (requires { host_.writer_layout(); }) {
+      return host_.writer_layout();
+    } else {
+      return {};
+    }
+  }
   [[nodiscard, gnu::always_inline]] std::uint32_t descriptor_count() const {
     const std::uint32_t writer = number<comp::owner::writer>();
-    return host_.topology().descriptor_count(writer / 2, streams[writer % 2]);
+    if constexpr (requires { host_.samples_of(writer); }) {
+      return host_.samples_of(writer);
+    } else {
+      return host_.topology().descriptor_count(writer / 2, streams[writer % 2]);
+    }
   }
   /// Those descriptors of word k, out of `count`, for which the term holds.
   template <class Term>

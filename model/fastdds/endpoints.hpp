@@ -1,18 +1,19 @@
-// What a ROS 2 node creates in Fast DDS 2.6.11: which endpoint when, and how large its descriptor
-// is on the wire. The order is that of rcl and rmw_fastrtps creating a node (rosout,
-// ros_discovery_info, six parameter services, parameter_events), the sizes are those of the
-// serialized DATA submessages.
+// How large the descriptors of a ROS 2 node are on the wire in Fast DDS 2.6.11, as serialized DATA
+// submessages, and which topics they belong to.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "model/engine/node_endpoints.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model::fastdds {
 
-inline constexpr std::uint32_t default_publications = 9;
-inline constexpr std::uint32_t default_subscriptions = 8;
+using model::creation_order;
+using model::default_publications;
+using model::default_subscriptions;
+using model::Endpoint;
 
 /// UDP payload bytes.
 inline constexpr std::int64_t spdp_bytes = 252;
@@ -25,16 +26,6 @@ inline constexpr std::int64_t destination_bytes = 16;  ///< INFO_DST, if there i
 inline constexpr std::int64_t timestamp_bytes = 12;    ///< INFO_TS before each descriptor
 inline constexpr std::int64_t heartbeat_submessage_bytes = 32;
 inline constexpr std::int64_t largest_submessage_bytes = 452;  ///< of one descriptor
-
-/// One endpoint of a participant: descriptor d of stream s.
-struct Endpoint {
-  Stream stream{};
-  std::uint32_t descriptor = 0;
-};
-
-/// The k-th endpoint that a participant with `user_publications` creates (and any number of user
-/// subscriptions).
-[[nodiscard]] Endpoint creation_order(std::uint32_t k, std::uint32_t user_publications);
 
 /// Bytes of the DATA submessage of a descriptor.
 [[nodiscard]] std::int64_t submessage_bytes(Stream s, std::uint32_t d);

@@ -89,6 +89,8 @@ void Protocol::received(const Packet& packet, std::uint32_t receiver) {
     case PacketKind::user_acknack:
       run_rule<comp::Received<control::UserAckNack>>(*this, packet.detail, &packet);
       break;
+    case PacketKind::rtps_message:
+      break;  // sent by others only
   }
 }
 

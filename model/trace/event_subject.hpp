@@ -12,6 +12,9 @@ enum class Subject : std::uint8_t {
   participant,
   channel,
   control_relation,
+  pair,
+  endpoint_relation,  ///< of any writer of a participant (model/cyclone/endpoints.hpp)
+  endpoint_writer,
   packet  ///< a slot of the network, which says nothing to a reader
 };
 
@@ -27,7 +30,16 @@ enum class Subject : std::uint8_t {
     case EventKind::announcement_due:
     case EventKind::endpoint_creation:
     case EventKind::async_run:
+    case EventKind::participant_start:
+    case EventKind::spdp_time:
+    case EventKind::thread_run:
       return Subject::participant;
+    case EventKind::reply_time:
+      return Subject::pair;
+    case EventKind::heartbeat_time:
+      return Subject::endpoint_writer;
+    case EventKind::ack_time:
+      return Subject::endpoint_relation;
     case EventKind::heartbeat_expiry:
     case EventKind::cycle_start:
     case EventKind::cycle_end:
@@ -58,6 +70,12 @@ enum class Subject : std::uint8_t {
       return Subject::channel;
     case MachineRef::Kind::control_relation:
       return Subject::control_relation;
+    case MachineRef::Kind::pair:
+      return Subject::pair;
+    case MachineRef::Kind::endpoint_relation:
+      return Subject::endpoint_relation;
+    case MachineRef::Kind::endpoint_writer:
+      return Subject::endpoint_writer;
   }
   return Subject::packet;
 }

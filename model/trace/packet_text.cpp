@@ -1,6 +1,8 @@
 // Ends, streams and contents of packets.
 #include "model/trace/packet_text.hpp"
 
+#include "model/cyclone/endpoints.hpp"
+#include "model/engine/submessage.hpp"
 #include "model/trace/json_text.hpp"
 
 namespace stormproof::model::trace {
@@ -15,7 +17,7 @@ Ends packet_ends(const Packet& packet, const Topology& topology) {
 }
 
 bool is_spdp(const Packet& packet) {
-  return packet.multicast() || packet.kind == PacketKind::spdp_unicast;
+  return packet.kind == PacketKind::spdp_multicast || packet.kind == PacketKind::spdp_unicast;
 }
 
 bool is_control(const Packet& packet) {
@@ -23,11 +25,49 @@ bool is_control(const Packet& packet) {
 }
 
 void append_stream(std::string& out, const Packet& packet) {
+  if (packet.kind == PacketKind::rtps_message) return;
   if (is_control(packet))
     append(out, R"(,"control_relation":)", packet.detail);
   else if (!is_spdp(packet))
     append(out, R"(,"stream":")", name_of(packet.stream), "\"");
 }
+
+namespace {
+
+void append_submessage(std::string& out, const Submessage& m) {
+  constexpr const char* kinds[] = {"spdp", "data", "heartbeat", "acknack"};
+  append(out, R"({"kind":")", kinds[static_cast<std::size_t>(m.kind)], R"(","participant":)",
+         m.participant);
+  if (m.kind != Submessage::Kind::spdp) {
+    append(out, R"(,"writer":")", cyclone::name_of_writer(m.writer), "\"");
+  }
+  if (m.kind == Submessage::Kind::data) append(out, R"(,"descriptor":)", m.sample);
+  if (m.kind == Submessage::Kind::heartbeat) append(out, R"(,"announces":)", m.sample);
+  if (m.kind == Submessage::Kind::acknack) {
+    append(out, R"(,"base":)", m.sample);
+    if (!m.bitmap.empty()) {
+      out += R"(,"descriptors":)";
+      append_members(out, m.bitmap);
+    }
+  }
+  if (m.count > 0) append(out, R"(,"count":)", m.count);
+  if (m.directed) out += R"(,"directed":true)";
+  if (m.initial) out += R"(,"initial":true)";
+  out += '}';
+}
+
+void append_submessages(std::string& out, const std::vector<Submessage>& submessages) {
+  out += R"(,"submessages":[)";
+  const char* separator = "";
+  for (const Submessage& m : submessages) {
+    out += separator;
+    append_submessage(out, m);
+    separator = ",";
+  }
+  out += ']';
+}
+
+}  // namespace
 
 void append_packet(std::string& out, const Packet& packet, std::uint32_t from,
                    std::span<const std::uint32_t> destinations) {
@@ -56,6 +96,7 @@ void append_packet(std::string& out, const Packet& packet, std::uint32_t from,
   if (packet.from_repair) out += R"(,"repair":true)";
   if (packet.heartbeats > 0) append(out, R"(,"heartbeats":)", packet.heartbeats);
   if (packet.initial_acknack) out += R"(,"initial":true)";
+  if (packet.submessages != nullptr) append_submessages(out, *packet.submessages);
 }
 
 }  // namespace stormproof::model::trace

@@ -1,6 +1,7 @@
 // Words of the protocol instead of names of the program.
 #include "model/trace/perfetto_labels.hpp"
 
+#include "model/engine/submessage.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/packet_text.hpp"
 
@@ -11,6 +12,9 @@ namespace {
 /// ", 12 descriptors"; nothing for a packet without any.
 void append_members_count(std::string& text, const Packet& packet) {
   std::uint32_t members = 0;
+  if (packet.submessages != nullptr && packet.submessages->size() > 1) {
+    append(text, ", ", packet.submessages->size(), " submessages");
+  }
   packet.descriptors.for_each([&](std::uint32_t) { ++members; });
   if (members == 0) return;
   const bool bitmap = packet.kind == PacketKind::acknack;
@@ -37,6 +41,22 @@ const char* packet_label(const Packet& packet) {
       return "user HEARTBEAT";
     case PacketKind::user_acknack:
       return packet.initial_acknack ? "initial user ACKNACK" : "user ACKNACK";
+    case PacketKind::rtps_message:
+      break;
+  }
+  switch (packet.use) {
+    case TrafficClass::spdp:
+      return "SPDP";
+    case TrafficClass::initial_data:
+      return "DATA";
+    case TrafficClass::repair_data:
+      return "repair DATA";
+    case TrafficClass::heartbeat:
+      return "HEARTBEAT";
+    case TrafficClass::acknack:
+      return "ACKNACK";
+    case TrafficClass::user_control:
+      return "user message";
   }
   return "";
 }
@@ -49,7 +69,9 @@ std::string service_label(const Packet& packet, const Topology& topology) {
     text += "all";
   else
     append_part(text, to);
-  if (!is_spdp(packet) && !is_control(packet)) append(text, " ", name_of(packet.stream));
+  const bool of_stream =
+      !is_spdp(packet) && !is_control(packet) && packet.kind != PacketKind::rtps_message;
+  if (of_stream) append(text, " ", name_of(packet.stream));
   return text;
 }
 
@@ -99,6 +121,18 @@ const char* timer_label(EventKind kind) {
       return "NACK response";
     case EventKind::async_run:
       return "asynchronous send";
+    case EventKind::participant_start:
+      return "participant starts";
+    case EventKind::spdp_time:
+      return "announcement timer";
+    case EventKind::reply_time:
+      return "announcement to one";
+    case EventKind::heartbeat_time:
+      return "HEARTBEAT timer";
+    case EventKind::ack_time:
+      return "ACK timer";
+    case EventKind::thread_run:
+      return "event thread";
     default:
       return name_of(kind);
   }

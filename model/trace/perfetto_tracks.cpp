@@ -1,6 +1,7 @@
 // Numbers and names of the rows.
 #include "model/trace/perfetto_tracks.hpp"
 
+#include "model/cyclone/endpoints.hpp"
 #include "model/engine/topology.hpp"
 #include "model/implementations.hpp"
 #include "model/trace/event_subject.hpp"
@@ -36,6 +37,23 @@ Stream stream_at(std::uint32_t relation_or_writer) {
   return relation_or_writer % 2 == 0 ? Stream::pub : Stream::sub;
 }
 
+/// Rows of the two streams; all other writers of a participant share one.
+Track endpoint_writer_track(std::uint32_t subject, const Topology& topology) {
+  const std::uint32_t stride = cyclone::writers_per_participant(topology);
+  const std::uint32_t writer = subject % stride;
+  if (writer > cyclone::writer::subscriptions) return user_track(subject / stride);
+  return writer_track(subject / stride, stream_at(writer));
+}
+Track endpoint_relation_track(std::uint32_t subject, const Topology& topology, bool of_reader) {
+  const std::uint32_t stride = cyclone::writers_per_participant(topology);
+  const Pair& pair = topology.pair(subject / stride);
+  const std::uint32_t participant = of_reader ? pair.destination : pair.source;
+  const std::uint32_t writer = subject % stride;
+  if (writer > cyclone::writer::subscriptions) return user_track(participant);
+  return of_reader ? reader_track(participant, stream_at(writer))
+                   : writer_track(participant, stream_at(writer));
+}
+
 }  // namespace
 
 Track channel_track(std::uint32_t channel) {
@@ -58,6 +76,7 @@ Track sender_track(const Packet& packet, std::uint32_t source) {
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
     case PacketKind::spdp_unicast:
+    case PacketKind::rtps_message:
       return participant_track(source);
     case PacketKind::acknack:
       return reader_track(source, packet.stream);
@@ -73,6 +92,7 @@ Track receiver_track(const Packet& packet, std::uint32_t destination) {
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
     case PacketKind::spdp_unicast:
+    case PacketKind::rtps_message:
       return participant_track(destination);
     case PacketKind::acknack:
       return writer_track(destination, packet.stream);
@@ -86,7 +106,7 @@ Track receiver_track(const Packet& packet, std::uint32_t destination) {
 
 std::optional<Track> machine_track(const MachineRef& machine, const Topology& topology) {
   const std::uint32_t subject = machine.subject;
-  if (machine.machine == "SingleShot") return std::nullopt;
+  if (machine.machine == "SingleShot" || machine.machine == "MovableTimer") return std::nullopt;
   switch (machine.kind) {
     case MachineRef::Kind::participant:
       return participant_track(subject);
@@ -94,7 +114,14 @@ std::optional<Track> machine_track(const MachineRef& machine, const Topology& to
       return writer_track(subject / 2, stream_at(subject));
     case MachineRef::Kind::channel:
     case MachineRef::Kind::control_relation:
+    case MachineRef::Kind::pair:
       return std::nullopt;
+    case MachineRef::Kind::endpoint_writer:
+      return endpoint_writer_track(subject, topology);
+    case MachineRef::Kind::endpoint_relation:
+      return machine.machine == "MatchedReader"
+                 ? endpoint_relation_track(subject, topology, /*of_reader=*/false)
+                 : endpoint_relation_track(subject, topology, /*of_reader=*/true);
     case MachineRef::Kind::relation:
       break;
   }
@@ -108,7 +135,8 @@ std::optional<Track> machine_track(const MachineRef& machine, const Topology& to
 bool is_timer(EventKind kind) {
   const Subject subject = subject_of(kind);
   return subject == Subject::participant || subject == Subject::writer ||
-         subject == Subject::relation;
+         subject == Subject::relation || subject == Subject::pair ||
+         subject == Subject::endpoint_writer || subject == Subject::endpoint_relation;
 }
 
 Track timer_track(EventKind kind, std::uint32_t subject, const Topology& topology) {
@@ -117,6 +145,12 @@ Track timer_track(EventKind kind, std::uint32_t subject, const Topology& topolog
       return participant_track(subject);
     case Subject::writer:
       return writer_track(subject / 2, stream_at(subject));
+    case Subject::pair:
+      return participant_track(topology.pair(subject).source);
+    case Subject::endpoint_writer:
+      return endpoint_writer_track(subject, topology);
+    case Subject::endpoint_relation:
+      return endpoint_relation_track(subject, topology, /*of_reader=*/true);
     default:
       break;
   }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/config/knobs/effective.hpp"
+#include "model/cyclone/endpoints.hpp"
 #include "model/trace/event_subject.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/packet_text.hpp"
@@ -231,6 +232,24 @@ void TraceWriter::append_subject(Subject kind, std::uint32_t subject) {
     case Subject::control_relation:
       append(line_, R"(,"control_relation":)", subject);
       break;
+    case Subject::pair: {
+      const Pair& pair = topology_->pair(subject);
+      append(line_, R"(,"pair":{"from":)", pair.source, R"(,"to":)", pair.destination, "}");
+      break;
+    }
+    case Subject::endpoint_relation: {
+      const std::uint32_t stride = cyclone::writers_per_participant(*topology_);
+      const Pair& pair = topology_->pair(subject / stride);
+      append(line_, R"(,"relation":{"from":)", pair.source, R"(,"to":)", pair.destination,
+             R"(,"writer":")", cyclone::name_of_writer(subject % stride), "\"}");
+      break;
+    }
+    case Subject::endpoint_writer: {
+      const std::uint32_t stride = cyclone::writers_per_participant(*topology_);
+      append(line_, R"(,"writer":{"participant":)", subject / stride, R"(,"writer":")",
+             cyclone::name_of_writer(subject % stride), "\"}");
+      break;
+    }
     case Subject::packet:
       break;
   }

@@ -2,6 +2,7 @@
 // with ties on purpose.
 #include <optional>
 
+#include "model/airtime.hpp"
 #include "model/reference.hpp"
 #include "props/generators/draw.hpp"
 
@@ -36,6 +37,18 @@ std::vector<std::int64_t> draw_pool(Dice& dice, std::int64_t scale) {
   return {a, a, b, std::max<std::int64_t>(b, 1), a + b, 2 * a, difference, 0};
 }
 
+/// Airtime of a few packets for each pair of participants.
+std::int64_t packets_for_all(const model::Scenario& scenario) {
+  constexpr std::int64_t packets = 16;
+  constexpr std::int64_t bytes = 400;
+  const auto n = static_cast<std::int64_t>(scenario.deployment.size());
+  std::int64_t airtime = 0;
+  for (const model::Stage& stage : scenario.wireless.stages) {
+    airtime += model::service_rate(scenario.wireless, stage, false).airtime_ns(bytes);
+  }
+  return n * (n - 1) * packets * airtime;
+}
+
 }  // namespace
 
 Clock draw_clock(Dice& dice, const ScenarioSpace& space, model::Scenario& scenario) {
@@ -49,7 +62,10 @@ Clock draw_clock(Dice& dice, const ScenarioSpace& space, model::Scenario& scenar
   const bool is_delay = scenario.wireless.kind == model::ServiceKind::constant_delay;
   const std::optional<Nanoseconds> airtime =
       is_delay ? std::nullopt : model::open_loop_airtime(scenario);
-  const std::int64_t work = airtime ? airtime->count() : 6 * scenario.wireless.one_way.count();
+  const bool has_no_baseline = !is_delay && !airtime;
+  const std::int64_t work = has_no_baseline ? packets_for_all(scenario)
+                            : airtime       ? airtime->count()
+                                            : 6 * scenario.wireless.one_way.count();
   const std::int64_t longest = std::min(4 * second, space.max_time_limit.count() / 2);
   const std::int64_t shortest = clock.lockstep ? 8 * clock.grid : 200 * microsecond;
   clock.scale = std::min(std::max(work, shortest), longest);

@@ -82,9 +82,41 @@ void let_sums_meet(Dice& dice, model::SedpProfile& sedp) {
   *delays[which] = meeting * times;
 }
 
+void draw_cyclone_rules(Dice& dice, model::DdsProfile& dds) {
+  dds.allow_multicast = dice.choice<model::AllowMulticast>(2);
+  dds.spdp.directed_replies = dice.pick<std::uint32_t>({4, 4, 0, 1, 2});
+  model::SedpProfile& sedp = dds.sedp;
+  sedp.max_message_size = Bytes{dice.among({14'720, 14'720, 60, 1'472, dice.between(300, 3'000)})};
+  sedp.max_rexmit_message_size =
+      Bytes{dice.among({1'456, 1'456, 60, 14'720, dice.between(300, 3'000)})};
+  sedp.max_queued_rexmit_messages =
+      dice.pick<std::uint32_t>({200, 200, 1, 2, 5, dice.count(0, 30)});
+  sedp.merge_queued_rexmit = dice.chance(75) ? model::MergeQueued::yes : model::MergeQueued::no;
+}
+
+void draw_cyclone_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds) {
+  dds.spdp.period = draw_period(dice, clock);
+  dds.spdp.startup_period = draw_period(dice, clock);
+  dds.spdp.directed_reply_interval = draw_period(dice, clock);
+  model::SedpProfile& sedp = dds.sedp;
+  sedp.heartbeat_interval = draw_period(dice, clock);
+  const std::int64_t most = sedp.heartbeat_interval.count() * dice.among({1, 2, 3, 4, 80});
+  sedp.heartbeat_interval_max = Nanoseconds{std::min(most, longest_drawn_period)};
+  sedp.match_heartbeat_delay = draw_reaction(dice, clock, clock.scale / 50);
+  sedp.ack_delay = draw_reaction(dice, clock, clock.scale / 10);
+  sedp.nack_delay =
+      dice.chance(30) ? draw_reaction(dice, clock, clock.scale / 10) : draw_period(dice, clock);
+  sedp.auto_resched_nack_delay = draw_period(dice, clock);
+  sedp.preemptive_ack_delay = draw_reaction(dice, clock, clock.scale / 10);
+}
+
 }  // namespace
 
 void draw_rules_and_sizes(Dice& dice, Scenario& scenario) {
+  if (model::traits_of(scenario.dds).writer == model::Writer::of_cyclone) {
+    draw_cyclone_rules(dice, scenario.dds);
+    return;
+  }
   scenario.dds.spdp.resend = dice.choice<model::SpdpResend>(4);
   if (dice.chance(40)) scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
   draw_piggyback(dice, scenario.dds.sedp);
@@ -99,6 +131,10 @@ void draw_rules_and_sizes(Dice& dice, Scenario& scenario) {
 }
 
 void draw_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds) {
+  if (model::traits_of(dds).writer == model::Writer::of_cyclone) {
+    draw_cyclone_timers(dice, clock, dds);
+    return;
+  }
   dds.spdp.period = draw_period(dice, clock);
   dds.spdp.startup_period = draw_period(dice, clock);
   dds.spdp.startup_announcements = dice.pick<std::uint32_t>({5, 5, 0, 1, 2});

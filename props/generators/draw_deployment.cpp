@@ -56,6 +56,20 @@ void draw_loopback(Dice& dice, const Clock& clock, Scenario& scenario) {
   scenario.deployment.loopback_delay = Nanoseconds{clock.lockstep ? steps : other};
 }
 
+/// How long a packet takes to be sent, and when participants hear.
+void draw_thread(Dice& dice, const Clock& clock, Scenario& scenario) {
+  const std::int64_t steps = clock.grid * dice.between(0, 2);
+  const std::int64_t other = dice.among({0, 20 * microsecond, 50 * microsecond, clock.scale / 500,
+                                         dice.magnitude(1, clock.scale / 40 + 1)});
+  scenario.deployment.send_time = Nanoseconds{clock.lockstep ? steps : other};
+  for (Participant& p : scenario.deployment.participants) {
+    if (dice.chance(25)) {
+      p.open = Nanoseconds{std::max<std::int64_t>(0, p.start.count() - clock.scale / 8)};
+    }
+    if (dice.chance(25)) p.ready = p.start + Nanoseconds{clock.on_grid(clock.scale / 8)};
+  }
+}
+
 // Two digits are enough.
 std::int64_t round_down(std::int64_t t) {
   std::int64_t unit = 1;
@@ -105,6 +119,7 @@ void draw_times(Dice& dice, const ScenarioSpace& space, const Clock& clock, Scen
     if (starts != Starts::far_apart) latest = std::max(latest, p.endpoints_done.count());
   }
   if (traits.discovers_same_host) draw_loopback(dice, clock, scenario);
+  if (traits.writer == model::Writer::of_cyclone) draw_thread(dice, clock, scenario);
   // Where discovery takes seconds, what follows a few of them is more of the same.
   const std::int64_t longer = std::min(clock.scale * dice.among({1, 2, 4, 8, 16}) / 2,
                                        std::max(2 * clock.scale, 5 * second));

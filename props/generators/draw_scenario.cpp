@@ -5,13 +5,11 @@ namespace stormproof::props {
 
 namespace {
 
-/// The default one, or in 40 % any other.
+/// The default one, or in 40 % any other that engines and laws know.
 model::ImplementationKind draw_implementation(Dice& dice) {
   const bool is_other = dice.chance(40);
-  std::vector<model::ImplementationKind> others;
-  for (const model::ImplementationKind kind : model::implementations) {
-    if (kind != model::default_implementation) others.push_back(kind);
-  }
+  std::vector<model::ImplementationKind> others = model::known_to_engines();
+  std::erase(others, model::default_implementation);
   if (!is_other) return model::default_implementation;
   return others.size() == 1 ? others.front() : dice.pick(others);
 }

@@ -137,7 +137,10 @@ void add_participant(model::Participant& p, Nanoseconds start, Nanoseconds creat
                      std::vector<Knob>& knobs) {
   knobs.push_back({Knob::Kind::duration, true, start.count(), [&p] { return p.start.count(); },
                    [&p](std::int64_t value) {
-                     p.endpoints_done += Nanoseconds{value} - p.start;
+                     const Nanoseconds shift = Nanoseconds{value} - p.start;
+                     p.endpoints_done += shift;
+                     if (p.open) p.open = std::min(*p.open, Nanoseconds{value});
+                     if (p.ready) p.ready = *p.ready + shift;
                      p.start = Nanoseconds{value};
                    }});
   knobs.push_back({Knob::Kind::duration, true, creation.count(),
@@ -164,6 +167,9 @@ std::vector<Knob> knobs_of(Scenario& scenario, const Scenario& base) {
     add_participant(participants[k], target.start, target.endpoints_done - target.start, knobs);
   }
   knobs.push_back(duration(scenario.deployment.loopback_delay, base.deployment.loopback_delay));
+  if (scenario.deployment.send_time) {
+    knobs.push_back(duration(*scenario.deployment.send_time, base.deployment.time_to_send()));
+  }
   knobs.push_back(duration(scenario.time_limit, base.time_limit));
   knobs.back().may_be_zero = false;
   knobs.push_back({Knob::Kind::choice, false, static_cast<std::int64_t>(base.run_until),

@@ -12,7 +12,7 @@ namespace stormproof::props {
 /// Which scenarios are drawn. The limits keep a run short; a law that runs a scenario several times
 /// lowers them.
 struct ScenarioSpace {
-  std::optional<model::ImplementationKind> implementation = {};  ///< absent: any
+  std::optional<model::ImplementationKind> implementation = {};  ///< absent: any engines know
   std::optional<model::ServiceKind> service = {};                ///< absent: both
   std::uint32_t max_participants = 6;                            ///< at least 2
   std::uint32_t max_endpoints = 6;  ///< user endpoints of a participant, of each kind

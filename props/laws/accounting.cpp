@@ -48,6 +48,8 @@ class MessageCounter final : public model::Probe {
       case PacketKind::user_acknack:
         ++user_control_;
         break;
+      case PacketKind::rtps_message:
+        break;  // no law is about its implementation
     }
   }
   [[nodiscard]] const model::Counts& counts() const { return counts_; }

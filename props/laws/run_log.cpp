@@ -56,7 +56,12 @@ void RunLog::transition(const model::MachineRef& machine, std::string_view event
     case Kind::channel:
       note(machine.subject);
       break;
+    case Kind::pair:
+      note_pair(machine.subject);
+      break;
     case Kind::control_relation:  // numbered by pair; the packets tell which
+    case Kind::endpoint_relation:
+    case Kind::endpoint_writer:
       break;
   }
   note(event);

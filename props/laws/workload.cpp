@@ -147,7 +147,7 @@ std::int64_t stream_on_air(const Scenario& scenario, const model::PacketSizes& s
 std::int64_t open_loop(const Scenario& scenario, const Grid& grid) {
   const model::WirelessProfile& wireless = scenario.wireless;
   const model::DescriptorProfile& defaults = scenario.dds.descriptors;
-  const model::PacketSizes sizes = model::visit_composition(
+  const model::PacketSizes sizes = model::visit_engine_composition(
       scenario.dds, [&](auto composition) { return weights(composition, scenario.dds); });
   const std::int64_t spdp = sizes.announcement;
   const std::int64_t control =

@@ -24,7 +24,7 @@ class FollowedRun final : public Observer {
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
-    follower_ = model::visit_composition(
+    follower_ = model::visit_engine_composition(
         scenario_.dds, [&](auto composition) { return follow(composition, scenario_, topology); });
     if (follower_ != nullptr) trigger_ = [this] { follower_->started(); };
   }

@@ -10,6 +10,8 @@
 
 #include <fmt/core.h>
 
+#include "model/cyclone/endpoints.hpp"
+#include "model/engine/submessage.hpp"
 #include "model/reference.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
@@ -75,6 +77,11 @@ std::uint64_t messages_of(const model::Packet& packet) {
     case model::PacketKind::spdp_unicast:
     case model::PacketKind::acknack:
       return packet.copies;
+    case model::PacketKind::rtps_message:
+      for (const model::Submessage& m : *packet.submessages) {
+        if (m.writer <= model::cyclone::writer::subscriptions) ++messages;
+      }
+      break;
   }
   return messages;
 }

@@ -1,5 +1,6 @@
 // Which monitor decides which property. Limits of a scenario have monitors, too, but are not in the
 // list of monitored properties: they exist only if the scenario sets them.
+#include "props/applicability.hpp"
 #include "props/monitors/monitors.hpp"
 
 namespace stormproof::props {
@@ -42,6 +43,14 @@ std::unique_ptr<Monitor> make_monitor(std::string_view property, const model::Sc
 std::vector<std::string_view> monitored_properties() {
   std::vector<std::string_view> properties;
   for (const Entry& entry : makers) properties.push_back(entry.property);
+  return properties;
+}
+
+std::vector<std::string_view> monitored_properties(model::ImplementationKind implementation) {
+  std::vector<std::string_view> properties = monitored_properties();
+  std::erase_if(properties, [&](std::string_view property) {
+    return !why_not_applicable(property, implementation).empty();
+  });
   return properties;
 }
 

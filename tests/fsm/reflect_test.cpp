@@ -38,7 +38,8 @@ TEST(Reflect, ListsTheMachinesInTheOrderOfTheDocuments) {
   for (const MachineInfo& info : machines()) names.push_back(info.name);
   EXPECT_EQ(names, (Names{"DescriptorRepair", "DiscoveryReader", "HeartbeatTimer", "InitialAckNack",
                           "Announcer", "Channel", "ChangeForReader", "SingleShot", "ControlWriter",
-                          "ControlReader"}));
+                          "ControlReader", "CautiousReader", "MatchedReader", "HeartbeatPacer",
+                          "EventThread", "MovableTimer"}));
 }
 
 TEST(Reflect, StatesComeInTheOrderOfMsm) {

@@ -167,6 +167,11 @@ MachineSurvey survey_change_for_reader();
 MachineSurvey survey_single_shot();
 MachineSurvey survey_control_writer();
 MachineSurvey survey_control_reader();
+MachineSurvey survey_cautious_reader();
+MachineSurvey survey_matched_reader();
+MachineSurvey survey_heartbeat_pacer();
+MachineSurvey survey_event_thread();
+MachineSurvey survey_movable_timer();
 
 /// All of them, in the order of `machines()`.
 [[nodiscard]] std::vector<MachineSurvey> all_surveys();

@@ -15,6 +15,11 @@ std::vector<MachineSurvey> all_surveys() {
   surveys.push_back(survey_single_shot());
   surveys.push_back(survey_control_writer());
   surveys.push_back(survey_control_reader());
+  surveys.push_back(survey_cautious_reader());
+  surveys.push_back(survey_matched_reader());
+  surveys.push_back(survey_heartbeat_pacer());
+  surveys.push_back(survey_event_thread());
+  surveys.push_back(survey_movable_timer());
   return surveys;
 }
 

@@ -117,10 +117,24 @@ Observed observe_oracle(const model::Scenario& scenario, FastddsMistake mistake,
   return observed;
 }
 
+Observed observe_oracle(const model::Scenario& scenario, CycloneMistake mistake,
+                        std::uint64_t max_events) {
+  Observed observed;
+  const CycloneOutcome outcome = run_cyclone(scenario, log_into(observed), mistake, max_events);
+  take_outcome(observed, outcome, outcome.user_control);
+  return observed;
+}
+
 Observed observe_oracle(const model::Scenario& scenario, std::uint64_t max_events) {
-  return scenario.dds.implementation == model::ImplementationKind::fastdds
-             ? observe_oracle(scenario, FastddsMistake::none, max_events)
-             : observe_oracle(scenario, Mistake::none, max_events);
+  switch (scenario.dds.implementation) {
+    case model::ImplementationKind::paper:
+      break;
+    case model::ImplementationKind::fastdds:
+      return observe_oracle(scenario, FastddsMistake::none, max_events);
+    case model::ImplementationKind::cyclone:
+      return observe_oracle(scenario, CycloneMistake::none, max_events);
+  }
+  return observe_oracle(scenario, Mistake::none, max_events);
 }
 
 std::optional<std::string> first_difference(const Observed& product, const Observed& oracle) {
@@ -140,7 +154,7 @@ std::optional<std::string> difference(const model::Scenario& scenario) {
   const Observed oracle_run = observe_oracle(scenario, most_compared_events);
   if (auto found = first_difference(product_run, oracle_run)) return found;
   if (scenario.wireless.kind != model::ServiceKind::shared_channel) return {};
-  if (scenario.dds.implementation == model::ImplementationKind::fastdds) return {};
+  if (scenario.dds.implementation != model::ImplementationKind::paper) return {};
   const std::int64_t product = model::open_loop_airtime(scenario)->count();
   const std::int64_t expected = open_loop_ns(scenario);
   if (product == expected) return {};

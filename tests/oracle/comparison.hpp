@@ -12,6 +12,7 @@
 
 #include "model/mutation.hpp"
 #include "model/scenario.hpp"
+#include "tests/oracle/cyclone_oracle.hpp"
 #include "tests/oracle/fastdds_oracle.hpp"
 #include "tests/oracle/oracle.hpp"
 
@@ -46,6 +47,8 @@ struct Observed {
 [[nodiscard]] Observed observe_oracle(const model::Scenario& scenario, Mistake mistake,
                                       std::uint64_t max_events = 0);
 [[nodiscard]] Observed observe_oracle(const model::Scenario& scenario, FastddsMistake mistake,
+                                      std::uint64_t max_events = 0);
+[[nodiscard]] Observed observe_oracle(const model::Scenario& scenario, CycloneMistake mistake,
                                       std::uint64_t max_events = 0);
 
 /// Where the two runs part first, as a sentence, or nothing.

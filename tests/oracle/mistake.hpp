@@ -102,10 +102,72 @@ enum class FastddsMistake : std::uint8_t {
   response_with_old_base,   ///< a clean ACKNACK counts whatever its base
 };
 
+/// What the oracle of `implementation: cyclone` does wrong (specs/guide/cyclone.md has the rules).
+enum class CycloneMistake : std::uint8_t {
+  none,
+  // Deployment and the event thread.
+  hears_before_open,        ///< what arrives before `open` is not lost
+  always_ready,             ///< what arrives before `ready` is received at once
+  timers_move_later,        ///< a timer moves to a later time, too
+  stale_events_fire,        ///< a timer is due at each time that it was ever moved to
+  queue_before_timers,      ///< messages of the queue come before timers that are due
+  last_copy_takes_no_time,  ///< after the last copy of a packet the thread goes on at once
+  name_without_bytes,       ///< a packet to one participant by name lacks 16 bytes
+  ports_ignored,            ///< user traffic shares packets with the rest
+  version_ignored,          ///< sets of a writer fit, whoever has matched between them
+  equal_sets_fit,           ///< sets of several equal addresses fit
+  repairs_fill_packets,     ///< retransmissions share packets up to the larger size
+  // SPDP.
+  announces_to_group_only,  ///< without copies to those that are known
+  replies_to_replies,       ///< a directed announcement is answered, too
+  reader_opens_first,       ///< the reader side of a pair opens before the writer side
+  // Match and creation.
+  matched_without_history,  ///< a new reader has acknowledged nothing
+  match_keeps_n,            ///< a match does not shorten the HEARTBEAT interval again
+  sent_without_readers,     ///< what is created without readers does not count as sent
+  creation_keeps_n,         ///< nor does a creation shorten the interval
+  creation_leaves_timer,    ///< a creation does not move the HEARTBEAT timer
+  // HEARTBEATs.
+  interval_not_doubled,  ///< the interval stays
+  interval_not_kept,     ///< HEARTBEATs come whenever the timer fires
+  replies_not_awaited,   ///< readers that have not replied get none
+  heartbeats_to_all,     ///< a HEARTBEAT never goes to a single reader
+  single_without_all,    ///< the one who is behind gets it even if nobody has everything
+  group_for_one,         ///< a single reader is addressed by the group
+  // The reader.
+  unseen_data_taken,       ///< DATA is taken before a HEARTBEAT was seen
+  data_announces_nothing,  ///< DATA does not raise `last`
+  old_heartbeats_count,    ///< counts of HEARTBEATs are not compared
+  asks_once,               ///< the pre-emptive ACKNACK is not repeated
+  ack_delay_ignored,       ///< the same ACK is repeated at once
+  nack_delay_ignored,      ///< the same request is repeated at once
+  new_gaps_wait,           ///< new samples are asked for like old ones
+  answers_are_heartbeats,  ///< a directed HEARTBEAT is one like any other
+  never_delayed,           ///< the reader forgets that the last request was delayed
+  hush_answers_at_once,    ///< a reader that keeps quiet is asked again at once
+  never_asks_again,        ///< a reader does not ask again by itself
+  bitmap_words_down,       ///< the bitmap takes floor(k/32) words
+  // ACKNACKs at the writer.
+  old_acknacks_count,    ///< counts of ACKNACKs are not compared
+  replies_take_back,     ///< an ACKNACK counts as reply even if it acknowledges less than before
+  unsent_repaired,       ///< samples are repeated that have never been sent
+  refusals_ignored,      ///< after a refusal the next sample is tried
+  repairs_not_merged,    ///< each reader gets a retransmission of its own
+  merges_with_itself,    ///< a retransmission that is asked for twice goes to all readers
+  repairs_not_answered,  ///< no HEARTBEAT follows retransmissions
+  repairs_keep_n,        ///< nor do they shorten the interval
+  repairs_leave_timer,   ///< nor move the timer
+  answers_replaced,      ///< of two answers in a packet only the last is sent
+  answers_at_once,       ///< answers do not wait for the end of the packet
+  answers_undirected,    ///< answers are HEARTBEATs like all others
+};
+
 inline constexpr std::size_t mistake_count =
     static_cast<std::size_t>(Mistake::late_response_ends_cycle) + 1;
 inline constexpr std::size_t fastdds_mistake_count =
     static_cast<std::size_t>(FastddsMistake::response_with_old_base) + 1;
+inline constexpr std::size_t cyclone_mistake_count =
+    static_cast<std::size_t>(CycloneMistake::answers_undirected) + 1;
 
 namespace detail {
 template <auto Value>
@@ -127,6 +189,11 @@ constexpr auto enumerators(std::index_sequence<Ks...>) {
 [[nodiscard]] inline std::string_view name_of(FastddsMistake mistake) {
   constexpr auto names =
       detail::enumerators<FastddsMistake>(std::make_index_sequence<fastdds_mistake_count>{});
+  return names[static_cast<std::size_t>(mistake)];
+}
+[[nodiscard]] inline std::string_view name_of(CycloneMistake mistake) {
+  constexpr auto names =
+      detail::enumerators<CycloneMistake>(std::make_index_sequence<cyclone_mistake_count>{});
   return names[static_cast<std::size_t>(mistake)];
 }
 

@@ -46,10 +46,16 @@ TEST(MutatedOracle, EveryMistakeOfTheFastddsOracleIsNoticed) {
   EXPECT_EQ(unnoticed<FastddsMistake>(runs, fastdds_mistake_count), std::vector<std::string>{});
 }
 
+TEST(MutatedOracle, EveryMistakeOfTheCycloneOracleIsNoticed) {
+  JudgedRuns runs{varied_cyclone_scenario, correct_product};
+  EXPECT_EQ(unnoticed<CycloneMistake>(runs, cyclone_mistake_count), std::vector<std::string>{});
+}
+
 TEST(MutatedOracle, MistakesHaveNames) {
   EXPECT_EQ(name_of(Mistake::none), "none");
   EXPECT_EQ(name_of(Mistake::class_ignored), "class_ignored");
   EXPECT_EQ(name_of(FastddsMistake::response_with_old_base), "response_with_old_base");
+  EXPECT_EQ(name_of(CycloneMistake::answers_undirected), "answers_undirected");
 }
 
 }  // namespace mutated_oracle_test

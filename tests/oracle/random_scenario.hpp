@@ -19,5 +19,8 @@ inline model::Scenario random_scenario(std::uint64_t seed) {
 inline model::Scenario random_fastdds_scenario(std::uint64_t seed) {
   return random_scenario(seed, model::ImplementationKind::fastdds);
 }
+inline model::Scenario random_cyclone_scenario(std::uint64_t seed) {
+  return random_scenario(seed, model::ImplementationKind::cyclone);
+}
 
 }  // namespace stormproof::oracle

@@ -125,4 +125,30 @@ Scenario varied_fastdds_scenario(std::uint64_t seed) {
   return varied(random_fastdds_scenario(seed), seed);
 }
 
+// Every other one is small, on a channel with short packets, and loses many: what is asked for
+// again, refused or answered twice happens then.
+Scenario varied_cyclone_scenario(std::uint64_t seed) {
+  Scenario scenario = random_cyclone_scenario(seed);
+  if (seed % 2 == 1) {
+    Dice dice{seed};
+    constexpr std::int64_t us = 1'000;
+    scenario.wireless.kind = model::ServiceKind::constant_delay;
+    scenario.wireless.one_way = Nanoseconds{dice.between(1, 3) * 100 * us};
+    scenario.wireless.packet_delays.clear();
+    lose(dice, scenario, dice.pick<int>({0, 20, 50}), 400);
+    scenario.dds.sedp = {};
+    scenario.dds.sedp.heartbeat_interval = Nanoseconds{dice.between(1, 6) * ms};
+    scenario.dds.sedp.heartbeat_interval_max = Nanoseconds{dice.among({4, 8, 40}) * ms};
+    scenario.dds.sedp.nack_delay = Nanoseconds{dice.between(0, 6) * ms};
+    scenario.dds.sedp.ack_delay = Nanoseconds{dice.between(0, 3) * ms};
+    scenario.dds.sedp.auto_resched_nack_delay = Nanoseconds{dice.between(5, 30) * ms};
+    scenario.dds.sedp.max_queued_rexmit_messages = dice.pick<std::uint32_t>({200, 2, 5});
+    scenario.deployment.send_time = Nanoseconds{dice.among({0, 20, 200}) * us};
+    scenario.time_limit =
+        Nanoseconds{std::max<std::int64_t>(scenario.time_limit.count(), 200 * ms)};
+  }
+  if (seed % 4 == 3) scenario.run_until = model::RunUntil::time_limit;
+  return scenario;
+}
+
 }  // namespace stormproof::oracle

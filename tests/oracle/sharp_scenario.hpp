@@ -16,5 +16,6 @@ namespace stormproof::oracle {
 /// fourth goes on after the completion of discovery.
 [[nodiscard]] model::Scenario varied_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_fastdds_scenario(std::uint64_t seed);
+[[nodiscard]] model::Scenario varied_cyclone_scenario(std::uint64_t seed);
 
 }  // namespace stormproof::oracle

@@ -45,7 +45,7 @@ Charges charges_of(model::Of<fsm::composition::fastdds::FastDds>, const model::D
 
 WriterGain gain_of_writer(const model::DdsProfile& dds, Stream s, std::int64_t descriptors,
                           std::int64_t readers) {
-  const Charges charges = model::visit_composition(
+  const Charges charges = model::visit_engine_composition(
       dds, [&](auto composition) { return charges_of(composition, dds, s, descriptors, readers); });
   WriterGain gain;
   gain.descriptors = descriptors;

@@ -88,8 +88,9 @@ const char* uncovered(const model::Scenario& scenario) {
 
 OpenLoop open_loop(const model::Scenario& scenario, const Omission& omission) {
   Flows flows{scenario};
-  model::visit_composition(scenario.dds, [](auto composition) { return adder_of(composition); })(
-      scenario, omission, flows);
+  model::visit_engine_composition(scenario.dds, [](auto composition) {
+    return adder_of(composition);
+  })(scenario, omission, flows);
   return std::move(flows.traffic);
 }
 

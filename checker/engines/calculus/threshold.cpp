@@ -102,6 +102,8 @@ Threshold threshold_of(const model::Scenario& scenario, const OpenLoop* traffic)
   switch (model::traits_of(scenario.dds).writer) {
     case model::Writer::of_the_paper:
       return of_the_paper(scenario, traffic);
+    case model::Writer::of_cyclone:
+      return none("no lemma is about its writer");
     case model::Writer::stateful:
       break;
   }

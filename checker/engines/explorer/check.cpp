@@ -92,8 +92,8 @@ class Exploration {
         // What a scope does not need of its share is left to those after it.
         limit_ = std::min(group.most_states * request_.effort, left / (list.size() - k));
         const Scope& scope = list[k];
-        model::visit_composition(running_.dds,
-                                 [&](auto composition) { explore(composition, scope); });
+        model::visit_engine_composition(running_.dds,
+                                        [&](auto composition) { explore(composition, scope); });
         left -= std::min(left, searched_);
       }
     }

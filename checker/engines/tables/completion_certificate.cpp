@@ -43,7 +43,7 @@ class Invariant {
         is("pending HeartbeatExpiry") == z3::ite(is("HeartbeatClock=Armed"), number(1), number(0)));
     say("what can be asked for counts, and nothing else",
         is(watched::counting) == can_be_asked_for(dds, [&](const char* name) { return is(name); }));
-    model::visit_composition(dds, [&](auto composition) { add(composition); });
+    model::visit_engine_composition(dds, [&](auto composition) { add(composition); });
     conclude();
   }
 

@@ -24,7 +24,7 @@ class Statements {
  public:
   Statements(const DescriptorSystem& system, const model::DdsProfile& dds)
       : system_{system}, adaptive_{dds.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive} {
-    model::visit_composition(dds, [this](auto composition) { add(composition); });
+    model::visit_engine_composition(dds, [this](auto composition) { add(composition); });
     say("while the reader asks by itself, an initial ACKNACK is pending",
         is("InitialTimer=Waiting"), is_pending("InitialAttempt"));
     if (adaptive_) {

@@ -46,7 +46,8 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
 }
 
 void derive_composition(Derived& derived) {
-  model::visit_composition(derived.dds, [&](auto composition) { derive_of(composition, derived); });
+  model::visit_engine_composition(derived.dds,
+                                  [&](auto composition) { derive_of(composition, derived); });
 }
 
 TransitionSystem DescriptorSystem::with_bad(const Expr& bad) const {

@@ -6,13 +6,18 @@
 
 #include "checker/engines/tables/proof.hpp"
 #include "fsm/announcer.hpp"
+#include "fsm/cautious_reader.hpp"
 #include "fsm/change_for_reader.hpp"
 #include "fsm/channel.hpp"
 #include "fsm/control_relation.hpp"
 #include "fsm/descriptor_repair.hpp"
 #include "fsm/discovery_reader.hpp"
+#include "fsm/event_thread.hpp"
+#include "fsm/heartbeat_pacer.hpp"
 #include "fsm/heartbeat_timer.hpp"
 #include "fsm/initial_acknack.hpp"
+#include "fsm/matched_reader.hpp"
+#include "fsm/movable_timer.hpp"
 #include "fsm/single_shot.hpp"
 
 namespace stormproof::tables {
@@ -93,6 +98,41 @@ inline void fill(fsm::SingleShotIo::Input<Symbolic>& in, Unknowns& u) {
   in = {.now = u.number("now"), .delay = u.number("delay")};
 }
 inline void fill(fsm::ControlRelationIo::Input<Symbolic>&, Unknowns&) {}
+inline void fill(fsm::CautiousReaderIo::Input<Symbolic>& in, Unknowns& u) {
+  in = {.fresh = u.truth("fresh"),
+        .directed = u.truth("directed"),
+        .by_delay = u.truth("by_delay"),
+        .first_missing = u.number("first_missing"),
+        .last = u.number("last"),
+        .asked_end = u.number("asked_end"),
+        .base = u.number("base"),
+        .now = u.number("now"),
+        .quiet_until = u.number("quiet_until"),
+        .hush_until = u.number("hush_until"),
+        .again_at = u.number("again_at"),
+        .preemptive_delay = u.number("preemptive_delay"),
+        .repeat_delay = u.number("repeat_delay"),
+        .again_delay = u.number("again_delay")};
+}
+inline void fill(fsm::MatchedReaderIo::Input<Symbolic>& in, Unknowns& u) {
+  in = {.accepted = u.truth("accepted"), .replies = u.truth("replies")};
+}
+inline void fill(fsm::HeartbeatPacerIo::Input<Symbolic>& in, Unknowns& u) {
+  in = {.waiting = u.truth("waiting"),
+        .sent_before = u.truth("sent_before"),
+        .now = u.number("now"),
+        .last_sent = u.number("last_sent"),
+        .number = u.number("number"),
+        .interval = u.number("interval"),
+        .interval_max = u.number("interval_max"),
+        .match_delay = u.number("match_delay")};
+}
+inline void fill(fsm::EventThreadIo::Input<Symbolic>& in, Unknowns& u) {
+  in = {.now = u.number("now"), .send_time = u.number("send_time")};
+}
+inline void fill(fsm::MovableTimerIo::Input<Symbolic>& in, Unknowns& u) {
+  in = {.now = u.number("now"), .due = u.number("due"), .to = u.number("to")};
+}
 
 }  // namespace detail
 

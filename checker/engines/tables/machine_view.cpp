@@ -28,7 +28,10 @@ std::vector<MachineView> machine_views(const std::vector<fsm::TableMutation>& mu
           view<fsm::HeartbeatTimer>(mutations),   view<fsm::InitialAckNack>(mutations),
           view<fsm::Announcer>(mutations),        view<fsm::Channel>(mutations),
           view<fsm::ChangeForReader>(mutations),  view<fsm::SingleShot>(mutations),
-          view<fsm::ControlWriter>(mutations),    view<fsm::ControlReader>(mutations)};
+          view<fsm::ControlWriter>(mutations),    view<fsm::ControlReader>(mutations),
+          view<fsm::CautiousReader>(mutations),   view<fsm::MatchedReader>(mutations),
+          view<fsm::HeartbeatPacer>(mutations),   view<fsm::EventThread>(mutations),
+          view<fsm::MovableTimer>(mutations)};
 }
 
 }  // namespace stormproof::tables

@@ -100,7 +100,7 @@ Finding order_commutation(const CheckRequest& request) {
   proof.assume(hosts_keep_contracts);
   std::map<Pair, Expected> expected = expected_matrix(model::traits_of(dds).name);
   const std::vector<EventGroup> groups =
-      model::visit_composition(dds, [](auto composition) { return events_of(composition); });
+      model::visit_engine_composition(dds, [](auto composition) { return events_of(composition); });
   for (const EventGroup& group : groups) {
     const std::vector<PairResult> results = commutation_matrix(proof, group, extent);
     proof.detail("events of " + group.of_what + ":");

@@ -37,6 +37,12 @@ Role role_of(EventKind kind) {
     case EventKind::async_run:
     case EventKind::control_initial_due:
     case EventKind::control_reply_due:
+    case EventKind::participant_start:
+    case EventKind::spdp_time:
+    case EventKind::reply_time:
+    case EventKind::heartbeat_time:
+    case EventKind::ack_time:
+    case EventKind::thread_run:
       return Role::decision;
     case EventKind::dispatch:
       return Role::service_start;

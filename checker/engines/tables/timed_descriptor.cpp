@@ -62,8 +62,8 @@ Expr opened(model::Of<fsm::composition::fastdds::FastDds>, const model::DdsProfi
 }  // namespace
 
 Expr can_be_asked_for(const model::DdsProfile& dds, const std::function<Expr(const char*)>& at) {
-  return model::visit_composition(dds,
-                                  [&](auto composition) { return opened(composition, dds, at); });
+  return model::visit_engine_composition(
+      dds, [&](auto composition) { return opened(composition, dds, at); });
 }
 
 TimedDescriptor::TimedDescriptor(const model::DdsProfile& dds, const model::Mutation& mistakes,

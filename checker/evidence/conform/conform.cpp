@@ -235,6 +235,10 @@ class Check {
 }  // namespace
 
 std::optional<std::string> refuse_profile(const model::DdsProfile& dds) {
+  if (model::traits_of(dds).writer == model::Writer::of_cyclone) {
+    return "a capture can be held against a profile with `implementation: fastdds`; of "
+           "`implementation: cyclone` conformance is not supported yet";
+  }
   if (model::traits_of(dds).writer != model::Writer::stateful) {
     return "a capture can be held against a profile with `implementation: fastdds`; this one has "
            "the writer of the paper's model, which is not message for message that of any program";

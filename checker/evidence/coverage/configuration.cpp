@@ -39,6 +39,21 @@ std::optional<Range> median_range(const std::vector<Observation>& runs,
   return Range{statistics::median(low), statistics::median(high)};
 }
 
+/// A participant of Cyclone DDS hears so long before its first announcement, on the live machine.
+constexpr double usual_open_before_ms = 3;
+
+/// The ranges of participants of Cyclone DDS: what was measured, or the fit to the live machine.
+ScheduleRanges cyclone_ranges(const Configuration& c) {
+  const double participants = c.participants_per_host;
+  const double done = 8 * participants + 0.4 * participants * (default_endpoints + c.endpoints);
+  ScheduleRanges ranges;
+  ranges.start = median_range(c.runs, &Observation::start).value_or(Range{2, 4 * participants});
+  ranges.endpoints_done = median_range(c.runs, &Observation::endpoints_done)
+                              .value_or(Range{4, std::max(5.0, done - 15)});
+  ranges.open_before = usual_open_before_ms;
+  return ranges;
+}
+
 /// For runs without ep_done_ms: the fit to the live machine.
 Range usual_endpoints_done(double participants, double endpoints) {
   const double low = -0.7 + 2.9 * participants + 0.2 * participants * endpoints;
@@ -46,14 +61,18 @@ Range usual_endpoints_done(double participants, double endpoints) {
   return {low, std::max(low, high)};
 }
 
-std::string scenario_text(const Configuration& c, const ScenarioOptions& options, bool sampled) {
-  std::string schedule;
-  if (sampled) {
-    const ScheduleRanges ranges = schedule_ranges(c);
-    schedule = fmt::format(
-        ", schedule: {{start: [{:.6f}ms, {:.6f}ms], endpoints_done: [{:.6f}ms, {:.6f}ms]}}",
-        ranges.start.low, ranges.start.high, ranges.endpoints_done.low, ranges.endpoints_done.high);
-  }
+std::string schedule_text(const ScheduleRanges& ranges) {
+  const std::string open = ranges.open_before > 0
+                               ? fmt::format(", open_before: {:.6f}ms", ranges.open_before)
+                               : std::string{};
+  return fmt::format(
+      ", schedule: {{start: [{:.6f}ms, {:.6f}ms], endpoints_done: [{:.6f}ms, {:.6f}ms]{}}}",
+      ranges.start.low, ranges.start.high, ranges.endpoints_done.low, ranges.endpoints_done.high,
+      open);
+}
+
+std::string scenario_text(const Configuration& c, const ScenarioOptions& options,
+                          const std::string& schedule) {
   const auto quoted = [](std::string text) {
     for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
       text.insert(k, 1, '\'');
@@ -112,7 +131,8 @@ std::vector<Configuration> configurations(const std::vector<Observation>& rows) 
   return result;
 }
 
-ScheduleRanges schedule_ranges(const Configuration& c) {
+ScheduleRanges schedule_ranges(const Configuration& c, model::Writer writer) {
+  if (writer == model::Writer::of_cyclone) return cyclone_ranges(c);
   const double endpoints = default_endpoints + c.endpoints;
   ScheduleRanges ranges;
   ranges.endpoints_done = median_range(c.runs, &Observation::endpoints_done)
@@ -131,17 +151,22 @@ ScheduleRanges schedule_ranges(const Configuration& c) {
 model::config::Result<model::Scenario> scenario_of(const Configuration& configuration,
                                                    const ScenarioOptions& options) {
   const auto specs = model::config::SpecPath::standard();
-  const auto read = [&](bool sampled) {
-    return model::config::parse_scenario(scenario_text(configuration, options, sampled), "coverage",
-                                         options.overrides, specs);
+  const auto read = [&](const std::string& schedule) {
+    return model::config::parse_scenario(scenario_text(configuration, options, schedule),
+                                         "coverage", options.overrides, specs);
   };
-  auto scenario = read(true);
+  const model::Writer usual = model::Writer::stateful;
+  auto scenario = read(schedule_text(schedule_ranges(configuration, usual)));
   if (!scenario) return scenario.error();
+  if (const model::Writer writer = model::traits_of(scenario->dds).writer; writer != usual) {
+    scenario = read(schedule_text(schedule_ranges(configuration, writer)));
+    if (!scenario) return scenario.error();
+  }
   const bool schedule_wanted = std::ranges::any_of(options.overrides, [](const std::string& set) {
     return set.starts_with("deployment.schedule");
   });
   if (!model::traits_of(scenario->dds).creates_endpoints_over_time && !schedule_wanted) {
-    scenario = read(false);
+    scenario = read("");
     if (!scenario) return scenario.error();
   }
   if (options.channel == ChannelSource::profile) return scenario;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "checker/evidence/coverage/observation.hpp"
+#include "model/implementations.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::prediction {
@@ -29,12 +30,15 @@ struct Configuration {
 [[nodiscard]] std::vector<Configuration> configurations(const std::vector<Observation>& rows);
 
 /// Where the schedules of a configuration are drawn from, in ms. The rule, in
-/// specs/guide/coverage.md, is the same for every configuration and every machine.
+/// specs/guide/coverage.md, is the same for every configuration and every machine; what was not
+/// measured depends on whose participants they are.
 struct ScheduleRanges {
   Range start;
   Range endpoints_done;
+  double open_before = 0;  ///< how long before its start a participant hears
 };
-[[nodiscard]] ScheduleRanges schedule_ranges(const Configuration& configuration);
+[[nodiscard]] ScheduleRanges schedule_ranges(const Configuration& configuration,
+                                             model::Writer writer = model::Writer::stateful);
 
 /// Whose channel a prediction uses: the wireless profile's, or that of the row.
 enum class ChannelSource : std::uint8_t { profile, row };

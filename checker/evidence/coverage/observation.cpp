@@ -1,6 +1,7 @@
 // Reads JSON Lines and refuses, with line and field, whatever is not a measured run.
 #include "checker/evidence/coverage/observation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -138,6 +139,22 @@ void read_completion(const Json& json, Row& row, const ReadOptions& options, Obs
       run.completed ? time : limit.value_or(0) * 1000;
 }
 
+/// When each of its processes announced itself, if the row does not say when the first and the last
+/// one did.
+void read_processes(const Json& json, Row& row, Observation& run) {
+  if (run.start || !row.has("procs")) return;
+  if (!json["procs"].is_array()) return row.fail("procs", "a list of objects, one of each process");
+  for (const Json& process : json["procs"]) {
+    if (!process.is_object()) return row.fail("procs", "a list of objects, one of each process");
+    Row fields{process};
+    const auto enabled = fields.number("enabled", 0, Row::max_ms, "a time in ms from 0 to 3600000");
+    if (!fields.error().empty()) return row.fail("procs", "in it: " + fields.error());
+    if (!enabled) continue;
+    const Range all = run.start.value_or(Range{*enabled, *enabled});
+    run.start = Range{std::min(all.low, *enabled), std::max(all.high, *enabled)};
+  }
+}
+
 void read_channel(Row& row, Channel& channel) {
   constexpr const char* overhead = "a time in us from 0 to 1000000";
   constexpr const char* rate = "a rate in Mbit/s from 0.001 to 1000000";
@@ -173,6 +190,7 @@ Observation read_row(const Json& json, Row& row, const ReadOptions& options) {
   run.start = row.range("start_ms");
   run.create = row.range("create_ms");
   run.endpoints_done = row.range("ep_done_ms");
+  read_processes(json, row, run);
   return run;
 }
 

@@ -49,7 +49,7 @@ struct Observation {
   /// By measure; of a run that did not complete these are lower bounds, the time limit for
   /// `completion`.
   std::array<std::optional<double>, measure_count> values;
-  std::optional<Range> start;           ///< start_ms: first announcements
+  std::optional<Range> start;           ///< start_ms, or `enabled` of procs: first announcements
   std::optional<Range> create;          ///< create_ms: creation of the participant begins
   std::optional<Range> endpoints_done;  ///< ep_done_ms: all endpoints of a participant exist
 };

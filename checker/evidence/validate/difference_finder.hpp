@@ -30,6 +30,10 @@ class Finder {
   [[nodiscard]] const model::ImplementationTraits& traits() const {
     return model::traits_of(scenario_.dds);
   }
+  /// Whether the model's messages mix submessages of all built-in endpoints, as in Cyclone DDS.
+  [[nodiscard]] bool mixes_submessages() const {
+    return traits().writer == model::Writer::of_cyclone;
+  }
   [[nodiscard]] const capture::Participant& captured(const CapturedParticipant& one) const {
     return conversation_.topology.participants[one.number];
   }

@@ -30,7 +30,9 @@ void Finder::destinations() {
       fmt::format("{} messages go to a participant on the sender's own host over this link; the "
                   "model's stay on the host",
                   grouped(same_host)));
-  add("multicast-sedp", counting_.multicast_data,
+  const bool has_multicast =
+      mixes_submessages() && scenario_.dds.allow_multicast == model::AllowMulticast::always;
+  add("multicast-sedp", has_multicast ? 0 : counting_.multicast_data,
       fmt::format("{} SEDP DATA go by multicast to all at once; the model sends a copy to each",
                   grouped(counting_.multicast_data)));
   add("unknown-destination", counting_.unknown_destination,
@@ -57,6 +59,7 @@ void Finder::submessages() {
                     grouped(of(traffic).data), what));
   };
   data(Traffic::user, "user-data", "user endpoints");
+  if (mixes_submessages()) return;  // it has those of all built-in endpoints
   data(Traffic::liveliness, "liveliness-data", "liveliness");
   const capture::TrafficFigures& builtin = of(Traffic::other_builtin);
   const std::uint64_t messages = builtin.data + builtin.heartbeat + builtin.acknack + builtin.gap;
@@ -128,6 +131,7 @@ void Finder::sizes_of_messages() {
 
 void Finder::heartbeat_kinds() {
   using capture::HeartbeatKind;
+  if (mixes_submessages()) return;  // its HEARTBEATs are not told apart
   const auto kind = [&](HeartbeatKind one, const char* id, const char* what) {
     const std::uint64_t count = counting_.heartbeats.of(one);
     add(id, count, fmt::format("{} HEARTBEATs {}", grouped(count), what));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "model/cyclone/endpoints.hpp"
+
 namespace stormproof::validate {
 
 namespace {
@@ -54,6 +56,7 @@ void MessageTally::received(const model::Packet& packet, std::uint32_t) { incomi
 
 void MessageTally::emitted(const model::Packet& packet, std::uint32_t,
                            std::span<const std::uint32_t> destinations) {
+  if (packet.kind == PacketKind::rtps_message) return add_message(packet);
   const std::uint64_t copies =
       packet.multicast() ? 1 : std::max<std::uint64_t>(packet.copies, destinations.size());
   if (packet.kind == PacketKind::user_heartbeat || packet.kind == PacketKind::user_acknack) {
@@ -97,13 +100,80 @@ void MessageTally::add_data(const model::Packet& packet) {
   if (is_pulled) tally_[index_of(Figure::initial_pulled)] += initial;
   if (initial > 0) {
     emitted_initial_ = true;
-    tally_[index_of(Figure::last_initial)] = static_cast<std::uint64_t>(now_ns_);
+    note_initial();
   }
   const auto note = [&](MessageClass one, std::uint64_t messages) {
     if (messages == 1) ++sizes_[static_cast<std::size_t>(one)][packet.payload_bytes];
   };
   note(MessageClass::initial_data, initial);
   note(MessageClass::repair_data, repairs);
+}
+
+void MessageTally::note_initial() {
+  tally_[index_of(Figure::last_initial)] = static_cast<std::uint64_t>(now_ns_);
+}
+
+/// One copy of a message of Cyclone DDS: each submessage counts by itself. Why a HEARTBEAT is sent
+/// is not told apart.
+void MessageTally::add_message(const model::Packet& packet) {
+  std::array<std::uint32_t, model::message_class_count> in_it{};
+  for (const model::Submessage& m : *packet.submessages) {
+    const auto one = add_submessage(m, packet);
+    if (!one) continue;
+    add(tally_, *one);
+    ++in_it[model::index_of(*one)];
+  }
+  if (std::ranges::count(in_it, 0U) == std::ssize(in_it)) return;
+  ++tally_[index_of(Figure::datagrams)];
+  tally_[index_of(Figure::payload_bytes)] += packet.payload_bytes;
+  for (std::size_t k = 0; k < in_it.size(); ++k) {
+    if (in_it[k] == 1) ++sizes_[k][packet.payload_bytes];
+  }
+}
+
+/// The class of a submessage, if it has one of the six.
+std::optional<MessageClass> MessageTally::add_submessage(const model::Submessage& m,
+                                                         const model::Packet& packet) {
+  using Kind = model::Submessage::Kind;
+  namespace writer = model::cyclone::writer;
+  if (m.kind == Kind::spdp) {
+    return packet.multicast() ? MessageClass::spdp_multicast : MessageClass::spdp_unicast;
+  }
+  if (m.writer > writer::subscriptions) {
+    const bool is_control = m.writer == writer::liveliness || m.writer >= writer::first_topic;
+    if (is_control && m.kind != Kind::data) ++tally_[index_of(Figure::user_control)];
+    return std::nullopt;
+  }
+  if (m.kind == Kind::heartbeat) return MessageClass::heartbeat;
+  if (m.kind == Kind::data) return add_sample(m, packet);
+  const std::uint32_t from_writer = topology_->pair(packet.pair).reverse;
+  m.bitmap.for_each([&](std::uint32_t d) { requested_.insert({from_writer, m.writer, d}); });
+  ++tally_[index_of(!m.bitmap.empty() ? Figure::acknack_negative
+                    : m.sample == 0   ? Figure::acknack_initial
+                                      : Figure::acknack_positive)];
+  return MessageClass::acknack;
+}
+
+MessageClass MessageTally::add_sample(const model::Submessage& m, const model::Packet& packet) {
+  const Key key{packet.pair, m.writer, m.sample};
+  const auto reaches = [&](std::uint32_t pair) {
+    if (reached_.insert({pair, m.writer, m.sample}).second) emitted_initial_ = true;
+  };
+  if (packet.multicast()) {
+    const std::uint32_t end = topology_->first_pair(m.participant + 1);
+    for (std::uint32_t pair = topology_->first_pair(m.participant); pair < end; ++pair) {
+      if (topology_->pair(pair).cross_host) reaches(pair);
+    }
+  } else {
+    reaches(packet.pair);
+  }
+  auto& sent = packet.multicast() ? sent_to_group_ : sent_to_one_;
+  if (!sent.insert(key).second) return MessageClass::repair_data;
+  if (!packet.multicast() && requested_.contains(key)) {
+    ++tally_[index_of(Figure::initial_pulled)];
+  }
+  note_initial();
+  return MessageClass::initial_data;
 }
 
 /// Those that ride in a message are there because of DATA, even if the DATA went to others.

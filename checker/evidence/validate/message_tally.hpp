@@ -4,10 +4,14 @@
 #pragma once
 
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "checker/evidence/validate/figures.hpp"
 #include "model/dds_profile.hpp"
 #include "model/engine/packet.hpp"
+#include "model/engine/submessage.hpp"
+#include "model/engine/topology.hpp"
 #include "model/implementations.hpp"
 #include "model/probe.hpp"
 #include "props/monitors/relation_words.hpp"
@@ -22,7 +26,10 @@ class MessageTally final : public model::Probe {
     growth_.step_ns = step_ns;
   }
 
-  void run_started(const model::Topology& topology) override { generated_.reset(topology); }
+  void run_started(const model::Topology& topology) override {
+    generated_.reset(topology);
+    topology_ = &topology;
+  }
   void event_started(const model::Event& event) override;
   void event_finished(const model::Depths& depths) override;
   void received(const model::Packet& packet, std::uint32_t receiver) override;
@@ -41,17 +48,30 @@ class MessageTally final : public model::Probe {
   void add_data(const model::Packet& packet);
   void add_heartbeats(const model::Packet& packet, std::uint64_t copies);
   void add_acknack(const model::Packet& packet);
+  void add_message(const model::Packet& packet);
+  [[nodiscard]] std::optional<model::MessageClass> add_submessage(const model::Submessage& m,
+                                                                  const model::Packet& packet);
+  [[nodiscard]] model::MessageClass add_sample(const model::Submessage& m,
+                                               const model::Packet& packet);
+  void note_initial();
   void fill_growth(std::int64_t until_ns);
 
   bool acknacks_have_bases_;
   std::size_t steps_;
   Tally tally_{};
   Tally at_last_initial_{};
-  bool emitted_initial_ = false;  ///< in this event
+  bool emitted_initial_ = false;  ///< in this event, something that had not been sent to somebody
   std::int64_t now_ns_ = 0;
   model::EventKind event_{};
   std::optional<model::PacketKind> incoming_;  ///< what this event receives
   props::RelationWords generated_;
+  // Of Cyclone DDS, whose messages mix submessages: DATA by sender or pair, writer and sample.
+  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;
+  std::set<Key> sent_to_group_;
+  std::set<Key> sent_to_one_;
+  std::set<Key> reached_;  ///< by pair: has been sent to it, to it alone or to the group
+  std::set<Key> requested_;
+  const model::Topology* topology_ = nullptr;  ///< of the run
   Growth growth_;
   Sizes sizes_;
 };

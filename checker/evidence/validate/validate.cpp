@@ -99,14 +99,31 @@ std::optional<double> finite(double value) {
   return value;
 }
 
+/// Whether a run with this profile has the figure: the paper's model has no control traffic, and
+/// why a HEARTBEAT is sent is not told apart in messages that mix submessages.
+bool is_predicted(Figure figure, const model::ImplementationTraits& traits) {
+  switch (figure) {
+    case Figure::user_control:
+      return traits.has_control_relations;
+    case Figure::heartbeat_open:
+    case Figure::heartbeat_reply:
+    case Figure::heartbeat_piggyback:
+    case Figure::heartbeat_periodic:
+    case Figure::last_open:
+      return traits.writer != model::Writer::of_cyclone;
+    default:
+      return true;
+  }
+}
+
 std::vector<Row> rows_of(const Observation& observation, const Predicted& predicted,
-                         bool has_control, bool is_drawn) {
+                         const model::ImplementationTraits& traits, bool is_drawn) {
   std::vector<Row> rows;
   for (std::size_t k = 0; k < figure_count; ++k) {
     const auto figure = static_cast<Figure>(k);
     std::vector<double> values;
     for (const PredictedRun& run : predicted.runs) {
-      if (figure == Figure::user_control && !has_control) continue;
+      if (!is_predicted(figure, traits)) continue;
       values.push_back(run.complete ? static_cast<double>(run.tally[k]) : statistics::unreached);
     }
     rows.push_back(row(figure, observation.values[k], std::move(values),
@@ -197,8 +214,7 @@ Result<Report> validate(const capture::Conversation& conversation, const Request
   report.runs = predicted.runs.size();
   report.complete =
       static_cast<std::size_t>(std::ranges::count_if(predicted.runs, &PredictedRun::complete));
-  const bool has_control = model::traits_of(scenario->dds).has_control_relations;
-  report.rows = rows_of(*observation, predicted, has_control, report.is_drawn);
+  report.rows = rows_of(*observation, predicted, model::traits_of(scenario->dds), report.is_drawn);
   report.bands = bands_of(predicted.runs);
   report.differences = differences(conversation, *observation, *scenario, predicted.sizes);
   report.agreement = agreement(report.rows, observation->complete, request.within);

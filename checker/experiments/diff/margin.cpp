@@ -19,6 +19,10 @@ namespace {
 
 void add_threshold(const model::DdsProfile& dds, bool constant_delay, Margin& margin) {
   const model::ImplementationTraits& traits = model::traits_of(dds);
+  if (traits.writer == model::Writer::of_cyclone) {
+    margin.formula = fmt::format("no theorem is about {}'s writer", traits.whose);
+    return;
+  }
   if (traits.writer == model::Writer::stateful) {
     // The theorem about one descriptor does not carry over: its timers are shared by all readers.
     margin.formula = fmt::format("{}'s shared timers leave no threshold above 0", traits.whose);

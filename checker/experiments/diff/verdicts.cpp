@@ -6,6 +6,7 @@
 // dispute leaves nothing to compare.
 #include "checker/experiments/diff/verdicts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <mutex>
 
@@ -89,9 +90,12 @@ VerdictAnswer compare_verdicts(const VerdictRequest& request, const Policy& poli
   if (answer.interrupted) return answer;
   answer.comparison.done = true;
   const model::ImplementationKind implementation = request.candidate.dds.implementation;
-  for (std::size_t k = 0; k < reports[0].results.size(); ++k) {
-    answer.comparison.properties.push_back(
-        change_of(reports[0].results[k], reports[1].results[k], implementation, policy));
+  // What does not apply to one of the two is not compared.
+  for (const checker::PropertyResult& before : reports[0].results) {
+    const auto after =
+        std::ranges::find(reports[1].results, before.property, &checker::PropertyResult::property);
+    if (after == reports[1].results.end()) continue;
+    answer.comparison.properties.push_back(change_of(before, *after, implementation, policy));
   }
   return answer;
 }

@@ -117,11 +117,18 @@ std::string hex(const Digest& digest) {
 Digest digest_of(const model::Deployment& deployment) {
   fmt::memory_buffer text;
   fmt::format_to(std::back_inserter(text), "loopback {}\n", deployment.loopback_delay.count());
+  if (deployment.send_time) {
+    fmt::format_to(std::back_inserter(text), "send {}\n", deployment.send_time->count());
+  }
   for (const model::Participant& participant : deployment.participants) {
     // A new member has to be named here; it would not compile otherwise.
-    const auto& [host, publications, subscriptions, start, endpoints_done] = participant;
-    fmt::format_to(std::back_inserter(text), "{} {} {} {} {}\n", host.value, publications,
+    const auto& [host, publications, subscriptions, start, endpoints_done, open, ready] =
+        participant;
+    fmt::format_to(std::back_inserter(text), "{} {} {} {} {}", host.value, publications,
                    subscriptions, start.count(), endpoints_done.count());
+    if (open) fmt::format_to(std::back_inserter(text), " open {}", open->count());
+    if (ready) fmt::format_to(std::back_inserter(text), " ready {}", ready->count());
+    text.push_back('\n');
   }
   return digest_of(std::string_view{text.data(), text.size()});
 }

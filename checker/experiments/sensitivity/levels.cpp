@@ -88,6 +88,7 @@ void change_schedule(Deployment& deployment, Direction direction, double range) 
                                    &schedule.endpoints_done_min, &schedule.endpoints_done_max}) {
     step(*time, direction, range);
   }
+  if (schedule.open_before) step(*schedule.open_before, direction, range);
 }
 
 std::string schedule_text(const Deployment& deployment) {

@@ -52,7 +52,9 @@ std::string elaboration(const Simulation& s) {
         duration(result.end_time));
   }
   if (!s.open_loop) {
-    return text + "No open-loop airtime: this profile has a constant delay and no channel.";
+    return text + (model::traits_of(s.scenario.dds).writer == model::Writer::of_cyclone
+                       ? "No open-loop airtime: it is not defined for Cyclone DDS's shared packets."
+                       : "No open-loop airtime: this profile has a constant delay and no channel.");
   }
   const auto open_loop = static_cast<double>(s.open_loop->count());
   const exact::RunHealth run = exact::health_of(s.scenario, result);

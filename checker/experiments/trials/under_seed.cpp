@@ -16,6 +16,8 @@ model::Scenario under_seed(model::Scenario scenario, std::uint64_t seed,
     const model::Nanoseconds later{static_cast<std::int64_t>(random() % values)};
     participant.start = participant.start + later;
     participant.endpoints_done = participant.endpoints_done + later;
+    if (participant.open) participant.open = *participant.open + later;
+    if (participant.ready) participant.ready = *participant.ready + later;
   }
   return scenario;
 }

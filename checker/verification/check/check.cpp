@@ -10,6 +10,7 @@
 #include "checker/engines/tables/tables.hpp"
 #include "checker/engines/timeline/timeline.hpp"
 #include "checker/verification/check/combination.hpp"
+#include "props/applicability.hpp"
 #include "props/limits.hpp"
 
 namespace stormproof::checker {
@@ -51,6 +52,18 @@ std::vector<std::string_view> for_engine(Engine engine,
   return ids;
 }
 
+/// Removes what does not apply to the implementation; returns it, with the reasons.
+std::vector<std::pair<std::string_view, std::string_view>> take_inapplicable(
+    std::vector<std::string_view>& ids, model::ImplementationKind implementation) {
+  std::vector<std::pair<std::string_view, std::string_view>> taken;
+  std::erase_if(ids, [&](std::string_view id) {
+    const std::string_view why = props::why_not_applicable(id, implementation);
+    if (!why.empty()) taken.emplace_back(id, why);
+    return !why.empty();
+  });
+  return taken;
+}
+
 PropertyResult result_of(std::string_view id, const std::vector<Findings>& answers,
                          const CheckRequest& request) {
   std::vector<Finding> about;
@@ -84,8 +97,10 @@ std::size_t CheckReport::count(VerdictKind kind) const {
 CheckReport check(const std::vector<std::string_view>& properties, const CheckRequest& request) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point started = Clock::now();
-  const std::vector<std::string_view> ids = selected(properties, request.scenario);
+  const model::ImplementationKind implementation = request.scenario.dds.implementation;
+  std::vector<std::string_view> ids = selected(properties, request.scenario);
   CheckReport report;
+  if (properties.empty()) report.not_applicable = take_inapplicable(ids, implementation);
   std::vector<exact::RunHealth> runs;
   CheckRequest watched = request;
   watched.on_run = [&](const model::Scenario& scenario, const model::RunResult& result) {
@@ -98,7 +113,8 @@ CheckReport check(const std::vector<std::string_view>& properties, const CheckRe
     return !report.interrupted;
   };
   for (const auto& [engine, function] : engines) {
-    const std::vector<std::string_view> own = for_engine(engine, ids);
+    std::vector<std::string_view> own = for_engine(engine, ids);
+    take_inapplicable(own, implementation);
     if (own.empty()) continue;
     if (!goes_on(engine)) break;
     answers.push_back(function(own, watched));

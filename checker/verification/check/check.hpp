@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "checker/engines/bounds/check_request.hpp"
@@ -31,6 +32,9 @@ struct PropertyResult {
 
 struct CheckReport {
   std::vector<PropertyResult> results;  ///< in the order of the catalogue, then the limits
+  /// Properties of the catalogue that were not asked for by name and do not apply to the
+  /// composition, with the reason (props/applicability.hpp).
+  std::vector<std::pair<std::string_view, std::string_view>> not_applicable;
   double seconds = 0;
   bool interrupted = false;  ///< the rest is inconclusive
   /// What the runs of the scenario were like; absent: no property needed one, or none ended.

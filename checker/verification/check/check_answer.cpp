@@ -164,6 +164,14 @@ void add_subject(report::Document& document, const CheckReport& report,
     document.blocks.emplace_back(
         Paragraph{"Interrupted: what was not checked is inconclusive.", report::Tone::warn});
   }
+  if (!report.not_applicable.empty()) {
+    std::vector<std::string_view> ids;
+    for (const auto& one : report.not_applicable) ids.push_back(one.first);
+    document.blocks.emplace_back(
+        Paragraph{fmt::format("{} properties do not apply to this composition, because {}: {}.",
+                              ids.size(), report.not_applicable.front().second, ids_of(ids)),
+                  report::Tone::info});
+  }
   for (const Failure& one : context.gate.outdated) {
     document.blocks.emplace_back(Paragraph{
         fmt::format("The baseline accepts {}, which does not fail any more.", one.property),

@@ -149,6 +149,11 @@ void describe(V& v, const ReportInContext& shown) {
   }
   v("verdicts", verdicts);
   v.unless_empty("frontiers", shown.report.frontiers);
+  std::map<std::string, std::string> reasons;
+  for (const auto& one : shown.report.not_applicable) {
+    reasons.emplace(one.first, one.second);
+  }
+  v.unless_empty("does_not_apply", reasons);
 }
 
 }  // namespace

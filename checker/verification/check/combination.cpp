@@ -7,6 +7,7 @@
 
 #include "checker/engines/bounds/measure.hpp"
 #include "checker/verification/counterexample/write.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::checker {
 
@@ -85,7 +86,10 @@ PropertyResult combined(const props::Property& property, std::vector<Finding> fi
   }
   if (result.findings.empty()) {
     Finding none;
-    none.how = "no engine has looked at it";
+    const std::string_view why =
+        props::why_not_applicable(property.id, request.scenario.dds.implementation);
+    none.how = why.empty() ? "no engine has looked at it"
+                           : "does not apply to this composition: " + std::string{why};
     result.findings.push_back(none);
   }
   result.deciding = deciding_finding(result.findings);

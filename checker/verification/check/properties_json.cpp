@@ -2,6 +2,7 @@
 #include "checker/presentation/json/schema.hpp"
 #include "checker/verification/check/properties_report.hpp"
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::props {
@@ -13,6 +14,7 @@ void describe(V& v, const Property& property) {
   v("formal", property.formal);
   for (const model::ImplementationKind kind : model::implementations) {
     if (kind == model::default_implementation) continue;
+    if (!why_not_applicable(property.id, kind).empty()) continue;
     v(model::traits_of(kind).name, statement_of(property, kind));
   }
   v("assumptions", property.assumptions.empty() ? std::vector<std::string_view>{}

@@ -39,8 +39,12 @@ std::optional<std::uint32_t> participant_of(const model::Event& event, const His
                          event.kind == EventKind::initial_acknack_due;
       return reads ? pair.destination : pair.source;
     }
+    case Subject::pair:
+      return history.topology.pair(event.subject).source;
     case Subject::channel:
     case Subject::control_relation:
+    case Subject::endpoint_relation:
+    case Subject::endpoint_writer:
     case Subject::packet:
       return std::nullopt;
   }
@@ -174,6 +178,9 @@ class Narrator {
       case model::MachineRef::Kind::participant:
       case model::MachineRef::Kind::channel:
       case model::MachineRef::Kind::control_relation:
+      case model::MachineRef::Kind::pair:
+      case model::MachineRef::Kind::endpoint_relation:
+      case model::MachineRef::Kind::endpoint_writer:
         return false;
     }
     return false;

@@ -177,8 +177,12 @@ std::uint32_t owner_of(const Transition& transition, const Step& step, const His
       return subject / 2;
     case MachineRef::Kind::relation:
       break;
+    case MachineRef::Kind::pair:
+      return history.topology.pair(subject).source;
     case MachineRef::Kind::channel:
     case MachineRef::Kind::control_relation:
+    case MachineRef::Kind::endpoint_relation:
+    case MachineRef::Kind::endpoint_writer:
       return to_everybody;
   }
   const model::Pair& pair = history.topology.pair(subject / 2);

@@ -15,7 +15,7 @@ namespace comp = fsm::composition;
 
 Concerns where(auto&& holds) {
   Concerns list;
-  std::ranges::copy_if(model::implementations, std::back_inserter(list), holds);
+  std::ranges::copy_if(everywhere(), std::back_inserter(list), holds);
   return list;
 }
 
@@ -56,7 +56,8 @@ bool has_timer(model::EventKind kind) {
 
 }  // namespace
 
-Concerns everywhere() { return {model::implementations.begin(), model::implementations.end()}; }
+/// All of those whose mistakes can be noticed.
+Concerns everywhere() { return model::known_to_engines(); }
 
 Concerns where_is_fed(std::string_view machine, std::string_view event) {
   const Concerns owners = where([&](model::ImplementationKind kind) {

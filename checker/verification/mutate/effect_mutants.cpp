@@ -74,7 +74,8 @@ std::vector<CatalogueEntry> effect_mutants() {
   std::vector<CatalogueEntry> list;
   for (const comp::CompositionInfo& composition : comp::compositions()) {
     for (const comp::EffectMutation& mutation : comp::effect_mutations(composition)) {
-      list.push_back(entry_of(mutation));
+      CatalogueEntry entry = entry_of(mutation);
+      if (!entry.concerns.empty()) list.push_back(std::move(entry));
     }
   }
   return list;

@@ -1,6 +1,7 @@
 // The table of the DDS profile: every key, its range and its meaning, in the order of the file. See
-// knobs.hpp for what visits it. All implementations share the timers; the relation rules and all
-// sizes are keys where they are no constants of the implementation (model/implementations.hpp).
+// knobs.hpp for what visits it. The paper's model and Fast DDS share the timers, Cyclone DDS has
+// those of its own configuration; the relation rules and all sizes are keys where they are no
+// constants of the implementation (model/implementations.hpp).
 #pragma once
 
 #include <fmt/core.h>
@@ -53,6 +54,11 @@ template <>
 inline constexpr std::array<std::string_view, 3> enum_names<Piggyback>{"cumulative", "linear",
                                                                        "off"};
 
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<AllowMulticast>{"true", "spdp"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<MergeQueued>{"false", "true"};
+
 /// Sizes of packets and of their parts.
 inline constexpr NumberType packet_bytes = byte_range(1, 1'000'000'000);
 /// 20·T and T·H of the adaptive policy stay within 64 bits for every T up to 10^6 s and this
@@ -67,17 +73,33 @@ inline constexpr std::int64_t max_epsilon_denominator = 1'000;
 [[nodiscard]] constexpr Presence of_sizes(ImplementationKind implementation) {
   return traits_of(implementation).has_size_knobs ? Presence::required : Presence::of_others;
 }
+/// Of what only Cyclone DDS has, and of what only the others have.
+[[nodiscard]] constexpr Presence of_cyclone(ImplementationKind implementation) {
+  return traits_of(implementation).writer == Writer::of_cyclone ? Presence::required
+                                                                : Presence::of_others;
+}
+[[nodiscard]] constexpr Presence not_of_cyclone(ImplementationKind implementation,
+                                                Presence elsewhere = Presence::required) {
+  return traits_of(implementation).writer == Writer::of_cyclone ? Presence::of_others : elsewhere;
+}
 
 void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp, ImplementationKind implementation) {
   visit.knob("period", spdp.period, period_range, "announcement period after startup (tau_P)");
   visit.knob("startup_announcements", spdp.startup_announcements, count_range(0, 1'000'000),
-             "announcements at the startup period, after the immediate one");
+             "announcements at the startup period, after the immediate one",
+             not_of_cyclone(implementation));
   visit.knob("startup_period", spdp.startup_period, period_range,
              "announcement period during startup");
   visit.knob("resend", spdp.resend, ChoiceType<SpdpResend>{},
-             "what is sent when a participant is recognised for the first time");
+             "what is sent when a participant is recognised for the first time",
+             not_of_cyclone(implementation));
   visit.knob("payload_bytes", spdp.payload_bytes, packet_bytes, "UDP payload of an announcement",
              of_sizes(implementation));
+  visit.knob("directed_replies", spdp.directed_replies, count_range(0, 1'000'000),
+             "announcements to a participant that is recognised for the first time",
+             of_cyclone(implementation));
+  visit.knob("directed_reply_interval", spdp.directed_reply_interval, period_range,
+             "between two of these announcements", of_cyclone(implementation));
 }
 
 void visit_knobs(auto& visit, Is<AdaptiveProfile> auto& adaptive) {
@@ -90,21 +112,54 @@ void visit_knobs(auto& visit, Is<AdaptiveProfile> auto& adaptive) {
 }
 
 /// Delays and periods of the SEDP endpoints; the first part of `sedp`.
-void visit_sedp_timers(auto& visit, Is<SedpProfile> auto& sedp) {
+void visit_sedp_timers(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
+  const Presence required = not_of_cyclone(implementation);
   visit.knob("heartbeat_period", sedp.heartbeat_period, period_range,
-             "periodic HEARTBEAT of a writer (tau_H)");
+             "periodic HEARTBEAT of a writer (tau_H)", required);
   visit.knob("heartbeat_response_delay", sedp.heartbeat_response_delay, delay_range,
-             "from a HEARTBEAT to the ACKNACK that answers it (tau_A)");
+             "from a HEARTBEAT to the ACKNACK that answers it (tau_A)", required);
   visit.knob("nack_response_delay", sedp.nack_response_delay, delay_range,
-             "from an ACKNACK to the repair that it asks for (tau_N)");
+             "from an ACKNACK to the repair that it asks for (tau_N)", required);
   visit.knob("nack_suppression_duration", sedp.nack_suppression_duration, delay_range,
-             "how long a repaired descriptor cannot be asked for again (tau_S)");
+             "how long a repaired descriptor cannot be asked for again (tau_S)", required);
   visit.knob("initial_acknack_delay", sedp.initial_acknack_delay, delay_range,
-             "until the first initial ACKNACK (tau_I); 0 disables them");
+             "until the first initial ACKNACK (tau_I); 0 disables them", required);
   visit.knob("initial_acknack_interval", sedp.initial_acknack_interval,
              ChoiceType<InitialAckNackInterval>{},
              "whether the delay between initial ACKNACKs doubles each time or stays",
-             Presence::defaulted);
+             not_of_cyclone(implementation, Presence::defaulted));
+}
+
+/// What Cyclone DDS has instead.
+void visit_cyclone_sedp(auto& visit, Is<SedpProfile> auto& sedp,
+                        ImplementationKind implementation) {
+  const Presence required = of_cyclone(implementation);
+  visit.knob("heartbeat_interval", sedp.heartbeat_interval, period_range,
+             "between two HEARTBEATs of a writer, the first ones (HeartbeatInterval)", required);
+  visit.knob("heartbeat_interval_max", sedp.heartbeat_interval_max, period_range,
+             "which the interval stays below as it doubles (HeartbeatInterval[@max])", required);
+  visit.knob("match_heartbeat_delay", sedp.match_heartbeat_delay, delay_range,
+             "from a match to the HEARTBEAT that it asks for", required);
+  visit.knob("ack_delay", sedp.ack_delay, delay_range,
+             "between two ACKNACKs that say the same (AckDelay)", required);
+  visit.knob("nack_delay", sedp.nack_delay, delay_range,
+             "between two requests for the same (NackDelay)", required);
+  visit.knob("auto_resched_nack_delay", sedp.auto_resched_nack_delay, period_range,
+             "until a reader asks again by itself (AutoReschedNackDelay)", required);
+  visit.knob("preemptive_ack_delay", sedp.preemptive_ack_delay, delay_range,
+             "from a match to the pre-emptive ACKNACK (PreEmptiveAckDelay)", required);
+  visit.knob("max_message_size", sedp.max_message_size, packet_bytes,
+             "UDP payload that a packet is filled to (MaxMessageSize)", required);
+  visit.knob("max_rexmit_message_size", sedp.max_rexmit_message_size, packet_bytes,
+             "the same if there is a retransmission in it (MaxRexmitMessageSize)", required);
+  visit.knob("max_queued_rexmit_messages", sedp.max_queued_rexmit_messages,
+             count_range(0, 1'000'000),
+             "retransmissions that a participant queues (MaxQueuedRexmitMessages)", required);
+  visit.knob(
+      "merge_queued_rexmit", sedp.merge_queued_rexmit, ChoiceType<MergeQueued>{},
+      "whether a retransmission that is queued for another reader goes to all instead; true "
+      "if absent",
+      of_cyclone(implementation) == Presence::required ? Presence::defaulted : Presence::of_others);
 }
 
 /// How relations open, repair and acknowledge; the second part of `sedp`.
@@ -129,8 +184,9 @@ void visit_sedp_rules(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKin
   visit.knob("heartbeat_recipients", sedp.heartbeat_recipients, ChoiceType<HeartbeatRecipients>{},
              "who receives a periodic HEARTBEAT", of_rule);
   visit.knob("heartbeat_policy", sedp.heartbeat_policy, ChoiceType<HeartbeatPolicy>{},
-             "fixed period, or the response-aware policy");
-  visit.section("adaptive", sedp.adaptive, "the response-aware HEARTBEAT policy");
+             "fixed period, or the response-aware policy", not_of_cyclone(implementation));
+  visit.section("adaptive", sedp.adaptive, "the response-aware HEARTBEAT policy",
+                not_of_cyclone(implementation));
 }
 
 /// How DATA shares packets, and what packets weigh; the last part of `sedp`.
@@ -141,11 +197,14 @@ void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
              "how descriptors share packets: up to a limit, one MTU, or one a packet", of_size);
   visit.knob("grouping_limit_bytes", sedp.grouping_limit_bytes, packet_bytes,
              "largest UDP payload of a packet with grouping: message, or that fastdds fills",
-             of_size == Presence::required ? Presence::required : Presence::defaulted);
+             of_size == Presence::required ? Presence::required
+                                           : not_of_cyclone(implementation, Presence::defaulted));
   visit.knob("piggyback", sedp.piggyback, ChoiceType<Piggyback>{},
-             "what DATA is charged against the threshold of the piggyback HEARTBEAT");
+             "what DATA is charged against the threshold of the piggyback HEARTBEAT",
+             not_of_cyclone(implementation));
   visit.knob("piggyback_threshold_bytes", sedp.piggyback_threshold_bytes,
-             byte_range(0, 1'000'000'000'000), "bytes that a writer may send without a HEARTBEAT");
+             byte_range(0, 1'000'000'000'000), "bytes that a writer may send without a HEARTBEAT",
+             not_of_cyclone(implementation));
   visit.knob("heartbeat_bytes", sedp.heartbeat_bytes, packet_bytes,
              "UDP payload of a HEARTBEAT of its own", of_size);
   visit.knob("acknack_bytes", sedp.acknack_bytes, packet_bytes,
@@ -157,9 +216,10 @@ void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
 }
 
 void visit_knobs(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
-  visit_sedp_timers(visit, sedp);
+  visit_sedp_timers(visit, sedp, implementation);
   visit_sedp_rules(visit, sedp, implementation);
   visit_sedp_packets(visit, sedp, implementation);
+  visit_cyclone_sedp(visit, sedp, implementation);
 }
 
 void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors) {
@@ -179,7 +239,10 @@ inline constexpr std::string_view implementation_key = "implementation";
 
 void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
   visit.knob(implementation_key, dds.implementation, ChoiceType<ImplementationKind>{},
-             "whose writer: the paper's, or Fast DDS's own", Presence::optional);
+             "whose writer: the paper's, or that of Fast DDS or Cyclone DDS", Presence::optional);
+  visit.knob("allow_multicast", dds.allow_multicast, ChoiceType<AllowMulticast>{},
+             "what goes to the multicast group: all that has several receivers, or announcements",
+             of_cyclone(dds.implementation));
   visit.section("spdp", dds.spdp, "participant announcements", Presence::required,
                 dds.implementation);
   visit.section("sedp", dds.sedp, "reliable exchange of endpoint descriptors", Presence::required,

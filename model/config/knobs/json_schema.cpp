@@ -142,20 +142,33 @@ Json profile(std::string_view title, SchemaVisitor visitor, const Json& requirem
   return schema;
 }
 
+/// Adds the keys of another implementation's map, here and in the sections.
+void add_missing(Json& properties, const Json& others) {
+  for (const auto& [key, schema] : others.items()) {
+    if (!properties.contains(key)) {
+      properties[key] = schema;
+    } else if (schema.contains("properties")) {
+      add_missing(properties[key]["properties"], schema["properties"]);
+    }
+  }
+}
+
 Json dds_schema() {
-  // The key may be absent, and then it is the default one's, which has all keys.
-  const SchemaVisitor fullest = visited(DdsProfile{});
+  // The key may be absent, and then it is the default one's.
+  SchemaVisitor fullest = visited(DdsProfile{});
   const std::string key{implementation_key};
   Json requirements = fullest.requirements();
   Json exclusions = Json::array();
   for (const ImplementationKind kind : implementations) {
-    if (kind == default_implementation) continue;
     DdsProfile other;
     other.implementation = kind;
     const SchemaVisitor keys = visited(other);
+    add_missing(fullest.properties, keys.properties);
     const Json is_other = {{"required", Json::array({key})},
                            {"properties", {{key, {{"const", name_of(kind)}}}}}};
-    requirements = {{"if", is_other}, {"then", keys.requirements()}, {"else", requirements}};
+    if (kind != default_implementation) {
+      requirements = {{"if", is_other}, {"then", keys.requirements()}, {"else", requirements}};
+    }
     exclusions.push_back({{"if", is_other}, {"then", keys.exclusions()}});
   }
   Json schema = profile("DDS profile", fullest, requirements);

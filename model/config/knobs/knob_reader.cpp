@@ -21,14 +21,53 @@ bool contains(const std::vector<std::string>& keys, const std::string& key) {
   return std::ranges::find(keys, key) != keys.end();
 }
 
-/// "implementation: paper": those whose profiles have every key, or those whose have not.
-std::string implementations_with(bool every_key) {
-  std::vector<std::string> shown;
-  for (const ImplementationTraits& one : implementation_traits) {
-    if ((!one.fixed_rules && one.has_size_knobs) != every_key) continue;
-    shown.push_back(fmt::format("{}: {}", implementation_key, one.name));
+/// All keys of a table and its sections that its implementation has, dotted.
+class DottedKeys {
+ public:
+  explicit DottedKeys(std::string prefix = {}) : prefix_{std::move(prefix)} {}
+
+  void knob(std::string_view key, auto&&, const auto&, std::string_view, Presence presence = {}) {
+    if (presence != Presence::of_others) keys.insert(prefix_ + std::string{key});
   }
-  return fmt::format("{}", fmt::join(shown, " or "));
+  void section(std::string_view key, auto& member, std::string_view, Presence presence = {},
+               const auto&... context) {
+    if (presence == Presence::of_others) return;
+    keys.insert(prefix_ + std::string{key});
+    DottedKeys inner{prefix_ + std::string{key} + "."};
+    visit_knobs(inner, member, context...);
+    keys.merge(inner.keys);
+  }
+  void rule(bool, std::string_view, std::string_view) {}
+
+  std::set<std::string> keys;
+
+ private:
+  std::string prefix_;
+};
+
+std::string named(ImplementationKind kind) {
+  return fmt::format("{}: {}", implementation_key, traits_of(kind).name);
+}
+
+/// "implementation: paper": those whose profiles have the key of the map at `path`, which ends with
+/// the section of the profile, if it is in one.
+std::string implementations_with(std::string_view path, const std::string& key) {
+  std::vector<std::string> shown;
+  for (const ImplementationKind kind : implementations) {
+    DdsProfile profile;
+    profile.implementation = kind;
+    DottedKeys visitor;
+    visit_knobs(visitor, profile);
+    const std::string dotted = join_path(path, key);
+    const auto ends_so = [&](const std::string& known) {
+      const bool whole =
+          dotted.size() == known.size() ||
+          (dotted.size() > known.size() && dotted[dotted.size() - known.size() - 1] == '.');
+      return whole && dotted.ends_with(known);
+    };
+    if (std::ranges::any_of(visitor.keys, ends_so)) shown.push_back(named(kind));
+  }
+  return fmt::format("{}", fmt::join(shown, " and "));
 }
 
 }  // namespace
@@ -43,11 +82,12 @@ std::optional<InputError> check_keys(const Node& map, std::string_view path,
   for (const Member& member : map.members) {
     if (contains(keys.allowed, member.key)) continue;
     if (contains(keys.of_others, member.key)) {
-      return error_at(member.key_place,
-                      fmt::format("{}: only {} has this key; expected none of it in a profile with "
-                                  "{}",
-                                  join_path(path, member.key), implementations_with(true),
-                                  implementations_with(false)));
+      return error_at(
+          member.key_place,
+          fmt::format("{}: only {} has this key; expected none of it in a profile with "
+                      "{}",
+                      join_path(path, member.key), implementations_with(path, member.key),
+                      named(keys.implementation)));
     }
     std::string hint = suggestion(member.key, keys.allowed);
     if (hint.empty()) hint = fmt::format("; expected one of {}", fmt::join(keys.allowed, ", "));
@@ -102,6 +142,9 @@ void draw(Deployment& deployment, const Node* list, const std::string& path,
     check_time(list->items[k], name, start_key, given[k].start, drawn.start, error);
     check_time(list->items[k], name, endpoints_done_key, given[k].endpoints_done,
                drawn.endpoints_done, error);
+    if (!deployment.schedule->open_before) continue;
+    check_time(list->items[k], name, open_key, given[k].open.value_or(*drawn.open), *drawn.open,
+               error);
   }
 }
 
@@ -144,6 +187,10 @@ void read_knobs(const Node& map, const std::string& path, Participant& value,
   if (map.find(endpoints_done_key) == nullptr) value.endpoints_done = value.start;
   KnobReader reader{map, path, error};
   reader.rule(value.endpoints_done >= value.start, endpoints_done_key,
+              fmt::format("at least its start of {}", print_duration(value.start)));
+  reader.rule(value.open.value_or(value.start) <= value.start, open_key,
+              fmt::format("at most its start of {}", print_duration(value.start)));
+  reader.rule(value.ready.value_or(value.start) >= value.start, ready_key,
               fmt::format("at least its start of {}", print_duration(value.start)));
 }
 

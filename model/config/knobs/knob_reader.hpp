@@ -2,9 +2,11 @@
 // remembers it and leaves everything after it alone.
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/core.h>
@@ -20,6 +22,7 @@ namespace stormproof::model::config {
 struct KnownKeys {
   std::vector<std::string> allowed;
   std::vector<std::string> of_others;
+  ImplementationKind implementation{};  ///< of the profile that the map is in, if it is in one
 };
 
 /// Collects the keys of one table, without those of its sections.
@@ -50,6 +53,13 @@ template <class T, class... Context>
 KnownKeys keys_of(const T& sample, const Context&... context) {
   KeyCollector collector;
   visit_knobs(collector, sample, context...);
+  [[maybe_unused]] const auto note = [&](const auto& one) {
+    if constexpr (std::same_as<std::remove_cvref_t<decltype(one)>, ImplementationKind>) {
+      collector.keys.implementation = one;
+    }
+  };
+  (note(context), ...);
+  if constexpr (std::same_as<T, DdsProfile>) note(sample.implementation);
   return std::move(collector.keys);
 }
 

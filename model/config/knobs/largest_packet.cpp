@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/cyclone/endpoints.hpp"
 #include "model/descriptor_sizes.hpp"
 #include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
@@ -11,15 +12,16 @@
 namespace stormproof::model::config {
 namespace {
 
-/// UDP payload of an ACKNACK that misses everything: four bytes for every 32 descriptors.
-Bytes largest_acknack(const Scenario& scenario) {
+/// UDP payload of the bitmap of an ACKNACK that misses everything: four bytes for every 32
+/// descriptors.
+Bytes largest_bitmap(const Scenario& scenario) {
   std::uint32_t most = 0;
   for (const Participant& participant : scenario.deployment.participants) {
     most = std::max({most, participant.publications, participant.subscriptions});
   }
   const DescriptorProfile& descriptors = scenario.dds.descriptors;
   most += std::max(descriptors.default_publications, descriptors.default_subscriptions);
-  return scenario.dds.sedp.acknack_bytes + Bytes{std::int64_t{4} * ((most + 31) / 32)};
+  return Bytes{std::int64_t{4} * ((most + 31) / 32)};
 }
 
 LargestPacket largest_of(Of<fsm::composition::paper::Paper>, const Scenario& scenario) {
@@ -35,7 +37,7 @@ LargestPacket largest_of(Of<fsm::composition::paper::Paper>, const Scenario& sce
       {descriptors.user_bytes + heartbeat, "dds.descriptors.user_bytes"},
       {scenario.dds.spdp.payload_bytes, "dds.spdp.payload_bytes"},
       {sedp.heartbeat_bytes, "dds.sedp.heartbeat_bytes"},
-      {largest_acknack(scenario), "dds.sedp.acknack_bytes"}};
+      {sedp.acknack_bytes + largest_bitmap(scenario), "dds.sedp.acknack_bytes"}};
   return *std::ranges::max_element(candidates, {}, &LargestPacket::payload);
 }
 
@@ -44,6 +46,17 @@ LargestPacket largest_of(Of<fsm::composition::fastdds::FastDds>, const Scenario&
                              fastdds::timestamp_bytes + fastdds::largest_submessage_bytes;
   const std::int64_t message = std::max(scenario.dds.sedp.grouping_limit_bytes.count(), alone);
   return {Bytes{message + fastdds::heartbeat_submessage_bytes}, "dds.sedp.grouping_limit_bytes"};
+}
+
+/// A message is never split: alone it may exceed the size that packets are filled to.
+LargestPacket largest_of(Of<fsm::composition::cyclone::Cyclone>, const Scenario& scenario) {
+  const Bytes header{cyclone::header_bytes + cyclone::destination_bytes};
+  const LargestPacket candidates[] = {
+      {scenario.dds.sedp.max_message_size, "dds.sedp.max_message_size"},
+      {scenario.dds.sedp.max_rexmit_message_size, "dds.sedp.max_rexmit_message_size"},
+      {header + Bytes{cyclone::largest_submessage_bytes}, "an announcement"},
+      {header + Bytes{cyclone::acknack_bytes} + largest_bitmap(scenario), "an ACKNACK"}};
+  return *std::ranges::max_element(candidates, {}, &LargestPacket::payload);
 }
 
 }  // namespace

@@ -28,6 +28,9 @@ inline constexpr std::string_view participants_key = "participants";
 inline constexpr std::string_view schedule_key = "schedule";
 inline constexpr std::string_view start_key = "start";
 inline constexpr std::string_view endpoints_done_key = "endpoints_done";
+inline constexpr std::string_view open_key = "open";
+inline constexpr std::string_view ready_key = "ready";
+inline constexpr std::string_view open_before_key = "open_before";
 
 inline constexpr NumberType participant_count = count_range(1, Deployment::max_participants);
 inline constexpr NumberType endpoint_count = count_range(0, Deployment::max_endpoints);
@@ -53,7 +56,15 @@ void visit_knobs(auto& visit, Is<Participant> auto& participant) {
              Presence::optional);
   visit.knob(endpoints_done_key, participant.endpoints_done, delay_range,
              "when it has created all its endpoints, not before its start, which it is if absent; "
-             "used by implementation: fastdds",
+             "used by implementation: fastdds and cyclone",
+             Presence::optional);
+  visit.knob(open_key, participant.open, delay_range,
+             "what reaches it before is lost; not after its start, which it is if absent; used by "
+             "implementation: cyclone",
+             Presence::optional);
+  visit.knob(ready_key, participant.ready, delay_range,
+             "what reaches it before is received then; not before its start, which it is if "
+             "absent; used by implementation: cyclone",
              Presence::optional);
 }
 
@@ -65,14 +76,24 @@ void visit_knobs(auto& visit, Is<Schedule> auto& schedule) {
       endpoints_done_key, RangeParts{schedule.endpoints_done_min, schedule.endpoints_done_max},
       DurationRangeType{delay_range},
       "range of the participants' endpoints_done; that of start if absent", Presence::optional);
+  visit.knob(open_before_key, schedule.open_before, delay_range,
+             "how long before its start a participant hears; what reaches it before is lost; used "
+             "by implementation: cyclone",
+             Presence::optional);
   visit.knob("seed", schedule.seed, SeedType{}, "of the draw; 0 if absent", Presence::optional);
 }
 
 /// What both forms of a deployment have.
 void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
-  visit.knob("loopback_delay", deployment.loopback_delay, delay_range,
-             "delay of packets to the same host; 2ms if absent; used by implementation: fastdds",
-             Presence::optional);
+  visit.knob(
+      "loopback_delay", deployment.loopback_delay, delay_range,
+      "delay of packets to the same host; 2ms if absent; used by implementation: fastdds and "
+      "cyclone",
+      Presence::optional);
+  visit.knob(
+      "send_time", deployment.send_time, delay_range,
+      "between two packets of a participant; 50us if absent; used by implementation: cyclone",
+      Presence::optional);
   visit.section(schedule_key, deployment.schedule,
                 "ranges that all start and endpoints_done are drawn from, uniformly; a time that a "
                 "participant gives beside it has to be the drawn one",

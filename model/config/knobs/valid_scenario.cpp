@@ -60,7 +60,9 @@ bool accepts(const NumberSetType& type, const std::vector<std::uint64_t>& value)
 /// What the reader asks for beyond the table.
 bool is_consistent(const auto&) { return true; }
 bool is_consistent(const Participant& participant) {
-  return participant.endpoints_done >= participant.start;
+  return participant.endpoints_done >= participant.start &&
+         participant.open.value_or(participant.start) <= participant.start &&
+         participant.ready.value_or(participant.start) >= participant.start;
 }
 bool is_consistent(const WirelessProfile& wireless) {
   const auto out_of_order = [](const PacketDelay& a, const PacketDelay& b) {

@@ -31,13 +31,18 @@ template <std::integral Integer>
 }
 [[nodiscard]] inline Json json_of(const SeedType&, std::uint64_t value) { return value; }
 [[nodiscard]] Json json_of(const BytesOrWordType& type, Bytes value);
+/// A word of a choice; `true` and `false` are YAML's own.
+[[nodiscard]] inline Json json_of_word(std::string_view word) {
+  if (word == "true" || word == "false") return word == "true";
+  return word;
+}
 template <class Enum>
 [[nodiscard]] Json json_of(const ChoiceType<Enum>&, const Enum& value) {
-  return name_of(value);
+  return json_of_word(name_of(value));
 }
 template <class Enum>
 [[nodiscard]] Json json_of(const UsualChoiceType<Enum>& type, const Enum& value) {
-  return value == type.usual ? Json() : Json(name_of(value));
+  return value == type.usual ? Json() : json_of_word(name_of(value));
 }
 [[nodiscard]] inline Json json_of(const TextType&, const std::string& value) { return value; }
 [[nodiscard]] Json json_of(const TextMapType&, const std::map<std::string, std::string>& value);
@@ -55,7 +60,9 @@ template <class Enum>
 [[nodiscard]] Json schema_of(const BytesOrWordType& type);
 template <class Enum>
 [[nodiscard]] Json schema_of(const ChoiceType<Enum>& type) {
-  return {{"enum", type.names()}};
+  Json words = Json::array();
+  for (const std::string& name : type.names()) words.push_back(json_of_word(name));
+  return {{"enum", words}};
 }
 [[nodiscard]] Json schema_of(const TextType& type);
 [[nodiscard]] Json schema_of(const TextMapType& type);

@@ -52,16 +52,13 @@ class Network {
     const auto has = [&](std::string_view word) { return words.find(word) != std::string::npos; };
     const bool announces = has("spdp") || has("true") || has("default");
     const bool sedp = has("asm") || has("ssm") || has("true");
-    std::string what = "SEDP goes by unicast, as in the model";
-    setting(*allow).effect = Effect::none;
+    std::string what = "SEDP goes by unicast, as here";
+    setting(*allow).effect = Effect::knob;
     if (has("default")) {
-      what =
-          "on a wired network SEDP goes by multicast, on Wi-Fi by unicast; the model always "
-          "uses unicast, as with spdp";
+      what = "on a wired network SEDP goes by multicast, on Wi-Fi by unicast, as here";
       setting(*allow).effect = Effect::unmodelled;
     } else if (sedp) {
-      what = "SEDP goes by multicast; the model sends a copy to each reader by unicast";
-      setting(*allow).effect = Effect::unmodelled;
+      what = "what has several readers goes by multicast, as here";
     }
     if (!announces) {
       what = "announcements go to the peers alone, by unicast; the model sends them by multicast";
@@ -69,6 +66,9 @@ class Network {
       look_for_unicast_discovery(*allow);
     }
     setting(*allow).note = what;
+    const bool multicast = sedp && announces;
+    (void)set_path(profile_.changes, "allow_multicast",
+                   Node::scalar(allow->place, multicast ? "true" : "spdp"));
     assume(profile_, path, allow->place, fmt::format("{}; {}", allow->shown, what));
   }
 

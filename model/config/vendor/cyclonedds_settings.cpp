@@ -1,8 +1,9 @@
 // From settings to changes of a profile. The announcement period follows from two settings, the
-// HEARTBEAT period from two, multicast from several; all others stand alone.
+// HEARTBEAT interval from two, multicast from several; all others stand alone.
 #include "model/config/vendor/cyclonedds_settings.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -138,22 +139,33 @@ class Effects {
     }
     if (is_held && cause == nullptr) cause = base;
     if (cause != nullptr) {
-      change_duration("sedp.heartbeat_period", *cause,
+      change_duration("sedp.heartbeat_interval", *cause,
                       std::max(count(least_path), count(base_path)), 1);
     }
   }
 
   void apply_durations() {
-    if (const CycloneReading* delay = settings_.find("Internal/NackDelay")) {
-      change_duration("sedp.nack_suppression_duration", *delay, delay->value.number, 0);
+    constexpr Nanoseconds longest{max_duration_ns};
+    for (const auto& [path, least] : {std::pair{"Internal/AckDelay", 0},
+                                      {"Internal/NackDelay", 0},
+                                      {"Internal/PreEmptiveAckDelay", 0},
+                                      {"Internal/AutoReschedNackDelay", 1},
+                                      {"Internal/HeartbeatInterval[@max]", 1}}) {
+      const CycloneReading* delay = settings_.find(path);
+      if (delay == nullptr) continue;
+      const bool has_end = delay->value.word != "inf";
+      if (!has_end) {
+        setting(*delay).note += fmt::format("; no end is {} here", print_duration(longest));
+        change(std::string{delay->option->knob}, delay->place, print_duration(longest));
+        continue;
+      }
+      change_duration(std::string{delay->option->knob}, *delay, delay->value.number, least);
     }
-    const CycloneReading* initial = settings_.find("Internal/PreEmptiveAckDelay");
-    if (initial == nullptr) return;
-    if (initial->value.number == 0) {
-      setting(*initial).note += "; at once is 1 ns here, because 0 disables it in the model";
+    if (const CycloneReading* most = settings_.find("Internal/MaxQueuedRexmitMessages")) {
+      constexpr std::int64_t enough = 1'000'000;
+      change("sedp.max_queued_rexmit_messages", most->place,
+             fmt::format("{}", std::min(most->value.number, enough)));
     }
-    change_duration("sedp.initial_acknack_delay", *initial,
-                    std::max<std::int64_t>(initial->value.number, 1), 0);
   }
 
   void apply_message_size() {
@@ -167,10 +179,14 @@ class Effects {
                          largest_datagram),
              "set 65500 B or less");
     }
+    for (const char* path : {"General/MaxMessageSize", "General/MaxRexmitMessageSize"}) {
+      const CycloneReading* size = settings_.find(path);
+      if (size == nullptr) continue;
+      const auto bytes = std::clamp<std::int64_t>(size->value.number, 1, 1'000'000'000);
+      change(std::string{size->option->knob}, size->place, fmt::format("{}", bytes));
+    }
     const CycloneReading* limit = settings_.find("General/MaxRexmitMessageSize");
     if (limit == nullptr) return;
-    change("sedp.grouping_limit_bytes", limit->place,
-           fmt::format("{}", std::max<std::int64_t>(limit->value.number, 1)));
     if (limit->value.number > unfragmented && limit->value.number <= largest_datagram) {
       remark(
           Severity::note, "message-size", limit->place,

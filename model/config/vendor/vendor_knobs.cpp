@@ -1,5 +1,5 @@
 // The two tables. What a user of Fast DDS cannot change is a constant or a rule in the source of
-// v2.6.11; in Cyclone DDS 0.10 the timers are settings and the rules are not.
+// v2.6.11; in Cyclone DDS 0.10 most timers are settings and the rules are not.
 #include "model/config/vendor/vendor_knobs.hpp"
 
 namespace stormproof::model::config::vendor {
@@ -61,47 +61,30 @@ constexpr VendorKnob fastdds_knobs[] = {
 };
 
 constexpr VendorKnob cyclonedds_knobs[] = {
-    {"implementation", "", "Cyclone DDS is described with the rules of the paper's model"},
+    {"implementation", "", "the library's own rules"},
+    {"allow_multicast", "General/AllowMulticast", "acts on user data, too"},
     {"spdp.period", "Discovery/SPDPInterval",
      "LeaseDuration has to be at least 2 s longer, and is raised with it", 100 * ms, 60 * second},
-    {"spdp.startup_announcements", "", "rule of the library, q_xevent.c:1038-1063"},
     {"spdp.startup_period", "", "constant in the library, ddsi_participant.c:963-978"},
-    {"spdp.resend", "", "rule of the library, q_ddsi_discovery.c:613-636"},
-    {"spdp.payload_bytes", "", "what an announcement says"},
-    {"sedp.heartbeat_period", "Internal/HeartbeatInterval",
+    {"spdp.directed_replies", "", "constant in the library, q_ddsi_discovery.c:613-636"},
+    {"spdp.directed_reply_interval", "", "constant in the library, q_xevent.c:1022-1037"},
+    {"sedp.heartbeat_interval", "Internal/HeartbeatInterval",
      "not below minsched, 20 ms; acts on user data, too", 20 * ms, 8 * second},
-    {"sedp.heartbeat_response_delay", "", "rule of the library, ddsi_acknack.c:295-304"},
-    {"sedp.nack_response_delay", "", "rule of the library, q_receive.c:1002-1124"},
-    {"sedp.nack_suppression_duration", "Internal/NackDelay",
-     "there it is the reader that waits; acts on user data, too", 0, 10 * second},
-    {"sedp.initial_acknack_delay", "Internal/PreEmptiveAckDelay", "acts on user data, too", ms,
+    {"sedp.heartbeat_interval_max", "Internal/HeartbeatInterval[@max]", "acts on user data, too",
+     second, 60 * second},
+    {"sedp.match_heartbeat_delay", "", "constant in the library, ddsi_entity_match.c:745-768"},
+    {"sedp.ack_delay", "Internal/AckDelay", "acts on user data, too", 0, second},
+    {"sedp.nack_delay", "Internal/NackDelay", "acts on user data, too", 0, 10 * second},
+    {"sedp.auto_resched_nack_delay", "Internal/AutoReschedNackDelay", "acts on user data, too",
+     100 * ms, 60 * second},
+    {"sedp.preemptive_ack_delay", "Internal/PreEmptiveAckDelay", "acts on user data, too", ms,
      10 * second},
-    {"sedp.initial_acknack_interval", "",
-     "the library goes on with intervals of its own, q_xevent.c:808-869"},
-    {"sedp.relation_opening", "", "rule of the library, ddsi_entity_match.c:745-768"},
-    {"sedp.initial_data", "", "rule of the library, ddsi_entity_match.c:745-768"},
-    {"sedp.unmatched", "", "rule of the library, q_receive.c:1269-1273"},
-    {"sedp.initial_acknack", "", "rule of the library, q_receive.c:939-962"},
-    {"sedp.acknowledge", "", "rule of the library, q_receive.c:939-1124"},
-    {"sedp.heartbeat_timer", "", "rule of the library, q_transmit.c:83-130"},
-    {"sedp.heartbeat_recipients", "", "rule of the library, q_transmit.c:152-225"},
-    {"sedp.heartbeat_policy", "", "the library doubles its period, which the model has not"},
-    {"sedp.adaptive.min_period", "", no_policy},
-    {"sedp.adaptive.max_period", "", no_policy},
-    {"sedp.adaptive.epsilon", "", no_policy},
-    {"sedp.grouping", "", "rule of the library"},
-    {"sedp.grouping_limit_bytes", "General/MaxRexmitMessageSize", "acts on user data, too", 1'192,
-     14'720},
-    {"sedp.piggyback", "", "rule of the library, q_transmit.c:280-321"},
-    {"sedp.piggyback_threshold_bytes", "", "the library goes by time, q_transmit.c:280-321"},
-    {"sedp.heartbeat_bytes", "", rtps},
-    {"sedp.acknack_bytes", "", rtps},
-    {"sedp.piggyback_heartbeat_bytes", "", rtps},
-    {"sedp.shared_header_bytes", "", rtps},
-    {"descriptors.default_publications", "", ros},
-    {"descriptors.default_subscriptions", "", ros},
-    {"descriptors.default_bytes", "", descriptor},
-    {"descriptors.user_bytes", "", descriptor},
+    {"sedp.max_message_size", "General/MaxMessageSize", "acts on user data, too", 1'192, 65'000},
+    {"sedp.max_rexmit_message_size", "General/MaxRexmitMessageSize", "acts on user data, too",
+     1'192, 65'000},
+    {"sedp.max_queued_rexmit_messages", "Internal/MaxQueuedRexmitMessages",
+     "acts on user data, too", 1, 10'000},
+    {"sedp.merge_queued_rexmit", "", "rule of the library, q_xmsg.c:808-890"},
 };
 
 }  // namespace

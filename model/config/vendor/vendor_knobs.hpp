@@ -19,7 +19,10 @@ struct VendorKnob {
   std::string_view why;      ///< if not: "constant in the library, EDPSimple.cpp:54"; otherwise how
                              ///< the element's value relates to the knob's, or empty
   std::int64_t minimum = 0;  ///< that the library and a sensible deployment allow, in the knob's
-  std::int64_t maximum = 0;  ///< unit; both 0 if a user cannot change it
+  std::int64_t maximum = 0;  ///< unit; both 0 if a user cannot change it, or it is a choice
+
+  /// A user chooses among words.
+  [[nodiscard]] constexpr bool is_choice() const { return !setting.empty() && maximum == 0; }
 };
 
 /// Every knob that the vendor's implementation in the model has (`numeric` or not), in the order of

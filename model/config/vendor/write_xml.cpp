@@ -55,13 +55,17 @@ class Changes {
     for (const VendorKnob& knob : vendor_knobs(vendor)) {
       const std::string old_value = shown(before, knob.key), value = shown(after, knob.key);
       if (old_value == value) continue;
-      if (knob.key == "spdp.startup_period" && profile.spdp.startup_announcements == 0) {
+      const bool is_idle = vendor == Vendor::fastdds && profile.spdp.startup_announcements == 0;
+      if (knob.key == "spdp.startup_period" && is_idle) {
         fail(preset, knob.key,
              fmt::format("{}: does nothing without startup announcements; expected {}, as the "
                          "preset has it",
                          value, old_value));
       }
-      add(vendor, preset, knob, numeric_knob(profile, knob.key), value);
+      if (knob.is_choice())
+        words_.emplace(knob.key, value);
+      else
+        add(vendor, preset, knob, numeric_knob(profile, knob.key), value);
     }
   }
 
@@ -69,6 +73,11 @@ class Changes {
   [[nodiscard]] const std::int64_t* find(std::string_view key) const {
     const auto found = numbers_.find(key);
     return found == numbers_.end() ? nullptr : &found->second;
+  }
+  /// The word of a choice that changes, or null.
+  [[nodiscard]] const std::string* word(std::string_view key) const {
+    const auto found = words_.find(key);
+    return found == words_.end() ? nullptr : &found->second;
   }
   [[nodiscard]] bool has_any(std::string_view prefix) const {
     return std::ranges::any_of(numbers_,
@@ -99,6 +108,7 @@ class Changes {
   }
 
   std::map<std::string_view, std::int64_t> numbers_;
+  std::map<std::string_view, std::string> words_;
   std::optional<InputError> error_;
 };
 
@@ -121,8 +131,10 @@ class XmlWriter {
     line("</" + tag + ">");
   }
   void comment(const std::string& words) { line("<!-- " + in_comment(words) + " -->"); }
-  void leaf(const std::string& tag, const std::string& value) {
-    line(fmt::format("<{0}>{1}</{0}>", tag, value));
+  void leaf(const std::string& tag, const std::string& value) { leaf(tag, tag, value); }
+  /// `begin` is the tag with its attributes.
+  void leaf(const std::string& begin, const std::string& tag, const std::string& value) {
+    line(fmt::format("<{}>{}</{}>", begin, value, tag));
   }
   [[nodiscard]] std::string text() {
     while (!open_.empty()) close();
@@ -218,6 +230,10 @@ std::string write_fastdds(const Changes& changes, const std::string& comment) {
   return xml.text();
 }
 
+/// HeartbeatInterval where only its maximum changes: the default of the library, which presets
+/// have.
+constexpr std::int64_t usual_interval_ns = 100'000'000;
+
 void write_cyclone_announcements(XmlWriter& xml, std::int64_t period) {
   constexpr std::int64_t default_bound = 8 * second_ns;
   xml.open("Discovery");
@@ -230,38 +246,73 @@ void write_cyclone_announcements(XmlWriter& xml, std::int64_t period) {
   xml.close();
 }
 
-std::string write_cyclonedds(const Changes& changes, const std::string& comment) {
-  XmlWriter xml{comment};
-  xml.open("CycloneDDS xmlns=\"https://cdds.io/config\"");
-  xml.open("Domain Id=\"any\"");
-  if (const std::int64_t* limit = changes.find("sedp.grouping_limit_bytes")) {
-    xml.open("General");
-    xml.comment("largest packet with repairs, and all initial DATA is pulled");
-    xml.leaf("MaxRexmitMessageSize", fmt::format("{} B", *limit));
-    xml.close();
+void write_cyclone_general(XmlWriter& xml, const Changes& changes) {
+  const std::string* multicast = changes.word("allow_multicast");
+  const std::int64_t* size = changes.find("sedp.max_message_size");
+  const std::int64_t* repairs = changes.find("sedp.max_rexmit_message_size");
+  if (multicast == nullptr && size == nullptr && repairs == nullptr) return;
+  xml.open("General");
+  if (multicast != nullptr) {
+    xml.comment("what goes by multicast: all that has several receivers, or announcements");
+    xml.leaf("AllowMulticast", *multicast == "true" ? "true" : "spdp");
   }
-  if (const std::int64_t* period = changes.find("spdp.period")) {
-    write_cyclone_announcements(xml, *period);
+  if (size != nullptr) {
+    xml.comment("largest packet without repairs");
+    xml.leaf("MaxMessageSize", fmt::format("{} B", *size));
   }
+  if (repairs != nullptr) {
+    xml.comment("largest packet with repairs");
+    xml.leaf("MaxRexmitMessageSize", fmt::format("{} B", *repairs));
+  }
+  xml.close();
+}
+
+void write_cyclone_internal(XmlWriter& xml, const Changes& changes) {
   struct Delay {
     const char *key, *tag, *comment;
   };
   constexpr Delay delays[] = {
-      {"sedp.heartbeat_period", "HeartbeatInterval", "base of the HEARTBEAT period"},
-      {"sedp.nack_suppression_duration", "NackDelay",
-       "how long the same descriptors are not asked for again"},
-      {"sedp.initial_acknack_delay", "PreEmptiveAckDelay", "until the first pre-emptive ACKNACK"}};
-  if (changes.has_any("sedp.heartbeat") || changes.has_any("sedp.nack") ||
-      changes.has_any("sedp.initial")) {
-    xml.open("Internal");
-    for (const Delay& delay : delays) {
-      const std::int64_t* ns = changes.find(delay.key);
-      if (ns == nullptr) continue;
-      xml.comment(delay.comment);
-      xml.leaf(delay.tag, print_cyclone_duration(*ns));
-    }
-    xml.close();
+      {"sedp.nack_delay", "NackDelay", "how long the same descriptors are not asked for again"},
+      {"sedp.ack_delay", "AckDelay", "how long the same ACK is not repeated"},
+      {"sedp.auto_resched_nack_delay", "AutoReschedNackDelay",
+       "after that a reader asks again by itself"},
+      {"sedp.preemptive_ack_delay", "PreEmptiveAckDelay", "until the first pre-emptive ACKNACK"}};
+  const std::int64_t* interval = changes.find("sedp.heartbeat_interval");
+  const std::int64_t* most = changes.find("sedp.heartbeat_interval_max");
+  const std::int64_t* queued = changes.find("sedp.max_queued_rexmit_messages");
+  const bool has_delay =
+      std::ranges::any_of(delays, [&](const Delay& d) { return changes.find(d.key) != nullptr; });
+  if (interval == nullptr && most == nullptr && queued == nullptr && !has_delay) return;
+  xml.open("Internal");
+  if (interval != nullptr || most != nullptr) {
+    xml.comment("interval of HEARTBEATs, which doubles and stays below the maximum");
+    std::string tag = "HeartbeatInterval";
+    if (most != nullptr) tag += fmt::format(" max=\"{}\"", print_cyclone_duration(*most));
+    xml.leaf(tag, "HeartbeatInterval",
+             print_cyclone_duration(interval != nullptr ? *interval : usual_interval_ns));
   }
+  for (const Delay& delay : delays) {
+    const std::int64_t* ns = changes.find(delay.key);
+    if (ns == nullptr) continue;
+    xml.comment(delay.comment);
+    xml.leaf(delay.tag, print_cyclone_duration(*ns));
+  }
+  if (queued != nullptr) {
+    xml.comment("requests beyond that many queued repairs are dropped");
+    xml.leaf("MaxQueuedRexmitMessages", fmt::format("{}", *queued));
+  }
+  xml.close();
+}
+
+std::string write_cyclonedds(const Changes& changes, const std::string& comment) {
+  XmlWriter xml{comment};
+  xml.open("CycloneDDS xmlns=\"https://cdds.io/config\"");
+  xml.open("Domain Id=\"any\"");
+  write_cyclone_general(xml, changes);
+  if (const std::int64_t* period = changes.find("spdp.period")) {
+    write_cyclone_announcements(xml, *period);
+  }
+  if (changes.has_any("sedp.")) write_cyclone_internal(xml, changes);
   return xml.text();
 }
 

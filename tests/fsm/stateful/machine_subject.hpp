@@ -46,5 +46,8 @@ struct Stepper : fsm::Stepper<Machine> {
 [[nodiscard]] MachineSubject change_subject();
 [[nodiscard]] std::vector<MachineSubject> timer_subjects();
 [[nodiscard]] std::vector<MachineSubject> channel_subjects();
+[[nodiscard]] MachineSubject cautious_subject();
+[[nodiscard]] std::vector<MachineSubject> pacer_subjects();
+[[nodiscard]] std::vector<MachineSubject> thread_subjects();
 
 }  // namespace stormproof::fsm::stateful

@@ -22,7 +22,8 @@ using Kind = TableMutation::Kind;
 
 std::vector<MachineSubject> all_subjects() {
   std::vector<MachineSubject> all;
-  for (auto* list : {repair_subjects, reader_subjects, timer_subjects, channel_subjects}) {
+  for (auto* list : {repair_subjects, reader_subjects, timer_subjects, channel_subjects,
+                     thread_subjects, pacer_subjects}) {
     for (MachineSubject& subject : list()) all.push_back(std::move(subject));
   }
   return all;
@@ -114,11 +115,29 @@ const std::map<std::string, std::string>& explained() {
       "nothing is scheduled, so no further event comes, whatever the state is called";
   static const std::string counted =
       "the number of the announcement alone decides; Starting does what Periodic does";
+  static const std::string never_early =
+      "with nothing heard since the last ACKNACK the timer is not due before the reader may ask "
+      "again";
+  static const std::string not_early =
+      "CautiousReader: Answered + TimerFired [Nack<false, false> and TooEarly] -> Answered: ";
   static const std::map<std::string, std::string> list{
       {"Announcer: Starting + AnnouncementDue [InStartup] -> Starting: guard ignored", overruled},
       {"Announcer: Starting + AnnouncementDue [not InStartup] -> Periodic: leads to Starting",
        counted},
       {"Announcer: Periodic + AnnouncementDue -> Periodic: leads to Starting", counted},
+      {"CautiousReader: Unheard + HeartbeatReceived [not Fresh] -> Answered: guard ignored",
+       overruled},
+      {"CautiousReader: Answered + HeartbeatReceived [not Fresh] -> Answered: guard ignored",
+       overruled},
+      {"CautiousReader: Heard + HeartbeatReceived [not Fresh] -> Heard: guard ignored", overruled},
+      {"CautiousReader: Addressed + HeartbeatReceived [not Fresh] -> Addressed: guard ignored",
+       overruled},
+      {not_early + "missing", never_early},
+      {not_early + "action missing", never_early},
+      {not_early + "leads to Closed", never_early},
+      {not_early + "leads to Unheard", never_early},
+      {not_early + "leads to Heard", never_early},
+      {not_early + "leads to Addressed", never_early},
       {"ChangeForReader: Absent + Created -> Q: leads to S",
        "what is pushed is serialized in the same instant"},
       {"Channel: Idle + DispatchDue [Waiting] -> Busy: guard ignored",
@@ -129,6 +148,7 @@ const std::map<std::string, std::string>& explained() {
       {"DiscoveryReader: EarlyComplete + HeartbeatReceived [AcceptsUnmatched] -> EarlyComplete: "
        "guard ignored",
        "only a reader that accepts unmatched traffic gets there"},
+      {"HeartbeatPacer: Pacing + Fired [not Waiting] -> Resting: guard ignored", overruled},
       {"HeartbeatTimer: Idle + ArmRequested [not Adaptive] -> Armed: guard ignored", overruled},
       {"HeartbeatTimer: Armed + Expired [Unacknowledged] -> Armed: guard ignored", overruled},
       {"HeartbeatTimer: Armed + Expired [not Unacknowledged and not LastPending] -> Armed: missing",

@@ -113,7 +113,7 @@ TEST(ScenarioFile, an_override_is_the_place_of_its_mistakes) {
             "--set time_limit.x=1: 'time_limit' has no keys below it: it is '5s'");
   EXPECT_TRUE(refusal({"dds=papr"})
                   .starts_with("--set dds=papr: no dds file named 'papr'; did you mean 'paper'?; "
-                               "expected one of cyclonedds-0.10, fastdds-2.14.5, "))
+                               "expected one of cyclonedds-0.10, cyclonedds-0.10-multicast, "))
       << refusal({"dds=papr"});
   EXPECT_EQ(refusal({"dds.implementation=fastdds"}),
             "--set dds.implementation=fastdds: implementation: 'fastdds'; expected paper, as the "
@@ -237,6 +237,21 @@ TEST(ScenarioFile, ranges_of_a_schedule_have_defaults) {
   const Scenario late =
       scenario(plain, {"deployment.schedule={start: [2ms, 2ms], endpoints_done: [0, 1ms]}"});
   EXPECT_EQ(late.deployment.participants[1].endpoints_done, two);
+}
+
+TEST(ScenarioFile, a_schedule_says_how_long_before_their_starts_participants_hear) {
+  const Scenario read =
+      scenario(plain, {"deployment.schedule={start: [2ms, 9ms], open_before: 3ms}"});
+  for (const Participant& participant : read.deployment.participants) {
+    const Nanoseconds before = participant.start - Nanoseconds{3'000'000};
+    EXPECT_EQ(participant.open, std::max(before, Nanoseconds{0}));
+  }
+  Deployment other = read.deployment;
+  other.draw_schedule(7);
+  EXPECT_EQ(other.participants[1].open,
+            std::max(other.participants[1].start - Nanoseconds{3'000'000}, Nanoseconds{0}));
+  EXPECT_FALSE(
+      scenario(plain, {"deployment.schedule={start: [2ms, 9ms]}"}).deployment.participants[0].open);
 }
 
 TEST(ScenarioFile, an_override_can_choose_another_seed) {

@@ -97,6 +97,27 @@ TEST(Specs, fast_dds_has_the_timers_of_the_paper_until_they_are_corrected) {
   EXPECT_EQ(dds("fastdds-3.4"), expected);
 }
 
+TEST(Specs, cyclone_dds_has_the_values_of_its_source) {
+  DdsProfile expected;
+  expected.implementation = ImplementationKind::cyclone;
+  expected.allow_multicast = AllowMulticast::spdp;
+  expected.spdp.period = Nanoseconds{8'000'000'000};
+  DdsProfile wifi = dds("cyclonedds-0.10");
+  EXPECT_FALSE(wifi.unmodelled.empty());
+  wifi.unmodelled.clear();
+  EXPECT_EQ(wifi, expected);
+
+  DdsProfile newer = dds("cyclonedds-11");
+  EXPECT_TRUE(newer.unmodelled.contains("measurements"));
+  newer.unmodelled.clear();
+  EXPECT_EQ(newer, expected);
+
+  expected.allow_multicast = AllowMulticast::always;
+  DdsProfile wired = dds("cyclonedds-0.10-multicast");
+  wired.unmodelled.clear();
+  EXPECT_EQ(wired, expected);
+}
+
 TEST(Specs, the_live_machine_starts_its_processes_one_after_the_other) {
   const auto live = read_scenario("live-5x20", {}, source_specs());
   const auto wifi = read_scenario("wifi-5x20-fastdds", {}, source_specs());

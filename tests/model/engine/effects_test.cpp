@@ -8,6 +8,7 @@
 
 #include "fsm/composition/compositions.hpp"
 #include "model/composition_of.hpp"
+#include "model/implementations.hpp"
 #include "model/probe.hpp"
 #include "model/simulator.hpp"
 #include "tests/oracle/random_scenario.hpp"
@@ -22,6 +23,7 @@ using fsm::composition::RuleInfo;
 TEST(CompositionOf, HasTheNameOfTheImplementation) {
   EXPECT_EQ(composition_of(ImplementationKind::paper).name, "paper");
   EXPECT_EQ(composition_of(ImplementationKind::fastdds).name, "fastdds");
+  EXPECT_EQ(composition_of(ImplementationKind::cyclone).name, "cyclone");
 }
 
 class Effects : public Probe {
@@ -60,12 +62,11 @@ TEST_P(EveryEffect, HappensInSomeRunAndHasItsNameThere) {
   EXPECT_EQ(never, std::set<std::string>{});
 }
 
-INSTANTIATE_TEST_SUITE_P(Implementations, EveryEffect,
-                         testing::Values(ImplementationKind::paper, ImplementationKind::fastdds));
+INSTANTIATE_TEST_SUITE_P(Implementations, EveryEffect, testing::ValuesIn(implementations));
 
 /// Watching changes nothing.
 TEST(Effects, AreToldWithoutChangingTheRun) {
-  for (const ImplementationKind kind : {ImplementationKind::paper, ImplementationKind::fastdds}) {
+  for (const ImplementationKind kind : implementations) {
     const Scenario scenario = oracle::random_scenario(7, kind);
     Effects effects;
     RunOptions options;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "model/composition_of.hpp"
+#include "model/cyclone/protocol.hpp"
 #include "model/engine/network.hpp"
 #include "model/engine/run_state.hpp"
 #include "model/fastdds/protocol.hpp"
@@ -45,6 +46,9 @@ bool receives_separately(Of<comp::paper::Paper>, const Scenario& scenario) {
 }
 bool receives_separately(Of<comp::fastdds::FastDds>, const Scenario& scenario) {
   return has_separate_receptions<fastdds::Protocol>(scenario);
+}
+bool receives_separately(Of<comp::cyclone::Cyclone>, const Scenario& scenario) {
+  return has_separate_receptions<cyclone::Protocol>(scenario);
 }
 
 TEST_P(Implementations, HaveTheNamesOfTheirCompositions) {
@@ -87,6 +91,10 @@ struct Seen : Probe {
   void looped_back(const Packet&, std::uint32_t) override { ++loops; }
   void emitted(const Packet& packet, std::uint32_t, std::span<const std::uint32_t>) override {
     if (packet.kind == PacketKind::acknack && packet.detail > 0) ++bases;
+    if (packet.submessages == nullptr) return;
+    for (const Submessage& m : *packet.submessages) {
+      if (m.kind == Submessage::Kind::acknack && m.sample > 0) ++bases;
+    }
   }
 
   std::uint32_t pairs = 0;
@@ -125,6 +133,24 @@ struct Weighed : Probe {
           [&](std::uint32_t d) { sum += sizes.descriptor(packet.stream, d); });
       EXPECT_TRUE(payload == sum || payload == sum + sizes.destination) << payload << ", " << sum;
     } else if (packet.kind == PacketKind::heartbeat && packet.copies == 1) {
+      ++heartbeats;
+      EXPECT_LE(payload, sizes.heartbeat);
+    } else if (packet.kind == PacketKind::rtps_message && packet.submessages->size() == 1) {
+      weigh(packet.submessages->front(), payload);
+    }
+  }
+  void weigh(const Submessage& m, std::int64_t payload) {
+    const auto is = [&](std::int64_t sum) {
+      return payload == sum || payload == sum + sizes.destination;
+    };
+    if (m.kind == Submessage::Kind::spdp) {
+      ++announcements;
+      EXPECT_TRUE(is(sizes.announcement)) << payload;
+    } else if (m.kind == Submessage::Kind::data && m.writer <= cyclone::writer::subscriptions) {
+      ++data;
+      const Stream stream = m.writer == cyclone::writer::publications ? Stream::pub : Stream::sub;
+      EXPECT_TRUE(is(sizes.header + sizes.descriptor(stream, m.sample))) << payload;
+    } else if (m.kind == Submessage::Kind::heartbeat) {
       ++heartbeats;
       EXPECT_LE(payload, sizes.heartbeat);
     }

@@ -1,4 +1,4 @@
-// What 500 random scenarios have to contain: every choice of every knob, both implementations and
+// What 500 random scenarios have to contain: every choice of every knob, all implementations and
 // services, durations of every order of magnitude, ties, losses, tiny queues. A generator that
 // forgets one of them proves less than it seems to. The counts are printed.
 #include <functional>
@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/config/knobs/effective.hpp"
+#include "model/implementations.hpp"
 #include "model/simulator.hpp"
 #include "props/generators/scenarios.hpp"
 #include "tests/model/config/knobs/knob_list.hpp"
@@ -23,6 +24,7 @@ using model::Scenario;
 using Json = model::config::Json;
 
 constexpr std::uint64_t draws = 500;
+constexpr std::uint64_t draws_on_demand = 200;
 
 const std::vector<Scenario>& drawn() {
   static const std::vector<Scenario> scenarios = [] {
@@ -31,6 +33,18 @@ const std::vector<Scenario>& drawn() {
     return list;
   }();
   return scenarios;
+}
+
+/// Of implementations that are drawn on demand only, because engines do not know their writer.
+std::vector<Scenario> drawn_on_demand() {
+  std::vector<Scenario> list;
+  for (const model::ImplementationKind kind : model::implementations) {
+    if (model::traits_of(kind).is_known_to_engines) continue;
+    for (std::uint64_t seed = 0; seed < draws_on_demand; ++seed) {
+      list.push_back(draw_scenario(seed, 100, {.implementation = kind}));
+    }
+  }
+  return list;
 }
 
 /// Adds the values below `json` to `seen`; an element of a list is "*" in its key.
@@ -59,8 +73,11 @@ bool is_left_out(const std::string& key) {
 
 TEST(Variety, EveryKnobVaries) {
   std::map<std::string, std::map<std::string, int>> seen;
-  for (const Scenario& scenario : drawn())
-    collect(model::config::effective_json(scenario), "", seen);
+  for (const auto& list : {drawn(), drawn_on_demand()}) {
+    for (const Scenario& scenario : list) {
+      collect(model::config::effective_json(scenario), "", seen);
+    }
+  }
   for (const model::config::KnobInfo& knob : model::config::scenario_knob_list()) {
     if (is_left_out(knob.key)) continue;
     const auto& values = seen[knob.key];

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checker/evidence/capture/write/control_topics.hpp"
+#include "checker/evidence/capture/write/cyclone_messages.hpp"
 #include "checker/evidence/capture/write/descriptions.hpp"
 #include "checker/evidence/capture/write/fan_out.hpp"
 #include "checker/evidence/capture/write/packet_layout.hpp"
@@ -35,6 +36,7 @@ class CaptureProbe::Implementation {
         vendor_{vendor_of(scenario)},
         layout_{scenario.dds},
         identities_{write::identities(scenario.deployment, vendor_)},
+        cyclone_{scenario, vendor_, identities_},
         pcap_{std::move(sink)} {}
 
   void start(const model::Topology& topology) {
@@ -59,7 +61,16 @@ class CaptureProbe::Implementation {
       case PacketKind::user_heartbeat:
       case PacketKind::user_acknack:
         return control(packet, source, destination);
+      case PacketKind::rtps_message:
+        return send_message(packet, source, destination);
     }
+  }
+
+  /// A message of Cyclone DDS, to the group if there is no destination.
+  void send_message(const model::Packet& packet, std::uint32_t source,
+                    std::optional<std::uint32_t> destination) {
+    const auto datagram = cyclone_.datagram(packet, source, destination, time_of(packet));
+    pcap_.datagram(time_of(packet), identities_[source].metatraffic, datagram.to, datagram.payload);
   }
 
  private:
@@ -167,7 +178,7 @@ class CaptureProbe::Implementation {
       missing.base = 1 + std::int64_t{traits_.acknacks_have_bases
                                           ? packet.detail
                                           : std::min(packet.descriptors.lowest(), all)};
-      packet.descriptors.for_each([&](std::uint32_t d) { ask(missing, d); });
+      packet.descriptors.for_each([&](std::uint32_t d) { write::ask(missing, d); });
     }
     const EntityId reader = write::sedp_reader(packet.stream);
     write::MessageWriter out = message(source);
@@ -175,15 +186,6 @@ class CaptureProbe::Implementation {
     out.acknack(reader, write::sedp_writer(packet.stream), missing, ++counts_[{source, reader}],
                 missing.num_bits == 0 && !packet.initial_acknack);
     finish(out, packet, source, identities_[destination].metatraffic);
-  }
-
-  /// A bitmap reaches 256 numbers far; what is missing beyond is not in it.
-  static void ask(SequenceNumberSet& missing, std::uint32_t d) {
-    const std::int64_t index = std::int64_t{d} + 1 - missing.base;
-    if (index < 0 || index >= SequenceNumberSet::most_bits) return;
-    const auto bit = static_cast<std::uint32_t>(index);
-    missing.num_bits = bit + 1;
-    missing.bits[bit / 32] |= 1U << (31 - bit % 32);
   }
 
   /// Liveliness and user endpoints. No sample is modelled there, so nothing has been written and
@@ -209,6 +211,7 @@ class CaptureProbe::Implementation {
   const VendorId vendor_;
   const write::PacketLayout layout_;
   const std::vector<write::Identity> identities_;
+  const write::CycloneMessages cyclone_;
   write::PcapWriter pcap_;
   const model::Topology* topology_ = nullptr;
   std::optional<write::ControlTopics> control_;
@@ -228,6 +231,7 @@ void CaptureProbe::run_started(const model::Topology& topology) {
 
 void CaptureProbe::emitted(const model::Packet& packet, std::uint32_t source,
                            std::span<const std::uint32_t> destinations) {
+  if (packet.to_group) return implementation_->send_message(packet, source, std::nullopt);
   if (packet.multicast()) implementation_->announce(packet, source);
   for (const std::uint32_t destination : destinations) {
     implementation_->send(packet, source, destination);

@@ -25,6 +25,16 @@ void add_version(ParameterWriter& out, VendorId vendor) {
   out.octets(pid::protocol_version, version).octets(id_of(ParameterId::vendor), octets);
 }
 
+void add_qos(ParameterWriter& out) {
+  constexpr std::uint32_t is_volatile = 0;
+  constexpr std::uint32_t is_reliable = 2;
+  constexpr std::uint32_t blocking_fraction = 0x19999999;  // 0.1 s
+  out.number(pid::durability, is_volatile);
+  ByteWriter reliability;
+  out.octets(id_of(ParameterId::reliability),
+             reliability.u32(is_reliable).u32(0).u32(blocking_fraction).buffer());
+}
+
 }  // namespace
 
 ParameterWriter participant_parameters(const Identity& participant, VendorId vendor) {
@@ -45,9 +55,6 @@ ParameterWriter participant_parameters(const Identity& participant, VendorId ven
 
 ParameterWriter endpoint_parameters(const Identity& participant, VendorId vendor,
                                     model::Stream stream, std::uint32_t d, const TopicName& name) {
-  constexpr std::uint32_t is_volatile = 0;
-  constexpr std::uint32_t is_reliable = 2;
-  constexpr std::uint32_t blocking_fraction = 0x19999999;  // 0.1 s
   const Guid guid{participant.prefix, endpoint_entity(stream, d)};
   ParameterWriter out;
   out.locator(pid::unicast_locator, participant.user);
@@ -56,10 +63,17 @@ ParameterWriter endpoint_parameters(const Identity& participant, VendorId vendor
   out.guid(id_of(ParameterId::key_hash), guid);
   out.guid(id_of(ParameterId::endpoint_guid), guid);
   add_version(out, vendor);
-  out.number(pid::durability, is_volatile);
-  ByteWriter reliability;
-  out.octets(id_of(ParameterId::reliability),
-             reliability.u32(is_reliable).u32(0).u32(blocking_fraction).buffer());
+  add_qos(out);
+  return out;
+}
+
+ParameterWriter short_endpoint_parameters(const Identity& participant, model::Stream stream,
+                                          std::uint32_t d, const TopicName& name) {
+  ParameterWriter out;
+  out.text(id_of(ParameterId::topic_name), name.topic);
+  out.text(id_of(ParameterId::type_name), name.type);
+  out.guid(id_of(ParameterId::endpoint_guid), {participant.prefix, endpoint_entity(stream, d)});
+  add_qos(out);
   return out;
 }
 

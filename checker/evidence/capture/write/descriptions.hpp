@@ -15,5 +15,9 @@ namespace stormproof::capture::write {
 [[nodiscard]] ParameterWriter endpoint_parameters(const Identity& participant, VendorId vendor,
                                                   model::Stream stream, std::uint32_t d,
                                                   const TopicName& name);
+/// The same, as short as Cyclone DDS writes it.
+[[nodiscard]] ParameterWriter short_endpoint_parameters(const Identity& participant,
+                                                        model::Stream stream, std::uint32_t d,
+                                                        const TopicName& name);
 
 }  // namespace stormproof::capture::write

@@ -46,6 +46,14 @@ ParameterWriter& ParameterWriter::locator(std::uint16_t id, const UdpEnd& end) {
   return octets(id, value.buffer());
 }
 
+void ask(SequenceNumberSet& missing, std::uint32_t d) {
+  const std::int64_t index = std::int64_t{d} + 1 - missing.base;
+  if (index < 0 || index >= SequenceNumberSet::most_bits) return;
+  const auto bit = static_cast<std::uint32_t>(index);
+  missing.num_bits = bit + 1;
+  missing.bits[bit / 32] |= 1U << (31 - bit % 32);
+}
+
 std::size_t smallest_data(const ParameterWriter& parameters) {
   return submessage_header + data_fields + parameters.buffer().size() + parameter_header;
 }

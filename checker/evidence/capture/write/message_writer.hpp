@@ -37,6 +37,10 @@ class ParameterWriter {
   ByteWriter out_;
 };
 
+/// Asks for descriptor d, in ascending order. A bitmap reaches 256 numbers far; what is missing
+/// beyond is not in it.
+void ask(SequenceNumberSet& missing, std::uint32_t d);
+
 /// The smallest DATA submessage with this parameter list, in bytes: a multiple of four.
 [[nodiscard]] std::size_t smallest_data(const ParameterWriter& parameters);
 

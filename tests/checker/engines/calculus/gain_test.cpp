@@ -25,8 +25,7 @@ TEST(Gain, NoRunRepairsMoreThanTheSeries) {
   std::uint64_t nearest = 1'000'000;
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     props::Dice dice{seed ^ 0x6A17'0000};
-    space.implementation = dice.pick(std::vector<model::ImplementationKind>(
-        model::implementations.begin(), model::implementations.end()));
+    space.implementation = dice.pick(model::known_to_engines());
     model::Scenario scenario = props::draw_scenario(seed, 100, space);
     if (dice.chance(60)) {
       scenario.dds.sedp.piggyback = model::Piggyback::linear;

@@ -25,6 +25,23 @@ TEST(Observations, FourFieldsAreEnough) {
   EXPECT_FALSE(value(run, Measure::messages));
 }
 
+TEST(Observations, ProcessesSayWhenTheyAnnounceThemselves) {
+  const std::string run = R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,)";
+  const std::string both =
+      R"("procs":[{"create_start":1,"enabled":4},{"enabled":3},{"cpu_ms":3}]})";
+  const auto read = read_text(run + both);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->rows[0].start->low, 3);
+  EXPECT_EQ(read->rows[0].start->high, 4);
+  EXPECT_EQ(read_text(run + R"("start_ms":[5,6],)" + both)->rows[0].start->low, 5);
+  EXPECT_FALSE(read_text(run + R"("procs":[{"cpu_ms":3}]})")->rows[0].start);
+  EXPECT_EQ(error_of(run + R"("procs":7})"),
+            "runs.jsonl:1: procs is 7; expected a list of objects, one of each process");
+  EXPECT_EQ(error_of(run + R"("procs":[{"enabled":-4}]})"),
+            R"(runs.jsonl:1: procs is [{"enabled":-4}]; expected in it: enabled is -4; expected a )"
+            "time in ms from 0 to 3600000");
+}
+
 TEST(Observations, TotalIsTheSumOfAllClasses) {
   const auto read = read_text(
       R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"counts":{"spdp_m":1,"spdp_unicast":2,"init":3,)"

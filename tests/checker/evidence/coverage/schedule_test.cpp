@@ -42,6 +42,23 @@ TEST(Schedule, WithoutMeasurementTheFitOfTheLiveMachine) {
   EXPECT_LE(small.start.low, small.start.high);
 }
 
+TEST(Schedule, ParticipantsOfCycloneHearBeforeTheyAnnounceThemselves) {
+  Configuration c = configuration_of({50, 60}, 5, 20);
+  ScheduleRanges ranges = schedule_ranges(c, model::Writer::of_cyclone);
+  EXPECT_EQ(ranges.start.low, 2);
+  EXPECT_EQ(ranges.start.high, 20);
+  EXPECT_NEAR(ranges.endpoints_done.high, 99, 1e-9);
+  EXPECT_EQ(ranges.open_before, 3);
+  c.runs[0].start = c.runs[1].start = Range{1, 9};
+  ranges = schedule_ranges(c, model::Writer::of_cyclone);
+  EXPECT_EQ(ranges.start.high, 9);
+  const auto cyclone = scenario_of(c, {"cyclonedds-0.10", "emulated-ap", {}, {}});
+  const auto fastdds = scenario_of(c, {"fastdds-2.6.11", "emulated-ap", {}, {}});
+  ASSERT_TRUE(cyclone && fastdds);
+  EXPECT_EQ(cyclone->deployment.schedule->open_before, model::Nanoseconds{3'000'000});
+  EXPECT_FALSE(fastdds->deployment.schedule->open_before);
+}
+
 TEST(Schedule, TheProfileDecidesWhetherThereIsOne) {
   const Configuration c = configuration_of({50}, 2, 4);
   const auto fastdds = scenario_of(c, {"fastdds-2.6.11", "emulated-ap", {}, {}});

@@ -92,6 +92,9 @@ RC_GTEST_PROP(Effective, drawn_times_survive_with_their_schedule, (std::uint64_t
   Schedule& schedule = scenario.deployment.schedule.emplace();
   range(schedule.start_min, schedule.start_max);
   range(schedule.endpoints_done_min, schedule.endpoints_done_max);
+  if (*rc::gen::arbitrary<bool>()) {
+    schedule.open_before = Nanoseconds{*rc::gen::inRange<std::int64_t>(0, 1'000'000'000'000'001)};
+  }
   scenario.deployment.draw_schedule(seed);
   const auto from_json = read_back(effective_json(scenario).dump());
   const auto from_yaml = read_back(effective_yaml(scenario));

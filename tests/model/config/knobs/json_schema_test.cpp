@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(All, JsonSchema,
 TEST(JsonSchemaContent, a_profile_needs_every_key_or_a_base) {
   const auto schema = nlohmann::json::parse(json_schema(SchemaKind::dds));
   EXPECT_EQ(schema["if"]["not"]["required"], nlohmann::json::array({"base"}));
-  const auto& paper = schema["then"]["else"];
+  const auto& paper = schema["then"]["else"]["else"];
   EXPECT_EQ(paper["required"], nlohmann::json::array({"spdp", "sedp", "descriptors"}));
   EXPECT_EQ(paper["properties"]["sedp"]["properties"]["adaptive"]["required"].size(), 3U);
   EXPECT_FALSE(schema.contains("required"));
@@ -46,20 +46,39 @@ TEST(JsonSchemaContent, fast_dds_needs_fewer_keys_and_forbids_the_others) {
   const auto schema = nlohmann::json::parse(json_schema(SchemaKind::dds));
   const auto is_fastdds = nlohmann::json::parse(
       R"({"required": ["implementation"], "properties": {"implementation": {"const": "fastdds"}}})");
-  EXPECT_EQ(schema["then"]["if"], is_fastdds);
-  const auto& fastdds = schema["then"]["then"];
+  EXPECT_EQ(schema["then"]["else"]["if"], is_fastdds);
+  const auto& fastdds = schema["then"]["else"]["then"];
   EXPECT_EQ(fastdds["required"], nlohmann::json::array({"spdp", "sedp"}));
   EXPECT_EQ(fastdds["properties"]["spdp"]["required"].size(), 4U);
   EXPECT_EQ(fastdds["properties"]["sedp"]["required"].size(), 9U);
 
-  ASSERT_EQ(schema["allOf"].size(), 1U);
-  EXPECT_EQ(schema["allOf"][0]["if"], is_fastdds);
-  const auto& forbidden = schema["allOf"][0]["then"]["properties"];
+  ASSERT_EQ(schema["allOf"].size(), 3U);  // one for each implementation that is named
+  EXPECT_EQ(schema["allOf"][1]["if"], is_fastdds);
+  const auto& forbidden = schema["allOf"][1]["then"]["properties"];
   EXPECT_EQ(forbidden["descriptors"], false);
-  EXPECT_EQ(forbidden["spdp"]["properties"], nlohmann::json({{"payload_bytes", false}}));
-  EXPECT_EQ(forbidden["sedp"]["properties"].size(), 12U);
+  EXPECT_EQ(forbidden["allow_multicast"], false);
+  EXPECT_EQ(forbidden["spdp"]["properties"], nlohmann::json({{"payload_bytes", false},
+                                                             {"directed_replies", false},
+                                                             {"directed_reply_interval", false}}));
+  EXPECT_EQ(forbidden["sedp"]["properties"].size(), 12U + 11U);
   EXPECT_EQ(forbidden.count("unmodelled"), 0U);
   EXPECT_EQ(schema["properties"]["unmodelled"]["additionalProperties"]["type"], "string");
+}
+
+TEST(JsonSchemaContent, cyclone_dds_needs_its_own_keys_and_forbids_the_others) {
+  const auto schema = nlohmann::json::parse(json_schema(SchemaKind::dds));
+  EXPECT_EQ(schema["then"]["if"]["properties"]["implementation"]["const"], "cyclone");
+  const auto& cyclone = schema["then"]["then"];
+  EXPECT_EQ(cyclone["required"], nlohmann::json::array({"allow_multicast", "spdp", "sedp"}));
+  EXPECT_EQ(cyclone["properties"]["spdp"]["required"].size(), 4U);
+  EXPECT_EQ(cyclone["properties"]["sedp"]["required"].size(), 10U);
+  const auto& forbidden = schema["allOf"][2]["then"]["properties"];
+  EXPECT_EQ(forbidden["spdp"]["properties"].size(), 3U);
+  EXPECT_EQ(forbidden["sedp"]["properties"]["heartbeat_period"], false);
+  EXPECT_FALSE(forbidden.contains("allow_multicast"));
+  const auto& sedp = schema["properties"]["sedp"]["properties"];
+  EXPECT_TRUE(sedp.contains("heartbeat_interval") && sedp.contains("heartbeat_period"));
+  EXPECT_EQ(schema["properties"]["allow_multicast"]["enum"], nlohmann::json::array({true, "spdp"}));
 }
 
 TEST(JsonSchemaContent, both_forms_of_a_deployment_take_a_schedule) {

@@ -108,14 +108,14 @@ TEST(CycloneLint, names_have_no_case) {
   const VendorProfile p = read(
       "<CYCLONEDDS><domain ID=\"ANY\"><internal><nackdelay>1 s</nackdelay></internal></domain>"
       "</CYCLONEDDS>");
-  EXPECT_EQ(change(p, "sedp", "nack_suppression_duration"), "1s@1:51");
+  EXPECT_EQ(change(p, "sedp", "nack_delay"), "1s@1:51");
   EXPECT_EQ(setting(p, "Internal/NackDelay").value, "1 s");
 }
 
 TEST(CycloneLint, sizes_without_unit_are_bytes_with_a_warning) {
   const VendorProfile p =
       read(domain("<General><MaxRexmitMessageSize>1400</MaxRexmitMessageSize></General>"));
-  EXPECT_EQ(change(p, "sedp", "grouping_limit_bytes"), "1400@2:32");
+  EXPECT_EQ(change(p, "sedp", "max_rexmit_message_size"), "1400@2:32");
   EXPECT_EQ(remarks(p), Remarks{"warning cyclonedds.missing-unit 2"});
 }
 

@@ -12,13 +12,13 @@ TEST(CycloneXml, timers_and_sizes_become_knobs_at_their_places) {
       domain("<Internal><HeartbeatInterval>250 ms</HeartbeatInterval><NackDelay>0.5s</NackDelay>\n"
              "<PreEmptiveAckDelay>30ms</PreEmptiveAckDelay></Internal>\n"
              "<General><MaxRexmitMessageSize>1 KiB</MaxRexmitMessageSize></General>"));
-  EXPECT_EQ(change(p, "sedp", "heartbeat_period"), "250ms@2:30");
-  EXPECT_EQ(change(p, "sedp", "nack_suppression_duration"), "500ms@2:67");
-  EXPECT_EQ(change(p, "sedp", "initial_acknack_delay"), "30ms@3:21");
-  EXPECT_EQ(change(p, "sedp", "grouping_limit_bytes"), "1024@4:32");
+  EXPECT_EQ(change(p, "sedp", "heartbeat_interval"), "250ms@2:30");
+  EXPECT_EQ(change(p, "sedp", "nack_delay"), "500ms@2:67");
+  EXPECT_EQ(change(p, "sedp", "preemptive_ack_delay"), "30ms@3:21");
+  EXPECT_EQ(change(p, "sedp", "max_rexmit_message_size"), "1024@4:32");
   EXPECT_EQ(p.changes.find("base")->text, "cyclonedds-0.10");
   EXPECT_EQ(setting(p, "Internal/NackDelay").effect, Effect::knob);
-  EXPECT_EQ(setting(p, "Internal/NackDelay").knob, "sedp.nack_suppression_duration");
+  EXPECT_EQ(setting(p, "Internal/NackDelay").knob, "sedp.nack_delay");
   EXPECT_EQ(setting(p, "Internal/NackDelay").value, "0.5s");
   EXPECT_EQ(remarks(p), Remarks{});
 }
@@ -26,7 +26,7 @@ TEST(CycloneXml, timers_and_sizes_become_knobs_at_their_places) {
 TEST(CycloneXml, resolves_to_the_preset_with_the_changes) {
   DdsProfile expected = preset();
   EXPECT_EQ(resolved("<CycloneDDS/>"), expected);
-  expected.sedp.nack_suppression_duration = Nanoseconds{1'000'000'000};
+  expected.sedp.nack_delay = Nanoseconds{1'000'000'000};
   EXPECT_EQ(resolved(internal("<NackDelay>1 s</NackDelay>")), expected);
   EXPECT_NE(resolved(internal("<NackDelay>2 s</NackDelay>")), expected);
 }
@@ -35,10 +35,9 @@ TEST(CycloneXml, every_unit_and_spelling_of_a_duration) {
   for (const char* text : {"1 min", "60s", "60000 ms", "60000000us", "60000000000 ns", "1.0 min",
                            "+60 s", "0.0166666666666666666 hr"}) {
     const VendorProfile p = read(internal(fmt::format("<NackDelay>{}</NackDelay>", text)));
-    EXPECT_EQ(change(p, "sedp", "nack_suppression_duration"), "60s@2:22") << text;
+    EXPECT_EQ(change(p, "sedp", "nack_delay"), "60s@2:22") << text;
   }
-  EXPECT_EQ(change(read(internal("<NackDelay>0</NackDelay>")), "sedp", "nack_suppression_duration"),
-            "0s@2:22");
+  EXPECT_EQ(change(read(internal("<NackDelay>0</NackDelay>")), "sedp", "nack_delay"), "0s@2:22");
 }
 
 TEST(CycloneXml, announcement_period_is_the_lesser_of_interval_and_lease) {
@@ -64,38 +63,52 @@ TEST(CycloneXml, announcement_period_is_the_lesser_of_interval_and_lease) {
 
 TEST(CycloneXml, minsched_holds_the_heartbeat_interval) {
   const VendorProfile held = read(internal("<HeartbeatInterval>10 ms</HeartbeatInterval>"));
-  EXPECT_EQ(change(held, "sedp", "heartbeat_period"), "20ms@2:30");
+  EXPECT_EQ(change(held, "sedp", "heartbeat_interval"), "20ms@2:30");
   EXPECT_EQ(remarks(held), Remarks{"warning cyclonedds.heartbeat-interval 2"});
 
   const VendorProfile free =
       read(internal("<HeartbeatInterval minsched=\"5 ms\">10 ms</HeartbeatInterval>"));
-  EXPECT_EQ(change(free, "sedp", "heartbeat_period"), "10ms@2:46");
+  EXPECT_EQ(change(free, "sedp", "heartbeat_interval"), "10ms@2:46");
   EXPECT_EQ(remarks(free), Remarks{});
   const VendorProfile raised = read(internal("<HeartbeatInterval minsched=\"1 s\"/>"));
-  EXPECT_EQ(change(raised, "sedp", "heartbeat_period"), "1s@2:11");
+  EXPECT_EQ(change(raised, "sedp", "heartbeat_interval"), "1s@2:11");
   EXPECT_EQ(error(internal("<HeartbeatInterval>inf</HeartbeatInterval>")),
-            "c.xml:2:30: Internal/HeartbeatInterval: inf gives sedp.heartbeat_period no end; "
+            "c.xml:2:30: Internal/HeartbeatInterval: inf gives sedp.heartbeat_interval no end; "
             "expected 1 ns to 1000000s, which is what the model takes");
 }
 
-TEST(CycloneXml, an_initial_acknack_at_once_is_not_disabled) {
+TEST(CycloneXml, a_preemptive_acknack_may_go_out_at_once) {
   const VendorProfile p = read(internal("<PreEmptiveAckDelay>0 s</PreEmptiveAckDelay>"));
-  EXPECT_EQ(change(p, "sedp", "initial_acknack_delay"), "1ns@2:31");
+  EXPECT_EQ(change(p, "sedp", "preemptive_ack_delay"), "0s@2:31");
+}
+
+TEST(CycloneXml, the_timers_and_limits_of_readers_and_repairs) {
+  const VendorProfile p =
+      read(internal("<AckDelay>5 ms</AckDelay><AutoReschedNackDelay>1 s</AutoReschedNackDelay>"
+                    "<HeartbeatInterval max=\"4 s\">1 s</HeartbeatInterval>"
+                    "<MaxQueuedRexmitMessages>50</MaxQueuedRexmitMessages>"));
+  EXPECT_TRUE(change(p, "sedp", "ack_delay").starts_with("5ms@"));
+  EXPECT_TRUE(change(p, "sedp", "auto_resched_nack_delay").starts_with("1s@"));
+  EXPECT_TRUE(change(p, "sedp", "heartbeat_interval").starts_with("1s@"));
+  EXPECT_TRUE(change(p, "sedp", "heartbeat_interval_max").starts_with("4s@"));
+  EXPECT_TRUE(change(p, "sedp", "max_queued_rexmit_messages").starts_with("50@"));
+  const VendorProfile never = read(internal("<AutoReschedNackDelay>inf</AutoReschedNackDelay>"));
+  EXPECT_TRUE(change(never, "sedp", "auto_resched_nack_delay").starts_with("1000000s@"));
 }
 
 TEST(CycloneXml, what_the_model_has_not_replaces_the_presets_text) {
   const VendorProfile p =
-      read(internal("<AckDelay>50 ms</AckDelay>"
+      read(internal("<HeartbeatInterval minsched=\"30 ms\"/>"
                     "<RetransmitMerging>Adaptive</RetransmitMerging>"));
-  EXPECT_EQ(change(p, "unmodelled", "Internal/AckDelay"),
-            "50 ms; a reader repeats the same ACK at most that often; the model answers every "
-            "HEARTBEAT@2:21");
+  EXPECT_TRUE(change(p, "unmodelled", "Internal/HeartbeatInterval[@minsched]")
+                  .starts_with("30 ms; lower bound of the interval"));
   EXPECT_TRUE(change(p, "unmodelled", "Internal/RetransmitMerging").starts_with("adaptive; "));
 
   const DdsProfile before = preset();
-  const DdsProfile after = resolved(internal("<AckDelay>50 ms</AckDelay>"));
+  const DdsProfile after = resolved(internal("<HeartbeatInterval minsched=\"30 ms\"/>"));
+  const std::string key = "Internal/HeartbeatInterval[@minsched]";
   EXPECT_EQ(after.unmodelled.size(), before.unmodelled.size());
-  EXPECT_NE(after.unmodelled.at("Internal/AckDelay"), before.unmodelled.at("Internal/AckDelay"));
+  EXPECT_NE(after.unmodelled.at(key), before.unmodelled.at(key));
 }
 
 TEST(CycloneXml, defaults_written_out_are_the_preset) {
@@ -118,10 +131,10 @@ TEST(CycloneXml, decimals_are_rounded_and_kB_is_1024) {
   const VendorProfile p =
       read(domain("<Internal><NackDelay>1.9999 us</NackDelay><AckDelay>10ms</AckDelay></Internal>\n"
                   "<General><MaxRexmitMessageSize>2.0006 kB</MaxRexmitMessageSize></General>"));
-  EXPECT_EQ(change(p, "sedp", "nack_suppression_duration"), "2us@2:22");
-  EXPECT_EQ(change(p, "sedp", "grouping_limit_bytes"), "2049@3:32");
-  EXPECT_EQ(setting(p, "Internal/AckDelay").effect, Effect::unmodelled);
-  EXPECT_NE(change(p, "unmodelled", "Internal/AckDelay"), "-");
+  EXPECT_EQ(change(p, "sedp", "nack_delay"), "2us@2:22");
+  EXPECT_EQ(change(p, "sedp", "max_rexmit_message_size"), "2049@3:32");
+  EXPECT_EQ(setting(p, "Internal/AckDelay").effect, Effect::knob);
+  EXPECT_TRUE(change(p, "sedp", "ack_delay").starts_with("10ms@"));
 }
 
 TEST(CycloneXml, multicast) {
@@ -133,10 +146,19 @@ TEST(CycloneXml, multicast) {
     for (const std::string& remark : remarks(p)) result += ", " + remark;
     return result;
   };
-  EXPECT_EQ(effect("spdp"), "none");
+  EXPECT_EQ(effect("spdp"), "knob");
   EXPECT_EQ(effect("default"), "unmodelled");
-  EXPECT_EQ(effect("TRUE"), "unmodelled");
-  EXPECT_EQ(effect("spdp,asm"), "unmodelled");
+  EXPECT_EQ(effect("TRUE"), "knob");
+  EXPECT_EQ(effect("spdp,asm"), "knob");
+  const auto multicast_of = [](const char* words) {
+    return resolved(
+               domain(fmt::format("<General><AllowMulticast>{}</AllowMulticast></General>", words)))
+        .allow_multicast;
+  };
+  EXPECT_EQ(multicast_of("true"), AllowMulticast::always);
+  EXPECT_EQ(multicast_of("spdp,asm"), AllowMulticast::always);
+  EXPECT_EQ(multicast_of("spdp"), AllowMulticast::spdp);
+  EXPECT_EQ(multicast_of("default"), AllowMulticast::spdp);
   EXPECT_EQ(effect("false"), "outside, error cyclonedds.no-announcements 2");
   EXPECT_EQ(effect("ssm"), "outside, error cyclonedds.no-announcements 2");
   const char* peers = "<Peers><Peer Address=\"10.0.0.2\"/></Peers>";
@@ -193,15 +215,15 @@ constexpr const char* two_domains =
 
 TEST(CycloneXml, a_domain_is_chosen_by_its_id) {
   const auto nack = [](const char* id) {
-    return change(read(two_domains, id), "sedp", "nack_suppression_duration");
+    return change(read(two_domains, id), "sedp", "nack_delay");
   };
   EXPECT_EQ(nack("0"), "1s@1:51");
   EXPECT_EQ(nack("7"), "2s@3:40");
   EXPECT_EQ(nack("42"), "1s@1:51");
   EXPECT_EQ(nack("any"), "1s@1:51");
   EXPECT_EQ(read(two_domains, "7").name, "7");
-  EXPECT_EQ(change(read(two_domains, "7"), "unmodelled", "Internal/AckDelay"), "-");
-  EXPECT_NE(change(read(two_domains, "0"), "unmodelled", "Internal/AckDelay"), "-");
+  EXPECT_EQ(change(read(two_domains, "7"), "sedp", "ack_delay"), "-");
+  EXPECT_NE(change(read(two_domains, "0"), "sedp", "ack_delay"), "-");
   EXPECT_EQ(remarks(read(two_domains, "7")),
             (Remarks{"note cyclonedds.overridden 1", "note cyclonedds.other-domain 2"}));
 }
@@ -232,10 +254,9 @@ TEST(CycloneXml, the_shipped_examples) {
   EXPECT_EQ(example("default.xml"), preset());
   DdsProfile slow = example("slow-link.xml");
   EXPECT_EQ(slow.spdp.period, Nanoseconds{20'000'000'000});
-  EXPECT_EQ(slow.sedp.nack_suppression_duration, Nanoseconds{1'000'000'000});
-  EXPECT_EQ(example("two-domains.xml#7").sedp.nack_suppression_duration,
-            Nanoseconds{1'000'000'000});
-  EXPECT_EQ(example("two-domains.xml#0").sedp.nack_suppression_duration, Nanoseconds{200'000'000});
+  EXPECT_EQ(slow.sedp.nack_delay, Nanoseconds{1'000'000'000});
+  EXPECT_EQ(example("two-domains.xml#7").sedp.nack_delay, Nanoseconds{1'000'000'000});
+  EXPECT_EQ(example("two-domains.xml#0").sedp.nack_delay, Nanoseconds{200'000'000});
   EXPECT_EQ(example("wifi.xml").sedp, preset().sedp);
 }
 

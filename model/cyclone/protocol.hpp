@@ -1,0 +1,450 @@
+// Cyclone DDS 0.10 as a host of its rules (fsm/composition/cyclone*.hpp, specs/guide/cyclone.md):
+// it keeps what they are about, and does the steps that they leave to a host. By source file:
+//   protocol.cpp  events and packets to rules, user topics, what a descriptor's arrival means
+//   sender.cpp    the event thread: what it fires, packs and sends; messages and their destinations
+//   packer.cpp    which messages share a packet
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "fsm/composition/cyclone.hpp"
+#include "model/cyclone/endpoints.hpp"
+#include "model/cyclone/packer.hpp"
+#include "model/engine/composition_knobs.hpp"
+#include "model/engine/driver.hpp"
+#include "model/engine/effect_mutator.hpp"
+#include "model/engine/implementation.hpp"
+#include "model/engine/network.hpp"
+#include "model/engine/running_world.hpp"
+#include "model/engine/submessage.hpp"
+
+namespace stormproof::model::cyclone {
+
+namespace rules = fsm::composition::cyclone;
+
+class Protocol final : public Implementation {
+  using Number = std::uint32_t;
+
+ public:
+  using Composition = rules::Cyclone;
+  using Packet = Submessage;  ///< rules receive submessages
+
+  Protocol(RunState& run, Network& network);
+
+  void start() override;
+  void handle(const Event& event) override;
+  void source_completed(const model::Packet&) override {}
+  [[nodiscard]] bool receives_separately() const override { return true; }
+  [[nodiscard]] std::vector<Number> receivers(const model::Packet& packet) const override;
+  [[nodiscard]] std::optional<Nanoseconds> receives_later(Number receiver) const override;
+  void received(const model::Packet& packet, Number receiver) override;
+  void renew_bitmap(model::Packet&) override {}  // its bitmaps are in submessages
+  [[nodiscard]] Number next_recipient(const model::Packet&, Number pair) const override {
+    return pair;  // every packet stands for itself
+  }
+  [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
+
+  // The host of a RunningWorld.
+  [[nodiscard]] comp::Watcher* watcher() { return watched_ ? &mutator_ : nullptr; }
+  [[nodiscard]] const Topology& topology() const { return run_.topology; }
+  [[nodiscard]] std::int64_t now() const { return run_.now.count(); }
+  [[nodiscard]] WriterLayout writer_layout() const { return {stride_, writer::first_topic}; }
+  [[nodiscard]] Number samples_of(Number w) const;
+  template <class Knob>
+  [[nodiscard]] auto knob(Knob knob) const {
+    return knob_value(knob, run_.scenario.dds);
+  }
+  [[nodiscard]] std::int64_t knob(rules::SendTime) const {
+    return run_.scenario.deployment.time_to_send().count();
+  }
+
+  // Machines.
+  auto& driver(rules::Judge) { return judge_driver_; }
+  auto& driver(rules::Peer) { return peer_driver_; }
+  auto& driver(rules::Pacer) { return pacer_driver_; }
+  auto& driver(rules::Thread) { return thread_driver_; }
+  auto& driver(rules::AckTimer) { return relation_timers_; }
+  auto& driver(rules::HeartbeatTimer) { return writer_timers_; }
+  auto& driver(rules::SpdpTimer) { return participant_timers_; }
+  auto& driver(rules::ReplyTimer) { return pair_timers_; }
+  auto& state(rules::Judge, Number r) { return relations_[r].judge; }
+  auto& state(rules::Peer, Number r) { return relations_[r].peer; }
+  auto& state(rules::Pacer, Number w) { return writers_[w].pacer; }
+  auto& state(rules::Thread, Number i) { return participants_[i].thread; }
+  auto& state(rules::AckTimer, Number r) { return relations_[r].timer; }
+  auto& state(rules::HeartbeatTimer, Number w) { return writers_[w].timer; }
+  auto& state(rules::SpdpTimer, Number i) { return participants_[i].timer; }
+  auto& state(rules::ReplyTimer, Number p) { return pairs_[p].timer; }
+
+  // Flags and numbers: each is a member of what it belongs to.
+  template <class Tag>
+  [[nodiscard]] auto value(Tag tag, Number n) const {
+    return const_cast<Protocol&>(*this).place_of(tag, n);
+  }
+  template <class Tag, class Value>
+  void assign(Tag tag, Number n, Value to) {
+    place_of(tag, n) = to;
+  }
+  [[nodiscard]] bool value(rules::WriterOpen, Number r) const { return relations_[r].matched; }
+  void assign(rules::WriterOpen, Number r, bool matched) {
+    if (!std::exchange(relations_[r].matched, matched)) match(r);
+  }
+
+  // Those of descriptors hold for the first ones of a stream, except X.
+  [[nodiscard]] std::uint64_t word(rules::Exists, Number w, Number k) const {
+    return bits_below(writers_[w].exist, k);
+  }
+  [[nodiscard]] std::uint64_t word(rules::Sent, Number r, Number k) const {
+    return bits_below(writers_[r].sent, k);
+  }
+  [[nodiscard]] std::uint64_t word(rules::Known, Number r, Number k) const {
+    return bits_below(relations_[r].known, k);
+  }
+  [[nodiscard]] std::uint64_t word(rules::Notified, Number r, Number k) const {
+    return bits_below(relations_[r].notified, k);
+  }
+  [[nodiscard]] std::uint64_t word(comp::X, Number r, Number k) const {
+    return relations_[r].received[k];
+  }
+  void assign(rules::Exists, Number w, Number d, bool) { writers_[w].exist = d + 1; }
+  void assign(rules::Sent, Number w, Number d, bool) { writers_[w].sent = d + 1; }
+  void assign(rules::Notified, Number r, Number d, bool) { relations_[r].notified = d + 1; }
+  void assign_word(rules::Known, Number r, Number k, std::uint64_t known) {
+    if (known == 0) return;
+    relations_[r].known = 64 * k + 64 - static_cast<Number>(std::countl_zero(known));
+  }
+  void assign_word(comp::X, Number r, Number k, std::uint64_t received) { take(r, k, received); }
+
+  // Facts that are kept up to date.
+  template <class World>
+  [[nodiscard]] Number fact(rules::History, const World& w) const {
+    return writers_[w.template number<comp::owner::writer>()].exist;
+  }
+  template <class World>
+  [[nodiscard]] Number fact(rules::FirstMissing, const World& w) const {
+    return relations_[w.template number<comp::owner::relation>()].have + 1;
+  }
+
+  // What submessages say.
+  [[nodiscard]] bool said(comp::IsInitial, const Submessage& m) const { return m.initial; }
+  [[nodiscard]] bool said(rules::IsDirected, const Submessage& m) const { return m.directed; }
+  [[nodiscard]] std::int64_t said(rules::Count, const Submessage& m) const { return m.count; }
+  [[nodiscard]] std::uint64_t word(comp::Carries, const Submessage& m, Number k) const {
+    return bits_below(m.sample + 1, k) & ~bits_below(m.sample, k);
+  }
+  [[nodiscard]] std::uint64_t word(comp::Announces, const Submessage& m, Number k) const {
+    return bits_below(m.sample, k);
+  }
+  [[nodiscard]] std::uint64_t word(comp::BelowBase, const Submessage& m, Number k) const {
+    return bits_below(m.sample, k);
+  }
+  [[nodiscard]] std::uint64_t word(comp::Listed, const Submessage& m, Number k) const {
+    return m.bitmap.word(k);
+  }
+
+  // What only the host knows.
+  template <class World>
+  [[nodiscard]] std::int64_t answer(comp::Now, const World&) const {
+    return now();
+  }
+  template <class World>
+  [[nodiscard]] bool answer(comp::RunEnds, const World&) const {
+    return run_.ends_now();
+  }
+  template <class World>
+  [[nodiscard]] bool answer(rules::IsQueued, const World& w) const {
+    return find_queued(w.template number<comp::owner::relation>(), w.descriptor(), false) !=
+           nullptr;
+  }
+  template <class World>
+  [[nodiscard]] bool answer(rules::IsQueuedForIt, const World& w) const {
+    return find_queued(w.template number<comp::owner::relation>(), w.descriptor(), true) != nullptr;
+  }
+  template <class World>
+  [[nodiscard]] bool answer(rules::QueueIsFull, const World& w) const {
+    return participants_[w.template number<comp::owner::participant>()].queued_repairs >=
+           sedp_.max_queued_rexmit_messages;
+  }
+  template <class World>
+  [[nodiscard]] bool answer(rules::AnswerIsKept, const World& w) const {
+    const auto& kept = participants_[w.template number<comp::owner::participant>()].kept;
+    return kept && kept->relation == w.template number<comp::owner::relation>();
+  }
+  template <class World>
+  [[nodiscard]] bool answer(rules::SomeAnswerIsKept, const World& w) const {
+    return participants_[w.template number<comp::owner::participant>()].kept.has_value();
+  }
+
+  // Timers.
+  template <class Timer>
+  void schedule(Timer, Number owner, std::int64_t time) {
+    run_.schedule(Nanoseconds{time}, event_kind_of<Timer>, owner);
+  }
+  template <class Timer>
+  [[nodiscard]] bool is_due(Timer, const Event&) const {
+    return true;
+  }
+  void cancel(auto, Number) {}
+  [[nodiscard]] const std::vector<Number>& readers(Number w) const { return writers_[w].readers; }
+
+  // Packets: messages for the thread.
+  template <class World, class... Sayings>
+  void emit(rules::Spdp, World& w, const std::tuple<Sayings...>&) {
+    announce_to(w.template number<comp::owner::pair>());
+  }
+  template <class World, class Sayings>
+  void emit(rules::Data, World& w, const Sayings&) {
+    repeat(w.template number<comp::owner::relation>(), w.descriptor());
+  }
+  template <class World, class Sayings>
+  void emit(rules::Heartbeat, World& w, const Sayings& sayings) {
+    heartbeat_to(w.template number<comp::owner::relation>(), said_of<rules::IsDirected>(sayings));
+  }
+  template <class World, class... Sayings>
+  void emit(rules::AckNack, World& w, const std::tuple<Sayings...>& sayings) {
+    Submessage acknack;
+    acknack.kind = Submessage::Kind::acknack;
+    acknack.initial = (std::is_same_v<typename Sayings::Field, comp::IsInitial> || ...);
+    if constexpr ((std::is_same_v<typename Sayings::Field, comp::Listed> || ...)) {
+      acknack.bitmap = w.set_of(said_of<comp::Listed>(sayings));
+    }
+    if constexpr ((std::is_same_v<typename Sayings::Field, comp::BelowBase> || ...)) {
+      acknack.sample = end_of(w.set_of(said_of<comp::BelowBase>(sayings)));
+      acknack.count = said_of<rules::Count>(sayings);
+    }
+    acknowledge(w.template number<comp::owner::relation>(), std::move(acknack));
+  }
+
+  // Opaque steps.
+  template <class World>
+  void perform(rules::HeartbeatToAll, World& w) {
+    heartbeat_to_all(w.template number<comp::owner::writer>());
+  }
+  template <class World>
+  void perform(rules::DataToAll, World& w) {
+    push(w.template number<comp::owner::writer>(), w.descriptor());
+  }
+  template <class World>
+  void perform(rules::Announce, World& w) {
+    announce(w.template number<comp::owner::participant>());
+  }
+  template <class World>
+  void perform(rules::SendToAllInstead, World& w) {
+    send_to_all_instead(w.template number<comp::owner::relation>(), w.descriptor());
+  }
+  template <class World>
+  void perform(rules::LetAnswerGo, World& w) {
+    let_answer_go(w.template number<comp::owner::participant>());
+  }
+  template <class World>
+  void perform(rules::Work, World& w) {
+    work(w.template number<comp::owner::participant>());
+  }
+  template <class World>
+  void perform(rules::JoinList, World& w, rules::AckTimer) {
+    const Number r = w.template number<comp::owner::relation>();
+    join(ends(r).destination, {TimerKind::acknack, r});
+  }
+  template <class World>
+  void perform(rules::JoinList, World& w, rules::HeartbeatTimer) {
+    const Number n = w.template number<comp::owner::writer>();
+    join(n / stride_, {TimerKind::heartbeat, n});
+  }
+  template <class World>
+  void perform(rules::JoinList, World& w, rules::SpdpTimer) {
+    const Number i = w.template number<comp::owner::participant>();
+    join(i, {TimerKind::announcement, i});
+  }
+  template <class World>
+  void perform(rules::JoinList, World& w, rules::ReplyTimer) {
+    const Number pair = w.template number<comp::owner::pair>();
+    join(run_.topology.pair(pair).source, {TimerKind::reply, pair});
+  }
+  /// After a notification or a creation, as the world's place says.
+  template <Owner place>
+  void perform(rules::OpenTopics, RunningWorld<Protocol, place>& w) {
+    if constexpr (place == comp::owner::descriptor) {
+      open_notified(w.template number<comp::owner::relation>(), w.descriptor());
+    } else {
+      static_assert(place == comp::owner::entry);
+      open_created(w.template number<comp::owner::writer>(), w.descriptor());
+    }
+  }
+
+ private:
+  struct Relation {
+    // Writer side.
+    fsm::StateId peer = fsm::Stepper<fsm::MatchedReader>::initial;
+    bool matched = false;
+    bool accepted = false;
+    bool refused = false;
+    std::int64_t acked = 0;
+    std::int64_t last_ack_count = 0;
+    std::int64_t ack_counts_until = 0;
+    std::vector<std::uint64_t> delivered;  ///< samples that have been sent to it by unicast
+    // Reader side.
+    fsm::StateId judge = fsm::Stepper<fsm::CautiousReader>::initial;
+    fsm::StateId timer = fsm::Stepper<fsm::MovableTimer>::initial;
+    bool by_delay = false;
+    Number known = 0;     ///< the first samples, which the reader knows to exist
+    Number have = 0;      ///< the first samples, which it has without a gap
+    Number notified = 0;  ///< those of them that the application knows
+    std::int64_t due = 0;
+    std::int64_t asked_end = 0;
+    std::int64_t last_base = 0;
+    std::int64_t last_heartbeat_count = 0;
+    std::int64_t heartbeat_counts_until = 0;
+    std::int64_t quiet_until = 0;
+    std::int64_t hush_until = 0;
+    std::int64_t again_at = 0;
+    std::int64_t ack_count = 0;
+    std::vector<std::uint64_t> received;
+  };
+  struct Writer {
+    fsm::StateId pacer = fsm::Stepper<fsm::HeartbeatPacer>::initial;
+    fsm::StateId timer = fsm::Stepper<fsm::MovableTimer>::initial;
+    bool heartbeat_sent = false;
+    Number exist = 0;
+    Number sent = 0;
+    std::int64_t due = 0;
+    std::int64_t heartbeat_count = 0;
+    std::int64_t heartbeats_since = 0;
+    std::int64_t last_heartbeat = 0;
+    std::vector<Number> readers;           ///< relations, ascending
+    std::uint64_t version = 0;             ///< how many matches there have been
+    std::vector<std::uint64_t> delivered;  ///< samples that have been sent to the group
+  };
+  struct PairState {
+    fsm::StateId timer = fsm::Stepper<fsm::MovableTimer>::initial;
+    bool recognised = false;
+    std::int64_t due = 0;
+    std::int64_t replies = 0;
+  };
+  enum class TimerKind : std::uint8_t { acknack, heartbeat, announcement, reply };
+  struct DueTimer {
+    TimerKind kind{};
+    Number owner = 0;
+  };
+  struct KeptAnswer {
+    Number relation = 0;
+    Message message;
+  };
+  struct Participant {
+    explicit Participant(const SedpProfile& sedp) : packer{sedp} {}
+
+    fsm::StateId thread = fsm::Stepper<fsm::EventThread>::initial;
+    fsm::StateId timer = fsm::Stepper<fsm::MovableTimer>::initial;
+    std::int64_t due = 0;
+    std::deque<DueTimer> list;
+    std::deque<Message> given;  ///< what the timer that fires gives
+    std::deque<Message> queue;
+    std::uint32_t queued_repairs = 0;
+    Packer packer;
+    // What is being sent.
+    std::shared_ptr<const std::vector<Submessage>> contents;
+    std::deque<Number> left;  ///< addresses that it has not been sent to
+    std::int64_t bytes = 0;
+    std::optional<KeptAnswer> kept;
+  };
+
+  auto& place_of(comp::Recognised, Number p) { return pairs_[p].recognised; }
+  auto& place_of(rules::AckDue, Number r) { return relations_[r].due; }
+  auto& place_of(rules::HeartbeatDue, Number w) { return writers_[w].due; }
+  auto& place_of(rules::SpdpDue, Number i) { return participants_[i].due; }
+  auto& place_of(rules::ReplyDue, Number p) { return pairs_[p].due; }
+  auto& place_of(rules::HeartbeatCount, Number w) { return writers_[w].heartbeat_count; }
+  auto& place_of(rules::HeartbeatsSince, Number w) { return writers_[w].heartbeats_since; }
+  auto& place_of(rules::LastHeartbeat, Number w) { return writers_[w].last_heartbeat; }
+  auto& place_of(rules::HeartbeatSent, Number w) { return writers_[w].heartbeat_sent; }
+  auto& place_of(rules::Acked, Number r) { return relations_[r].acked; }
+  auto& place_of(rules::LastAckCount, Number r) { return relations_[r].last_ack_count; }
+  auto& place_of(rules::AckCountsUntil, Number r) { return relations_[r].ack_counts_until; }
+  auto& place_of(rules::SomeAccepted, Number r) { return relations_[r].accepted; }
+  auto& place_of(rules::SomeRefused, Number r) { return relations_[r].refused; }
+  auto& place_of(rules::ByDelay, Number r) { return relations_[r].by_delay; }
+  auto& place_of(rules::AskedEnd, Number r) { return relations_[r].asked_end; }
+  auto& place_of(rules::LastBase, Number r) { return relations_[r].last_base; }
+  auto& place_of(rules::LastHeartbeatCount, Number r) { return relations_[r].last_heartbeat_count; }
+  auto& place_of(rules::HeartbeatCountsUntil, Number r) {
+    return relations_[r].heartbeat_counts_until;
+  }
+  auto& place_of(rules::QuietUntil, Number r) { return relations_[r].quiet_until; }
+  auto& place_of(rules::HushUntil, Number r) { return relations_[r].hush_until; }
+  auto& place_of(rules::AgainAt, Number r) { return relations_[r].again_at; }
+  auto& place_of(rules::NextAckCount, Number r) { return relations_[r].ack_count; }
+  auto& place_of(rules::RepliesSent, Number p) { return pairs_[p].replies; }
+
+  // protocol.cpp
+  void match(Number relation);
+  void take(Number relation, Number word, std::uint64_t received);
+  void open_created(Number writer, Number sample);
+  void open_notified(Number relation, Number sample);
+  void receive(const Submessage& m, Number sender, Number receiver);
+
+  // sender.cpp
+  void work(Number i);
+  bool next_task(Number i);
+  void fire(const DueTimer& timer);
+  void begin_to_send(Number i);
+  void send_copy(Number i);
+  TrafficClass count(const Submessage& m, Number pair, bool to_group);
+  void join(Number i, DueTimer timer) { participants_[i].list.push_back(timer); }
+  void enqueue(Number i, Message&& message);
+  [[nodiscard]] Destination readers_of(Number writer) const;
+  [[nodiscard]] Message message(Submessage&& content, Number owner, Number slot,
+                                std::int64_t bytes) const;
+  [[nodiscard]] Message heartbeat(Number writer, bool directed) const;
+  [[nodiscard]] Message data(Number writer, Number sample) const;
+  [[nodiscard]] Message announcement(Number i) const;
+  void heartbeat_to(Number relation, bool directed);
+  void heartbeat_to_all(Number writer);
+  void acknowledge(Number relation, Submessage&& acknack);
+  void push(Number writer, Number sample);
+  void repeat(Number relation, Number sample);
+  void announce(Number i);
+  void announce_to(Number pair);
+  void send_to_all_instead(Number relation, Number sample);
+  void let_answer_go(Number i);
+  [[nodiscard]] const Message* find_queued(Number relation, Number sample, bool for_it) const;
+
+  [[nodiscard]] const Pair& ends(Number relation) const {
+    return run_.topology.pair(relation / stride_);
+  }
+  [[nodiscard]] Number writer_of(Number relation) const {
+    return stride_ * ends(relation).source + relation % stride_;
+  }
+  [[nodiscard]] static Number end_of(const DescriptorSet& set) {
+    return set.empty() ? 0 : set.highest() + 1;
+  }
+
+  RunState& run_;
+  Network& network_;
+  const SedpProfile& sedp_;
+  const bool multicast_;
+  const Number stride_;  ///< writers of each participant
+  EffectMutator mutator_{run_.mutation, run_.probe};
+  const bool watched_ = mutator_.is_needed();
+  std::vector<Participant> participants_;
+  std::vector<PairState> pairs_;
+  std::vector<Writer> writers_;      // stride · participant + writer
+  std::vector<Relation> relations_;  // stride · pair + writer
+
+  Driver<fsm::CautiousReader> judge_driver_{run_, MachineRef::Kind::endpoint_relation};
+  Driver<fsm::MatchedReader> peer_driver_{run_, MachineRef::Kind::endpoint_relation};
+  Driver<fsm::HeartbeatPacer> pacer_driver_{run_, MachineRef::Kind::endpoint_writer};
+  Driver<fsm::EventThread> thread_driver_{run_, MachineRef::Kind::participant};
+  using Timers = Driver<fsm::MovableTimer>;
+  Timers relation_timers_{run_, MachineRef::Kind::endpoint_relation};
+  Timers writer_timers_{run_, MachineRef::Kind::endpoint_writer};
+  Timers participant_timers_{run_, MachineRef::Kind::participant};
+  Timers pair_timers_{run_, MachineRef::Kind::pair};
+};
+
+}  // namespace stormproof::model::cyclone

@@ -1,0 +1,25 @@
+// What an RTPS message of Cyclone DDS carries: announcements, DATA, HEARTBEATs and ACKNACKs, in any
+// mixture, of any writers of its participant. Receivers read them one after the other.
+#pragma once
+
+#include <cstdint>
+
+#include "model/engine/descriptor_set.hpp"
+
+namespace stormproof::model {
+
+struct Submessage {
+  enum class Kind : std::uint8_t { spdp, data, heartbeat, acknack };
+
+  Kind kind{};
+  bool directed = false;          ///< announcement, HEARTBEAT: meant for its receiver alone
+  bool initial = false;           ///< ACKNACK: pre-emptive, before any HEARTBEAT was seen
+  std::uint32_t participant = 0;  ///< who is announced, or whose writer this is about
+  std::uint32_t writer = 0;       ///< which of its writers (model/cyclone/endpoints.hpp)
+  std::uint32_t sample = 0;       ///< DATA: its number, from 0; HEARTBEAT: how many exist; ACKNACK:
+                                  ///< how many lie below its base
+  std::int64_t count = 0;         ///< HEARTBEAT, ACKNACK
+  DescriptorSet bitmap;           ///< ACKNACK
+};
+
+}  // namespace stormproof::model
