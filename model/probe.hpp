@@ -63,6 +63,9 @@ class Probe {
   virtual void effect(fsm::composition::EffectKey) {}
   virtual void scheduled(std::uint64_t /*insertion*/, Nanoseconds, EventKind,
                          std::uint32_t /*subject*/) {}
+  /// The event was due, but its participant could not send (`sender: stalls`): it is pending still,
+  /// from now on with another insertion number, and happens now.
+  virtual void rescheduled(const Event&, std::uint64_t /*insertion*/) {}
   /// `source` emitted the packet, or `packet.copies` packets of consecutive numbers to
   /// `destinations`.
   virtual void emitted(const Packet&, std::uint32_t /*source*/,

@@ -73,12 +73,22 @@ class Simulator {
   }
 
   void process(const Event& event) {
+    const bool of_network = concerns_network(event.kind);
+    if (network_.sender_stalls() && !of_network && waits(event)) return;
     if (run_.probe != nullptr) run_.probe->event_started(event);
-    if (concerns_network(event.kind))
+    if (of_network)
       network_.handle(event);
     else
       implementation_->handle(event);
     if (run_.probe != nullptr) run_.probe->event_finished(network_.depths());
+  }
+
+  /// Holds the event if its participant stalls.
+  bool waits(const Event& event) {
+    const std::optional<std::uint32_t> sender = implementation_->sender_of(event);
+    if (!sender || !network_.stalls(*sender)) return false;
+    network_.hold(*sender, event);
+    return true;
   }
 
   bool report_progress() const {

@@ -1,7 +1,8 @@
 // The wireless profile: how packets are served, from the source queue over the stages of the route
 // to the receiver (paper, "Shared Wireless Service"; specs/guide/model.md, "Packets, fragments,
-// queue, channel"). The defaults are infrastructure 802.11n as in the paper's evaluation.
-// `model/config/knobs/wireless_knobs.hpp` gives keys and ranges.
+// queue, channel"; with `service: unit` specs/guide/wifi.md). The defaults are infrastructure
+// 802.11n as in the paper's evaluation. `model/config/knobs/wireless_knobs.hpp` gives keys and
+// ranges.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,33 @@ enum class ServiceOrder : std::uint8_t { fifo_uplink, fifo_downlink, fifo, datag
 /// Whether admission requests service for the first fragment only or for all of them.
 enum class FragmentRequest : std::uint8_t { sequential, at_admission };
 enum class MulticastAs : std::uint8_t { unicast, multicast };
+
+/// What an access to the channel serves: one fragment, on a route of stages; or a unit of frames
+/// (A-MPDU) between hosts and their access point.
+enum class ServedBy : std::uint8_t { frame, unit };
+/// Which transmitter is next: the one that has not sent for the longest time, or that of the oldest
+/// request.
+enum class Arbitration : std::uint8_t { round_robin, oldest };
+/// Which of its queues the access point serves next.
+enum class ApQueue : std::uint8_t { oldest, round_robin };
+/// Whether the frames of a queue wait in one line, or in one for each flow (Linux mac80211).
+enum class Queueing : std::uint8_t { fifo, flows };
+/// What a participant does while packets wait for room in its source queue: it goes on, or its
+/// thread waits with them, as a blocking socket makes it.
+enum class Sender : std::uint8_t { backlog, stalls };
+/// Whether a message counts when it is generated, or when it is admitted to the source queue.
+enum class CountAt : std::uint8_t { generation, admission };
+
+/// What fits into one unit, and what an access with several frames costs beside their airtime. The
+/// defaults are those of 802.11n: Block Ack window, A-MPDU length, PPDU duration.
+struct Aggregation {
+  std::uint32_t max_frames = 64;
+  Bytes max_bytes{65'535};
+  Nanoseconds max_airtime{5'484'000};
+  Nanoseconds overhead{198'500};
+
+  bool operator==(const Aggregation&) const = default;
+};
 
 /// One stage of the route. An override that is absent means: the value of the profile.
 struct Stage {
@@ -65,6 +93,16 @@ struct WirelessProfile {
   std::vector<PacketDelay> packet_delays;  ///< exceptions to it, by ascending packet number
   std::vector<Stage> stages{{"uplink", "air", MulticastAs::unicast, {}, {}, {}, {}},
                             {"downlink", "air", MulticastAs::multicast, {}, {}, {}, {}}};
+  ServedBy service = ServedBy::frame;
+  // Of `service: unit`, whose stages are the two above.
+  Aggregation aggregation;
+  Arbitration arbitration = Arbitration::round_robin;
+  ApQueue ap_queue = ApQueue::oldest;
+  Queueing queueing = Queueing::fifo;
+  Bytes quantum{300};  ///< bytes that a flow may send before the next one does (Linux fq_impl.h)
+  // Of both.
+  Sender sender = Sender::backlog;
+  CountAt count_at = CountAt::generation;
 
   bool operator==(const WirelessProfile&) const = default;
 };

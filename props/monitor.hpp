@@ -51,7 +51,7 @@ class Monitor : public model::Probe {
 
 /// Ids of all properties that have a monitor.
 [[nodiscard]] std::vector<std::string_view> monitored_properties();
-/// Those of them that apply to the implementation (props/applicability.hpp).
-[[nodiscard]] std::vector<std::string_view> monitored_properties(model::ImplementationKind);
+/// Those of them that apply to the scenario (props/applicability.hpp).
+[[nodiscard]] std::vector<std::string_view> monitored_properties(const model::Scenario& scenario);
 
 }  // namespace stormproof::props

@@ -101,8 +101,7 @@ model::config::Result<model::Scenario> read_scenario(const FuzzArguments& argume
 model::config::Result<std::vector<std::string>> ids_to_judge(const FuzzArguments& arguments,
                                                              const model::Scenario& scenario) {
   std::vector<std::string> known;
-  for (const std::string_view id : props::monitored_properties(scenario.dds.implementation))
-    known.emplace_back(id);
+  for (const std::string_view id : props::monitored_properties(scenario)) known.emplace_back(id);
   for (const std::string_view id : props::limits_of(scenario)) known.emplace_back(id);
   for (const std::string& id : arguments.properties) {
     if (std::ranges::find(known, id) != known.end()) continue;

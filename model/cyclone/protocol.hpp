@@ -40,6 +40,12 @@ class Protocol final : public Implementation {
 
   void start() override;
   void handle(const Event& event) override;
+  /// Only the event thread sends.
+  [[nodiscard]] std::optional<Number> sender_of(const Event& event) const override {
+    if (event.kind != EventKind::thread_run) return {};
+    return event.subject;
+  }
+  void count(const model::Packet& packet) override;
   void source_completed(const model::Packet&) override {}
   [[nodiscard]] bool receives_separately() const override { return true; }
   [[nodiscard]] std::vector<Number> receivers(const model::Packet& packet) const override;
@@ -395,6 +401,8 @@ class Protocol final : public Implementation {
   void begin_to_send(Number i);
   void send_copy(Number i);
   TrafficClass count(const Submessage& m, Number pair, bool to_group);
+  static TrafficClass count_control(const Submessage& m, Counts& counts,
+                                    std::uint64_t& user_control);
   void join(Number i, DueTimer timer) { participants_[i].list.push_back(timer); }
   void enqueue(Number i, Message&& message);
   [[nodiscard]] Destination readers_of(Number writer) const;

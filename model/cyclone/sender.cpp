@@ -23,7 +23,8 @@ void Protocol::work(Number i) {
   while (true) {
     if (!p.left.empty()) {
       send_copy(i);
-      if (run_.scenario.deployment.time_to_send() == Nanoseconds{0}) continue;
+      if (run_.scenario.deployment.time_to_send() == Nanoseconds{0} && !network_.stalls(i))
+        continue;
       run_rule<comp::Happens<rules::ThreadPauses>>(*this, i);
       return;
     }
@@ -118,37 +119,60 @@ void Protocol::send_copy(Number i) {
   sent.use = TrafficClass::user_control;
   for (const Submessage& m : *p.contents) {
     const TrafficClass use = count(m, sent.pair, to_group);
-    if (use == TrafficClass::initial_data) sent.carries_initial = true;
+    if (use == TrafficClass::initial_data) ++sent.initial_data;
+    if (use == TrafficClass::repair_data) ++sent.repair_data;
     sent.use = std::min(sent.use, use);
   }
+  sent.carries_initial = sent.initial_data > 0;
   network_.emit(i, std::move(sent));
 }
 
-/// Counts a submessage on its way to the destination of `pair`, or from participant `pair` to the
-/// group; says what it is for.
-TrafficClass Protocol::count(const Submessage& m, Number pair, bool to_group) {
-  Counts& counts = run_.counts;
-  if (m.kind == Submessage::Kind::spdp) {
-    ++(to_group ? counts.spdp_multicast : counts.spdp_unicast);
-    return TrafficClass::spdp;
-  }
+/// What a submessage is for that is neither announcement nor DATA of a stream; it counts there.
+TrafficClass Protocol::count_control(const Submessage& m, Counts& counts,
+                                     std::uint64_t& user_control) {
   if (m.writer > writer::subscriptions) {
-    ++run_.user_control;
+    ++user_control;
     return TrafficClass::user_control;
   }
   if (m.kind == Submessage::Kind::heartbeat) {
     ++counts.heartbeat;
     return TrafficClass::heartbeat;
   }
-  if (m.kind == Submessage::Kind::acknack) {
-    ++counts.acknack;
-    return TrafficClass::acknack;
+  ++counts.acknack;
+  return TrafficClass::acknack;
+}
+
+/// Counts a submessage on its way to the destination of `pair`, or from participant `pair` to the
+/// group; says what it is for.
+TrafficClass Protocol::count(const Submessage& m, Number pair, bool to_group) {
+  const bool later = counts_at_admission(run_);
+  Counts of_no_interest;
+  std::uint64_t control_of_no_interest = 0;
+  Counts& counts = later ? of_no_interest : run_.counts;
+  if (m.kind == Submessage::Kind::spdp) {
+    ++(to_group ? counts.spdp_multicast : counts.spdp_unicast);
+    return TrafficClass::spdp;
+  }
+  if (m.kind != Submessage::Kind::data || m.writer > writer::subscriptions) {
+    return count_control(m, counts, later ? control_of_no_interest : run_.user_control);
   }
   auto& delivered = to_group ? writers_[stride_ * m.participant + m.writer].delivered
                              : relations_[stride_ * pair + m.writer].delivered;
   const bool again = mark(delivered, m.sample);
   ++(again ? counts.repair_data : counts.initial_data);
   return again ? TrafficClass::repair_data : TrafficClass::initial_data;
+}
+
+void Protocol::count(const model::Packet& packet) {
+  run_.counts.initial_data += packet.initial_data;
+  run_.counts.repair_data += packet.repair_data;
+  for (const Submessage& m : *packet.submessages) {
+    if (m.kind == Submessage::Kind::spdp) {
+      ++(packet.to_group ? run_.counts.spdp_multicast : run_.counts.spdp_unicast);
+    } else if (m.kind != Submessage::Kind::data || m.writer > writer::subscriptions) {
+      count_control(m, run_.counts, run_.user_control);
+    }
+  }
 }
 
 Destination Protocol::readers_of(Number w) const {

@@ -47,6 +47,12 @@ class EventQueue {
     return insertion;
   }
 
+  /// An event with the next insertion number that is not inserted.
+  Event make(Nanoseconds time, EventKind kind, std::uint32_t subject) {
+    const std::uint64_t order = static_cast<std::uint64_t>(class_of(kind)) << 62 | inserted_++;
+    return {time, order, subject, 0, kind};
+  }
+
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::size_t size() const { return size_; }
 

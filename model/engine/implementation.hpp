@@ -20,6 +20,11 @@ class Implementation {
   virtual void start() = 0;
   /// A protocol event is due.
   virtual void handle(const Event& event) = 0;
+  /// The participant that acts in a protocol event, if it does so only when it can send
+  /// (`sender: stalls`).
+  [[nodiscard]] virtual std::optional<std::uint32_t> sender_of(const Event&) const { return {}; }
+  /// Counts the messages in a packet that is admitted (`count_at: admission`).
+  virtual void count(const Packet&) {}
   /// The last source-side fragment of the packet has been served.
   virtual void source_completed(const Packet& packet) = 0;
   /// Whether each receiver of a packet has a reception event of its own. Otherwise a packet is

@@ -26,8 +26,18 @@ Network::Network(RunState& run)
     : run_{run},
       wireless_{run.scenario.wireless},
       fragmentation_{run.scenario.wireless},
-      sources_(run.topology.participant_count()) {
+      sources_(run.topology.participant_count()),
+      sender_stalls_{wireless_.sender == Sender::stalls},
+      counts_at_admission_{wireless_.count_at == CountAt::admission} {
   if (wireless_.kind == ServiceKind::shared_channel) build_route();
+  if (wireless_.service == ServedBy::unit) {
+    std::uint32_t hosts = 0;
+    for (const Participant& p : run.scenario.deployment.participants) {
+      hosts = std::max(hosts, p.host.value + 1);
+    }
+    units_ = std::make_unique<UnitChannel>(wireless_, hosts);
+  }
+  if (sender_stalls_) held_.resize(sources_.size());
 }
 
 void Network::build_route() {
@@ -98,11 +108,13 @@ void Network::admit(std::uint32_t source) {
     InFlight& flight = flights_[slot];
     flight.demand = demand;
     flight.admitted = run_.now;
+    if (counts_at_admission_) implementation_->count(flight.packet);
     const std::uint32_t requested =
         wireless_.fragment_request == FragmentRequest::at_admission ? flight.fragments : 1;
     for (std::uint32_t k = 0; k < requested; ++k) request(slot, k, 0);
   }
   queue.note_peak(run_.now);
+  if (sender_stalls_ && queue.backlog_packets() == 0) wake(source);
   if (run_.probe != nullptr) {
     run_.probe->backlog_changed(source, queue.backlog_packets(), queue.admitted_bytes());
   }
@@ -119,6 +131,7 @@ std::uint32_t Network::allocate(Packet&& packet, std::uint32_t source, std::int6
 }
 
 void Network::request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage) {
+  if (units_ != nullptr) return request_in_unit(slot, fragment, stage > 0);
   const StageState& target = stages_[stage];
   channels_[target.channel].waiting.push(target.position,
                                          {run_.now, next_request_++, slot, fragment});
@@ -131,8 +144,9 @@ void Network::request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t 
 template <class Event>
 void Network::step(std::uint32_t channel) {
   ChannelState& c = channels_[channel];
+  const bool waiting = units_ != nullptr ? !units_->empty() : !c.waiting.empty();
   const auto output = channel_driver_.step<Event>(
-      c.state, {.waiting = !c.waiting.empty(), .dispatch_pending = c.dispatch_pending}, channel);
+      c.state, {.waiting = waiting, .dispatch_pending = c.dispatch_pending}, channel);
   if (output.schedule_dispatch) {
     c.dispatch_pending = true;
     run_.schedule(run_.now, EventKind::dispatch, channel);
@@ -140,7 +154,12 @@ void Network::step(std::uint32_t channel) {
   if (output.serve) serve(channel);
 }
 
+template void Network::step<fsm::channel::ServiceRequested>(std::uint32_t);
+template void Network::step<fsm::channel::ServiceFinished>(std::uint32_t);
+template void Network::step<fsm::channel::EffectsDone>(std::uint32_t);
+
 void Network::serve(std::uint32_t channel) {
+  if (units_ != nullptr) return serve_unit();
   ChannelState& c = channels_[channel];
   if (c.waiting.empty()) return;  // only a mutated table serves nothing
   const WaitingFragments::Choice choice = c.waiting.pop();
@@ -198,6 +217,7 @@ void Network::service_finished(std::uint32_t channel) {
   ChannelState& c = channels_[channel];
   if (!c.serves) return;  // only an event that was scheduled twice finds nothing served
   c.serves = false;
+  if (units_ != nullptr) return unit_finished();
   const auto [time, number, slot, fragment] = c.serving;
   const std::uint32_t stage = c.serving_stage;
   const InFlight& flight = flights_[slot];
@@ -271,6 +291,7 @@ void Network::emit_with_delay(std::uint32_t source, Packet&& packet) {
         allocate(last_copy ? std::move(packet) : take_copy(packet), source, 1);
     InFlight& flight = flights_[slot];
     flight.admitted = run_.now;
+    if (counts_at_admission_) implementation_->count(flight.packet);
     const PacketDelay delay = delay_of(flight.packet.number);
     if (implementation_->receives_separately()) {
       if (!is_lost(flight.packet.number)) schedule_receptions(slot, run_.now + delay.one_way);
@@ -327,13 +348,16 @@ Depths Network::depths() const {
     depths.admitted_bytes += source.admitted_bytes();
   }
   for (const ChannelState& channel : channels_) depths.waiting += channel.waiting.size();
+  if (units_ != nullptr) depths.waiting += units_->size();
   return depths;
 }
 
 void Network::report(RunResult& result) const {
   for (const ChannelState& c : channels_) {
     ChannelUse use{c.name, c.busy};
-    if (c.serves) {
+    if (c.serves && units_ != nullptr) {
+      add_use(use.busy, result.end_time);
+    } else if (c.serves) {
       const Packet& packet = flights_[c.serving.slot].packet;
       use.busy[static_cast<std::size_t>(traffic_class(packet))] +=
           result.end_time - c.serving_since;

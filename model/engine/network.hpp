@@ -1,11 +1,12 @@
 // The wireless service: backlog, source queue, fragments, the stages of the route and their
 // channels (paper, "Shared Wireless Service"; specs/guide/model.md, "Packets, fragments, queue,
-// channel"). It knows packets, not what they mean: their source completion and reception go to the
-// DDS implementation.
+// channel"; of units of frames, and of senders that wait, specs/guide/wifi.md). It knows packets,
+// not what they mean: their source completion and reception go to the DDS implementation.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "fsm/channel.hpp"
@@ -15,6 +16,7 @@
 #include "model/engine/run_state.hpp"
 #include "model/engine/slot_pool.hpp"
 #include "model/engine/source_queue.hpp"
+#include "model/engine/unit_channel.hpp"
 #include "model/engine/waiting_fragments.hpp"
 
 namespace stormproof::model {
@@ -35,6 +37,16 @@ class Network {
 
   /// A service, reception, source completion or dispatch event is due.
   void handle(const Event& event);
+
+  /// Whether what the participant is about to do has to wait, because packets of its own wait for
+  /// room in its source queue (`sender: stalls`).
+  [[nodiscard]] bool stalls(std::uint32_t participant) const {
+    return sender_stalls_ && sources_[participant].backlog_packets() > 0;
+  }
+  /// Keeps the event until the participant does not stall any more. It happens then, after those
+  /// that were held before it.
+  void hold(std::uint32_t participant, const Event& event) { held_[participant].push_back(event); }
+  [[nodiscard]] bool sender_stalls() const { return sender_stalls_; }
 
   [[nodiscard]] Depths depths() const;
   /// Fills the parts of the result that concern channels, backlogs and latencies.
@@ -76,6 +88,14 @@ class Network {
     if (--flights_[slot].uses == 0) flights_.give_back(slot);
   }
 
+  // network_of_units.cpp
+  [[nodiscard]] Flow flow_of(const InFlight& flight) const;
+  void request_in_unit(std::uint32_t slot, std::uint32_t fragment, bool downlink);
+  void serve_unit();
+  void unit_finished();
+  void add_use(std::array<Nanoseconds, traffic_class_count>& busy, Nanoseconds until) const;
+  void wake(std::uint32_t participant);
+
   void request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage);
   template <class Event>
   void step(std::uint32_t channel);
@@ -101,6 +121,11 @@ class Network {
   std::vector<ChannelState> channels_;
   std::vector<SourceQueue> sources_;
   SlotPool<InFlight> flights_;
+  std::unique_ptr<UnitChannel> units_;  // of `service: unit`; its only channel is number 0
+  Unit unit_;                           // that is served, if channel 0 serves
+  const bool sender_stalls_;
+  const bool counts_at_admission_;
+  std::vector<std::vector<Event>> held_;  // by participant, if senders stall
   std::uint64_t next_packet_ = 0;
   std::uint64_t next_request_ = 0;
   std::array<Latency, traffic_class_count> latency_{};

@@ -51,6 +51,10 @@ struct Packet {
   bool initial_acknack = false;  ///< ACKNACK marked initial
   bool to_group = false;         ///< a message that goes to the multicast group
   TrafficClass use{};            ///< of a message: what it is for
+  std::uint8_t port = 0;         ///< of its flow: 1 for data of applications, 0 for all else
+  std::uint32_t initial_data = 0;  ///< how many of its descriptors count as generated for the first
+                                   ///< time, of those that count
+  std::uint32_t repair_data = 0;   ///< and how many of them as repeated
   std::shared_ptr<const std::vector<Submessage>> submessages;  ///< of a message
 
   [[nodiscard]] bool multicast() const { return to_group || kind == PacketKind::spdp_multicast; }

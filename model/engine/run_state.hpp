@@ -34,6 +34,19 @@ struct RunState {
     return 1;
   }
 
+  /// Schedules an event that was due and was held back, now.
+  void schedule_again(const Event& event) {
+    const std::uint64_t insertion =
+        queue.schedule_as(event.event_class(), now, event.kind, event.subject, event.detail);
+    if (probe != nullptr) probe->rescheduled(event, insertion);
+  }
+  /// An event that is due now, but is not in the queue: somebody holds it.
+  [[nodiscard]] Event scheduled_aside(EventKind kind, std::uint32_t subject) {
+    const Event event = queue.make(now, kind, subject);
+    if (probe != nullptr) probe->scheduled(event.insertion(), now, kind, subject);
+    return event;
+  }
+
   [[nodiscard]] bool complete() const { return missing == 0; }
   /// Whether the run ends at once, in the middle of a packet.
   [[nodiscard]] bool ends_now() const { return complete() && ends_when_complete; }
@@ -57,5 +70,10 @@ struct RunState {
   std::uint32_t schedule_mutated(Nanoseconds time, EventKind kind, std::uint32_t subject,
                                  std::uint32_t detail);
 };
+
+/// Whether messages count when they are admitted to the source queue, not at their generation.
+[[nodiscard]] inline bool counts_at_admission(const RunState& run) {
+  return run.scenario.wireless.count_at == CountAt::admission;
+}
 
 }  // namespace stormproof::model

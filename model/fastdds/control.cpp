@@ -87,11 +87,12 @@ void Protocol::open_notified(std::uint32_t pair, Stream s, std::uint32_t d) {
 }
 
 void Protocol::send_control(PacketKind kind, std::uint32_t relation, bool initial) {
-  ++run_.user_control;
+  if (!counts_at_admission(run_)) ++run_.user_control;
   const bool acknack = kind == PacketKind::user_acknack;
   Packet packet =
       control_.packet_of(kind, relation, acknack ? acknack_bytes : heartbeat_to_one_bytes);
   packet.initial_acknack = initial;
+  packet.port = relation == control_.find(packet.pair, topic::liveliness) ? 0 : 1;
   const Pair& p = run_.topology.pair(packet.pair);
   network_.emit(acknack ? p.destination : p.source, std::move(packet));
 }

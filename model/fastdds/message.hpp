@@ -20,8 +20,11 @@ struct Message {
   std::vector<std::uint64_t> descriptors;
   bool has_data = false;
   std::uint16_t heartbeats = 0;
-  std::uint32_t announced = 0;        ///< by its last HEARTBEAT
-  std::vector<bool> carries_initial;  ///< by reader: a descriptor goes to it for the first time
+  std::uint32_t announced = 0;  ///< by its last HEARTBEAT
+  // By reader: how many descriptors go to it for the first time, and how many again; of those of
+  // other hosts.
+  std::vector<std::uint32_t> initial_data;
+  std::vector<std::uint32_t> repair_data;
 
   void start(std::uint32_t writer_, const std::vector<std::uint32_t>& readers_,
              std::uint32_t descriptor_count) {
@@ -33,7 +36,8 @@ struct Message {
     has_data = false;
     heartbeats = 0;
     announced = 0;
-    carries_initial.assign(readers.size(), false);
+    initial_data.assign(readers.size(), 0);
+    repair_data.assign(readers.size(), 0);
   }
 
   [[nodiscard]] bool carries(std::uint32_t d) const {

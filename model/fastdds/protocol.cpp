@@ -13,10 +13,65 @@ Protocol::Protocol(RunState& run, Network& network)
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
-      known_(run.topology.pair_count(), false) {
+      known_(run.topology.pair_count(), false),
+      generated_{counts_at_admission(run) ? of_no_interest_ : run.counts} {
   for (std::uint32_t w = 0; w < writers_.size(); ++w) {
     refill(w);
     writers_[w].enqueued.resize(words_for(run.topology.descriptor_count(w / 2, stream_of(w))));
+  }
+}
+
+std::optional<std::uint32_t> Protocol::sender_of(const Event& event) const {
+  switch (event.kind) {
+    case EventKind::announcement_due:
+    case EventKind::endpoint_creation:
+    case EventKind::async_run:
+      return event.subject;
+    case EventKind::heartbeat_expiry:
+    case EventKind::nack_response:
+    case EventKind::cycle_start:
+    case EventKind::cycle_end:
+    case EventKind::batch_due:
+      return event.subject / 2;
+    case EventKind::suppression_end:
+      return ends(event.subject).source;
+    case EventKind::acknack_generation:
+    case EventKind::initial_acknack_due:
+      return ends(event.subject).destination;
+    case EventKind::control_initial_due:
+    case EventKind::control_reply_due:
+      return run_.topology.pair(control_.of(event.subject).pair).destination;
+    default:
+      return {};
+  }
+}
+
+void Protocol::count(const Packet& packet) {
+  Counts& counts = run_.counts;
+  switch (packet.kind) {
+    case PacketKind::spdp_multicast:
+      ++counts.spdp_multicast;
+      break;
+    case PacketKind::spdp_unicast:
+      ++counts.spdp_unicast;
+      break;
+    case PacketKind::data:
+      counts.initial_data += packet.initial_data;
+      counts.repair_data += packet.repair_data;
+      counts.heartbeat += packet.heartbeats;
+      break;
+    case PacketKind::heartbeat:
+      counts.heartbeat += std::max<std::uint64_t>(packet.heartbeats, 1);
+      break;
+    case PacketKind::acknack:
+      ++counts.acknack;
+      break;
+    case PacketKind::user_heartbeat:
+    case PacketKind::user_acknack:
+      ++run_.user_control;
+      break;
+    case PacketKind::rtps_message:
+      break;  // sent by others only
   }
 }
 
@@ -42,7 +97,10 @@ void Protocol::handle(const Event& event) {
   }
   const std::uint32_t user_publications =
       run_.topology.descriptor_count(event.subject, Stream::pub) - default_publications;
-  const auto [stream, d] = creation_order(event.detail, user_publications);
+  // A creation that was held can meet the next one; the application creates them in their order.
+  const std::uint32_t k =
+      network_.sender_stalls() ? participants_[event.subject].endpoints++ : event.detail;
+  const auto [stream, d] = creation_order(k, user_publications);
   run_rule<comp::Happens<rules::Created>>(
       *this, 2 * event.subject + static_cast<std::uint32_t>(index_of(stream)), nullptr, d);
 }
@@ -118,7 +176,7 @@ void Protocol::send_spdp_to_known(std::uint32_t i) {
 }
 
 void Protocol::send_spdp_multicast(std::uint32_t i) {
-  ++run_.counts.spdp_multicast;
+  ++generated_.spdp_multicast;
   for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
        ++pair) {
     const Pair& p = run_.topology.pair(pair);
@@ -129,12 +187,12 @@ void Protocol::send_spdp_multicast(std::uint32_t i) {
 }
 
 void Protocol::send_spdp_copy(std::uint32_t pair) {
-  if (run_.topology.pair(pair).cross_host) ++run_.counts.spdp_unicast;
+  if (run_.topology.pair(pair).cross_host) ++generated_.spdp_unicast;
   send(packet_of(PacketKind::spdp_unicast, pair, spdp_bytes));
 }
 
 void Protocol::send_heartbeat(std::uint32_t relation, std::uint32_t announced, std::int64_t bytes) {
-  if (crosses(relation)) ++run_.counts.heartbeat;
+  if (crosses(relation)) ++generated_.heartbeat;
   Packet packet = packet_on(PacketKind::heartbeat, relation, bytes);
   packet.detail = announced;
   send(std::move(packet));
@@ -150,7 +208,7 @@ void Protocol::send_heartbeat_to_all(std::uint32_t w) {
 }
 
 void Protocol::send_acknack(Packet&& packet) {
-  if (crosses(packet.relation())) ++run_.counts.acknack;
+  if (crosses(packet.relation())) ++generated_.acknack;
   if (!packet.descriptors.empty()) {
     packet.payload_bytes += static_cast<std::uint32_t>(acknack_bitmap_bytes);
   }

@@ -31,6 +31,8 @@ class Protocol final : public DiscoveryBase {
 
   void start() override;
   void handle(const Event& event) override;
+  [[nodiscard]] std::optional<std::uint32_t> sender_of(const Event& event) const override;
+  void count(const Packet& packet) override;
   void source_completed(const Packet&) override {}  // suppression runs from serialization
   [[nodiscard]] bool receives_separately() const override { return true; }
   [[nodiscard]] std::vector<std::uint32_t> receivers(const Packet& packet) const override;
@@ -191,10 +193,12 @@ class Protocol final : public DiscoveryBase {
   template <class Visit>
   void for_queue(std::uint32_t i, Visit&& visit) {
     std::deque<Endpoint>& queue = participants_[i].queue;
+    go_on(i);
     while (!queue.empty()) {
       const Endpoint entry = queue.front();
       queue.pop_front();
       visit(2 * i + static_cast<std::uint32_t>(entry.stream), entry.descriptor);
+      if (!queue.empty() && network_.stalls(i)) return suspend(i);
     }
   }
   using DiscoveryBase::perform;
@@ -279,6 +283,8 @@ class Protocol final : public DiscoveryBase {
     fsm::StateId async_run = fsm::Stepper<fsm::SingleShot>::initial;
     std::deque<Endpoint> queue;   ///< what the async run will send
     std::int64_t sent_bytes = 0;  ///< all bytes that the async sender has ever sent
+    Message unfinished;           ///< that of an async run which stalls, if it is open
+    std::uint32_t endpoints = 0;  ///< created so far, of a participant that may stall
   };
 
   // protocol.cpp
@@ -311,6 +317,8 @@ class Protocol final : public DiscoveryBase {
   void charge(Message& message, std::uint32_t d, SendMode mode);
   void piggyback(Message& message, std::uint32_t writer, SendMode mode);
   void flush(Message& message, SendMode mode);
+  void suspend(std::uint32_t i);
+  void go_on(std::uint32_t i);
 
   // control.cpp
   void open(ControlSide side);
@@ -336,6 +344,8 @@ class Protocol final : public DiscoveryBase {
   Message sync_message_;
   Message async_message_;
   std::vector<std::uint32_t> targets_;
+  Counts of_no_interest_;
+  Counts& generated_;  ///< where messages count that are generated
 
   using SingleShots = Driver<fsm::SingleShot>;
   SingleShots participant_shots_{run_, MachineRef::Kind::participant};

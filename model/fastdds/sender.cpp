@@ -26,8 +26,8 @@ void Protocol::pack(Message& message, std::uint32_t w, std::uint32_t d,
     const std::uint32_t relation = readers[k];
     if (!crosses(relation)) continue;
     const bool initial = changes_.mark_generated(relation, d);
-    ++(initial ? run_.counts.initial_data : run_.counts.repair_data);
-    if (initial) message.carries_initial[k] = true;
+    ++(initial ? generated_.initial_data : generated_.repair_data);
+    ++(initial ? message.initial_data : message.repair_data)[k];
   }
 }
 
@@ -53,7 +53,7 @@ void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
   ++message.heartbeats;
   message.announced = writer.created;
   for (const std::uint32_t relation : writer.readers) {
-    if (crosses(relation)) ++run_.counts.heartbeat;
+    if (crosses(relation)) ++generated_.heartbeat;
   }
   refill(w);
 }
@@ -70,12 +70,30 @@ void Protocol::flush(Message& message, SendMode mode) {
     packet.pair = message.readers[k] / 2;
     packet.stream = stream_of(message.writer);
     packet.payload_bytes = static_cast<std::uint32_t>(message.bytes);
-    packet.carries_initial = message.carries_initial[k];
+    packet.initial_data = message.initial_data[k];
+    packet.repair_data = message.repair_data[k];
+    packet.carries_initial = packet.initial_data > 0;
     packet.carries_heartbeat = message.has_data && message.heartbeats > 0;
     packet.heartbeats = message.heartbeats;
     packet.detail = message.announced;
     send(std::move(packet));
   }
+}
+
+/// What is left of an asynchronous run happens when its participant does not stall any more; until
+/// then it counts as requested, and its message stays open.
+void Protocol::suspend(std::uint32_t i) {
+  Participant& participant = participants_[i];
+  std::swap(participant.unfinished, async_message_);
+  async_message_.open = false;
+  participant_shots_.step<fsm::single_shot::Requested>(participant.async_run, {}, i);
+  network_.hold(i, run_.scheduled_aside(EventKind::async_run, i));
+}
+
+void Protocol::go_on(std::uint32_t i) {
+  if (!participants_[i].unfinished.open) return;
+  std::swap(participants_[i].unfinished, async_message_);
+  participants_[i].unfinished.open = false;
 }
 
 }  // namespace stormproof::model::fastdds

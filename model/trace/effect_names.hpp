@@ -30,6 +30,13 @@ class EffectNames {
   void starts_timer(std::uint64_t insertion) {
     if (!last_.empty()) timers_.emplace(insertion, last_);
   }
+  /// A timer that is pending has another insertion number now.
+  void renumber_timer(std::uint64_t before, std::uint64_t insertion) {
+    auto timer = timers_.extract(before);
+    if (!timer) return;
+    timer.key() = insertion;
+    timers_.insert(std::move(timer));
+  }
   /// Which one started the timer that is due now; empty: none, because it was started before the
   /// run. To be asked once.
   [[nodiscard]] std::string_view take_starter(std::uint64_t insertion);

@@ -41,7 +41,7 @@ PerfettoWriter::PerfettoWriter(std::ostream& out, const Scenario& scenario, Effe
 void PerfettoWriter::finish() {
   write_counters();
   for (std::uint32_t c = 0; c < serving_.size(); ++c) {
-    if (serving_[c]) events_.end_slice(channel_track(c), now_);
+    for (; serving_[c] > 0; --serving_[c]) events_.end_slice(channel_track(c), now_);
   }
   events_.flush(true);
 }
@@ -59,14 +59,16 @@ void PerfettoWriter::event_started(const Event& event) {
   informed_.clear();
   if (effect_names_) effect_names_->event_started();
   if (event.kind == EventKind::service_finished) {
-    events_.end_slice(channel_track(event.subject), now_);
-    serving_[event.subject] = false;
+    std::uint32_t& open = serving_[event.subject];
+    for (; open > 0; --open) events_.end_slice(channel_track(event.subject), now_);
   }
   if (!is_timer(event.kind)) return;
   Slice& slice =
       slice_on(timer_track(event.kind, event.subject, *topology_), timer_label(event.kind));
-  if (event.insertion() >= scheduled_before_run_) {
-    slice.flows.push_back({FlowPhase::end, timer_flow, event.insertion()});
+  const auto first = first_insertions_.extract(event.insertion());
+  const std::uint64_t insertion = first ? first.mapped() : event.insertion();
+  if (insertion >= scheduled_before_run_) {
+    slice.flows.push_back({FlowPhase::end, timer_flow, insertion});
   }
   if (!effect_names_) return;
   const std::string_view starter = effect_names_->take_starter(event.insertion());
@@ -86,6 +88,12 @@ void PerfettoWriter::scheduled(std::uint64_t insertion, Nanoseconds, EventKind k
   Slice& slice = slice_on(timer_track(kind, subject, *topology_), timer_start_label(kind));
   slice.flows.push_back({FlowPhase::start, timer_flow, insertion});
   if (effect_names_) effect_names_->starts_timer(insertion);
+}
+
+void PerfettoWriter::rescheduled(const Event& event, std::uint64_t insertion) {
+  const auto first = first_insertions_.extract(event.insertion());
+  first_insertions_.emplace(insertion, first ? first.mapped() : event.insertion());
+  if (effect_names_) effect_names_->renumber_timer(event.insertion(), insertion);
 }
 
 void PerfettoWriter::emitted(const Packet& packet, std::uint32_t source,
@@ -114,7 +122,7 @@ void PerfettoWriter::service_started(std::uint32_t channel, std::uint32_t stage,
   const Track track = channel_track(channel);
   events_.begin_slice(track, now_, "service", service_label(packet, *topology_), args);
   if (fragment == 0) events_.flow({FlowPhase::step, packet_flow, packet.number}, track, now_);
-  serving_[channel] = true;
+  ++serving_[channel];
 }
 
 void PerfettoWriter::arrived(const Packet& packet, bool lost) {

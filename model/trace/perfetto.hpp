@@ -7,6 +7,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "model/airtime.hpp"
@@ -36,6 +37,7 @@ class PerfettoWriter final : public Probe {
                   std::uint64_t descriptors) override;
   void scheduled(std::uint64_t insertion, Nanoseconds time, EventKind kind,
                  std::uint32_t subject) override;
+  void rescheduled(const Event& event, std::uint64_t insertion) override;
   void emitted(const Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override;
   void service_started(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
@@ -81,14 +83,15 @@ class PerfettoWriter final : public Probe {
   std::vector<std::string> stages_;     // as JSON strings
   std::vector<HostId> hosts_;           // by participant
   const Topology* topology_ = nullptr;  // of the run
-  std::vector<bool> serving_;           // by channel: a slice is open
+  std::vector<std::uint32_t> serving_;  // by channel: how many slices are open
   std::vector<Counter> waiting_;        // by channel
   std::vector<Counter> backlog_;        // by participant
   std::vector<std::uint32_t> backlogs_changed_;
   std::uint64_t missing_ = 0;
   bool missing_changed_ = false;
   std::uint64_t scheduled_before_run_ = 0;
-  std::optional<EffectNames> effect_names_;  // if they are wanted
+  std::unordered_map<std::uint64_t, std::uint64_t> first_insertions_;  // of rescheduled timers
+  std::optional<EffectNames> effect_names_;                            // if they are wanted
 
   // The event that is being processed.
   Nanoseconds now_;

@@ -41,6 +41,9 @@ class ProbeList final : public Probe {
                  std::uint32_t subject) override {
     for (Probe* probe : probes_) probe->scheduled(insertion, time, kind, subject);
   }
+  void rescheduled(const Event& event, std::uint64_t insertion) override {
+    for (Probe* probe : probes_) probe->rescheduled(event, insertion);
+  }
   void emitted(const Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
     for (Probe* probe : probes_) probe->emitted(packet, source, destinations);

@@ -34,7 +34,7 @@ TraceWriter::TraceWriter(std::ostream& out, const Scenario& scenario, Effects ef
                   scenario, effects} {}
 
 TraceWriter::TraceWriter(Sink sink, const Scenario& scenario, Effects effects)
-    : sink_{std::move(sink)} {
+    : sink_{std::move(sink)}, by_unit_{scenario.wireless.service == ServedBy::unit} {
   if (effects == Effects::named) effect_names_.emplace(scenario.dds);
   for (const std::string& name : channel_names(scenario.wireless)) {
     channels_.push_back(json_string(name));
@@ -90,6 +90,14 @@ void TraceWriter::scheduled(std::uint64_t insertion, Nanoseconds, EventKind kind
   if (effect_names_ && is_of_rules(kind)) effect_names_->starts_timer(insertion);
 }
 
+void TraceWriter::rescheduled(const Event& event, std::uint64_t insertion) {
+  if (auto cause = causes_.extract(event.insertion())) {
+    cause.key() = insertion;
+    causes_.insert(std::move(cause));
+  }
+  if (effect_names_) effect_names_->renumber_timer(event.insertion(), insertion);
+}
+
 void TraceWriter::effect(fsm::composition::EffectKey key) {
   if (!effect_names_) return;  // another observer wants them
   append(effects_, effects_.empty() ? "\"" : ",\"", effect_names_->happens(key), "\"");
@@ -136,13 +144,21 @@ void TraceWriter::looped_back(const Packet& packet, std::uint32_t receiver) {
 
 void TraceWriter::service_started(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
                                   std::uint32_t fragment, Nanoseconds until) {
-  serving_[channel] = {packet.number, fragment, stage};
+  Serving& serving = serving_[channel];
+  if (service_.empty()) serving.unit.clear();
+  serving = {packet.number, fragment, stage, std::move(serving.unit)};
+  if (by_unit_) {
+    append(serving.unit, serving.unit.empty() ? "" : ",", R"({"packet":)", packet.number,
+           R"(,"fragment":)", fragment, "}");
+  }
+  service_.clear();
   append(service_, R"({"channel":)", channels_[channel]);
   append_serving(service_, serving_[channel]);
   append(service_, R"(,"until":)", until.count(), "}");
 }
 
 void TraceWriter::source_completed(const Packet& packet) {
+  if (!left_source_.empty()) left_source_ += ',';
   append(left_source_, packet.number);
   packet_ = left_source_;
 }
@@ -150,7 +166,8 @@ void TraceWriter::source_completed(const Packet& packet) {
 void TraceWriter::arrived(const Packet& packet, bool lost) {
   packet_.clear();
   append(packet_, packet.number);
-  append(arrived_, R"({"packet":)", packet.number, R"(,"kind":")", name_of(packet.kind), "\"");
+  append(arrived_, arrived_.empty() ? "" : ",", R"({"packet":)", packet.number, R"(,"kind":")",
+         name_of(packet.kind), "\"");
   const auto [from, to] = packet_ends(packet, *topology_);
   append(arrived_, R"(,"from":)", from, R"(,"to":)");
   if (packet.multicast())
@@ -183,8 +200,8 @@ void TraceWriter::event_finished(const Depths& depths) {
   if (!emitted_.empty()) append(line_, R"(,"emitted":[)", emitted_, "]");
   if (!looped_back_.empty()) append(line_, R"(,"looped_back":[)", looped_back_, "]");
   if (!service_.empty()) append(line_, R"(,"service":)", service_);
-  if (!left_source_.empty()) append(line_, R"(,"left_source":)", left_source_);
-  if (!arrived_.empty()) append(line_, R"(,"arrived":)", arrived_);
+  append_whole_or_list("left_source", left_source_);
+  append_whole_or_list("arrived", arrived_);
   if (!received_.empty()) append(line_, R"(,"received":)", received_);
   append(line_, R"(,"queues":{"events":)", depths.events, R"(,"backlog":)", depths.backlog_packets,
          R"(,"admitted_bytes":)", depths.admitted_bytes, R"(,"waiting":)", depths.waiting,
@@ -206,7 +223,16 @@ void TraceWriter::append_event_subject() {
   if (event_.kind == EventKind::service_finished) append_serving(line_, serving_[event_.subject]);
 }
 
+void TraceWriter::append_whole_or_list(const char* key, const std::string& elements) {
+  if (elements.empty()) return;
+  append(line_, ",\"", key, by_unit_ ? "\":[" : "\":", elements, by_unit_ ? "]" : "");
+}
+
 void TraceWriter::append_serving(std::string& out, const Serving& serving) const {
+  if (by_unit_) {
+    append(out, R"(,"stage":)", stages_[serving.stage], R"(,"unit":[)", serving.unit, "]");
+    return;
+  }
   append(out, R"(,"stage":)", stages_[serving.stage], R"(,"packet":)", serving.packet,
          R"(,"fragment":)", serving.fragment);
 }

@@ -44,6 +44,7 @@ class TraceWriter final : public Probe {
                   std::uint64_t descriptors) override;
   void scheduled(std::uint64_t insertion, Nanoseconds time, EventKind kind,
                  std::uint32_t subject) override;
+  void rescheduled(const Event& event, std::uint64_t insertion) override;
   void emitted(const Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override;
   void service_started(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
@@ -54,14 +55,17 @@ class TraceWriter final : public Probe {
   void looped_back(const Packet& packet, std::uint32_t receiver) override;
 
  private:
-  /// The fragment that a channel serves.
+  /// The fragment that a channel serves, or the fragments of a unit, as elements of an array.
   struct Serving {
     std::uint64_t packet = 0;
     std::uint32_t fragment = 0;
     std::uint32_t stage = 0;
+    std::string unit;
   };
 
   void append_generated(const Packet& packet);
+  /// Of what happens to one packet in an event, or to some of a unit.
+  void append_whole_or_list(const char* key, const std::string& elements);
   void append_event_subject();
   void append_subject(Subject kind, std::uint32_t subject);
   void append_cause();
@@ -72,6 +76,7 @@ class TraceWriter final : public Probe {
   void append_serving(std::string& out, const Serving& serving) const;
 
   Sink sink_;
+  bool by_unit_;  // several packets can leave their sources, and arrive, in one event
   std::vector<std::string> channels_;  // as JSON strings, by number
   std::vector<std::string> stages_;
   std::vector<HostId> hosts_;           // by participant

@@ -28,7 +28,8 @@ class Conservation final : public Observer {
         fragmentation_{scenario.wireless},
         capacity_{scenario.wireless.source_queue_bytes.count()},
         stages_{static_cast<std::uint32_t>(scenario.wireless.stages.size())},
-        shared_{scenario.wireless.kind == model::ServiceKind::shared_channel} {}
+        shared_{scenario.wireless.kind == model::ServiceKind::shared_channel},
+        by_unit_{scenario.wireless.service == model::ServedBy::unit} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -80,11 +81,13 @@ class Conservation final : public Observer {
   void service_started(std::uint32_t channel, std::uint32_t stage, const model::Packet& packet,
                        std::uint32_t fragment, model::Nanoseconds until) override {
     ChannelUse& use = channel_at(channel);
-    if (now() < use.busy_until) {
+    const bool same_unit = by_unit_ && use.busy_since == now() && use.busy_until == until;
+    if (now() < use.busy_until && !same_unit) {
       object_now(
           fmt::format("At {} channel {} serves packet {}, though its last service ends at {}.",
                       time_text(now()), channel, packet.number, time_text(use.busy_until)));
     }
+    use.busy_since = now();
     use.busy_until = until;
     const auto found = admitted_.find(packet.number);
     if (found == admitted_.end()) {
@@ -167,6 +170,7 @@ class Conservation final : public Observer {
     bool left = false;  // its source
   };
   struct ChannelUse {
+    model::Nanoseconds busy_since;
     model::Nanoseconds busy_until;
     std::uint64_t waiting = 0;
   };
@@ -209,6 +213,7 @@ class Conservation final : public Observer {
   std::int64_t capacity_;
   std::uint32_t stages_;
   bool shared_;
+  bool by_unit_;  // the frames of a unit are served together
   std::vector<Source> sources_;
   std::vector<ChannelUse> channels_;
   std::unordered_map<std::uint64_t, Admitted> admitted_;  // by packet number

@@ -66,6 +66,9 @@ class FollowedRun final : public Observer {
                  std::uint32_t subject) override {
     if (is_of_protocol(kind)) add(Scheduled{kind, subject, time, insertion});
   }
+  void rescheduled(const model::Event& event, std::uint64_t insertion) override {
+    if (follower_ != nullptr) follower_->rescheduled(event, insertion);
+  }
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
     if (follower_ == nullptr) return;

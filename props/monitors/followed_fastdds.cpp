@@ -32,7 +32,9 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
     const std::uint32_t user_publications =
         topology_.descriptor_count(event.subject, model::Stream::pub) -
         model::fastdds::default_publications;
-    const auto [stream, d] = model::fastdds::creation_order(event.detail, user_publications);
+    const bool may_wait = scenario_.wireless.sender == model::Sender::stalls;
+    const std::uint32_t k = may_wait ? created_[event.subject]++ : event.detail;
+    const auto [stream, d] = model::fastdds::creation_order(k, user_publications);
     Place place = writer_place(2 * event.subject + static_cast<std::uint32_t>(stream));
     place.descriptor = d;
     run<comp::Happens<fastdds::Created>>(place);
@@ -115,8 +117,9 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
     queues_[place.participant].push_back(entry);
   }
   std::optional<Place> next_in_queue(std::uint32_t i) {
+    if (const auto open = unfinished_.extract(i)) message_ = open.mapped();
     std::vector<Place>& queue = queues_[i];
-    if (queue.empty()) return std::nullopt;
+    if (queue.empty() || stalls(i)) return std::nullopt;
     const Place first = queue.front();
     queue.erase(queue.begin());
     return first;
@@ -135,7 +138,7 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
                        !std::ranges::binary_search(message_.descriptors, d);
     // Whether there was room shows in the run: only a flush sends something now.
     if (!joins || deeds_.next<Message>() != nullptr) flush();
-    if (message_.descriptors.empty()) {
+    if (!joins || message_.descriptors.empty()) {
       message_.writer = w.place().writer;
       message_.readers = std::move(served);
     }
@@ -171,13 +174,36 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
     bool heartbeats_may_follow = false;  ///< to all readers, of whom it goes to some
   };
 
+  /// Whether the run ends for now, though entries are left, because its participant stalls: then it
+  /// is requested again. The message stays open; if its DATA has gone, HEARTBEATs are left.
+  bool stalls(std::uint32_t i) {
+    if (scenario_.wireless.sender != model::Sender::stalls) return false;
+    std::size_t messages = 0;
+    while (deeds_.next<Message>(messages) != nullptr) ++messages;
+    const Move* move = deeds_.next<Move>(messages);
+    if (move == nullptr || move->machine.kind != model::MachineRef::Kind::participant) return false;
+    if (move->event != fsm::name_of<fsm::single_shot::Requested>()) return false;
+    if (messages > 0) {
+      const bool heartbeats = message_.heartbeats_may_follow;
+      const std::uint32_t writer = message_.writer;
+      message_.heartbeats_may_follow = false;
+      flush();
+      if (heartbeats) message_ = {writer, readers(writer), {}, true, true};
+    }
+    World w{*this, {.participant = i}, nullptr};
+    comp::request<fastdds::AsyncRun, comp::Immediately, fastdds::AsyncRunDue>(w);
+    unfinished_[i] = std::exchange(message_, {});
+    return true;
+  }
+
   /// What the message carries goes to each of its readers, with or without a HEARTBEAT.
   void flush() {
     const OpenMessage message = std::exchange(message_, {});
-    if (message.descriptors.empty()) return;
-    const Message* first = deeds_.next<Message>();
-    const bool rides = message.heartbeat_may_ride && first != nullptr && first->carries_heartbeat;
-    send(model::PacketKind::data, message.readers, message.descriptors, rides);
+    if (!message.descriptors.empty()) {
+      const Message* first = deeds_.next<Message>();
+      const bool rides = message.heartbeat_may_ride && first != nullptr && first->carries_heartbeat;
+      send(model::PacketKind::data, message.readers, message.descriptors, rides);
+    }
     const Message* next = deeds_.next<Message>();
     if (!message.heartbeats_may_follow || next == nullptr) return;
     if (next->kind != model::PacketKind::heartbeat) return;
@@ -230,6 +256,8 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
   const ControlSides sides_{topology_};
   std::map<std::uint32_t, std::vector<Place>> queues_;  // by participant, first in, first out
   OpenMessage message_;
+  std::map<std::uint32_t, OpenMessage> unfinished_;  // by participant, while it stalls
+  std::map<std::uint32_t, std::uint32_t> created_;   // by participant, if it may stall
 };
 
 }  // namespace

@@ -34,6 +34,13 @@ class FollowedRules : public Follower {
     });
   }
 
+  void rescheduled(const model::Event& event, std::uint64_t insertion) override {
+    const auto found = pending_.find({event.kind, event.subject});
+    if (found != pending_.end() && found->second.erase(event.insertion()) > 0) {
+      found->second.insert(insertion);
+    }
+  }
+
   // Places.
   [[nodiscard]] Place writer_place(std::uint32_t writer) const {
     return {.participant = writer / 2, .writer = writer};

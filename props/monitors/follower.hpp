@@ -31,6 +31,7 @@ class Follower {
   // What starts rules: the deeds since then must be theirs.
   virtual void started() = 0;
   virtual void due(const model::Event& event) = 0;
+  virtual void rescheduled(const model::Event& event, std::uint64_t insertion) = 0;
   virtual void received(const Message& message, std::uint32_t receiver) = 0;
   virtual void left_source(const Message& message) = 0;
   /// Nothing more follows from what has happened.

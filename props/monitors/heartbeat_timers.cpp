@@ -36,6 +36,9 @@ class HeartbeatTimers final : public Observer {
     object_now("At " + time_text(now()) + " a " + name_of(kind) + " of " + writer_text(subject) +
                " is scheduled for " + time_text(due) + ", while another one is pending.");
   }
+  void rescheduled(const model::Event& event, std::uint64_t insertion) override {
+    pending_.rescheduled(event, insertion);
+  }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {std::to_string(scheduled_) + " HEARTBEAT timer events were scheduled."};
   }

@@ -46,10 +46,10 @@ std::vector<std::string_view> monitored_properties() {
   return properties;
 }
 
-std::vector<std::string_view> monitored_properties(model::ImplementationKind implementation) {
+std::vector<std::string_view> monitored_properties(const model::Scenario& scenario) {
   std::vector<std::string_view> properties = monitored_properties();
   std::erase_if(properties, [&](std::string_view property) {
-    return !why_not_applicable(property, implementation).empty();
+    return !why_not_applicable(property, scenario).empty();
   });
   return properties;
 }

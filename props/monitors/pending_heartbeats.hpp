@@ -36,6 +36,10 @@ class PendingHeartbeats {
     if (!is_expiry_or_cycle(event.kind)) return;
     std::erase(writers_[event.subject].pending, event.insertion());
   }
+  void rescheduled(const model::Event& event, std::uint64_t insertion) {
+    if (!is_expiry_or_cycle(event.kind)) return;
+    std::ranges::replace(writers_[event.subject].pending, event.insertion(), insertion);
+  }
   void transition(const model::MachineRef& machine, std::string_view event,
                   std::string_view after) {
     if (machine.machine != "HeartbeatTimer") return;

@@ -28,6 +28,9 @@ class Prospects {
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word, std::uint64_t descriptors);
   void scheduled(std::uint64_t insertion, model::EventKind kind, std::uint32_t subject);
+  void rescheduled(const model::Event& event, std::uint64_t insertion) {
+    heartbeats_.rescheduled(event, insertion);
+  }
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations);
   void source_completed(const model::Packet& packet);

@@ -41,6 +41,9 @@ class Stalls final : public Observer {
                  std::uint32_t subject) override {
     prospects_.scheduled(insertion, kind, subject);
   }
+  void rescheduled(const model::Event& event, std::uint64_t insertion) override {
+    prospects_.rescheduled(event, insertion);
+  }
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
     prospects_.emitted(packet, source, destinations);

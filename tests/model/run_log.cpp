@@ -24,6 +24,9 @@ class Recorder final : public Probe {
                                " + " + std::string{event} + " -> " + std::string{after});
   }
 
+  void rescheduled(const Event& event, std::uint64_t) override {
+    log_.rescheduled.push_back({now_, now_, event.kind, event.subject});
+  }
   void scheduled(std::uint64_t, Nanoseconds time, EventKind kind, std::uint32_t subject) override {
     log_.scheduled.push_back({now_, time.count(), kind, subject});
   }

@@ -61,6 +61,7 @@ struct RunLog {
   std::vector<Sent> sent;
   std::vector<Service> services;
   std::vector<Scheduled> scheduled;
+  std::vector<Scheduled> rescheduled;  ///< held by a sender that stalled, until `due_ns`
   std::vector<Arrived> arrived;
   std::vector<std::string> transitions;  ///< "machine subject: before + event -> after"
   std::int64_t most_admitted_bytes = 0;

@@ -117,6 +117,15 @@ Observed observe_oracle(const model::Scenario& scenario, FastddsMistake mistake,
   return observed;
 }
 
+Observed observe_oracle(const model::Scenario& scenario, WifiMistake mistake,
+                        std::uint64_t max_events) {
+  Observed observed;
+  const FastddsOutcome outcome =
+      run_fastdds(scenario, log_into(observed), FastddsMistake::none, max_events, mistake);
+  take_outcome(observed, outcome, outcome.user_control);
+  return observed;
+}
+
 Observed observe_oracle(const model::Scenario& scenario, CycloneMistake mistake,
                         std::uint64_t max_events) {
   Observed observed;

@@ -48,6 +48,8 @@ struct Observed {
                                       std::uint64_t max_events = 0);
 [[nodiscard]] Observed observe_oracle(const model::Scenario& scenario, FastddsMistake mistake,
                                       std::uint64_t max_events = 0);
+[[nodiscard]] Observed observe_oracle(const model::Scenario& scenario, WifiMistake mistake,
+                                      std::uint64_t max_events = 0);
 [[nodiscard]] Observed observe_oracle(const model::Scenario& scenario, CycloneMistake mistake,
                                       std::uint64_t max_events = 0);
 

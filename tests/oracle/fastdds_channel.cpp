@@ -33,7 +33,10 @@ void schedule_dispatch(World& w, const std::string& name) {
   schedule(w, w.now, EventClass::dispatch, event);
 }
 
+bool by_unit(const World& w) { return w.scenario.wireless.service == model::ServedBy::unit; }
+
 void request(World& w, std::uint64_t packet, std::size_t fragment, std::size_t stage) {
+  if (by_unit(w)) return request_unit(w, w.packets.at(packet), fragment, stage > 0);
   const std::string& name = w.scenario.wireless.stages.at(stage).channel;
   w.channels.at(name).waiting[{w.now, stage_rank(w, stage), w.requests}] = {packet, stage,
                                                                             fragment};
@@ -64,12 +67,15 @@ void admit(World& w, Id i) {
     if (!fits(w, p, demand(head))) return;
     p.queued_bytes += demand(head);
     p.backlog.pop_front();
+    count_admitted(w, head);
+    if (w.makes(WifiMistake::held_until_next_packet)) wake(w, i);
     if (w.scenario.wireless.fragment_request == model::FragmentRequest::sequential) {
       request(w, head.id, 0, 0);
     } else {
       request_all(w, head, 0);
     }
   }
+  wake(w, i);
 }
 
 // Who is to receive the packet over the loopback (same_host) or over the channel, ascending.
@@ -94,6 +100,15 @@ void schedule_receptions(World& w, const Packet& packet, bool same_host, Time at
 
 }  // namespace
 
+void leave_source(World& w, const Packet& packet) {
+  w.participants.at(packet.source).queued_bytes -= demand(packet);
+  admit(w, packet.source);
+}
+
+void arrive(World& w, const Packet& packet) {
+  if (!packet.lost) schedule_receptions(w, packet, false, w.now);
+}
+
 void emit(World& w, Packet packet) {
   packet.id = w.packets.size();
   packet.fragments = cut_into_fragments(w.scenario.wireless, packet.payload);
@@ -112,6 +127,7 @@ void emit(World& w, Packet packet) {
     for (const model::PacketDelay& delay : w.scenario.wireless.packet_delays) {
       if (delay.packet == number) one_way = delay.one_way.count();
     }
+    count_admitted(w, packet);
     if (!packet.lost) schedule_receptions(w, packet, false, w.now + one_way);
     return;
   }
@@ -120,6 +136,7 @@ void emit(World& w, Packet packet) {
 }
 
 void dispatch(World& w, const std::string& name) {
+  if (by_unit(w)) return dispatch_unit(w);
   Channel& channel = w.channels.at(name);
   channel.dispatch_pending = false;
   if (channel.busy || channel.waiting.empty()) return;
@@ -141,6 +158,7 @@ void dispatch(World& w, const std::string& name) {
 }
 
 void service_finished(World& w, const Event& event) {
+  if (by_unit(w)) return unit_finished(w);
   const model::WirelessProfile& wireless = w.scenario.wireless;
   w.channels.at(event.channel).busy = false;
   Packet& packet = w.packets.at(event.packet);
@@ -155,11 +173,8 @@ void service_finished(World& w, const Event& event) {
   if (whole_datagrams && last && !last_stage) request_all(w, packet, event.stage + 1);
   if (first_stage && !last && one_by_one) request(w, packet.id, event.fragment + 1, 0);
   if (!whole_datagrams && !last_stage) request(w, packet.id, event.fragment, event.stage + 1);
-  if (first_stage && last) {
-    w.participants.at(packet.source).queued_bytes -= demand(packet);
-    admit(w, packet.source);
-  }
-  if (last_stage && last && !packet.lost) schedule_receptions(w, packet, false, w.now);
+  if (first_stage && last) leave_source(w, packet);
+  if (last_stage && last) arrive(w, packet);
   if (!w.channels.at(event.channel).waiting.empty()) schedule_dispatch(w, event.channel);
 }
 

@@ -22,6 +22,7 @@ void send(World& w, PacketKind kind, Id from, Id to, int topic, bool initial) {
   packet.source = from;
   packet.destination = to;
   packet.topic = topic;
+  packet.port = topic == liveliness ? 0 : 1;
   packet.initial = initial;
   packet.payload = kind == PacketKind::control_heartbeat ? heartbeat_payload : acknack_payload;
   ++w.outcome.user_control;

@@ -14,15 +14,6 @@ constexpr std::int64_t destination_bytes = 16;
 constexpr std::int64_t timestamp_bytes = 12;
 constexpr std::int64_t heartbeat_bytes = 32;
 
-/// The message that a call fills; there is at most one at a time.
-struct Message {
-  int stream = 0;
-  std::vector<Id> destinations;  // in match order
-  std::int64_t bytes = 0;
-  std::vector<Id> descriptors;
-  std::optional<Id> announced;
-};
-
 /// One creation or one asynchronous run of participant i.
 struct Sending {
   Id i = 0;
@@ -57,6 +48,13 @@ void flush(World& w, Sending& sending) {
     packet.stream = message.stream;
     packet.descriptors = message.descriptors;
     packet.announced = message.announced;
+    packet.heartbeats = message.heartbeats;
+    const auto count = [j](const std::map<Id, Id>& by_destination) {
+      const auto found = by_destination.find(j);
+      return found == by_destination.end() ? Id{0} : found->second;
+    };
+    packet.initial_data = count(message.initial_data);
+    packet.repair_data = count(message.repair_data);
     emit(w, packet);
   }
 }
@@ -70,13 +68,15 @@ bool joins(const World& w, const Message& message, int s, Id d,
          w.sedp.grouping_limit_bytes.count();
 }
 
-void count_data(World& w, Id i, Id j, int s, Id d) {
+void count_data(World& w, Message& message, Id i, Id j, int s, Id d) {
   Relation& r = relation(w, i, j, s);
   if (cross_host(w, i, j)) {
     if (r.delivered.at(d)) {
       ++w.outcome.repair_data;
+      ++message.repair_data[j];
     } else {
       ++w.outcome.initial_data;
+      ++message.initial_data[j];
     }
   }
   r.delivered.at(d) = true;
@@ -117,6 +117,7 @@ void piggyback(World& w, Sending& sending, int s) {
   }
   sending.open->bytes += heartbeat_bytes;
   sending.open->announced = wr.existing;
+  ++sending.open->heartbeats;
   for (const Id j : wr.readers) {
     if (cross_host(w, sending.i, j)) ++w.outcome.heartbeat;
   }
@@ -131,7 +132,7 @@ void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& des
   sending.open->bytes += timestamp_bytes + submessage_bytes(s, d);
   for (const Id j : destinations) {
     suppress(w, sending.i, j, s, d);
-    count_data(w, sending.i, j, s, d);
+    count_data(w, *sending.open, sending.i, j, s, d);
   }
   arm(w, sending.i, s);
   if (w.sedp.piggyback == model::Piggyback::off) return;
@@ -160,6 +161,8 @@ void async_run(World& w, Id i) {
   Sending sending;
   sending.i = i;
   sending.async = true;
+  sending.open = p.unfinished;
+  p.unfinished.reset();
   while (!p.async_queue.empty()) {
     const auto [s, d] = p.async_queue.front();
     p.async_queue.pop_front();
@@ -168,6 +171,14 @@ void async_run(World& w, Id i) {
       if (relation(w, i, j, s).state.at(d) == DescriptorState::queued) waiting.push_back(j);
     }
     if (!waiting.empty()) deliver(w, sending, s, d, waiting);
+    const bool is_left = !p.async_queue.empty() || w.makes(WifiMistake::stop_before_the_last);
+    if (!stalls(w, i) || !is_left || w.makes(WifiMistake::runs_never_stop)) continue;
+    if (w.makes(WifiMistake::stop_flushes)) flush(w, sending);
+    p.unfinished = sending.open;
+    p.run_pending = !w.makes(WifiMistake::stopped_run_not_pending);
+    ++w.insertions;  // the rest is scheduled again
+    p.held.push_back(make_event(EventKind::async_run, i, i, 0));
+    return;
   }
   flush(w, sending);
 }

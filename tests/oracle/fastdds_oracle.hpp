@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "model/scenario.hpp"
 #include "tests/oracle/oracle.hpp"
+#include "tests/vectors/wifi_vectors.hpp"
 
 namespace stormproof::oracle {
 
@@ -22,6 +24,12 @@ struct FastddsOutcome : Outcome {
 /// before it starts.
 [[nodiscard]] FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log = {},
                                          FastddsMistake mistake = FastddsMistake::none,
-                                         std::uint64_t max_events = 0);
+                                         std::uint64_t max_events = 0,
+                                         WifiMistake of_wifi = WifiMistake::none);
+
+/// When the packets, given by time, have arrived over a channel of units, or −1.
+[[nodiscard]] std::vector<std::int64_t> feed_units(
+    const model::WirelessProfile& wireless, std::uint32_t hosts,
+    const std::vector<vectors::ChannelPacket>& packets, WifiMistake mistake = WifiMistake::none);
 
 }  // namespace stormproof::oracle

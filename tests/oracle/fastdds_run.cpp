@@ -46,6 +46,17 @@ const char* name_of(EventKind kind) {
   return "";
 }
 
+/// Endpoints are created in their order, even if a creation that was held meets a later one.
+void create_next(World& w, const Event& e) {
+  if (w.scenario.wireless.sender == model::Sender::backlog) {
+    return create(w, e.from, e.stream, e.descriptor);
+  }
+  std::vector<std::pair<int, Id>>& left = w.participants.at(e.from).to_create;
+  const auto [s, d] = left.front();
+  left.erase(left.begin());
+  create(w, e.from, s, d);
+}
+
 void process(World& w, const Event& e) {
   switch (e.kind) {
     case EventKind::service_finished:
@@ -55,7 +66,7 @@ void process(World& w, const Event& e) {
     case EventKind::announcement:
       return announce(w, e.from, e.number);
     case EventKind::creation:
-      return create(w, e.from, e.stream, e.descriptor);
+      return create_next(w, e);
     case EventKind::initial_acknack:
       return initial_acknack(w, e.from, e.to, e.stream, e.number);
     case EventKind::acknack_generation:
@@ -89,6 +100,7 @@ void schedule_creations(World& w, Id i) {
   const Time span = p.endpoints_done.count() - start;
   std::vector<std::pair<int, Id>> order = creation_order(w.scenario, i);
   if (w.makes(Mistake::publications_first)) std::sort(order.begin(), order.end());
+  w.participants.at(i).to_create = order;
   const auto count = static_cast<std::int64_t>(order.size());
   std::int64_t k = w.makes(Mistake::creation_a_step_early) ? -1 : 0;
   for (const auto& [s, d] : order) {
@@ -133,9 +145,22 @@ std::vector<Missing> missing_descriptors(const World& w) {
   return missing;
 }
 
+/// Of admitted packets, if these count.
+void take_counts(World& w) {
+  if (w.scenario.wireless.count_at == model::CountAt::generation) return;
+  if (w.makes(WifiMistake::counted_at_generation)) return;
+  w.outcome.initial_data = w.admitted.initial_data;
+  w.outcome.repair_data = w.admitted.repair_data;
+  w.outcome.heartbeat = w.admitted.heartbeat;
+  w.outcome.acknack = w.admitted.acknack;
+  w.outcome.spdp_multicast = w.admitted.spdp_multicast;
+  w.outcome.spdp_unicast = w.admitted.spdp_unicast;
+  w.outcome.user_control = w.admitted.user_control;
+}
+
 FastddsOutcome run(const model::Scenario& scenario, const EventLog& log, Mistake mistake,
-                   std::uint64_t max_events) {
-  World w{scenario, mistake};
+                   std::uint64_t max_events, WifiMistake of_wifi) {
+  World w{scenario, mistake, of_wifi};
   schedule_beginning(w);
   while (!w.queue.empty() && !w.ended) {
     const auto key = w.queue.begin()->first;
@@ -145,10 +170,12 @@ FastddsOutcome run(const model::Scenario& scenario, const EventLog& log, Mistake
     w.queue.erase(w.queue.begin());
     w.now = std::get<0>(key);
     ++w.outcome.events;
+    if (std::get<1>(key) == EventClass::protocol && is_held(w, event)) continue;
     if (log) log(log_entry(key, event));
     process(w, event);
   }
   w.outcome.missing = missing_descriptors(w);
+  take_counts(w);
   return w.outcome;
 }
 
@@ -159,8 +186,8 @@ FastddsOutcome run(const model::Scenario& scenario, const EventLog& log, Mistake
 namespace stormproof::oracle {
 
 FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log,
-                           FastddsMistake mistake, std::uint64_t max_events) {
-  return fastdds::run(scenario, log, mistake, max_events);
+                           FastddsMistake mistake, std::uint64_t max_events, WifiMistake of_wifi) {
+  return fastdds::run(scenario, log, mistake, max_events, of_wifi);
 }
 
 }  // namespace stormproof::oracle

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/oracle/fastdds_oracle.hpp"
+#include "tests/vectors/wifi_vectors.hpp"
 
 namespace stormproof::oracle {
 namespace fastdds_vectors_test {
@@ -25,6 +26,19 @@ TEST_P(FastddsOracleVector, AgreesExactly) {
 
 INSTANTIATE_TEST_SUITE_P(Fastdds, FastddsOracleVector,
                          testing::ValuesIn(vectors::fastdds_vectors()),
+                         [](const auto& test) { return test.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(Wifi, FastddsOracleVector, testing::ValuesIn(vectors::wifi_vectors()),
+                         [](const auto& test) { return test.param.name; });
+
+class ChannelOracleVector : public testing::TestWithParam<vectors::ChannelVector> {};
+
+TEST_P(ChannelOracleVector, AgreesExactly) {
+  const vectors::ChannelVector& vector = GetParam();
+  EXPECT_EQ(feed_units(vector.wireless, vector.hosts, vector.packets), vector.arrived_ns);
+}
+
+INSTANTIATE_TEST_SUITE_P(Wifi, ChannelOracleVector, testing::ValuesIn(vectors::channel_vectors()),
                          [](const auto& test) { return test.param.name; });
 
 TEST(FastddsOracle, EventsAtTheTimeLimitAreProcessed) {

@@ -75,12 +75,16 @@ struct Packet {
   std::int64_t payload = 0;
   int stream = 0;
   int topic = 0;
+  int port = 0;                 // 1: data of applications
   std::vector<Id> descriptors;  // DATA in it
   std::optional<Id> announced;  // HEARTBEAT in it: how many descriptors it announces
-  bool initial = false;         // an initial ACKNACK
-  Id base = 0;                  // of an ACKNACK
-  std::set<Id> bitmap;          // of an ACKNACK
-  std::uint64_t id = 0;         // from here on: filled in by emit
+  Id heartbeats = 0;            // HEARTBEATs that ride with DATA, or instead of it
+  Id initial_data = 0;          // of the DATA: those that count as such
+  Id repair_data = 0;
+  bool initial = false;  // an initial ACKNACK
+  Id base = 0;           // of an ACKNACK
+  std::set<Id> bitmap;   // of an ACKNACK
+  std::uint64_t id = 0;  // from here on: filled in by emit
   bool lost = false;
   std::vector<std::int64_t> fragments;        // bytes on the channel
   std::map<std::size_t, std::size_t> served;  // stage → fragments served in it
@@ -126,7 +130,22 @@ struct Control {
   bool reply_pending = false;
 };
 
+/// The message that a creation or an async run fills.
+struct Message {
+  int stream = 0;
+  std::vector<Id> destinations;  // in match order
+  std::int64_t bytes = 0;
+  std::vector<Id> descriptors;
+  std::optional<Id> announced;
+  Id heartbeats = 0;
+  std::map<Id, Id> initial_data;  // by destination on another host
+  std::map<Id, Id> repair_data;
+};
+
 struct Participant {
+  std::optional<Message> unfinished;  // of an async run that has stopped
+  std::vector<Event> held;            // while it stalls
+  std::vector<std::pair<int, Id>> to_create;
   std::uint32_t host = 0;
   Time start = 0;
   std::set<Id> known;                          // whose announcement it has processed
@@ -149,14 +168,51 @@ struct Channel {
   std::map<std::tuple<Time, int, std::uint64_t>, Request> waiting;  // (time, stage rank, number)
 };
 
+/// A fragment that waits for a place in a unit.
+struct Frame {
+  std::uint64_t number = 0;  // of its request
+  std::uint64_t packet = 0;
+  std::size_t fragment = 0;
+  std::int64_t bytes = 0;
+  std::string flow;
+};
+
+/// What a transmitter has for one destination.
+struct UnitQueue {
+  std::uint64_t chosen = 0;
+  std::vector<Frame> frames;  // by arrival
+  std::optional<Frame> returned;
+  std::vector<std::string> new_flows;
+  std::vector<std::string> old_flows;
+  std::map<std::string, std::int64_t> deficits;
+};
+
+struct Transmitter {
+  std::uint64_t chosen = 0;
+  std::map<Id, UnitQueue> queues;  // of the access point: 0 multicast, 1 + host; of a host: 0
+};
+
+/// The channel of `service: unit`.
+struct Air {
+  bool busy = false;
+  bool dispatch_pending = false;
+  std::uint64_t choices = 0;
+  std::map<Id, Transmitter> transmitters;  // by host; the access point's number is the last
+  bool down = false;
+  std::vector<Frame> unit;  // being sent
+};
+
 struct World {
-  explicit World(const model::Scenario& s, FastddsMistake m = FastddsMistake::none);
+  explicit World(const model::Scenario& s, FastddsMistake m = FastddsMistake::none,
+                 WifiMistake of_wifi = WifiMistake::none);
 
   [[nodiscard]] bool makes(FastddsMistake m) const { return mistake == m; }
+  [[nodiscard]] bool makes(WifiMistake m) const { return wifi_mistake == m; }
 
   const model::Scenario& scenario;
   const model::SedpProfile& sedp;
   const FastddsMistake mistake;
+  const WifiMistake wifi_mistake;
   Time now = 0;
   bool ended = false;  // by the completion of discovery
   std::map<std::tuple<Time, EventClass, std::uint64_t>, Event> queue;
@@ -167,10 +223,12 @@ struct World {
   std::map<std::pair<Id, int>, Writer> writers;
   std::map<std::tuple<Id, Id, int>, Control> controls;  // (source, destination, topic)
   std::map<std::string, Channel> channels;
+  Air air;
   std::map<std::uint64_t, Packet> packets;  // loopback packets too
   std::set<std::uint64_t> lost_packets;
   std::int64_t missing = 0;
   FastddsOutcome outcome;
+  FastddsOutcome admitted;  // its counts, of admitted packets
 };
 
 // fastdds_world.cpp
@@ -194,8 +252,21 @@ constexpr int liveliness = -1;
 
 // fastdds_channel.cpp
 void emit(World& w, Packet packet);
+void leave_source(World& w, const Packet& packet);
+void arrive(World& w, const Packet& packet);
 void dispatch(World& w, const std::string& name);
 void service_finished(World& w, const Event& event);
+
+// fastdds_units.cpp
+void request_unit(World& w, const Packet& packet, std::size_t fragment, bool down);
+void dispatch_unit(World& w);
+void unit_finished(World& w);
+
+// fastdds_stalls.cpp
+[[nodiscard]] bool stalls(const World& w, Id i);
+[[nodiscard]] bool is_held(World& w, const Event& event);
+void wake(World& w, Id i);
+void count_admitted(World& w, const Packet& packet);
 
 // fastdds_spdp.cpp
 void announce(World& w, Id i, std::int64_t k);

@@ -63,6 +63,7 @@ void heartbeat(World& w, Id i, Id j, int s, std::int64_t payload) {
   packet.stream = s;
   packet.payload = payload;
   packet.announced = writer(w, i, s).existing;
+  packet.heartbeats = 1;
   if (w.makes(Mistake::announces_all)) packet.announced = descriptor_count(w.scenario, i, s);
   if (cross_host(w, i, j)) ++w.outcome.heartbeat;
   emit(w, packet);

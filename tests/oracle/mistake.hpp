@@ -102,6 +102,51 @@ enum class FastddsMistake : std::uint8_t {
   response_with_old_base,   ///< a clean ACKNACK counts whatever its base
 };
 
+/// What the oracle of the Wi-Fi channel does wrong (specs/guide/wifi.md has the rules): units,
+/// flows, senders that stall, and when messages count.
+enum class WifiMistake : std::uint8_t {
+  none,
+  // Turns.
+  first_transmitter_first,  ///< the transmitter of the lowest number is next
+  chosen_first_again,       ///< the one chosen last, not least recently
+  access_point_first,       ///< the access point before the hosts
+  oldest_in_turns,          ///< arbitration: oldest does not look at requests
+  queues_by_number,         ///< the access point's queue of the lowest number is next
+  queues_in_turns,          ///< the access point's queues take turns with ap_queue: oldest, too
+  // Units.
+  no_padding,                 ///< frames of a unit have their delimiter, but no padding
+  no_delimiter,               ///< or no delimiter
+  one_frame_padded,           ///< a frame alone costs what it would in a unit
+  overhead_of_one_frame,      ///< several frames have the overhead of one
+  limit_of_bytes_excluded,    ///< a unit has less than max_bytes
+  limit_of_airtime_excluded,  ///< or takes less than max_airtime
+  limit_of_frames_early,      ///< or has fewer than max_frames
+  overhead_in_airtime,        ///< max_airtime is about the overhead, too
+  multicast_in_units,         ///< the access point sends several multicast frames at once
+  multicast_up,               ///< hosts send multicast as multicast
+  admission_after_the_unit,   ///< packets are admitted when all frames of a unit have gone on
+  // Flows.
+  fragments_by_participant,  ///< several fragments are in their participant's flow
+  ports_ignored,             ///< a flow has data of applications and all else
+  flows_of_multicast,        ///< multicast is in the flow of its participant's unicast
+  new_flows_behind_old,      ///< a new flow waits behind the old ones
+  empty_flow_leaves,         ///< a new flow that is empty does not wait behind the old ones
+  deficit_kept,              ///< a flow that comes back has what was left of its quantum
+  zero_deficit_goes_on,      ///< a flow whose quantum is just used up goes on
+  returned_frame_uncharged,  ///< what does not fit gives back what it was charged
+  returned_frame_in_flow,    ///< or is the first of its flow again
+  // Senders.
+  creations_go_on,          ///< a participant that stalls creates endpoints
+  acknacks_go_on,           ///< or answers HEARTBEATs
+  held_again_first,         ///< what is held again is held before what was held since
+  held_until_next_packet,   ///< held events happen when one packet has been admitted
+  runs_never_stop,          ///< an async run goes on while its participant stalls
+  stop_flushes,             ///< or sends its message before it stops
+  stop_before_the_last,     ///< or stops though nothing is left
+  stopped_run_not_pending,  ///< a run that has stopped can be asked for once more
+  counted_at_generation,    ///< messages count at generation, whatever the profile says
+};
+
 /// What the oracle of `implementation: cyclone` does wrong (specs/guide/cyclone.md has the rules).
 enum class CycloneMistake : std::uint8_t {
   none,
@@ -166,6 +211,8 @@ inline constexpr std::size_t mistake_count =
     static_cast<std::size_t>(Mistake::late_response_ends_cycle) + 1;
 inline constexpr std::size_t fastdds_mistake_count =
     static_cast<std::size_t>(FastddsMistake::response_with_old_base) + 1;
+inline constexpr std::size_t wifi_mistake_count =
+    static_cast<std::size_t>(WifiMistake::counted_at_generation) + 1;
 inline constexpr std::size_t cyclone_mistake_count =
     static_cast<std::size_t>(CycloneMistake::answers_undirected) + 1;
 
@@ -189,6 +236,11 @@ constexpr auto enumerators(std::index_sequence<Ks...>) {
 [[nodiscard]] inline std::string_view name_of(FastddsMistake mistake) {
   constexpr auto names =
       detail::enumerators<FastddsMistake>(std::make_index_sequence<fastdds_mistake_count>{});
+  return names[static_cast<std::size_t>(mistake)];
+}
+[[nodiscard]] inline std::string_view name_of(WifiMistake mistake) {
+  constexpr auto names =
+      detail::enumerators<WifiMistake>(std::make_index_sequence<wifi_mistake_count>{});
   return names[static_cast<std::size_t>(mistake)];
 }
 [[nodiscard]] inline std::string_view name_of(CycloneMistake mistake) {

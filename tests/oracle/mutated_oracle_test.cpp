@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/model/packet_feed.hpp"
 #include "tests/oracle/judged_runs.hpp"
 #include "tests/oracle/sharp_scenario.hpp"
 
@@ -51,10 +52,33 @@ TEST(MutatedOracle, EveryMistakeOfTheCycloneOracleIsNoticed) {
   EXPECT_EQ(unnoticed<CycloneMistake>(runs, cyclone_mistake_count), std::vector<std::string>{});
 }
 
+/// Those that the channel makes are noticed in lists of packets; those of senders in runs.
+TEST(MutatedOracle, EveryMistakeOfTheWifiOracleIsNoticed) {
+  JudgedRuns runs{varied_wifi_scenario, correct_product};
+  EXPECT_EQ(unnoticed<WifiMistake>(runs, wifi_mistake_count), std::vector<std::string>{});
+}
+
+TEST(MutatedOracle, EveryMistakeOfTheChannelIsNoticedInListsOfPackets) {
+  std::vector<std::string> unnoticed;
+  const auto last = static_cast<std::size_t>(WifiMistake::returned_frame_in_flow);
+  for (std::size_t k = 1; k <= last; ++k) {
+    const auto mistake = static_cast<WifiMistake>(k);
+    bool noticed = false;
+    for (std::uint64_t seed = 0; seed < tries && !noticed; ++seed) {
+      const PacketList list = random_packet_list(seed);
+      noticed = arrivals(list.wireless, list.hosts, list.packets) !=
+                feed_units(list.wireless, list.hosts, list.packets, mistake);
+    }
+    if (!noticed) unnoticed.emplace_back(name_of(mistake));
+  }
+  EXPECT_EQ(unnoticed, std::vector<std::string>{});
+}
+
 TEST(MutatedOracle, MistakesHaveNames) {
   EXPECT_EQ(name_of(Mistake::none), "none");
   EXPECT_EQ(name_of(Mistake::class_ignored), "class_ignored");
   EXPECT_EQ(name_of(FastddsMistake::response_with_old_base), "response_with_old_base");
+  EXPECT_EQ(name_of(WifiMistake::counted_at_generation), "counted_at_generation");
   EXPECT_EQ(name_of(CycloneMistake::answers_undirected), "answers_undirected");
 }
 

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "model/scenario.hpp"
+#include "tests/vectors/wifi_vectors.hpp"
 
 namespace stormproof::oracle {
 
@@ -17,5 +19,15 @@ namespace stormproof::oracle {
 [[nodiscard]] model::Scenario varied_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_fastdds_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_cyclone_scenario(std::uint64_t seed);
+/// One of Fast DDS over a channel of units, or with a sender that stalls, or counted at admission.
+[[nodiscard]] model::Scenario varied_wifi_scenario(std::uint64_t seed);
+
+/// A channel of units with limits that matter, and packets for it, by time.
+struct PacketList {
+  model::WirelessProfile wireless;
+  std::uint32_t hosts = 2;
+  std::vector<vectors::ChannelPacket> packets;
+};
+[[nodiscard]] PacketList random_packet_list(std::uint64_t seed);
 
 }  // namespace stormproof::oracle

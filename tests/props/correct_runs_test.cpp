@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "model/airtime.hpp"
+#include "props/applicability.hpp"
 #include "tests/oracle/random_scenario.hpp"
+#include "tests/oracle/sharp_scenario.hpp"
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
@@ -26,6 +28,11 @@ bool has_link_without_delay(const Scenario& scenario) {
     return scenario.wireless.one_way.count() == 0 ||
            std::ranges::any_of(delays, [](const auto& d) { return d.one_way.count() == 0; });
   }
+  const model::WirelessProfile& w = scenario.wireless;
+  if (w.service == model::ServedBy::unit && w.aggregation.overhead.count() == 0 &&
+      model::ServiceRate{0, w.rate_unicast.count()}.airtime_ns(2) == 0) {
+    return true;
+  }
   return std::ranges::any_of(scenario.wireless.stages, [&](const model::Stage& stage) {
     return model::service_rate(scenario.wireless, stage, false).airtime_ns(1) == 0 ||
            model::service_rate(scenario.wireless, stage, true).airtime_ns(1) == 0;
@@ -41,6 +48,7 @@ bool may_lose_heartbeats(const Scenario& scenario) {
 
 /// Whether a correct run of the scenario may violate the property.
 bool may_violate(const Scenario& scenario, std::string_view property) {
+  if (!why_not_applicable(property, scenario).empty()) return true;
   if (property == "order.reception-first") return has_link_without_delay(scenario);
   if (property == "timer.single-heartbeat") {
     return !is_fastdds(scenario) &&
@@ -54,8 +62,9 @@ bool may_violate(const Scenario& scenario, std::string_view property) {
          property == "storm.free-threshold" || property == "storm.cannot-start";
 }
 
-void expect_only_true_findings(const Scenario& scenario, const std::string& name) {
-  const MonitoredRun run = run_monitored(scenario);
+void expect_only_true_findings(const Scenario& scenario, const std::string& name,
+                               const model::RunOptions& options = {}) {
+  const MonitoredRun run = run_monitored(scenario, scenario, options);
   for (const auto& monitor : run.monitors) {
     if (!monitor->violation() || may_violate(scenario, monitor->property())) continue;
     ADD_FAILURE() << name << ": " << monitor->property() << " at event "
@@ -106,6 +115,16 @@ TEST_P(RandomRuns, OfFastDdsHaveTrueFindingsOnly) {
     scenario.dds.implementation = model::ImplementationKind::fastdds;
     if (k % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
     expect_only_true_findings(scenario, "fastdds, seed " + std::to_string(seed));
+  }
+}
+
+TEST_P(RandomRuns, OverUnitsAndWithSendersThatStallHaveTrueFindingsOnly) {
+  model::RunOptions options;
+  options.max_events = 3'000;
+  for (int k = 0; k < runs_each; ++k) {
+    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
+    expect_only_true_findings(oracle::varied_wifi_scenario(seed),
+                              "Wi-Fi, seed " + std::to_string(seed), options);
   }
 }
 

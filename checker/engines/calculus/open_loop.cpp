@@ -76,6 +76,9 @@ const char* uncovered(const model::Scenario& scenario) {
   if (sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive) {
     return "the HEARTBEATs of the adaptive policy have no bound here";
   }
+  if (scenario.wireless.service == model::ServedBy::unit) {
+    return "units of several frames (service: unit) have no bound here";
+  }
   const bool stateful = model::traits_of(scenario.dds).writer == model::Writer::stateful;
   if (!stateful && sedp.initial_data == model::InitialData::pull) {
     return "DATA that readers pull has no bound here";

@@ -19,9 +19,12 @@ bool takes_equal_times(const model::WirelessProfile& wireless) {
 
 /// Pushed DATA reaches its readers before whatever its source sends later. Each stage of a channel
 /// serves the fragments in the order of their requests, so only a packet that requests one fragment
-/// after the other can be overtaken.
+/// after the other can be overtaken; or one in another flow.
 bool pushes_keep_order(const model::WirelessProfile& wireless, const OpenLoop* traffic) {
   if (wireless.kind == model::ServiceKind::constant_delay) return wireless.packet_delays.empty();
+  if (wireless.service == model::ServedBy::unit) {
+    return wireless.queueing == model::Queueing::fifo;
+  }
   return wireless.fragment_request == model::FragmentRequest::at_admission ||
          (traffic != nullptr && traffic->push_fragments <= 1);
 }

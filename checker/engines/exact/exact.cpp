@@ -51,8 +51,7 @@ class Checker {
   Checker(std::span<const std::string_view> properties, const checker::CheckRequest& request)
       : request_{request} {
     std::vector<std::string_view> known = props::limits_of(request.scenario);
-    for (const std::string_view id :
-         props::monitored_properties(request.scenario.dds.implementation))
+    for (const std::string_view id : props::monitored_properties(request.scenario))
       known.push_back(id);
     for (const std::string_view monitored : known) {
       if (std::ranges::find(properties, monitored) != properties.end()) {

@@ -52,8 +52,8 @@ ObservedRun run_observed(std::span<const std::string_view> properties, const Run
   return run;
 }
 
-std::vector<std::string_view> ordinary_properties(model::ImplementationKind implementation) {
-  std::vector<std::string_view> ids = props::monitored_properties(implementation);
+std::vector<std::string_view> ordinary_properties(const model::Scenario& scenario) {
+  std::vector<std::string_view> ids = props::monitored_properties(scenario);
   std::erase(ids, quiescence);
   return ids;
 }

@@ -39,7 +39,7 @@ inline constexpr std::string_view quiescence = "live.quiescence";
 
 /// Ids of the properties that an ordinary run can show: all of its implementation that have a
 /// monitor, but for live.quiescence, which needs a much longer one.
-[[nodiscard]] std::vector<std::string_view> ordinary_properties(model::ImplementationKind);
+[[nodiscard]] std::vector<std::string_view> ordinary_properties(const model::Scenario& scenario);
 
 /// Runs with the monitor of live.quiescence beyond the completion of discovery, until the bound has
 /// passed long ago. Ends early if discovery is not complete within the scenario's time limit.

@@ -105,6 +105,11 @@ std::optional<std::string> instant_service(const model::Scenario& scenario) {
   }
   // The smallest fragment carries one byte behind its headers.
   const std::int64_t bytes = 1 + model::ip_header_bytes + wireless.link_overhead_bytes.count();
+  if (wireless.service == model::ServedBy::unit) {
+    const model::ServiceRate several{wireless.aggregation.overhead.count(),
+                                     wireless.rate_unicast.count()};
+    if (several.airtime_ns(2 * bytes) < 1) return "the airtime of small frames in a unit is 0 ns";
+  }
   for (const model::Stage& stage : wireless.stages) {
     for (const bool multicast : {false, true}) {
       if (model::service_rate(wireless, stage, multicast).airtime_ns(bytes) >= 1) continue;

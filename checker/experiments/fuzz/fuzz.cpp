@@ -64,10 +64,9 @@ class Fuzzer {
 
  private:
   void choose_ids() {
-    std::vector<std::string_view> known = props::monitored_properties(base_.dds.implementation);
+    std::vector<std::string_view> known = props::monitored_properties(base_);
     const std::vector<std::string_view> limits = props::limits_of(base_);
-    const std::vector<std::string_view> ordinary =
-        exact::ordinary_properties(base_.dds.implementation);
+    const std::vector<std::string_view> ordinary = exact::ordinary_properties(base_);
     known.insert(known.begin(), limits.begin(), limits.end());
     for (const std::string_view id : known) {
       const bool wanted = options_.only.empty()

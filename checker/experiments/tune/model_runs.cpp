@@ -51,7 +51,7 @@ std::optional<Outcome> run_once(const Scenario& scenario, std::span<const std::s
 }
 
 std::vector<std::string_view> watchable(const Scenario& scenario) {
-  std::vector<std::string_view> ids = exact::ordinary_properties(scenario.dds.implementation);
+  std::vector<std::string_view> ids = exact::ordinary_properties(scenario);
   for (const std::string_view id : props::set_limits(scenario.limits)) ids.push_back(id);
   return ids;
 }

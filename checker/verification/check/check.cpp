@@ -52,12 +52,12 @@ std::vector<std::string_view> for_engine(Engine engine,
   return ids;
 }
 
-/// Removes what does not apply to the implementation; returns it, with the reasons.
+/// Removes what does not apply to the scenario; returns it, with the reasons.
 std::vector<std::pair<std::string_view, std::string_view>> take_inapplicable(
-    std::vector<std::string_view>& ids, model::ImplementationKind implementation) {
+    std::vector<std::string_view>& ids, const model::Scenario& scenario) {
   std::vector<std::pair<std::string_view, std::string_view>> taken;
   std::erase_if(ids, [&](std::string_view id) {
-    const std::string_view why = props::why_not_applicable(id, implementation);
+    const std::string_view why = props::why_not_applicable(id, scenario);
     if (!why.empty()) taken.emplace_back(id, why);
     return !why.empty();
   });
@@ -97,10 +97,9 @@ std::size_t CheckReport::count(VerdictKind kind) const {
 CheckReport check(const std::vector<std::string_view>& properties, const CheckRequest& request) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point started = Clock::now();
-  const model::ImplementationKind implementation = request.scenario.dds.implementation;
   std::vector<std::string_view> ids = selected(properties, request.scenario);
   CheckReport report;
-  if (properties.empty()) report.not_applicable = take_inapplicable(ids, implementation);
+  if (properties.empty()) report.not_applicable = take_inapplicable(ids, request.scenario);
   std::vector<exact::RunHealth> runs;
   CheckRequest watched = request;
   watched.on_run = [&](const model::Scenario& scenario, const model::RunResult& result) {
@@ -114,7 +113,11 @@ CheckReport check(const std::vector<std::string_view>& properties, const CheckRe
   };
   for (const auto& [engine, function] : engines) {
     std::vector<std::string_view> own = for_engine(engine, ids);
-    take_inapplicable(own, implementation);
+    take_inapplicable(own, request.scenario);
+    if (engine != Engine::exact_run) {
+      std::erase_if(own,
+                    [&](std::string_view id) { return !props::is_provable(id, request.scenario); });
+    }
     if (own.empty()) continue;
     if (!goes_on(engine)) break;
     answers.push_back(function(own, watched));

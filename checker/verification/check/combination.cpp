@@ -86,10 +86,11 @@ PropertyResult combined(const props::Property& property, std::vector<Finding> fi
   }
   if (result.findings.empty()) {
     Finding none;
-    const std::string_view why =
-        props::why_not_applicable(property.id, request.scenario.dds.implementation);
-    none.how = why.empty() ? "no engine has looked at it"
-                           : "does not apply to this composition: " + std::string{why};
+    const std::string_view why = props::why_not_applicable(property.id, request.scenario);
+    none.how = !why.empty() ? "does not apply to this composition: " + std::string{why}
+               : props::is_provable(property.id, request.scenario)
+                   ? "no engine has looked at it"
+                   : "no run shows it, and the engines that prove it know no sender that stalls";
     result.findings.push_back(none);
   }
   result.deciding = deciding_finding(result.findings);

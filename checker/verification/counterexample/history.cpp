@@ -37,7 +37,7 @@ std::string content_of(const Packet& packet) {
 class Recorder final : public model::Probe {
  public:
   Recorder(History& history, std::uint64_t steps) : history_{history}, limit_{steps} {
-    serving_.resize(history.channels.size(), 0);
+    serving_.resize(history.channels.size());
     received_.resize(history.topology.relation_count());
   }
 
@@ -59,9 +59,11 @@ class Recorder final : public model::Probe {
     transitions_.clear();
     running_ = true;
     if (event.kind != model::EventKind::service_finished) return;
-    const std::uint64_t packet = serving_[event.subject];
-    step.served = packet;
-    history_.packets.at(packet).services.at(stages_[packet]).last = now();
+    for (const std::uint64_t packet : serving_[event.subject]) {
+      step.served = packet;
+      history_.packets.at(packet).services.at(stages_[packet]).last = now();
+    }
+    serving_[event.subject].clear();
   }
 
   void event_finished(const model::Depths&) override {
@@ -92,6 +94,13 @@ class Recorder final : public model::Probe {
     if (class_of(kind) == model::EventClass::protocol) {
       step().timers.push_back({kind, due, subject, std::string{effects_.last()}});
     }
+  }
+
+  void rescheduled(const model::Event& event, std::uint64_t insertion) override {
+    auto cause = causes_.extract(event.insertion());
+    if (!cause) return;
+    cause.key() = insertion;
+    causes_.insert(std::move(cause));
   }
 
   void emitted(const Packet& packet, std::uint32_t source,
@@ -134,7 +143,7 @@ class Recorder final : public model::Probe {
   void service_started(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
                        std::uint32_t, model::Nanoseconds) override {
     if (over_) return;
-    serving_[channel] = packet.number;
+    serving_[channel].push_back(packet.number);
     step().served = packet.number;
     auto& services = history_.packets.at(packet.number).services;
     const auto known = std::ranges::find(services, stage, &Service::stage);
@@ -228,7 +237,7 @@ class Recorder final : public model::Probe {
   std::optional<std::uint64_t> looped_;                      // waits for its reception's insertion
   std::unordered_map<std::uint64_t, std::uint64_t> locals_;  // insertion → packet
   std::optional<std::uint64_t> local_;                       // that the event receives
-  std::vector<std::uint64_t> serving_;                       // by channel: packet
+  std::vector<std::vector<std::uint64_t>> serving_;          // by channel: packets
   std::unordered_map<std::uint64_t, std::size_t> stages_;  // packet → position of its last service
   std::vector<std::vector<std::uint64_t>> received_;       // by relation
   std::vector<std::uint64_t> arriving_;                    // the DATA that is being received

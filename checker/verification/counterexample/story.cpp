@@ -28,6 +28,8 @@ std::string network_text(const model::WirelessProfile& wireless) {
   std::string text;
   if (wireless.kind == model::ServiceKind::constant_delay) {
     text = "constant delay " + props::time_text(wireless.one_way);
+  } else if (wireless.service == model::ServedBy::unit) {
+    text = "access point with units of frames";
   } else {
     text = fmt::format("shared channel with {} stage{}", wireless.stages.size(),
                        wireless.stages.size() == 1 ? "" : "s");

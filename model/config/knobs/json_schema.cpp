@@ -111,6 +111,7 @@ void SchemaVisitor::section(std::string_view key, const Section& member, std::st
 template <class Item>
 void SchemaVisitor::list(std::string_view key, const std::vector<Item>&, ListSize size,
                          std::string_view doc, Presence presence) {
+  if (exclude(key, presence)) return;
   const Json schema = {{"type", "array"},
                        {"minItems", size.minimum},
                        {"maxItems", size.maximum},
@@ -177,7 +178,7 @@ Json dds_schema() {
 }
 
 Json wireless_schema() {
-  const SchemaVisitor of_channel = visited(WirelessProfile{});
+  SchemaVisitor of_channel = visited(WirelessProfile{});
   WirelessProfile delay;
   delay.kind = ServiceKind::constant_delay;
   const SchemaVisitor of_delay = visited(delay);
@@ -185,9 +186,26 @@ Json wireless_schema() {
   const Json written = write_knobs(delay);
   const Json is_delay = {
       {"properties", {{written.begin().key(), {{"const", written.begin().value()}}}}}};
-  return profile(
-      "Wireless profile", of_channel,
-      {{"if", is_delay}, {"then", of_delay.requirements()}, {"else", of_channel.requirements()}});
+  WirelessProfile unit;
+  unit.service = ServedBy::unit;
+  const SchemaVisitor of_unit = visited(unit);
+  const std::string key{service_key};
+  const auto is_by = [&](ServedBy service) -> Json {
+    return {{"required", Json::array({key})},
+            {"properties", {{key, {{"const", name_of(service)}}}}}};
+  };
+  const Json is_unit = is_by(ServedBy::unit);
+  const Json of_channels = {
+      {"if", is_unit}, {"then", of_unit.requirements()}, {"else", of_channel.requirements()}};
+  const Json exclusions =
+      Json::array({Json{{"if", is_unit}, {"then", of_unit.exclusions()}},
+                   Json{{"if", is_by(ServedBy::frame)}, {"then", of_channel.exclusions()}}});
+  add_missing(of_channel.properties, of_unit.properties);
+  Json schema =
+      profile("Wireless profile", of_channel,
+              {{"if", is_delay}, {"then", of_delay.requirements()}, {"else", of_channels}});
+  schema["allOf"] = exclusions;
+  return schema;
 }
 
 Json scenario_schema() {

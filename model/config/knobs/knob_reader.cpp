@@ -81,6 +81,15 @@ std::optional<InputError> check_keys(const Node& map, std::string_view path,
   }
   for (const Member& member : map.members) {
     if (contains(keys.allowed, member.key)) continue;
+    if (contains(keys.of_others, member.key) && keys.service) {
+      const bool by_unit = *keys.service == ServedBy::unit;
+      return error_at(
+          member.key_place,
+          fmt::format("{0}: only {1}: {2} has this key; expected none of it in a profile with {1}: "
+                      "{3}",
+                      join_path(path, member.key), service_key, by_unit ? "frame" : "unit",
+                      name_of(*keys.service)));
+    }
     if (contains(keys.of_others, member.key)) {
       return error_at(
           member.key_place,
@@ -212,6 +221,9 @@ void read_knobs(const Node& map, const std::string& path, DdsProfile& value,
 
 void read_knobs(const Node& map, const std::string& path, WirelessProfile& value,
                 std::optional<InputError>& error) {
+  const Node* word = map.find(service_key);
+  if (word != nullptr) (void)ChoiceType<ServedBy>{}.read(*word, value.service);
+  if (value.service == ServedBy::unit) value.fragment_request = FragmentRequest::at_admission;
   read_table(map, path, value, error);
   if (error || value.packet_delays.empty()) return;
   const Node& list = *map.find(packet_delays_key);

@@ -22,7 +22,8 @@ namespace stormproof::model::config {
 struct KnownKeys {
   std::vector<std::string> allowed;
   std::vector<std::string> of_others;
-  ImplementationKind implementation{};  ///< of the profile that the map is in, if it is in one
+  ImplementationKind implementation{};   ///< of the profile that the map is in, if it is in one
+  std::optional<ServedBy> service = {};  ///< of a wireless profile
 };
 
 /// Collects the keys of one table, without those of its sections.
@@ -60,6 +61,7 @@ KnownKeys keys_of(const T& sample, const Context&... context) {
   };
   (note(context), ...);
   if constexpr (std::same_as<T, DdsProfile>) note(sample.implementation);
+  if constexpr (std::same_as<T, WirelessProfile>) collector.keys.service = sample.service;
   return std::move(collector.keys);
 }
 
@@ -81,7 +83,8 @@ void read_knobs(const Node& map, const std::string& path, Schedule& value,
 /// The implementation decides which keys there are.
 void read_knobs(const Node& map, const std::string& path, DdsProfile& value,
                 std::optional<InputError>& error);
-/// Packet delays are sorted; a packet has one of them.
+/// What an access serves decides which keys there are. Packet delays are sorted; a packet has one
+/// of them.
 void read_knobs(const Node& map, const std::string& path, WirelessProfile& value,
                 std::optional<InputError>& error);
 
@@ -125,6 +128,7 @@ class KnobReader {
   template <class Item>
   void list(std::string_view key, std::vector<Item>& members, ListSize size, std::string_view,
             Presence presence = Presence::required) {
+    if (presence == Presence::of_others) return;
     const std::string expected = fmt::format("a list of {} to {} maps", size.minimum, size.maximum);
     const Node* node = find(key, presence, [&expected] { return expected; });
     if (node == nullptr) return;

@@ -43,6 +43,7 @@ class KnobWriter {
   template <class Item>
   void list(std::string_view key, const std::vector<Item>& members, ListSize, std::string_view,
             Presence presence = {}) {
+    if (presence == Presence::of_others) return;
     if (presence == Presence::optional && members.empty()) return;
     Json& items = json[std::string{key}] = Json::array();
     for (const Item& member : members) {

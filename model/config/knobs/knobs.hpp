@@ -31,8 +31,8 @@ concept Is = std::same_as<std::remove_const_t<A>, T>;
 
 /// Whether a file has to have the key. An optional key that is absent leaves the member as it is,
 /// and then nothing depends on it; a `defaulted` one leaves it at a default that counts.
-/// `of_others` marks a key that only profiles with another implementation have: it may not be
-/// there, and the member keeps its default.
+/// `of_others` marks a key that only profiles with another implementation, or another service,
+/// have: it may not be there, and the member keeps its default.
 enum class Presence { required, optional, defaulted, of_others };
 
 /// Least and greatest length of a list.

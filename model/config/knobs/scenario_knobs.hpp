@@ -192,6 +192,16 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
              fmt::format("at most the time_limit of {}, as the run ends there",
                          print_duration(scenario.time_limit)));
 
+  const bool receives_separately = traits_of(scenario.dds).receives_separately;
+  const auto needs_receptions = [&](bool usual, std::string_view key, std::string_view word) {
+    visit.rule(usual || receives_separately, key,
+               fmt::format("{}, or a DDS profile with implementation: fastdds or cyclone", word));
+  };
+  needs_receptions(scenario.wireless.service == ServedBy::frame, "wireless.service", "frame");
+  needs_receptions(scenario.wireless.sender == Sender::backlog, "wireless.sender", "backlog");
+  needs_receptions(scenario.wireless.count_at == CountAt::generation, "wireless.count_at",
+                   "generation");
+
   const LargestPacket packet = largest_packet(scenario);
   visit.rule(scenario.wireless.kind == ServiceKind::constant_delay ||
                  Fragmentation{scenario.wireless}.count(packet.payload.count()) <= max_fragments,

@@ -20,6 +20,19 @@ inline constexpr std::array<std::string_view, 2> enum_names<FragmentRequest>{"se
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<MulticastAs>{"unicast", "multicast"};
 
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<ServedBy>{"frame", "unit"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Arbitration>{"round_robin", "oldest"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<ApQueue>{"oldest", "round_robin"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Queueing>{"fifo", "flows"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Sender>{"backlog", "stalls"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<CountAt>{"generation", "admission"};
+
 /// The airtime of a fragment is computed as 8·B·10^9 + R/2 with B = payload + 20 + link overhead.
 /// With these two limits B stays below 1.1·10^9 + 21, and the sum (R up to 10^15) below 2^63
 /// = 9.2·10^18.
@@ -57,12 +70,62 @@ void visit_knobs(auto& visit, Is<PacketDelay> auto& delay) {
              "at most the one_way of the same packet");
 }
 
+void visit_knobs(auto& visit, Is<Aggregation> auto& aggregation) {
+  const Presence defaulted = Presence::defaulted;
+  visit.knob("max_frames", aggregation.max_frames, count_range(1, 1'000'000),
+             "frames of a unit; 64 if absent", defaulted);
+  visit.knob("max_bytes", aggregation.max_bytes, byte_range(1, 1'000'000'000),
+             "bytes of a unit, with delimiters and padding; 65535 if absent", defaulted);
+  visit.knob("max_airtime", aggregation.max_airtime, delay_range,
+             "how long these bytes take; 5.484ms if absent", defaulted);
+  visit.knob("overhead", aggregation.overhead, delay_range,
+             "channel access and protocol cost of several frames (O_a); 198.5us if absent",
+             defaulted);
+}
+
+inline constexpr std::string_view service_key = "service";
+
+/// What only `service: unit` has.
+void visit_unit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
+  const bool by_unit = wireless.service == ServedBy::unit;
+  const Presence presence = by_unit ? Presence::defaulted : Presence::of_others;
+  visit.section("aggregation", wireless.aggregation,
+                "what fits into one access; that of 802.11n if absent", presence);
+  visit.knob("arbitration", wireless.arbitration, ChoiceType<Arbitration>{},
+             "whether transmitters take turns, as they do if absent, or the oldest request is next",
+             presence);
+  visit.knob("ap_queue", wireless.ap_queue, ChoiceType<ApQueue>{},
+             "whether the access point's next queue is that of the oldest request, as it is if "
+             "absent, or they take turns, as they always do with queueing: flows",
+             presence);
+  visit.knob("queueing", wireless.queueing, ChoiceType<Queueing>{},
+             "whether frames wait in one line, as they do if absent, or in one for each flow",
+             presence);
+  visit.knob("quantum", wireless.quantum, byte_range(1, 1'000'000'000),
+             "bytes that a flow may send before the next one; 300 if absent", presence);
+  visit.rule(!by_unit || wireless.arbitration == Arbitration::round_robin ||
+                 (wireless.queueing == Queueing::fifo && wireless.ap_queue == ApQueue::oldest),
+             "arbitration", "round_robin, or queueing: fifo with ap_queue: oldest");
+  visit.rule(!by_unit || wireless.kind == ServiceKind::shared_channel, "kind",
+             "shared_channel, or service: frame");
+  visit.rule(!by_unit || wireless.fragment_request == FragmentRequest::at_admission,
+             "fragment_request", "at_admission, or service: frame");
+}
+
 void visit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
   visit.knob("kind", wireless.kind, ChoiceType<ServiceKind>{},
              "a channel that is shared, or a fixed delay");
-  const bool is_shared = wireless.kind == ServiceKind::shared_channel;
+  const bool is_shared =
+      wireless.kind == ServiceKind::shared_channel || wireless.service == ServedBy::unit;
   const Presence of_channel = is_shared ? Presence::required : Presence::optional;
   const Presence of_delay = is_shared ? Presence::optional : Presence::required;
+  visit.knob(
+      service_key, wireless.service, UsualChoiceType<ServedBy>{{}, ServedBy::frame},
+      "whether an access to the channel serves one frame, as it does if absent, or a unit of "
+      "several between hosts and an access point",
+      Presence::defaulted);
+  const bool by_unit = wireless.service == ServedBy::unit;
+  const Presence of_frames = by_unit ? Presence::of_others : of_channel;
 
   visit.knob("overhead_unicast", wireless.overhead_unicast, delay_range,
              "channel access and protocol cost of a unicast fragment (O_u)", of_channel);
@@ -81,9 +144,10 @@ void visit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
       BytesOrWordType{byte_range(1, 1'000'000'000'000), "unlimited", WirelessProfile::unlimited},
       "capacity of a participant's source queue (W)", of_channel);
   visit.knob("order", wireless.order, ChoiceType<ServiceOrder>{},
-             "which stage goes first among fragments that wait since the same instant", of_channel);
+             "which stage goes first among fragments that wait since the same instant", of_frames);
   visit.knob("fragment_request", wireless.fragment_request, ChoiceType<FragmentRequest>{},
-             "whether admission requests service for the first fragment or for all", of_channel);
+             "whether admission requests service for the first fragment or for all",
+             by_unit ? Presence::optional : of_channel);
   visit.knob("lost_packets", wireless.lost_packets, NumberSetType{packet_number},
              "packets that are not received, by emission order from 0", Presence::optional);
   visit.knob("one_way", wireless.one_way, delay_range,
@@ -93,7 +157,17 @@ void visit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
   visit.rule(!is_shared || wireless.packet_delays.empty(), packet_delays_key,
              "no such list, or kind: constant_delay");
   visit.list("stages", wireless.stages, ListSize{1, WirelessProfile::max_stages},
-             "the route of every packet, in order", of_channel);
+             "the route of every packet, in order", of_frames);
+  visit_unit_knobs(visit, wireless);
+  visit.knob(
+      "sender", wireless.sender, UsualChoiceType<Sender>{{}, Sender::backlog},
+      "whether a participant with packets that wait for its source queue goes on, as it does "
+      "if absent, or waits with them",
+      Presence::defaulted);
+  visit.knob("count_at", wireless.count_at, UsualChoiceType<CountAt>{{}, CountAt::generation},
+             "whether messages count at their generation, as they do if absent, or when they are "
+             "admitted to the source queue",
+             Presence::defaulted);
 }
 
 }  // namespace stormproof::model::config

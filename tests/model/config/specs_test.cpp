@@ -60,6 +60,29 @@ TEST(Specs, the_paper_profiles_are_the_defaults_of_the_structs) {
   EXPECT_EQ(wireless("wifi-80211n-2.4ghz"), WirelessProfile{});
 }
 
+TEST(Specs, units_are_those_of_their_standard) {
+  WirelessProfile n;
+  n.service = ServedBy::unit;
+  n.fragment_request = FragmentRequest::at_admission;
+  n.sender = Sender::stalls;
+  EXPECT_EQ(wireless("wifi-80211n-ampdu"), n);
+  EXPECT_EQ(wireless("wifi-80211n-ampdu-2.4ghz"), n);
+
+  WirelessProfile ac = n;
+  ac.overhead_unicast = Nanoseconds{198'500};
+  ac.rate_unicast = BitsPerSecond{866'700'000};
+  ac.aggregation.max_bytes = Bytes{1'048'575};
+  ac.aggregation.overhead = Nanoseconds{202'500};
+  EXPECT_EQ(wireless("wifi-80211ac-80"), ac);
+
+  WirelessProfile ax = n;
+  ax.overhead_unicast = Nanoseconds{206'500};
+  ax.rate_unicast = BitsPerSecond{286'800'000};
+  ax.aggregation = {256, Bytes{4'194'303}, Nanoseconds{5'484'000}, Nanoseconds{218'500}};
+  EXPECT_EQ(wireless("wifi-80211ax"), ax);
+  EXPECT_EQ(wireless("wifi-80211ax-2.4ghz"), ax);
+}
+
 TEST(Specs, the_relation_rules_of_fast_dds_differ_from_the_paper_in_six) {
   DdsProfile expected;
   expected.sedp.relation_opening = RelationOpening::each_side;

@@ -28,7 +28,7 @@ TEST(Message, StartsEmpty) {
   EXPECT_EQ(message.writer, 4U);
   EXPECT_FALSE(message.has_data);
   EXPECT_EQ(message.heartbeats, 0U);
-  EXPECT_EQ(message.carries_initial, std::vector<bool>(2, false));
+  EXPECT_EQ(message.initial_data, std::vector<std::uint32_t>(2, 0));
 }
 
 TEST(Message, KnowsWhatItCarries) {
@@ -49,14 +49,14 @@ TEST(Message, StartedAgainItCarriesNothing) {
   message.add(64, 100);
   message.heartbeats = 2;
   message.announced = 65;
-  message.carries_initial[0] = true;
+  message.initial_data[0] = 1;
   message.start(5, {7, 9}, 70);
   EXPECT_FALSE(message.carries(64));
   EXPECT_FALSE(message.has_data);
   EXPECT_EQ(message.bytes, 20);
   EXPECT_EQ(message.heartbeats, 0U);
   EXPECT_EQ(message.announced, 0U);
-  EXPECT_EQ(message.carries_initial, std::vector<bool>(2, false));
+  EXPECT_EQ(message.initial_data, std::vector<std::uint32_t>(2, 0));
 }
 
 }  // namespace message_test

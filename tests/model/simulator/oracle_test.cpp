@@ -3,6 +3,7 @@
 // print it with config::effective_yaml.
 #include <gtest/gtest.h>
 
+#include "tests/model/packet_feed.hpp"
 #include "tests/oracle/comparison.hpp"
 #include "tests/oracle/sharp_scenario.hpp"
 
@@ -30,6 +31,19 @@ TEST_P(AgainstFastddsOracle, SameEventsSameOutcome) {
   expect_agreement(oracle::varied_fastdds_scenario);
 }
 INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstFastddsOracle, testing::Range(0, 14));
+
+class AgainstWifiOracle : public AgainstOracle {};
+TEST_P(AgainstWifiOracle, SameEventsSameOutcome) { expect_agreement(oracle::varied_wifi_scenario); }
+INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstWifiOracle, testing::Range(0, 14));
+
+TEST(ChannelAgainstOracle, PacketsArriveAtTheSameTimes) {
+  for (std::uint64_t seed = 0; seed < 2'000; ++seed) {
+    const oracle::PacketList list = oracle::random_packet_list(seed);
+    ASSERT_EQ(arrivals(list.wireless, list.hosts, list.packets),
+              oracle::feed_units(list.wireless, list.hosts, list.packets))
+        << "seed " << seed;
+  }
+}
 
 }  // namespace oracle_test
 }  // namespace stormproof

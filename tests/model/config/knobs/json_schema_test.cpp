@@ -96,7 +96,20 @@ TEST(JsonSchemaContent, a_constant_delay_needs_no_channel) {
   const auto schema = nlohmann::json::parse(json_schema(SchemaKind::wireless));
   EXPECT_EQ(schema["then"]["if"]["properties"]["kind"]["const"], "constant_delay");
   EXPECT_EQ(schema["then"]["then"]["required"], nlohmann::json::array({"kind", "one_way"}));
-  EXPECT_EQ(schema["then"]["else"]["required"].size(), 11U);
+  EXPECT_EQ(schema["then"]["else"]["else"]["required"].size(), 11U);
+}
+
+TEST(JsonSchemaContent, units_need_no_stages_and_forbid_them) {
+  const auto schema = nlohmann::json::parse(json_schema(SchemaKind::wireless));
+  const auto& channels = schema["then"]["else"];
+  EXPECT_EQ(channels["if"]["properties"]["service"]["const"], "unit");
+  EXPECT_EQ(channels["then"]["required"].size(), 8U);
+  const auto& forbidden = schema["allOf"];
+  EXPECT_EQ(forbidden[0]["then"]["properties"],
+            nlohmann::json({{"order", false}, {"stages", false}}));
+  EXPECT_EQ(forbidden[1]["if"]["properties"]["service"]["const"], "frame");
+  EXPECT_EQ(forbidden[1]["then"]["properties"].size(), 5U);
+  EXPECT_TRUE(schema["properties"].contains("aggregation"));
 }
 
 }  // namespace json_schema_test

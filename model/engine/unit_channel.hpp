@@ -1,0 +1,76 @@
+// The channel of `service: unit` (specs/guide/wifi.md): hosts and their access point take turns,
+// and whoever's turn it is sends a unit of frames to one destination (A-MPDU). What waits where,
+// whose turn it is, what goes into the unit and how long it takes is here; when, and what follows,
+// is the network's (model/engine/network.hpp).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "model/airtime.hpp"
+#include "model/engine/frame_queue.hpp"
+#include "model/wireless_profile.hpp"
+
+namespace stormproof::model {
+
+/// What one access to the channel carries.
+struct Unit {
+  bool downlink = false;
+  std::vector<Frame> frames;
+  std::int64_t duration_ns = 0;
+};
+
+class UnitChannel {
+ public:
+  UnitChannel(const WirelessProfile& wireless, std::uint32_t hosts);
+
+  /// A host asks for an access to send this to the access point.
+  void request_uplink(std::uint32_t host, const Frame& frame, const Flow& flow) {
+    push(transmitters_[host], 0, frame, flow);
+  }
+  /// The access point asks for one to send it on, to a host or to all (`Flow::everybody`).
+  void request_downlink(std::uint32_t host, const Frame& frame, const Flow& flow) {
+    push(transmitters_.back(), host == Flow::everybody ? 0 : 1 + std::size_t{host}, frame, flow);
+  }
+
+  [[nodiscard]] bool empty() const { return waiting_ == 0; }
+  [[nodiscard]] std::size_t size() const { return waiting_; }
+
+  /// Takes what is sent next. Something must wait.
+  [[nodiscard]] Unit take();
+  /// How long a unit of several frames takes without its overhead, if their sizes with delimiter
+  /// and padding make so many bytes.
+  [[nodiscard]] std::int64_t airtime_ns(std::int64_t bytes) const {
+    return unicast_.airtime_ns(bytes) - unicast_.overhead_ns;
+  }
+  /// Bytes of a frame in a unit of several: 4 of its delimiter, padded to a multiple of 4.
+  [[nodiscard]] static std::int64_t padded(std::int64_t bytes) { return 4 + (bytes + 3) / 4 * 4; }
+
+ private:
+  struct Queue {
+    FrameQueue frames;
+    std::uint64_t chosen = 0;  ///< when it was chosen last, 0: never
+  };
+  struct Transmitter {
+    std::vector<Queue> queues;
+    std::size_t waiting = 0;
+    std::uint64_t chosen = 0;
+  };
+
+  void push(Transmitter& transmitter, std::size_t queue, const Frame& frame, const Flow& flow);
+  [[nodiscard]] std::size_t choose_transmitter() const;
+  [[nodiscard]] std::size_t choose_queue(const Transmitter& transmitter) const;
+  void fill(Unit& unit, FrameQueue& queue) const;
+
+  const Aggregation limits_;
+  const bool in_turns_;         // of transmitters
+  const bool queues_in_turns_;  // of the access point
+  const ServiceRate unicast_;
+  const ServiceRate multicast_;
+  std::vector<Transmitter> transmitters_;  // the hosts, then the access point
+  std::uint64_t choices_ = 0;
+  std::size_t waiting_ = 0;
+};
+
+}  // namespace stormproof::model
