@@ -65,11 +65,21 @@ struct Deployment {
   /// start on. The same seed gives the same times on every machine.
   void draw_schedule(std::uint64_t seed);
 
+  /// What each node brings along, beside the participant's own publication and subscription of
+  /// `ros_discovery_info` (rcl, rclcpp: rosout, parameter events, six services of parameters). The
+  /// default descriptors of a profile are those of a participant with one node.
+  static constexpr std::uint32_t publications_of_a_node = 8;
+  static constexpr std::uint32_t subscriptions_of_a_node = 7;
+  static constexpr std::uint32_t endpoints_of_a_node =
+      publications_of_a_node + subscriptions_of_a_node;
+
   /// The short form: host 0's participants first, each with ceil(E/2) publications and floor(E/2)
-  /// subscriptions.
+  /// subscriptions. With `nodes_per_participant` k, each k of them on a host, in this order, are
+  /// nodes of one participant instead; the last one of a host may have fewer.
   [[nodiscard]] static Deployment homogeneous(std::uint32_t hosts,
                                               std::uint32_t participants_per_host,
-                                              std::uint32_t endpoints_per_participant);
+                                              std::uint32_t endpoints_per_participant,
+                                              std::uint32_t nodes_per_participant = 1);
 
   [[nodiscard]] std::uint32_t size() const {
     return static_cast<std::uint32_t>(participants.size());

@@ -168,11 +168,11 @@ std::string version_of(const std::string& profile) {
 std::optional<InputError> advise(const std::vector<std::string>& profiles, const Request& request,
                                  Report& report) {
   std::vector<std::string> candidates = report.presets.empty() ? profiles : report.presets;
-  // A user's settings are advice, not where it starts from, unless nothing else fits.
-  const bool has_plain = std::ranges::any_of(
-      candidates, [](const std::string& name) { return version_of(name) == name; });
-  if (has_plain)
-    std::erase_if(candidates, [](const auto& name) { return version_of(name) != name; });
+  // Of profiles that all explain the capture, one without a user's settings: those are advice.
+  const auto is_plain = [](const std::string& name) { return version_of(name) == name; };
+  if (std::ranges::any_of(report.presets, is_plain)) {
+    std::erase_if(candidates, [&](const std::string& name) { return !is_plain(name); });
+  }
   if (!request.dds.empty()) candidates = {request.dds};
   const SpecPath specs = SpecPath::standard();
   for (const auto& [name, kind] :

@@ -174,7 +174,7 @@ void read_knobs(const Node& map, const std::string& path, Deployment& value,
     visit_knobs(reader, form);
     if (error) return;
     value = Deployment::homogeneous(form.hosts, form.participants_per_host,
-                                    form.endpoints_per_participant);
+                                    form.endpoints_per_participant, form.nodes_per_participant);
     visit_common_knobs(reader, value);
   } else {
     for (const Member& member : map.members) {

@@ -21,6 +21,7 @@ struct HomogeneousForm {
   std::uint32_t hosts = 2;
   std::uint32_t participants_per_host = 1;
   std::uint32_t endpoints_per_participant = 2;
+  std::uint32_t nodes_per_participant = 1;
 };
 
 /// Keys that the reader treats in a way of their own.
@@ -41,6 +42,17 @@ void visit_knobs(auto& visit, Is<HomogeneousForm> auto& form) {
              "participants on each host (N_P)");
   visit.knob("endpoints_per_participant", form.endpoints_per_participant, endpoint_count,
              "user endpoints of each participant, half of them publications, rounded up (N_E)");
+  visit.knob("nodes_per_participant", form.nodes_per_participant, participant_count,
+             "so many of these participants become nodes of one, as in a component container: its "
+             "endpoints are those of all, and what each further node brings; 1 if absent",
+             Presence::optional);
+  const std::uint64_t nodes = std::min(form.nodes_per_participant, form.participants_per_host);
+  visit.rule(
+      nodes * (form.endpoints_per_participant + std::uint64_t{Deployment::endpoints_of_a_node}) <=
+              Deployment::max_endpoints ||
+          nodes == 1,
+      "nodes_per_participant",
+      fmt::format("at most {} endpoints of one participant", Deployment::max_endpoints));
   visit.rule(std::uint64_t{form.hosts} * form.participants_per_host <= Deployment::max_participants,
              "participants_per_host",
              fmt::format("at most {} participants in all (hosts × participants_per_host)",
