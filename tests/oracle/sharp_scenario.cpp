@@ -162,7 +162,7 @@ void draw_units(Dice& dice, model::WirelessProfile& w) {
   w.aggregation.max_frames = dice.pick<std::uint32_t>({64, 64, 1, 2, 3, 5});
   w.aggregation.max_bytes = Bytes{dice.among({65'535, 65'535, 280, 420, 600, 1'500, 4'000})};
   w.aggregation.max_airtime =
-      Nanoseconds{dice.among({5'484'000, 5'484'000, 20'000, 100'000, 1'000'000, 0})};
+      Nanoseconds{dice.among({5'484'000, 5'484'000, 20'000, 100'000, 1'000'000, 0, 15'512})};
   w.aggregation.overhead = Nanoseconds{dice.among({198'500, w.overhead_unicast.count(), 0})};
   w.queueing = dice.chance(60) ? model::Queueing::flows : model::Queueing::fifo;
   w.quantum = Bytes{dice.among({300, 300, 134, 1, 67, 1'514})};

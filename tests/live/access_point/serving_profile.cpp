@@ -12,6 +12,9 @@ std::optional<std::string> why_not_served(const model::WirelessProfile& wireless
   if (wireless.kind != model::ServiceKind::shared_channel) {
     return "kind: an access point serves a channel; expected shared_channel";
   }
+  if (wireless.service == model::ServedBy::unit) {
+    return "service: the access point sends one frame at a time; expected frame";
+  }
   if (wireless.order == model::ServiceOrder::datagram_uplink) {
     return "order: an access point sees frames, not datagrams; expected fifo, fifo_uplink or "
            "fifo_downlink";
