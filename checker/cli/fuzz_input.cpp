@@ -10,6 +10,7 @@
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/suggestion.hpp"
+#include "model/implementations.hpp"
 #include "props/limits.hpp"
 #include "props/property.hpp"
 
@@ -101,7 +102,7 @@ model::config::Result<model::Scenario> read_scenario(const FuzzArguments& argume
 model::config::Result<std::vector<std::string>> ids_to_judge(const FuzzArguments& arguments,
                                                              const model::Scenario& scenario) {
   std::vector<std::string> known;
-  for (const std::string_view id : props::monitored_properties(scenario.dds.implementation))
+  for (const std::string_view id : props::monitored_properties(model::kind_of(scenario.dds)))
     known.emplace_back(id);
   for (const std::string_view id : props::limits_of(scenario)) known.emplace_back(id);
   for (const std::string& id : arguments.properties) {

@@ -9,6 +9,7 @@
 
 #include "checker/engines/exact/observed_run.hpp"
 #include "checker/engines/exact/smallest_violation.hpp"
+#include "model/implementations.hpp"
 #include "props/limits.hpp"
 #include "props/monitors/describe.hpp"
 
@@ -52,7 +53,7 @@ class Checker {
       : request_{request} {
     std::vector<std::string_view> known = props::limits_of(request.scenario);
     for (const std::string_view id :
-         props::monitored_properties(request.scenario.dds.implementation))
+         props::monitored_properties(model::kind_of(request.scenario.dds)))
       known.push_back(id);
     for (const std::string_view monitored : known) {
       if (std::ranges::find(properties, monitored) != properties.end()) {

@@ -12,6 +12,7 @@
 #include "checker/engines/exact/observed_run.hpp"
 #include "checker/experiments/fuzz/variant.hpp"
 #include "checker/experiments/trials/runner.hpp"
+#include "model/implementations.hpp"
 #include "props/limits.hpp"
 #include "props/monitor.hpp"
 #include "props/property.hpp"
@@ -64,10 +65,10 @@ class Fuzzer {
 
  private:
   void choose_ids() {
-    std::vector<std::string_view> known = props::monitored_properties(base_.dds.implementation);
+    std::vector<std::string_view> known = props::monitored_properties(model::kind_of(base_.dds));
     const std::vector<std::string_view> limits = props::limits_of(base_);
     const std::vector<std::string_view> ordinary =
-        exact::ordinary_properties(base_.dds.implementation);
+        exact::ordinary_properties(model::kind_of(base_.dds));
     known.insert(known.begin(), limits.begin(), limits.end());
     for (const std::string_view id : known) {
       const bool wanted = options_.only.empty()
@@ -77,7 +78,7 @@ class Fuzzer {
       Judgment judgment;
       judgment.id = id;
       if (const props::Property* property = props::find_property(id)) {
-        judgment.statement = statement_of(*property, base_.dds.implementation);
+        judgment.statement = statement_of(*property, model::kind_of(base_.dds));
       }
       report_.judgments.push_back(std::move(judgment));
     }

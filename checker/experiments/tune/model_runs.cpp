@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "checker/engines/exact/observed_run.hpp"
+#include "model/implementations.hpp"
 #include "model/reference.hpp"
 #include "props/limits.hpp"
 
@@ -51,7 +52,7 @@ std::optional<Outcome> run_once(const Scenario& scenario, std::span<const std::s
 }
 
 std::vector<std::string_view> watchable(const Scenario& scenario) {
-  std::vector<std::string_view> ids = exact::ordinary_properties(scenario.dds.implementation);
+  std::vector<std::string_view> ids = exact::ordinary_properties(model::kind_of(scenario.dds));
   for (const std::string_view id : props::set_limits(scenario.limits)) ids.push_back(id);
   return ids;
 }

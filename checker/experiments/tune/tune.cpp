@@ -12,6 +12,7 @@
 #include "checker/experiments/tune/model_runs.hpp"
 #include "model/config/tree/suggestion.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
+#include "model/implementations.hpp"
 #include "props/limits.hpp"
 #include "props/monitor.hpp"
 
@@ -35,7 +36,7 @@ constexpr std::uint64_t next_seeds = 1'000'000;
 constexpr double patience = 2;
 
 std::vector<std::string_view> known_ids(const Scenario& scenario) {
-  std::vector<std::string_view> ids = props::monitored_properties(scenario.dds.implementation);
+  std::vector<std::string_view> ids = props::monitored_properties(model::kind_of(scenario.dds));
   for (const std::string_view id : props::set_limits(scenario.limits)) ids.push_back(id);
   return ids;
 }

@@ -10,6 +10,7 @@
 #include "checker/engines/tables/tables.hpp"
 #include "checker/engines/timeline/timeline.hpp"
 #include "checker/verification/check/combination.hpp"
+#include "model/implementations.hpp"
 #include "props/applicability.hpp"
 #include "props/limits.hpp"
 
@@ -97,7 +98,7 @@ std::size_t CheckReport::count(VerdictKind kind) const {
 CheckReport check(const std::vector<std::string_view>& properties, const CheckRequest& request) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point started = Clock::now();
-  const model::ImplementationKind implementation = request.scenario.dds.implementation;
+  const model::ImplementationKind implementation = model::kind_of(request.scenario.dds);
   std::vector<std::string_view> ids = selected(properties, request.scenario);
   CheckReport report;
   if (properties.empty()) report.not_applicable = take_inapplicable(ids, implementation);

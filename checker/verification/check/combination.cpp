@@ -7,6 +7,7 @@
 
 #include "checker/engines/bounds/measure.hpp"
 #include "checker/verification/counterexample/write.hpp"
+#include "model/implementations.hpp"
 #include "props/applicability.hpp"
 
 namespace stormproof::checker {
@@ -87,7 +88,7 @@ PropertyResult combined(const props::Property& property, std::vector<Finding> fi
   if (result.findings.empty()) {
     Finding none;
     const std::string_view why =
-        props::why_not_applicable(property.id, request.scenario.dds.implementation);
+        props::why_not_applicable(property.id, model::kind_of(request.scenario.dds));
     none.how = why.empty() ? "no engine has looked at it"
                            : "does not apply to this composition: " + std::string{why};
     result.findings.push_back(none);

@@ -28,6 +28,10 @@ VendorId vendor_of(const model::Scenario& scenario) {
 }  // namespace
 
 std::optional<std::string> why_not_written(const model::DdsProfile& dds) {
+  if (model::traits_of(dds).has_server) {
+    return "messages with a Discovery Server are not written as a capture yet; expected --trace or "
+           "--perfetto";
+  }
   if (model::traits_of(dds).writer != model::Writer::of_cyclone) return std::nullopt;
   return "messages of `implementation: cyclone` are not written as a capture yet; expected "
          "--trace or --perfetto";
@@ -66,6 +70,11 @@ class CaptureProbe::Implementation {
       case PacketKind::user_acknack:
         return control(packet, source, destination);
       case PacketKind::rtps_message:
+      case PacketKind::registration:
+      case PacketKind::registration_heartbeat:
+      case PacketKind::registration_acknack:
+      case PacketKind::relayed:
+      case PacketKind::relayed_acknack:
         return;  // refused before the run (`why_not_written`)
     }
   }
