@@ -7,11 +7,11 @@
 namespace stormproof::model {
 
 const fsm::composition::CompositionInfo& composition_of(ImplementationKind kind) {
-  return fsm::composition::compositions()[index_of(kind)];
+  return fsm::composition::compositions()[composition_index(kind)];
 }
 
 const fsm::composition::CompositionInfo& composition_of(const DdsProfile& dds) {
-  return composition_of(dds.implementation);
+  return composition_of(kind_of(dds));
 }
 
 }  // namespace stormproof::model

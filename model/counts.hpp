@@ -15,6 +15,11 @@ struct Counts {
   std::uint64_t acknack = 0;
   std::uint64_t spdp_multicast = 0;
   std::uint64_t spdp_unicast = 0;
+  // Only with a Discovery Server, whose announcements are reliable; 0 otherwise.
+  std::uint64_t pdp_data = 0;  ///< DATA(p)
+  std::uint64_t pdp_heartbeat = 0;
+  std::uint64_t pdp_acknack = 0;
+  std::uint64_t gap = 0;  ///< GAPs of the server; in no total
 
   [[nodiscard]] constexpr std::uint64_t& operator[](MessageClass one) {
     return this->*members[index_of(one)];
@@ -24,8 +29,11 @@ struct Counts {
   }
 
   [[nodiscard]] std::uint64_t total() const {
-    return initial_data + repair_data + heartbeat + acknack + spdp_multicast + spdp_unicast;
+    return initial_data + repair_data + heartbeat + acknack + spdp_multicast + spdp_unicast +
+           of_server();
   }
+  /// What only a Discovery Server and its clients send.
+  [[nodiscard]] std::uint64_t of_server() const { return pdp_data + pdp_heartbeat + pdp_acknack; }
   /// Both kinds of SPDP, which the paper's tables have in one class.
   [[nodiscard]] std::uint64_t spdp() const { return spdp_multicast + spdp_unicast; }
   bool operator==(const Counts&) const = default;

@@ -12,9 +12,24 @@
 
 namespace stormproof::model {
 
-/// Whose DDS the profile describes: the paper's, or Fast DDS or Cyclone DDS as their source code
-/// has them. What is true of each: model/implementations.hpp.
-enum class ImplementationKind : std::uint8_t { paper, fastdds, cyclone };
+/// Whose DDS runs: the paper's, or Fast DDS or Cyclone DDS as their source code has them; and
+/// Fast DDS with another way to discover (`DdsProfile::discovery`), which `kind_of` a profile says
+/// and no profile names. What is true of each: model/implementations.hpp.
+enum class ImplementationKind : std::uint8_t {
+  paper,
+  fastdds,
+  cyclone,
+  fastdds_static,
+  fastdds_server
+};
+
+/// How participants of `implementation: fastdds` find each other: by multicast; through a Discovery
+/// Server, as clients, which learn what they match, or as super clients, which learn everything;
+/// or by unicast to the ports of the hosts that they are told.
+enum class Discovery : std::uint8_t { simple, server, super_client, static_peers };
+/// Whether a Discovery Server sends again what has not been acknowledged whenever something
+/// arrives.
+enum class Relay : std::uint8_t { repeat, once };
 
 /// What a participant sends when it recognises another one for the first time.
 enum class SpdpResend : std::uint8_t { all_known, new_and_multicast, new_only, none };
@@ -118,6 +133,20 @@ struct SedpProfile {
   bool operator==(const SedpProfile&) const = default;
 };
 
+/// What `discovery: server` and `super_client` add.
+struct ServerProfile {
+  Nanoseconds client_sync_period{450'000'000};     ///< τ_T: until a client matches endpoints
+  Nanoseconds server_routine_period{450'000'000};  ///< τ_R: until a server looks again
+  // Of the participant announcements, which are reliable.
+  Nanoseconds pdp_heartbeat_period{350'000'000};
+  Nanoseconds pdp_nack_response_delay{100'000'000};
+  Nanoseconds pdp_nack_suppression_duration{11'000'000};
+  Nanoseconds pdp_heartbeat_response_delay{11'000'000};
+  Relay relay = Relay::repeat;
+
+  bool operator==(const ServerProfile&) const = default;
+};
+
 /// How many descriptors a default ROS 2 node has and how large they are (UDP payload of a packet of
 /// its own).
 struct DescriptorProfile {
@@ -136,6 +165,10 @@ struct DdsProfile {
   SedpProfile sedp;
   DescriptorProfile descriptors;
   AllowMulticast allow_multicast = AllowMulticast::always;  ///< `implementation: cyclone` only
+  // `implementation: fastdds` only.
+  Discovery discovery = Discovery::simple;
+  ServerProfile server;
+  std::uint32_t peer_ports = 4;  ///< of each host, with static peers
   /// What the described system has and this model has not: the setting, and what it would do. No
   /// run depends on it; every report of a run has to name it as an assumption.
   std::map<std::string, std::string> unmodelled;

@@ -56,6 +56,12 @@ struct Deployment {
   /// `send_time`, or what was measured on the machine of the live runs.
   [[nodiscard]] Nanoseconds time_to_send() const { return send_time.value_or(Nanoseconds{50'000}); }
 
+  /// Between two datagrams that the sending thread of a Discovery Server sends, ≥ 0 (`discovery:
+  /// server` and `super_client` only).
+  std::optional<Nanoseconds> send_cost = {};
+  /// `send_cost`, or what was measured on the machine of the live runs.
+  [[nodiscard]] Nanoseconds cost_to_send() const { return send_cost.value_or(Nanoseconds{50'000}); }
+
   /// The ranges that `start` and `endpoints_done` of the participants were drawn from, if they were
   /// drawn.
   std::optional<Schedule> schedule;

@@ -38,7 +38,21 @@ enum class EventKind : std::uint8_t {
   heartbeat_time,       ///< subject: writer of Cyclone DDS
   ack_time,             ///< subject: relation of Cyclone DDS
   thread_run,           ///< subject: participant
-  dispatch,             ///< subject: channel
+  // With a Discovery Server; of one of its writers: detail: which (model/fastdds/relay.hpp).
+  client_announcement,    ///< subject: pair of client and server
+  client_sync,            ///< subject: pair of client and server
+  registration_expiry,    ///< subject: pair of client and server
+  registration_reply,     ///< subject: pair of client and server
+  registration_initial,   ///< subject: pair of client and server
+  learner_reply,          ///< subject: pair of server and client
+  learner_initial,        ///< subject: pair of server and client
+  relay_expiry,           ///< subject: the server
+  relay_response,         ///< subject: the server
+  relay_suppression_end,  ///< subject: pair of server and client
+  server_routine,         ///< subject: the server
+  server_routine_again,   ///< subject: the server, detail: which one still counts
+  server_sending,         ///< subject: the server
+  dispatch,               ///< subject: channel
 };
 inline constexpr std::size_t event_kind_count = static_cast<std::size_t>(EventKind::dispatch) + 1;
 

@@ -21,6 +21,9 @@ struct Paper;  // fsm/composition/paper.hpp
 namespace fastdds {
 struct FastDds;  // fsm/composition/fastdds.hpp
 }
+namespace server {
+struct FastDdsServer;  // fsm/composition/server.hpp
+}
 namespace cyclone {
 struct Cyclone;  // fsm/composition/cyclone.hpp
 }
@@ -43,6 +46,8 @@ enum class Writer : std::uint8_t {
   of_the_paper,  ///< each ACKNACK and each repair starts a timer of its own
   stateful,      ///< Fast DDS's StatefulWriter: one nack response for all requests, one suppression
                  ///< for all repairs of a reader, an asynchronous thread that sends
+  of_server,     ///< Fast DDS's Discovery Server: a datagram for each reader, with a HEARTBEAT that
+                 ///< announces everything, what a reader does not need left out
   of_cyclone     ///< it repeats whatever is asked for, and it is the reader who limits that; it has
                  ///< knobs of its own (`DdsProfile::cyclone`)
 };
@@ -73,6 +78,9 @@ struct ImplementationTraits {
   /// Participants discover those of their own host, too, through packets that take
   /// `loopback_delay`. Otherwise same-host pairs do not exist.
   bool discovers_same_host = false;
+  /// There is a Discovery Server: a participant more than the deployment has, which knows whom it
+  /// has to tell what. Discovery is complete when everybody knows what it matches.
+  bool has_server = false;
   /// Matched user endpoints, and liveliness, exchange HEARTBEATs and ACKNACKs of their own, with
   /// times that no knob changes.
   bool has_control_relations = false;
@@ -95,8 +103,12 @@ struct ImplementationTraits {
   Writer writer = Writer::of_the_paper;
 };
 
+/// Those that a profile names.
 inline constexpr std::array implementations{ImplementationKind::paper, ImplementationKind::fastdds,
                                             ImplementationKind::cyclone};
+
+/// The one whose profiles choose how to discover.
+inline constexpr ImplementationKind implementation_with_discovery = ImplementationKind::fastdds;
 
 /// Of a profile that does not say its implementation.
 inline constexpr ImplementationKind default_implementation{};
@@ -106,7 +118,7 @@ inline constexpr ImplementationKind default_implementation{};
 }
 
 /// In the order of the enumerators.
-inline constexpr std::array<ImplementationTraits, implementations.size()> implementation_traits{
+inline constexpr std::array<ImplementationTraits, 5> implementation_traits{
     {{.name = "paper",
       .whose = "the paper",
       .rules = "the rules of the closed-loop model",
@@ -145,13 +157,77 @@ inline constexpr std::array<ImplementationTraits, implementations.size()> implem
       .acknacks_have_bases = true,
       .answers_heartbeats_together = true,
       .is_known_to_engines = false,
-      .writer = Writer::of_cyclone}}};
+      .writer = Writer::of_cyclone},
+     {.name = "fastdds",
+      .whose = "Fast DDS",
+      .rules = "Fast DDS's own rules with static peers",
+      .guide = "specs/guide/discovery-server.md",
+      .vendor = vendor::fastdds,
+      .fixed_rules = RelationRules{.relation_opening = RelationOpening::each_side,
+                                   .unmatched = Unmatched::drop,
+                                   .initial_acknack = InitialAckNackReply::heartbeat,
+                                   .heartbeat_timer = HeartbeatTimerKind::single},
+      .creates_endpoints_over_time = true,
+      .discovers_same_host = true,
+      .has_control_relations = true,
+      .receives_separately = true,
+      .acknacks_have_bases = true,
+      .answers_heartbeats_together = true,
+      .is_known_to_engines = false,
+      .writer = Writer::stateful},
+     {.name = "fastdds",
+      .whose = "Fast DDS",
+      .rules = "the rules of Fast DDS's Discovery Server",
+      .guide = "specs/guide/discovery-server.md",
+      .vendor = vendor::fastdds,
+      .fixed_rules = RelationRules{.relation_opening = RelationOpening::each_side,
+                                   .unmatched = Unmatched::drop,
+                                   .initial_acknack = InitialAckNackReply::heartbeat,
+                                   .heartbeat_timer = HeartbeatTimerKind::single},
+      .creates_endpoints_over_time = true,
+      .discovers_same_host = true,
+      .has_server = true,
+      .has_control_relations = true,
+      .receives_separately = true,
+      .acknacks_have_bases = true,
+      .answers_heartbeats_together = true,
+      .is_known_to_engines = false,
+      .writer = Writer::of_server}}};
+
+/// What runs under the profile: its implementation, with the way to discover.
+[[nodiscard]] constexpr ImplementationKind kind_of(ImplementationKind implementation,
+                                                   Discovery discovery) {
+  if (implementation != implementation_with_discovery) return implementation;
+  switch (discovery) {
+    case Discovery::simple:
+      return ImplementationKind::fastdds;
+    case Discovery::static_peers:
+      return ImplementationKind::fastdds_static;
+    case Discovery::server:
+    case Discovery::super_client:
+      return ImplementationKind::fastdds_server;
+  }
+  return implementation;
+}
+[[nodiscard]] inline ImplementationKind kind_of(const DdsProfile& dds) {
+  return kind_of(dds.implementation, dds.discovery);
+}
+/// The implementation that a profile names for it.
+[[nodiscard]] constexpr ImplementationKind implementation_of(ImplementationKind kind) {
+  const bool named = index_of(kind) < implementations.size();
+  return named ? kind : implementation_with_discovery;
+}
+/// Which composition of those that there are (fsm/composition/compositions.hpp) it executes.
+[[nodiscard]] constexpr std::size_t composition_index(ImplementationKind kind) {
+  if (kind == ImplementationKind::fastdds_static) return index_of(ImplementationKind::fastdds);
+  return kind == ImplementationKind::fastdds_server ? implementations.size() : index_of(kind);
+}
 
 [[nodiscard]] constexpr const ImplementationTraits& traits_of(ImplementationKind kind) {
   return implementation_traits[index_of(kind)];
 }
 [[nodiscard]] inline const ImplementationTraits& traits_of(const DdsProfile& dds) {
-  return traits_of(dds.implementation);
+  return traits_of(kind_of(dds));
 }
 
 /// Those whose writer engines, monitors and laws know.
@@ -185,7 +261,10 @@ decltype(auto) visit_composition(ImplementationKind kind, Visit&& visit) {
     case ImplementationKind::paper:
       return visit(Of<fsm::composition::paper::Paper>{});
     case ImplementationKind::fastdds:
+    case ImplementationKind::fastdds_static:
       return visit(Of<fsm::composition::fastdds::FastDds>{});
+    case ImplementationKind::fastdds_server:
+      return visit(Of<fsm::composition::server::FastDdsServer>{});
     case ImplementationKind::cyclone:
       break;
   }
@@ -193,7 +272,7 @@ decltype(auto) visit_composition(ImplementationKind kind, Visit&& visit) {
 }
 template <class Visit>
 decltype(auto) visit_composition(const DdsProfile& dds, Visit&& visit) {
-  return visit_composition(dds.implementation, visit);
+  return visit_composition(kind_of(dds), visit);
 }
 
 /// The same for engines, of implementations that they know (`is_known_to_engines`). Asking for

@@ -42,6 +42,15 @@ PacketSizes sizes_of(Of<fsm::composition::fastdds::FastDds>, const DdsProfile& d
                      std::int64_t payload, std::int64_t added) { return payload + added > limit; }};
 }
 
+/// Of what a client sends to the server.
+PacketSizes sizes_of(Of<fsm::composition::server::FastDdsServer>, const DdsProfile& dds) {
+  PacketSizes sizes = sizes_of(Of<fsm::composition::fastdds::FastDds>{}, dds);
+  sizes.descriptor = [](Stream s, std::uint32_t d) {
+    return fastdds::timestamp_bytes + fastdds::inline_qos_bytes + fastdds::submessage_bytes(s, d);
+  };
+  return sizes;
+}
+
 /// Of packets with one submessage.
 PacketSizes sizes_of(Of<fsm::composition::cyclone::Cyclone>, const DdsProfile& dds) {
   const bool multicast = dds.allow_multicast == AllowMulticast::always;

@@ -67,9 +67,37 @@ void add_spdp(Counts& counts, SpdpResend resend, std::uint64_t recognitions, std
   }
 }
 
+/// With a server everything goes to it once, and once from it to each who needs it; a super client
+/// needs what all others have.
+Counts reference_with_server(const Scenario& scenario) {
+  const Topology topology = topology_of(scenario);
+  const std::uint32_t server = topology.participant_count() - 1;
+  const bool super = scenario.dds.discovery == Discovery::super_client;
+  const auto descriptors = [&](std::uint32_t i) {
+    return topology.descriptor_count(i, Stream::pub) + topology.descriptor_count(i, Stream::sub);
+  };
+  Counts counts;
+  for (std::uint32_t j = 0; j < server; ++j) {
+    if (!topology.pair(topology.pair_between(j, server)).cross_host) continue;
+    counts.initial_data += descriptors(j);
+    counts.heartbeat += 4;  // two streams there, two back
+    counts.acknack += 4;
+    counts.pdp_data += 1 + server;  // its own; the server's, and those of all others
+    counts.pdp_heartbeat += 2;
+    counts.pdp_acknack += 2;
+    for (std::uint32_t i = 0; i < server; ++i) {
+      if (i == j) continue;
+      counts.initial_data +=
+          super ? descriptors(i) : topology.matching_descriptors(i, j, scenario.dds.descriptors);
+    }
+  }
+  return counts;
+}
+
 }  // namespace
 
 Counts failure_free_reference(const Scenario& scenario) {
+  if (traits_of(scenario.dds).has_server) return reference_with_server(scenario);
   const Topology topology{scenario.deployment, scenario.dds.descriptors};
   Counts counts;
   counts.initial_data = topology.required_deliveries();
@@ -84,12 +112,20 @@ Counts failure_free_reference(const Scenario& scenario) {
     const std::uint64_t peers = topology.peer_count(i);
     add_spdp(counts, resend, same_host ? topology.participant_count() - 1 : peers, peers);
   }
+  if (scenario.dds.discovery == Discovery::static_peers) {  // to each port instead of the group
+    const std::uint64_t other_hosts = scenario.deployment.host_count() - 1;
+    counts.spdp_unicast += counts.spdp_multicast * other_hosts * scenario.dds.peer_ports;
+    counts.spdp_multicast = 0;
+  }
   return counts;
 }
 
 std::optional<Nanoseconds> open_loop_airtime(const Scenario& scenario) {
   if (scenario.wireless.kind == ServiceKind::constant_delay) return std::nullopt;
-  if (traits_of(scenario.dds).writer == Writer::of_cyclone) return std::nullopt;  // not defined
+  const Writer writer = traits_of(scenario.dds).writer;
+  if (writer == Writer::of_cyclone || writer == Writer::of_server) {
+    return std::nullopt;  // not defined
+  }
   const Topology topology{scenario.deployment, scenario.dds.descriptors};
   const RouteAirtime route{scenario.wireless};
   return Nanoseconds{everything_once_ns(topology, route, packet_sizes(scenario.dds))};

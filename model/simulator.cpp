@@ -10,6 +10,7 @@
 #include "model/engine/network.hpp"
 #include "model/engine/run_state.hpp"
 #include "model/fastdds/protocol.hpp"
+#include "model/fastdds/server_protocol.hpp"
 #include "model/implementations.hpp"
 #include "model/paper/protocol.hpp"
 
@@ -26,6 +27,9 @@ ImplementationMaker maker_for(Of<comp::paper::Paper>, SameHostPairs same_host) {
 }
 ImplementationMaker maker_for(Of<comp::fastdds::FastDds>, SameHostPairs same_host) {
   return maker_of<fastdds::Protocol>(same_host);
+}
+ImplementationMaker maker_for(Of<comp::server::FastDdsServer>, SameHostPairs same_host) {
+  return maker_of<fastdds::ServerProtocol>(same_host);
 }
 ImplementationMaker maker_for(Of<comp::cyclone::Cyclone>, SameHostPairs same_host) {
   return maker_of<cyclone::Protocol>(same_host);

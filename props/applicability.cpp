@@ -25,7 +25,7 @@ bool stalls(const model::Scenario& scenario) {
 }  // namespace
 
 std::string_view why_not_applicable(std::string_view property, const model::Scenario& scenario) {
-  const std::string_view why = why_not_applicable(property, scenario.dds.implementation);
+  const std::string_view why = why_not_applicable(property, model::kind_of(scenario.dds));
   if (!why.empty() || !stalls(scenario)) return why;
   if (std::ranges::find(of_punctual_timers, property) == of_punctual_timers.end()) return {};
   return "it counts on timers that are served when they are due; a participant that stalls "

@@ -10,6 +10,7 @@
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/suggestion.hpp"
+#include "model/implementations.hpp"
 #include "props/limits.hpp"
 #include "props/property.hpp"
 

@@ -7,6 +7,7 @@
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/paper.hpp"
 #include "fsm/composition/recorder.hpp"
+#include "fsm/composition/server.hpp"
 
 namespace stormproof::fsm::composition {
 
@@ -22,7 +23,8 @@ std::string_view label(Owner owner) {
 
 const std::vector<CompositionInfo>& compositions() {
   static const std::vector<CompositionInfo> all{
-      recorded<paper::Paper>(), recorded<fastdds::FastDds>(), recorded<cyclone::Cyclone>()};
+      recorded<paper::Paper>(), recorded<fastdds::FastDds>(), recorded<cyclone::Cyclone>(),
+      recorded<server::FastDdsServer>()};
   return all;
 }
 

@@ -5,6 +5,7 @@
 #include "fsm/composition/cyclone.hpp"
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/paper.hpp"
+#include "fsm/composition/server.hpp"
 #include "model/dds_profile.hpp"
 #include "model/event.hpp"
 #include "model/implementations.hpp"
@@ -145,6 +146,20 @@ inline std::int64_t value(comp::cyclone::DirectedReplies, const DdsProfile& dds)
 inline std::int64_t value(comp::cyclone::DirectedReplyInterval, const DdsProfile& dds) {
   return dds.spdp.directed_reply_interval.count();
 }
+
+// A Discovery Server.
+inline std::int64_t value(comp::server::ClientSyncPeriod, const DdsProfile& dds) {
+  return dds.server.client_sync_period.count();
+}
+inline std::int64_t value(comp::server::RoutinePeriod, const DdsProfile& dds) {
+  return dds.server.server_routine_period.count();
+}
+inline std::int64_t value(comp::server::RegistrationHeartbeatPeriod, const DdsProfile& dds) {
+  return dds.server.pdp_heartbeat_period.count();
+}
+inline std::int64_t value(comp::server::RegistrationResponseDelay, const DdsProfile& dds) {
+  return dds.server.pdp_heartbeat_response_delay.count();
+}
 }  // namespace knobs_of_composition
 
 /// The value of a switch, or of a delay in ns.
@@ -199,5 +214,39 @@ template <>
 inline constexpr EventKind event_kind_of<comp::cyclone::ReplyTime> = EventKind::reply_time;
 template <>
 inline constexpr EventKind event_kind_of<comp::cyclone::ThreadRun> = EventKind::thread_run;
+
+template <>
+inline constexpr EventKind event_kind_of<comp::server::ClientAnnouncement> =
+    EventKind::client_announcement;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::ClientSync> = EventKind::client_sync;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::RegistrationExpiryDue> =
+    EventKind::registration_expiry;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::RegistrationReplyDue> =
+    EventKind::registration_reply;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::RegistrationAttempt> =
+    EventKind::registration_initial;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::LearnerReplyDue> = EventKind::learner_reply;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::LearnerAttempt> = EventKind::learner_initial;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::RelayExpiryDue> = EventKind::relay_expiry;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::RelayResponseDue> =
+    EventKind::relay_response;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::RelaySuppressionEnd> =
+    EventKind::relay_suppression_end;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::RoutineDue> = EventKind::server_routine;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::RoutineAgain> =
+    EventKind::server_routine_again;
+template <>
+inline constexpr EventKind event_kind_of<comp::server::SendingDue> = EventKind::server_sending;
 
 }  // namespace stormproof::model

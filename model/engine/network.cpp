@@ -67,7 +67,8 @@ void Network::emit(std::uint32_t source, Packet&& packet) {
   if (run_.probe != nullptr) {
     std::vector<std::uint32_t> destinations;
     std::uint32_t pair = packet.pair;
-    for (std::uint32_t copy = 0; copy < packet.copies && !packet.multicast(); ++copy) {
+    for (std::uint32_t copy = 0; copy < packet.copies && !packet.multicast() && !packet.to_nobody;
+         ++copy) {
       if (copy > 0) pair = implementation_->next_recipient(packet, pair + 1);
       const Pair& ends = run_.topology.pair(pair);
       destinations.push_back(packet.to_writer() ? ends.source : ends.destination);

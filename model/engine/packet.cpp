@@ -21,6 +21,16 @@ const char* name_of(PacketKind kind) {
       return "user_acknack";
     case PacketKind::rtps_message:
       return "message";
+    case PacketKind::registration:
+      return "registration";
+    case PacketKind::registration_heartbeat:
+      return "registration_heartbeat";
+    case PacketKind::registration_acknack:
+      return "registration_acknack";
+    case PacketKind::relayed:
+      return "relayed";
+    case PacketKind::relayed_acknack:
+      return "relayed_acknack";
   }
   return "";
 }

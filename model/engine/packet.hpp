@@ -23,12 +23,19 @@ enum class PacketKind : std::uint8_t {
   acknack,
   user_heartbeat,  ///< of a control-only relation
   user_acknack,    ///< of a control-only relation
-  rtps_message     ///< of Cyclone DDS, with submessages of any kind
+  rtps_message,    ///< of Cyclone DDS, with submessages of any kind
+  // With a Discovery Server: of a client's announcements, then of the server's three writers.
+  registration,            ///< DATA(p) of a client
+  registration_heartbeat,  ///< HEARTBEAT of a client for it
+  registration_acknack,    ///< ACKNACK of the server for it
+  relayed,                 ///< DATA and HEARTBEAT, GAP and HEARTBEAT, or one of them
+  relayed_acknack
 };
 
 [[nodiscard]] const char* name_of(PacketKind kind);
 
 struct Submessage;  // model/engine/submessage.hpp
+struct Relayed;     // model/fastdds/relayed.hpp
 
 struct Packet {
   std::uint64_t number = 0;   ///< position in emission order, from 0; of the first copy
@@ -50,17 +57,20 @@ struct Packet {
   std::uint16_t heartbeats = 0;  ///< how many HEARTBEATs ride in it; the receiver sees them as one
   bool initial_acknack = false;  ///< ACKNACK marked initial
   bool to_group = false;         ///< a message that goes to the multicast group
-  TrafficClass use{};            ///< of a message: what it is for
+  bool to_nobody = false;        ///< an announcement to a port that nobody has
+  TrafficClass use{};            ///< of a message, or of what a server relays: what it is for
   std::uint8_t port = 0;         ///< of its flow: 1 for data of applications, 0 for all else
   std::uint32_t initial_data = 0;  ///< how many of its descriptors count as generated for the first
                                    ///< time, of those that count
   std::uint32_t repair_data = 0;   ///< and how many of them as repeated
   std::shared_ptr<const std::vector<Submessage>> submessages;  ///< of a message
+  std::shared_ptr<const Relayed> relayed;  ///< what a server sends, or is asked for
 
   [[nodiscard]] bool multicast() const { return to_group || kind == PacketKind::spdp_multicast; }
   /// Whether it goes from the reader side to the writer side of its pair.
   [[nodiscard]] bool to_writer() const {
-    return kind == PacketKind::acknack || kind == PacketKind::user_acknack;
+    return kind == PacketKind::acknack || kind == PacketKind::user_acknack ||
+           kind == PacketKind::registration_acknack || kind == PacketKind::relayed_acknack;
   }
   [[nodiscard]] std::uint32_t relation() const {
     return 2 * pair + static_cast<std::uint32_t>(stream);
@@ -72,6 +82,9 @@ struct Packet {
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
     case PacketKind::spdp_unicast:
+    case PacketKind::registration:
+    case PacketKind::registration_heartbeat:
+    case PacketKind::registration_acknack:
       return TrafficClass::spdp;
     case PacketKind::data:
       return packet.carries_initial ? TrafficClass::initial_data : TrafficClass::repair_data;
@@ -83,6 +96,8 @@ struct Packet {
     case PacketKind::user_acknack:
       return TrafficClass::user_control;
     case PacketKind::rtps_message:
+    case PacketKind::relayed:
+    case PacketKind::relayed_acknack:
       return packet.use;
   }
   return TrafficClass::spdp;

@@ -8,6 +8,7 @@
 namespace stormproof::model {
 
 SameHostPairs same_host_pairs(const DdsProfile& dds) {
+  if (traits_of(dds).has_server) return SameHostPairs::with_server;
   return traits_of(dds).discovers_same_host ? SameHostPairs::included : SameHostPairs::left_out;
 }
 
@@ -17,16 +18,23 @@ Topology topology_of(const Scenario& scenario) {
 
 Topology::Topology(const Deployment& deployment, const DescriptorProfile& descriptors,
                    SameHostPairs same_host)
-    : participant_count_{deployment.size()} {
+    : participant_count_{deployment.size() + (same_host == SameHostPairs::with_server ? 1U : 0U)} {
   const auto& participants = deployment.participants;
+  const std::uint32_t server = deployment.size();
+  const auto host = [&](std::uint32_t i) { return i == server ? HostId{} : participants[i].host; };
   first_pair_.assign(participant_count_ + 1, 0);
   for (std::uint32_t i = 0; i < participant_count_; ++i) {
     first_pair_[i] = pair_count();
     for (std::uint32_t j = 0; j < participant_count_; ++j) {
-      const bool cross_host = participants[i].host != participants[j].host;
-      if (cross_host || (i != j && same_host == SameHostPairs::included)) {
+      const bool cross_host = host(i) != host(j);
+      if (cross_host || (i != j && same_host != SameHostPairs::left_out)) {
         pairs_.push_back({i, j, 0, cross_host});
       }
+    }
+    if (i == server) {
+      descriptor_count_.insert(descriptor_count_.end(), {0, 0});
+      start_.push_back({});
+      continue;
     }
     descriptor_count_.push_back(descriptors.default_publications + participants[i].publications);
     descriptor_count_.push_back(descriptors.default_subscriptions + participants[i].subscriptions);
@@ -38,9 +46,27 @@ Topology::Topology(const Deployment& deployment, const DescriptorProfile& descri
   std::vector<std::uint32_t> next = first_pair_;
   for (std::uint32_t number = 0; number < pair_count(); ++number) {
     pairs_[number].reverse = next[pairs_[number].destination]++;
+    if (same_host == SameHostPairs::with_server) {
+      required_deliveries_ +=
+          matching_descriptors(pairs_[number].source, pairs_[number].destination, descriptors);
+      continue;
+    }
     if (!pairs_[number].cross_host) continue;
     required_deliveries_ += descriptor_count(2 * number) + descriptor_count(2 * number + 1);
   }
+}
+
+std::uint32_t Topology::matching_descriptors(std::uint32_t i, std::uint32_t j,
+                                             const DescriptorProfile& defaults) const {
+  const std::uint32_t server = participant_count_ - 1;
+  if (i == server || j == server) return 0;
+  const auto user = [&](std::uint32_t k, Stream s) {
+    return descriptor_count(k, s) -
+           (s == Stream::pub ? defaults.default_publications : defaults.default_subscriptions);
+  };
+  constexpr std::uint32_t shared_by_all = 4;  // ros_discovery_info and parameter_events, both sides
+  return shared_by_all + std::min(user(i, Stream::pub), user(j, Stream::sub)) +
+         std::min(user(i, Stream::sub), user(j, Stream::pub));
 }
 
 std::uint32_t Topology::pair_between(std::uint32_t i, std::uint32_t j) const {

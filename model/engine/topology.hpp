@@ -14,8 +14,10 @@
 
 namespace stormproof::model {
 
-enum class SameHostPairs : std::uint8_t { left_out, included };
-/// Whether runs of the profile have them.
+/// Whether there are pairs on the same host; and, `with_server`, a Discovery Server: a participant
+/// after all others, on host 0, without endpoints, from time 0 on.
+enum class SameHostPairs : std::uint8_t { left_out, included, with_server };
+/// Which of them runs of the profile have.
 [[nodiscard]] SameHostPairs same_host_pairs(const DdsProfile& dds);
 
 /// A directed pair: what `source` advertises, `destination` must learn.
@@ -59,8 +61,11 @@ class Topology {
   [[nodiscard]] Nanoseconds start(std::uint32_t i) const { return start_[i]; }
 
   /// F: required descriptor deliveries, summed over all cross-host relations (paper, "Structural
-  /// Discovery Workload").
+  /// Discovery Workload"); with a server those that match something, also of the same host.
   [[nodiscard]] std::uint64_t required_deliveries() const { return required_deliveries_; }
+  /// How many descriptors of i are on a topic of which j has the opposite side; with a server.
+  [[nodiscard]] std::uint32_t matching_descriptors(std::uint32_t i, std::uint32_t j,
+                                                   const DescriptorProfile& defaults) const;
 
  private:
   std::uint32_t participant_count_;

@@ -20,12 +20,17 @@ ControlRelations::ControlRelations(RunState& run)
     first_relation_.push_back(static_cast<std::uint32_t>(relations_.size()));
     const Pair& p = run.topology.pair(pair);
     if (!p.cross_host) continue;
+    Relation relation;
+    relation.pair = pair;
+    const std::uint32_t participants = run.scenario.deployment.size();
+    if (p.source == participants || p.destination == participants) {  // a Discovery Server
+      relations_.push_back(relation);                                 // has no topics
+      continue;
+    }
     const std::uint32_t publications =
         run.topology.descriptor_count(p.source, Stream::pub) - default_publications;
     const std::uint32_t subscriptions =
         run.topology.descriptor_count(p.destination, Stream::sub) - default_subscriptions;
-    Relation relation;
-    relation.pair = pair;
     relations_.resize(relations_.size() + topic::first_user + std::min(publications, subscriptions),
                       relation);
   }
@@ -71,7 +76,8 @@ void Protocol::open_created(std::uint32_t i, Stream s, std::uint32_t d) {
     if (!run_.topology.pair(pair).cross_host) continue;
     const std::uint32_t reverse = run_.topology.pair(pair).reverse;
     const std::uint32_t relation = control_.find(s == Stream::pub ? pair : reverse, t);
-    if (!is_notified(reverse, other(s), descriptor_on(t, other(s)))) continue;
+    if (relation == topic::none || !is_notified(reverse, other(s), descriptor_on(t, other(s))))
+      continue;
     open({relation, s == Stream::pub});
   }
 }

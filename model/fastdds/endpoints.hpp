@@ -25,6 +25,7 @@ inline constexpr std::int64_t message_header_bytes = 20;
 inline constexpr std::int64_t destination_bytes = 16;  ///< INFO_DST, if there is one destination
 inline constexpr std::int64_t timestamp_bytes = 12;    ///< INFO_TS before each descriptor
 inline constexpr std::int64_t heartbeat_submessage_bytes = 32;
+inline constexpr std::int64_t inline_qos_bytes = 32;  ///< of a descriptor to or from a server
 inline constexpr std::int64_t largest_submessage_bytes = 452;  ///< of one descriptor
 
 /// Bytes of the DATA submessage of a descriptor.

@@ -3,12 +3,16 @@
 #include "model/fastdds/protocol.hpp"
 
 #include <algorithm>
+#include <map>
+
+#include "model/implementations.hpp"
 
 namespace stormproof::model::fastdds {
 
 Protocol::Protocol(RunState& run, Network& network)
     : DiscoveryBase{run, network},
       changes_{run},
+      inline_qos_bytes_{traits_of(run.scenario.dds).has_server ? inline_qos_bytes : 0},
       control_{run},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
@@ -70,19 +74,19 @@ void Protocol::count(const Packet& packet) {
     case PacketKind::user_acknack:
       ++run_.user_control;
       break;
-    case PacketKind::rtps_message:
+    default:
       break;  // sent by others only
   }
 }
 
 void Protocol::start() {
-  for (std::uint32_t i = 0; i < run_.topology.participant_count(); ++i) {
+  for (std::uint32_t i = 0; i < run_.scenario.deployment.size(); ++i) {
     const model::Participant& participant = run_.scenario.deployment.participants[i];
     const std::int64_t start = participant.start.count();
     const std::int64_t span = participant.endpoints_done.count() - start;
     const std::int64_t endpoints = run_.topology.descriptor_count(i, Stream::pub) +
                                    run_.topology.descriptor_count(i, Stream::sub);
-    start_announcing(i);
+    begin_announcing(i);
     for (std::int64_t k = 0; k < endpoints; ++k) {
       run_.schedule(Nanoseconds{start + span * (k + 1) / endpoints}, EventKind::endpoint_creation,
                     i, static_cast<std::uint32_t>(k));
@@ -107,6 +111,7 @@ void Protocol::handle(const Event& event) {
 
 std::vector<std::uint32_t> Protocol::receivers(const Packet& packet) const {
   std::vector<std::uint32_t> receivers;
+  if (packet.to_nobody) return receivers;
   if (packet.multicast()) {
     for (std::uint32_t pair = run_.topology.first_pair(packet.pair);
          pair < run_.topology.first_pair(packet.pair + 1); ++pair) {
@@ -147,7 +152,7 @@ void Protocol::received(const Packet& packet, std::uint32_t receiver) {
     case PacketKind::user_acknack:
       run_rule<comp::Received<control::UserAckNack>>(*this, packet.detail, &packet);
       break;
-    case PacketKind::rtps_message:
+    default:
       break;  // sent by others only
   }
 }
@@ -175,7 +180,29 @@ void Protocol::send_spdp_to_known(std::uint32_t i) {
   }
 }
 
+/// With static peers there is no group: a copy goes to each of the first ports of every host,
+/// whether somebody is there or not. On one's own host nobody hears of the latter.
+void Protocol::send_spdp_to_ports(std::uint32_t i) {
+  const std::vector<model::Participant>& participants = run_.scenario.deployment.participants;
+  std::map<HostId, std::vector<std::uint32_t>> hosts;
+  for (std::uint32_t j = 0; j < participants.size(); ++j) hosts[participants[j].host].push_back(j);
+  for (const auto& [host, there] : hosts) {
+    for (std::uint32_t port = 0; port < run_.scenario.dds.peer_ports; ++port) {
+      if (port < there.size()) {
+        if (there[port] != i) send_spdp_copy(run_.topology.pair_between(i, there[port]));
+      } else if (host != participants[i].host) {
+        ++generated_.spdp_unicast;
+        Packet packet =
+            packet_of(PacketKind::spdp_unicast, run_.topology.first_pair(i), spdp_bytes);
+        packet.to_nobody = true;
+        network_.emit(i, std::move(packet));
+      }
+    }
+  }
+}
+
 void Protocol::send_spdp_multicast(std::uint32_t i) {
+  if (run_.scenario.dds.discovery == Discovery::static_peers) return send_spdp_to_ports(i);
   ++generated_.spdp_multicast;
   for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
        ++pair) {

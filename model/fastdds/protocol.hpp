@@ -23,7 +23,7 @@ namespace stormproof::model::fastdds {
 namespace rules = fsm::composition::fastdds;
 namespace control = fsm::composition::control;
 
-class Protocol final : public DiscoveryBase {
+class Protocol : public DiscoveryBase {
  public:
   using Composition = rules::FastDds;
 
@@ -104,7 +104,7 @@ class Protocol final : public DiscoveryBase {
     return changes_.received(relation, k);
   }
   void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-    take(changes_, relation, received);
+    take_descriptors(relation, received);
   }
   // The others hold for the first descriptors of a stream, up to some number.
   [[nodiscard]] std::uint64_t word(rules::Exists, std::uint32_t w, std::uint32_t k) const {
@@ -261,6 +261,30 @@ class Protocol final : public DiscoveryBase {
     }
   }
 
+ protected:
+  /// Where messages count that are generated.
+  [[nodiscard]] Counts& generated() { return generated_; }
+
+  // What another way to discover does in its own way.
+  /// Announcement 0 of participant i.
+  virtual void begin_announcing(std::uint32_t i) { start_announcing(i); }
+  /// The relation's reader has these now.
+  virtual void take_descriptors(std::uint32_t relation, const DescriptorSet& received) {
+    take(changes_, relation, received);
+  }
+  [[nodiscard]] virtual bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const {
+    return d < relations_[2 * pair + index_of(s)].notified;
+  }
+  [[nodiscard]] std::int64_t bytes_of(Stream s, std::uint32_t d) const {
+    return inline_qos_bytes_ + submessage_bytes(s, d);
+  }
+  /// Sends a unicast packet by the channel, or by loopback if both ends are on one host.
+  void send(Packet&& packet);
+  void open_liveliness(std::uint32_t pair);
+  void open_notified(std::uint32_t pair, Stream s, std::uint32_t d);
+
+  RelationBits<fsm::ChangeForReader> changes_;
+
  private:
   struct Relation {
     // Writer side.
@@ -296,8 +320,7 @@ class Protocol final : public DiscoveryBase {
   void send_heartbeat(std::uint32_t relation, std::uint32_t announced, std::int64_t bytes);
   void send_heartbeat_to_all(std::uint32_t writer);
   void send_acknack(Packet&& packet);
-  /// Sends a unicast packet by the channel, or by loopback if both ends are on one host.
-  void send(Packet&& packet);
+  void send_spdp_to_ports(std::uint32_t i);
   /// Base and bitmap of an ACKNACK.
   template <class World, class Sayings>
   static void fill(Packet& acknack, World& w, const Sayings& sayings) {
@@ -322,20 +345,15 @@ class Protocol final : public DiscoveryBase {
 
   // control.cpp
   void open(ControlSide side);
-  void open_liveliness(std::uint32_t pair);
   void open_created(std::uint32_t i, Stream s, std::uint32_t d);
-  void open_notified(std::uint32_t pair, Stream s, std::uint32_t d);
   void send_control(PacketKind kind, std::uint32_t relation, bool initial);
 
   [[nodiscard]] bool is_created(std::uint32_t i, Stream s, std::uint32_t d) const {
     return d < writers_[2 * i + index_of(s)].created;
   }
-  [[nodiscard]] bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const {
-    return d < relations_[2 * pair + index_of(s)].notified;
-  }
   [[nodiscard]] bool crosses(std::uint32_t relation) const { return ends(relation).cross_host; }
 
-  RelationBits<fsm::ChangeForReader> changes_;
+  const std::int64_t inline_qos_bytes_;
   ControlRelations control_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
@@ -345,7 +363,7 @@ class Protocol final : public DiscoveryBase {
   Message async_message_;
   std::vector<std::uint32_t> targets_;
   Counts of_no_interest_;
-  Counts& generated_;  ///< where messages count that are generated
+  Counts& generated_;
 
   using SingleShots = Driver<fsm::SingleShot>;
   SingleShots participant_shots_{run_, MachineRef::Kind::participant};

@@ -13,7 +13,7 @@ void Protocol::refill(std::uint32_t w) {
 
 void Protocol::pack(Message& message, std::uint32_t w, std::uint32_t d,
                     const std::vector<std::uint32_t>& readers, SendMode mode) {
-  const std::int64_t bytes = timestamp_bytes + submessage_bytes(stream_of(w), d);
+  const std::int64_t bytes = timestamp_bytes + bytes_of(stream_of(w), d);
   if (message.open && (message.writer != w || message.readers != readers || message.carries(d) ||
                        message.bytes + bytes > sedp_.grouping_limit_bytes.count())) {
     flush(message, mode);
@@ -36,9 +36,9 @@ void Protocol::charge(Message& message, std::uint32_t d, SendMode mode) {
   if (sedp_.piggyback == Piggyback::off) return;
   const std::uint32_t w = message.writer;
   const bool cumulative = sedp_.piggyback == Piggyback::cumulative && mode == SendMode::async;
-  writers_[w].budget -=
-      cumulative ? participants_[w / 2].sent_bytes + message.bytes
-                 : message_header_bytes + timestamp_bytes + submessage_bytes(stream_of(w), d);
+  writers_[w].budget -= cumulative
+                            ? participants_[w / 2].sent_bytes + message.bytes
+                            : message_header_bytes + timestamp_bytes + bytes_of(stream_of(w), d);
   if (writers_[w].budget < 0) piggyback(message, w, mode);
 }
 

@@ -3,11 +3,16 @@
 
 #include "fsm/composition/compositions.hpp"
 #include "model/composition_of.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::model::trace {
 
 EffectNames::EffectNames(const DdsProfile& dds)
-    : ids_{fsm::composition::effect_ids(composition_of(dds))} {}
+    : ids_{fsm::composition::effect_ids(composition_of(dds))} {
+  if (!traits_of(dds).has_server) return;
+  // Descriptors on their way to the server go by the rules of Fast DDS.
+  ids_.merge(fsm::composition::effect_ids(composition_of(dds.implementation)));
+}
 
 std::string_view EffectNames::take_starter(std::uint64_t insertion) {
   const auto found = timers_.find(insertion);

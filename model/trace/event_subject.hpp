@@ -33,7 +33,20 @@ enum class Subject : std::uint8_t {
     case EventKind::participant_start:
     case EventKind::spdp_time:
     case EventKind::thread_run:
+    case EventKind::relay_expiry:
+    case EventKind::relay_response:
+    case EventKind::server_routine:
+    case EventKind::server_routine_again:
+    case EventKind::server_sending:
       return Subject::participant;
+    case EventKind::client_announcement:
+    case EventKind::client_sync:
+    case EventKind::registration_expiry:
+    case EventKind::registration_reply:
+    case EventKind::registration_initial:
+    case EventKind::learner_reply:
+    case EventKind::learner_initial:
+    case EventKind::relay_suppression_end:
     case EventKind::reply_time:
       return Subject::pair;
     case EventKind::heartbeat_time:
@@ -91,6 +104,12 @@ enum class Subject : std::uint8_t {
       return "endpoint";
     case EventKind::reception:
       return "participant";
+    case EventKind::learner_reply:
+    case EventKind::learner_initial:
+    case EventKind::relay_expiry:
+    case EventKind::relay_response:
+    case EventKind::relay_suppression_end:
+      return "relay";
     default:
       return nullptr;
   }

@@ -3,6 +3,7 @@
 
 #include "model/cyclone/endpoints.hpp"
 #include "model/engine/submessage.hpp"
+#include "model/fastdds/relayed.hpp"
 #include "model/trace/json_text.hpp"
 
 namespace stormproof::model::trace {
@@ -10,14 +11,24 @@ namespace stormproof::model::trace {
 Ends packet_ends(const Packet& packet, const Topology& topology) {
   if (packet.multicast()) return {packet.pair, 0};
   const Pair& pair = topology.pair(packet.pair);
-  const bool to_writer =
-      packet.kind == PacketKind::acknack || packet.kind == PacketKind::user_acknack;
-  if (to_writer) return {pair.destination, pair.source};
+  if (packet.to_writer()) return {pair.destination, pair.source};
   return {pair.source, pair.destination};
 }
 
 bool is_spdp(const Packet& packet) {
-  return packet.kind == PacketKind::spdp_multicast || packet.kind == PacketKind::spdp_unicast;
+  switch (packet.kind) {
+    case PacketKind::spdp_multicast:
+    case PacketKind::spdp_unicast:
+    case PacketKind::registration:
+    case PacketKind::registration_heartbeat:
+    case PacketKind::registration_acknack:
+      return true;
+    case PacketKind::relayed:
+    case PacketKind::relayed_acknack:
+      return packet.use == TrafficClass::spdp;
+    default:
+      return false;
+  }
 }
 
 bool is_control(const Packet& packet) {
@@ -67,12 +78,41 @@ void append_submessages(std::string& out, const std::vector<Submessage>& submess
   out += ']';
 }
 
+void append_numbers(std::string& out, const std::vector<std::int64_t>& numbers) {
+  const char* separator = "[";
+  for (const std::int64_t number : numbers) {
+    append(out, separator, number);
+    separator = ",";
+  }
+  out += ']';
+}
+
+void append_relayed(std::string& out, const Packet& packet) {
+  const Relayed& relayed = *packet.relayed;
+  if (relayed.has_data) {
+    append(out, R"(,"participant":)", relayed.participant);
+    if (!relayed.is_announcement) append(out, R"(,"descriptor":)", relayed.descriptor);
+    append(out, R"(,"number":)", relayed.number);
+  }
+  const bool asks = packet.kind == PacketKind::relayed_acknack;
+  if (!relayed.numbers.empty()) {
+    out += asks ? R"(,"requested":)" : R"(,"gap":)";
+    append_numbers(out, relayed.numbers);
+  }
+  if (relayed.has_heartbeat) {
+    append(out, R"(,"first":)", relayed.first, R"(,"last":)", relayed.last);
+  }
+  if (relayed.base > 0) append(out, R"(,"base":)", relayed.base);
+}
+
 }  // namespace
 
 void append_packet(std::string& out, const Packet& packet, std::uint32_t from,
                    std::span<const std::uint32_t> destinations) {
   append(out, R"("kind":")", name_of(packet.kind), R"(","from":)", from, R"(,"to":)");
-  if (packet.multicast() && destinations.empty()) {
+  if (packet.to_nobody) {
+    out += "[]";
+  } else if (packet.multicast() && destinations.empty()) {
     out += R"("multicast")";
   } else {
     const char* separator = "[";
@@ -96,6 +136,7 @@ void append_packet(std::string& out, const Packet& packet, std::uint32_t from,
   if (packet.from_repair) out += R"(,"repair":true)";
   if (packet.heartbeats > 0) append(out, R"(,"heartbeats":)", packet.heartbeats);
   if (packet.initial_acknack) out += R"(,"initial":true)";
+  if (packet.relayed != nullptr) append_relayed(out, packet);
   if (packet.submessages != nullptr) append_submessages(out, *packet.submessages);
 }
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "model/implementations.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/packet_text.hpp"
 #include "model/trace/perfetto_labels.hpp"
@@ -30,10 +31,11 @@ PerfettoWriter::PerfettoWriter(std::ostream& out, const Scenario& scenario, Effe
   for (const Participant& participant : scenario.deployment.participants) {
     hosts_.push_back(participant.host);
   }
+  if (traits_of(scenario.dds).has_server) hosts_.emplace_back();
   for (const Stage& stage : scenario.wireless.stages) stages_.push_back(json_string(stage.name));
   serving_.resize(channels_.size());
   waiting_.resize(channels_.size());
-  backlog_.resize(scenario.deployment.size());
+  backlog_.resize(hosts_.size());
   name_tracks(events_, scenario);
   events_.flush();
 }

@@ -2,6 +2,7 @@
 #include "model/trace/perfetto_labels.hpp"
 
 #include "model/engine/submessage.hpp"
+#include "model/fastdds/relayed.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/packet_text.hpp"
 
@@ -41,6 +42,19 @@ const char* packet_label(const Packet& packet) {
       return "user HEARTBEAT";
     case PacketKind::user_acknack:
       return packet.initial_acknack ? "initial user ACKNACK" : "user ACKNACK";
+    case PacketKind::registration:
+      return "DATA(p)";
+    case PacketKind::registration_heartbeat:
+      return "HEARTBEAT(p)";
+    case PacketKind::registration_acknack:
+      return packet.initial_acknack ? "initial ACKNACK(p)" : "ACKNACK(p)";
+    case PacketKind::relayed_acknack:
+      return packet.initial_acknack ? "initial ACKNACK" : "ACKNACK";
+    case PacketKind::relayed:
+      if (!packet.relayed->numbers.empty()) return "GAP";
+      if (packet.relayed->is_announcement) return "DATA(p)+HEARTBEAT";
+      if (!packet.relayed->has_data) return "HEARTBEAT";
+      return packet.carries_initial ? "DATA+HEARTBEAT" : "repair DATA+HEARTBEAT";
     case PacketKind::rtps_message:
       break;
   }
@@ -133,6 +147,31 @@ const char* timer_label(EventKind kind) {
       return "ACK timer";
     case EventKind::thread_run:
       return "event thread";
+    case EventKind::client_announcement:
+      return "announcement to the server";
+    case EventKind::client_sync:
+      return "client sync";
+    case EventKind::registration_expiry:
+      return "HEARTBEAT(p) expiry";
+    case EventKind::registration_reply:
+      return "ACKNACK(p) generation";
+    case EventKind::registration_initial:
+      return "initial ACKNACK(p) due";
+    case EventKind::learner_reply:
+      return "ACKNACK to the server";
+    case EventKind::learner_initial:
+      return "initial ACKNACK to the server";
+    case EventKind::relay_expiry:
+      return "HEARTBEAT expiry of the server";
+    case EventKind::relay_response:
+      return "NACK response of the server";
+    case EventKind::relay_suppression_end:
+      return "suppression end of the server";
+    case EventKind::server_routine:
+    case EventKind::server_routine_again:
+      return "server routine";
+    case EventKind::server_sending:
+      return "server sends";
     default:
       return name_of(kind);
   }

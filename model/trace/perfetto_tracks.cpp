@@ -77,6 +77,11 @@ Track sender_track(const Packet& packet, std::uint32_t source) {
     case PacketKind::spdp_multicast:
     case PacketKind::spdp_unicast:
     case PacketKind::rtps_message:
+    case PacketKind::registration:
+    case PacketKind::registration_heartbeat:
+    case PacketKind::registration_acknack:
+    case PacketKind::relayed:
+    case PacketKind::relayed_acknack:
       return participant_track(source);
     case PacketKind::acknack:
       return reader_track(source, packet.stream);
@@ -93,6 +98,11 @@ Track receiver_track(const Packet& packet, std::uint32_t destination) {
     case PacketKind::spdp_multicast:
     case PacketKind::spdp_unicast:
     case PacketKind::rtps_message:
+    case PacketKind::registration:
+    case PacketKind::registration_heartbeat:
+    case PacketKind::registration_acknack:
+    case PacketKind::relayed:
+    case PacketKind::relayed_acknack:
       return participant_track(destination);
     case PacketKind::acknack:
       return writer_track(destination, packet.stream);
@@ -169,9 +179,12 @@ void name_tracks(PerfettoEvents& events, const Scenario& scenario) {
   }
   const bool user_topics = traits_of(scenario.dds).has_control_relations;
   const auto& participants = scenario.deployment.participants;
-  for (std::uint32_t i = 0; i < participants.size(); ++i) {
+  const bool server = traits_of(scenario.dds).has_server;
+  for (std::uint32_t i = 0; i < participants.size() + (server ? 1 : 0); ++i) {
+    const bool is_server = i == participants.size();
     std::string name;
-    append(name, "participant ", i, " (host ", participants[i].host.value, ")");
+    append(name, is_server ? "server " : "participant ", i, " (host ",
+           is_server ? 0 : participants[i].host.value, ")");
     events.process_name(participant_process(i), name);
     events.thread_name(participant_track(i), "participant");
     events.thread_name(writer_track(i, Stream::pub), "publications writer");

@@ -12,6 +12,7 @@
 
 #include "model/cyclone/endpoints.hpp"
 #include "model/engine/submessage.hpp"
+#include "model/fastdds/relayed.hpp"
 #include "model/reference.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
@@ -77,6 +78,14 @@ std::uint64_t messages_of(const model::Packet& packet) {
     case model::PacketKind::spdp_unicast:
     case model::PacketKind::acknack:
       return packet.copies;
+    case model::PacketKind::registration:
+    case model::PacketKind::registration_heartbeat:
+    case model::PacketKind::registration_acknack:
+    case model::PacketKind::relayed_acknack:
+      return packet.copies;
+    case model::PacketKind::relayed:
+      if (packet.relayed->has_data) ++messages;
+      return messages + (packet.relayed->has_heartbeat ? 1 : 0);
     case model::PacketKind::rtps_message:
       for (const model::Submessage& m : *packet.submessages) {
         if (m.writer <= model::cyclone::writer::subscriptions) ++messages;

@@ -79,6 +79,7 @@ model::Nanoseconds quiescence_bound(const model::DdsProfile& dds, model::Nanosec
       bound += std::max(suppressed, attempts ? reached + 2 * d : 0);
       break;
     }
+    case model::Writer::of_server:
     case model::Writer::of_cyclone:
       break;  // the property does not apply
   }

@@ -35,6 +35,10 @@ void take_outcome(Observed& observed, const Outcome& o, std::int64_t user_contro
                       {"SPDP multicast", o.spdp_multicast},
                       {"SPDP unicast", o.spdp_unicast},
                       {"user control", user_control},
+                      {"DATA(p)", 0},
+                      {"HEARTBEAT(p)", 0},
+                      {"ACKNACK(p)", 0},
+                      {"GAP", 0},
                       {"events", static_cast<std::int64_t>(o.events)},
                       {"missing", static_cast<std::int64_t>(o.missing.size())}};
   const std::size_t listed = std::min(o.missing.size(), model::RunResult::missing_listed);
@@ -94,6 +98,10 @@ Observed observe_product(const model::Scenario& scenario, const model::Mutation*
                       {"SPDP multicast", number(c.spdp_multicast)},
                       {"SPDP unicast", number(c.spdp_unicast)},
                       {"user control", number(r.user_control)},
+                      {"DATA(p)", number(c.pdp_data)},
+                      {"HEARTBEAT(p)", number(c.pdp_heartbeat)},
+                      {"ACKNACK(p)", number(c.pdp_acknack)},
+                      {"GAP", number(c.gap)},
                       {"events", number(r.events)},
                       {"missing", number(r.missing_count)}};
   for (const model::MissingDescriptor& m : r.missing) {
@@ -114,6 +122,13 @@ Observed observe_oracle(const model::Scenario& scenario, FastddsMistake mistake,
   Observed observed;
   const FastddsOutcome outcome = run_fastdds(scenario, log_into(observed), mistake, max_events);
   take_outcome(observed, outcome, outcome.user_control);
+  for (auto& [name, value] : observed.outcome) {
+    const std::string_view key{name};
+    if (key == "DATA(p)") value = outcome.pdp_data;
+    if (key == "HEARTBEAT(p)") value = outcome.pdp_heartbeat;
+    if (key == "ACKNACK(p)") value = outcome.pdp_acknack;
+    if (key == "GAP") value = outcome.gap;
+  }
   return observed;
 }
 
@@ -139,6 +154,8 @@ Observed observe_oracle(const model::Scenario& scenario, std::uint64_t max_event
     case model::ImplementationKind::paper:
       break;
     case model::ImplementationKind::fastdds:
+    case model::ImplementationKind::fastdds_static:
+    case model::ImplementationKind::fastdds_server:
       return observe_oracle(scenario, FastddsMistake::none, max_events);
     case model::ImplementationKind::cyclone:
       return observe_oracle(scenario, CycloneMistake::none, max_events);

@@ -112,7 +112,7 @@ void arrive(World& w, const Packet& packet) {
 void emit(World& w, Packet packet) {
   packet.id = w.packets.size();
   packet.fragments = cut_into_fragments(w.scenario.wireless, packet.payload);
-  const bool on_channel = !receivers(w, packet, false).empty();
+  const bool on_channel = packet.to_nobody || !receivers(w, packet, false).empty();
   const std::uint64_t number = w.outcome.packets;
   if (on_channel) packet.lost = w.lost_packets.contains(number);
   if (on_channel || w.makes(Mistake::loopback_takes_a_number)) ++w.outcome.packets;

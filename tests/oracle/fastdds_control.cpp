@@ -35,6 +35,10 @@ bool has_created(World& w, Id i, int s, int topic) {
 
 // Whether i's endpoint on the topic has been notified at j.
 bool is_notified(World& w, Id i, Id j, int s, int topic) {
+  if (w.server) {
+    const std::vector<bool>& received = relation(w, i, j, s).received;
+    return descriptor_of(s, topic) < received.size() && received.at(descriptor_of(s, topic));
+  }
   return descriptor_of(s, topic) < relation(w, i, j, s).notified;
 }
 
@@ -57,7 +61,7 @@ void open_control_reader(World& w, Id i, Id j, int topic) {
 void created(World& w, Id i, int s, Id d) {
   const int topic = topic_of(s, d);
   if (topic == no_topic) return;
-  for (Id j = 0; j < w.participants.size(); ++j) {
+  for (Id j = 0; j < w.scenario.deployment.size(); ++j) {
     if (!cross_host(w, i, j) || !is_notified(w, j, i, 1 - s, topic)) continue;
     if (s == pub) {
       open_control_writer(w, i, j, topic);
@@ -69,7 +73,7 @@ void created(World& w, Id i, int s, Id d) {
 
 void notified(World& w, Id i, Id j, int s, Id d) {
   const int topic = topic_of(s, d);
-  if (topic == no_topic || !cross_host(w, i, j)) return;
+  if (topic == no_topic || !cross_host(w, i, j) || j == w.scenario.deployment.size()) return;
   if (!has_created(w, j, 1 - s, topic)) return;
   if (s == pub) {
     open_control_reader(w, i, j, topic);

@@ -19,6 +19,7 @@ const std::vector<std::int64_t>& default_bytes(int s) {
 }  // namespace
 
 Id descriptor_count(const model::Scenario& scenario, Id i, int s) {
+  if (i == scenario.deployment.size()) return 0;  // a Discovery Server
   const model::Participant& p = scenario.deployment.participants.at(i);
   return s == pub ? default_publications + p.publications : default_subscriptions + p.subscriptions;
 }
@@ -38,8 +39,9 @@ std::vector<std::pair<int, Id>> creation_order(const model::Scenario& scenario, 
   return order;
 }
 
-std::int64_t submessage_bytes(int s, Id d) {
-  return d < default_bytes(s).size() ? default_bytes(s).at(d) : user_bytes;
+std::int64_t submessage_bytes(const World& w, int s, Id d) {
+  const std::int64_t inline_qos = w.server ? 32 : 0;
+  return inline_qos + (d < default_bytes(s).size() ? default_bytes(s).at(d) : user_bytes);
 }
 
 // 0: ros_discovery_info, 1: parameter_events, 2 + k: user topic k.

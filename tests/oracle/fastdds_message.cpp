@@ -64,7 +64,7 @@ bool joins(const World& w, const Message& message, int s, Id d,
   if (message.stream != s || message.destinations != destinations) return false;
   const std::vector<Id>& carried = message.descriptors;
   if (std::find(carried.begin(), carried.end(), d) != carried.end()) return false;
-  return message.bytes + timestamp_bytes + submessage_bytes(s, d) <=
+  return message.bytes + timestamp_bytes + submessage_bytes(w, s, d) <=
          w.sedp.grouping_limit_bytes.count();
 }
 
@@ -94,7 +94,7 @@ void suppress(World& w, Id i, Id j, int s, Id d) {
 
 // What the descriptor just added to the open message takes from the writer's budget.
 std::int64_t charge(const World& w, const Sending& sending, int s, Id d) {
-  const std::int64_t alone = message_header + timestamp_bytes + submessage_bytes(s, d);
+  const std::int64_t alone = message_header + timestamp_bytes + submessage_bytes(w, s, d);
   switch (w.sedp.piggyback) {
     case model::Piggyback::cumulative:
       if (!sending.async && !w.makes(Mistake::sync_charges_message)) return alone;
@@ -129,7 +129,7 @@ void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& des
   if (sending.open.has_value() && !joins(w, *sending.open, s, d, destinations)) flush(w, sending);
   if (!sending.open.has_value()) open_message(w, sending, s, destinations);
   sending.open->descriptors.push_back(d);
-  sending.open->bytes += timestamp_bytes + submessage_bytes(s, d);
+  sending.open->bytes += timestamp_bytes + submessage_bytes(w, s, d);
   for (const Id j : destinations) {
     suppress(w, sending.i, j, s, d);
     count_data(w, *sending.open, sending.i, j, s, d);

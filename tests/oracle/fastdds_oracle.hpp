@@ -16,6 +16,11 @@ namespace stormproof::oracle {
 struct FastddsOutcome : Outcome {
   std::int64_t user_control = 0;  ///< HEARTBEATs and ACKNACKs of control-only relations, on top
   std::uint64_t replaced_messages = 0;  ///< piggybacks that needed a new message, to all readers
+  // With a Discovery Server.
+  std::int64_t pdp_data = 0;
+  std::int64_t pdp_heartbeat = 0;
+  std::int64_t pdp_acknack = 0;
+  std::int64_t gap = 0;
 };
 
 /// Runs the scenario as `run` does. Takes the profile for one of `implementation: fastdds`,

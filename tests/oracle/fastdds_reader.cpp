@@ -12,7 +12,7 @@ constexpr std::int64_t bitmap_payload = 4;
 
 void take_data(World& w, Relation& r, const Packet& packet, Id j) {
   for (const Id d : packet.descriptors) {
-    if (!r.received.at(d) && cross_host(w, packet.source, j)) --w.missing;
+    if (!r.received.at(d) && is_needed(w, packet.source, j, packet.stream, d)) --w.missing;
     r.received.at(d) = true;
     if (!w.makes(Mistake::data_announces_nothing)) r.announced = std::max(r.announced, d + 1);
   }
@@ -35,9 +35,17 @@ void receive_sedp(World& w, Id j, const Packet& packet) {
   const int s = packet.stream;
   Relation& r = relation(w, i, j, s);
   if (!r.reader_open) return;
+  const std::vector<bool> before = r.received;
   take_data(w, r, packet, j);
   if (w.ended) return;
   notify_in_order(w, r, i, j, s);
+  if (w.server) {
+    std::vector<Id> fresh;
+    for (Id d = 0; d < before.size(); ++d) {
+      if (r.received.at(d) && !before.at(d)) fresh.push_back(d);
+    }
+    server_learns(w, i, s, fresh);
+  }
   if (!packet.announced.has_value()) return;
   r.heartbeat_seen = true;
   r.announced = std::max(r.announced, *packet.announced);
@@ -77,6 +85,16 @@ void receive(World& w, const Packet& packet, Id j) {
       return receive_control_heartbeat(w, packet);
     case PacketKind::control_acknack:
       return receive_control_acknack(w, packet);
+    case PacketKind::registration:
+      return receive_registration(w, packet);
+    case PacketKind::registration_heartbeat:
+      return receive_registration_heartbeat(w, packet.source);
+    case PacketKind::registration_acknack:
+      return receive_registration_acknack(w, packet);
+    case PacketKind::relayed:
+      return receive_relayed(w, packet);
+    case PacketKind::learning_acknack:
+      return receive_learning_acknack(w, packet);
   }
 }
 

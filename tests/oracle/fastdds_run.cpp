@@ -40,6 +40,28 @@ const char* name_of(EventKind kind) {
       return "initial control ACKNACK";
     case EventKind::control_reply:
       return "control ACKNACK";
+    case EventKind::client_tick:
+      return "client sync";
+    case EventKind::client_expiry:
+      return "HEARTBEAT(p) expiry";
+    case EventKind::registration_acknack:
+      return "ACKNACK(p) of the server";
+    case EventKind::registration_initial:
+      return "initial ACKNACK(p) of the server";
+    case EventKind::learning_acknack:
+      return "ACKNACK to the server";
+    case EventKind::learning_initial:
+      return "initial ACKNACK to the server";
+    case EventKind::routine:
+      return "server routine";
+    case EventKind::sending:
+      return "server sends";
+    case EventKind::relay_expiry:
+      return "HEARTBEAT expiry of the server";
+    case EventKind::relay_response:
+      return "nack response of the server";
+    case EventKind::relay_suppression_end:
+      return "suppression end of the server";
     case EventKind::dispatch:
       return "dispatch";
   }
@@ -89,6 +111,28 @@ void process(World& w, const Event& e) {
       return control_initial(w, e.from, e.to, e.topic, e.number);
     case EventKind::control_reply:
       return control_reply(w, e.from, e.to, e.topic);
+    case EventKind::client_tick:
+      return client_tick(w, e.from);
+    case EventKind::client_expiry:
+      return client_expiry(w, e.from);
+    case EventKind::registration_acknack:
+      return registration_acknack(w, e.to);
+    case EventKind::registration_initial:
+      return registration_initial(w, e.to, e.number);
+    case EventKind::learning_acknack:
+      return learning_acknack(w, e.from, e.stream);
+    case EventKind::learning_initial:
+      return learning_initial(w, e.from, e.stream, e.number);
+    case EventKind::routine:
+      return routine(w, e.token);
+    case EventKind::sending:
+      return send_next(w);
+    case EventKind::relay_expiry:
+      return relay_expiry(w, e.stream);
+    case EventKind::relay_response:
+      return relay_response(w, e.stream);
+    case EventKind::relay_suppression_end:
+      return relay_suppression_end(w, e.stream, e.to);
     case EventKind::dispatch:
       return dispatch(w, e.channel);
   }
@@ -112,7 +156,7 @@ void schedule_creations(World& w, Id i) {
 }
 
 void schedule_beginning(World& w) {
-  for (Id i = 0; i < w.participants.size(); ++i) {
+  for (Id i = 0; i < w.scenario.deployment.size(); ++i) {
     const Event announcement = make_event(EventKind::announcement, i, i, 0);
     schedule(w, w.participants.at(i).start, EventClass::protocol, announcement);
     schedule_creations(w, i);
@@ -137,9 +181,9 @@ std::vector<Missing> missing_descriptors(const World& w) {
   std::vector<Missing> missing;
   for (const auto& [key, r] : w.relations) {
     const auto& [i, j, s] = key;
-    if (!cross_host(w, i, j)) continue;
     for (Id d = 0; d < r.received.size(); ++d) {
-      if (!r.received.at(d)) missing.push_back({i, j, model::streams[s], d});
+      if (!r.received.at(d) && is_needed(w, i, j, s, d))
+        missing.push_back({i, j, model::streams[s], d});
     }
   }
   return missing;

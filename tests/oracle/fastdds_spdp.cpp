@@ -27,10 +27,40 @@ void send_copy(World& w, Id i, Id j) {
   emit(w, packet);
 }
 
+// To the first ports of every host, whoever has them.
+void send_to_ports(World& w, Id i) {
+  std::map<std::uint32_t, std::vector<Id>> hosts;
+  for (Id j = 0; j < w.participants.size(); ++j) hosts[w.participants.at(j).host].push_back(j);
+  for (const auto& [host, there] : hosts) {
+    for (std::uint32_t port = 0; port < w.scenario.dds.peer_ports; ++port) {
+      if (port < there.size()) {
+        if (there.at(port) != i) send_copy(w, i, there.at(port));
+      } else if (host != w.participants.at(i).host) {
+        Packet packet;
+        packet.kind = PacketKind::spdp;
+        packet.source = i;
+        packet.destination = static_cast<Id>(w.participants.size());
+        packet.to_nobody = true;
+        packet.payload = spdp_payload;
+        ++w.outcome.spdp_unicast;
+        emit(w, packet);
+      }
+    }
+  }
+}
+
+void send_to_all(World& w, Id i) {
+  if (w.scenario.dds.discovery == model::Discovery::static_peers) {
+    send_to_ports(w, i);
+  } else {
+    send_multicast(w, i);
+  }
+}
+
 void send_spdp(World& w, Id i) {
-  if (w.makes(Mistake::multicast_first)) send_multicast(w, i);
+  if (w.makes(Mistake::multicast_first)) send_to_all(w, i);
   for (const Id j : w.participants.at(i).known) send_copy(w, i, j);
-  if (!w.makes(Mistake::multicast_first)) send_multicast(w, i);
+  if (!w.makes(Mistake::multicast_first)) send_to_all(w, i);
 }
 
 void resend(World& w, Id j, Id newcomer) {
@@ -40,7 +70,7 @@ void resend(World& w, Id j, Id newcomer) {
       break;
     case model::SpdpResend::new_and_multicast:
       send_copy(w, j, newcomer);
-      send_multicast(w, j);
+      send_to_all(w, j);
       break;
     case model::SpdpResend::new_only:
       send_copy(w, j, newcomer);
@@ -49,6 +79,8 @@ void resend(World& w, Id j, Id newcomer) {
       break;
   }
 }
+
+}  // namespace
 
 void open_reader(World& w, Id j, Id i, int s) {
   relation(w, i, j, s).reader_open = true;
@@ -59,11 +91,13 @@ void open_reader(World& w, Id j, Id i, int s) {
   schedule_after(w, delay, event);
 }
 
-}  // namespace
-
 void announce(World& w, Id i, std::int64_t k) {
   const model::SpdpProfile& spdp = w.scenario.dds.spdp;
-  send_spdp(w, i);
+  if (w.server) {
+    client_announces(w, i, k);
+  } else {
+    send_spdp(w, i);
+  }
   Event next = make_event(EventKind::announcement, i, i, 0);
   next.number = k + 1;
   const bool startup = k < std::int64_t{spdp.startup_announcements};

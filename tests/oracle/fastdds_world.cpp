@@ -9,7 +9,7 @@ namespace stormproof::oracle::fastdds {
 namespace {
 
 void create_relations(World& w) {
-  const Id n = w.scenario.deployment.size();
+  const auto n = static_cast<Id>(w.participants.size());
   for (Id i = 0; i < n; ++i) {
     for (Id j = 0; j < n; ++j) {
       if (i == j) continue;
@@ -20,7 +20,7 @@ void create_relations(World& w) {
         r.delivered.assign(count, false);
         r.received.assign(count, false);
         w.relations[{i, j, s}] = r;
-        if (cross_host(w, i, j)) w.missing += count;
+        for (Id d = 0; d < count; ++d) w.missing += is_needed(w, i, j, s, d) ? 1 : 0;
       }
     }
   }
@@ -37,9 +37,15 @@ World::World(const model::Scenario& s, FastddsMistake m, WifiMistake of_wifi)
     participant.start = p.start.count();
     participants.push_back(participant);
   }
+  if (s.deployment.host_count() < 2) throw std::invalid_argument{"no cross-host pair"};
+  const model::Discovery discovery = s.dds.discovery;
+  if (discovery == model::Discovery::server || discovery == model::Discovery::super_client) {
+    server.emplace();
+    participants.emplace_back();  // on host 0, from time 0 on
+    server->relays[2].history[server->relays[2].next++] = {server_id(), 2, 0};
+  }
   create_relations(*this);
-  if (missing == 0) throw std::invalid_argument{"the deployment has no cross-host pair"};
-  for (Id i = 0; i < s.deployment.size(); ++i) {
+  for (Id i = 0; i < participants.size(); ++i) {
     for (int stream = 0; stream < 2; ++stream) {
       writers[{i, stream}].budget = sedp.piggyback_threshold_bytes.count();
       writers[{i, stream}].period = sedp.heartbeat_period.count();

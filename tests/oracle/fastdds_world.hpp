@@ -24,6 +24,7 @@ using Time = std::int64_t;
 
 constexpr int pub = 0;
 constexpr int sub = 1;
+constexpr int participants_stream = 2;  // of a Discovery Server and its clients: announcements
 
 // Bytes of a HEARTBEAT to one participant and of an ACKNACK without bitmap.
 constexpr std::int64_t heartbeat_payload = 68;
@@ -47,6 +48,17 @@ enum class EventKind {
   cycle_batch,
   control_initial,
   control_reply,
+  client_tick,           // from here on: with a Discovery Server
+  client_expiry,         // of the HEARTBEAT of a client's announcements
+  registration_acknack,  // of the server, to a client's announcements
+  registration_initial,
+  learning_acknack,  // of a client, to a stream of the server
+  learning_initial,
+  routine,
+  sending,
+  relay_expiry,
+  relay_response,
+  relay_suppression_end,
   dispatch,
 };
 
@@ -66,12 +78,33 @@ struct Event {
   std::vector<Id> readers;  // of a batch
 };
 
-enum class PacketKind { spdp, sedp, acknack, control_heartbeat, control_acknack };
+enum class PacketKind {
+  spdp,
+  sedp,
+  acknack,
+  control_heartbeat,
+  control_acknack,
+  registration,            // from here on: with a Discovery Server. DATA(p) of a client
+  registration_heartbeat,  // and what belongs to it
+  registration_acknack,
+  relayed,          // DATA, GAP and HEARTBEAT of the server
+  learning_acknack  // of a client, to the server's
+};
+
+/// What a server passes on: an announcement (stream 2), also its own, or a descriptor.
+struct Item {
+  Id participant = 0;
+  int stream = 0;
+  Id descriptor = 0;
+
+  auto operator<=>(const Item&) const = default;
+};
 
 struct Packet {
   PacketKind kind = PacketKind::spdp;
   Id source = 0;
   std::optional<Id> destination;  // none: multicast
+  bool to_nobody = false;         // to a port of another host that nobody has
   std::int64_t payload = 0;
   int stream = 0;
   int topic = 0;
@@ -81,10 +114,17 @@ struct Packet {
   Id heartbeats = 0;            // HEARTBEATs that ride with DATA, or instead of it
   Id initial_data = 0;          // of the DATA: those that count as such
   Id repair_data = 0;
-  bool initial = false;  // an initial ACKNACK
-  Id base = 0;           // of an ACKNACK
-  std::set<Id> bitmap;   // of an ACKNACK
-  std::uint64_t id = 0;  // from here on: filled in by emit
+  bool initial = false;      // an initial ACKNACK
+  Id base = 0;               // of an ACKNACK
+  std::set<Id> bitmap;       // of an ACKNACK
+  std::optional<Item> item;  // from here on: of and to a server. What a DATA carries
+  std::int64_t item_number = 0;
+  std::set<std::int64_t> numbers;  // of a GAP, or requested by an ACKNACK
+  bool has_heartbeat = false;
+  std::int64_t first = 0;  // what the HEARTBEAT announces
+  std::int64_t last = 0;
+  std::int64_t number_base = 1;  // of an ACKNACK
+  std::uint64_t id = 0;          // from here on: filled in by emit
   bool lost = false;
   std::vector<std::int64_t> fragments;        // bytes on the channel
   std::map<std::size_t, std::size_t> served;  // stage → fragments served in it
@@ -154,6 +194,77 @@ struct Participant {
   std::int64_t sent_bytes = 0;  // of the cumulative piggyback charge
   std::deque<std::uint64_t> backlog;
   std::int64_t queued_bytes = 0;
+};
+
+/// A reader of one of the server's streams, as the server's writer sees it.
+struct RelayReader {
+  std::int64_t low = 0;
+  std::map<std::int64_t, DescriptorState> list;  // by number; never `acknowledged`
+  std::set<std::int64_t> sent;
+  bool suppression_pending = false;
+};
+
+/// One of the server's three writers.
+struct Relay {
+  std::map<std::int64_t, Item> history;
+  std::int64_t next = 1;
+  std::vector<Id> readers;  // in match order
+  std::map<Id, RelayReader> about;
+  bool expiry_pending = false;
+  bool response_pending = false;
+
+  [[nodiscard]] std::int64_t first() const {
+    return history.empty() ? next : history.begin()->first;
+  }
+  [[nodiscard]] std::int64_t last() const { return next - 1; }
+};
+
+/// A client's reader of one of the server's streams.
+struct Learner {
+  bool open = false;
+  bool heartbeat_seen = false;
+  bool acknack_pending = false;
+  std::int64_t base = 1;
+  std::int64_t announced = 0;
+  std::set<std::int64_t> received;
+};
+
+/// A client's announcements, and what the server knows of them.
+struct Registration {
+  bool acknowledged = false;
+  bool expiry_pending = false;
+  bool knows_server = false;
+  bool joined = false;  // at the server from here on
+  bool heartbeat_seen = false;
+  bool reply_pending = false;
+};
+
+struct Topic {
+  std::vector<Item> publications;  // in arrival order
+  std::vector<Item> subscriptions;
+};
+
+/// The Discovery Server, which has the number after all participants.
+struct Server {
+  std::map<Id, Registration> clients;
+  std::map<std::pair<Id, int>, Learner> learners;  // (client, stream)
+  std::map<int, Relay> relays;             // 0 publications, 1 subscriptions, 2 participants
+  std::deque<std::pair<int, Item>> fresh;  // items to be sent, oldest first
+  std::deque<std::pair<int, Item>> stale;  // the same, to be sent again
+  bool sending = false;
+  std::vector<Id> joining;    // waiting for the routine
+  std::vector<Item> arrived;  // waiting for the routine
+  std::set<std::pair<Item, Id>> marked;
+  std::set<std::pair<Item, Id>> noted;
+  std::set<std::pair<Item, Id>> waiting;
+  using TopicKey = std::tuple<int, Id, int, Id>;
+  std::map<TopicKey, Topic> topics;
+  std::vector<TopicKey> dirty;
+  std::vector<Id> supers;
+  std::int64_t news = 0;
+  bool all_noted = false;
+  bool routine_pending = false;  // an immediate one
+  std::uint64_t token = 0;       // of the periodic run that still counts
 };
 
 struct Request {
@@ -227,8 +338,11 @@ struct World {
   std::map<std::uint64_t, Packet> packets;  // loopback packets too
   std::set<std::uint64_t> lost_packets;
   std::int64_t missing = 0;
+  std::optional<Server> server;
   FastddsOutcome outcome;
   FastddsOutcome admitted;  // its counts, of admitted packets
+
+  [[nodiscard]] Id server_id() const { return scenario.deployment.size(); }
 };
 
 // fastdds_world.cpp
@@ -244,7 +358,7 @@ void schedule_after(World& w, model::Nanoseconds delay, const Event& event);
 // fastdds_descriptors.cpp
 [[nodiscard]] Id descriptor_count(const model::Scenario& scenario, Id i, int s);
 [[nodiscard]] std::vector<std::pair<int, Id>> creation_order(const model::Scenario& scenario, Id i);
-[[nodiscard]] std::int64_t submessage_bytes(int s, Id d);
+[[nodiscard]] std::int64_t submessage_bytes(const World& w, int s, Id d);
 constexpr int no_topic = -2;
 constexpr int liveliness = -1;
 [[nodiscard]] int topic_of(int s, Id d);
@@ -299,6 +413,38 @@ void receive_control_heartbeat(World& w, const Packet& packet);
 void receive_control_acknack(World& w, const Packet& packet);
 void control_reply(World& w, Id j, Id i, int topic);
 void control_initial(World& w, Id j, Id i, int topic, Time delay);
+
+// server_client.cpp
+[[nodiscard]] bool is_needed(const World& w, Id i, Id j, int s, Id d);
+void client_announces(World& w, Id i, std::int64_t k);
+void client_tick(World& w, Id i);
+void client_expiry(World& w, Id i);
+void receive_registration_acknack(World& w, const Packet& packet);
+void receive_relayed(World& w, const Packet& packet);
+void learning_acknack(World& w, Id j, int stream);
+void learning_initial(World& w, Id j, int stream, Time delay);
+
+// server_database.cpp
+void receive_registration(World& w, const Packet& packet);
+void receive_registration_heartbeat(World& w, Id i);
+void registration_acknack(World& w, Id i);
+void registration_initial(World& w, Id i, Time delay);
+void server_learns(World& w, Id i, int s, const std::vector<Id>& descriptors);
+void routine(World& w, std::uint64_t token);
+[[nodiscard]] bool is_relevant(const World& w, const Item& item, Id j);
+
+// server_relay.cpp
+void open_relay(World& w, int stream, Id j);
+void insert(World& w, int stream, const Item& item);
+void remove(World& w, int stream, const Item& item);
+void send_next(World& w);
+void relay_expiry(World& w, int stream);
+void relay_response(World& w, int stream);
+void relay_suppression_end(World& w, int stream, Id j);
+void receive_learning_acknack(World& w, const Packet& packet);
+
+// fastdds_spdp.cpp
+void open_reader(World& w, Id j, Id i, int s);
 
 // fastdds_adaptive.cpp
 void activate_cycles(World& w, Id i, int s);

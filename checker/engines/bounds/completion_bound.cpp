@@ -102,6 +102,7 @@ std::optional<CompletionBound> completion_bound(const model::DdsProfile& dds,
     case model::Writer::stateful:
       stateful_bound(bound, dds, circumstances);
       break;
+    case model::Writer::of_server:
     case model::Writer::of_cyclone:
       return std::nullopt;
   }

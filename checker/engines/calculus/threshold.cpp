@@ -108,6 +108,8 @@ Threshold threshold_of(const model::Scenario& scenario, const OpenLoop* traffic)
     case model::Writer::of_cyclone:
       return none("no lemma is about its writer");
     case model::Writer::stateful:
+    case model::Writer::of_server:  // nobody asks for these two
+    case model::Writer::of_cyclone:
       break;
   }
   return of_the_stateful(scenario, traffic);

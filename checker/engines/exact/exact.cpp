@@ -9,6 +9,7 @@
 
 #include "checker/engines/exact/observed_run.hpp"
 #include "checker/engines/exact/smallest_violation.hpp"
+#include "model/implementations.hpp"
 #include "props/limits.hpp"
 #include "props/monitors/describe.hpp"
 

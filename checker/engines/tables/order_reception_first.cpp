@@ -43,6 +43,19 @@ Role role_of(EventKind kind) {
     case EventKind::heartbeat_time:
     case EventKind::ack_time:
     case EventKind::thread_run:
+    case EventKind::client_announcement:
+    case EventKind::client_sync:
+    case EventKind::registration_expiry:
+    case EventKind::registration_reply:
+    case EventKind::registration_initial:
+    case EventKind::learner_reply:
+    case EventKind::learner_initial:
+    case EventKind::relay_expiry:
+    case EventKind::relay_response:
+    case EventKind::relay_suppression_end:
+    case EventKind::server_routine:
+    case EventKind::server_routine_again:
+    case EventKind::server_sending:
       return Role::decision;
     case EventKind::dispatch:
       return Role::service_start;

@@ -239,6 +239,10 @@ std::optional<std::string> refuse_profile(const model::DdsProfile& dds) {
     return "a capture can be held against a profile with `implementation: fastdds`; of "
            "`implementation: cyclone` conformance is not supported yet";
   }
+  if (dds.discovery != model::Discovery::simple) {
+    return "a capture can be held against a profile with `discovery: simple`; conformance with a "
+           "Discovery Server or static peers is not supported yet";
+  }
   if (model::traits_of(dds).writer != model::Writer::stateful) {
     return "a capture can be held against a profile with `implementation: fastdds`; this one has "
            "the writer of the paper's model, which is not message for message that of any program";

@@ -74,6 +74,12 @@ Result<model::Scenario> scenario_of(const Request& request, const CapturedDeploy
       quoted(request.dds), quoted(request.wireless), time_limit_s);
   auto scenario = model::config::parse_scenario(text, "validate", request.overrides, specs);
   if (!scenario) return scenario.error();
+  if (model::traits_of(scenario->dds).has_server) {
+    return InputError{
+        "--dds",
+        "runs with a Discovery Server cannot be counted as captures are yet; expected "
+        "a profile with `discovery: simple` or `static`"};
+  }
   scenario->deployment.participants = model_participants(deployment, scenario->dds.descriptors);
   if (!model::config::is_valid(*scenario)) {
     return InputError{

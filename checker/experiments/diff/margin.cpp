@@ -19,7 +19,7 @@ namespace {
 
 void add_threshold(const model::DdsProfile& dds, bool constant_delay, Margin& margin) {
   const model::ImplementationTraits& traits = model::traits_of(dds);
-  if (traits.writer == model::Writer::of_cyclone) {
+  if (!traits.is_known_to_engines) {
     margin.formula = fmt::format("no theorem is about {}'s writer", traits.whose);
     return;
   }

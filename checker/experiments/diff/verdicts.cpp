@@ -13,6 +13,7 @@
 #include "checker/engines/smt/claims.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "checker/verification/check/check.hpp"
+#include "model/implementations.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::diff {
@@ -89,7 +90,7 @@ VerdictAnswer compare_verdicts(const VerdictRequest& request, const Policy& poli
   answer.interrupted = stopped || reports[0].interrupted || reports[1].interrupted;
   if (answer.interrupted) return answer;
   answer.comparison.done = true;
-  const model::ImplementationKind implementation = request.candidate.dds.implementation;
+  const model::ImplementationKind implementation = model::kind_of(request.candidate.dds);
   // What does not apply to one of the two is not compared.
   for (const checker::PropertyResult& before : reports[0].results) {
     const auto after =

@@ -12,6 +12,7 @@
 #include "checker/engines/exact/observed_run.hpp"
 #include "checker/experiments/fuzz/variant.hpp"
 #include "checker/experiments/trials/runner.hpp"
+#include "model/implementations.hpp"
 #include "props/limits.hpp"
 #include "props/monitor.hpp"
 #include "props/property.hpp"
@@ -76,7 +77,7 @@ class Fuzzer {
       Judgment judgment;
       judgment.id = id;
       if (const props::Property* property = props::find_property(id)) {
-        judgment.statement = statement_of(*property, base_.dds.implementation);
+        judgment.statement = statement_of(*property, model::kind_of(base_.dds));
       }
       report_.judgments.push_back(std::move(judgment));
     }

@@ -120,6 +120,9 @@ Digest digest_of(const model::Deployment& deployment) {
   if (deployment.send_time) {
     fmt::format_to(std::back_inserter(text), "send {}\n", deployment.send_time->count());
   }
+  if (deployment.send_cost) {
+    fmt::format_to(std::back_inserter(text), "server {}\n", deployment.send_cost->count());
+  }
   for (const model::Participant& participant : deployment.participants) {
     // A new member has to be named here; it would not compile otherwise.
     const auto& [host, publications, subscriptions, start, endpoints_done, open, ready] =

@@ -52,6 +52,9 @@ std::string elaboration(const Simulation& s) {
         duration(result.end_time));
   }
   if (!s.open_loop) {
+    if (model::traits_of(s.scenario.dds).has_server) {
+      return text + "No open-loop airtime: it is not defined with a Discovery Server.";
+    }
     return text + (model::traits_of(s.scenario.dds).writer == model::Writer::of_cyclone
                        ? "No open-loop airtime: it is not defined for Cyclone DDS's shared packets."
                        : "No open-loop airtime: this profile has a constant delay and no channel.");
@@ -112,6 +115,14 @@ Table messages(const Simulation& s) {
   for (std::size_t k = 0; k < counts.size(); ++k) {
     row(words_of(model::message_classes[k]), counts[k].value, reference[k].value);
   }
+  const auto of_server = [&](const char* name, std::uint64_t value, std::uint64_t once) {
+    if (model::traits_of(s.scenario.dds).has_server) row(name, value, once);
+  };
+  const model::Counts& all = s.result.counts;
+  of_server("DATA(p)", all.pdp_data, s.failure_free.pdp_data);
+  of_server("HEARTBEAT(p)", all.pdp_heartbeat, s.failure_free.pdp_heartbeat);
+  of_server("ACKNACK(p)", all.pdp_acknack, s.failure_free.pdp_acknack);
+  of_server("GAP", all.gap, s.failure_free.gap);
   row("total", s.result.counts.total(), s.failure_free.total());
   if (s.result.user_control > 0) {
     table.rows.push_back({{"user control", grouped(s.result.user_control), "", ""}});

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "checker/engines/exact/observed_run.hpp"
+#include "model/implementations.hpp"
 #include "model/reference.hpp"
 #include "props/limits.hpp"
 

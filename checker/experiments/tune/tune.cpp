@@ -12,6 +12,7 @@
 #include "checker/experiments/tune/model_runs.hpp"
 #include "model/config/tree/suggestion.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
+#include "model/implementations.hpp"
 #include "props/limits.hpp"
 #include "props/monitor.hpp"
 

@@ -2,6 +2,8 @@
 // (specs/guide/output.md).
 #pragma once
 
+#include <optional>
+
 #include "model/counts.hpp"
 
 namespace stormproof::model {
@@ -9,6 +11,13 @@ namespace stormproof::model {
 template <class V>
 void describe(V& v, const Counts& counts) {
   for (const auto& [name, value] : counts.entries()) v(name, value);
+  const auto of_server = [&](std::uint64_t value) {
+    return counts.of_server() > 0 ? std::optional{value} : std::nullopt;
+  };
+  v.unless_empty("pdp_data", of_server(counts.pdp_data));
+  v.unless_empty("pdp_heartbeat", of_server(counts.pdp_heartbeat));
+  v.unless_empty("pdp_acknack", of_server(counts.pdp_acknack));
+  v.unless_empty("gap", of_server(counts.gap));
   v("total", counts.total());
 }
 

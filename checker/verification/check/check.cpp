@@ -10,6 +10,7 @@
 #include "checker/engines/tables/tables.hpp"
 #include "checker/engines/timeline/timeline.hpp"
 #include "checker/verification/check/combination.hpp"
+#include "model/implementations.hpp"
 #include "props/applicability.hpp"
 #include "props/limits.hpp"
 

@@ -26,7 +26,7 @@ std::string ids_of(const std::vector<std::string_view>& ids) {
 /// Whether the rules are known not to promise it, and nobody asks them to.
 bool is_weakness(const PropertyResult& result, const CheckContext& context) {
   return !context.gate.rules.strict &&
-         !result.property->weakness_of(context.scenario.dds.implementation).empty();
+         !result.property->weakness_of(model::kind_of(context.scenario.dds)).empty();
 }
 
 /// The answers to one question: what is violated, what nobody knows, how many hold.

@@ -53,7 +53,7 @@ Blocks findings_at_terminal(const PropertyResult& result, const CheckContext& co
     blocks.emplace_back(Paragraph{"by " + method(decisive)}, Audience::terminal);
   }
   blocks.emplace_back(
-      Paragraph{statement_of(*result.property, context.scenario.dds.implementation)},
+      Paragraph{statement_of(*result.property, model::kind_of(context.scenario.dds))},
       Audience::explained);
   Bullets assumptions;
   for (const std::string& one : decisive.assumptions) {
@@ -103,7 +103,7 @@ Table::Row row_of(const PropertyResult& result, Standing standing, const CheckCo
   const std::string id{result.property->id};
   const bool told = result.verdict == VerdictKind::violated && result.counterexample() != nullptr;
   const bool possible = standing == Standing::possible;
-  const model::ImplementationKind rules = context.scenario.dds.implementation;
+  const model::ImplementationKind rules = model::kind_of(context.scenario.dds);
   Table::Row row;
   row.cells = {
       possible ? report::badge(report::Tone::info, "possible") : report::badge(result.verdict),
@@ -178,7 +178,8 @@ Section violation(const PropertyResult& result, const CheckContext& context, std
   Section section{"✗ " + id, id};
   const auto found = context.stories.find(id);
   const std::string story = found == context.stories.end() ? "" : found->second;
-  const std::string statement = statement_of(*result.property, context.scenario.dds.implementation);
+  const std::string statement =
+      statement_of(*result.property, model::kind_of(context.scenario.dds));
   const Audience unless_told = story.empty() ? Audience::everybody : Audience::documents;
   section.blocks.emplace_back(Paragraph{statement}, unless_told);
   section.blocks.emplace_back(Paragraph{sentence_of(result), report::Tone::bad}, unless_told);

@@ -6,6 +6,7 @@
 
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/verification/check/origins.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::checker {
 
@@ -63,7 +64,7 @@ report::Finding ci_finding(const PropertyResult& result, Standing standing,
   report::Finding one;
   one.id = result.property->id;
   one.group = "stormproof." + context.name;
-  one.statement = statement_of(*result.property, context.scenario.dds.implementation);
+  one.statement = statement_of(*result.property, model::kind_of(context.scenario.dds));
   one.description = one.statement;
   if (!result.property->assumptions.empty()) {
     one.description += fmt::format(" Claimed under: {}.", result.property->assumptions);

@@ -97,11 +97,11 @@ void describe(V& v, const ResultInContext& shown) {
   const PropertyResult& result = shown.result;
   const props::Finding& decisive = result.decisive();
   v("id", result.property->id);
-  v("statement", statement_of(*result.property, shown.context.scenario.dds.implementation));
+  v("statement", statement_of(*result.property, model::kind_of(shown.context.scenario.dds)));
   v("verdict", result.verdict);
   v("standing", shown.standing);
   v("reaches", VerdictByReach{result});
-  v.or_null("weakness", result.property->weakness_of(shown.context.scenario.dds.implementation));
+  v.or_null("weakness", result.property->weakness_of(model::kind_of(shown.context.scenario.dds)));
   v("engine", decisive.engine);
   v("how", decisive.how);
   v("assumptions", decisive.assumptions);

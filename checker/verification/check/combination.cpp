@@ -7,6 +7,7 @@
 
 #include "checker/engines/bounds/measure.hpp"
 #include "checker/verification/counterexample/write.hpp"
+#include "model/implementations.hpp"
 #include "props/applicability.hpp"
 
 namespace stormproof::checker {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "checker/verification/check/combination.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::checker {
 
@@ -113,7 +114,7 @@ class Judge {
   Standing standing(const PropertyResult& result) {
     const Property& property = *result.property;
     if (result.verdict == VerdictKind::disputed) return Standing::disputed;
-    const bool promised = gate_.rules.strict || property.weakness_of(dds_.implementation).empty();
+    const bool promised = gate_.rules.strict || property.weakness_of(model::kind_of(dds_)).empty();
     if (const auto where = violated_in(result)) {
       const bool counts = promised || (*where == Reach::deployment && !property.is_margin);
       return counts ? failure({std::string{property.id}, *where}) : Standing::possible;

@@ -14,6 +14,7 @@
 #include "checker/verification/counterexample/selection.hpp"
 #include "checker/verification/counterexample/story.hpp"
 #include "fsm/state_words.hpp"
+#include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/property.hpp"
 
@@ -80,7 +81,7 @@ class Builder {
     chart_.closing = "Why the property breaks";
     chart_.reason = counterexample_.reason;
     if (const auto* property = props::find_property(counterexample_.property)) {
-      chart_.header = {statement_of(*property, counterexample_.scenario.dds.implementation)};
+      chart_.header = {statement_of(*property, model::kind_of(counterexample_.scenario.dds))};
     }
     chart_.header.push_back(deployment_text(counterexample_.scenario));
     chart_.header.push_back(timers_text(counterexample_.scenario));

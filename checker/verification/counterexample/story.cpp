@@ -136,7 +136,7 @@ std::string story(const props::Counterexample& counterexample) {
                   report::grouped(counterexample.event), props::time_text(counterexample.time));
   if (property != nullptr) {
     text += report::paragraph("  statement  ",
-                              statement_of(*property, counterexample.scenario.dds.implementation));
+                              statement_of(*property, model::kind_of(counterexample.scenario.dds)));
   }
   text += report::paragraph("  why        ", counterexample.reason);
   text += report::paragraph("  run        ", deployment_text(counterexample.scenario));

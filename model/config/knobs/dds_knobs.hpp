@@ -59,6 +59,12 @@ inline constexpr std::array<std::string_view, 2> enum_names<AllowMulticast>{"tru
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<MergeQueued>{"false", "true"};
 
+template <>
+inline constexpr std::array<std::string_view, 4> enum_names<Discovery>{"simple", "server",
+                                                                       "super_client", "static"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Relay>{"repeat", "once"};
+
 /// Sizes of packets and of their parts.
 inline constexpr NumberType packet_bytes = byte_range(1, 1'000'000'000);
 /// 20·T and T·H of the adaptive policy stay within 64 bits for every T up to 10^6 s and this
@@ -81,6 +87,19 @@ inline constexpr std::int64_t max_epsilon_denominator = 1'000;
 [[nodiscard]] constexpr Presence not_of_cyclone(ImplementationKind implementation,
                                                 Presence elsewhere = Presence::required) {
   return traits_of(implementation).writer == Writer::of_cyclone ? Presence::of_others : elsewhere;
+}
+
+/// Of what only Fast DDS has with some way to discover.
+[[nodiscard]] constexpr Presence with_server(ImplementationKind kind) {
+  return traits_of(kind).has_server ? Presence::defaulted : Presence::of_others;
+}
+[[nodiscard]] constexpr Presence with_static_peers(ImplementationKind kind) {
+  return kind == kind_of(implementation_of(kind), Discovery::static_peers) ? Presence::defaulted
+                                                                           : Presence::of_others;
+}
+[[nodiscard]] constexpr Presence with_discovery(ImplementationKind implementation) {
+  return kind_of(implementation, Discovery::server) != implementation ? Presence::optional
+                                                                      : Presence::of_others;
 }
 
 void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp, ImplementationKind implementation) {
@@ -236,10 +255,45 @@ void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors) {
 
 /// Where a profile says whose writer it describes; the reader looks at it before anything else.
 inline constexpr std::string_view implementation_key = "implementation";
+/// And then at the way to discover.
+inline constexpr std::string_view discovery_key = "discovery";
+
+/// How participants find each other.
+void visit_discovery(auto& visit, Is<DdsProfile> auto& dds) {
+  const ImplementationKind kind = kind_of(dds);
+  visit.knob(discovery_key, dds.discovery, UsualChoiceType<Discovery>{{}, Discovery::simple},
+             "how participants find each other; simple if absent",
+             with_discovery(dds.implementation));
+  auto& server = dds.server;
+  visit.knob("client_sync_period", server.client_sync_period, period_range,
+             "until a client matches its endpoints with the server's (tau_T); 450ms if absent",
+             with_server(kind));
+  visit.knob("server_routine_period", server.server_routine_period, period_range,
+             "until the server looks again who has acknowledged what (tau_R); 450ms if absent",
+             with_server(kind));
+  visit.knob("pdp_heartbeat_period", server.pdp_heartbeat_period, period_range,
+             "periodic HEARTBEAT of participant announcements; 350ms if absent", with_server(kind));
+  visit.knob("pdp_nack_response_delay", server.pdp_nack_response_delay, delay_range,
+             "from an ACKNACK to the announcement that it asks for; 100ms if absent",
+             with_server(kind));
+  visit.knob("pdp_nack_suppression_duration", server.pdp_nack_suppression_duration, delay_range,
+             "how long a repeated announcement cannot be asked for again; 11ms if absent",
+             with_server(kind));
+  visit.knob("pdp_heartbeat_response_delay", server.pdp_heartbeat_response_delay, delay_range,
+             "from such a HEARTBEAT to the ACKNACK that answers it; 11ms if absent",
+             with_server(kind));
+  visit.knob("relay", server.relay, ChoiceType<Relay>{},
+             "whether the server sends what is not acknowledged again whenever something arrives; "
+             "repeat if absent",
+             with_server(kind));
+  visit.knob("peer_ports", dds.peer_ports, count_range(1, 1'000),
+             "ports of each host that announcements go to; 4 if absent", with_static_peers(kind));
+}
 
 void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
   visit.knob(implementation_key, dds.implementation, ChoiceType<ImplementationKind>{},
              "whose writer: the paper's, or that of Fast DDS or Cyclone DDS", Presence::optional);
+  visit_discovery(visit, dds);
   visit.knob("allow_multicast", dds.allow_multicast, ChoiceType<AllowMulticast>{},
              "what goes to the multicast group: all that has several receivers, or announcements",
              of_cyclone(dds.implementation));

@@ -172,6 +172,18 @@ Json dds_schema() {
     }
     exclusions.push_back({{"if", is_other}, {"then", keys.exclusions()}});
   }
+  // Which of these keys go with which way to discover is left to the program.
+  for (const Discovery discovery : {Discovery::server, Discovery::static_peers}) {
+    DdsProfile other;
+    other.implementation = implementation_with_discovery;
+    other.discovery = discovery;
+    const SchemaVisitor keys = visited(other);
+    add_missing(fullest.properties, keys.properties);
+    Json& forbidden = exclusions[index_of(other.implementation)]["then"]["properties"];
+    for (const auto& [name, property] : keys.properties.items()) {
+      if (forbidden.contains(name) && forbidden[name] == false) forbidden.erase(name);
+    }
+  }
   Json schema = profile("DDS profile", fullest, requirements);
   schema["allOf"] = exclusions;
   return schema;

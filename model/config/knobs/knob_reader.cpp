@@ -46,6 +46,10 @@ class DottedKeys {
 };
 
 std::string named(ImplementationKind kind) {
+  if (kind != implementation_of(kind)) {
+    return fmt::format("{}: {}", discovery_key,
+                       traits_of(kind).has_server ? "server or super_client" : "static");
+  }
   return fmt::format("{}: {}", implementation_key, traits_of(kind).name);
 }
 
@@ -53,19 +57,28 @@ std::string named(ImplementationKind kind) {
 /// the section of the profile, if it is in one.
 std::string implementations_with(std::string_view path, const std::string& key) {
   std::vector<std::string> shown;
+  const std::string dotted = join_path(path, key);
+  const auto ends_with_key = [&](const std::string& known) {
+    const bool whole =
+        dotted.size() == known.size() ||
+        (dotted.size() > known.size() && dotted[dotted.size() - known.size() - 1] == '.');
+    return whole && dotted.ends_with(known);
+  };
   for (const ImplementationKind kind : implementations) {
     DdsProfile profile;
     profile.implementation = kind;
     DottedKeys visitor;
     visit_knobs(visitor, profile);
-    const std::string dotted = join_path(path, key);
-    const auto ends_so = [&](const std::string& known) {
-      const bool whole =
-          dotted.size() == known.size() ||
-          (dotted.size() > known.size() && dotted[dotted.size() - known.size() - 1] == '.');
-      return whole && dotted.ends_with(known);
-    };
-    if (std::ranges::any_of(visitor.keys, ends_so)) shown.push_back(named(kind));
+    if (std::ranges::any_of(visitor.keys, ends_with_key)) shown.push_back(named(kind));
+  }
+  for (const Discovery discovery : {Discovery::server, Discovery::static_peers}) {
+    if (!shown.empty()) break;
+    DdsProfile profile;
+    profile.implementation = implementation_with_discovery;
+    profile.discovery = discovery;
+    DottedKeys visitor;
+    visit_knobs(visitor, profile);
+    if (std::ranges::any_of(visitor.keys, ends_with_key)) shown.push_back(named(kind_of(profile)));
   }
   return fmt::format("{}", fmt::join(shown, " and "));
 }
@@ -216,6 +229,10 @@ void read_knobs(const Node& map, const std::string& path, DdsProfile& value,
   // What is wrong with the word, if anything, is said when all keys are read.
   const Node* word = map.find(implementation_key);
   if (word != nullptr) (void)ChoiceType<ImplementationKind>{}.read(*word, value.implementation);
+  const Node* way = map.find(discovery_key);
+  if (way != nullptr && with_discovery(value.implementation) != Presence::of_others) {
+    (void)ChoiceType<Discovery>{}.read(*way, value.discovery);
+  }
   read_table(map, path, value, error);
 }
 

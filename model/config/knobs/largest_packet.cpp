@@ -48,6 +48,13 @@ LargestPacket largest_of(Of<fsm::composition::fastdds::FastDds>, const Scenario&
   return {Bytes{message + fastdds::heartbeat_submessage_bytes}, "dds.sedp.grouping_limit_bytes"};
 }
 
+/// Those of a client; the server sends one descriptor at a time.
+LargestPacket largest_of(Of<fsm::composition::server::FastDdsServer>, const Scenario& scenario) {
+  LargestPacket largest = largest_of(Of<fsm::composition::fastdds::FastDds>{}, scenario);
+  largest.payload += Bytes{fastdds::inline_qos_bytes};
+  return largest;
+}
+
 /// A message is never split: alone it may exceed the size that packets are filled to.
 LargestPacket largest_of(Of<fsm::composition::cyclone::Cyclone>, const Scenario& scenario) {
   const Bytes header{cyclone::header_bytes + cyclone::destination_bytes};

@@ -106,6 +106,10 @@ void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
       "send_time", deployment.send_time, delay_range,
       "between two packets of a participant; 50us if absent; used by implementation: cyclone",
       Presence::optional);
+  visit.knob("send_cost", deployment.send_cost, delay_range,
+             "between two datagrams of a Discovery Server; 50us if absent; used by discovery: "
+             "server and super_client",
+             Presence::optional);
   visit.section(schedule_key, deployment.schedule,
                 "ranges that all start and endpoints_done are drawn from, uniformly; a time that a "
                 "participant gives beside it has to be the drawn one",

@@ -15,6 +15,15 @@ constexpr std::string_view descriptor = "what a descriptor says: names, types an
 
 constexpr VendorKnob fastdds_knobs[] = {
     {"implementation", "", "the library's own writer"},
+    {"discovery", "", "a server's address or initial peers belong to it"},
+    {"client_sync_period", "", "constant in the library, RTPSParticipantAttributes.h:277"},
+    {"server_routine_period", "", "constant in the library, RTPSParticipantAttributes.h:277"},
+    {"pdp_heartbeat_period", "", "constant in the library, PDP.cpp:73-77"},
+    {"pdp_nack_response_delay", "", "constant in the library, PDP.cpp:73-77"},
+    {"pdp_nack_suppression_duration", "", "constant in the library, PDP.cpp:73-77"},
+    {"pdp_heartbeat_response_delay", "", "constant in the library, PDP.cpp:73-77"},
+    {"relay", "", "rule of the library, DiscoveryDataBase::process_dirty_topics"},
+    {"peer_ports", "", "maxInitialPeersRange of a transport; acts with initial peers only"},
     {"spdp.period", "rtps/builtin/discovery_config/leaseAnnouncement",
      "has to be less than leaseDuration, 20 s", 100 * ms, 10 * second},
     {"spdp.startup_announcements", "rtps/builtin/discovery_config/initialAnnouncements/count",

@@ -98,8 +98,10 @@ std::string lines(const Complaints& complaints) {
 }
 
 /// The pages that state the rules of one composition. Others may speak of any of them.
-const std::map<std::string, std::string_view> page_of{
-    {"model.md", "paper"}, {"fastdds.md", "fastdds"}, {"cyclone.md", "cyclone"}};
+const std::map<std::string, std::string_view> page_of{{"model.md", "paper"},
+                                                      {"fastdds.md", "fastdds"},
+                                                      {"cyclone.md", "cyclone"},
+                                                      {"discovery-server.md", "fastdds-server"}};
 
 TEST(Guide, RefersToRulesAndEffectsThatExist) {
   std::size_t pages = 0;

@@ -11,6 +11,7 @@
 #include "model/engine/network.hpp"
 #include "model/engine/run_state.hpp"
 #include "model/fastdds/protocol.hpp"
+#include "model/fastdds/server_protocol.hpp"
 #include "model/packet_sizes.hpp"
 #include "model/paper/protocol.hpp"
 #include "model/simulator.hpp"
@@ -46,6 +47,9 @@ bool receives_separately(Of<comp::paper::Paper>, const Scenario& scenario) {
 }
 bool receives_separately(Of<comp::fastdds::FastDds>, const Scenario& scenario) {
   return has_separate_receptions<fastdds::Protocol>(scenario);
+}
+bool receives_separately(Of<comp::server::FastDdsServer>, const Scenario& scenario) {
+  return has_separate_receptions<fastdds::ServerProtocol>(scenario);
 }
 bool receives_separately(Of<comp::cyclone::Cyclone>, const Scenario& scenario) {
   return has_separate_receptions<cyclone::Protocol>(scenario);

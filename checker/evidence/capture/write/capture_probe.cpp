@@ -28,6 +28,12 @@ VendorId vendor_of(const model::Scenario& scenario) {
 
 }  // namespace
 
+std::optional<std::string> why_not_written(const model::DdsProfile& dds) {
+  if (!model::traits_of(dds).has_server) return std::nullopt;
+  return "messages with a Discovery Server are not written as a capture yet; expected --trace or "
+         "--perfetto";
+}
+
 class CaptureProbe::Implementation {
  public:
   Implementation(Sink sink, const model::Scenario& scenario)
@@ -63,6 +69,12 @@ class CaptureProbe::Implementation {
         return control(packet, source, destination);
       case PacketKind::rtps_message:
         return send_message(packet, source, destination);
+      case PacketKind::registration:
+      case PacketKind::registration_heartbeat:
+      case PacketKind::registration_acknack:
+      case PacketKind::relayed:
+      case PacketKind::relayed_acknack:
+        return;  // refused before the run (`why_not_written`)
     }
   }
 

@@ -75,7 +75,8 @@ TEST(KnobList, cyclone_dds_has_the_settings_of_its_configuration) {
 
 TEST(KnobList, fast_dds_has_the_same_list_with_the_keys_of_the_paper_marked) {
   const auto of_paper = keys_beyond(ImplementationKind::paper, ImplementationKind::fastdds);
-  EXPECT_TRUE(keys_beyond(ImplementationKind::fastdds, ImplementationKind::paper).empty());
+  EXPECT_EQ(keys_beyond(ImplementationKind::fastdds, ImplementationKind::paper),
+            std::set<std::string>{"dds.discovery"});
   EXPECT_EQ(of_paper,
             (std::set<std::string>{
                 "dds.spdp.payload_bytes", "dds.sedp.relation_opening", "dds.sedp.initial_data",

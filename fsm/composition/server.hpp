@@ -1,0 +1,419 @@
+// Fast DDS with a Discovery Server (specs/guide/discovery-server.md, executed by
+// model/fastdds/server_protocol.hpp). Participants are clients: each announces itself to the server
+// alone, matches its endpoints with those of the server at a tick, and learns about the others from
+// the server, whose routine finds out what each of them needs. The writers and readers of a
+// client's descriptors are those of Fast DDS (fsm/composition/fastdds.hpp).
+#pragma once
+
+#include <array>
+
+#include "fsm/composition/fastdds.hpp"
+#include "fsm/composition/server_parts.hpp"
+
+namespace stormproof::fsm::composition::server {
+
+using RegistrationAttempts = InitialAttempts<RegistrationTimer, RegistrationHeartbeatSeen,
+                                             RegistrationLastDelay, RegistrationAttempt>;
+using LearnerAttempts =
+    InitialAttempts<LearnerTimer, LearnerHeartbeatSeen, LearnerLastDelay, LearnerAttempt>;
+
+template <class W>
+void arm_registration(W& w) {
+  request<RegistrationExpiry, RegistrationHeartbeatPeriod, RegistrationExpiryDue>(w);
+}
+template <class W>
+void arm(W& w) {
+  request<RelayExpiry, RelayHeartbeatPeriod, RelayExpiryDue>(w);
+}
+template <class W>
+void relay_heartbeat(W& w) {
+  w.emit(RelayHeartbeat{}, says(Says{CarriesHeartbeat{}, typename W::Bool(true)}));
+}
+
+// A client. ---------------------------------------------------------------------------------------
+
+struct ClientAnnounces : Rule<Due<ClientAnnouncement>> {
+  template <class W>
+  static void run(W& w) {
+    const auto first = !(w(AnnouncementsSent{}) > 0);
+    const auto timer = w.feed(AnnouncementTimer{}, on<announcer::AnnouncementDue>,
+                              {.now = w(Now{}),
+                               .number = w(AnnouncementsSent{}),
+                               .startup = w(StartupAnnouncements{}),
+                               .startup_period = w(StartupPeriod{}),
+                               .period = w(AnnouncementPeriod{})});
+    w.set(AnnouncementsSent{}, w(AnnouncementsSent{}) + 1);
+    w.when(timer.announce, [&] {
+      w.when(first, [&] { begin(w); });
+      w.when(!first, [&] { w.emit(Registration{}, says()); });
+      w.at(timer.next_at, ClientAnnouncement{});
+    });
+  }
+
+ private:
+  template <class W>
+  static void begin(W& w) {
+    w.reverse([](auto& back) {
+      back.for_streams(
+          [](auto& r) { r.when(r(OfAnnouncements{}), [&] { r.raise(LearnerOpens{}); }); });
+    });
+    w.emit(RegistrationHeartbeat{}, says());
+    w.emit(Registration{}, says());
+    arm_registration(w);
+    w.after(ClientSyncPeriod{}, ClientSync{});
+  }
+};
+
+/// Only here does a client that knows the server match its endpoints with the server's.
+struct ClientSyncIsDue : Rule<Due<ClientSync>> {
+  template <class W>
+  static void run(W& w) {
+    w.reverse([](auto& back) {
+      const auto known = back(Recognised{});
+      back.when(!known, [&] {
+        back.reverse([](auto& client) {
+          client.emit(Registration{}, says());
+          client.after(ClientSyncPeriod{}, ClientSync{});
+        });
+      });
+      back.when(known, [&] {
+        back.for_streams([](auto& r) {
+          r.when(!r(OfAnnouncements{}), [&] {
+            r.perform(OpenOwnWriter{});
+            r.raise(LearnerOpens{});
+          });
+        });
+      });
+    });
+  }
+};
+
+struct RegistrationAckNackArrives : Rule<Received<RegistrationAckNack>> {
+  template <class W>
+  static void run(W& w) {
+    const auto initial = w(IsInitial{});
+    w.when(initial, [&] {
+      w.emit(RegistrationHeartbeat{}, says());
+      arm_registration(w);
+    });
+    w.when(!initial, [&] { w.set(RegistrationAcknowledged{}, typename W::Bool(true)); });
+  }
+};
+
+struct RegistrationExpires : Rule<Due<RegistrationExpiryDue>> {
+  template <class W>
+  static void run(W& w) {
+    expire<RegistrationExpiry>(w, [&] {
+      w.when(!w(RegistrationAcknowledged{}), [&] {
+        w.emit(RegistrationHeartbeat{}, says());
+        arm_registration(w);
+      });
+    });
+  }
+};
+
+struct LearnerOpened : Rule<Happens<LearnerOpens>> {
+  template <class W>
+  static void run(W& w) {
+    w.set(LearnerOpen{}, typename W::Bool(true));
+    LearnerAttempts::open(w);
+  }
+};
+
+struct LearnerInitialDue : Rule<Due<LearnerAttempt>> {
+  template <class W>
+  static void run(W& w) {
+    LearnerAttempts::attempt(w, [&] {
+      w.emit(RelayedAckNack{}, says(Says{IsInitial{}, typename W::Bool(true)}));
+    });
+  }
+};
+
+struct LearnerReplyIsDue : Rule<Due<LearnerReplyDue>> {
+  template <class W>
+  static void run(W& w) {
+    expire<LearnerReply>(w, [&] { w.emit(RelayedAckNack{}, says()); });
+  }
+};
+
+/// What the relation's reader does with DATA, a GAP and a HEARTBEAT.
+struct TakePacket : Procedure {
+  template <class W>
+  static void body(W& w) {
+    w.when(w(LearnerOpen{}), [&] {
+      w.perform(TakeRelayed{});
+      w.when(w(CarriesHeartbeat{}) && !w(RunEnds{}), [&] {
+        w.set(LearnerHeartbeatSeen{}, typename W::Bool(true));
+        request<LearnerReply, LearnerResponseDelay, LearnerReplyDue>(w);
+      });
+    });
+  }
+};
+struct RelayedDataArrives : Rule<Received<RelayedData>> {
+  template <class W>
+  static void run(W& w) {
+    w.call(TakePacket{});
+  }
+};
+struct RelayHeartbeatArrives : Rule<Received<RelayHeartbeat>> {
+  template <class W>
+  static void run(W& w) {
+    w.call(TakePacket{});
+  }
+};
+struct GapArrives : Rule<Received<Gap>> {
+  template <class W>
+  static void run(W& w) {
+    w.call(TakePacket{});
+  }
+};
+
+// The server and its clients' announcements. ------------------------------------------------------
+
+/// The routine runs at once instead of later.
+struct WakeRoutine : Procedure {
+  template <class W>
+  static void body(W& w) {
+    w.cancel(RoutineAgain{});
+    request<Routine, Immediately, RoutineDue>(w);
+  }
+};
+
+/// The first one of a client; later ones renew a lease, which is not modelled.
+struct RegistrationArrives : Rule<Received<Registration>> {
+  template <class W>
+  static void run(W& w) {
+    w.when(!w(Recognised{}), [&] {
+      w.set(Recognised{}, typename W::Bool(true));
+      w.perform(JoinParticipants{});
+      RegistrationAttempts::open(w);
+      w.reverse([](auto& back) {
+        back.for_streams(
+            [](auto& r) { r.when(r(OfAnnouncements{}), [&] { r.raise(RelayOpens{}); }); });
+      });
+      w.perform(OpenReaders{});
+      w.reverse([](auto& back) {
+        back.for_streams(
+            [](auto& r) { r.when(!r(OfAnnouncements{}), [&] { r.raise(RelayOpens{}); }); });
+      });
+      w.when(w(CrossHost{}), [&] { w.perform(OpenLiveliness{}); });
+      w.reverse([](auto& back) { back.call(WakeRoutine{}); });
+    });
+  }
+};
+
+struct RegistrationHeartbeatArrives : Rule<Received<RegistrationHeartbeat>> {
+  template <class W>
+  static void run(W& w) {
+    w.when(w(Recognised{}), [&] {
+      w.set(RegistrationHeartbeatSeen{}, typename W::Bool(true));
+      request<RegistrationReply, RegistrationResponseDelay, RegistrationReplyDue>(w);
+    });
+  }
+};
+
+struct RegistrationReplyIsDue : Rule<Due<RegistrationReplyDue>> {
+  template <class W>
+  static void run(W& w) {
+    expire<RegistrationReply>(w, [&] { w.emit(RegistrationAckNack{}, says()); });
+  }
+};
+
+struct RegistrationInitialDue : Rule<Due<RegistrationAttempt>> {
+  template <class W>
+  static void run(W& w) {
+    RegistrationAttempts::attempt(w, [&] {
+      w.emit(RegistrationAckNack{}, says(Says{IsInitial{}, typename W::Bool(true)}));
+    });
+  }
+};
+
+// The routine. ------------------------------------------------------------------------------------
+
+struct DescriptorsArrive : Rule<Happens<Arrives>> {
+  template <class W>
+  static void run(W& w) {
+    w.call(WakeRoutine{});
+  }
+};
+
+struct RunRoutine : Procedure {
+  template <class W>
+  static void body(W& w) {
+    w.perform(UpdateDatabase{});
+    w.when(w(SomethingUnacknowledged{}), [&] { w.after(RoutinePeriod{}, RoutineAgain{}); });
+  }
+};
+struct RoutineRuns : Rule<Due<RoutineDue>> {
+  template <class W>
+  static void run(W& w) {
+    expire<Routine>(w, [&] { w.call(RunRoutine{}); });
+  }
+};
+struct RoutineRunsAgain : Rule<Due<RoutineAgain>> {
+  template <class W>
+  static void run(W& w) {
+    w.call(RunRoutine{});
+  }
+};
+
+// The server's relays. ----------------------------------------------------------------------------
+
+struct StartSending : Procedure {
+  template <class W>
+  static void body(W& w) {
+    const auto thread = w.feed(SendingThread{}, on<event_thread::Woken>, {.now = w(Now{})});
+    w.when(thread.schedule, [&] { w.at(thread.next_at, SendingDue{}); });
+  }
+};
+
+struct RelayOpened : Rule<Happens<RelayOpens>> {
+  template <class W>
+  static void run(W& w) {
+    w.set(RelayOpen{}, typename W::Bool(true));
+    w.perform(ListRelevant{});
+    w.when(w(HistoryNotEmpty{}), [&] { arm(w); });
+    relay_heartbeat(w);
+  }
+};
+
+struct ChangeIsInserted : Rule<Happens<Inserted>> {
+  template <class W>
+  static void run(W& w) {
+    w.call(StartSending{});
+  }
+};
+struct ChangeIsOfNoUse : Rule<Happens<InsertedForNobody>> {
+  template <class W>
+  static void run(W& w) {
+    arm(w);
+  }
+};
+
+struct ThreadSends : Rule<Due<SendingDue>> {
+  template <class W>
+  static void run(W& w) {
+    const auto thread = w.feed(SendingThread{}, on<event_thread::RunDue>);
+    w.when(thread.work, [&] {
+      w.perform(DeliverNext{});
+      const auto sent = w(PacketsSent{}) > 0;
+      w.when(sent, [&] {
+        const auto busy = w.feed(SendingThread{}, on<event_thread::CopySent>,
+                                 {.now = w(Now{}), .send_time = w(SendingCost{})});
+        w.when(busy.schedule, [&] { w.at(busy.next_at, SendingDue{}); });
+      });
+      w.when(!sent, [&] { w.feed(SendingThread{}, on<event_thread::NothingLeft>); });
+    });
+  }
+};
+struct ChangeIsServed : Rule<Happens<Served>> {
+  template <class W>
+  static void run(W& w) {
+    request<RelaySuppression, RelaySuppressionDuration, RelaySuppressionEnd>(w);
+    w.emit(RelayedData{}, says(Says{CarriesHeartbeat{}, typename W::Bool(true)}));
+  }
+};
+struct ChangeIsDelivered : Rule<Happens<Delivered>> {
+  template <class W>
+  static void run(W& w) {
+    arm(w);
+  }
+};
+
+struct RelayedAckNackArrives : Rule<Received<RelayedAckNack>> {
+  template <class W>
+  static void run(W& w) {
+    const auto open = w(RelayOpen{});
+    w.when(open && w(IsInitial{}), [&] {
+      relay_heartbeat(w);
+      arm(w);
+    });
+    w.when(open && !w(IsInitial{}), [&] {
+      w.perform(TakeAckNack{});
+      const auto requested = w(SomeRequested{});
+      w.when(requested, [&] { request<RelayResponse, RelayResponseDelay, RelayResponseDue>(w); });
+      w.when(!requested && w(SomeListed{}), [&] { arm(w); });
+      w.when(w(SomeIrrelevant{}), [&] { w.emit(Gap{}, says()); });
+    });
+  }
+};
+
+struct RelayResponds : Rule<Due<RelayResponseDue>> {
+  template <class W>
+  static void run(W& w) {
+    expire<RelayResponse>(w, [&] {
+      w.perform(QueueAgain{});
+      w.when(w(SomethingToSend{}), [&] { w.call(StartSending{}); });
+    });
+  }
+};
+
+struct RelaySuppressionEnds : Rule<Due<RelaySuppressionEnd>> {
+  template <class W>
+  static void run(W& w) {
+    expire<RelaySuppression>(w, [&] {
+      w.perform(EndSuppression{});
+      arm(w);
+    });
+  }
+};
+
+struct RelayExpires : Rule<Due<RelayExpiryDue>> {
+  template <class W>
+  static void run(W& w) {
+    expire<RelayExpiry>(w, [&] {
+      const auto some = w.some_reader([](auto& r) { return r(LacksSomething{}); });
+      w.for_readers([](auto& r) { r.when(r(LacksSomething{}), [&] { relay_heartbeat(r); }); });
+      w.when(some, [&] { arm(w); });
+    });
+  }
+};
+
+/// What a server adds to Fast DDS. The rules of descriptors, of their writers and readers, and of
+/// control-only relations are those of `fastdds::FastDds`.
+struct FastDdsServer {
+  static constexpr std::string_view name = "fastdds-server";
+  using AckNack = RelayedAckNack;
+  using Parts = TypeList<AnnouncementTimer, RegistrationExpiry, RegistrationReply,
+                         RegistrationTimer, LearnerReply, LearnerTimer, Change, RelayExpiry,
+                         RelayResponse, RelaySuppression, Routine, SendingThread>;
+  using Timers =
+      TypeList<ClientAnnouncement, ClientSync, RegistrationExpiryDue, RegistrationReplyDue,
+               RegistrationAttempt, LearnerReplyDue, LearnerAttempt, RelayExpiryDue,
+               RelayResponseDue, RelaySuppressionEnd, RoutineDue, RoutineAgain, SendingDue>;
+  using State = TypeList<AnnouncementsSent, Recognised, RegistrationAcknowledged,
+                         RegistrationHeartbeatSeen, RegistrationLastDelay, LearnerOpen,
+                         LearnerHeartbeatSeen, LearnerLastDelay, RelayOpen>;
+  using Packets = TypeList<Registration, RegistrationHeartbeat, RegistrationAckNack, RelayedData,
+                           RelayHeartbeat, Gap, RelayedAckNack>;
+  using Occasions =
+      TypeList<RelayOpens, LearnerOpens, Arrives, Inserted, InsertedForNobody, Served, Delivered>;
+  using Announcing =
+      TypeList<ClientAnnounces, ClientSyncIsDue, RegistrationAckNackArrives, RegistrationExpires,
+               RegistrationArrives, RegistrationHeartbeatArrives, RegistrationReplyIsDue,
+               RegistrationInitialDue>;
+  using Exchange = TypeList<LearnerOpened, LearnerInitialDue, LearnerReplyIsDue, RelayedDataArrives,
+                            RelayHeartbeatArrives, GapArrives, DescriptorsArrive, RoutineRuns,
+                            RoutineRunsAgain, RelayOpened, ChangeIsInserted, ChangeIsOfNoUse,
+                            ThreadSends, ChangeIsServed, ChangeIsDelivered, RelayedAckNackArrives,
+                            RelayResponds, RelaySuppressionEnds, RelayExpires>;
+  using Rules = Joined<Announcing, Exchange>;
+  using IsOpen = RelayOpen;
+  static constexpr std::array unused{
+      Unused{"Change", "requested", "the step that feeds it answers SomeRequested"},
+      Unused{"Change", "enqueue", "the step that feeds it fills the queue"},
+      Unused{"Change", "Created", "the step that gives a change its number feeds it"},
+      Unused{"Change", "Serialized", "the step that delivers feeds it"},
+      Unused{"Change", "InitialAckNackReceived", "an initial ACKNACK says nothing of changes"},
+  };
+  static constexpr std::array from_outside{
+      FromOutside{"ClientAnnouncement", "announcement 0 is due when a participant starts"},
+      FromOutside{"Arrives", "a reader of the server receives what is new"},
+      FromOutside{"Inserted", "the database has something to send"},
+      FromOutside{"InsertedForNobody", "the database has something to send"},
+      FromOutside{"Served", "the sending thread delivers a change"},
+      FromOutside{"Delivered", "the sending thread delivers a change"},
+  };
+};
+
+}  // namespace stormproof::fsm::composition::server

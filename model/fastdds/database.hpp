@@ -1,0 +1,96 @@
+// What a Discovery Server knows of its clients and their descriptors, and whom it has to tell what:
+// a client what is on the topics of which it has the other side, a super client everything, and
+// descriptors of a participant only to those who have acknowledged its announcement.
+// Source: specs/guide/discovery-server.md, "The database".
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/dds_profile.hpp"
+#include "model/engine/topology.hpp"
+#include "model/units.hpp"
+
+namespace stormproof::model::fastdds {
+
+/// What is relayed, by number.
+using Item = std::uint32_t;
+
+class Database {
+ public:
+  Database(const Topology& topology, Discovery discovery, model::Relay relaying);
+
+  /// Items are numbered: the announcements of all participants, the server's last, then the
+  /// descriptors.
+  [[nodiscard]] Item announcement(std::uint32_t i) const { return i; }
+  [[nodiscard]] Item descriptor(std::uint32_t i, Stream s, std::uint32_t d) const {
+    return first_[2 * i + index_of(s)] + d;
+  }
+  struct Contents {
+    std::uint32_t participant = 0;
+    bool is_announcement = false;
+    Stream stream{};
+    std::uint32_t descriptor = 0;
+  };
+  [[nodiscard]] const Contents& contents(Item item) const { return contents_[item]; }
+  [[nodiscard]] std::uint32_t server() const { return server_; }
+
+  /// Whether client j has to be told the item now.
+  [[nodiscard]] bool relevant(Item item, std::uint32_t j) const;
+
+  // What waits for the routine.
+  void join(std::uint32_t i) { joining_.push_back(i); }
+  void arrive(Item item) { arrived_.push_back(item); }
+
+  // The routine, step by step.
+  /// Client j has acknowledged the item.
+  void note(Item item, std::uint32_t j) { noted_[at(item, j)] = true; }
+  bool all_noted = false;  ///< of the server's own announcement
+  /// What is to be sent, in order.
+  struct Lists {
+    std::vector<Item> announcements;
+    std::vector<Item> publications;
+    std::vector<Item> subscriptions;
+  };
+  /// Takes in what waits, and finds out what is to be sent. The announcements are left out if
+  /// nothing is new.
+  [[nodiscard]] Lists update();
+
+ private:
+  struct Topic {
+    std::vector<Item> publications;  // in the order of their arrival
+    std::vector<Item> subscriptions;
+    bool dirty = false;
+  };
+
+  [[nodiscard]] std::size_t at(Item item, std::uint32_t j) const {
+    return std::size_t{item} * server_ + j;
+  }
+  [[nodiscard]] std::uint32_t topic_of_item(const Contents& item) const;
+  void mark(Item item, std::uint32_t j);
+  void soil(std::uint32_t topic);
+  void take_participants(Lists& lists);
+  void take_descriptors();
+  void add(std::vector<Item>& list, Item item, std::uint32_t j);
+  bool check(Lists& lists, Item item, std::uint32_t j);
+  bool check_topic(Lists& lists, const Topic& topic);
+
+  const Discovery discovery_;
+  const model::Relay relaying_;
+  const std::uint32_t server_;
+  std::uint32_t shared_topics_ = 2;  // with those of user endpoints
+  std::vector<Item> first_;          // by participant and stream
+  std::vector<Contents> contents_;   // by item
+  std::vector<Topic> topics_;
+  std::vector<std::uint32_t> dirty_;  // topics, in the order in which they are looked at
+  std::vector<bool> marked_;          // by item and client
+  std::vector<bool> noted_;
+  std::vector<bool> waiting_;
+  std::vector<bool> listed_;  // by item: in the lists of this run
+  std::vector<std::uint32_t> joining_;
+  std::vector<Item> arrived_;
+  std::vector<std::uint32_t> super_clients_;
+  std::uint64_t news_ = 0;
+};
+
+}  // namespace stormproof::model::fastdds

@@ -1,0 +1,161 @@
+// The table of the test vectors of the other ways to discover of `implementation: fastdds`: with a
+// Discovery Server, as clients and as super clients, and with static peers. They have the channel
+// of the other vectors of Fast DDS, and differ in size, in when participants start, and in what
+// versions of Fast DDS differ in.
+#include "tests/vectors/discovery_vectors.hpp"
+
+#include <utility>
+
+namespace stormproof::vectors {
+
+namespace {
+
+using model::Bytes;
+using model::Discovery;
+using model::Nanoseconds;
+using model::Scenario;
+
+constexpr std::int64_t us = 1'000;
+constexpr std::int64_t ms = 1'000'000;
+constexpr std::int64_t default_endpoints = 17;
+
+// Participants start one after the other, the hosts in turn, and need longer the more there are.
+Scenario grid(Discovery discovery, std::uint32_t hosts, std::uint32_t participants,
+              std::uint32_t endpoints) {
+  Scenario scenario;
+  scenario.deployment = model::Deployment::homogeneous(hosts, participants, endpoints);
+  const std::int64_t creation = participants * (default_endpoints + endpoints) * 500 * us;
+  for (std::uint32_t i = 0; i < scenario.deployment.size(); ++i) {
+    model::Participant& p = scenario.deployment.participants.at(i);
+    const std::int64_t rank = std::int64_t{hosts} * (i % participants) + p.host.value;
+    p.start = Nanoseconds{3 * ms + 2 * ms * rank};
+    p.endpoints_done = Nanoseconds{p.start.count() + creation};
+  }
+  scenario.dds.implementation = model::ImplementationKind::fastdds;
+  scenario.dds.discovery = discovery;
+  model::WirelessProfile& w = scenario.wireless;
+  w.overhead_unicast = Nanoseconds{150 * us};
+  w.overhead_multicast = Nanoseconds{150 * us};
+  w.rate_unicast = model::BitsPerSecond{144'400'000};
+  w.rate_multicast = model::BitsPerSecond{6'000'000};
+  w.link_overhead_bytes = Bytes{14};
+  w.source_queue_bytes = model::WirelessProfile::unlimited;
+  w.order = model::ServiceOrder::fifo;
+  w.fragment_request = model::FragmentRequest::at_admission;
+  return scenario;
+}
+
+// Participants come so late that others have learned everything.
+Scenario late(Discovery discovery) {
+  constexpr std::uint32_t participants = 8;
+  Scenario scenario = grid(discovery, 2, 4, 12);
+  for (std::uint32_t i = 0; i < participants; ++i) {
+    model::Participant& p = scenario.deployment.participants.at(i);
+    p.start = Nanoseconds{170 * ms * (3 * i % participants)};
+    p.endpoints_done = Nanoseconds{p.start.count() + 58 * ms};
+  }
+  return scenario;
+}
+
+template <class Change>
+Scenario with(Scenario scenario, Change change) {
+  change(scenario);
+  return scenario;
+}
+
+void short_periods(Scenario& s) {
+  s.dds.server.client_sync_period = Nanoseconds{50 * ms};
+  s.dds.server.server_routine_period = Nanoseconds{50 * ms};
+}
+
+void version_2_14_5(Scenario& s) {
+  s.dds.server.relay = model::Relay::once;
+  s.dds.sedp.nack_response_delay = Nanoseconds{100 * ms};
+  s.dds.sedp.nack_suppression_duration = Nanoseconds{10 * ms};
+  s.dds.sedp.heartbeat_response_delay = Nanoseconds{10 * ms};
+}
+
+using Table = std::vector<DiscoveryVector>;
+
+void add_clients(Table& table) {
+  constexpr Discovery server = Discovery::server;
+  table.push_back(
+      {"server_1x2", grid(server, 2, 1, 2), {914102792, 25, 3, 20, 20, 9, 7, 5, 8, 18}});
+  table.push_back({"server_2x10",
+                   grid(server, 2, 2, 10),
+                   {994812141, 138, 258, 383, 132, 30, 30, 11, 49, 118}});
+  table.push_back({"server_3x20",
+                   grid(server, 2, 3, 20),
+                   {1275531639, 471, 2184, 2639, 463, 74, 80, 19, 139, 722}});
+  const Scenario five = grid(server, 2, 5, 20);
+  table.push_back(
+      {"server_5x20", five, {1589306706, 1265, 1892, 3155, 1272, 268, 312, 63, 233, 2464}});
+  table.push_back({"short_periods",
+                   with(five, short_periods),
+                   {1573124694, 1265, 816, 2192, 2186, 281, 325, 66, 324, 2855}});
+  table.push_back({"server_2_14_5",
+                   with(five, version_2_14_5),
+                   {1790982108, 1265, 1954, 3207, 344, 222, 258, 54, 224, 2765}});
+  table.push_back({"server_6x30",
+                   grid(server, 2, 6, 30),
+                   {2729037212, 2526, 0, 2546, 2561, 417, 486, 125, 346, 5958}});
+  table.push_back({"three_hosts",
+                   grid(server, 3, 2, 9),
+                   {1092248822, 344, 517, 831, 329, 105, 122, 26, 97, 385}});
+  table.push_back(
+      {"late", late(server), {2976487798, 564, 1848, 2552, 2566, 86, 116, 50, 685, 1325}});
+  table.push_back({"server_2x60",
+                   grid(server, 2, 2, 60),
+                   {1380638049, 538, 3555, 4099, 533, 30, 32, 11, 187, 913}});
+}
+
+void add_super_clients(Table& table) {
+  constexpr Discovery super = Discovery::super_client;
+  table.push_back({"super_5x20",
+                   grid(super, 2, 5, 20),
+                   {2432259813, 1850, 13166, 15028, 1595, 429, 504, 102, 364, 3193}});
+  table.push_back({"super_three_hosts",
+                   grid(super, 3, 2, 9),
+                   {1299547662, 624, 2107, 2717, 501, 157, 191, 33, 150, 532}});
+  table.push_back({"super_3x20_2_14_5",
+                   with(grid(super, 2, 3, 20), version_2_14_5),
+                   {1297064035, 666, 0, 658, 99, 92, 109, 24, 120, 716}});
+}
+
+void add_static_peers(Table& table) {
+  constexpr Discovery peers = Discovery::static_peers;
+  const auto ports = [](std::uint32_t count) {
+    return with(grid(peers, 2, 5, 20), [&](Scenario& s) { s.dds.peer_ports = count; });
+  };
+  table.push_back(
+      {"static_2x10", grid(peers, 2, 2, 10), {115578259, 216, 0, 18, 16, 102, 0, 0, 0, 79}});
+  table.push_back({"static_three_hosts",
+                   grid(peers, 3, 2, 10),
+                   {547362378, 648, 24, 376, 376, 710, 0, 0, 0, 415}});
+  table.push_back(
+      {"static_5_ports", ports(5), {1728368606, 1850, 779, 3609, 1618, 1151, 0, 0, 0, 2377}});
+  table.push_back(
+      {"static_32_ports", ports(32), {5124041208, 1850, 4716, 25713, 3616, 5427, 0, 0, 0, 3283}});
+}
+
+}  // namespace
+
+std::ostream& operator<<(std::ostream& out, const DiscoveryExpected& e) {
+  return out << e.t_disc_ns << " ns, initial " << e.initial_data << ", repair " << e.repair_data
+             << ", HEARTBEAT " << e.heartbeat << ", ACKNACK " << e.acknack << ", DATA(p) "
+             << e.announcements << ", HB(p) " << e.pdp_heartbeat << ", ACK(p) " << e.pdp_acknack
+             << ", gap " << e.gap << ", user control " << e.user_control;
+}
+
+const std::vector<DiscoveryVector>& discovery_vectors() {
+  static const Table table = [] {
+    Table t;
+    add_clients(t);
+    add_super_clients(t);
+    add_static_peers(t);
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace stormproof::vectors
