@@ -157,19 +157,13 @@ std::vector<const tune::Row*> best_rows(const tune::Report& tuned) {
   return rows;
 }
 
-/// The preset without a user's settings: the one that a file of the vendor can change.
-std::string version_of(const std::string& profile) {
-  const std::size_t product = profile.find('-');
-  return profile.substr(0, profile.find('-', product + 1));
-}
-
 }  // namespace
 
 std::optional<InputError> advise(const std::vector<std::string>& profiles, const Request& request,
                                  Report& report) {
   std::vector<std::string> candidates = report.presets.empty() ? profiles : report.presets;
   // Of profiles that all explain the capture, one without a user's settings: those are advice.
-  const auto is_plain = [](const std::string& name) { return version_of(name) == name; };
+  const auto is_plain = [](const std::string& name) { return tune::version_of(name) == name; };
   if (std::ranges::any_of(report.presets, is_plain)) {
     std::erase_if(candidates, [&](const std::string& name) { return !is_plain(name); });
   }
@@ -196,7 +190,7 @@ std::optional<InputError> advise(const std::vector<std::string>& profiles, const
   report.basis = best->basis;
   tune::Subject subject;
   subject.scenario = best->scenario;
-  subject.preset = version_of(best->basis.dds);
+  subject.preset = tune::version_of(best->basis.dds);
   const auto whose = vendor::vendor_of_preset(subject.preset);
   const auto base = model::config::read_dds_profile(subject.preset, {}, specs);
   if (!whose || !base) {

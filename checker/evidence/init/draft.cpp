@@ -38,6 +38,16 @@ struct Library {
   std::string why;
 };
 
+/// "fastdds-2.6.11" → "fastdds-server-2.6.11".
+Result<Library> with_discovery(Library library, const System& system, const SpecPath& specs) {
+  if (system.discovery.empty()) return library;
+  library.dds.insert(library.dds.find('-') + 1, system.discovery + "-");
+  const auto names = specs.names(model::config::SpecKind::dds);
+  if (std::ranges::find(names, library.dds) != names.end()) return library;
+  return InputError{system.discovery == "server" ? "ROS_DISCOVERY_SERVER" : "ROS_STATIC_PEERS",
+                    fmt::format("no profile '{}' for it; choose one with --dds", library.dds)};
+}
+
 Result<Library> library_of(const System& system, const SpecPath& specs) {
   if (!system.dds.empty()) return Library{system.dds, "as given"};
   if (system.rmw != "fastrtps" && system.rmw != "cyclonedds") {
@@ -48,7 +58,9 @@ Result<Library> library_of(const System& system, const SpecPath& specs) {
   if (!known) return known.error();
   std::vector<std::string> names;
   for (const model::config::Distribution& one : *known) {
-    if (one.name == system.ros) return Library{one.profile, statement_of(one)};
+    if (one.name == system.ros) {
+      return with_discovery({one.profile, statement_of(one)}, system, specs);
+    }
     names.push_back(one.name);
   }
   return InputError{
@@ -140,12 +152,16 @@ Result<System> from_environment(System system,
     system.dds = file;
     system.remarks.push_back(fmt::format("The profile is the file that {} names.", name));
   }
-  for (const char* name :
-       {"ROS_DISCOVERY_SERVER", "ROS_STATIC_PEERS", "ROS_AUTOMATIC_DISCOVERY_RANGE"}) {
+  if (!is_cyclone && !value("ROS_STATIC_PEERS").empty()) system.discovery = "static";
+  if (!is_cyclone && !value("ROS_DISCOVERY_SERVER").empty()) system.discovery = "server";
+  for (const auto& [name, discovery] :
+       {std::pair{"ROS_DISCOVERY_SERVER", "server"}, std::pair{"ROS_STATIC_PEERS", "static"},
+        std::pair{"ROS_AUTOMATIC_DISCOVERY_RANGE", "range"}}) {
     const std::string setting = value(name);
     if (setting.empty()) continue;
-    system.remarks.push_back(fmt::format(
-        "{}={} is set where this was drafted, and is not in this scenario.", name, setting));
+    system.remarks.push_back(
+        fmt::format("{}={} is set where this was drafted{}.", name, setting,
+                    system.discovery == discovery ? "" : ", and is not in this scenario"));
   }
   return system;
 }

@@ -18,13 +18,6 @@ namespace vendor = model::config::vendor;
 
 namespace {
 
-/// "fastdds-2.6.11-sndbuf4M" → "fastdds-2.6.11": without the settings of a user.
-std::string version_of(const std::string& preset) {
-  const std::size_t product = preset.find('-');
-  if (product == std::string::npos) return preset;
-  return preset.substr(0, preset.find('-', product + 1));
-}
-
 std::vector<std::string> products(const SpecPath& specs) {
   std::vector<std::string> names;
   for (const std::string& name : specs.names(SpecKind::dds)) {
@@ -34,6 +27,14 @@ std::vector<std::string> products(const SpecPath& specs) {
 }
 
 }  // namespace
+
+std::string version_of(const std::string& preset) {
+  for (std::size_t k = preset.find('-'); k != std::string::npos; k = preset.find('-', k + 1)) {
+    const bool is_version = k + 1 < preset.size() && preset[k + 1] >= '0' && preset[k + 1] <= '9';
+    if (is_version) return preset.substr(0, preset.find('-', k + 1));
+  }
+  return preset;
+}
 
 Result<Subject> read_subject(const std::string& reference, std::span<const std::string> overrides,
                              const std::string& preset, const SpecPath& specs) {

@@ -20,6 +20,10 @@ struct Subject {
   model::DdsProfile base;  ///< what the preset says
 };
 
+/// A preset without the settings of a user: "fastdds-2.6.11-sndbuf4M" → "fastdds-2.6.11",
+/// "fastdds-server-2.6.11" → the same.
+[[nodiscard]] std::string version_of(const std::string& preset);
+
 /// Reads a scenario as `read_scenario` does, and finds the preset of its DDS profile. `preset`, if
 /// not empty, takes the place of that profile. Errors, in addition: a profile that is built on no
 /// preset of a product, or has another implementation than its preset.

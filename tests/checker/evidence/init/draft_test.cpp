@@ -74,6 +74,12 @@ TEST(Draft, TakesWhatTheEnvironmentSays) {
   EXPECT_EQ(system->dds, "/etc/cyclone.xml");
   ASSERT_EQ(system->remarks.size(), 2U);
   EXPECT_NE(system->remarks[1].find("ROS_STATIC_PEERS=10.0.0.2"), std::string::npos);
+  environment = {{"ROS_DISTRO", "humble"}, {"ROS_DISCOVERY_SERVER", "10.0.0.1:11811"}};
+  const auto client = from_environment({}, value_of);
+  ASSERT_TRUE(client);
+  const auto text = draft(*client, specs());
+  ASSERT_TRUE(text) << to_string(text.error());
+  EXPECT_NE(text->find("dds: 'fastdds-server-2.6.11'"), std::string::npos) << *text;
   environment["RMW_IMPLEMENTATION"] = "rmw_connextdds";
   EXPECT_FALSE(from_environment({}, value_of));
 }
