@@ -61,10 +61,16 @@ int CompositionPen::links(int x, int y, int width, std::string_view before,
     at += text_width(std::string{before} + " ", small_size);
   }
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::string text = names[k] + (k + 1 < names.size() ? "," : "");
+    std::string text = names[k] + (k + 1 < names.size() ? "," : "");
     const int needed = text_width(text, small_size);
     if (at > x && at + needed > x + width) {
       at = x;
+      y += small_line;
+    }
+    // A procedure with what it is called with can be longer than a line.
+    if (const std::size_t space = text.find(' '); needed > width && space != std::string::npos) {
+      svg_.link(at, y, text.substr(0, space), "small link", element_id(names[k]));
+      text.erase(0, space + 1);
       y += small_line;
     }
     svg_.link(at, y, text, "small link", element_id(names[k]));

@@ -14,8 +14,13 @@ void describe(V& v, const Property& property) {
   v("formal", property.formal);
   for (const model::ImplementationKind kind : model::implementations) {
     if (kind == model::default_implementation) continue;
-    if (!why_not_applicable(property.id, kind).empty()) continue;
-    v(model::traits_of(kind).name, statement_of(property, kind));
+    const std::string_view name = model::traits_of(kind).name;
+    if (model::traits_of(kind).is_known_to_engines) {
+      v(name, statement_of(property, kind));
+    } else {
+      const bool applies = why_not_applicable(property.id, kind).empty();
+      v.unless_empty(name, applies ? statement_of(property, kind) : std::string{});
+    }
   }
   v("assumptions", property.assumptions.empty() ? std::vector<std::string_view>{}
                                                 : std::vector{property.assumptions});

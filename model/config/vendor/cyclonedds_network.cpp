@@ -69,7 +69,10 @@ class Network {
     const bool multicast = sedp && announces;
     (void)set_path(profile_.changes, "allow_multicast",
                    Node::scalar(allow->place, multicast ? "true" : "spdp"));
-    assume(profile_, path, allow->place, fmt::format("{}; {}", allow->shown, what));
+    drop_assumption(profile_, path);  // it is a knob, and what `default` means stands in the preset
+    if (!announces) {
+      assume(profile_, path, allow->place, fmt::format("{}; {}", allow->shown, what));
+    }
   }
 
   /// Without announcements by multicast there must be peers, and ports that they can guess.

@@ -11,8 +11,8 @@ namespace {
 using namespace cyclone;
 
 constexpr CycloneOption options[] = {
-    {"General/AllowMulticast", choices("default,false,spdp,asm,ssm,true"), "default", assumed,
-     "decides whether SPDP and SEDP go by multicast", "allow_multicast", true},
+    {"General/AllowMulticast", choices("default,false,spdp,asm,ssm,true"), "default", knob,
+     "decides whether SPDP and SEDP go by multicast", "allow_multicast"},
     {"General/DontRoute", boolean, "false", none, "routing of packets"},
     {"General/EnableMulticastLoopback", boolean, "true", none,
      "acts between processes on one host; this model looks at discovery across hosts"},

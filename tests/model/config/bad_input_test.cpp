@@ -237,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadInput{"text", with_schedule("late"), 1, 91,
                  "deployment.schedule: 'late' is not a map; expected the keys start, "
-                 "endpoints_done, seed"},
+                 "endpoints_done, open_before, seed"},
         BadInput{"unknown_key", with_schedule("{begin: [0, 1s]}"), 1, 92,
                  "unknown key 'begin' in deployment.schedule"},
         BadInput{"not_a_range", with_schedule("{start: 3ms}"), 1, 99,

@@ -11,7 +11,10 @@
 #include "checker/presentation/document/render.hpp"
 #include "checker/verification/mutate/law_trials.hpp"
 #include "checker/verification/mutate/mutate_report.hpp"
+#include "fsm/composition/composition_info.hpp"
 #include "fsm/machines.hpp"
+#include "model/composition_of.hpp"
+#include "model/implementations.hpp"
 #include "props/property.hpp"
 
 namespace stormproof::mutate {
@@ -32,12 +35,24 @@ TEST(Mutants, HaveUniqueIdsDescriptionsAndMistakes) {
   EXPECT_GE(ids.size(), 30U);
 }
 
+/// Whether only implementations have the machine whose writers no property is about, so that none
+/// could notice a mistake in it. tests/fsm/stateful notices those in its rows.
+bool is_of_unknown_writers(std::string_view machine) {
+  const auto has_it = [&](model::ImplementationKind kind) {
+    const auto& parts = model::composition_of(kind).parts;
+    return std::ranges::any_of(parts, [&](const auto& part) { return part.machine == machine; });
+  };
+  return std::ranges::any_of(model::implementations, has_it) &&
+         std::ranges::none_of(model::known_to_engines(), has_it);
+}
+
 TEST(Mutants, CoverEveryMachine) {
   std::set<std::string> mutated;
   for (const CatalogueEntry& entry : mutants()) {
     for (const fsm::TableMutation& table : entry.mutant.rules.tables) mutated.insert(table.machine);
   }
   for (const fsm::MachineInfo& machine : fsm::machines()) {
+    if (is_of_unknown_writers(machine.name)) continue;
     EXPECT_TRUE(mutated.contains(std::string{machine.name})) << machine.name;
   }
 }

@@ -86,7 +86,7 @@ TEST(JsonSchemaContent, both_forms_of_a_deployment_take_a_schedule) {
   for (const auto& form : schema["properties"]["deployment"]["oneOf"]) {
     EXPECT_TRUE(form["properties"].contains("loopback_delay"));
     const auto& schedule = form["properties"]["schedule"];
-    EXPECT_EQ(schedule["properties"].size(), 3U);
+    EXPECT_EQ(schedule["properties"].size(), 4U);
     EXPECT_EQ(schedule["required"], nlohmann::json::array());
     EXPECT_LE(form["required"].size(), 3U);
   }

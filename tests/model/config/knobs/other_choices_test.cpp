@@ -69,7 +69,8 @@ TEST_P(EachImplementation, HasAllWordsOfAChoice) {
     }
     ASSERT_NE(found, others.end()) << knob.key;
     EXPECT_EQ(found->others.size() + 1, knob.choices.size()) << knob.key;
-    EXPECT_EQ('"' + found->value + '"', values(dds).at(knob.key));
+    const bool is_truth_value = found->value == "true" || found->value == "false";
+    EXPECT_EQ(is_truth_value ? found->value : '"' + found->value + '"', values(dds).at(knob.key));
   }
 }
 

@@ -66,7 +66,8 @@ TEST(OddXml, CycloneTakesMoreInItsVariable) {
   EXPECT_EQ(reading("<CycloneDDS><Domain>" + group), read + "xml.inline-only f.xml:1:70; ");
   EXPECT_EQ(reading(group), read + "xml.inline-only f.xml:1:1; ");
   EXPECT_EQ(reading("<Domain>" + group + "</Domain>"), read + "xml.inline-only f.xml:1:1; ");
-  EXPECT_EQ(reading("<General><AllowMulticast>spdp</></>" + group).substr(0, read.size()), read);
+  EXPECT_TRUE(reading("<General><AllowMulticast>spdp</></>" + group)
+                  .starts_with("General/AllowMulticast spdp; " + read));
 }
 
 TEST(OddXml, WhatIsWrongBesidesIsStillAnErrorAtItsPlace) {
