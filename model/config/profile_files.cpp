@@ -140,16 +140,52 @@ class Chain {
 
 }  // namespace
 
+namespace {
+
+/// Whether the keys of the profile are for the implementation. Takes what says so out of it.
+Result<bool> concerns(Node& profile, SpecKind kind, std::string_view implementation) {
+  if (kind != SpecKind::wireless) return true;
+  const std::optional<Node> only = profile.take(only_with_key);
+  if (!only) return true;
+  const auto is_known = [](const Node& item) {
+    return item.is_scalar() && std::ranges::any_of(implementations, [&](ImplementationKind kind) {
+             return name_of(kind) == item.text;
+           });
+  };
+  if (!only->is_sequence() || !std::ranges::all_of(only->items, is_known)) {
+    return error_at(only->place, fmt::format("{}: {}; expected a list of implementations",
+                                             only_with_key, only->shown()));
+  }
+  if (profile.find(base_key) == nullptr) {
+    return error_at(only->place, fmt::format("{}: needs a {}, which is the profile with another "
+                                             "implementation; expected one",
+                                             only_with_key, base_key));
+  }
+  return implementation.empty() || std::ranges::any_of(only->items, [&](const Node& item) {
+           return item.text == implementation;
+         });
+}
+
+}  // namespace
+
+std::string_view implementation_of(const Node& dds) {
+  const Node* word = dds.find(implementation_key);
+  return word != nullptr && word->is_scalar() ? std::string_view{word->text}
+                                              : name_of(default_implementation);
+}
+
 Result<Resolved> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs,
-                                 Outside outside) {
+                                 Outside outside, std::string_view implementation) {
   Chain chain{kind, specs, outside};
   std::vector<Node> profiles;  // outermost first
   for (std::optional<Node> next = std::move(reference); next;) {
     Result<Node> profile = chain.read(*std::move(next));
     if (!profile) return profile.error();
     if (auto error = drop_description(*profile)) return *std::move(error);
+    const Result<bool> counts = concerns(*profile, kind, implementation);
+    if (!counts) return counts.error();
     next = profile->take(base_key);
-    profiles.push_back(*std::move(profile));
+    if (*counts) profiles.push_back(*std::move(profile));
   }
   Node tree = std::move(profiles.back());
   for (profiles.pop_back(); !profiles.empty(); profiles.pop_back()) {

@@ -28,12 +28,20 @@ struct Resolved {
 /// file takes it.
 enum class Outside : std::uint8_t { refused, admitted };
 
+/// The key of a profile file that lists the implementations its other keys are for. With another
+/// one the profile is its base.
+inline constexpr std::string_view only_with_key = "only_with";
+
 /// `reference` is a name, a path (relative to the file in which it stands), a map, or, of a DDS
 /// profile, a vendor's XML file as `vendor::parse_reference` takes it. Errors: no such profile, a
 /// file that cannot be read, a profile that is based on itself, on one with another implementation
-/// or on a preset of another vendor, and what `outside` refuses.
+/// or on a preset of another vendor, and what `outside` refuses. `implementation` is the one that a
+/// wireless profile is for, by name; empty: any.
 [[nodiscard]] Result<Resolved> resolve_profile(Node reference, SpecKind kind, const SpecPath& specs,
-                                               Outside outside = Outside::refused);
+                                               Outside outside = Outside::refused,
+                                               std::string_view implementation = {});
+/// The implementation that a resolved DDS profile says, by name.
+[[nodiscard]] std::string_view implementation_of(const Node& dds);
 
 /// An error if `replacement` is another implementation than that of `profile`, a resolved DDS
 /// profile: implementations have different keys, so one cannot be changed into the other. A profile

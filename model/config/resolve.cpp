@@ -51,7 +51,8 @@ bool is_profile_key(std::string_view path) {
   return false;
 }
 
-Result<Resolved> with_profiles(Node scenario, Overrides overrides, const SpecPath& specs) {
+Result<Resolved> with_profiles(Node scenario, Overrides overrides, const SpecPath& specs,
+                               std::string_view implementation) {
   Resolved resolved{std::move(scenario)};
   Node& root = resolved.tree;
   if (!root.is_map()) return resolved;  // what is wrong with it is for the tables to say
@@ -67,7 +68,11 @@ Result<Resolved> with_profiles(Node scenario, Overrides overrides, const SpecPat
   for (const auto& [key, kind] : profile_slots) {
     Node* profile = root.find(key);
     if (profile == nullptr) continue;
-    Result<Resolved> complete = resolve_profile(std::move(*profile), kind, specs);
+    const Node* dds = root.find(dds_key);
+    const bool is_known = kind == SpecKind::wireless && dds != nullptr && dds->is_map();
+    Result<Resolved> complete =
+        resolve_profile(std::move(*profile), kind, specs, Outside::refused,
+                        is_known ? implementation_of(*dds) : implementation);
     if (!complete) return complete;
     *profile = std::move(complete->tree);
     if (kind != SpecKind::dds) continue;

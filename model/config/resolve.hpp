@@ -18,9 +18,11 @@ using Overrides = std::span<const Override>;
 [[nodiscard]] bool is_profile_key(std::string_view path);
 
 /// First the overrides that choose profiles (and those outside of profiles), then the profiles that
-/// are chosen. `scenario` may be a part of one.
+/// are chosen. `scenario` may be a part of one; if it is one without a DDS profile,
+/// `implementation` is that of the whole, by name.
 [[nodiscard]] Result<Resolved> with_profiles(Node scenario, Overrides overrides,
-                                             const SpecPath& specs);
+                                             const SpecPath& specs,
+                                             std::string_view implementation = {});
 
 /// Then the overrides of profile keys.
 [[nodiscard]] Result<Resolved> with_profile_keys(Result<Resolved> scenario, Overrides overrides);

@@ -6,6 +6,7 @@
 
 #include "model/config/knobs/knob_reader.hpp"
 #include "model/config/resolve.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::grids {
 
@@ -124,23 +125,43 @@ Node PartReader::part_root(std::size_t variant, Kind kind) const {
 
 PartReader::Tree PartReader::tree(const Choice& choice, Kind kind) {
   const std::vector<config::Override> overrides = changes(choice, kind);
+  const std::size_t implementation = kind == Kind::wireless ? implementation_of(choice) : 0;
   const auto chosen = [&] {
-    return config::with_profiles(part_root(choice.variant, kind), overrides, specs_);
+    const std::string_view name = model::implementation_traits[implementation].name;
+    return config::with_profiles(part_root(choice.variant, kind), overrides, specs_, name);
   };
   if (kind != Kind::dds && kind != Kind::wireless) return chosen();
   Memory& memory = memory_[kind];
-  const Key key = key_of(choice, memory.choosing);
+  Key key = key_of(choice, memory.choosing);
+  key.push_back(implementation);
   auto profile = memory.profiles.find(key);
   if (profile == memory.profiles.end()) profile = memory.profiles.emplace(key, chosen()).first;
   return config::with_profile_keys(profile->second, overrides);
+}
+
+/// A wireless profile can be another one with another implementation.
+std::size_t PartReader::implementation_of(const Choice& choice) {
+  const auto [entry, is_new] =
+      implementations_.try_emplace(key_of(choice, memory_[Kind::dds].choosing), 0);
+  if (!is_new) return entry->second;
+  const Tree whole = tree(choice, Kind::dds);
+  const Node* dds = whole ? whole->tree.find(config::dds_key) : nullptr;
+  if (dds == nullptr || !dds->is_map()) return 0;
+  const std::string_view name = config::implementation_of(*dds);
+  for (const model::ImplementationKind kind : model::implementations) {
+    if (model::traits_of(kind).name == name) entry->second = model::index_of(kind);
+  }
+  return entry->second;
 }
 
 template <class T, class ValueOf>
 std::uint32_t PartReader::part_number(const Choice& choice, Kind kind, std::vector<Part<T>>& parts,
                                       const ValueOf& value_of) {
   Memory& memory = memory_[kind];
-  const auto [entry, is_new] = memory.numbers.try_emplace(key_of(choice, memory.axes),
-                                                          static_cast<std::uint32_t>(parts.size()));
+  Key key = key_of(choice, memory.axes);
+  if (kind == Kind::wireless) key.push_back(implementation_of(choice));
+  const auto [entry, is_new] =
+      memory.numbers.try_emplace(std::move(key), static_cast<std::uint32_t>(parts.size()));
   if (!is_new) return entry->second;
   Part<T>& part = parts.emplace_back();
   const Tree root = tree(choice, kind);

@@ -84,6 +84,8 @@ class PartReader {
   [[nodiscard]] model::config::Node part_root(std::size_t variant, Kind kind) const;
   /// The same with all that is put into it.
   [[nodiscard]] Tree tree(const Choice& choice, Kind kind);
+  /// Of the choice's DDS profile.
+  [[nodiscard]] std::size_t implementation_of(const Choice& choice);
 
   template <class T, class ValueOf>
   std::uint32_t part_number(const Choice& choice, Kind kind, std::vector<Part<T>>& parts,
@@ -92,6 +94,7 @@ class PartReader {
   const Grid& grid_;
   const model::config::SpecPath& specs_;
   std::map<Kind, Memory> memory_;
+  std::map<Key, std::size_t> implementations_;
 };
 
 }  // namespace stormproof::grids

@@ -138,7 +138,7 @@ Result<Plan> make_plan(const Published& published, const PlanOptions& options,
   plan.high_load_from = {
       whole(published.values("high_load.participants_per_host_min").front()),
       whole(published.values("high_load.endpoints_per_participant_min").front())};
-  auto wireless = model::config::read_wireless_profile("wifi-80211n", {}, specs);
+  auto wireless = model::config::read_wireless_profile("wifi-80211n-paper", {}, specs);
   if (!wireless) return wireless.error();
   auto wired = model::config::read_wireless_profile("wired", {}, specs);
   if (!wired) return wired.error();

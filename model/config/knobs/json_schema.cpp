@@ -217,6 +217,13 @@ Json wireless_schema() {
       profile("Wireless profile", of_channel,
               {{"if", is_delay}, {"then", of_delay.requirements()}, {"else", of_channels}});
   schema["allOf"] = exclusions;
+  Json names = Json::array();
+  for (const ImplementationKind kind : implementations) names.push_back(name_of(kind));
+  schema["properties"]["only_with"] = {
+      {"description",
+       "the implementations that the other keys are for; with another one the profile is its base"},
+      {"type", "array"},
+      {"items", {{"enum", names}}}};
   return schema;
 }
 

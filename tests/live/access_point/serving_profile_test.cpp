@@ -32,7 +32,7 @@ TEST(AccessPointProfile, OverheadSetsBoth) {
 }
 
 TEST(AccessPointProfile, LeavesTheSendersOfThePaperToTheHosts) {
-  const auto read = read_serving_profile("wifi-80211n", {}, "");
+  const auto read = read_serving_profile("wifi-80211n-paper", {}, "");
   ASSERT_TRUE(read);
   const auto remarks = left_to_the_hosts(*read);
   ASSERT_EQ(remarks.size(), 2U);

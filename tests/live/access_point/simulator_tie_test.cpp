@@ -128,7 +128,7 @@ TEST(AccessPointTie, EveryOrder) {
 TEST(AccessPointTie, TheProfileOfThePaper) {
   expect_tie(
       scenario("{hosts: 2, participants_per_host: 2, endpoints_per_participant: 10}", "paper",
-               "{base: wifi-80211n, fragment_request: at_admission, source_queue_bytes: "
+               "{base: wifi-80211n-paper, fragment_request: at_admission, source_queue_bytes: "
                "unlimited, mtu_payload_bytes: 520}"),
       200);
 }

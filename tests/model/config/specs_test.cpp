@@ -56,8 +56,28 @@ TEST(Specs, every_file_names_its_schema_and_every_value_of_a_profile_its_source)
 
 TEST(Specs, the_paper_profiles_are_the_defaults_of_the_structs) {
   EXPECT_EQ(dds("paper"), DdsProfile{});
-  EXPECT_EQ(wireless("wifi-80211n"), WirelessProfile{});
+  EXPECT_EQ(wireless("wifi-80211n-paper"), WirelessProfile{});
   EXPECT_EQ(wireless("wifi-80211n-2.4ghz"), WirelessProfile{});
+}
+
+TEST(Specs, hosts_on_80211n_stall_but_not_those_of_the_paper) {
+  WirelessProfile expected;
+  expected.order = ServiceOrder::fifo;
+  expected.fragment_request = FragmentRequest::at_admission;
+  expected.sender = Sender::stalls;
+  EXPECT_EQ(wireless("wifi-80211n"), expected);
+  for (const char* dds : {"fastdds-2.6.11", "cyclonedds-0.10", "paper"}) {
+    const std::vector<std::string> overrides{std::string{"dds="} + dds, "wireless=wifi-80211n"};
+    const auto scenario = read_scenario("smallest", overrides, source_specs());
+    ASSERT_TRUE(scenario) << to_string(scenario.error());
+    EXPECT_EQ(scenario->wireless, dds == std::string{"paper"} ? WirelessProfile{} : expected);
+  }
+  // Keys on top of it are there with any.
+  const std::vector<std::string> overrides{"wireless={base: wifi-80211n, rate_unicast: 1Gbps}"};
+  const auto paper = read_scenario("smallest", overrides, source_specs());
+  ASSERT_TRUE(paper);
+  EXPECT_EQ(paper->wireless.rate_unicast, BitsPerSecond{1'000'000'000});
+  EXPECT_EQ(paper->wireless.sender, Sender::backlog);
 }
 
 TEST(Specs, units_are_those_of_their_standard) {
@@ -162,7 +182,7 @@ TEST(Specs, the_live_machine_starts_its_processes_one_after_the_other) {
   Deployment quiet = live->deployment;
   quiet.loopback_delay = Nanoseconds{60'000};
   EXPECT_EQ(wifi->deployment, quiet);
-  EXPECT_EQ(wifi->wireless, wireless("wifi-80211n"));
+  EXPECT_EQ(wifi->wireless, wireless("wifi-80211n-paper"));
 }
 
 TEST(Specs, other_wireless_profiles) {

@@ -32,10 +32,10 @@ TEST(Effective, every_scenario_of_the_source_tree_survives) {
     for (const std::string& wireless : specs.names(SpecKind::wireless)) {
       const std::vector<std::string> overrides{"wireless=" + wireless};
       const auto scenario = read_scenario(name, overrides, specs);
-      const bool stalls = read_wireless_profile(wireless, {}, specs)->sender == Sender::stalls;
+      const bool by_unit = read_wireless_profile(wireless, {}, specs)->service == ServedBy::unit;
       const bool is_paper =
           read_scenario(name, {}, specs)->dds.implementation == ImplementationKind::paper;
-      ASSERT_EQ(static_cast<bool>(scenario), !stalls || !is_paper) << name << " over " << wireless;
+      ASSERT_EQ(static_cast<bool>(scenario), !by_unit || !is_paper) << name << " over " << wireless;
       if (scenario) expect_round_trip(*scenario);
     }
   }
