@@ -148,8 +148,8 @@ Result<bool> concerns(Node& profile, SpecKind kind, std::string_view implementat
   const std::optional<Node> only = profile.take(only_with_key);
   if (!only) return true;
   const auto is_known = [](const Node& item) {
-    return item.is_scalar() && std::ranges::any_of(implementations, [&](ImplementationKind kind) {
-             return name_of(kind) == item.text;
+    return item.is_scalar() && std::ranges::any_of(implementations, [&](ImplementationKind known) {
+             return name_of(known) == item.text;
            });
   };
   if (!only->is_sequence() || !std::ranges::all_of(only->items, is_known)) {

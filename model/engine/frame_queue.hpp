@@ -3,6 +3,7 @@
 // did not fit into a unit goes back and is next, before all others.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <deque>
 #include <list>
