@@ -69,7 +69,9 @@ TEST_P(EachImplementation, HasAllWordsOfAChoice) {
     }
     ASSERT_NE(found, others.end()) << knob.key;
     EXPECT_EQ(found->others.size() + 1, knob.choices.size()) << knob.key;
-    EXPECT_EQ('"' + found->value + '"', values(dds).at(knob.key));
+    const std::string written = values(dds).at(knob.key);
+    if (written == "null") continue;  // the usual word of a choice that need not be written
+    EXPECT_EQ('"' + found->value + '"', written);
   }
 }
 
