@@ -106,10 +106,9 @@ Threshold threshold_of(const model::Scenario& scenario, const OpenLoop* traffic)
     case model::Writer::of_the_paper:
       return of_the_paper(scenario, traffic);
     case model::Writer::of_cyclone:
+    case model::Writer::of_server:
       return none("no lemma is about its writer");
     case model::Writer::stateful:
-    case model::Writer::of_server:  // nobody asks for these two
-    case model::Writer::of_cyclone:
       break;
   }
   return of_the_stateful(scenario, traffic);

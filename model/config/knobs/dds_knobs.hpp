@@ -94,8 +94,8 @@ inline constexpr std::int64_t max_epsilon_denominator = 1'000;
   return traits_of(kind).has_server ? Presence::defaulted : Presence::of_others;
 }
 [[nodiscard]] constexpr Presence with_static_peers(ImplementationKind kind) {
-  return kind == kind_of(implementation_of(kind), Discovery::static_peers) ? Presence::defaulted
-                                                                           : Presence::of_others;
+  const bool is_named = kind == implementation_of(kind);
+  return is_named || traits_of(kind).has_server ? Presence::of_others : Presence::defaulted;
 }
 [[nodiscard]] constexpr Presence with_discovery(ImplementationKind implementation) {
   return kind_of(implementation, Discovery::server) != implementation ? Presence::optional

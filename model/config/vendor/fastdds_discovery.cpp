@@ -93,7 +93,25 @@ void remark_super_client(Reading& reading, const Found& protocol) {
              "CLIENT for nodes; SUPER_CLIENT for tools that list the system");
 }
 
+/// A client, or a super client, of one server. Returns whether it is.
+bool interpret_client(Reading& reading) {
+  const Found* protocol = find_discovery(reading, "discoveryProtocol");
+  if (protocol == nullptr) return false;
+  const std::string& word = protocol->value.shown;
+  if (word != "CLIENT" && word != "SUPER_CLIENT") return false;
+  set_knob(reading, *protocol, "", "discovery", word == "CLIENT" ? "server" : "super_client");
+  reading.setting_of(*protocol).note =
+      "one Discovery Server on host 0; its address does not matter";
+  const Found* period = find_discovery(reading, "clientAnnouncementPeriod");
+  if (period != nullptr && period->value.number > 0) {
+    set_knob(reading, *period, "", "client_sync_period", period_of(period->value));
+    reading.setting_of(*period).note = "until a client matches its endpoints with the server's";
+  }
+  return true;
+}
+
 void interpret_protocol(Reading& reading) {
+  const bool is_client = interpret_client(reading);
   for (const std::string_view name : {"discoveryProtocol", "EDP", "simpleEDP/PUBWRITER_SUBREADER",
                                       "simpleEDP/PUBREADER_SUBWRITER"}) {
     const Found* found = find_discovery(reading, name);
@@ -108,7 +126,7 @@ void interpret_protocol(Reading& reading) {
   }
   const Found* protocol = find_discovery(reading, "discoveryProtocol");
   if (protocol != nullptr) remark_super_client(reading, *protocol);
-  if (protocol == nullptr || protocol->value.shown == "SIMPLE") {
+  if (!is_client && (protocol == nullptr || protocol->value.shown == "SIMPLE")) {
     for (const std::string_view name : {"clientAnnouncementPeriod", "discoveryServersList"}) {
       const Found* found = find_discovery(reading, name);
       if (found == nullptr) continue;
@@ -233,7 +251,7 @@ void set_knob(Reading& reading, const Found& found, std::string_view section, st
               std::string value) {
   Setting& setting = reading.setting_of(found);
   setting.effect = Effect::knob;
-  setting.knob = fmt::format("{}.{}", section, key);
+  setting.knob = join_path(section, key);
   if (setting.note == "the library's default") setting.note = found.item->note;
   // The path has no empty part and only maps on its way, so this cannot fail.
   (void)set_path(reading.profile.changes, setting.knob,

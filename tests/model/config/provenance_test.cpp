@@ -29,7 +29,7 @@ constexpr const char* robots_xml = R"(<?xml version="1.0"?>
 constexpr const char* server_xml = R"(<profiles>
   <participant profile_name="arm" is_default_profile="true">
     <rtps><builtin><discovery_config>
-      <discoveryProtocol>CLIENT</discoveryProtocol>
+      <discoveryProtocol>SERVER</discoveryProtocol>
     </discovery_config></builtin></rtps>
   </participant>
 </profiles>

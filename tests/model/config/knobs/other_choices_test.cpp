@@ -69,8 +69,10 @@ TEST_P(EachImplementation, HasAllWordsOfAChoice) {
     }
     ASSERT_NE(found, others.end()) << knob.key;
     EXPECT_EQ(found->others.size() + 1, knob.choices.size()) << knob.key;
+    const std::string written = values(dds).at(knob.key);
+    if (written == "null") continue;  // the usual word of a choice that need not be written
     const bool is_truth_value = found->value == "true" || found->value == "false";
-    EXPECT_EQ(is_truth_value ? found->value : '"' + found->value + '"', values(dds).at(knob.key));
+    EXPECT_EQ(is_truth_value ? found->value : '"' + found->value + '"', written);
   }
 }
 

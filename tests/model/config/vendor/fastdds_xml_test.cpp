@@ -44,6 +44,25 @@ TEST(FastddsXml, announcements_become_knobs) {
   EXPECT_EQ(count.place.to_string(), "f.xml:4:57");
 }
 
+TEST(FastddsXml, clients_of_a_discovery_server_are_described) {
+  for (const auto& [word, way] :
+       {std::pair{"CLIENT", "server"}, {"SUPER_CLIENT", "super_client"}}) {
+    const VendorProfile profile =
+        profile_of(discovery("<discoveryProtocol>" + std::string{word} +
+                             "</discoveryProtocol><clientAnnouncementPeriod><sec>1</sec>"
+                             "</clientAnnouncementPeriod>"));
+    EXPECT_EQ(setting(profile, "rtps/builtin/discovery_config/discoveryProtocol").knob,
+              "discovery");
+    ASSERT_NE(profile.changes.find("discovery"), nullptr);
+    EXPECT_EQ(profile.changes.find("discovery")->text, way);
+    ASSERT_NE(profile.changes.find("client_sync_period"), nullptr);
+    EXPECT_EQ(profile.changes.find("client_sync_period")->text, "1s");
+    for (const std::string& remark : remarks(profile)) {
+      EXPECT_EQ(remark.find("error"), std::string::npos) << remark;
+    }
+  }
+}
+
 TEST(FastddsXml, an_infinite_announcement_period_outlasts_every_run) {
   const VendorProfile profile =
       profile_of(discovery("<leaseDuration>DURATION_INFINITY</leaseDuration><leaseAnnouncement>"
