@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "props/generators/dice.hpp"
+#include "props/generators/on_demand.hpp"
 #include "tests/oracle/random_scenario.hpp"
 
 namespace stormproof::oracle {
@@ -151,39 +152,13 @@ Scenario varied_cyclone_scenario(std::uint64_t seed) {
   return scenario;
 }
 
-namespace {
-void draw_units(Dice& dice, model::WirelessProfile& w) {
-  w.kind = model::ServiceKind::shared_channel;
-  w.packet_delays.clear();
-  w.stages = model::WirelessProfile{}.stages;
-  w.order = model::ServiceOrder::fifo_uplink;
-  w.fragment_request = model::FragmentRequest::at_admission;
-  w.service = model::ServedBy::unit;
-  w.aggregation.max_frames = dice.pick<std::uint32_t>({64, 64, 1, 2, 3, 5});
-  w.aggregation.max_bytes = Bytes{dice.among({65'535, 65'535, 280, 420, 600, 1'500, 4'000})};
-  w.aggregation.max_airtime =
-      Nanoseconds{dice.among({5'484'000, 5'484'000, 20'000, 100'000, 1'000'000, 0, 15'512})};
-  w.aggregation.overhead = Nanoseconds{dice.among({198'500, w.overhead_unicast.count(), 0})};
-  w.queueing = dice.chance(60) ? model::Queueing::flows : model::Queueing::fifo;
-  w.quantum = Bytes{dice.among({300, 300, 134, 1, 67, 1'514})};
-  w.ap_queue = dice.choice<model::ApQueue>(2);
-  const bool may_be_oldest =
-      w.queueing == model::Queueing::fifo && w.ap_queue == model::ApQueue::oldest;
-  if (may_be_oldest && dice.chance(50)) w.arbitration = model::Arbitration::oldest;
-}
-}  // namespace
-
 Scenario varied_wifi_scenario(std::uint64_t seed) {
   Scenario scenario = random_fastdds_scenario(seed);
   Dice dice{seed + 1};
   model::WirelessProfile& w = scenario.wireless;
   w.kind = model::ServiceKind::shared_channel;
   w.packet_delays.clear();
-  if (dice.chance(70)) draw_units(dice, w);
-  w.source_queue_bytes =
-      Bytes{dice.among({212'992, 1, 1'000, 4'000, dice.between(100, 4'000), 20'000})};
-  w.sender = dice.chance(75) ? model::Sender::stalls : model::Sender::backlog;
-  w.count_at = dice.choice<model::CountAt>(2);
+  props::draw_radio(dice, w);
   if (dice.chance(50)) scenario.run_until = model::RunUntil::time_limit;
   if (dice.chance(50)) {
     for (model::Participant& p : scenario.deployment.participants) {
@@ -198,7 +173,7 @@ Scenario varied_wifi_scenario(std::uint64_t seed) {
 PacketList random_packet_list(std::uint64_t seed) {
   Dice dice{seed};
   PacketList list;
-  draw_units(dice, list.wireless);
+  props::draw_units(dice, list.wireless);
   list.wireless.source_queue_bytes = Bytes{dice.among({212'992, 212'992, 1, 300, 2'000})};
   list.hosts = dice.count(2, 4);
   std::int64_t time = 0;

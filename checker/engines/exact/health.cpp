@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "checker/presentation/text/numbers.hpp"
+#include "model/implementations.hpp"
 #include "model/reference.hpp"
 #include "model/simulator.hpp"
 
@@ -48,7 +49,8 @@ bool is_late(const RunHealth& run, const std::optional<model::Limits>& limits) {
 Health judged(const RunHealth& run, const std::optional<model::Limits>& limits) {
   const bool storm =
       run.airtime.value_or(0) >= storm_factor && run.stretch.value_or(0) >= storm_factor;
-  if (storm) return Health::storm;
+  const bool too_late = !run.completion || is_late(run, limits);
+  if (storm || (run.messages.value_or(0) >= storm_factor && too_late)) return Health::storm;
   if (!run.completion) return Health::incomplete;
   if (!is_late(run, limits)) return Health::fine;
   return run.busy >= 0.5 ? Health::slow_link : Health::waiting;
@@ -114,6 +116,11 @@ RunHealth health_of(const model::Scenario& scenario, const model::RunResult& res
     run.airtime = used(result) / airtime;
     run.stretch = static_cast<double>(run.took.count()) / airtime;
   }
+  if (model::traits_of(scenario.dds).has_server) {
+    // What a server relays is not sent once, so there is no open loop to compare with.
+    const auto needed = model::failure_free_reference(scenario).total();
+    run.messages = static_cast<double>(result.counts.total()) / static_cast<double>(needed);
+  }
   run.health = judged(run, scenario.limits);
   return run;
 }
@@ -158,6 +165,10 @@ std::string Outlook::sentence() const {
                                     : "discovery is not complete " + after_last_start(run);
   switch (run.health) {
     case Health::storm:
+      if (run.messages) {
+        return text + fmt::format("; it takes {} the messages of a run without failures",
+                                  report::ratio(*run.messages, 1));
+      }
       return text + fmt::format(
                         "; repeats and control messages take {} the airtime of everything "
                         "sent once",

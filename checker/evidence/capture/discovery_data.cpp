@@ -29,6 +29,24 @@ std::string text(Bytes value, ByteOrder order) {
   return result;
 }
 
+/// The value of a property in a list of names and values; empty if it is not there.
+std::string property(Bytes value, ByteOrder order, std::string_view name) {
+  Cursor cursor{value, order};
+  const auto next = [&] {
+    const Bytes characters = cursor.take(cursor.u32());
+    cursor.skip((4 - cursor.position() % 4) % 4);
+    const std::size_t length = characters.empty() ? 0 : characters.size() - 1;
+    return std::string{characters.begin(),
+                       characters.begin() + static_cast<std::ptrdiff_t>(length)};
+  };
+  for (std::uint32_t left = cursor.u32(); left > 0 && !cursor.failed(); --left) {
+    const std::string key = next();
+    const std::string text = next();
+    if (key == name) return text;
+  }
+  return "";
+}
+
 std::optional<UdpEnd> udp_locator(Bytes value, ByteOrder order) {
   constexpr std::uint32_t udp_v4 = 1;
   constexpr std::uint32_t udp_v6 = 2;
@@ -71,6 +89,9 @@ std::optional<ParticipantData> participant_data(const DataSubmessage& data) {
         break;
       case ParameterId::vendor:
         participant.vendor = Cursor{parameter->value}.u16();
+        break;
+      case ParameterId::property_list:
+        participant.discovery = property(parameter->value, parameters->order(), "PARTICIPANT_TYPE");
         break;
       case ParameterId::entity_name:
         participant.name = text(parameter->value, parameters->order());

@@ -19,7 +19,10 @@ struct ParticipantData {
   std::optional<VendorId> vendor{};
   std::string name{};
   std::vector<UdpEnd> metatraffic_unicast{};  ///< UDP locators only
-  std::string version{};                      ///< of its library, as far as DATA(p) shows it
+  /// How a Fast DDS participant discovers, as its property PARTICIPANT_TYPE says: "SIMPLE",
+  /// "CLIENT", "SUPER_CLIENT", "SERVER", "BACKUP"; empty if it does not say.
+  std::string discovery{};
+  std::string version{};  ///< of its library, as far as DATA(p) shows it
 };
 
 /// DATA(w) or DATA(r).

@@ -18,6 +18,7 @@ enum class ParameterId : std::uint16_t {
   reliability = 0x001a,
   metatraffic_unicast_locator = 0x0032,
   participant_guid = 0x0050,
+  property_list = 0x0059,
   endpoint_guid = 0x005a,
   entity_name = 0x0062,
   key_hash = 0x0070,

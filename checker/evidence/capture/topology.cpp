@@ -63,6 +63,7 @@ void TopologyBuilder::saw_participant(const GuidPrefix& source, const Participan
   if (data.vendor) participant.vendor = *data.vendor;
   if (!data.name.empty()) participant.name = data.name;
   if (!data.version.empty()) participant.version = data.version;
+  if (!data.discovery.empty()) participant.discovery = data.discovery;
   for (const UdpEnd& locator : data.metatraffic_unicast) {
     participant.locators.insert(locator);
     auto& since = announcements_[locator];

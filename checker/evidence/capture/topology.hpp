@@ -31,7 +31,8 @@ struct Endpoint {
 struct Participant {
   GuidPrefix prefix{};
   VendorId vendor = 0;
-  std::string version{};  ///< of its library, as far as DATA(p) shows it; may be empty
+  std::string discovery{};  ///< "SIMPLE", "CLIENT", …, of Fast DDS; may be empty
+  std::string version{};    ///< of its library, as far as DATA(p) shows it; may be empty
   std::string name{};
   std::size_t host = 0;
   std::int64_t first_ns = 0;             ///< when its first message was sent

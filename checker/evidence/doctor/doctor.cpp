@@ -71,6 +71,12 @@ std::uint64_t known_before(const Conversation& conversation, const capture::Coun
       }));
 }
 
+bool has_server(const capture::Topology& topology) {
+  return std::ranges::any_of(topology.participants, [](const capture::Participant& one) {
+    return !one.discovery.empty() && one.discovery != "SIMPLE";
+  });
+}
+
 /// Participants of which the capture shows something before their first announcement: they were
 /// there before it began.
 std::size_t there_before(const Conversation& conversation) {
@@ -137,6 +143,10 @@ void judge(Report& report) {
         "they knew each other, or they never did";
   } else if (report.messages() > storm_factor * report.failure_free.total()) {
     report.health = Health::storm;
+  } else if (report.has_server && report.missing > 0) {
+    report.why_unknown =
+        "with a Discovery Server participants need only the descriptors of their own topics, and "
+        "which these are the capture does not show";
   } else if (report.there_before > 0 && report.missing + report.known_before > 0) {
     report.why_unknown =
         fmt::format("the capture began when {} had begun, so it does not show what was sent before",
@@ -177,6 +187,7 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
   if (counting.last_initial_ns) {
     report.completion_ns = *counting.last_initial_ns - conversation.first_ns;
   }
+  report.has_server = has_server(conversation.topology);
   judge(report);
   report.causes = causes(conversation, counting, report.failure_free);
   auto heard = who_heard_whom(conversation, request);
@@ -189,6 +200,8 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
     report.no_advice = "nothing has to change";
   } else if (report.health == Health::unknown) {
     report.no_advice = report.why_unknown;
+  } else if (report.has_server) {
+    report.no_advice = "captures with a Discovery Server are not predicted yet";
   } else if (request.advise) {
     if (auto error = advise(profiles, request, report)) return *std::move(error);
   } else {

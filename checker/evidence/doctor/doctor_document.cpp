@@ -40,6 +40,7 @@ std::string amplification(const Report& report) {
 
 /// "discovery took 2.231 s", or what is missing.
 std::string completeness(const Report& report) {
+  if (report.missing > 0 && report.has_server) return "who needs what is not known";
   if (report.missing > 0) {
     return fmt::format("{} of {} descriptors were never sent to somebody who needs them",
                        grouped(report.missing), grouped(report.counting.required));
@@ -88,6 +89,9 @@ report::Facts who(const Report& report) {
     facts.rows.emplace_back("library",
                             fmt::format("{}{}{}: {}", one.vendor, one.version.empty() ? "" : " ",
                                         one.version, plural(one.participants, "participant")));
+  }
+  if (report.has_server) {
+    facts.rows.emplace_back("discovers", "with a Discovery Server (PARTICIPANT_TYPE of DATA(p))");
   }
   facts.rows.emplace_back(
       "behaves as", report.presets.empty()

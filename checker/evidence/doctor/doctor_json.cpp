@@ -78,6 +78,7 @@ void describe(V& v, const Report& report) {
   v.or_null("vendor", has_product ? report.products.front().vendor : "");
   v.or_null("version", has_product ? report.products.front().version : "");
   v("products", report.products);
+  v("discovery_server", report.has_server);
   v("presets", report.presets);
   v("captures", report.conversation.captures);
   v("hosts", report.conversation.topology.hosts);

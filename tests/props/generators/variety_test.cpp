@@ -13,6 +13,7 @@
 #include "model/config/knobs/effective.hpp"
 #include "model/implementations.hpp"
 #include "model/simulator.hpp"
+#include "props/generators/on_demand.hpp"
 #include "props/generators/scenarios.hpp"
 #include "tests/model/config/knobs/knob_list.hpp"
 
@@ -44,6 +45,21 @@ std::vector<Scenario> drawn_on_demand() {
       list.push_back(draw_scenario(seed, 100, {.implementation = kind}));
     }
   }
+  for (std::uint64_t seed = 0; seed < 2 * draws_on_demand; ++seed) {
+    const Scenario plain =
+        draw_scenario(seed, 100, {.implementation = model::ImplementationKind::fastdds});
+    Scenario radio = plain;
+    radio.wireless.kind = model::ServiceKind::shared_channel;
+    radio.wireless.packet_delays.clear();
+    Dice dice{seed};
+    draw_radio(dice, radio.wireless);
+    list.push_back(std::move(radio));
+    for (const auto discovery : {model::Discovery::server, model::Discovery::super_client,
+                                 model::Discovery::static_peers}) {
+      list.push_back(plain);
+      draw_discovery(seed, discovery, list.back());
+    }
+  }
   return list;
 }
 
@@ -63,9 +79,10 @@ void collect(const Json& json, const std::string& key,
 
 /// Keys that a random scenario does not have: the short form, and what changes no run.
 bool is_left_out(const std::string& key) {
-  for (const std::string_view part : {"deployment.hosts", "deployment.participants_per_host",
-                                      "deployment.endpoints_per_participant", "deployment.schedule",
-                                      "limits.", "vary.", "dds.unmodelled"}) {
+  for (const std::string_view part :
+       {"deployment.hosts", "deployment.participants_per_host",
+        "deployment.endpoints_per_participant", "deployment.nodes_per_participant",
+        "deployment.schedule", "limits.", "vary.", "dds.unmodelled"}) {
     if (key.starts_with(part)) return true;
   }
   return false;
@@ -81,11 +98,16 @@ TEST(Variety, EveryKnobVaries) {
   for (const model::config::KnobInfo& knob : model::config::scenario_knob_list()) {
     if (is_left_out(knob.key)) continue;
     const auto& values = seen[knob.key];
-    EXPECT_GT(values.size(), knob.choices.empty() || knob.key == "run_until" ? 0U : 1U) << knob.key;
+    std::size_t unwritten = 0;
     for (const std::string& choice : knob.choices) {
-      if (knob.key == "run_until" && choice == "completion") continue;  // not written
+      if (!values.contains(choice) && knob.default_value.is_null()) {
+        ++unwritten;  // the usual word
+        continue;
+      }
       EXPECT_GE(values.contains(choice) ? values.at(choice) : 0, 25) << knob.key << ": " << choice;
     }
+    EXPECT_LE(unwritten, 1U) << knob.key;
+    EXPECT_GT(values.size() + unwritten, knob.choices.empty() ? 0U : 1U) << knob.key;
     if (knob.choices.empty() && !knob.key.ends_with(".name")) {
       EXPECT_GE(values.size(), 3U) << knob.key;
     }

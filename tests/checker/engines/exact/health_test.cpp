@@ -25,6 +25,14 @@ TEST(Health, ShippedScenariosAreWhatTheirNamesSay) {
   EXPECT_EQ(health("high-load-6x30").health, Health::storm);
 }
 
+TEST(Health, AServersStormIsOneByItsMessages) {
+  const RunHealth storm = health("wifi-5x20-fastdds", {"dds=fastdds-server-2.6.11"});
+  EXPECT_EQ(storm.health, Health::storm) << storm.messages.value_or(-1);
+  EXPECT_FALSE(storm.airtime);
+  const RunHealth fine = health("smallest", {"dds=fastdds-server-2.6.11"});
+  EXPECT_EQ(fine.health, Health::fine) << fine.took.count();
+}
+
 TEST(Health, ALateJoinerIsNoStorm) {
   const RunHealth run = health("staggered-joins");
   EXPECT_EQ(run.health, Health::fine);

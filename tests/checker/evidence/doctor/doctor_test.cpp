@@ -140,6 +140,20 @@ TEST(Doctor, ACaptureThatBeganTooLateIsNoVerdict) {
   EXPECT_FALSE(late.why_unknown.empty());
 }
 
+TEST(Doctor, KnowsClientsOfADiscoveryServer) {
+  const std::string file =
+      std::string{STORMPROOF_SPECS_DIR} +
+      "/../tests/checker/evidence/doctor/captures/fastdds291_ap150_client_np1_ne2_r0.pcap.xz";
+  const auto conversation = capture::read_conversation({{file}}, {});
+  ASSERT_TRUE(conversation) << to_string(conversation.error());
+  const Report report = diagnosed(*conversation, true);
+  EXPECT_TRUE(report.has_server);
+  EXPECT_NE(report.health, Health::incomplete);
+  EXPECT_TRUE(report.advice.empty());
+  EXPECT_FALSE(report.no_advice.empty());
+  EXPECT_FALSE(diagnosed(shipped("fastdds291_ap_np1_ne2_r0")).has_server);
+}
+
 TEST(Doctor, SaysWhoHeardWhom) {
   const std::string file =
       std::string{STORMPROOF_SPECS_DIR} + "/captures/fastdds291_ap_np1_ne2_r0.pcap.xz";

@@ -1,0 +1,59 @@
+// Edges of the rules: values at which limits, turns and timers meet.
+#include "props/generators/on_demand.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace stormproof::props {
+
+using namespace model;
+
+void draw_units(Dice& dice, WirelessProfile& w) {
+  w.kind = ServiceKind::shared_channel;
+  w.packet_delays.clear();
+  w.stages = WirelessProfile{}.stages;
+  w.order = ServiceOrder::fifo_uplink;
+  w.fragment_request = FragmentRequest::at_admission;
+  w.service = ServedBy::unit;
+  w.aggregation.max_frames = dice.pick<std::uint32_t>({64, 64, 1, 2, 3, 5});
+  w.aggregation.max_bytes = Bytes{dice.among({65'535, 65'535, 280, 420, 600, 1'500, 4'000})};
+  w.aggregation.max_airtime =
+      Nanoseconds{dice.among({5'484'000, 5'484'000, 20'000, 100'000, 1'000'000, 0, 15'512})};
+  w.aggregation.overhead = Nanoseconds{dice.among({198'500, w.overhead_unicast.count(), 0})};
+  w.queueing = dice.chance(60) ? Queueing::flows : Queueing::fifo;
+  w.quantum = Bytes{dice.among({300, 300, 134, 1, 67, 1'514})};
+  w.ap_queue = dice.choice<ApQueue>(2);
+  const bool may_be_oldest = w.queueing == Queueing::fifo && w.ap_queue == ApQueue::oldest;
+  if (may_be_oldest && dice.chance(50)) w.arbitration = Arbitration::oldest;
+}
+
+void draw_radio(Dice& dice, WirelessProfile& w) {
+  if (dice.chance(70)) draw_units(dice, w);
+  w.source_queue_bytes =
+      Bytes{dice.among({212'992, 1, 1'000, 4'000, dice.between(100, 4'000), 20'000})};
+  w.sender = dice.chance(75) ? Sender::stalls : Sender::backlog;
+  w.count_at = dice.choice<CountAt>(2);
+}
+
+void draw_discovery(std::uint64_t seed, Discovery discovery, Scenario& scenario) {
+  scenario.dds.discovery = discovery;
+  scenario.dds.sedp.heartbeat_policy = HeartbeatPolicy::periodic;
+  scenario.time_limit = std::max(scenario.time_limit, Nanoseconds{3'000'000'000});
+  constexpr std::int64_t ms = 1'000'000;
+  const auto pick = [&](std::uint64_t salt, std::initializer_list<std::int64_t> values) {
+    const std::uint64_t k = (seed * 7919 + salt * 104'729) / 3 % values.size();
+    return values.begin()[k];
+  };
+  scenario.dds.peer_ports = static_cast<std::uint32_t>(pick(1, {1, 2, 4, 7}));
+  ServerProfile& server = scenario.dds.server;
+  server.client_sync_period = Nanoseconds{pick(2, {450, 60, 10, 150}) * ms};
+  server.server_routine_period = Nanoseconds{pick(3, {450, 50, 7}) * ms};
+  server.pdp_heartbeat_period = Nanoseconds{pick(4, {350, 30, 90}) * ms};
+  server.pdp_nack_response_delay = Nanoseconds{pick(5, {100, 0, 3}) * ms};
+  server.pdp_nack_suppression_duration = Nanoseconds{pick(6, {11, 0, 2}) * ms};
+  server.pdp_heartbeat_response_delay = Nanoseconds{pick(7, {11, 1, 0}) * ms};
+  server.relay = seed % 3 == 1 ? Relay::once : Relay::repeat;
+  scenario.deployment.send_cost = Nanoseconds{pick(8, {50, 0, 400}) * 1'000};
+}
+
+}  // namespace stormproof::props

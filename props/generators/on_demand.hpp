@@ -1,0 +1,20 @@
+// What random scenarios of Fast DDS have only if somebody asks: channels and ways to discover of
+// which the engines and laws know too little for every test.
+#pragma once
+
+#include <cstdint>
+
+#include "model/scenario.hpp"
+#include "props/generators/dice.hpp"
+
+namespace stormproof::props {
+
+/// A channel of units with limits that matter.
+void draw_units(Dice& dice, model::WirelessProfile& wireless);
+/// Mostly such a channel, and hosts that may stall or count what is admitted, with a small buffer.
+void draw_radio(Dice& dice, model::WirelessProfile& wireless);
+
+/// Another way to discover, with odd knobs of it, as a function of the seed.
+void draw_discovery(std::uint64_t seed, model::Discovery discovery, model::Scenario& scenario);
+
+}  // namespace stormproof::props
