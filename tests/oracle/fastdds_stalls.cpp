@@ -49,6 +49,8 @@ void count_admitted(World& w, const Packet& packet) {
     case PacketKind::control_acknack:
       ++w.admitted.user_control;
       return;
+    default:
+      return;  // of and to a server: no rule counts them so
   }
 }
 

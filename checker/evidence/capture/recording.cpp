@@ -18,11 +18,11 @@ using model::config::InputError;
 struct CloseCapture {
   void operator()(pcap_t* handle) const { pcap_close(handle); }
 };
-struct CloseFile {
+struct CloseDump {
   void operator()(pcap_dumper_t* file) const { pcap_dump_close(file); }
 };
-using Capture = std::unique_ptr<pcap_t, CloseCapture>;
-using File = std::unique_ptr<pcap_dumper_t, CloseFile>;
+using LiveCapture = std::unique_ptr<pcap_t, CloseCapture>;
+using DumpFile = std::unique_ptr<pcap_dumper_t, CloseDump>;
 
 InputError refused(const std::string& interface, int status, const std::string& why) {
   std::string text = why.empty() ? pcap_statustostr(status) : why;
@@ -42,7 +42,7 @@ model::config::Result<std::uint64_t> record(
   constexpr int buffer_bytes = 16 << 20U;
   constexpr int wake_up_ms = 100;
   std::array<char, PCAP_ERRBUF_SIZE> why{};
-  const Capture handle{pcap_create(recording.interface.c_str(), why.data())};
+  const LiveCapture handle{pcap_create(recording.interface.c_str(), why.data())};
   if (!handle) return InputError{"--interface " + recording.interface, why.data()};
   pcap_set_snaplen(handle.get(), whole_packets);
   pcap_set_buffer_size(handle.get(), buffer_bytes);
@@ -60,7 +60,7 @@ model::config::Result<std::uint64_t> record(
   }
   // Without packets a blocking read may wait for ever, whatever the timeout.
   pcap_setnonblock(handle.get(), 1, why.data());
-  const File file{pcap_dump_open(handle.get(), recording.path.c_str())};
+  const DumpFile file{pcap_dump_open(handle.get(), recording.path.c_str())};
   if (!file) return InputError{"--recording " + recording.path, pcap_geterr(handle.get())};
 
   const auto end =
