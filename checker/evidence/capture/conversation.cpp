@@ -38,6 +38,7 @@ void add_datagram(const Datagram& datagram, Reading& reading) {
   const std::string place = fmt::format("{}, packet {}", info.name, datagram.packet);
   if (!extract(datagram, index, place, reading.extraction, reading.remarks)) return;
   ++info.datagrams;
+  ++info.sources[datagram.source.address];
   reading.datagrams.push_back({.time_ns = datagram.time_ns,
                                .capture = capture,
                                .packet = datagram.packet,

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -98,6 +99,7 @@ struct CaptureInfo {
   std::uint64_t packets = 0;
   std::uint64_t datagrams = 0;  ///< with an RTPS message
   std::uint64_t merged = 0;     ///< of these, known from another capture and left out
+  std::map<Address, std::uint64_t> sources{};  ///< where the datagrams came from, merged ones too
 };
 
 struct Conversation {

@@ -10,6 +10,7 @@
 
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/config/tree/yaml_text.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::prediction {
@@ -73,17 +74,11 @@ std::string schedule_text(const ScheduleRanges& ranges) {
 
 std::string scenario_text(const Configuration& c, const ScenarioOptions& options,
                           const std::string& schedule) {
-  const auto quoted = [](std::string text) {
-    for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
-      text.insert(k, 1, '\'');
-    }
-    return "'" + text + "'";
-  };
   return fmt::format(
       "{{deployment: {{hosts: {}, participants_per_host: {}, endpoints_per_participant: {}, "
       "loopback_delay: 2ms{}}}, dds: {}, wireless: {}, time_limit: 200s}}",
-      c.hosts, c.participants_per_host, c.endpoints, schedule, quoted(options.dds),
-      quoted(options.wireless));
+      c.hosts, c.participants_per_host, c.endpoints, schedule,
+      model::config::quoted_scalar(options.dds), model::config::quoted_scalar(options.wireless));
 }
 
 template <class Value>

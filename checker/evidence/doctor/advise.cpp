@@ -157,6 +157,19 @@ std::vector<const tune::Row*> best_rows(const tune::Report& tuned) {
   return rows;
 }
 
+/// What is wrong with the profiles that the request names.
+std::optional<InputError> unknown_profile(const Request& request, const SpecPath& specs) {
+  if (!request.dds.empty()) {
+    const auto dds = model::config::read_dds_profile(request.dds, {}, specs);
+    if (!dds) return dds.error();
+  }
+  if (!request.wireless.empty()) {
+    const auto wireless = model::config::read_wireless_profile(request.wireless, {}, specs);
+    if (!wireless) return wireless.error();
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<InputError> advise(const std::vector<std::string>& profiles, const Request& request,
@@ -169,17 +182,7 @@ std::optional<InputError> advise(const std::vector<std::string>& profiles, const
   }
   if (!request.dds.empty()) candidates = {request.dds};
   const SpecPath specs = SpecPath::standard();
-  for (const auto& [name, kind] :
-       {std::pair{&request.dds, SpecKind::dds}, std::pair{&request.wireless, SpecKind::wireless}}) {
-    if (name->empty()) continue;
-    if (kind == SpecKind::dds) {
-      const auto read = model::config::read_dds_profile(*name, {}, specs);
-      if (!read) return read.error();
-    } else {
-      const auto read = model::config::read_wireless_profile(*name, {}, specs);
-      if (!read) return read.error();
-    }
-  }
+  if (auto error = unknown_profile(request, specs)) return error;
   const auto best = nearest(candidates, request, report);
   if (!best) {
     report.no_advice = candidates.empty()

@@ -103,30 +103,25 @@ std::uint64_t announcements_after(const Conversation& conversation,
 }
 
 /// Each capture by itself, against all of them together.
-Result<std::vector<Heard>> who_heard_whom(const Conversation& all, const Request& request) {
+std::vector<Heard> who_heard_whom(const Conversation& conversation) {
   std::vector<Heard> heard;
-  if (request.files.size() < 2) return heard;
+  if (conversation.captures.size() < 2) return heard;
   std::map<capture::Address, std::size_t> host;
-  for (const capture::Participant& one : all.topology.participants) {
+  for (const capture::Participant& one : conversation.topology.participants) {
     for (const capture::Address& address : one.addresses) host[address] = one.host;
   }
-  const auto count = [&](const Conversation& conversation) {
-    std::vector<std::uint64_t> sent(all.topology.hosts, 0);
-    for (const capture::DatagramRecord& one : conversation.datagrams) {
-      if (const auto found = host.find(one.source.address); found != host.end()) {
-        ++sent[found->second];
-      }
+  std::vector<std::uint64_t> sent(conversation.topology.hosts, 0);
+  for (const capture::DatagramRecord& one : conversation.datagrams) {
+    if (const auto from = host.find(one.source.address); from != host.end()) ++sent[from->second];
+  }
+  for (const capture::CaptureInfo& capture : conversation.captures) {
+    Heard one{capture.name, {}};
+    for (std::size_t h = 0; h < sent.size(); ++h) one.hosts.push_back({h, 0, sent[h]});
+    for (const auto& [address, datagrams] : capture.sources) {
+      const auto from = host.find(address);
+      if (from != host.end()) one.hosts[from->second].datagrams += datagrams;
     }
-    return sent;
-  };
-  const std::vector<std::uint64_t> sent = count(all);
-  for (const std::string& file : request.files) {
-    const auto alone = capture::read_conversation({{file}}, {});
-    if (!alone) return alone.error();
-    const std::vector<std::uint64_t> seen = count(*alone);
-    heard.push_back({file, {}});
-    for (std::size_t h = 0; h < sent.size(); ++h)
-      heard.back().hosts.push_back({h, seen[h], sent[h]});
+    heard.push_back(std::move(one));
   }
   return heard;
 }
@@ -190,9 +185,7 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
   report.has_server = has_server(conversation.topology);
   judge(report);
   report.causes = causes(conversation, counting, report.failure_free);
-  auto heard = who_heard_whom(conversation, request);
-  if (!heard) return heard.error();
-  report.heard = *std::move(heard);
+  report.heard = who_heard_whom(conversation);
   if (report.products.empty()) return report;
   const std::vector<std::string> profiles = profiles_of(report.products.front());
   find_presets(profiles, request, report);

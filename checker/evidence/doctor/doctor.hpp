@@ -111,7 +111,7 @@ struct Report {
   }
 };
 
-/// Errors: a file that cannot be read alone, an unknown profile.
+/// An error if the request names an unknown profile.
 [[nodiscard]] model::config::Result<Report> diagnose(const capture::Conversation& conversation,
                                                      const Request& request);
 

@@ -13,6 +13,7 @@
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/suggestion.hpp"
+#include "model/config/tree/yaml_text.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::init {
@@ -21,6 +22,7 @@ namespace {
 
 using model::config::InputError;
 using model::config::print_duration;
+using model::config::quoted_scalar;
 using model::config::Result;
 using model::config::Rmw;
 using model::config::SpecPath;
@@ -86,13 +88,6 @@ std::string comment(const std::string& text) {
     at = end + 1;
   }
   return lines + line + "\n";
-}
-
-std::string quoted(std::string text) {
-  for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
-    text.insert(k, 1, '\'');
-  }
-  return "'" + text + "'";
 }
 
 std::string schedule(const System& system, bool creates_over_time) {
@@ -185,9 +180,9 @@ Result<std::string> draft(const System& system, const SpecPath& specs) {
       system.participants, system.endpoints);
   text += schedule(system, over_time);
   text += comment(library->why);
-  text += fmt::format("dds: {}\n", quoted(library->dds));
+  text += fmt::format("dds: {}\n", quoted_scalar(library->dds));
   text += fmt::format("wireless: {}        # `stormproof list wireless` shows all\n",
-                      quoted(system.wireless));
+                      quoted_scalar(system.wireless));
   text += "time_limit: 120s                    # a run that takes longer did not complete\n";
   const auto read = model::config::parse_scenario(text, "init", {}, specs);
   if (!read) return read.error();
@@ -227,8 +222,8 @@ Result<std::string> draft_of_capture(const capture::Conversation& conversation,
       head(system) +
       comment("The deployment is the one in the capture, participant by participant.") +
       deployment + comment(fmt::format("{}: {}", dds, why)) +
-      fmt::format("dds: {}\nwireless: {}\ntime_limit: 120s\n", quoted(dds),
-                  quoted(system.wireless));
+      fmt::format("dds: {}\nwireless: {}\ntime_limit: 120s\n", quoted_scalar(dds),
+                  quoted_scalar(system.wireless));
   const auto read = model::config::parse_scenario(text, "init", {}, SpecPath::standard());
   if (!read) return read.error();
   return text;

@@ -9,6 +9,7 @@
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
+#include "model/config/tree/yaml_text.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::validate {
@@ -16,17 +17,11 @@ namespace stormproof::validate {
 namespace {
 
 using model::config::InputError;
+using model::config::quoted_scalar;
 using model::config::Result;
 
 constexpr double low_quantile = 0.05;
 constexpr double high_quantile = 0.95;
-
-std::string quoted(std::string text) {
-  for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
-    text.insert(k, 1, '\'');
-  }
-  return "'" + text + "'";
-}
 
 /// A collapse would have the model run for hours. A run that takes this many times as long as what
 /// was observed is off by more than any comparison needs; it counts as incomplete.
@@ -71,7 +66,7 @@ Result<model::Scenario> scenario_of(const Request& request, const CapturedDeploy
   const std::string text = fmt::format(
       "{{deployment: {{hosts: 2, participants_per_host: 1, endpoints_per_participant: 0}}, "
       "dds: {}, wireless: {}, time_limit: {}s}}",
-      quoted(request.dds), quoted(request.wireless), time_limit_s);
+      quoted_scalar(request.dds), quoted_scalar(request.wireless), time_limit_s);
   auto scenario = model::config::parse_scenario(text, "validate", request.overrides, specs);
   if (!scenario) return scenario.error();
   if (model::traits_of(scenario->dds).has_server) {

@@ -238,4 +238,11 @@ Result<Node> load_yaml(const std::string& path) {
   return parse_yaml(*text, path);
 }
 
+std::string quoted_scalar(std::string text) {
+  for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
+    text.insert(k, 1, '\'');
+  }
+  return "'" + text + "'";
+}
+
 }  // namespace stormproof::model::config

@@ -23,4 +23,7 @@ inline constexpr std::size_t max_tree_nodes = 1'000'000;
 /// 16 MiB.
 [[nodiscard]] Result<Node> load_yaml(const std::string& path);
 
+/// `text` as a quoted YAML scalar, whatever is in it.
+[[nodiscard]] std::string quoted_scalar(std::string text);
+
 }  // namespace stormproof::model::config
