@@ -59,10 +59,10 @@ inline constexpr std::uint16_t cyclonedds = 0x0110;
 }  // namespace vendor
 
 struct ImplementationTraits {
-  std::string_view name;   ///< in profiles, lists and data: "fastdds"
-  std::string_view whose;  ///< whose writer it is, for people: "Fast DDS"
-  std::string_view rules;  ///< the same for all its rules: "Fast DDS's own rules"
-  std::string_view guide;  ///< the page that states them
+  std::string_view name = {};   ///< in profiles, lists and data: "fastdds"
+  std::string_view whose = {};  ///< whose writer it is, for people: "Fast DDS"
+  std::string_view rules = {};  ///< the same for all its rules: "Fast DDS's own rules"
+  std::string_view guide = {};  ///< the page that states them
 
   /// Whose participants send that way; absent if no program does.
   std::optional<std::uint16_t> vendor = {};
@@ -117,82 +117,70 @@ inline constexpr ImplementationKind default_implementation{};
   return static_cast<std::size_t>(kind);
 }
 
+/// What programs have in common, other than the model of the paper.
+inline constexpr ImplementationTraits traits_of_programs{
+    .fixed_rules = RelationRules{.relation_opening = RelationOpening::each_side,
+                                 .unmatched = Unmatched::drop,
+                                 .initial_acknack = InitialAckNackReply::heartbeat,
+                                 .heartbeat_timer = HeartbeatTimerKind::single},
+    .creates_endpoints_over_time = true,
+    .discovers_same_host = true,
+    .has_control_relations = true,
+    .receives_separately = true,
+    .acknacks_have_bases = true,
+    .answers_heartbeats_together = true};
+
+[[nodiscard]] constexpr ImplementationTraits traits_of_fastdds() {
+  ImplementationTraits traits = traits_of_programs;
+  traits.name = "fastdds";
+  traits.whose = "Fast DDS";
+  traits.rules = "Fast DDS's own rules";
+  traits.guide = "specs/guide/fastdds.md";
+  traits.vendor = vendor::fastdds;
+  traits.writer = Writer::stateful;
+  return traits;
+}
+
+[[nodiscard]] constexpr ImplementationTraits traits_of_cyclone() {
+  ImplementationTraits traits = traits_of_programs;
+  traits.name = "cyclone";
+  traits.whose = "Cyclone DDS";
+  traits.rules = "Cyclone DDS's own rules";
+  traits.guide = "specs/guide/cyclone.md";
+  traits.vendor = vendor::cyclonedds;
+  traits.is_known_to_engines = false;
+  traits.writer = Writer::of_cyclone;
+  return traits;
+}
+
+/// Fast DDS with static peers: other announcements.
+[[nodiscard]] constexpr ImplementationTraits traits_of_fastdds_static() {
+  ImplementationTraits traits = traits_of_fastdds();
+  traits.rules = "Fast DDS's own rules with static peers";
+  traits.guide = "specs/guide/discovery-server.md";
+  traits.is_known_to_engines = false;
+  return traits;
+}
+
+/// Fast DDS with a Discovery Server.
+[[nodiscard]] constexpr ImplementationTraits traits_of_fastdds_server() {
+  ImplementationTraits traits = traits_of_fastdds_static();
+  traits.rules = "the rules of Fast DDS's Discovery Server";
+  traits.has_server = true;
+  traits.writer = Writer::of_server;
+  return traits;
+}
+
 /// In the order of the enumerators.
-inline constexpr std::array<ImplementationTraits, 5> implementation_traits{
-    {{.name = "paper",
-      .whose = "the paper",
-      .rules = "the rules of the closed-loop model",
-      .guide = "specs/guide/model.md",
-      .has_size_knobs = true,
-      .waits_for_source = true},
-     {.name = "fastdds",
-      .whose = "Fast DDS",
-      .rules = "Fast DDS's own rules",
-      .guide = "specs/guide/fastdds.md",
-      .vendor = vendor::fastdds,
-      .fixed_rules = RelationRules{.relation_opening = RelationOpening::each_side,
-                                   .unmatched = Unmatched::drop,
-                                   .initial_acknack = InitialAckNackReply::heartbeat,
-                                   .heartbeat_timer = HeartbeatTimerKind::single},
-      .creates_endpoints_over_time = true,
-      .discovers_same_host = true,
-      .has_control_relations = true,
-      .receives_separately = true,
-      .acknacks_have_bases = true,
-      .answers_heartbeats_together = true,
-      .writer = Writer::stateful},
-     {.name = "cyclone",
-      .whose = "Cyclone DDS",
-      .rules = "Cyclone DDS's own rules",
-      .guide = "specs/guide/cyclone.md",
-      .vendor = vendor::cyclonedds,
-      .fixed_rules = RelationRules{.relation_opening = RelationOpening::each_side,
-                                   .unmatched = Unmatched::drop,
-                                   .initial_acknack = InitialAckNackReply::heartbeat,
-                                   .heartbeat_timer = HeartbeatTimerKind::single},
-      .creates_endpoints_over_time = true,
-      .discovers_same_host = true,
-      .has_control_relations = true,
-      .receives_separately = true,
-      .acknacks_have_bases = true,
-      .answers_heartbeats_together = true,
-      .is_known_to_engines = false,
-      .writer = Writer::of_cyclone},
-     {.name = "fastdds",
-      .whose = "Fast DDS",
-      .rules = "Fast DDS's own rules with static peers",
-      .guide = "specs/guide/discovery-server.md",
-      .vendor = vendor::fastdds,
-      .fixed_rules = RelationRules{.relation_opening = RelationOpening::each_side,
-                                   .unmatched = Unmatched::drop,
-                                   .initial_acknack = InitialAckNackReply::heartbeat,
-                                   .heartbeat_timer = HeartbeatTimerKind::single},
-      .creates_endpoints_over_time = true,
-      .discovers_same_host = true,
-      .has_control_relations = true,
-      .receives_separately = true,
-      .acknacks_have_bases = true,
-      .answers_heartbeats_together = true,
-      .is_known_to_engines = false,
-      .writer = Writer::stateful},
-     {.name = "fastdds",
-      .whose = "Fast DDS",
-      .rules = "the rules of Fast DDS's Discovery Server",
-      .guide = "specs/guide/discovery-server.md",
-      .vendor = vendor::fastdds,
-      .fixed_rules = RelationRules{.relation_opening = RelationOpening::each_side,
-                                   .unmatched = Unmatched::drop,
-                                   .initial_acknack = InitialAckNackReply::heartbeat,
-                                   .heartbeat_timer = HeartbeatTimerKind::single},
-      .creates_endpoints_over_time = true,
-      .discovers_same_host = true,
-      .has_server = true,
-      .has_control_relations = true,
-      .receives_separately = true,
-      .acknacks_have_bases = true,
-      .answers_heartbeats_together = true,
-      .is_known_to_engines = false,
-      .writer = Writer::of_server}}};
+inline constexpr std::array implementation_traits{
+    ImplementationTraits{.name = "paper",
+                         .whose = "the paper",
+                         .rules = "the rules of the closed-loop model",
+                         .guide = "specs/guide/model.md",
+                         .has_size_knobs = true,
+                         .waits_for_source = true},
+    traits_of_fastdds(), traits_of_cyclone(), traits_of_fastdds_static(),
+    traits_of_fastdds_server()};
 
 /// What runs under the profile: its implementation, with the way to discover.
 [[nodiscard]] constexpr ImplementationKind kind_of(ImplementationKind implementation,
