@@ -47,6 +47,7 @@ std::string folder_name(std::string_view verb, const std::vector<std::string>& s
 std::optional<std::string> make_folders(const fs::path& folder, std::vector<std::string>& made) {
   std::error_code error;
   if (folder.empty() || fs::is_directory(folder, error)) return std::nullopt;
+  if (!folder.has_filename()) return make_folders(folder.parent_path(), made);  // "tuned/"
   if (auto why = make_folders(folder.parent_path(), made)) return why;
   if (!fs::create_directory(folder, error)) {
     return error ? error.message() : std::string{"it is no folder"};

@@ -18,7 +18,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+
+#include "tests/cli/shown.hpp"
 
 namespace golden_test {
 
@@ -32,17 +33,11 @@ struct Step {
   int exit_code = 0;
 };
 
-std::vector<std::string> lines_of(std::istream& in) {
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 std::vector<Step> read_steps(const fs::path& file) {
   std::ifstream in{file};
   std::vector<Step> steps;
   std::vector<std::string> comments;
-  for (const std::string& line : lines_of(in)) {
+  for (const std::string& line : shown::lines_of(in)) {
     if (line.starts_with("$ ")) {
       steps.push_back({comments, line.substr(2), {}, {}, -1});
       comments.clear();
@@ -60,29 +55,8 @@ std::vector<Step> read_steps(const fs::path& file) {
 }
 
 Step run(const Step& expected, const fs::path& folder) {
-  const std::string shell =
-      "cd '" STORMPROOF_SOURCE_DIR "' && TMP='" + folder.string() + "' PATH='" +
-      fs::path{STORMPROOF_PROGRAM}.parent_path().string() + "':$PATH && { " + expected.command +
-      "\n} >'" + (folder / "out").string() + "' 2>'" + (folder / "err").string() + "' </dev/null";
-  Step actual{expected.comments, expected.command, {}, {}, 0};
-  const int status = std::system(shell.c_str());
-  actual.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  std::ifstream out{folder / "out"};
-  std::ifstream err{folder / "err"};
-  actual.out = lines_of(out);
-  actual.err = lines_of(err);
-  return actual;
-}
-
-/// Whether `actual` is `expected`, where "..." stands for any number of lines.
-bool matches(const std::vector<std::string>& expected, std::size_t e,
-             const std::vector<std::string>& actual, std::size_t a) {
-  if (e == expected.size()) return a == actual.size();
-  if (expected[e] == "...") {
-    return matches(expected, e + 1, actual, a) ||
-           (a < actual.size() && matches(expected, e, actual, a + 1));
-  }
-  return a < actual.size() && expected[e] == actual[a] && matches(expected, e + 1, actual, a + 1);
+  const shown::Output actual = shown::run(expected.command, STORMPROOF_SOURCE_DIR, folder);
+  return {expected.comments, expected.command, actual.out, actual.err, actual.exit_code};
 }
 
 std::string text_of(const Step& step) {
@@ -108,7 +82,7 @@ TEST_P(Golden, OutputAndExitCode) {
   for (const Step& step : steps) {
     ASSERT_GE(step.exit_code, 0) << "no `exit` line after: " << step.command;
     const Step actual = run(step, folder);
-    EXPECT_TRUE(matches(step.out, 0, actual.out, 0) && matches(step.err, 0, actual.err, 0) &&
+    EXPECT_TRUE(shown::matches(step.out, actual.out) && shown::matches(step.err, actual.err) &&
                 step.exit_code == actual.exit_code)
         << "expected:\n"
         << text_of(step) << "\ngot:\n"
