@@ -1,0 +1,11 @@
+# `cmake --build build --target site`: all pages, drawings and the API as a site in build/site, by
+# MkDocs and Doxygen (cmake/debian-packages.txt, site). specs/site/build.py says what it contains.
+find_package(Python3 COMPONENTS Interpreter QUIET)
+if(TARGET stormproof AND Python3_FOUND)
+  add_custom_target(site
+    COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/specs/site/build.py"
+            --source "${PROJECT_SOURCE_DIR}" --program "$<TARGET_FILE:stormproof>"
+            --output "${PROJECT_BINARY_DIR}/site"
+    DEPENDS stormproof
+    USES_TERMINAL VERBATIM)
+endif()
