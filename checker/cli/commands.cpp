@@ -15,6 +15,7 @@ void declare_commands(Frame& frame) {
   declare_reproduce(frame);
   declare_coverage(frame);
   declare_doctor(frame);
+  declare_watch(frame);
   declare_capture(frame);
   declare_conform(frame);
   declare_validate(frame);

@@ -17,6 +17,7 @@ void declare_reproduce(Frame& frame);
 void declare_coverage(Frame& frame);
 void declare_init(Frame& frame);
 void declare_doctor(Frame& frame);
+void declare_watch(Frame& frame);
 void declare_capture(Frame& frame);
 void declare_conform(Frame& frame);
 void declare_validate(Frame& frame);

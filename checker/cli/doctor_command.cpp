@@ -7,6 +7,7 @@
 #include "checker/cli/commands.hpp"
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/cli/health.hpp"
 #include "checker/cli/on_captures.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/streams.hpp"
@@ -27,19 +28,6 @@ struct DoctorArguments {
   OutputFile xml;
   bool no_advice = false;
 };
-
-ExitCode exit_code(const doctor::Report& report) {
-  switch (report.health) {
-    case doctor::Health::healthy:
-      return established;
-    case doctor::Health::storm:
-    case doctor::Health::incomplete:
-      return violated;
-    case doctor::Health::unknown:
-      break;
-  }
-  return inconclusive;
-}
 
 /// Records into a file that `doctor` then reads as any other; why that failed, or nothing.
 std::optional<Complaint> record(DoctorArguments& arguments, Session& session) {
@@ -94,7 +82,7 @@ Outcome run(DoctorArguments& arguments, Session& session) {
   if (!report) return report.error();
   Answer answer{document_of(*report, request), to_json(*report)};
   const bool interrupted = Session::interrupted();
-  answer.document.exit_code = interrupted ? inconclusive : exit_code(*report);
+  answer.document.exit_code = interrupted ? inconclusive : exit_code_of(report->health);
   answer.document.complete = !interrupted;
   answer.document.next = next_of(*report, request);
   if (!arguments.interface.empty()) {

@@ -101,5 +101,20 @@ TEST(Terminal, TheProgressLineFits) {
   EXPECT_NE(shown.find("…"), std::string::npos) << shown;
 }
 
+/// `q` leaves, and the terminal is what it was.
+TEST(Terminal, WatchTakesItAndGivesItBack) {
+  const std::string shown = on_a_terminal(
+      80, "UNUSED", "",
+      "cd \"${TMPDIR:-/tmp}\"; { sleep 2; echo q; } | script -qec '" STORMPROOF_PROGRAM
+      " watch --interface lo --for 20s' /dev/null; true");
+  if (shown.find("setcap") != std::string::npos) return;  // nobody may capture here
+  EXPECT_NE(shown.find("q quits"), std::string::npos) << shown;
+  const auto taken = shown.find("\033[?1049h");
+  const auto given_back = shown.find("\033[?1049l");
+  ASSERT_NE(taken, std::string::npos) << shown;
+  ASSERT_NE(given_back, std::string::npos) << shown;
+  EXPECT_LT(taken, given_back);
+}
+
 }  // namespace terminal_test
 }  // namespace stormproof::cli

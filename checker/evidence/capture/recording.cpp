@@ -3,7 +3,9 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <pcap/pcap.h>
@@ -60,7 +62,7 @@ model::config::Result<std::uint64_t> record(
   }
   // Without packets a blocking read may wait for ever, whatever the timeout.
   pcap_setnonblock(handle.get(), 1, why.data());
-  const DumpFile file{pcap_dump_open(handle.get(), recording.path.c_str())};
+  DumpFile file{pcap_dump_open(handle.get(), recording.path.c_str())};
   if (!file) return InputError{"--recording " + recording.path, pcap_geterr(handle.get())};
 
   const auto end =
@@ -73,10 +75,18 @@ model::config::Result<std::uint64_t> record(
     const int some =
         pcap_dispatch(handle.get(), at_once, pcap_dump, reinterpret_cast<u_char*>(file.get()));
     if (some == PCAP_ERROR) return refused(recording.interface, some, pcap_geterr(handle.get()));
-    if (some > 0) packets += static_cast<std::uint64_t>(some);
-  }
-  if (pcap_dump_flush(file.get()) != 0) {
-    return InputError{"--recording " + recording.path, "cannot be written to its end"};
+    if (some <= 0) continue;
+    packets += static_cast<std::uint64_t>(some);
+    if (pcap_dump_flush(file.get()) != 0) {
+      return InputError{"--recording " + recording.path, "cannot be written to its end"};
+    }
+    const auto bytes = static_cast<std::uint64_t>(pcap_dump_ftell64(file.get()));
+    if (bytes < recording.most_bytes / 2) continue;
+    file.reset();
+    std::error_code error;
+    std::filesystem::rename(recording.path, recording.older(), error);
+    file.reset(error ? nullptr : pcap_dump_open(handle.get(), recording.path.c_str()));
+    if (!file) return InputError{"--recording " + recording.path, "cannot be begun anew"};
   }
   return packets;
 }

@@ -75,6 +75,7 @@ std::vector<std::string> profiles_of(const Product& product) {
 
 void find_presets(const std::vector<std::string>& profiles, const Request& request,
                   Report& report) {
+  report.looked_for_presets = true;
   conform::RankingRequest ranking{report.conversation, request.until_ns, {}, {}};
   ranking.each = std::chrono::milliseconds{10'000};
   for (const std::string& name : profiles) {

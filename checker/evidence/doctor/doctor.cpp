@@ -169,9 +169,9 @@ const char* name_of(Health health) {
   return "";
 }
 
-Result<Report> diagnose(const Conversation& conversation, const Request& request) {
+Report examine(const Conversation& conversation, std::int64_t until_ns) {
   Report report{conversation};
-  report.counting = capture::count(conversation, request.until_ns);
+  report.counting = capture::count(conversation, until_ns);
   const capture::Counting& counting = report.counting;
   report.products = products_of(conversation.topology);
   report.failure_free = failure_free(conversation.topology, counting);
@@ -186,6 +186,12 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
   judge(report);
   report.causes = causes(conversation, counting, report.failure_free);
   report.heard = who_heard_whom(conversation);
+  report.no_advice = "it was not asked for";
+  return report;
+}
+
+Result<Report> diagnose(const Conversation& conversation, const Request& request) {
+  Report report = examine(conversation, request.until_ns);
   if (report.products.empty()) return report;
   const std::vector<std::string> profiles = profiles_of(report.products.front());
   find_presets(profiles, request, report);
@@ -196,9 +202,8 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
   } else if (report.has_server) {
     report.no_advice = "captures with a Discovery Server are not predicted yet";
   } else if (request.advise) {
+    report.no_advice.clear();
     if (auto error = advise(profiles, request, report)) return *std::move(error);
-  } else {
-    report.no_advice = "it was not asked for";
   }
   return report;
 }

@@ -86,6 +86,7 @@ struct Report {
   std::string why_unknown{};
   std::vector<Product> products{};     ///< that of the most participants first
   std::vector<std::string> presets{};  ///< that explain every message; may be empty
+  bool looked_for_presets = false;
   model::Counts failure_free{};
   /// Announcements after discovery was complete: they go on forever, and are no part of it.
   std::uint64_t later_announcements = 0;
@@ -111,11 +112,18 @@ struct Report {
   }
 };
 
-/// An error if the request names an unknown profile.
+/// What the capture alone says: no preset, no advice.
+[[nodiscard]] Report examine(const capture::Conversation& conversation,
+                             std::int64_t until_ns = INT64_MAX);
+
+/// All of it. An error if the request names an unknown profile.
 [[nodiscard]] model::config::Result<Report> diagnose(const capture::Conversation& conversation,
                                                      const Request& request);
 
 [[nodiscard]] report::Document document_of(const Report& report, const Request& request);
+/// What `watch` shows at the instant `now_ns` (as the capture counts time): the answer, who is
+/// there, and the messages of the second before, of the capture, and of a failure-free discovery.
+[[nodiscard]] report::Document glance_at(const Report& report, std::int64_t now_ns);
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report);
 [[nodiscard]] nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions);
 

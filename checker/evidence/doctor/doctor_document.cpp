@@ -93,6 +93,7 @@ report::Facts who(const Report& report) {
   if (report.has_server) {
     facts.rows.emplace_back("discovers", "with a Discovery Server (PARTICIPANT_TYPE of DATA(p))");
   }
+  if (!report.looked_for_presets) return facts;
   facts.rows.emplace_back(
       "behaves as", report.presets.empty()
                         ? "no shipped profile that could be held against it explains every message"
@@ -123,6 +124,19 @@ Section messages(const Report& report) {
         grouped(report.later_announcements));
   }
   return {"What was sent", "messages", {std::move(table)}};
+}
+
+/// Events of each class in the second before `now_ns`.
+model::Counts of_last_second(const Report& report, std::int64_t now_ns) {
+  constexpr std::int64_t second = 1'000'000'000;
+  model::Counts counts;
+  const std::vector<capture::Event>& events = report.conversation.events;
+  for (std::size_t k = report.counting.classes.size(); k-- > 0;) {
+    const bool is_later = events[k].time_ns > now_ns;
+    if (!is_later && events[k].time_ns <= now_ns - second) break;
+    if (!is_later && report.counting.classes[k]) ++counts[*report.counting.classes[k]];
+  }
+  return counts;
 }
 
 Section why(const Report& report) {
@@ -225,6 +239,34 @@ report::Document document_of(const Report& report, const Request& request) {
   document.blocks.emplace_back(participants(report.conversation), report::Audience::verbose);
   document.blocks.emplace_back(unknowns(report));
   document.complete = !report.interrupted;
+  return document;
+}
+
+report::Document glance_at(const Report& report, std::int64_t now_ns) {
+  report::Document document;
+  document.title = "stormproof watch";
+  document.tone = tone_of(report.health);
+  document.answer = answer(report);
+  document.blocks.emplace_back(who(report));
+  Table table{{{"messages"},
+               {"last second", to_the_right},
+               {"captured", to_the_right},
+               {"failure-free", to_the_right},
+               {"amplification", to_the_right}},
+              {}};
+  const auto row = [&](std::string name, std::uint64_t last, std::uint64_t sent,
+                       std::uint64_t needed) {
+    table.rows.push_back({{std::move(name), grouped(last), grouped(sent), grouped(needed),
+                           report::ratio(static_cast<double>(sent), static_cast<double>(needed))}});
+  };
+  const model::Counts last = of_last_second(report, now_ns);
+  for (const model::MessageClass one : model::message_classes) {
+    row(std::string{words_of(one)}, last[one], report.counting.counts[one],
+        report.failure_free[one]);
+  }
+  row("total", last.total(), report.counting.counts.total(), report.failure_free.total());
+  document.blocks.emplace_back(std::move(table));
+  if (!report.causes.empty()) document.blocks.emplace_back(why(report));
   return document;
 }
 

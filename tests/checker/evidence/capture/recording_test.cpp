@@ -48,6 +48,29 @@ TEST(Recording, KeepsWhatPassesTheInterface) {
   EXPECT_TRUE(opened->damage().empty()) << opened->damage();
 }
 
+TEST(Recording, ARingKeepsTheNewestPacketsInTwoFiles) {
+  constexpr std::uint64_t most_bytes = 2000;
+  const Recording ring{"lo", model::Nanoseconds{2'000'000'000}, file(), most_bytes};
+  std::filesystem::remove(ring.older());
+  std::uint64_t seen = 0;
+  const auto recorded = record(ring, [&](std::uint64_t packets) {
+    seen = packets;
+    for (int k = 0; k < 5; ++k) send_one();
+    return packets < 100;
+  });
+  if (!recorded) return;  // as above
+  EXPECT_EQ(*recorded, seen);
+  std::uint64_t kept = 0;
+  for (const std::string& name : {ring.older(), ring.path}) {
+    auto opened = CaptureFile::open(name);
+    ASSERT_TRUE(opened) << to_string(opened.error());
+    while (opened->next()) ++kept;
+    EXPECT_TRUE(opened->damage().empty()) << opened->damage();
+  }
+  EXPECT_GT(kept, 0U);
+  EXPECT_LT(kept, *recorded);
+}
+
 TEST(Recording, RefusesAnInterfaceThatIsNotThere) {
   const auto recorded = record({"nosuch0", model::Nanoseconds{1'000'000}, file()},
                                [](std::uint64_t) { return true; });

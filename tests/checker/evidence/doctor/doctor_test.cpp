@@ -174,5 +174,33 @@ TEST(Doctor, SaysWhoHeardWhom) {
   }
 }
 
+/// `watch` while a storm goes on: a glance counts what the second before it has, and a glance long
+/// after it nothing.
+TEST(Doctor, AGlanceCountsTheLastSecond) {
+  const capture::Conversation conversation = shipped("fastdds2611_ap150_np3_ne30_r0");
+  const Report report = examine(conversation);
+  EXPECT_EQ(report.health, Health::storm);
+  EXPECT_FALSE(report.looked_for_presets);
+  const auto last_second = [&](std::int64_t now_ns) {
+    const std::string text = to_text(glance_at(report, now_ns));
+    const auto row = text.find("\ntotal");
+    EXPECT_NE(row, std::string::npos) << text;
+    std::string number;
+    for (auto at = text.find_first_of("0123456789", row); text[at] != ' '; ++at) {
+      if (text[at] != ',') number += text[at];
+    }
+    return std::stoull(number);
+  };
+  const std::int64_t now_ns = conversation.first_ns + 600'000'000;
+  std::uint64_t expected = 0;
+  for (std::size_t k = 0; k < report.counting.classes.size(); ++k) {
+    if (report.counting.classes[k] && conversation.events[k].time_ns <= now_ns) ++expected;
+  }
+  ASSERT_GT(expected, 0U);
+  EXPECT_EQ(last_second(now_ns), expected);
+  EXPECT_EQ(last_second(conversation.first_ns + 3'600'000'000'000), 0U);
+  EXPECT_EQ(to_text(glance_at(report, now_ns)).find("behaves as"), std::string::npos);
+}
+
 }  // namespace doctor_test
 }  // namespace stormproof::doctor
