@@ -88,8 +88,8 @@ class Check {
     at({place.source, {}, place.writer}, [&](Ledger& ledger) {
       return explain_heartbeats(dialogue_, writer, sedp, request_.bounds, heartbeat_timer_, ledger);
     });
-    const std::set<std::size_t> to_everybody =
-        sent_to_everybody(dialogue_, messages_of(dialogue_, place.source), request_.bounds);
+    const std::set<std::size_t> to_everybody = sent_to_everybody(
+        dialogue_, messages_of(dialogue_, place.source, request_.bounds), request_.bounds);
     const WriterContext context{dialogue_,
                                 sedp,
                                 request_.bounds,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "checker/evidence/conform/requests.hpp"
+#include "checker/evidence/conform/words.hpp"
 
 namespace stormproof::conform {
 
@@ -46,6 +47,8 @@ bool same_content(const Message& a, const Message& b) {
          });
 }
 
+bool is_asked_for(const Message& message) { return message.has_data() && !message.is_pushed; }
+
 bool can_be_copy(const Message& message, const Message& copy) {
   return !message.is_named && !copy.is_named &&
          std::ranges::find(message.relations, copy.relations.front()) == message.relations.end() &&
@@ -59,20 +62,26 @@ bool Message::has_data() const {
                              [](const MessagePart& part) { return part.descriptor.has_value(); });
 }
 
-std::vector<Message> messages_of(const Dialogue& dialogue, std::size_t participant) {
+std::vector<Message> messages_of(const Dialogue& dialogue, std::size_t participant,
+                                 const Bounds& bounds) {
   std::vector<Message> copies;
   for (std::size_t r = 0; r < dialogue.relations.size(); ++r) {
     if (dialogue.relations[r].place.source == participant) collect(dialogue, r, copies);
   }
   std::ranges::sort(copies, {}, [](const Message& one) { return one.first_event.front(); });
+  const std::int64_t same_instant = capture_resolution_ns - 1;
+  const std::int64_t within = std::min(copies_within_ns, bounds.most_send_lag_ns + same_instant);
   std::vector<Message> messages;
   /// By writer: its last message, and when its last copy was captured.
   std::map<capture::EntityId, std::pair<std::size_t, std::int64_t>> last;
   for (Message& copy : copies) {
     const auto known = last.find(copy.writer);
     copy.may_be_copy = known != last.end() && can_be_copy(messages[known->second.first], copy);
-    if (copy.may_be_copy && copy.time_ns - known->second.second <= copies_within_ns) {
+    if (copy.may_be_copy && copy.time_ns - known->second.second <= within) {
       Message& message = messages[known->second.first];
+      // What was just created is pushed once; what is asked for may be sent twice.
+      const bool is_once = !is_asked_for(copy) || !is_asked_for(message);
+      if (!is_once && copy.time_ns - known->second.second > same_instant) ++message.most;
       message.relations.push_back(copy.relations.front());
       message.first_event.push_back(copy.first_event.front());
       message.is_pushed |= copy.is_pushed;

@@ -13,7 +13,7 @@ PiggybackBudget::PiggybackBudget(const Dialogue& dialogue, const WriterRelations
       threshold_{sedp.piggyback_threshold_bytes.count()},
       writer_{writer.place().writer},
       same_host_{dialogue, writer.place().source, sedp, bounds},
-      messages_{messages_of(dialogue, writer.place().source)} {}
+      messages_{messages_of(dialogue, writer.place().source, bounds)} {}
 
 bool PiggybackBudget::charge_next() {
   const Message& message = messages_[message_];
@@ -30,8 +30,8 @@ bool PiggybackBudget::charge_next() {
     const std::int64_t charge = is_cumulative_ && !message.is_pushed
                                     ? before_message() + message_bytes_
                                     : fastdds::message_header_bytes + bytes;
-    spent_ += charge;
-    message_spent_ += charge;
+    spent_ += message.most * charge;
+    message_spent_ += message.most * charge;
     last_data_ns_ = message.time_ns;
     last_data_is_pushed_ = message.is_pushed;
   }
@@ -43,7 +43,7 @@ bool PiggybackBudget::charge_next() {
 }
 
 void PiggybackBudget::end_message(const Message& message) {
-  if (!message.is_pushed) sent_bytes_ += message.payload_bytes;
+  if (!message.is_pushed) sent_bytes_ += message.most * message.payload_bytes;
   if (message.has_data() && !message.is_pushed && !message.may_be_copy)
     surely_sent_ += message_bytes_;
   ++message_;

@@ -53,6 +53,17 @@ TEST(SimulatedScenario, ShippedOnesConform) {
   expect_conforming(in_order(scenario("three-hosts"), "fastdds-2.9.1"));
 }
 
+/// The same DATA to two readers and, 14 µs later, to two others: two messages, charged twice.
+TEST(SimulatedScenario, MessagesThatSayTheSameAreNotCopies) {
+  const model::Scenario alike =
+      scenario(STORMPROOF_SOURCE_DIR "/tests/checker/evidence/conform/alike_messages.yaml");
+  expect_conforming(alike);
+  const Simulated run = simulated(alike);
+  Bounds bounds = exact_bounds(alike, run);
+  bounds.most_send_lag_ns = 50'000'000;
+  EXPECT_NE(conformance(run.conversation, alike.dds, bounds).verdict, Verdict::does_not_conform);
+}
+
 /// A HEARTBEAT to all readers names its reader while there is only one, though others come later.
 TEST(SimulatedScenario, ALateReaderDoesNotDisturb) {
   model::Scenario late;
