@@ -1,7 +1,11 @@
-// The scripts for bash and zsh are a table of words by command, made from the parser, and a
-// function that looks up the words of the longest command that the line begins with. Names of
-// shipped files are asked of the program when they are needed. fish wants one line for each word.
+// The scripts for bash and zsh are tables made from the parser, words by command and kinds of names
+// by command and option, and a function that looks up the longest command that the line begins
+// with. Names of shipped files are asked of the program when they are needed. fish wants one line
+// for each word.
 #include "checker/cli/completion.hpp"
+
+#include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -10,23 +14,52 @@ namespace stormproof::cli {
 
 namespace {
 
-constexpr const char* function = R"bash(
+/// What `stormproof list KIND --names` offers behind a command or an option.
+struct Names {
+  std::string_view behind;
+  std::string_view kind;
+};
+constexpr Names all_names[] = {
+    {"simulate", "scenarios"},    {"check", "scenarios"},       {"fuzz", "scenarios"},
+    {"sensitivity", "scenarios"}, {"tune", "scenarios"},        {"sweep", "grids"},
+    {"diff", "profiles"},         {"profile show", "profiles"}, {"profile lint", "profiles"},
+    {"draw", "machines"},         {"--dds", "profiles"},        {"--compare", "profiles"},
+    {"--preset", "profiles"},     {"--wireless", "wireless"},   {"--over", "scenarios"},
+    {"--policy", "policies"},     {"--property", "properties"}, {"--mutant", "mutants"}};
+
+/// Empty: none.
+std::string_view names_behind(std::string_view command_or_option) {
+  for (const Names& one : all_names) {
+    if (one.behind == command_or_option) return one.kind;
+  }
+  return {};
+}
+
+/// An entry of the table of a shell, as `line` has it, for each command and option.
+void add_names(const char* line, std::string& script) {
+  for (const Names& one : all_names) {
+    const bool is_option = one.behind.starts_with('-');
+    const std::string key =
+        is_option ? std::string{one.behind} : fmt::format("stormproof {} ", one.behind);
+    script += fmt::format(fmt::runtime(line), key, one.kind);
+  }
+}
+
+constexpr const char* bash_function = R"bash(
 _stormproof() {
-  local current="${COMP_WORDS[COMP_CWORD]}" path="stormproof " word
+  local current="${COMP_WORDS[COMP_CWORD]}" at="stormproof " word kind
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    [[ -n "${_stormproof_words["$path$word "]+x}" ]] || break
-    path+="$word "
+    [[ -n "${_stormproof_words["$at$word "]+x}" ]] || break
+    at+="$word "
   done
-  COMPREPLY=($(compgen -W "${_stormproof_words["$path"]}" -- "$current"))
-  case "$path$current" in
-    *" -"*) return ;;
-    *" simulate "* | *" check "* | *" fuzz "* | *" sensitivity "* | *" tune "*) word=scenarios ;;
-    *" sweep "*) word=grids ;;
-    *" diff "* | *" profile "?*" "*) word=profiles ;;
-    *" draw "*) word=machines ;;
-    *) word="" ;;
-  esac
-  [[ -z "$word" ]] || COMPREPLY+=($(compgen -W "$("${COMP_WORDS[0]}" list "$word" --names \
+  kind="${_stormproof_names["${COMP_WORDS[COMP_CWORD-1]}"]-}"
+  COMPREPLY=()
+  if [[ -z "$kind" ]]; then
+    COMPREPLY=($(compgen -W "${_stormproof_words["$at"]}" -- "$current"))
+    [[ "$current" != -* ]] || return
+    kind="${_stormproof_names["$at"]-}"
+  fi
+  [[ -z "$kind" ]] || COMPREPLY+=($(compgen -W "$("${COMP_WORDS[0]}" list "$kind" --names \
     2>/dev/null)" -- "$current"))
   COMPREPLY+=($(compgen -f -- "$current"))
 }
@@ -34,22 +67,17 @@ complete -o filenames -F _stormproof stormproof
 )bash";
 
 constexpr const char* zsh_function = R"zsh(
-local path='stormproof ' word key kind=''
-for word in ${words[2,CURRENT-1]}; do
-  key="$path$word "
-  (( ${+words_of[$key]} )) || break
-  path="$key"
-done
-compadd -- ${=words_of[$path]}
-case "$path" in
-  'stormproof simulate ' | 'stormproof check ' | 'stormproof fuzz ' | 'stormproof sensitivity ' \
-    | 'stormproof tune ') kind=scenarios ;;
-  'stormproof sweep ') kind=grids ;;
-  'stormproof diff ' | 'stormproof profile '?*) kind=profiles ;;
-  'stormproof draw ') kind=machines ;;
-esac
-[[ -z "$kind" || "${words[CURRENT]}" == -* ]] \
-  || compadd -- ${(f)"$(${words[1]} list $kind --names 2>/dev/null)"}
+local at='stormproof ' word key kind="${names_of[${words[CURRENT-1]}]}"
+if [[ -z "$kind" ]]; then
+  for word in ${words[2,CURRENT-1]}; do
+    key="$at$word "
+    (( ${+words_of[$key]} )) || break
+    at="$key"
+  done
+  compadd -- ${=words_of[$at]}
+  [[ "${words[CURRENT]}" == -* ]] || kind="${names_of[$at]}"
+fi
+[[ -z "$kind" ]] || compadd -- ${(f)"$(${words[1]} list $kind --names 2>/dev/null)"}
 _files
 )zsh";
 
@@ -78,8 +106,14 @@ std::string described(const std::string& help) {
   return text + "'";
 }
 
-/// What fish offers behind `above`, the names of the commands so far.
-void add_lines(const CLI::App& command, const std::string& above, std::string& script) {
+std::string names_for_fish(std::string_view kind) {
+  return kind.empty() ? "" : fmt::format(" -a '(stormproof list {} --names 2>/dev/null)'", kind);
+}
+
+/// What fish offers for the command `path` when the condition `above` holds: its names have been
+/// typed.
+void add_lines(const CLI::App& command, const std::string& path, const std::string& above,
+               std::string& script) {
   const auto subcommands = command.get_subcommands({});
   std::string names;
   for (const CLI::App* below : subcommands) names += " " + below->get_name();
@@ -93,13 +127,17 @@ void add_lines(const CLI::App& command, const std::string& above, std::string& s
   }
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) {
-      script += fmt::format("complete -c stormproof -n '{}' -l {}{} -d {}\n", when, name,
+      script += fmt::format("complete -c stormproof -n '{}' -l {}{}{} -d {}\n", when, name,
                             option->get_expected_max() > 0 ? " -r" : "",
+                            names_for_fish(names_behind("--" + name)),
                             described(option->get_description()));
     }
   }
+  if (const std::string_view kind = names_behind(path); !kind.empty()) {
+    script += fmt::format("complete -c stormproof -n '{}'{}\n", when, names_for_fish(kind));
+  }
   for (const CLI::App* below : subcommands) {
-    add_lines(*below,
+    add_lines(*below, path.empty() ? below->get_name() : path + " " + below->get_name(),
               (above.empty() ? "" : above + "; and ") + "__fish_seen_subcommand_from " +
                   below->get_name(),
               script);
@@ -111,9 +149,10 @@ void add_lines(const CLI::App& command, const std::string& above, std::string& s
 std::string bash_completion(const CLI::App& program) {
   std::string script =
       "# Completes stormproof in bash: source <(stormproof completion bash)\n"
-      "declare -gA _stormproof_words\n";
+      "declare -gA _stormproof_words _stormproof_names\n";
   add_words(program, "stormproof ", "_stormproof_words[\"{}\"]=\"{}\"\n", script);
-  return script + function;
+  add_names("_stormproof_names[\"{}\"]={}\n", script);
+  return script + bash_function;
 }
 
 std::string zsh_completion(const CLI::App& program) {
@@ -122,12 +161,14 @@ std::string zsh_completion(const CLI::App& program) {
       "# Completes stormproof in zsh: stormproof completion zsh > FOLDER_OF_FPATH/_stormproof\n"
       "local -A words_of=(\n";
   add_words(program, "stormproof ", "  '{}' '{}'\n", script);
+  script += ")\nlocal -A names_of=(\n";
+  add_names("  '{}' '{}'\n", script);
   return script + ")" + zsh_function;
 }
 
 std::string fish_completion(const CLI::App& program) {
   std::string script = "# Completes stormproof in fish: stormproof completion fish | source\n";
-  add_lines(program, "", script);
+  add_lines(program, "", "", script);
   return script;
 }
 
