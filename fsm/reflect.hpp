@@ -80,14 +80,24 @@ constexpr std::size_t position(TypeList<Ts...>) {
 
 }  // namespace detail
 
-/// The unqualified name of a type, for states, events, guards and actions: `U`, `AckNackReceived`.
+namespace detail {
 template <class T>
-constexpr std::string_view name_of() {
+constexpr std::string_view find_name() {
   const std::string_view text = __PRETTY_FUNCTION__;
   const auto begin = text.find("T = ") + 4;
   const std::string_view qualified = text.substr(begin, text.find_first_of(";]", begin) - begin);
   const auto last = qualified.rfind("::");
   return last == std::string_view::npos ? qualified : qualified.substr(last + 2);
+}
+/// Found when the program is compiled: observers ask for it at every transition.
+template <class T>
+inline constexpr std::string_view found_name = find_name<T>();
+}  // namespace detail
+
+/// The unqualified name of a type, for states, events, guards and actions: `U`, `AckNackReceived`.
+template <class T>
+constexpr std::string_view name_of() {
+  return detail::found_name<T>;
 }
 
 namespace detail {
