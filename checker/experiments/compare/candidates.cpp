@@ -108,19 +108,19 @@ class Kitchen {
              "",
              Placement::one_process_per_host},
             {"cyclone-unicast",
-             "Cyclone, spdp",
+             "Cyclone spdp",
              "rmw_cyclonedds_cpp; what it chooses on Wi-Fi",
              cyclone_,
              {"allow_multicast=spdp"},
              "cyclone-unicast"},
             {"cyclone-multicast",
-             "Cyclone, multicast",
+             "Cyclone multicast",
              "the same with AllowMulticast true",
              cyclone_,
              {"allow_multicast=true"},
              "cyclone-multicast"},
             {"cyclone-heartbeat",
-             "Cyclone, HEARTBEAT 1 s",
+             "Cyclone HEARTBEAT 1 s",
              "spdp with HeartbeatInterval 1 s instead of 100 ms",
              cyclone_,
              {"allow_multicast=spdp", "sedp.heartbeat_interval=1s"},
@@ -151,15 +151,7 @@ class Kitchen {
     if (recipe.preset == server_ && version_in(server_) != version_in(simple_)) {
       made.note = fmt::format("that of {}: there is no profile of another version", server_);
     }
-    skip_what_changes_nothing(made);
     return made;
-  }
-
-  void skip_what_changes_nothing(Candidate& made) const {
-    const bool composes = made.placement == Placement::one_process_per_host;
-    if (composes && size_of(all_.scenario.deployment, Grows::participants) == 1) {
-      made.skipped = "every robot has one participant as it is";
-    }
   }
 
   /// The scenario's own profile is one of the candidates, or stands before them.
@@ -223,6 +215,9 @@ Instance instance_of(const Candidates& all, const Candidate& candidate, Grows wh
     case Placement::as_it_is:
       break;
     case Placement::one_process_per_host:
+      if (size_of(scenario.deployment, Grows::participants) == 1) {
+        instance.refused = "every robot has one participant as it is";
+      }
       scenario.deployment = composed(scenario.deployment);
       break;
     case Placement::server_on_own_host:

@@ -11,6 +11,7 @@
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/verification/check/next_steps.hpp"
 
 namespace stormproof::compare {
 
@@ -227,9 +228,10 @@ class Builder {
     }
     document_.blocks.emplace_back(std::move(table));
     if (!has_files) {
-      document_.next.push_back(
-          {report::command_line({"compare-discovery", request_.scenario, "--export", "ways"}),
-           "the files to deploy each of them"});
+      document_.next.push_back({report::program() + " compare-discovery " +
+                                    checker::words_of(request_.scenario, request_.overrides) +
+                                    " --export ways",
+                                "the files to deploy each of them"});
     }
   }
 

@@ -44,9 +44,11 @@ TEST(CompareDiscovery, EveryWayRunsTheSameSchedules) {
   const Report report = compared(request);
   EXPECT_EQ(report.sizes, (std::vector<std::uint32_t>{2, 3}));
   EXPECT_EQ(report.rows.size(), 10U);
-  EXPECT_FALSE(row_of(report, "one-process").candidate.skipped.empty());
   for (const Row& row : report.rows) {
-    if (!row.candidate.skipped.empty()) continue;
+    if (row.candidate.id == "one-process") {  // there is one as it is
+      EXPECT_FALSE(row.cells.front().not_run.empty());
+      continue;
+    }
     for (const Cell& cell : row.cells) {
       ASSERT_EQ(cell.runs.size(), 2U) << row.candidate.id << cell.not_run;
       EXPECT_EQ(cell.runs[1].seed, 1U);
@@ -101,6 +103,18 @@ TEST(CompareDiscovery, WhatBreaksIsNotRunAtLargerSizes) {
   EXPECT_FALSE(server.cells[1].not_run.empty());
   EXPECT_TRUE(server.cells[1].runs.empty());
   EXPECT_FALSE(row_of(report, "simple").breaks_at);
+}
+
+TEST(CompareDiscovery, OneProcessMattersWhereThereAreSeveral) {
+  Request request = request_of({});
+  request.grows = Grows::participants;
+  request.sizes = {3};
+  request.samples = 1;
+  const Row one = row_of(compared(request), "one-process");
+  EXPECT_FALSE(one.cells.front().not_run.empty());
+  ASSERT_EQ(one.cells.back().runs.size(), 1U) << one.cells.back().not_run;
+  // 3 nodes with 2 endpoints of the user and 15 of their own each, and 2 of the participant.
+  EXPECT_EQ(one.cells.back().runs.front().counts.initial_data, 2 * (3 * (2 + 15U) + 2));
 }
 
 TEST(CompareDiscovery, StaticPeersHavePortsForAll) {
