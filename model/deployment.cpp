@@ -5,25 +5,23 @@
 #include <random>
 #include <set>
 
+#include "model/nodes.hpp"
+
 namespace stormproof::model {
 
 Deployment Deployment::homogeneous(std::uint32_t hosts, std::uint32_t participants_per_host,
                                    std::uint32_t endpoints_per_participant,
                                    std::uint32_t nodes_per_participant) {
-  Deployment deployment;
+  Deployment nodes;
   const std::uint32_t subscriptions = endpoints_per_participant / 2;
   const std::uint32_t publications = endpoints_per_participant - subscriptions;
   for (std::uint32_t host = 0; host < hosts; ++host) {
-    for (std::uint32_t left = participants_per_host; left > 0;) {
-      const std::uint32_t nodes = std::min(left, nodes_per_participant);
-      left -= nodes;
-      deployment.participants.push_back(
-          {HostId{host}, nodes * publications + (nodes - 1) * publications_of_a_node,
-           nodes * subscriptions + (nodes - 1) * subscriptions_of_a_node, Nanoseconds{0},
-           Nanoseconds{0}});
+    for (std::uint32_t k = 0; k < participants_per_host; ++k) {
+      nodes.participants.push_back(
+          {HostId{host}, publications, subscriptions, Nanoseconds{0}, Nanoseconds{0}});
     }
   }
-  return deployment;
+  return sharing_participants(nodes, nodes_per_participant);
 }
 
 void Deployment::draw_schedule(std::uint64_t seed) {

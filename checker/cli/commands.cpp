@@ -8,6 +8,7 @@ void declare_commands(Frame& frame) {
   declare_simulate(frame);
   declare_check(frame);
   declare_diff(frame);
+  declare_compare_discovery(frame);
   declare_fuzz(frame);
   declare_sensitivity(frame);
   declare_sweep(frame);

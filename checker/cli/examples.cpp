@@ -38,6 +38,11 @@ constexpr OfCommand all_examples[] = {
        {"stormproof diff specs/vendor/fastdds/humble-default.xml "
         "specs/vendor/fastdds/large-send-buffer.xml --over three-hosts --no-check",
         "two files of a vendor, and the smallest scenario that tells them apart"}}}},
+    {"compare-discovery",
+     {{{"stormproof compare-discovery smallest --set dds=humble --start-jitter 20ms --samples 3",
+        "Discovery Server, static peers, Cyclone: which is best here, and how far does each go?"},
+       {"stormproof compare-discovery smallest --set dds=humble --sizes 3 --export ways",
+        "and the files to deploy each of them"}}}},
     {"fuzz",
      {{{"stormproof fuzz smallest --runs 20 --loss 2%", "does it hold when packets are lost?"},
        {"stormproof fuzz three-hosts --runs 10 --limit completion=60s --start-jitter 100ms",

@@ -112,7 +112,7 @@ TEST_P(Commands, HaveExamplesThatRun) {
 INSTANTIATE_TEST_SUITE_P(Help, Commands, testing::ValuesIn(commands()), [](const auto& tested) {
   std::string name = tested.param;
   for (char& c : name) {
-    if (c == ' ') c = '_';
+    if (c == ' ' || c == '-') c = '_';
   }
   return name;
 });

@@ -22,12 +22,17 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Errors = std::vector<std::string>;
 
-const char* const verbs[] = {
-    "simulate", "check",    "fuzz",         "sensitivity",  "tune",
-    "diff",     "coverage", "conform",      "validate",     "capture summarize",
-    "replay",   "sweep",    "profile show", "profile lint", "reproduce",
-    "mutate",   "draw",     "properties",   "list",         "doctor",
-    "watch"};
+const char* const verbs[] = {"simulate",     "check",
+                             "fuzz",         "sensitivity",
+                             "tune",         "diff",
+                             "coverage",     "conform",
+                             "validate",     "capture summarize",
+                             "replay",       "sweep",
+                             "profile show", "profile lint",
+                             "reproduce",    "mutate",
+                             "draw",         "properties",
+                             "list",         "doctor",
+                             "watch",        "compare-discovery"};
 
 std::string output_of(const std::string& arguments) {
   FILE* pipe = popen((STORMPROOF_PROGRAM " " + arguments).c_str(), "r");

@@ -21,11 +21,22 @@ start_capture() { # <host> <folder> : what the host sends, whole packets
   wait_for "the capture on host $1" 20 grep -qs '^File: ' "$2/capture-$1.log"
 }
 
+start_server() { # <folder> : on host 0, there before everybody else
+  ip netns exec "$(namespace 0)" env -u FASTRTPS_DEFAULT_PROFILES_FILE -C "$1" "$participant" \
+    --serves 1 --discovery "$discovery" --server "${addresses[0]}" --host 0 --index 0 --np "$np" \
+    --ne 0 --address "${addresses[0]}" --peer "${addresses[1]}" --start "$1/start" \
+    --report "$1/server" >"$1/server.log" 2>&1 </dev/null &
+  participant_pids+=("$!")
+  wait_for "the start of the server" 20 test -e "$1/server.ready"
+  rm "$1/server.ready"
+}
+
 start_participants() { # <folder>
   local host index log=$1/participants.log
   # No profiles but the bed's: neither of the environment nor of the folder it is started in.
   mkdir "$1/participants"
   participant_pids=()
+  [[ $discovery != server && $discovery != super_client ]] || start_server "$1"
   for host in 0 1; do
     for ((index = 0; index < np; ++index)); do
       ip netns exec "$(namespace "$host")" env -u FASTRTPS_DEFAULT_PROFILES_FILE \
@@ -33,6 +44,7 @@ start_participants() { # <folder>
         --ne "$ne" --address "${addresses[host]}" --peer "${addresses[1 - host]}" \
         --send-buffer "$send_buffer" --create-over-us $((create_over_ns / 1000)) \
         --simultaneous "$simultaneous" --start "$1/start" \
+        --discovery "$discovery" --server "${addresses[0]}" \
         --report "$1/participants/$host-$index.json" >>"$log" 2>&1 </dev/null &
       participant_pids+=("$!")
     done
@@ -114,6 +126,7 @@ write_record() { # <folder> <completion>
   cat >"$1/run.json" <<END
 {
   "link": "$link",
+  "discovery": "$discovery",
   "participants_per_host": $np,
   "endpoints_per_participant": $ne,
   "simultaneous": $([[ $simultaneous == 1 ]] && echo true || echo false),

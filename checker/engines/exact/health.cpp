@@ -116,8 +116,10 @@ RunHealth health_of(const model::Scenario& scenario, const model::RunResult& res
     run.airtime = used(result) / airtime;
     run.stretch = static_cast<double>(run.took.count()) / airtime;
   }
-  if (model::traits_of(scenario.dds).has_server) {
-    // What a server relays is not sent once, so there is no open loop to compare with.
+  const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
+  if (traits.has_server || traits.writer == model::Writer::of_cyclone) {
+    // What a server relays is not sent once, so there is no open loop to compare with; nor is
+    // there one of Cyclone DDS.
     const auto needed = model::failure_free_reference(scenario).total();
     run.messages = static_cast<double>(result.counts.total()) / static_cast<double>(needed);
   }

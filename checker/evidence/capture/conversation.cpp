@@ -2,11 +2,13 @@
 // each datagram was.
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 
 #include <fmt/core.h>
 
 #include "checker/evidence/capture/capture_file.hpp"
 #include "checker/evidence/capture/events.hpp"
+#include "checker/evidence/capture/ip_packet.hpp"
 #include "checker/evidence/capture/ip_reassembly.hpp"
 #include "checker/evidence/capture/link_layer.hpp"
 #include "checker/evidence/capture/merge.hpp"
@@ -53,6 +55,27 @@ void add_datagram(const Datagram& datagram, Reading& reading) {
                                digest_of(datagram.payload)});
 }
 
+/// A packet on a port of Zenoh: TCP 7447, and UDP 7446, to which it scouts. Participants 18 of a
+/// host in domain 0 have these UDP ports, too, so what is RTPS is not one.
+bool is_of_zenoh(Bytes packet) {
+  constexpr std::uint8_t tcp = 6;
+  constexpr std::uint8_t udp = 17;
+  constexpr std::uint16_t links = 7447;
+  constexpr std::uint16_t scouting = 7446;
+  constexpr std::size_t udp_header = 8;
+  constexpr std::string_view rtps = "RTPS";
+  const auto ip = parse_ip(packet);
+  if (!ip || ip->offset > 0 || ip->payload.size() < udp_header) return false;
+  const Bytes payload = ip->payload;
+  const auto port = [&](std::size_t at) { return payload[at] << 8U | payload[at + 1]; };
+  if (ip->protocol == tcp) return port(0) == links || port(2) == links;
+  if (ip->protocol != udp || port(2) != scouting) return false;
+  const Bytes content = payload.subspan(udp_header);
+  return !std::equal(
+      rtps.begin(), rtps.end(), content.begin(),
+      content.begin() + static_cast<std::ptrdiff_t>(std::min(rtps.size(), content.size())));
+}
+
 /// False if the reading was interrupted.
 bool read_packets(CaptureFile& file, Reading& reading, const Progress& progress) {
   constexpr std::uint64_t packets_between_reports = 4096;
@@ -66,6 +89,11 @@ bool read_packets(CaptureFile& file, Reading& reading, const Progress& progress)
     reading.first_ns = std::min(reading.first_ns, packet->time_ns);
     reading.last_ns = std::max(reading.last_ns, packet->time_ns);
     const auto ip = ip_packet(packet->bytes, file.link_type());
+    if (ip && is_of_zenoh(*ip)) {
+      reading.remarks.add(
+          "packets of Zenoh, which is no RTPS",
+          fmt::format("{}, packet {}", file.name(), reading.captures.back().packets));
+    }
     const auto datagram = ip ? reassembly.add(*packet, *ip) : std::nullopt;
     if (datagram) add_datagram(*datagram, reading);
     if (++reading.packets % packets_between_reports == 0 && progress) {

@@ -109,16 +109,18 @@ model::config::Result<model::Scenario> with_channel(model::Scenario scenario,
 }  // namespace
 
 std::vector<Configuration> configurations(const std::vector<Observation>& rows) {
-  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::string, Channel>;
+  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::string, Channel,
+                         std::optional<std::uint32_t>>;
   std::map<Key, Configuration> found;
   for (const Observation& run : rows) {
-    Configuration& c =
-        found[Key{run.participants_per_host, run.endpoints, run.hosts, run.set, run.channel}];
+    Configuration& c = found[Key{run.participants_per_host, run.endpoints, run.hosts, run.set,
+                                 run.channel, run.peer_range}];
     c.set = run.set;
     c.hosts = run.hosts;
     c.participants_per_host = run.participants_per_host;
     c.endpoints = run.endpoints;
     c.channel = run.channel;
+    c.peer_range = run.peer_range;
     c.runs.push_back(run);
   }
   std::vector<Configuration> result;
@@ -163,6 +165,9 @@ model::config::Result<model::Scenario> scenario_of(const Configuration& configur
   if (!model::traits_of(scenario->dds).creates_endpoints_over_time && !schedule_wanted) {
     scenario = read("");
     if (!scenario) return scenario.error();
+  }
+  if (configuration.peer_range && scenario->dds.discovery == model::Discovery::static_peers) {
+    scenario->dds.peer_ports = *configuration.peer_range;
   }
   if (options.channel == ChannelSource::profile) return scenario;
   return with_channel(std::move(*scenario), configuration.channel);

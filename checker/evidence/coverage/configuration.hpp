@@ -18,6 +18,7 @@ struct Configuration {
   std::uint32_t participants_per_host = 0;  ///< N_P
   std::uint32_t endpoints = 0;              ///< N_E
   Channel channel;
+  std::optional<std::uint32_t> peer_range = {};  ///< ports of each host, of static peers
   std::vector<Observation> runs;
 
   [[nodiscard]] bool same_deployment(const Configuration& other) const {
@@ -50,7 +51,8 @@ struct ScenarioOptions {
   ChannelSource channel = ChannelSource::profile;
 };
 
-/// The scenario of a configuration. With `implementation: fastdds` it has a schedule to sample; the
+/// The scenario of a configuration; with static peers, announcements go to as many ports as were
+/// measured. With `implementation: fastdds` it has a schedule to sample; the
 /// paper's participants all start at 0, unless an override gives them a schedule.
 [[nodiscard]] model::config::Result<model::Scenario> scenario_of(const Configuration& configuration,
                                                                  const ScenarioOptions& options);

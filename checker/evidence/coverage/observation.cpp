@@ -185,6 +185,7 @@ Observation read_row(const Json& json, Row& row, const ReadOptions& options) {
   run.participants_per_host = row.count("N_P", 1, model::Deployment::max_participants);
   run.endpoints = row.count("N_E", 0, model::Deployment::max_endpoints);
   read_channel(row, run.channel);
+  if (row.has("peer_range")) run.peer_range = row.count("peer_range", 1, 1'000);
   read_counts(json, row, run);
   read_completion(json, row, options, run);
   run.start = row.range("start_ms");

@@ -45,6 +45,7 @@ struct Observation {
   std::uint32_t participants_per_host = 0;
   std::uint32_t endpoints = 0;  ///< user endpoints per participant
   Channel channel;
+  std::optional<std::uint32_t> peer_range;  ///< ports of each host, of static peers
   bool completed = true;
   /// By measure; of a run that did not complete these are lower bounds, the time limit for
   /// `completion`.

@@ -34,20 +34,31 @@ constexpr std::int64_t creation_ns = 2'500'000;
 /// Endpoints that every node of ROS 2 has: services of parameters, rosout, discovery info.
 constexpr std::int64_t defaults = 17;
 
-/// What stands for the library: the key of `dds`, and how it came about.
+/// What stands for the library: the value of `dds`, and how it came about.
 struct Library {
   std::string dds;
   std::string why;
+  std::string text = quoted_scalar(dds);  ///< as the file has it
 };
 
-/// "fastdds-2.6.11" → "fastdds-server-2.6.11".
-Result<Library> with_discovery(Library library, const System& system, const SpecPath& specs) {
+/// "fastdds-2.6.11" → "fastdds-server-2.6.11", or the profile with the way to discover beside it.
+Library with_discovery(Library library, const System& system, const SpecPath& specs) {
   if (system.discovery.empty()) return library;
-  library.dds.insert(library.dds.find('-') + 1, system.discovery + "-");
+  const bool is_static = system.discovery == "static";
+  std::string preset = library.dds;
+  preset.insert(preset.find('-') + 1, is_static ? "static-" : "server-");
   const auto names = specs.names(model::config::SpecKind::dds);
-  if (std::ranges::find(names, library.dds) != names.end()) return library;
-  return InputError{system.discovery == "server" ? "ROS_DISCOVERY_SERVER" : "ROS_STATIC_PEERS",
-                    fmt::format("no profile '{}' for it; choose one with --dds", library.dds)};
+  const bool is_shipped = std::ranges::find(names, preset) != names.end();
+  if (is_shipped) library.dds = preset;
+  const bool has_usual_ports = system.peer_ports == model::DdsProfile{}.peer_ports;
+  if (is_shipped && system.discovery != "super_client" && has_usual_ports) {
+    library.text = quoted_scalar(preset);
+    return library;
+  }
+  library.text =
+      fmt::format("{{base: {}, discovery: {}{}}}", library.dds, system.discovery,
+                  is_static ? fmt::format(", peer_ports: {}", system.peer_ports) : std::string{});
+  return library;
 }
 
 Result<Library> library_of(const System& system, const SpecPath& specs) {
@@ -117,6 +128,57 @@ std::string head(const System& system) {
   return text;
 }
 
+/// What rmw_fastrtps does with a range and peers (rmw_fastrtps_shared_cpp, participant.cpp), as far
+/// as one decides how participants of different hosts meet. A remark, or nothing.
+std::string take_range(System& system, const std::string& range, const std::string& peers) {
+  constexpr std::uint32_t ports_of_localhost = 32;
+  if (range.empty() && peers.empty()) return {};
+  if (range == "LOCALHOST" && !peers.empty()) {
+    system.discovery = "static";
+    system.peer_ports = ports_of_localhost;
+    return fmt::format("Announcements go to {} ports of each of ROS_STATIC_PEERS={}.",
+                       ports_of_localhost, peers);
+  }
+  if (range == "LOCALHOST") return "It discovers nobody on other hosts, unlike this scenario.";
+  if (range == "SYSTEM_DEFAULT") return "So ROS_STATIC_PEERS is not looked at.";
+  return peers.empty() ? std::string{}
+                       : "Announcements go by multicast and to these peers, too, which is not in "
+                         "this scenario.";
+}
+
+/// The variables that choose a way to discover, with a remark about each.
+std::optional<InputError> take_discovery(System& system, bool is_cyclone,
+                                         const std::function<std::string(const char*)>& value_of) {
+  const auto remark = [&](const char* name, const std::string& what) {
+    const std::string setting = value_of(name);
+    if (setting.empty()) return;
+    system.remarks.push_back(fmt::format("{}={} is set where this was drafted.{}{}", name, setting,
+                                         what.empty() ? "" : " ", what));
+  };
+  const std::string range = value_of("ROS_AUTOMATIC_DISCOVERY_RANGE");
+  if (range == "OFF") {
+    return InputError{"ROS_AUTOMATIC_DISCOVERY_RANGE=OFF",
+                      "with it nobody is discovered, so there is nothing to draft"};
+  }
+  if (is_cyclone) {
+    for (const char* name :
+         {"ROS_DISCOVERY_SERVER", "ROS_STATIC_PEERS", "ROS_AUTOMATIC_DISCOVERY_RANGE"}) {
+      remark(name, "It is not in this scenario.");
+    }
+    return std::nullopt;
+  }
+  const std::string about_range = take_range(system, range, value_of("ROS_STATIC_PEERS"));
+  remark("ROS_STATIC_PEERS", about_range);
+  remark("ROS_AUTOMATIC_DISCOVERY_RANGE", about_range);
+  if (value_of("ROS_DISCOVERY_SERVER").empty()) return std::nullopt;
+  const std::string super = value_of("ROS_SUPER_CLIENT");
+  const bool is_super = super == "TRUE" || super == "True" || super == "true" || super == "1";
+  system.discovery = is_super ? "super_client" : "server";
+  remark("ROS_DISCOVERY_SERVER", is_super ? "With ROS_SUPER_CLIENT all are super clients."
+                                          : "All are clients of one server on the first host.");
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<System> from_environment(System system,
@@ -147,17 +209,7 @@ Result<System> from_environment(System system,
     system.dds = file;
     system.remarks.push_back(fmt::format("The profile is the file that {} names.", name));
   }
-  if (!is_cyclone && !value("ROS_STATIC_PEERS").empty()) system.discovery = "static";
-  if (!is_cyclone && !value("ROS_DISCOVERY_SERVER").empty()) system.discovery = "server";
-  for (const auto& [name, discovery] :
-       {std::pair{"ROS_DISCOVERY_SERVER", "server"}, std::pair{"ROS_STATIC_PEERS", "static"},
-        std::pair{"ROS_AUTOMATIC_DISCOVERY_RANGE", "range"}}) {
-    const std::string setting = value(name);
-    if (setting.empty()) continue;
-    system.remarks.push_back(
-        fmt::format("{}={} is set where this was drafted{}.", name, setting,
-                    system.discovery == discovery ? "" : ", and is not in this scenario"));
-  }
+  if (auto error = take_discovery(system, is_cyclone, value)) return *std::move(error);
   return system;
 }
 
@@ -180,7 +232,7 @@ Result<std::string> draft(const System& system, const SpecPath& specs) {
       system.participants, system.endpoints);
   text += schedule(system, over_time);
   text += comment(library->why);
-  text += fmt::format("dds: {}\n", quoted_scalar(library->dds));
+  text += fmt::format("dds: {}\n", library->text);
   text += fmt::format("wireless: {}        # `stormproof list wireless` shows all\n",
                       quoted_scalar(system.wireless));
   text += "time_limit: 120s                    # a run that takes longer did not complete\n";

@@ -22,17 +22,19 @@ struct System {
   std::string ros = "humble";      ///< a distribution of specs/distributions.yaml
   std::string rmw = "fastrtps";    ///< or "cyclonedds"
   std::string dds{};               ///< a profile or the vendor's file instead of both; may be empty
-  std::string discovery{};         ///< of Fast DDS: "server", "static"; empty: simple
+  std::string discovery{};       ///< of Fast DDS: "server", "super_client", "static"; empty: simple
+  std::uint32_t peer_ports = 4;  ///< of each host, with "static"
   std::string wireless = "wifi-80211n";
   std::vector<std::string> remarks{};  ///< written at the top, one line each
 };
 
 /// The environment of a process that runs ROS 2, as far as it decides how nodes discover each
 /// other: ROS_DISTRO, RMW_IMPLEMENTATION, FASTDDS_DEFAULT_PROFILES_FILE (and its older name
-/// FASTRTPS_…), CYCLONEDDS_URI; with Fast DDS ROS_DISCOVERY_SERVER and ROS_STATIC_PEERS. Of what
-/// the scenario does not say (these with Cyclone DDS, ROS_AUTOMATIC_DISCOVERY_RANGE) there is a
-/// remark. `value_of` gives a variable's value, or nothing. An error if RMW_IMPLEMENTATION names no
-/// known RMW.
+/// FASTRTPS_…), CYCLONEDDS_URI; with Fast DDS ROS_DISCOVERY_SERVER, ROS_SUPER_CLIENT, and
+/// ROS_STATIC_PEERS as far as ROS_AUTOMATIC_DISCOVERY_RANGE gives up multicast for them. Of what
+/// the scenario does not say (these with Cyclone DDS, peers beside multicast) there is a remark.
+/// `value_of` gives a variable's value, or nothing. An error if RMW_IMPLEMENTATION names no known
+/// RMW.
 [[nodiscard]] model::config::Result<System> from_environment(
     System system, const std::function<const char*(const char*)>& value_of);
 

@@ -5,20 +5,24 @@
 
 namespace stormproof::trials {
 
+std::optional<Sample> sample_run(Runner& runner, const model::Scenario& scenario,
+                                 std::uint64_t seed, model::Nanoseconds start_jitter) {
+  const model::Scenario drawn = under_seed(scenario, seed, start_jitter);
+  const auto run = runner.simulate(drawn);
+  if (!run) return std::nullopt;
+  return Sample{seed,
+                run->end,
+                run->discovery_time,
+                run->counts,
+                run->user_control,
+                run->events,
+                exact::health_of(drawn, *run)};
+}
+
 std::vector<Sample> sample_runs(const model::Scenario& scenario, const SampleOptions& options) {
   Runner runner{options.threads, options.on_progress};
-  return present(runner.run(options.samples, [&](std::size_t k) -> std::optional<Sample> {
-    const std::uint64_t seed = options.first_seed + k;
-    const model::Scenario drawn = under_seed(scenario, seed, options.start_jitter);
-    const auto run = runner.simulate(drawn);
-    if (!run) return std::nullopt;
-    return Sample{seed,
-                  run->end,
-                  run->discovery_time,
-                  run->counts,
-                  run->user_control,
-                  run->events,
-                  exact::health_of(drawn, *run)};
+  return present(runner.run(options.samples, [&](std::size_t k) {
+    return sample_run(runner, scenario, options.first_seed + k, options.start_jitter);
   }));
 }
 

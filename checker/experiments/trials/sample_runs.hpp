@@ -47,6 +47,10 @@ struct SampleOptions {
   Progress on_progress;
 };
 
+/// The run of `scenario` under one seed; nothing if it was stopped.
+[[nodiscard]] std::optional<Sample> sample_run(Runner& runner, const model::Scenario& scenario,
+                                               std::uint64_t seed, model::Nanoseconds start_jitter);
+
 /// The sampled runs in the order of their seeds; those that were stopped are left out. The
 /// deployment must have a schedule or a jitter, or `samples` be 1: then the scenario runs as it is.
 [[nodiscard]] std::vector<Sample> sample_runs(const model::Scenario& scenario,

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "model/implementations.hpp"
+
 namespace stormproof::tune {
 
 using model::Scenario;
@@ -71,6 +73,8 @@ class RowMaker {
     row.name = "adaptive HEARTBEATs";
     row.note = "The paper's adaptive HEARTBEAT policy; it needs a patched library.";
     row.scenario = subject_.scenario;
+    const model::Writer writer = model::traits_of(row.scenario.dds).writer;
+    if (writer == model::Writer::of_cyclone || writer == model::Writer::of_server) return;
     if (row.scenario.dds.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive) return;
     row.scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
     row.changes.push_back({"dds.sedp.heartbeat_policy", "", "periodic", "adaptive", ""});

@@ -85,6 +85,13 @@ SchemaVisitor visited_short_form(const Deployment& deployment) {
   return visitor;
 }
 
+/// The same for a deployment by its nodes.
+SchemaVisitor visited_nodes_form(const Deployment& deployment) {
+  SchemaVisitor visitor = visited(NodesForm{});
+  visit_common_knobs(visitor, deployment);
+  return visitor;
+}
+
 template <class Section>
 void SchemaVisitor::section(std::string_view key, const Section& member, std::string_view doc,
                             Presence presence, const auto&... context) {
@@ -96,7 +103,8 @@ void SchemaVisitor::section(std::string_view key, const Section& member, std::st
     schema = name_or(reference(schema_file_name(SchemaKind::wireless)));
   } else if constexpr (std::same_as<Section, Deployment>) {
     schema["oneOf"] =
-        Json::array({visited_short_form(member).complete(), visited(member).complete()});
+        Json::array({visited_short_form(member).complete(), visited_nodes_form(member).complete(),
+                     visited(member).complete()});
   } else if constexpr (requires { typename Section::value_type; }) {  // an optional table
     schema = visited(typename Section::value_type{}).complete();
   } else {

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "model/config/tree/suggestion.hpp"
+#include "model/nodes.hpp"
 
 namespace stormproof::model::config {
 namespace {
@@ -170,34 +171,68 @@ void draw(Deployment& deployment, const Node* list, const std::string& path,
   }
 }
 
+void add_new(const std::vector<std::string>& keys, std::vector<std::string>& all) {
+  for (const std::string& key : keys) {
+    if (!contains(all, key)) all.push_back(key);
+  }
+}
+
+/// Keys of another form of a deployment than that which `form` has begun.
+void refuse_others(const Node& map, const std::string& path, const std::vector<std::string>& known,
+                   std::string_view form, std::optional<InputError>& error) {
+  for (const Member& member : map.members) {
+    if (error || contains(known, member.key)) continue;
+    error = error_at(member.key_place,
+                     fmt::format("{}: not together with {}; expected only one of the two forms",
+                                 join_path(path, member.key), form));
+  }
+}
+
+Deployment deployment_of(const NodesForm& form) {
+  Deployment nodes;
+  for (std::uint32_t host = 0; host < form.hosts; ++host) {
+    for (const NodeEntry& node : form.nodes) {
+      for (std::uint32_t k = 0; k < node.count; ++k) {
+        nodes.participants.push_back(
+            {HostId{host}, node.publications, node.subscriptions, Nanoseconds{0}, Nanoseconds{0}});
+      }
+    }
+  }
+  return sharing_participants(nodes, form.nodes_per_participant);
+}
+
 }  // namespace
 
 void read_knobs(const Node& map, const std::string& path, Deployment& value,
                 std::optional<InputError>& error) {
   HomogeneousForm form;
-  const std::vector<std::string> of_form = keys_of(form).allowed;
-  KnownKeys both{of_form, {}};
-  for (const std::string& key : keys_of(value).allowed) both.allowed.push_back(key);
-  if (!error) error = check_keys(map, path, both);
+  NodesForm of_nodes;
+  const std::vector<std::string> of_list = keys_of(value).allowed;
+  KnownKeys all{keys_of(form).allowed, {}};
+  add_new(keys_of(of_nodes).allowed, all.allowed);
+  add_new(of_list, all.allowed);
+  if (!error) error = check_keys(map, path, all);
   if (error) return;
 
   KnobReader reader{map, path, error};
   const Node* list = map.find(participants_key);
-  if (list == nullptr) {
+  if (list != nullptr) {
+    refuse_others(map, path, of_list, participants_key, error);
+    visit_knobs(reader, value);
+  } else if (map.find(nodes_key) != nullptr) {
+    std::vector<std::string> known = keys_of(of_nodes).allowed;
+    add_new(of_list, known);
+    refuse_others(map, path, known, nodes_key, error);
+    visit_knobs(reader, of_nodes);
+    if (error) return;
+    value = deployment_of(of_nodes);
+    visit_common_knobs(reader, value);
+  } else {
     visit_knobs(reader, form);
     if (error) return;
     value = Deployment::homogeneous(form.hosts, form.participants_per_host,
                                     form.endpoints_per_participant, form.nodes_per_participant);
     visit_common_knobs(reader, value);
-  } else {
-    for (const Member& member : map.members) {
-      if (!contains(of_form, member.key)) continue;
-      error = error_at(member.key_place,
-                       fmt::format("{}: not together with {}; expected only one of the two forms",
-                                   join_path(path, member.key), participants_key));
-      return;
-    }
-    visit_knobs(reader, value);
   }
   if (!error && value.schedule) draw(value, list, path, error);
 }

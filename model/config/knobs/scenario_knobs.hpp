@@ -24,7 +24,24 @@ struct HomogeneousForm {
   std::uint32_t nodes_per_participant = 1;
 };
 
+/// One node, or several that are alike.
+struct NodeEntry {
+  std::string name;  ///< for people; nothing depends on it
+  std::uint32_t publications = 0;
+  std::uint32_t subscriptions = 0;
+  std::uint32_t count = 1;
+};
+
+/// A deployment by its nodes: equal hosts with all of them each, which all start at 0 unless there
+/// is a schedule.
+struct NodesForm {
+  std::uint32_t hosts = 2;
+  std::vector<NodeEntry> nodes;
+  std::uint32_t nodes_per_participant = 1;
+};
+
 /// Keys that the reader treats in a way of their own.
+inline constexpr std::string_view nodes_key = "nodes";
 inline constexpr std::string_view participants_key = "participants";
 inline constexpr std::string_view schedule_key = "schedule";
 inline constexpr std::string_view start_key = "start";
@@ -57,6 +74,37 @@ void visit_knobs(auto& visit, Is<HomogeneousForm> auto& form) {
              "participants_per_host",
              fmt::format("at most {} participants in all (hosts × participants_per_host)",
                          Deployment::max_participants));
+}
+
+void visit_knobs(auto& visit, Is<NodeEntry> auto& node) {
+  visit.knob("name", node.name, TextType{}, "of the node; nothing depends on it",
+             Presence::optional);
+  visit.knob("publications", node.publications, endpoint_count, "user publications");
+  visit.knob("subscriptions", node.subscriptions, endpoint_count, "user subscriptions");
+  visit.knob("count", node.count, participant_count, "so many nodes are like this; 1 if absent",
+             Presence::optional);
+}
+
+void visit_knobs(auto& visit, Is<NodesForm> auto& form) {
+  visit.knob("hosts", form.hosts, participant_count, "number of hosts, each with all nodes (N_H)");
+  visit.list(nodes_key, form.nodes, ListSize{1, Deployment::max_participants},
+             "the nodes of each host, in the order in which they share participants");
+  visit.knob("nodes_per_participant", form.nodes_per_participant, participant_count,
+             "so many nodes of a host are in one participant, as in a component container; 1 if "
+             "absent",
+             Presence::optional);
+  std::uint64_t nodes = 0;
+  std::uint64_t endpoints = 0;
+  for (const NodeEntry& node : form.nodes) {
+    nodes += node.count;
+    endpoints += node.count * (std::uint64_t{Deployment::endpoints_of_a_node} + node.publications +
+                               node.subscriptions);
+  }
+  visit.rule(nodes * form.hosts <= Deployment::max_participants, nodes_key,
+             fmt::format("at most {} nodes in all (hosts × nodes)", Deployment::max_participants));
+  visit.rule(endpoints <= Deployment::max_endpoints || form.nodes_per_participant == 1, nodes_key,
+             fmt::format("at most {} endpoints of the nodes of a host that share participants",
+                         Deployment::max_endpoints));
 }
 
 void visit_knobs(auto& visit, Is<Participant> auto& participant) {

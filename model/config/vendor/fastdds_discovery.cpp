@@ -93,6 +93,30 @@ void remark_super_client(Reading& reading, const Found& protocol) {
              "CLIENT for nodes; SUPER_CLIENT for tools that list the system");
 }
 
+/// The period of a server whose profile stands in the same file: its routine has it.
+void interpret_server_beside(Reading& reading) {
+  const XmlElement* period = nullptr;
+  for (const XmlElement* one : participants_of(*reading.root)) {
+    const XmlElement* config = one;
+    for (const char* name : {"rtps", "builtin", "discovery_config"}) {
+      if (config != nullptr) config = config->find(name);
+    }
+    const XmlElement* protocol = config == nullptr ? nullptr : config->find("discoveryProtocol");
+    if (protocol == nullptr || protocol->text != "SERVER") continue;
+    if (period == nullptr) period = config->find("clientAnnouncementPeriod");
+  }
+  if (period == nullptr) return;
+  const SchemaItem* item =
+      find_item(participant_schema(), "rtps/builtin/discovery_config/clientAnnouncementPeriod");
+  const Value value = read_value(*period, *item, reading.profile);
+  if (value.number <= 0) return;
+  reading.profile.settings.push_back({"participant[SERVER]/clientAnnouncementPeriod", value.shown,
+                                      value.place, Effect::knob, "server_routine_period",
+                                      "until the server looks again who has acknowledged what"});
+  (void)set_path(reading.profile.changes, "server_routine_period",
+                 Node::scalar(value.place, period_of(value)));
+}
+
 /// A client, or a super client, of one server. Returns whether it is.
 bool interpret_client(Reading& reading) {
   const Found* protocol = find_discovery(reading, "discoveryProtocol");
@@ -107,11 +131,11 @@ bool interpret_client(Reading& reading) {
     set_knob(reading, *period, "", "client_sync_period", period_of(period->value));
     reading.setting_of(*period).note = "until a client matches its endpoints with the server's";
   }
+  interpret_server_beside(reading);
   return true;
 }
 
-void interpret_protocol(Reading& reading) {
-  const bool is_client = interpret_client(reading);
+void interpret_protocol(Reading& reading, bool is_client) {
   for (const std::string_view name : {"discoveryProtocol", "EDP", "simpleEDP/PUBWRITER_SUBREADER",
                                       "simpleEDP/PUBREADER_SUBWRITER"}) {
     const Found* found = find_discovery(reading, name);
@@ -176,35 +200,50 @@ bool is_bare_host(std::string_view locator) {
   return locator.starts_with("udpv4") && !has_port && (first < 224 || first > 239);
 }
 
+/// The range of a transport that the participant uses; null if none says one.
+const Found* peer_range(const Reading& reading) {
+  for (const Transport& transport : reading.transports) {
+    const Found* range = transport.section.find("maxInitialPeersRange");
+    if (transport.is_used && range != nullptr) return range;
+  }
+  return nullptr;
+}
+
 /// What users of unicast peers run into.
 void remark_peers(Reading& reading, const Found& peers) {
   if (std::ranges::none_of(peers.value.items, is_bare_host)) return;
-  std::string range = "4";
-  for (const Transport& transport : reading.transports) {
-    const Found* given = transport.section.find("maxInitialPeersRange");
-    if (transport.is_used && given != nullptr) range = given->value.shown;
-  }
+  const Found* range = peer_range(reading);
   add_remark(
       reading.profile, Severity::note, "fastdds.peer-ports", peers.value.place,
       fmt::format("a peer without a port is asked at the ports of its first {} participants; "
                   "later ones on that host are not found from here",
-                  range),
+                  range == nullptr ? "4" : range->value.shown),
       "maxInitialPeersRange of the transport raises it");
 }
 
-void interpret_peers(Reading& reading) {
+/// Hosts without ports are static peers; with a group or a port among them, announcements go where
+/// the model has none.
+void interpret_peers(Reading& reading, bool is_client) {
   const Found* peers = reading.section.find("rtps/builtin/initialPeersList");
   if (peers == nullptr) return;
   remark_peers(reading, *peers);
-  for (const Transport& transport : reading.transports) {
-    const Found* range = transport.section.find("maxInitialPeersRange");
-    if (!transport.is_used || range == nullptr || range->value.shown == "4") continue;
-    Setting& setting = reading.setting_of(*range);
-    setting.effect = Effect::unmodelled;
-    setting.note =
-        "an announcement goes to so many ports of each initial peer that has none; the "
-        "model announces by multicast";
+  if (is_client) return set_inert(reading, *peers, "clients announce themselves to their server");
+  const Found* range = peer_range(reading);
+  if (!peers->value.items.empty() && std::ranges::all_of(peers->value.items, is_bare_host)) {
+    set_knob(reading, *peers, "", "discovery", "static");
+    reading.setting_of(*peers).note =
+        "announcements go to ports of every host of the deployment; the addresses do not matter";
+    if (range == nullptr) return;
+    set_knob(reading, *range, "", "peer_ports", range->value.shown);
+    reading.setting_of(*range).note = "ports of each host that announcements go to";
+    return;
   }
+  if (range == nullptr || range->value.shown == "4") return;
+  Setting& setting = reading.setting_of(*range);
+  setting.effect = Effect::unmodelled;
+  setting.note =
+      "an announcement goes to so many ports of each initial peer that has none; the "
+      "model announces by multicast";
 }
 
 void interpret_properties(Reading& reading) {
@@ -281,9 +320,10 @@ void interpret_announcements(Reading& reading) {
 }
 
 void interpret_participant(Reading& reading) {
-  interpret_protocol(reading);
+  const bool is_client = interpret_client(reading);
+  interpret_protocol(reading, is_client);
   interpret_throughput(reading);
-  interpret_peers(reading);
+  interpret_peers(reading, is_client);
   interpret_properties(reading);
 }
 

@@ -182,8 +182,12 @@ Version version_of(std::string_view base) {
   int major = 0;
   int minor = 0;
   if (!base.starts_with(prefix)) return oldest_version;
+  base.remove_prefix(prefix.size());
+  for (const std::string_view way : {"server-", "static-"}) {
+    if (base.starts_with(way)) base.remove_prefix(way.size());
+  }
   const char* end = base.data() + base.size();
-  const auto [dot, failed] = std::from_chars(base.data() + prefix.size(), end, major);
+  const auto [dot, failed] = std::from_chars(base.data(), end, major);
   if (failed != std::errc{} || dot == end || *dot != '.' || major > 99) return oldest_version;
   if (std::from_chars(dot + 1, end, minor).ec != std::errc{} || minor > 99) return oldest_version;
   return major * 100 + minor;

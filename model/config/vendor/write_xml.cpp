@@ -51,7 +51,19 @@ class Changes {
            "differs from the preset's; expected the same: what the model has "
            "not is not written");
     }
-    const Values before = values_of(base), after = values_of(profile);
+    discovery_ = profile.discovery;
+    const Values after = values_of(profile);
+    Values before = values_of(base);
+    if (base.discovery != profile.discovery) {  // what the preset has, if it discovered that way
+      const std::string way = shown(before, "discovery");
+      DdsProfile same = base;
+      same.discovery = profile.discovery;
+      before = values_of(same);
+      before["discovery"] = way;
+      if (profile.discovery == Discovery::simple) {
+        fail(preset, "discovery", "simple: expected another preset, which discovers that way");
+      }
+    }
     for (const VendorKnob& knob : vendor_knobs(vendor)) {
       const std::string old_value = shown(before, knob.key), value = shown(after, knob.key);
       if (old_value == value) continue;
@@ -84,6 +96,11 @@ class Changes {
                                [&](const auto& entry) { return entry.first.starts_with(prefix); });
   }
   [[nodiscard]] const std::optional<InputError>& error() const { return error_; }
+  /// Of the profile, whether or not it changes.
+  [[nodiscard]] Discovery discovery() const { return discovery_; }
+  [[nodiscard]] bool has_server() const {
+    return discovery_ == Discovery::server || discovery_ == Discovery::super_client;
+  }
 
  private:
   void fail(std::string_view preset, std::string_view key, std::string message) {
@@ -110,6 +127,7 @@ class Changes {
   std::map<std::string_view, std::int64_t> numbers_;
   std::map<std::string_view, std::string> words_;
   std::optional<InputError> error_;
+  Discovery discovery_{};
 };
 
 /// Text with line breaks and indentation.
@@ -166,10 +184,66 @@ void write_duration(XmlWriter& xml, const std::string& tag, std::int64_t ns) {
   xml.close();
 }
 
-void write_fastdds_discovery(XmlWriter& xml, const Changes& changes) {
-  if (!changes.has_any("spdp.")) return;
+constexpr const char* server_prefix = "44.53.00.5f.45.50.52.4f.53.49.4d.41";  // of server 0
+constexpr const char* some_address = "192.0.2.1";                             // RFC 5737: nobody's
+constexpr const char* server_port = "11811";
+
+void write_locator(XmlWriter& xml, bool has_port) {
+  xml.open("locator");
+  xml.open("udpv4");
+  xml.leaf("address", some_address);
+  if (has_port) xml.leaf("port", server_port);
+  xml.close();
+  xml.close();
+}
+
+/// A client names its server, and how often it looks for it.
+void write_client(XmlWriter& xml, const Changes& changes) {
+  const bool is_super = changes.discovery() == Discovery::super_client;
+  xml.comment(is_super ? "is told of every endpoint"
+                       : "is told of the endpoints that match its own");
+  xml.leaf("discoveryProtocol", is_super ? "SUPER_CLIENT" : "CLIENT");
+  if (const std::int64_t* period = changes.find("client_sync_period")) {
+    xml.comment("until a client matches its endpoints with the server's");
+    write_duration(xml, "clientAnnouncementPeriod", *period);
+  }
+  xml.open("discoveryServersList");
+  xml.open(fmt::format("RemoteServer prefix=\"{}\"", server_prefix));
+  xml.open("metatrafficUnicastLocatorList");
+  xml.comment("the address of your server");
+  write_locator(xml, true);
+  xml.close();
+  xml.close();
+  xml.close();
+}
+
+/// The server's own profile, which is not the default one.
+void write_server(XmlWriter& xml, std::int64_t routine_period) {
+  xml.open("participant profile_name=\"server\"");
+  xml.open("rtps");
+  xml.leaf("prefix", server_prefix);
   xml.open("builtin");
   xml.open("discovery_config");
+  xml.leaf("discoveryProtocol", "SERVER");
+  xml.comment("until the server looks again who has acknowledged what");
+  write_duration(xml, "clientAnnouncementPeriod", routine_period);
+  xml.close();
+  xml.open("metatrafficUnicastLocatorList");
+  xml.comment("its own address");
+  write_locator(xml, true);
+  xml.close();
+  xml.close();
+  xml.close();
+  xml.close();
+}
+
+void write_fastdds_discovery(XmlWriter& xml, const Changes& changes) {
+  const bool has_peers = changes.discovery() == Discovery::static_peers;
+  const bool has_config = changes.has_any("spdp.") || changes.has_server();
+  if (!has_config && !has_peers) return;
+  xml.open("builtin");
+  if (has_config) xml.open("discovery_config");
+  if (changes.has_server()) write_client(xml, changes);
   const std::int64_t* count = changes.find("spdp.startup_announcements");
   const std::int64_t* startup = changes.find("spdp.startup_period");
   if (count != nullptr || startup != nullptr) {
@@ -183,6 +257,32 @@ void write_fastdds_discovery(XmlWriter& xml, const Changes& changes) {
     xml.comment("time between announcements from then on");
     write_duration(xml, "leaseAnnouncement", *period);
   }
+  if (has_config) xml.close();
+  if (has_peers) {
+    xml.comment("one locator for the address of each host, without a port");
+    xml.open("initialPeersList");
+    write_locator(xml, false);
+    xml.close();
+  }
+  xml.close();
+}
+
+/// The transport of what a transport says, and no other.
+void write_transport(XmlWriter& xml, const std::int64_t* buffer, const std::int64_t* ports) {
+  xml.open("transport_descriptors");
+  xml.open("transport_descriptor");
+  xml.leaf("transport_id", "udp");
+  xml.leaf("type", "UDPv4");
+  if (buffer != nullptr) {
+    xml.comment(
+        "a writer adds a HEARTBEAT to its DATA each time it has sent this much; Linux has "
+        "to allow it (net.core.wmem_max)");
+    xml.leaf("sendBufferSize", fmt::format("{}", *buffer));
+  }
+  if (ports != nullptr) {
+    xml.comment("participants of a host that an announcement is sent to");
+    xml.leaf("maxInitialPeersRange", fmt::format("{}", *ports));
+  }
   xml.close();
   xml.close();
 }
@@ -192,17 +292,10 @@ std::string write_fastdds(const Changes& changes, const std::string& comment) {
   const std::int64_t* buffer = changes.find("sedp.piggyback_threshold_bytes");
   const std::int64_t* message = changes.find("sedp.grouping_limit_bytes");
   xml.open("profiles xmlns=\"http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles\"");
-  if (buffer != nullptr) {
-    xml.open("transport_descriptors");
-    xml.open("transport_descriptor");
-    xml.leaf("transport_id", "udp");
-    xml.leaf("type", "UDPv4");
-    xml.comment(
-        "a writer adds a HEARTBEAT to its DATA each time it has sent this much; Linux has "
-        "to allow it (net.core.wmem_max)");
-    xml.leaf("sendBufferSize", fmt::format("{}", *buffer));
-    xml.close();
-    xml.close();
+  const std::int64_t* ports = changes.find("peer_ports");
+  if (buffer != nullptr || ports != nullptr) write_transport(xml, buffer, ports);
+  if (const std::int64_t* period = changes.find("server_routine_period")) {
+    write_server(xml, *period);
   }
   xml.open("participant profile_name=\"stormproof\" is_default_profile=\"true\"");
   xml.open("rtps");
@@ -218,10 +311,11 @@ std::string write_fastdds(const Changes& changes, const std::string& comment) {
     xml.close();
     xml.close();
   }
-  if (buffer != nullptr) {
-    xml.comment(
-        "the buffer of a participant is ignored with user transports, and the segment of "
-        "shared memory would bound the threshold: this transport alone");
+  if (buffer != nullptr || ports != nullptr) {
+    xml.comment(buffer == nullptr
+                    ? "this transport alone"
+                    : "the buffer of a participant is ignored with user transports, and the "
+                      "segment of shared memory would bound the threshold: this transport alone");
     xml.open("userTransports");
     xml.leaf("transport_id", "udp");
     xml.close();

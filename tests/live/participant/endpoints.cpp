@@ -87,20 +87,29 @@ std::vector<EndpointPlan> node_endpoints(const Options& options) {
   return plans;
 }
 
-std::size_t expected_matches(const Options& options) {
+namespace {
+
+/// Those of a node on topics that have both sides.
+std::size_t matching_endpoints(const Options& options) {
   const std::vector<EndpointPlan> plans = node_endpoints(options);
-  const std::size_t participants = std::size_t{2} * options.participants_per_host;
   const auto has_other_side = [&plans](const EndpointPlan& plan) {
     return std::any_of(plans.begin(), plans.end(), [&plan](const EndpointPlan& other) {
       return other.topic == plan.topic && other.direction != plan.direction;
     });
   };
-  return participants *
-         static_cast<std::size_t>(std::count_if(plans.begin(), plans.end(), has_other_side));
+  return static_cast<std::size_t>(std::count_if(plans.begin(), plans.end(), has_other_side));
+}
+
+}  // namespace
+
+std::size_t expected_matches(const Options& options) {
+  return std::size_t{2} * options.participants_per_host * matching_endpoints(options);
 }
 
 std::size_t expected_discoveries(const Options& options) {
-  return options.participants_per_host * node_endpoints(options).size();
+  const bool is_client = options.discovery == Discovery::server;  // it learns what it matches
+  return options.participants_per_host *
+         (is_client ? matching_endpoints(options) : node_endpoints(options).size());
 }
 
 }  // namespace stormproof::live

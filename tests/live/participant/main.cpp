@@ -82,6 +82,13 @@ std::string report(const Options& options, const Schedule& schedule, const Progr
 void run(const Options& options) {
   constexpr std::int64_t poll_ns = 20'000'000;
   const sigset_t signals = block_stop_signals();
+  if (options.serves) {
+    create_server(options);
+    write_file(options.report + ".ready", "");
+    while (!told_to_stop(signals, ns_per_second)) {
+    }
+    return;
+  }
   // Fast DDS calls the listener until the process ends.
   static Progress progress(options.peer, expected_matches(options), expected_discoveries(options));
   const Schedule schedule =

@@ -25,8 +25,9 @@ std::uint32_t number(const std::string& name, const std::string& text) {
 
 Values values_of(int argc, const char* const* argv) {
   static const std::set<std::string_view> known = {
-      "--host",  "--index",       "--np",           "--ne",     "--address",       "--peer",
-      "--start", "--send-buffer", "--simultaneous", "--report", "--create-over-us"};
+      "--host",           "--index",     "--np",          "--ne",           "--address",
+      "--peer",           "--start",     "--send-buffer", "--simultaneous", "--report",
+      "--create-over-us", "--discovery", "--server",      "--serves"};
   Values values;
   for (int at = 1; at < argc; at += 2) {
     const std::string name = argv[at];
@@ -54,6 +55,24 @@ std::uint32_t optional_number(const Values& values, const std::string& name) {
   return found == values.end() ? 0 : number(name, found->second);
 }
 
+Discovery discovery_of(const Values& values) {
+  static const std::map<std::string_view, Discovery> words = {
+      {"simple", Discovery::simple},
+      {"server", Discovery::server},
+      {"super_client", Discovery::super_client},
+      {"static", Discovery::static_peers}};
+  const auto given = values.find("--discovery");
+  if (given == values.end()) {
+    return Discovery::simple;
+  }
+  const auto found = words.find(given->second);
+  if (found == words.end()) {
+    throw std::invalid_argument("--discovery '" + given->second +
+                                "': expected simple, server, super_client or static");
+  }
+  return found->second;
+}
+
 }  // namespace
 
 Options parse_options(int argc, const char* const* argv) {
@@ -71,6 +90,11 @@ Options parse_options(int argc, const char* const* argv) {
   options.send_buffer = optional_number(values, "--send-buffer");
   options.simultaneous = optional_number(values, "--simultaneous") != 0;
   options.create_over_ns = std::int64_t{1000} * optional_number(values, "--create-over-us");
+  options.discovery = discovery_of(values);
+  options.serves = optional_number(values, "--serves") != 0;
+  if (options.discovery == Discovery::server || options.discovery == Discovery::super_client) {
+    options.server = required(values, "--server");
+  }
   options.start_file = required(values, "--start");
   options.report = required(values, "--report");
   if (options.participants_per_host == 0) {

@@ -8,6 +8,9 @@
 
 namespace stormproof::live {
 
+/// How participants find each other.
+enum class Discovery { simple, server, super_client, static_peers };
+
 struct Options {
   std::uint32_t host = 0;                   ///< 0 or 1
   std::uint32_t index = 0;                  ///< on its host, from 0
@@ -18,8 +21,11 @@ struct Options {
   std::uint32_t send_buffer = 0;            ///< bytes of the socket send buffer; 0: the system's
   bool simultaneous = false;        ///< create all endpoints first, then enable the participant
   std::int64_t create_over_ns = 0;  ///< spread the creation of endpoints over this time, ns
-  std::string start_file{};         ///< appears with the start instant in it, in ns since 1970
-  std::string report{};  ///< REPORT.ready when it waits for the start, REPORT when complete
+  Discovery discovery = Discovery::simple;
+  bool serves = false;       ///< it is the Discovery Server, at its `address`, without endpoints
+  std::string server{};      ///< IPv4 of the Discovery Server
+  std::string start_file{};  ///< appears with the start instant in it, in ns since 1970
+  std::string report{};      ///< REPORT.ready when it waits for the start, REPORT when complete
 
   /// User publications; of an odd number of endpoints one more than subscriptions.
   [[nodiscard]] std::uint32_t user_publications() const { return (user_endpoints + 1) / 2; }

@@ -3,6 +3,7 @@
 #include "participant.hpp"
 
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,7 +16,9 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastdds/rtps/attributes/ServerAttributes.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include "endpoints.hpp"
@@ -56,6 +59,41 @@ Pointer made(Pointer pointer, const std::string& what) {
   return pointer;
 }
 
+/// Of server 0, as tools and ROS 2 have it.
+constexpr const char* server_prefix = "44.53.00.5f.45.50.52.4f.53.49.4d.41";
+constexpr std::uint32_t server_port = 11811;
+
+/// Port 0: the library takes those of the first participants of the host.
+rtps::Locator_t locator_of(const std::string& address, std::uint32_t port) {
+  rtps::Locator_t locator;
+  rtps::IPLocator::setIPv4(locator, address);
+  locator.port = port;
+  return locator;
+}
+
+void set_discovery(const Options& options, UDPv4TransportDescriptor& transport,
+                   dds::WireProtocolConfigQos& protocol) {
+  rtps::BuiltinAttributes& builtin = protocol.builtin;
+  if (options.serves) {
+    builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::SERVER;
+    std::istringstream{server_prefix} >> protocol.prefix;
+    builtin.metatrafficUnicastLocatorList.push_back(locator_of(options.server, server_port));
+  } else if (options.discovery == Discovery::static_peers) {
+    transport.maxInitialPeersRange = options.participants_per_host;
+    for (const std::string& host : {options.address, options.peer}) {
+      builtin.initialPeersList.push_back(locator_of(host, 0));
+    }
+  } else if (options.discovery != Discovery::simple) {
+    builtin.discovery_config.discoveryProtocol = options.discovery == Discovery::server
+                                                     ? rtps::DiscoveryProtocol_t::CLIENT
+                                                     : rtps::DiscoveryProtocol_t::SUPER_CLIENT;
+    eprosima::fastdds::rtps::RemoteServerAttributes server;
+    server.ReadguidPrefix(server_prefix);
+    server.metatrafficUnicastLocatorList.push_back(locator_of(options.server, server_port));
+    builtin.discovery_config.m_DiscoveryServers.push_back(server);
+  }
+}
+
 dds::DomainParticipantQos participant_qos(const Options& options) {
   dds::DomainParticipantQos qos;
   qos.name("/");
@@ -68,6 +106,7 @@ dds::DomainParticipantQos participant_qos(const Options& options) {
   const auto transport = std::make_shared<UDPv4TransportDescriptor>();
   transport->interfaceWhiteList.push_back(options.address);
   transport->sendBufferSize = options.send_buffer;
+  set_discovery(options, *transport, qos.wire_protocol());
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports.push_back(transport);
   return qos;
@@ -137,6 +176,13 @@ void without_shortcuts() {
 }
 
 }  // namespace
+
+void create_server(const Options& options) {
+  without_shortcuts();
+  made(dds::DomainParticipantFactory::get_instance()->create_participant(
+           0, participant_qos(options), nullptr, dds::StatusMask::none()),
+       "the server");
+}
 
 Schedule create_participant(const Options& options, Progress& progress,
                             const std::function<void()>& wait_for_start) {

@@ -16,6 +16,9 @@ struct Schedule {
   std::int64_t endpoints_done_ns = 0;  ///< all its endpoints exist (simultaneous: are enabled)
 };
 
+/// The Discovery Server, which lives as long as the process.
+void create_server(const Options& options);
+
 /// Creates the participant and its endpoints. `wait_for_start` returns at the start instant: it is
 /// called first, or, if the start is simultaneous, when all endpoints exist, disabled and
 /// unannounced. What is created lives as long as the process. Throws std::runtime_error if Fast DDS

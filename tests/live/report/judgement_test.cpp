@@ -68,6 +68,25 @@ TEST(Judgement, WantsABehaviourOfTheProfile) {
   expect(run, Outcome::check_failed, "no behaviour of the profile");
 }
 
+TEST(Judgement, WithAServerCountsWhatGoesToItAndWhatItTells) {
+  RunRecord run = good_run();
+  run.discovery = "server";
+  run.captured = {{10, 9}};  // the other one is on the server's host
+  run.required_keys = 26;
+  run.missing_keys = 1;
+  EXPECT_EQ(run.expected_initial(), 25);
+  expect(run, Outcome::check_failed, "38 initial DATA were sent; expected 25");
+  run.counts.initial_data = 25;
+  EXPECT_EQ(judge(run).outcome, Outcome::as_expected);
+  run.discovery = "super_client";
+  EXPECT_EQ(run.expected_initial(), 38);
+  run.participants_per_host = 5;
+  run.endpoints_per_participant = 20;
+  EXPECT_EQ(run.expected_initial(), 1'850);
+  run.discovery = "server";
+  EXPECT_EQ(run.expected_initial(), 1'265);
+}
+
 TEST(Judgement, CountsInitialDataAndKeys) {
   RunRecord run = good_run();
   run.counts.initial_data = 37;

@@ -39,6 +39,7 @@ CaptureReport capture_of(const Json& json) {
 
 void read_setting(const Json& json, RunRecord& run) {
   run.link = json.at("link").get<std::string>();
+  run.discovery = json.value("discovery", run.discovery);
   run.participants_per_host = integer(json, "participants_per_host");
   run.endpoints_per_participant = integer(json, "endpoints_per_participant");
   run.start_ns = integer(json, "start_ns");
@@ -96,8 +97,12 @@ std::int64_t latest(const RunRecord& run, std::int64_t ParticipantReport::*insta
 }  // namespace
 
 std::int64_t RunRecord::expected_initial() const {
-  return participants_per_host * participants_per_host * 2 *
-         (default_endpoints + endpoints_per_participant);
+  const std::int64_t endpoints = default_endpoints + endpoints_per_participant;
+  if (!has_server()) return participants_per_host * participants_per_host * 2 * endpoints;
+  // On topics with both sides: ros_discovery_info, parameter_events, and the user's.
+  const std::int64_t matching = 4 + endpoints_per_participant / 2 * 2;
+  const std::int64_t told = discovery == "super_client" ? endpoints : matching;
+  return participants_per_host * (endpoints + (2 * participants_per_host - 1) * told);
 }
 
 bool RunRecord::is_complete() const {

@@ -49,6 +49,7 @@ struct CapturedParticipant {
 struct RunRecord {
   std::string name{};  ///< of its folder
   std::string link{};
+  std::string discovery = "simple";  ///< or "static", "server", "super_client"
   std::int64_t participants_per_host = 0;
   std::int64_t endpoints_per_participant = 0;  ///< of the user
   std::int64_t start_ns = 0;
@@ -62,7 +63,11 @@ struct RunRecord {
   std::vector<CapturedParticipant> captured{};
   std::string conformance{};  ///< the verdict of `conform`; empty: not asked
 
-  /// F = N_P²·2·(17+N_E): descriptors times their destinations on the other host.
+  [[nodiscard]] bool has_server() const {
+    return discovery == "server" || discovery == "super_client";
+  }
+  /// F = N_P²·2·(17+N_E): descriptors times their destinations on the other host. With a server on
+  /// host 0: those of host 1 to it, and from it what each participant there is told of all others.
   [[nodiscard]] std::int64_t expected_initial() const;
   [[nodiscard]] bool is_complete() const;
   /// Time from the start to the last participant's completion, ns. The run must be complete.

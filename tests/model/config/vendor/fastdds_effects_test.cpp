@@ -25,6 +25,9 @@ TEST_P(Effects, follow_the_value) {
 const std::string peers =
     "<initialPeersList><locator><udpv4><address>10.0.0.2</address></udpv4></locator>"
     "</initialPeersList>";
+const std::string peer_with_port =
+    "<initialPeersList><locator><udpv4><address>10.0.0.2</address><port>7412</port></udpv4>"
+    "</locator></initialPeersList>";
 const std::string builtin = "rtps/builtin/";
 const std::string config = "rtps/builtin/discovery_config/";
 
@@ -52,7 +55,13 @@ INSTANTIATE_TEST_SUITE_P(
         Judged{discovery("<leaseDuration><sec>5</sec></leaseDuration>"), config + "leaseDuration",
                Effect::unmodelled},
         Judged{document("<builtin>" + peers + "</builtin>"), builtin + "initialPeersList",
+               Effect::knob},
+        Judged{document("<builtin>" + peer_with_port + "</builtin>"), builtin + "initialPeersList",
                Effect::unmodelled},
+        Judged{document("<builtin><discovery_config><discoveryProtocol>CLIENT</discoveryProtocol>"
+                        "</discovery_config>" +
+                        peers + "</builtin>"),
+               builtin + "initialPeersList", Effect::none},
         Judged{
             document("<builtin><avoid_builtin_multicast>true</avoid_builtin_multicast></builtin>"),
             builtin + "avoid_builtin_multicast", Effect::none},
@@ -108,6 +117,9 @@ INSTANTIATE_TEST_SUITE_P(
                                              "</address></interfaceWhiteList>")),
                "transport_descriptor[t]/interfaceWhiteList", Effect::outside},
         Judged{document("<builtin>" + peers + "</builtin>" + only("t"),
+                        transport("t", "UDPv4", "<maxInitialPeersRange>9</maxInitialPeersRange>")),
+               "transport_descriptor[t]/maxInitialPeersRange", Effect::knob},
+        Judged{document("<builtin>" + peer_with_port + "</builtin>" + only("t"),
                         transport("t", "UDPv4", "<maxInitialPeersRange>9</maxInitialPeersRange>")),
                "transport_descriptor[t]/maxInitialPeersRange", Effect::unmodelled},
         Judged{document(only("t"),

@@ -150,8 +150,41 @@ TEST(FastddsXml, the_least_message_size_is_the_limit) {
 }
 
 const std::string peers =
-    "<initialPeersList><locator><udpv4><address>10.0.0.2</address></udpv4></locator>"
-    "</initialPeersList>";
+    "<initialPeersList><locator><udpv4><address>10.0.0.2</address><port>7412</port></udpv4>"
+    "</locator></initialPeersList>";
+
+TEST(FastddsXml, hosts_without_ports_are_static_peers) {
+  const std::string hosts =
+      "<initialPeersList><locator><udpv4><address>10.0.0.2</address></udpv4></locator>"
+      "</initialPeersList>";
+  const VendorProfile usual = profile_of(document("<builtin>" + hosts + "</builtin>"));
+  ASSERT_NE(usual.changes.find("discovery"), nullptr);
+  EXPECT_EQ(usual.changes.find("discovery")->text, "static");
+  EXPECT_EQ(usual.changes.find("peer_ports"), nullptr);
+  const VendorProfile more = profile_of(
+      document("<builtin>" + hosts + "</builtin>" + only("t"),
+               transport("t", "UDPv4", "<maxInitialPeersRange>32</maxInitialPeersRange>")));
+  ASSERT_NE(more.changes.find("peer_ports"), nullptr);
+  EXPECT_EQ(more.changes.find("peer_ports")->text, "32");
+  EXPECT_EQ(more.changes.find("unmodelled"), nullptr);
+}
+
+TEST(FastddsXml, a_server_beside_its_clients_says_how_often_it_looks) {
+  const auto participant = [](const char* name, const char* protocol, const char* more) {
+    return fmt::format(
+        "<participant profile_name='{}'{}><rtps><builtin><discovery_config><discoveryProtocol>{}"
+        "</discoveryProtocol><clientAnnouncementPeriod><nanosec>50000000</nanosec>"
+        "</clientAnnouncementPeriod></discovery_config></builtin></rtps></participant>",
+        name, more, protocol);
+  };
+  const VendorProfile profile =
+      profile_of("<profiles>" + participant("s", "SERVER", "") +
+                 participant("c", "CLIENT", " is_default_profile='true'") + "</profiles>");
+  EXPECT_EQ(profile.changes.find("discovery")->text, "server");
+  EXPECT_EQ(profile.changes.find("client_sync_period")->text, "50ms");
+  ASSERT_NE(profile.changes.find("server_routine_period"), nullptr);
+  EXPECT_EQ(profile.changes.find("server_routine_period")->text, "50ms");
+}
 
 TEST(FastddsXml, what_the_model_has_not_is_listed_with_its_value) {
   const VendorProfile profile = profile_of(document("<builtin>\n" + peers + "</builtin>"));
@@ -159,7 +192,7 @@ TEST(FastddsXml, what_the_model_has_not_is_listed_with_its_value) {
   ASSERT_NE(unmodelled, nullptr);
   const Node* text = unmodelled->find("initialPeersList");
   ASSERT_NE(text, nullptr);
-  EXPECT_TRUE(text->text.starts_with("udpv4 10.0.0.2: announcements go to these addresses"));
+  EXPECT_TRUE(text->text.starts_with("udpv4 10.0.0.2:7412: announcements go to these addresses"));
   EXPECT_EQ(text->place.to_string(), "f.xml:5:1");
 }
 

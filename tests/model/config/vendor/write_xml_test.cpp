@@ -49,14 +49,21 @@ DdsProfile read_back(const std::string& name, const std::string& xml) {
   return profile ? *profile : DdsProfile{};
 }
 
-const std::vector<std::string> names = {"fastdds-2.6.11", "fastdds-2.14.5",
-                                        "fastdds-3.4",    "fastdds-2.6.11-sndbuf4M",
-                                        "fastdds-2.9.1",  "cyclonedds-0.10"};
+const std::vector<std::string> names = {
+    "fastdds-2.6.11",          "fastdds-2.14.5",        "fastdds-3.4",
+    "fastdds-2.6.11-sndbuf4M", "fastdds-2.9.1",         "cyclonedds-0.10",
+    "fastdds-server-2.6.11",   "fastdds-server-2.14.5", "fastdds-static-2.6.11"};
+
+/// Whether a user can set this number of the preset.
+bool is_settable(const std::string& name, const VendorKnob& knob) {
+  return !knob.setting.empty() && !knob.is_choice() &&
+         numeric_knob(preset(name), knob.key).has_value();
+}
 
 TEST(WriteXml, both_ends_of_every_range_come_back) {
   for (const std::string& name : names) {
     for (const VendorKnob& knob : vendor_knobs(*vendor_of_preset(name))) {
-      if (knob.setting.empty() || knob.is_choice()) continue;
+      if (!is_settable(name, knob)) continue;
       for (const std::int64_t value : {knob.minimum, knob.maximum}) {
         const DdsProfile profile = with(preset(name), knob.key, value);
         const std::string xml = write(name, profile);
@@ -71,7 +78,7 @@ RC_GTEST_PROP(WriteXml, any_change_of_settable_knobs_comes_back, ()) {
   const std::string name = *rc::gen::elementOf(names);
   DdsProfile profile = preset(name);
   for (const VendorKnob& knob : vendor_knobs(*vendor_of_preset(name))) {
-    if (knob.setting.empty() || knob.is_choice() || !*rc::gen::arbitrary<bool>()) continue;
+    if (!is_settable(name, knob) || !*rc::gen::arbitrary<bool>()) continue;
     const auto value = *rc::gen::inRange(knob.minimum, knob.maximum + 1);
     profile = with(profile, knob.key, value);
   }
@@ -91,6 +98,29 @@ TEST(WriteXml, a_choice_comes_back) {
   DdsProfile read = read_back("cyclonedds-0.10", xml);
   read.unmodelled = profile.unmodelled;  // where the file says what it has chosen
   EXPECT_EQ(read, profile);
+}
+
+TEST(WriteXml, another_way_to_discover_comes_back) {
+  const auto with_way = [](Discovery way) {
+    DdsProfile profile = preset("fastdds-2.14.5");
+    profile.discovery = way;
+    return profile;
+  };
+  for (const Discovery way :
+       {Discovery::server, Discovery::super_client, Discovery::static_peers}) {
+    DdsProfile profile = with_way(way);
+    EXPECT_EQ(read_back("fastdds-2.14.5", write("fastdds-2.14.5", profile)), profile);
+    profile.server.server_routine_period = Nanoseconds{50'000'000};
+    profile.peer_ports = 32;
+    const DdsProfile again = read_back("fastdds-2.14.5", write("fastdds-2.14.5", profile));
+    const bool is_static = way == Discovery::static_peers;
+    EXPECT_EQ(again.peer_ports, is_static ? 32U : 4U);
+    EXPECT_EQ(again.server.server_routine_period,
+              Nanoseconds{is_static ? 450'000'000 : 50'000'000});
+  }
+  DdsProfile back = preset("fastdds-server-2.6.11");
+  back.discovery = Discovery::simple;
+  EXPECT_NE(refusal("fastdds-server-2.6.11", back).find("discovery"), std::string::npos);
 }
 
 TEST(WriteXml, no_change_is_an_empty_profile) {
@@ -147,7 +177,7 @@ TEST(WriteXml, a_startup_period_without_announcements_is_refused) {
 TEST(WriteXml, values_out_of_range_are_refused) {
   for (const std::string& name : names) {
     for (const VendorKnob& knob : vendor_knobs(*vendor_of_preset(name))) {
-      if (knob.setting.empty() || knob.is_choice()) continue;
+      if (!is_settable(name, knob)) continue;
       const DdsProfile profile = with(preset(name), knob.key, knob.maximum + 1);
       EXPECT_NE(refusal(name, profile).find("expected"), std::string::npos) << knob.key;
     }

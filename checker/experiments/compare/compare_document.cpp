@@ -1,0 +1,297 @@
+// The comparison as a document: which way is best here, all of them at the scenario's own size, how
+// far each goes, and how far that was held against live runs.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "checker/experiments/compare/compare_report.hpp"
+#include "checker/experiments/simulate/tone_of_health.hpp"
+#include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/command_line.hpp"
+#include "checker/presentation/text/numbers.hpp"
+#include "checker/verification/check/next_steps.hpp"
+
+namespace stormproof::compare {
+
+namespace {
+
+using report::Column;
+using report::Document;
+using report::Facts;
+using report::Paragraph;
+using report::Table;
+using report::Text;
+using report::Tone;
+using statistics::Quantiles;
+
+std::string time_text(const std::optional<double>& ns) {
+  return ns ? report::duration(model::Nanoseconds{std::llround(*ns)}) : "> limit";
+}
+
+std::string count_text(const std::optional<double>& value) {
+  return value ? report::grouped(static_cast<std::uint64_t>(std::llround(*value))) : "–";
+}
+
+const Quantiles& figure_of(const Cell& cell, Figure figure) {
+  return cell.figures[static_cast<std::size_t>(figure)];
+}
+
+std::string range_text(const Quantiles& q) {
+  if (q.count < 2) return time_text(q.median);
+  return fmt::format("{} [{} – {}]", time_text(q.median), time_text(q.min), time_text(q.max));
+}
+
+class Builder {
+ public:
+  Builder(const Report& report, const Request& request) : report_{report}, request_{request} {}
+
+  Document build() {
+    head();
+    at_own_size();
+    as_it_grows();
+    if (report_.sizes.size() > 1) plots();
+    what_to_do();
+    measured();
+    how();
+    assumptions();
+    return std::move(document_);
+  }
+
+ private:
+  [[nodiscard]] const Cell& own_cell(const Row& row) const {
+    return row.cells[report_.own_index()];
+  }
+
+  /// The candidate whose median completion is least at the own size, of those that do not break.
+  [[nodiscard]] const Row* fastest() const {
+    const Row* best = nullptr;
+    const auto completion = [this](const Row& row) {
+      return figure_of(own_cell(row), Figure::completion).median;
+    };
+    for (const Row& row : report_.rows) {
+      const Cell& cell = own_cell(row);
+      if (cell.runs.empty() || cell.breaks || !completion(row)) continue;
+      if (best == nullptr || *completion(row) < *completion(*best)) best = &row;
+    }
+    return best;
+  }
+
+  [[nodiscard]] const Row* own() const {
+    const auto found =
+        std::ranges::find_if(report_.rows, [](const Row& row) { return row.candidate.is_own; });
+    return found == report_.rows.end() ? nullptr : &*found;
+  }
+
+  void head() {
+    document_.title = "stormproof compare-discovery " + request_.scenario;
+    document_.complete = !report_.interrupted;
+    document_.exit_code = report_.interrupted ? 3 : 0;
+    const Row* best = fastest();
+    const Row* now = own();
+    document_.tone = report_.interrupted || best == nullptr ? Tone::warn : Tone::info;
+    document_.subject =
+        fmt::format("{}: {} ways to discover on the same start times, {} {}", request_.scenario,
+                    report_.rows.size(), fmt::join(report_.sizes, ", "), words_of(report_.grows));
+    if (best == nullptr) {
+      document_.answer = fmt::format("With {} {} every way to discover breaks.", report_.own_size,
+                                     words_of(report_.grows));
+    } else {
+      const Quantiles& least = figure_of(own_cell(*best), Figure::completion);
+      document_.answer =
+          fmt::format("With {} {} {} is fastest: discovery completes after {} at the median{}.",
+                      report_.own_size, words_of(report_.grows), best->candidate.name,
+                      time_text(least.median), beside(best, now));
+    }
+    document_.elaboration = furthest();
+  }
+
+  [[nodiscard]] std::string beside(const Row* best, const Row* now) const {
+    if (now == nullptr || now == best || own_cell(*now).runs.empty()) return {};
+    const Cell& cell = own_cell(*now);
+    const std::string whose =
+        now->candidate.id == "as-it-is" ? "" : fmt::format(" ({})", now->candidate.name);
+    return fmt::format(", as it is{} after {}{}", whose,
+                       time_text(figure_of(cell, Figure::completion).median),
+                       cell.breaks ? ": " + cell.outcome : "");
+  }
+
+  [[nodiscard]] std::string furthest() const {
+    std::vector<std::string> whole;
+    for (const Row& row : report_.rows) {
+      const bool ran =
+          std::ranges::any_of(row.cells, [](const Cell& c) { return !c.runs.empty(); });
+      if (ran && !row.breaks_at) whole.push_back(row.candidate.name);
+    }
+    if (report_.sizes.size() < 2) return {};
+    return whole.empty() ? fmt::format("All of them break up to {} {}.", report_.sizes.back(),
+                                       words_of(report_.grows))
+                         : fmt::format("Up to {} {} these do not break: {}.", report_.sizes.back(),
+                                       words_of(report_.grows), fmt::join(whole, ", "));
+  }
+
+  void at_own_size() {
+    Table table{{{"way to discover"}, {"completion [range]", Column::Align::right}}, {}};
+    for (const char* name : {"messages", "repair", "HEARTBEAT", "ACKNACK"}) {
+      table.columns.push_back({name, Column::Align::right});
+    }
+    for (const char* name : {"initial", "announced"}) {
+      table.columns.push_back({name, Column::Align::right, false, report::Audience::verbose});
+    }
+    table.columns.push_back({"", Column::Align::left, true});
+    table.wide = true;
+    table.caption =
+        fmt::format("{} {}: {}", report_.own_size, words_of(report_.grows),
+                    report_.samples == 1 ? std::string{"one run of each"}
+                                         : fmt::format("medians of {} runs", report_.samples));
+    for (const Row& row : report_.rows) {
+      const Cell& cell = own_cell(row);
+      Table::Row line{{(row.candidate.is_own ? "→ " : "") + row.candidate.name},
+                      row.candidate.is_own};
+      if (cell.runs.empty()) {
+        line.cells.insert(line.cells.end(), 7, Text{"–"});
+        line.cells.emplace_back(cell.not_run);
+      } else {
+        line.cells.emplace_back(range_text(figure_of(cell, Figure::completion)));
+        for (const Figure figure : {Figure::messages, Figure::repair_data, Figure::heartbeat,
+                                    Figure::acknack, Figure::initial_data, Figure::announcements}) {
+          line.cells.emplace_back(count_text(figure_of(cell, figure).median));
+        }
+        line.cells.push_back(report::badge(report::tone_of(cell.health), cell.outcome));
+      }
+      table.rows.push_back(std::move(line));
+    }
+    document_.blocks.emplace_back(std::move(table));
+    if (std::string svg = classes_plot(report_); !svg.empty()) {
+      document_.blocks.emplace_back(report::Drawing{std::move(svg), "Messages by class"},
+                                    report::Audience::page);
+    }
+  }
+
+  void as_it_grows() {
+    if (report_.sizes.size() < 2) return;
+    Table table{{{"completion, messages"}}, {}};
+    for (const std::uint32_t size : report_.sizes) {
+      table.columns.push_back({std::to_string(size), Column::Align::right});
+    }
+    table.columns.push_back({"breaks at", Column::Align::right});
+    table.wide = true;
+    table.caption = fmt::format("medians as {} grow", words_of(report_.grows));
+    for (const Row& row : report_.rows) {
+      Table::Row line{{row.candidate.name}};
+      for (const Cell& cell : row.cells) {
+        line.cells.emplace_back(
+            cell.runs.empty() ? "–"
+                              : fmt::format("{}{}, {}", cell.breaks ? "✗ " : "",
+                                            time_text(figure_of(cell, Figure::completion).median),
+                                            count_text(figure_of(cell, Figure::messages).median)));
+      }
+      line.cells.emplace_back(row.breaks_at                   ? std::to_string(*row.breaks_at)
+                              : row.candidate.skipped.empty() ? "not here"
+                                                              : "–");
+      table.rows.push_back(std::move(line));
+    }
+    document_.blocks.emplace_back(std::move(table));
+    document_.blocks.emplace_back(Paragraph{fmt::format(
+        "A way breaks (✗) at the first size at which half of the runs storm, or are not complete "
+        "within {}{}; larger ones are not run.",
+        report::duration(report_.limit), limit_text())});
+  }
+
+  [[nodiscard]] std::string limit_text() const {
+    const auto& limits = report_.candidates.scenario.limits;
+    if (!limits || !limits->completion || *limits->completion == report_.limit) return {};
+    return fmt::format(" (limits.completion: {})", report::duration(*limits->completion));
+  }
+
+  void plots() {
+    for (const Figure figure : {Figure::completion, Figure::messages}) {
+      document_.blocks.emplace_back(report::Drawing{growth_plot(report_, figure), ""},
+                                    report::Audience::page);
+    }
+  }
+
+  void what_to_do() {
+    Table table{{{"way to discover"}, {"what to change", Column::Align::left, true}, {"profile"}},
+                {}};
+    const bool has_files =
+        std::ranges::any_of(report_.rows, [](const Row& row) { return !row.files.empty(); });
+    if (has_files) table.columns.push_back({"files", Column::Align::left, true});
+    for (const Row& row : report_.rows) {
+      const Candidate& one = row.candidate;
+      std::string what = one.change;
+      if (!one.note.empty()) what += " (" + one.note + ")";
+      Table::Row line{{one.name, what, one.profile}};
+      if (has_files) line.cells.emplace_back(fmt::format("{}", fmt::join(row.files, ", ")));
+      table.rows.push_back(std::move(line));
+    }
+    document_.blocks.emplace_back(std::move(table));
+    if (!has_files) {
+      document_.next.push_back({report::program() + " compare-discovery " +
+                                    checker::words_of(request_.scenario, request_.overrides) +
+                                    " --export ways",
+                                "the files to deploy each of them"});
+    }
+  }
+
+  /// How far each was held against live runs.
+  void measured() {
+    Table table{{{"way to discover"},
+                 {"held against live runs", Column::Align::left, true},
+                 {"completion", Column::Align::right},
+                 {"messages", Column::Align::right}},
+                {}};
+    const auto ratio = [](const Nearness& one) {
+      return fmt::format("× {:.2f} (± {:.2f})", one.ratio, one.deviation);
+    };
+    for (const Row& row : report_.rows) {
+      const auto found = report_.validated.find(row.candidate.measured);
+      if (found == report_.validated.end()) {
+        table.rows.push_back({{row.candidate.name, "no: nobody measured it", "–", "–"}});
+        continue;
+      }
+      const Measured& one = found->second;
+      table.rows.push_back(
+          {{row.candidate.name, fmt::format("{}; {} configurations", one.what, one.configurations),
+            ratio(one.completion), ratio(one.messages)}});
+    }
+    table.caption =
+        "model over measurement: median ratio (median of |ln ratio|), of deployments with up to "
+        "two hosts with six participants each";
+    document_.blocks.emplace_back(
+        report::Section{"How far to trust it", "trust", {std::move(table)}});
+  }
+
+  void how() {
+    document_.blocks.emplace_back(Paragraph{
+        report_.is_sampled
+            ? fmt::format("Run k of every way and size draws its start times from seed {} + k.",
+                          request_.seed)
+            : "Every way runs the start times of the scenario once, and a storm is chaotic: "
+              "--start-jitter 10ms, or a deployment with a schedule, shows the range."});
+  }
+
+  void assumptions() {
+    document_.assumptions.emplace_back(
+        "A larger deployment starts as the scenario says; more processes on a host may take "
+        "longer.");
+    document_.assumptions.emplace_back(
+        "A Discovery Server is on a wireless host, with 50 µs for each datagram unless "
+        "deployment.send_cost says otherwise; its clients are complete when they know what they "
+        "match, all others when everybody knows everything.");
+    if (const Row* now = own()) report::add_unmodelled(document_, now->candidate.dds);
+  }
+
+  const Report& report_;
+  const Request& request_;
+  Document document_;
+};
+
+}  // namespace
+
+Document document_of(const Report& report, const Request& request) {
+  return Builder{report, request}.build();
+}
+
+}  // namespace stormproof::compare

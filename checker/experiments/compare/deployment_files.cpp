@@ -1,0 +1,121 @@
+// Texts beside the vendor's writer, which tuning uses, too.
+#include "checker/experiments/compare/deployment_files.hpp"
+
+#include <fmt/core.h>
+
+#include "checker/experiments/tune/deploy.hpp"
+#include "model/config/scenario_file.hpp"
+#include "model/config/vendor/vendor_knobs.hpp"
+
+namespace stormproof::compare {
+
+using model::DdsProfile;
+using model::Discovery;
+using model::config::Result;
+using model::config::SpecPath;
+namespace vendor = model::config::vendor;
+
+namespace {
+
+constexpr const char* launch_file =
+    "# All nodes of a robot in one process: one participant, as long as they share a context.\n"
+    "# Put your packages and plugins in.\n"
+    "from launch import LaunchDescription\n"
+    "from launch_ros.actions import ComposableNodeContainer\n"
+    "from launch_ros.descriptions import ComposableNode\n"
+    "\n"
+    "\n"
+    "def generate_launch_description():\n"
+    "    nodes = [\n"
+    "        ComposableNode(package='your_package', plugin='your_package::YourNode'),\n"
+    "    ]\n"
+    "    return LaunchDescription([\n"
+    "        ComposableNodeContainer(\n"
+    "            name='robot', namespace='', package='rclcpp_components',\n"
+    "            executable='component_container_mt', composable_node_descriptions=nodes),\n"
+    "    ])\n";
+
+std::string head(const Candidate& candidate) {
+  return fmt::format("# {}: {}.\n", candidate.name, candidate.change);
+}
+
+std::string server_environment(const Candidate& candidate, bool is_super) {
+  const bool apart = candidate.placement == Placement::server_on_own_host;
+  std::string text = head(candidate);
+  text += fmt::format(
+      "# On {}, before anything else starts: fastdds discovery -i 0 -p 11811\n"
+      "export RMW_IMPLEMENTATION=rmw_fastrtps_cpp\n"
+      "export ROS_DISCOVERY_SERVER=192.0.2.1:11811  # put its address here\n",
+      apart ? "a host of its own" : "the first robot");
+  if (is_super) text += "export ROS_SUPER_CLIENT=TRUE  # from Fast DDS 2.6.7 and 2.13 on\n";
+  return text;
+}
+
+std::string fastdds_environment(const Candidate& candidate, const std::string& xml) {
+  std::string text = head(candidate) + "export RMW_IMPLEMENTATION=rmw_fastrtps_cpp\n";
+  if (xml.empty()) return text + "unset ROS_DISCOVERY_SERVER ROS_SUPER_CLIENT\n";
+  text += fmt::format(
+      "export FASTRTPS_DEFAULT_PROFILES_FILE=$PWD/{}  # Fast DDS 2\n"
+      "export FASTDDS_DEFAULT_PROFILES_FILE=$PWD/{}   # Fast DDS 3\n",
+      xml, xml);
+  return text;
+}
+
+std::string cyclone_environment(const Candidate& candidate, const std::string& xml) {
+  return head(candidate) + fmt::format(
+                               "export RMW_IMPLEMENTATION=rmw_cyclonedds_cpp\n"
+                               "export CYCLONEDDS_URI=file://$PWD/{}\n",
+                               xml);
+}
+
+/// The XML of a profile that is built on a preset.
+Result<std::string> xml_of(const Candidate& candidate, const DdsProfile& dds, vendor::Vendor whose,
+                           const SpecPath& specs) {
+  const auto base = model::config::read_dds_profile(candidate.profile, {}, specs);
+  if (!base) return base.error();
+  tune::Subject subject;
+  subject.preset = candidate.profile;
+  subject.vendor = whose;
+  subject.base = *base;
+  if (whose == vendor::Vendor::cyclonedds) {  // what is said by no file depends on the network
+    const bool always = dds.allow_multicast == model::AllowMulticast::always;
+    subject.base.allow_multicast =
+        always ? model::AllowMulticast::spdp : model::AllowMulticast::always;
+  }
+  const std::string comment =
+      fmt::format("{}: {} ({}).", candidate.name, candidate.change, candidate.profile);
+  return tune::deployable(subject, dds, comment, specs);
+}
+
+}  // namespace
+
+Result<std::vector<DeploymentFile>> deployment_files(const Candidate& candidate,
+                                                     const DdsProfile& dds, const SpecPath& specs) {
+  std::vector<DeploymentFile> files;
+  const auto whose = vendor::vendor_of_preset(candidate.profile);
+  if (!candidate.skipped.empty() || !whose || candidate.id == "as-it-is") return files;
+  const std::string environment = candidate.id + ".env";
+  const std::string xml_name = candidate.id + ".xml";
+  const bool is_super = dds.discovery == Discovery::super_client;
+  if ((dds.discovery == Discovery::server || is_super) && candidate.id != "tuned") {
+    files.push_back({environment, server_environment(candidate, is_super)});
+    return files;
+  }
+  if (candidate.placement == Placement::one_process_per_host) {
+    files.push_back({candidate.id + ".launch.py", launch_file});
+    return files;
+  }
+  if (candidate.id == "simple") {
+    files.push_back({environment, fastdds_environment(candidate, {})});
+    return files;
+  }
+  auto xml = xml_of(candidate, dds, *whose, specs);
+  if (!xml) return xml.error();
+  files.push_back({xml_name, *std::move(xml)});
+  files.push_back({environment, *whose == vendor::Vendor::cyclonedds
+                                    ? cyclone_environment(candidate, xml_name)
+                                    : fastdds_environment(candidate, xml_name)});
+  return files;
+}
+
+}  // namespace stormproof::compare

@@ -1,0 +1,18 @@
+// Nodes that share a participant, as in a component container: rmw_fastrtps and rmw_cyclonedds
+// create one participant for each context, whatever the number of nodes in it.
+#pragma once
+
+#include <cstdint>
+
+#include "model/deployment.hpp"
+
+namespace stormproof::model {
+
+/// `nodes` has one participant for each node. Each `per_participant` (at least 1) of those of a
+/// host, in their order, become one: with the endpoints of all, and what each node but the first
+/// brings along; it starts with the first of them and has created all endpoints with the last. The
+/// last one of a host may have fewer nodes.
+[[nodiscard]] Deployment sharing_participants(const Deployment& nodes,
+                                              std::uint32_t per_participant);
+
+}  // namespace stormproof::model
