@@ -27,7 +27,7 @@ FOLDERS = ["specs/guide", "specs/findings", "specs/captures"]
 LANGUAGES = {".hpp": "cpp", ".cpp": "cpp", ".yaml": "yaml", ".yml": "yaml", ".xml": "xml", ".json": "json",
              ".txt": "text", ".cmake": "cmake", ".sh": "sh", ".py": "python"}
 MERMAID = "mermaid@9.4.3"
-GUIDE = {"Use it": ["checking", "bounds", "cannot-start", "profiles", "diff", "tuning", "sensitivity", "fuzzing",
+GUIDE = {"Use it": ["checking", "bounds", "cannot-start", "profiles", "diff", "comparing-discovery", "tuning", "sensitivity", "fuzzing",
                     "sweeping", "reports", "output"],
          "Beside reality": ["doctor", "captures", "conforming", "validating", "coverage", "reproducing", "live"]}
 
