@@ -21,6 +21,33 @@ start_capture() { # <host> <folder> : what the host sends, whole packets
   wait_for "the capture on host $1" 20 grep -qs '^File: ' "$2/capture-$1.log"
 }
 
+start_doctor() { # <folder> : on host 0, where it hears both
+  [[ -n $doctor ]] || return 0
+  ip netns exec "$(namespace 0)" "$program" doctor --interface "$interface" --for "$doctor" \
+    --recording "$1/doctor.pcap" --no-advice --no-progress --report "json=$1/doctor.json" \
+    >"$1/doctor.txt" 2>"$1/doctor.log" </dev/null &
+  doctor_pid=$!
+  wait_for "the recording of doctor" 20 test -s "$1/doctor.pcap"
+}
+
+# judge_doctor <folder>... : what it said while it happened, and what it says of the captures
+judge_doctor() {
+  local folder live after
+  for folder in "$@"; do
+    live=$(sed -n 's/^  "storm": \(true\|false\),$/\1/p' "$folder/doctor.json")
+    "$program" doctor "$folder/host-0.pcap" "$folder/host-1.pcap" --no-advice --no-progress \
+      --format json >"$folder/doctor-after.json" 2>/dev/null || true
+    after=$(sed -n 's/^  "storm": \(true\|false\),$/\1/p' "$folder/doctor-after.json")
+    if [[ -z $live || $live != "$after" ]] || ! grep -q '"vendor": "Fast DDS"' "$folder/doctor.json" ||
+      ! grep -q "^  \"participant_count\": $((2 * np)),\$" "$folder/doctor.json"; then
+      say "doctor, live: storm ${live:-unknown}; of the captures: ${after:-unknown}"
+      cat "$folder/doctor.log" >&2
+      return 1
+    fi
+    say "doctor, live and of the captures: storm $live"
+  done
+}
+
 start_server() { # <folder> : on host 0, there before everybody else
   ip netns exec "$(namespace 0)" env -u FASTRTPS_DEFAULT_PROFILES_FILE -C "$1" "$participant" \
     --serves 1 --discovery "$discovery" --server "${addresses[0]}" --host 0 --index 0 --np "$np" \
@@ -161,8 +188,10 @@ run_once() {
   start_capture 0 "$folder"
   start_capture 1 "$folder"
   start_participants "$folder"
+  start_doctor "$folder"
   release "$folder"
   wait_for_completion "$folder"
+  [[ -z $doctor ]] || wait "$doctor_pid" || true
   stop_all "$folder"
   remove_network
   completion=$(completion_of "$folder")

@@ -64,6 +64,7 @@ model::config::Result<std::uint64_t> record(
   pcap_setnonblock(handle.get(), 1, why.data());
   DumpFile file{pcap_dump_open(handle.get(), recording.path.c_str())};
   if (!file) return InputError{"--recording " + recording.path, pcap_geterr(handle.get())};
+  pcap_dump_flush(file.get());  // whoever waits for the recording sees that it has begun
 
   const auto end =
       std::chrono::steady_clock::now() + std::chrono::nanoseconds{recording.duration.count()};
