@@ -26,7 +26,8 @@ const char* const verbs[] = {
     "simulate", "check",    "fuzz",         "sensitivity",  "tune",
     "diff",     "coverage", "conform",      "validate",     "capture summarize",
     "replay",   "sweep",    "profile show", "profile lint", "reproduce",
-    "mutate",   "draw",     "properties",   "list",         "doctor"};
+    "mutate",   "draw",     "properties",   "list",         "doctor",
+    "museum"};
 
 std::string output_of(const std::string& arguments) {
   FILE* pipe = popen((STORMPROOF_PROGRAM " " + arguments).c_str(), "r");
