@@ -15,6 +15,7 @@
 #include "fsm/matched_reader.hpp"
 #include "fsm/movable_timer.hpp"
 #include "fsm/reflect.hpp"
+#include "fsm/reopening_repair.hpp"
 #include "fsm/single_shot.hpp"
 
 namespace stormproof::fsm {
@@ -27,7 +28,7 @@ std::vector<MachineInfo> machines() {
           Reflect<ControlWriter>::info(),    Reflect<ControlReader>::info(),
           Reflect<CautiousReader>::info(),   Reflect<MatchedReader>::info(),
           Reflect<HeartbeatPacer>::info(),   Reflect<EventThread>::info(),
-          Reflect<MovableTimer>::info()};
+          Reflect<MovableTimer>::info(),     Reflect<ReopeningRepair>::info()};
 }
 
 }  // namespace stormproof::fsm

@@ -6,21 +6,25 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
+#include "model/amendments.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model {
 
 /// Whose DDS runs: the paper's, or Fast DDS or Cyclone DDS as their source code has them; and
-/// Fast DDS with another way to discover (`DdsProfile::discovery`), which `kind_of` a profile says
-/// and no profile names. What is true of each: model/implementations.hpp.
+/// Fast DDS with another way to discover (`DdsProfile::discovery`), and the paper's with amended
+/// rules (`DdsProfile::amendments`), which `kind_of` a profile says and no profile names. What is
+/// true of each: model/implementations.hpp.
 enum class ImplementationKind : std::uint8_t {
   paper,
   fastdds,
   cyclone,
   fastdds_static,
-  fastdds_server
+  fastdds_server,
+  paper_amended
 };
 
 /// How participants of `implementation: fastdds` find each other: by multicast; through a Discovery
@@ -168,7 +172,8 @@ struct DdsProfile {
   // `implementation: fastdds` only.
   Discovery discovery = Discovery::simple;
   ServerProfile server;
-  std::uint32_t peer_ports = 4;  ///< of each host, with static peers
+  std::uint32_t peer_ports = 4;               ///< of each host, with static peers
+  std::optional<Amendments> amendments = {};  ///< `implementation: paper` only
   /// What the described system has and this model has not: the setting, and what it would do. No
   /// run depends on it; every report of a run has to name it as an assumption.
   std::map<std::string, std::string> unmodelled;

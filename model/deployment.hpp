@@ -43,6 +43,41 @@ struct Schedule {
   bool operator==(const Schedule&) const = default;
 };
 
+/// Before the run, `writer` holds `reader` as matched and up to date, and `reader` has forgotten
+/// `writer`.
+struct StaleRelation {
+  std::uint32_t writer = 0;
+  std::uint32_t reader = 0;
+
+  bool operator==(const StaleRelation&) const = default;
+};
+/// From that time on nothing that the participant emits is received, and it processes nothing.
+struct Mute {
+  std::uint32_t participant = 0;
+  Nanoseconds from;
+
+  bool operator==(const Mute&) const = default;
+};
+/// A packet whose reception would be at start ≤ t < end is not received. One direction.
+struct Outage {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  Nanoseconds start;
+  Nanoseconds end;
+
+  bool operator==(const Outage&) const = default;
+};
+
+/// What happened before the run, and what happens to participants in it; only with
+/// `dds.amendments`, whose rules know it.
+struct Life {
+  std::vector<StaleRelation> stale;
+  std::vector<Mute> mute;
+  std::vector<Outage> outages;
+
+  bool operator==(const Life&) const = default;
+};
+
 struct Deployment {
   /// Largest deployment that is accepted. 4,000 participants on two hosts are 16 million relations.
   static constexpr std::uint32_t max_participants = 4'000;
@@ -61,6 +96,8 @@ struct Deployment {
   std::optional<Nanoseconds> send_cost = {};
   /// `send_cost`, or what was measured on the machine of the live runs.
   [[nodiscard]] Nanoseconds cost_to_send() const { return send_cost.value_or(Nanoseconds{50'000}); }
+
+  std::optional<Life> life = {};
 
   /// The ranges that `start` and `endpoints_done` of the participants were drawn from, if they were
   /// drawn.

@@ -27,6 +27,9 @@ struct FastDdsServer;  // fsm/composition/server.hpp
 namespace cyclone {
 struct Cyclone;  // fsm/composition/cyclone.hpp
 }
+namespace amended {
+struct Amended;  // fsm/composition/amended.hpp
+}
 }  // namespace stormproof::fsm::composition
 
 namespace stormproof::model {
@@ -130,6 +133,24 @@ inline constexpr ImplementationTraits traits_of_programs{
     .acknacks_have_bases = true,
     .answers_heartbeats_together = true};
 
+[[nodiscard]] constexpr ImplementationTraits traits_of_paper() {
+  return {.name = "paper",
+          .whose = "the paper",
+          .rules = "the rules of the closed-loop model",
+          .guide = "specs/guide/model.md",
+          .has_size_knobs = true,
+          .waits_for_source = true};
+}
+
+/// The paper's, with rules that other implementations have or had (model/amendments.hpp).
+[[nodiscard]] constexpr ImplementationTraits traits_of_paper_amended() {
+  ImplementationTraits traits = traits_of_paper();
+  traits.rules = "the amended rules of the closed-loop model";
+  traits.guide = "specs/guide/museum.md";
+  traits.is_known_to_engines = false;
+  return traits;
+}
+
 [[nodiscard]] constexpr ImplementationTraits traits_of_fastdds() {
   ImplementationTraits traits = traits_of_programs;
   traits.name = "fastdds";
@@ -173,14 +194,8 @@ inline constexpr ImplementationTraits traits_of_programs{
 
 /// In the order of the enumerators.
 inline constexpr std::array implementation_traits{
-    ImplementationTraits{.name = "paper",
-                         .whose = "the paper",
-                         .rules = "the rules of the closed-loop model",
-                         .guide = "specs/guide/model.md",
-                         .has_size_knobs = true,
-                         .waits_for_source = true},
-    traits_of_fastdds(), traits_of_cyclone(), traits_of_fastdds_static(),
-    traits_of_fastdds_server()};
+    traits_of_paper(),          traits_of_fastdds(),        traits_of_cyclone(),
+    traits_of_fastdds_static(), traits_of_fastdds_server(), traits_of_paper_amended()};
 
 /// What runs under the profile: its implementation, with the way to discover.
 [[nodiscard]] constexpr ImplementationKind kind_of(ImplementationKind implementation,
@@ -198,16 +213,21 @@ inline constexpr std::array implementation_traits{
   return implementation;
 }
 [[nodiscard]] inline ImplementationKind kind_of(const DdsProfile& dds) {
+  if (dds.amendments && dds.implementation == ImplementationKind::paper) {
+    return ImplementationKind::paper_amended;
+  }
   return kind_of(dds.implementation, dds.discovery);
 }
 /// The implementation that a profile names for it.
 [[nodiscard]] constexpr ImplementationKind implementation_of(ImplementationKind kind) {
+  if (kind == ImplementationKind::paper_amended) return ImplementationKind::paper;
   const bool named = index_of(kind) < implementations.size();
   return named ? kind : implementation_with_discovery;
 }
 /// Which composition of those that there are (fsm/composition/compositions.hpp) it executes.
 [[nodiscard]] constexpr std::size_t composition_index(ImplementationKind kind) {
   if (kind == ImplementationKind::fastdds_static) return index_of(ImplementationKind::fastdds);
+  if (kind == ImplementationKind::paper_amended) return implementations.size() + 1;
   return kind == ImplementationKind::fastdds_server ? implementations.size() : index_of(kind);
 }
 
@@ -240,6 +260,12 @@ template <class Composition>
 struct Of {
   using Type = Composition;
 };
+/// What nobody says of the amended rules is what is said of the paper's, which they change: sizes
+/// of packets, workloads.
+template <>
+struct Of<fsm::composition::amended::Amended> : Of<fsm::composition::paper::Paper> {
+  using Type = fsm::composition::amended::Amended;
+};
 
 /// What `visit` returns for `Of` the composition that the implementation executes. It has the same
 /// type for each.
@@ -251,6 +277,8 @@ decltype(auto) visit_composition(ImplementationKind kind, Visit&& visit) {
     case ImplementationKind::fastdds:
     case ImplementationKind::fastdds_static:
       return visit(Of<fsm::composition::fastdds::FastDds>{});
+    case ImplementationKind::paper_amended:
+      return visit(Of<fsm::composition::amended::Amended>{});
     case ImplementationKind::fastdds_server:
       return visit(Of<fsm::composition::server::FastDdsServer>{});
     case ImplementationKind::cyclone:

@@ -12,6 +12,7 @@
 #include "model/fastdds/protocol.hpp"
 #include "model/fastdds/server_protocol.hpp"
 #include "model/implementations.hpp"
+#include "model/paper/amended_protocol.hpp"
 #include "model/paper/protocol.hpp"
 
 namespace stormproof::model {
@@ -24,6 +25,9 @@ bool concerns_network(EventKind kind) {
 
 ImplementationMaker maker_for(Of<comp::paper::Paper>, SameHostPairs same_host) {
   return maker_of<paper::Protocol>(same_host);
+}
+ImplementationMaker maker_for(Of<comp::amended::Amended>, SameHostPairs same_host) {
+  return maker_of<paper::AmendedProtocol>(same_host);
 }
 ImplementationMaker maker_for(Of<comp::fastdds::FastDds>, SameHostPairs same_host) {
   return maker_of<fastdds::Protocol>(same_host);

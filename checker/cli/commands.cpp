@@ -25,6 +25,7 @@ void declare_commands(Frame& frame) {
   declare_replay(frame);
   declare_draw(frame);
   declare_mutate(frame);
+  declare_museum(frame);
   declare_list(frame);
   declare_help(frame);
 }

@@ -27,6 +27,7 @@ void declare_profile(Frame& frame);
 void declare_replay(Frame& frame);
 void declare_draw(Frame& frame);
 void declare_mutate(Frame& frame);
+void declare_museum(Frame& frame);
 void declare_list(Frame& frame);
 void declare_help(Frame& frame);
 

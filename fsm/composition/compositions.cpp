@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fsm/composition/amended.hpp"
 #include "fsm/composition/cyclone.hpp"
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/paper.hpp"
@@ -24,7 +25,7 @@ std::string_view label(Owner owner) {
 const std::vector<CompositionInfo>& compositions() {
   static const std::vector<CompositionInfo> all{
       recorded<paper::Paper>(), recorded<fastdds::FastDds>(), recorded<cyclone::Cyclone>(),
-      recorded<server::FastDdsServer>()};
+      recorded<server::FastDdsServer>(), recorded<amended::Amended>()};
   return all;
 }
 

@@ -66,6 +66,8 @@ std::string folder_name(SpecKind kind) {
       return "wireless";
     case SpecKind::grids:
       return "grids";
+    case SpecKind::museum:
+      return "museum";
     case SpecKind::policies:
       return "policies";
   }

@@ -2,6 +2,7 @@
 // the event queue. Every world that runs scenarios reads them here.
 #pragma once
 
+#include "fsm/composition/amended_parts.hpp"
 #include "fsm/composition/cyclone.hpp"
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/paper.hpp"
@@ -159,6 +160,95 @@ inline std::int64_t value(comp::server::RegistrationHeartbeatPeriod, const DdsPr
 }
 inline std::int64_t value(comp::server::RegistrationResponseDelay, const DdsProfile& dds) {
   return dds.server.pdp_heartbeat_response_delay.count();
+}
+
+// The amended rules of the paper's implementation; only profiles with amendments are asked.
+inline bool value(comp::amended::InitialResets, const DdsProfile& dds) {
+  return dds.amendments->initial_acknack_resets == Whether::yes;
+}
+inline bool value(comp::amended::InitialArms, const DdsProfile& dds) {
+  return dds.amendments->initial_acknack_arms == Whether::yes;
+}
+inline bool value(comp::amended::IgnoresLateInitial, const DdsProfile& dds) {
+  return dds.amendments->late_initial == LateInitial::ignore_after_ack;
+}
+inline bool value(comp::amended::AsksOnce, const DdsProfile& dds) {
+  return dds.amendments->initial_acknack_repeat == InitialAckNackRepeat::once;
+}
+inline bool value(comp::amended::AsksAtOnceBeforeCreation, const DdsProfile& dds) {
+  return dds.amendments->initial_acknack_repeat == InitialAckNackRepeat::age_based_zero;
+}
+inline bool value(comp::amended::AsksByAge, const DdsProfile& dds) {
+  const InitialAckNackRepeat repeat = dds.amendments->initial_acknack_repeat;
+  return repeat == InitialAckNackRepeat::age_based ||
+         repeat == InitialAckNackRepeat::age_based_zero;
+}
+inline std::int64_t value(comp::amended::AgePeriod, const DdsProfile&) { return 1'000'000'000; }
+inline bool value(comp::amended::StopsWhenComplete, const DdsProfile& dds) {
+  return dds.amendments->initial_acknack_stop == InitialAckNackStop::complete;
+}
+inline bool value(comp::amended::ReopensAcknowledged, const DdsProfile& dds) {
+  return dds.amendments->acked_request == AckedRequest::reopen;
+}
+inline bool value(comp::amended::ResendsAcknowledged, const DdsProfile& dds) {
+  return dds.amendments->acked_request == AckedRequest::resend;
+}
+inline bool value(comp::amended::OnlyInUWaits, const DdsProfile& dds) {
+  return dds.amendments->heartbeat_condition == HeartbeatCondition::in_u;
+}
+inline bool value(comp::amended::SuppressionEndArms, const DdsProfile& dds) {
+  return dds.amendments->suppression_end_arms == Whether::yes;
+}
+inline bool value(comp::amended::HeartbeatBeforeRepair, const DdsProfile& dds) {
+  return dds.amendments->repair_heartbeat == RepairHeartbeat::before;
+}
+inline bool value(comp::amended::HeartbeatAfterRepair, const DdsProfile& dds) {
+  return dds.amendments->repair_heartbeat == RepairHeartbeat::after;
+}
+inline bool value(comp::amended::AnswersRequests, const DdsProfile& dds) {
+  return dds.amendments->acknack_reply == AckNackReply::nonfinal;
+}
+inline bool value(comp::amended::AnswersEachAckNack, const DdsProfile& dds) {
+  return dds.amendments->acknack_reply == AckNackReply::all;
+}
+inline bool value(comp::amended::LatestOnly, const DdsProfile& dds) {
+  return dds.amendments->stale_acknack == StaleAckNack::latest_only;
+}
+inline bool value(comp::amended::RequiredDrops, const DdsProfile& dds) {
+  return dds.amendments->stale_acknack == StaleAckNack::required_drop;
+}
+inline bool value(comp::amended::RequiredGates, const DdsProfile& dds) {
+  return dds.amendments->stale_acknack == StaleAckNack::required_gate;
+}
+inline bool value(comp::amended::RequiredAtRepair, const DdsProfile& dds) {
+  return dds.amendments->stale_acknack == StaleAckNack::required_at_repair;
+}
+inline bool value(comp::amended::AcksHighest, const DdsProfile& dds) {
+  return dds.amendments->on_reannounce == OnReannounce::ack_highest;
+}
+inline bool value(comp::amended::AcksMissing, const DdsProfile& dds) {
+  return dds.amendments->on_reannounce == OnReannounce::ack_missing;
+}
+inline bool value(comp::amended::RetriesAfterNack, const DdsProfile& dds) {
+  return dds.amendments->reader_retry != ReaderRetry::off;
+}
+inline bool value(comp::amended::RetriesWheneverMissing, const DdsProfile& dds) {
+  return dds.amendments->reader_retry == ReaderRetry::whenever_missing;
+}
+inline std::int64_t value(comp::amended::MatchClockSkew, const DdsProfile& dds) {
+  return dds.amendments->match_clock_skew.count();
+}
+inline std::int64_t value(comp::amended::RetryPeriod, const DdsProfile& dds) {
+  return dds.amendments->reader_retry_period.count();
+}
+inline std::int64_t value(comp::amended::NackDelay, const DdsProfile& dds) {
+  return dds.amendments->reader_nack_delay.count();
+}
+inline std::int64_t value(comp::amended::ResendCopies, const DdsProfile& dds) {
+  return dds.amendments->resend_copies;
+}
+inline std::int64_t value(comp::amended::ResendCopyPeriod, const DdsProfile& dds) {
+  return dds.amendments->resend_copy_period.count();
 }
 }  // namespace knobs_of_composition
 

@@ -4,7 +4,7 @@
 namespace stormproof::model::paper {
 
 /// To every cross-host participant that i knows: one record that stands for all copies.
-void Protocol::send_spdp_to_known(std::uint32_t i) {
+void ProtocolBase::send_spdp_to_known(std::uint32_t i) {
   const Participant& participant = participants_[i];
   if (participant.known == 0) return;
   run_.counts.spdp_unicast += participant.known;
@@ -15,12 +15,12 @@ void Protocol::send_spdp_to_known(std::uint32_t i) {
   network_.emit(i, std::move(packet));
 }
 
-void Protocol::send_spdp_multicast(std::uint32_t i) {
+void ProtocolBase::send_spdp_multicast(std::uint32_t i) {
   ++run_.counts.spdp_multicast;
   network_.emit(i, packet_of(PacketKind::spdp_multicast, i, spdp_.payload_bytes.count()));
 }
 
-void Protocol::send_spdp_copy(std::uint32_t pair) {
+void ProtocolBase::send_spdp_copy(std::uint32_t pair) {
   ++run_.counts.spdp_unicast;
   network_.emit(run_.topology.pair(pair).source,
                 packet_of(PacketKind::spdp_unicast, pair, spdp_.payload_bytes.count()));

@@ -8,7 +8,7 @@
 namespace stormproof::model::paper {
 
 /// The packet that is being filled.
-struct Protocol::Message {
+struct ProtocolBase::Message {
   std::uint32_t relation;
   bool repair;
   bool carries_initial = false;
@@ -18,8 +18,8 @@ struct Protocol::Message {
   std::vector<std::uint64_t> words;
 };
 
-void Protocol::generate_data(std::uint32_t relation, const DescriptorSet& descriptors,
-                             bool repair) {
+void ProtocolBase::generate_data(std::uint32_t relation, const DescriptorSet& descriptors,
+                                 bool repair) {
   const std::int64_t shared = sedp_.shared_header_bytes.count();
   Message message{.relation = relation, .repair = repair, .words = {}};
   message.words.resize(words_for(run_.topology.descriptor_count(relation)));
@@ -30,7 +30,7 @@ void Protocol::generate_data(std::uint32_t relation, const DescriptorSet& descri
       flush(message);
     }
     const std::int64_t added = message.members == 0 ? bytes : bytes - shared;
-    const bool initial = descriptors_.mark_generated(relation, d);
+    const bool initial = mark_generated(relation, d);
     message.words[d / 64] |= std::uint64_t{1} << d % 64;
     message.payload_bytes += added;
     message.carries_initial = message.carries_initial || initial;
@@ -41,16 +41,20 @@ void Protocol::generate_data(std::uint32_t relation, const DescriptorSet& descri
   if (message.members > 0) flush(message);
 }
 
+bool ProtocolBase::uses_up_budget(std::uint32_t w, std::int64_t added_bytes) {
+  const bool cumulative = sedp_.piggyback == Piggyback::cumulative;
+  writers_[w].budget -= cumulative ? participants_[w / 2].sent_bytes : added_bytes;
+  return writers_[w].budget < 0;
+}
+
 /// Charges the bytes just added to `message` against the piggyback budget of its writer.
-void Protocol::charge(Message& message, std::int64_t added_bytes) {
+void ProtocolBase::charge(Message& message, std::int64_t added_bytes) {
   if (sedp_.piggyback == Piggyback::off) return;
   const std::uint32_t w = writer_of(message.relation);
   Writer& writer = writers_[w];
   std::int64_t& sent = participants_[w / 2].sent_bytes;
-  const bool cumulative = sedp_.piggyback == Piggyback::cumulative;
   sent += added_bytes;
-  writer.budget -= cumulative ? sent : added_bytes;
-  if (writer.budget >= 0) return;
+  if (!uses_up_budget(w, added_bytes)) return;
 
   refill(w);
   if (writer.open == 1) {  // the HEARTBEAT rides in the packet
@@ -67,7 +71,7 @@ void Protocol::charge(Message& message, std::int64_t added_bytes) {
 }
 
 /// Emits the packet and starts a new one.
-void Protocol::flush(Message& message) {
+void ProtocolBase::flush(Message& message) {
   Packet packet = packet_on(PacketKind::data, message.relation, message.payload_bytes);
   packet.descriptors = DescriptorSet{message.words};
   packet.from_repair = message.repair;
@@ -83,24 +87,25 @@ void Protocol::flush(Message& message) {
   message.heartbeats = 0;
 }
 
-void Protocol::refill(std::uint32_t w) {
+void ProtocolBase::refill(std::uint32_t w) {
   writers_[w].budget = sedp_.piggyback_threshold_bytes.count();
 }
 
-void Protocol::send_heartbeat(std::uint32_t relation) {
+void ProtocolBase::send_heartbeat(std::uint32_t relation, std::uint32_t number) {
   ++run_.counts.heartbeat;
-  network_.emit(ends(relation).source,
-                packet_on(PacketKind::heartbeat, relation, sedp_.heartbeat_bytes.count()));
+  Packet packet = packet_on(PacketKind::heartbeat, relation, sedp_.heartbeat_bytes.count());
+  packet.initial_data = number;
+  network_.emit(ends(relation).source, std::move(packet));
 }
 
-void Protocol::send_heartbeat_to(std::uint32_t relation) {
+void ProtocolBase::send_heartbeat_to(std::uint32_t relation) {
   refill(writer_of(relation));
   send_heartbeat(relation);
 }
 
 /// The same to every open relation of the writer, ascending: one record that stands for all of
 /// them.
-void Protocol::send_heartbeat_to_open(std::uint32_t w) {
+void ProtocolBase::send_heartbeat_to_open(std::uint32_t w) {
   Writer& writer = writers_[w];
   if (writer.open == 0) return;
   run_.counts.heartbeat += writer.open;
@@ -112,7 +117,7 @@ void Protocol::send_heartbeat_to_open(std::uint32_t w) {
   network_.emit(w / 2, std::move(packet));
 }
 
-void Protocol::send_periodic(std::uint32_t w) {
+void ProtocolBase::send_periodic(std::uint32_t w) {
   const bool to_all = sedp_.heartbeat_recipients == HeartbeatRecipients::matched ||
                       writers_[w].unacknowledged == writers_[w].open;
   if (to_all) {

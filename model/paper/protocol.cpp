@@ -7,11 +7,9 @@
 namespace stormproof::model::paper {
 
 namespace reader = fsm::discovery_reader;
-namespace repair = fsm::descriptor_repair;
 
-Protocol::Protocol(RunState& run, Network& network)
+ProtocolBase::ProtocolBase(RunState& run, Network& network)
     : DiscoveryBase{run, network},
-      descriptors_{run},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
@@ -30,53 +28,15 @@ Protocol::Protocol(RunState& run, Network& network)
   }
 }
 
-void Protocol::start() {
+void ProtocolBase::start() {
   for (std::uint32_t i = 0; i < run_.topology.participant_count(); ++i) start_announcing(i);
 }
 
-bool Protocol::has_started(std::uint32_t participant) const {
+bool ProtocolBase::has_started(std::uint32_t participant) const {
   return run_.now >= run_.topology.start(participant);
 }
 
-void Protocol::received(const Packet& packet, std::uint32_t) {
-  if (packet.multicast()) {
-    // `pair` of a multicast packet is its source; every started cross-host participant processes
-    // it.
-    const std::uint32_t end = run_.topology.first_pair(packet.pair + 1);
-    for (std::uint32_t pair = run_.topology.first_pair(packet.pair); pair < end; ++pair) {
-      if (!has_started(run_.topology.pair(pair).destination)) continue;
-      run_rule<comp::Received<comp::SpdpMulticast>>(*this, pair);
-    }
-    return;
-  }
-  const Pair& pair = run_.topology.pair(packet.pair);
-  if (!has_started(packet.to_writer() ? pair.source : pair.destination)) return;
-  const std::uint32_t relation = packet.relation();
-  switch (packet.kind) {
-    case PacketKind::spdp_unicast:
-      run_rule<comp::Received<comp::SpdpUnicast>>(*this, packet.pair);
-      break;
-    case PacketKind::data:
-      count_copies(descriptors_, packet);
-      run_rule<comp::Received<rules::Data>>(*this, relation, &packet);
-      break;
-    case PacketKind::heartbeat:
-      run_rule<comp::Received<rules::Heartbeat>>(*this, relation, &packet);
-      break;
-    case PacketKind::acknack:
-      run_rule<comp::Received<rules::AckNack>>(*this, relation, &packet);
-      break;
-    default:
-      break;
-  }
-}
-
-void Protocol::source_completed(const Packet& packet) {
-  if (packet.kind != PacketKind::data) return;
-  run_rule<comp::LeftSource<rules::Data>>(*this, packet.relation(), &packet);
-}
-
-void Protocol::assign(comp::Recognised, std::uint32_t pair, bool) {
+void ProtocolBase::assign(comp::Recognised, std::uint32_t pair, bool) {
   const std::uint32_t reverse = run_.topology.pair(pair).reverse;
   if (known_rank_[reverse] != no_rank) return;
   Participant& participant = participants_[run_.topology.pair(pair).destination];
@@ -84,7 +44,7 @@ void Protocol::assign(comp::Recognised, std::uint32_t pair, bool) {
   participant.first_known_pair = std::min(participant.first_known_pair, reverse);
 }
 
-void Protocol::assign(rules::WriterOpen, std::uint32_t relation, bool) {
+void ProtocolBase::assign(rules::WriterOpen, std::uint32_t relation, bool) {
   if (relations_[relation].open_rank != no_rank) return;
   Writer& writer = writers_[writer_of(relation)];
   relations_[relation].open_rank = writer.open++;
@@ -93,7 +53,7 @@ void Protocol::assign(rules::WriterOpen, std::uint32_t relation, bool) {
 }
 
 /// The open relation's reader has begun to wait, or has acknowledged everything.
-void Protocol::note_waiting(std::uint32_t relation) {
+void ProtocolBase::note_waiting(std::uint32_t relation) {
   const std::uint32_t w = writer_of(relation);
   const std::uint32_t peer = relation / 2 - run_.topology.first_pair(w / 2);
   writers_[w].waiting_readers[peer / 64] ^= std::uint64_t{1} << peer % 64;
@@ -103,18 +63,16 @@ void Protocol::note_waiting(std::uint32_t relation) {
     --writers_[w].unacknowledged;
 }
 
-void Protocol::moved(rules::C, std::uint32_t relation, fsm::StateId before, fsm::StateId after,
-                     std::uint64_t members) {
-  constexpr fsm::StateId acknowledged = fsm::Reflect<fsm::DescriptorRepair>::id<repair::A>;
-  if ((before == acknowledged) == (after == acknowledged)) return;
+void ProtocolBase::note_acknowledged(std::uint32_t relation, bool acknowledged,
+                                     std::uint64_t members) {
   Relation& r = relations_[relation];
   const bool waited = r.unacknowledged > 0;
   const auto count = static_cast<std::uint32_t>(std::popcount(members));
-  r.unacknowledged += after == acknowledged ? -count : count;
+  r.unacknowledged += acknowledged ? -count : count;
   if (waited != (r.unacknowledged > 0) && r.open_rank != no_rank) note_waiting(relation);
 }
 
-std::uint32_t Protocol::next_recipient(const Packet& packet, std::uint32_t pair) const {
+std::uint32_t ProtocolBase::next_recipient(const Packet& packet, std::uint32_t pair) const {
   if (packet.kind == PacketKind::spdp_unicast) {
     while (known_rank_[pair] >= packet.rank_limit) ++pair;
     return pair;
@@ -124,7 +82,7 @@ std::uint32_t Protocol::next_recipient(const Packet& packet, std::uint32_t pair)
   return pair;
 }
 
-std::vector<std::uint32_t> Protocol::open_relations(std::uint32_t w) const {
+std::vector<std::uint32_t> ProtocolBase::open_relations(std::uint32_t w) const {
   std::vector<std::uint32_t> relations;
   for (std::uint32_t pair = run_.topology.first_pair(w / 2);
        pair < run_.topology.first_pair(w / 2 + 1); ++pair) {
@@ -135,7 +93,7 @@ std::vector<std::uint32_t> Protocol::open_relations(std::uint32_t w) const {
 }
 
 /// The open relations whose readers have not acknowledged everything, ascending.
-std::vector<std::uint32_t> Protocol::waiting(std::uint32_t w) const {
+std::vector<std::uint32_t> ProtocolBase::waiting(std::uint32_t w) const {
   std::vector<std::uint32_t> relations;
   const std::vector<std::uint64_t>& words = writers_[w].waiting_readers;
   const std::uint32_t first_pair = run_.topology.first_pair(w / 2);
@@ -150,24 +108,32 @@ std::vector<std::uint32_t> Protocol::waiting(std::uint32_t w) const {
 }
 
 /// The bitmap takes four bytes for every 32 descriptors of the stream.
-void Protocol::send_acknack(std::uint32_t relation, DescriptorSet&& bitmap, bool initial) {
+void ProtocolBase::send_acknack(std::uint32_t relation, DescriptorSet&& bitmap, bool initial,
+                                std::uint32_t answered) {
   ++run_.counts.acknack;
   Packet packet = packet_on(PacketKind::acknack, relation, sedp_.acknack_bytes.count());
   packet.descriptors = std::move(bitmap);
   packet.initial_acknack = initial;
+  packet.initial_data = answered;
   if (!initial && !packet.descriptors.empty()) {
     packet.payload_bytes += 4 * ((run_.topology.descriptor_count(relation) + 31) / 32);
   }
   network_.emit(ends(relation).destination, std::move(packet));
 }
 
+void Protocol::received(const Packet& packet, std::uint32_t) {
+  take_in(*this, packet,
+          [this](std::uint32_t, std::uint32_t receiver) { return has_started(receiver); });
+}
+
+void Protocol::source_completed(const Packet& packet) {
+  if (packet.kind != PacketKind::data) return;
+  run_rule<comp::LeftSource<rules::Data>>(*this, packet.relation(), &packet);
+}
+
 void Protocol::renew_bitmap(Packet& acknack) {
   RunningWorld<Protocol, comp::owner::relation> w{*this, acknack.relation()};
   acknack.descriptors = w.set_of(said_of<comp::Listed>(rules::Implementation::bitmap()));
-}
-
-std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {
-  return descriptors_.list_missing(limit);
 }
 
 }  // namespace stormproof::model::paper

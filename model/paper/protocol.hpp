@@ -1,7 +1,8 @@
 // The paper's DDS implementation as a host of its rules (fsm/composition/paper.hpp): it keeps what
-// they are about, and does the steps that they leave to a host. The class is spread over three
+// they are about, and does the steps that they leave to a host. `ProtocolBase` is what it shares
+// with the host of the amended rules (model/paper/amended_protocol.hpp); it is spread over three
 // source files:
-//   protocol.cpp       state, events and packets to rules, the list of what is missing
+//   protocol.cpp       state, packets to rules
 //   announcements.cpp  SPDP: what an announcement is on the wire
 //   data.cpp           generation of DATA and HEARTBEATs, grouping, piggyback
 // What Fast DDS does alike is in model/engine/discovery_base.hpp.
@@ -23,22 +24,15 @@ namespace rules = fsm::composition::paper;
 /// A rank that no recipient has: the relation is not open, the participant is not known.
 inline constexpr std::uint32_t no_rank = UINT32_MAX;
 
-class Protocol final : public DiscoveryBase {
+class ProtocolBase : public DiscoveryBase {
  public:
-  using Composition = rules::Paper;
-
-  Protocol(RunState& run, Network& network);
+  ProtocolBase(RunState& run, Network& network);
 
   void start() override;
-  void handle(const Event& event) override { run_due(*this, event); }
-  void source_completed(const Packet& packet) override;
   [[nodiscard]] bool receives_separately() const override { return false; }
   [[nodiscard]] std::vector<std::uint32_t> receivers(const Packet&) const override { return {}; }
-  void received(const Packet& packet, std::uint32_t receiver) override;
-  void renew_bitmap(Packet& acknack) override;
   [[nodiscard]] std::uint32_t next_recipient(const Packet& packet,
                                              std::uint32_t pair) const override;
-  [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
 
   // The host of a RunningWorld.
   using DiscoveryBase::assign;
@@ -49,12 +43,6 @@ class Protocol final : public DiscoveryBase {
   using DiscoveryBase::value;
   using DiscoveryBase::word;
 
-  auto& bits(rules::C) { return descriptors_; }
-  /// Of an ACKNACK: what is listed, then what is confirmed only without a prefix, then the prefix.
-  static constexpr auto lane_order(rules::C) { return std::array{true, false, false}; }
-  void moved(rules::C, std::uint32_t relation, fsm::StateId before, fsm::StateId after,
-             std::uint64_t members);
-
   [[nodiscard]] bool value(comp::Recognised, std::uint32_t pair) const {
     return known_rank_[topology().pair(pair).reverse] != no_rank;
   }
@@ -63,53 +51,20 @@ class Protocol final : public DiscoveryBase {
     return relations_[relation].open_rank != no_rank;
   }
   void assign(rules::WriterOpen, std::uint32_t relation, bool);
-  [[nodiscard]] std::uint64_t word(comp::X, std::uint32_t relation, std::uint32_t k) const {
-    return descriptors_.received(relation, k);
-  }
-  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-    take(descriptors_, relation, received);
-  }
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.descriptors.lowest(), k);
-  }
-  template <class World>
-  [[nodiscard]] bool fact(rules::Waits, const World& w) const {
-    const Relation& r = relations_[w.template number<comp::owner::relation>()];
-    return r.open_rank != no_rank && r.unacknowledged > 0;
-  }
-  template <class World>
-  [[nodiscard]] bool fact(rules::SomeReaderWaits, const World& w) const {
-    return writers_[w.template number<comp::owner::writer>()].unacknowledged > 0;
   }
 
   [[nodiscard]] std::vector<std::uint32_t> readers(std::uint32_t w) const {
     return open_relations(w);
   }
 
-  template <class World, class Sayings>
-  void emit(rules::Heartbeat, World& w, const Sayings&) {
-    send_heartbeat(w.template number<comp::owner::relation>());
-  }
-  template <class World, class Sayings>
-  void emit(rules::AckNack, World& w, const Sayings& sayings) {
-    send_acknack(w.template number<comp::owner::relation>(),
-                 w.set_of(said_of<comp::Listed>(sayings)), said_of<comp::IsInitial>(sayings));
-  }
-
-  template <class World>
-  void perform(rules::HeartbeatToRecipients, World& w) {
-    send_periodic(w.template number<comp::owner::writer>());
-  }
   template <class World>
   void perform(rules::Generate, World& w, const DescriptorSet& descriptors, bool repair) {
     generate_data(w.template number<comp::owner::relation>(), descriptors, repair);
   }
-  template <class World>
-  void perform(rules::Clock::SendBatch, World& w) {
-    send_next_batch<rules::Implementation>(w);
-  }
 
- private:
+ protected:
   /// Its writer side.
   struct Relation {
     std::uint32_t unacknowledged = 0;   ///< descriptors not in A
@@ -132,10 +87,16 @@ class Protocol final : public DiscoveryBase {
 
   // protocol.cpp
   void note_waiting(std::uint32_t relation);
+  /// These descriptors, bits of a word, are acknowledged now, or not any more.
+  void note_acknowledged(std::uint32_t relation, bool acknowledged, std::uint64_t members);
+  [[nodiscard]] bool is_waiting(std::uint32_t relation) const {
+    return relations_[relation].open_rank != no_rank && relations_[relation].unacknowledged > 0;
+  }
   [[nodiscard]] std::vector<std::uint32_t> open_relations(std::uint32_t writer) const override;
   [[nodiscard]] std::vector<std::uint32_t> waiting(std::uint32_t writer) const;
   [[nodiscard]] bool has_started(std::uint32_t participant) const;
-  void send_acknack(std::uint32_t relation, DescriptorSet&& bitmap, bool initial);
+  void send_acknack(std::uint32_t relation, DescriptorSet&& bitmap, bool initial,
+                    std::uint32_t answered = 0);
 
   // announcements.cpp
   void send_spdp_to_known(std::uint32_t i) override;
@@ -143,9 +104,13 @@ class Protocol final : public DiscoveryBase {
   void send_spdp_copy(std::uint32_t pair) override;
 
   // data.cpp
+  /// Whether that happens for the first time.
+  virtual bool mark_generated(std::uint32_t relation, std::uint32_t d) = 0;
+  /// Charges the writer; whether that calls for HEARTBEATs.
+  virtual bool uses_up_budget(std::uint32_t writer, std::int64_t added_bytes);
   void generate_data(std::uint32_t relation, const DescriptorSet& descriptors, bool repair);
   void refill(std::uint32_t writer) override;
-  void send_heartbeat(std::uint32_t relation);
+  void send_heartbeat(std::uint32_t relation, std::uint32_t number = 0);
   void send_heartbeat_to(std::uint32_t relation);
   void send_heartbeat_to_open(std::uint32_t writer);
   void send_periodic(std::uint32_t writer);
@@ -153,12 +118,133 @@ class Protocol final : public DiscoveryBase {
   void flush(Message& message);
   void charge(Message& message, std::int64_t added_bytes);
 
-  RelationBits<fsm::DescriptorRepair> descriptors_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
   std::vector<Relation> relations_;
   std::vector<std::uint32_t> known_rank_;  // by pair (i, j): when i recognised j
   const DescriptorSizes sizes_;
+};
+
+/// `C_` is the part that is the writer's view of a descriptor.
+template <class C_>
+class ProtocolOf : public ProtocolBase {
+ public:
+  ProtocolOf(RunState& run, Network& network) : ProtocolBase{run, network}, descriptors_{run} {}
+
+  [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override {
+    return descriptors_.list_missing(limit);
+  }
+
+  // The host of a RunningWorld.
+  using ProtocolBase::assign;
+  using ProtocolBase::assign_each;
+  using ProtocolBase::word;
+
+  auto& bits(C_) { return descriptors_; }
+  /// Of an ACKNACK: what is listed, then what is confirmed only without a prefix, then the prefix.
+  static constexpr auto lane_order(C_) { return std::array{true, false, false}; }
+  void moved(C_, std::uint32_t relation, fsm::StateId before, fsm::StateId after,
+             std::uint64_t members) {
+    constexpr fsm::StateId acknowledged =
+        fsm::Reflect<typename C_::Machine>::template id<fsm::descriptor_repair::A>;
+    if ((before == acknowledged) == (after == acknowledged)) return;
+    note_acknowledged(relation, after == acknowledged, members);
+  }
+  [[nodiscard]] std::uint64_t word(comp::X, std::uint32_t relation, std::uint32_t k) const {
+    return descriptors_.received(relation, k);
+  }
+  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
+    take(descriptors_, relation, received);
+  }
+
+ protected:
+  bool mark_generated(std::uint32_t relation, std::uint32_t d) override {
+    return descriptors_.mark_generated(relation, d);
+  }
+  /// The way of a packet to the rule of `host` for it; `hears(i, j)`: whether j takes what i sends.
+  template <class Host, class Hears>
+  static void take_in(Host& host, const Packet& packet, Hears&& hears) {
+    using Rules = typename Host::Composition;
+    const Topology& topology = host.topology();
+    if (packet.multicast()) {
+      // `pair` of a multicast packet is its source; every started cross-host participant processes
+      // it.
+      const std::uint32_t end = topology.first_pair(packet.pair + 1);
+      for (std::uint32_t pair = topology.first_pair(packet.pair); pair < end; ++pair) {
+        if (!hears(packet.pair, topology.pair(pair).destination)) continue;
+        run_rule<comp::Received<comp::SpdpMulticast>>(host, pair);
+      }
+      return;
+    }
+    const Pair& pair = topology.pair(packet.pair);
+    const bool back = packet.to_writer();
+    if (!hears(back ? pair.destination : pair.source, back ? pair.source : pair.destination)) {
+      return;
+    }
+    const std::uint32_t relation = packet.relation();
+    switch (packet.kind) {
+      case PacketKind::spdp_unicast:
+        run_rule<comp::Received<comp::SpdpUnicast>>(host, packet.pair);
+        break;
+      case PacketKind::data:
+        host.count_copies(host.descriptors_, packet);
+        run_rule<comp::Received<typename Rules::Data>>(host, relation, &packet);
+        break;
+      case PacketKind::heartbeat:
+        run_rule<comp::Received<typename Rules::Heartbeat>>(host, relation, &packet);
+        break;
+      case PacketKind::acknack:
+        run_rule<comp::Received<typename Rules::AckNack>>(host, relation, &packet);
+        break;
+      default:
+        break;
+    }
+  }
+
+  RelationBits<typename C_::Machine> descriptors_;
+};
+
+class Protocol final : public ProtocolOf<rules::C> {
+ public:
+  using Composition = rules::Paper;
+
+  using ProtocolOf::ProtocolOf;
+
+  void handle(const Event& event) override { run_due(*this, event); }
+  void source_completed(const Packet& packet) override;
+  void received(const Packet& packet, std::uint32_t receiver) override;
+  void renew_bitmap(Packet& acknack) override;
+
+  // The host of a RunningWorld.
+  using ProtocolOf::emit;
+  using ProtocolOf::fact;
+  using ProtocolOf::perform;
+
+  template <class World>
+  [[nodiscard]] bool fact(rules::Waits, const World& w) const {
+    return is_waiting(w.template number<comp::owner::relation>());
+  }
+  template <class World>
+  [[nodiscard]] bool fact(rules::SomeReaderWaits, const World& w) const {
+    return writers_[w.template number<comp::owner::writer>()].unacknowledged > 0;
+  }
+  template <class World, class Sayings>
+  void emit(rules::Heartbeat, World& w, const Sayings&) {
+    send_heartbeat(w.template number<comp::owner::relation>());
+  }
+  template <class World, class Sayings>
+  void emit(rules::AckNack, World& w, const Sayings& sayings) {
+    send_acknack(w.template number<comp::owner::relation>(),
+                 w.set_of(said_of<comp::Listed>(sayings)), said_of<comp::IsInitial>(sayings));
+  }
+  template <class World>
+  void perform(rules::HeartbeatToRecipients, World& w) {
+    send_periodic(w.template number<comp::owner::writer>());
+  }
+  template <class World>
+  void perform(rules::Clock::SendBatch, World& w) {
+    send_next_batch<rules::Implementation>(w);
+  }
 };
 
 }  // namespace stormproof::model::paper

@@ -37,7 +37,11 @@ class Collector {
                const auto&... context) {
     const bool was_used = is_used_;
     is_used_ = is_used_ && presence != Presence::of_others;
-    visit_knobs(*this, member, context...);
+    if constexpr (requires { member.has_value(); }) {  // an optional table
+      if (member) visit_knobs(*this, *member, context...);
+    } else {
+      visit_knobs(*this, member, context...);
+    }
     is_used_ = was_used;
   }
   void list(std::string_view, auto&, ListSize, std::string_view, Presence = {}) {}

@@ -209,7 +209,8 @@ def main() -> int:
         shutil.copyfile(source / "specs/site" / name, docs / name)
     mermaid(docs)
     site.write("paper.html", site.run("reproduce", "paper", "--format", "html"))
-    extras = [("The paper, reproduced", "paper.html"), ("Verbs", "verbs.md"), ("Properties", "properties.md"),
+    site.write("museum.html", site.run("museum", "--format", "html"))
+    extras = [("The museum", "museum.html"), ("The paper, reproduced", "paper.html"), ("Verbs", "verbs.md"), ("Properties", "properties.md"),
               ("Performance", "specs/performance.md"), ("Architecture", "ARCHITECTURE.md"),
               ("Contributing", "CONTRIBUTING.md"), ("Changes", "CHANGELOG.md")]
     if shutil.which("doxygen"):

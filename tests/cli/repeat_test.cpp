@@ -68,6 +68,7 @@ const Case cases[] = {
     {"sweep", "sweep \"it's a grid.yaml\" -o 'the runs.db'"},
     {"reproduce", "reproduce paper --samples 1 --profile paper"},
     {"list", "list profiles findings"},
+    {"museum", "museum E0"},
     {"mutate", "mutate --mutant repairs-unasked --timeout 5"},
 };
 

@@ -32,7 +32,8 @@ const char* const verbs[] = {"simulate",     "check",
                              "reproduce",    "mutate",
                              "draw",         "properties",
                              "list",         "doctor",
-                             "watch",        "compare-discovery"};
+                             "watch",        "compare-discovery",
+                             "museum"};
 
 std::string output_of(const std::string& arguments) {
   FILE* pipe = popen((STORMPROOF_PROGRAM " " + arguments).c_str(), "r");

@@ -39,7 +39,7 @@ TEST(Reflect, ListsTheMachinesInTheOrderOfTheDocuments) {
   EXPECT_EQ(names, (Names{"DescriptorRepair", "DiscoveryReader", "HeartbeatTimer", "InitialAckNack",
                           "Announcer", "Channel", "ChangeForReader", "SingleShot", "ControlWriter",
                           "ControlReader", "CautiousReader", "MatchedReader", "HeartbeatPacer",
-                          "EventThread", "MovableTimer"}));
+                          "EventThread", "MovableTimer", "ReopeningRepair"}));
 }
 
 TEST(Reflect, StatesComeInTheOrderOfMsm) {

@@ -172,6 +172,7 @@ MachineSurvey survey_matched_reader();
 MachineSurvey survey_heartbeat_pacer();
 MachineSurvey survey_event_thread();
 MachineSurvey survey_movable_timer();
+MachineSurvey survey_reopening_repair();
 
 /// All of them, in the order of `machines()`.
 [[nodiscard]] std::vector<MachineSurvey> all_surveys();

@@ -20,6 +20,7 @@ std::vector<MachineSurvey> all_surveys() {
   surveys.push_back(survey_heartbeat_pacer());
   surveys.push_back(survey_event_thread());
   surveys.push_back(survey_movable_timer());
+  surveys.push_back(survey_reopening_repair());
   return surveys;
 }
 

@@ -3,6 +3,7 @@
 // mutant that forgets an event has rules that do not schedule it.
 #include "checker/engines/tables/proof.hpp"
 #include "checker/engines/tables/properties.hpp"
+#include "fsm/composition/amended.hpp"
 #include "model/composition_of.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/implementations.hpp"

@@ -2,6 +2,7 @@
 #include "checker/engines/tables/machine_view.hpp"
 
 #include "checker/engines/tables/free_input.hpp"
+#include "fsm/reopening_repair.hpp"
 #include "fsm/row_table.hpp"
 
 namespace stormproof::tables {
@@ -31,7 +32,7 @@ std::vector<MachineView> machine_views(const std::vector<fsm::TableMutation>& mu
           view<fsm::ControlWriter>(mutations),    view<fsm::ControlReader>(mutations),
           view<fsm::CautiousReader>(mutations),   view<fsm::MatchedReader>(mutations),
           view<fsm::HeartbeatPacer>(mutations),   view<fsm::EventThread>(mutations),
-          view<fsm::MovableTimer>(mutations)};
+          view<fsm::MovableTimer>(mutations),     view<fsm::ReopeningRepair>(mutations)};
 }
 
 }  // namespace stormproof::tables

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fsm/composition/amended.hpp"
 #include "model/composition_of.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/implementations.hpp"

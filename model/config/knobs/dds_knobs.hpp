@@ -253,6 +253,100 @@ void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors) {
              "UDP payload of a user endpoint's descriptor in a packet of its own");
 }
 
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Whether>{"false", "true"};
+template <>
+inline constexpr std::array<std::string_view, 4> enum_names<InitialAckNackRepeat>{
+    "again", "once", "age_based", "age_based_zero"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<InitialAckNackStop>{"any_heartbeat",
+                                                                                "complete"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<AckedRequest>{"ignore", "reopen",
+                                                                          "resend"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<HeartbeatCondition>{"not_acknowledged",
+                                                                                "in_u"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<RepairHeartbeat>{"none", "before",
+                                                                             "after"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<AckNackReply>{"none", "nonfinal",
+                                                                          "all"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<OnReannounce>{"none", "ack_highest",
+                                                                          "ack_missing"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<LateInitial>{"reset",
+                                                                         "ignore_after_ack"};
+template <>
+inline constexpr std::array<std::string_view, 5> enum_names<StaleAckNack>{
+    "process", "latest_only", "required_drop", "required_gate", "required_at_repair"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<ReaderRetry>{"off", "after_nack",
+                                                                         "whenever_missing"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<PiggybackAccount>{"of_the_profile",
+                                                                              "linear_group"};
+
+void visit_knobs(auto& visit, Is<Amendments> auto& rules) {
+  const Presence defaulted = Presence::defaulted;
+  visit.knob("initial_acknack_resets", rules.initial_acknack_resets, ChoiceType<Whether>{},
+             "whether an initial ACKNACK un-acknowledges everything; false if absent", defaulted);
+  visit.knob("initial_acknack_arms", rules.initial_acknack_arms, ChoiceType<Whether>{},
+             "whether its HEARTBEAT is followed by periodic ones; false if absent", defaulted);
+  visit.knob("initial_acknack_repeat", rules.initial_acknack_repeat,
+             ChoiceType<InitialAckNackRepeat>{},
+             "what follows an initial ACKNACK; another one (again) if absent", defaulted);
+  visit.knob("initial_acknack_stop", rules.initial_acknack_stop, ChoiceType<InitialAckNackStop>{},
+             "what ends initial ACKNACKs; any_heartbeat if absent", defaulted);
+  visit.knob("match_clock_skew", rules.match_clock_skew, delay_range,
+             "by how much the creation of a match lies in the future; 0 if absent", defaulted);
+  visit.knob("late_initial", rules.late_initial, ChoiceType<LateInitial>{},
+             "what an initial ACKNACK is after an ordinary one; reset if absent", defaulted);
+  visit.knob("acked_request", rules.acked_request, ChoiceType<AckedRequest>{},
+             "what a writer does with a request for what is acknowledged; ignore if absent",
+             defaulted);
+  visit.knob("heartbeat_condition", rules.heartbeat_condition, ChoiceType<HeartbeatCondition>{},
+             "which descriptors keep the periodic HEARTBEAT going; not_acknowledged if absent",
+             defaulted);
+  visit.knob("suppression_end_arms", rules.suppression_end_arms, ChoiceType<Whether>{},
+             "whether the end of a suppression arms the HEARTBEAT; true if absent", defaulted);
+  visit.knob("repair_heartbeat", rules.repair_heartbeat, ChoiceType<RepairHeartbeat>{},
+             "whether a repair sends a HEARTBEAT, before or after its DATA; none if absent",
+             defaulted);
+  visit.knob("acknack_reply", rules.acknack_reply, ChoiceType<AckNackReply>{},
+             "which ACKNACKs are answered by a HEARTBEAT at once; none if absent", defaulted);
+  visit.knob("stale_acknack", rules.stale_acknack, ChoiceType<StaleAckNack>{},
+             "what a writer does with an ACKNACK that answers an old HEARTBEAT; process if absent",
+             defaulted);
+  visit.knob("count_filter", rules.count_filter, count_range(0, 1'000'000),
+             "ACKNACKs of a reader that forgot that count as old; 0 if absent", defaulted);
+  visit.knob("on_reannounce", rules.on_reannounce, ChoiceType<OnReannounce>{},
+             "what a reader says when somebody known announces itself; none if absent", defaulted);
+  visit.knob("reader_retry", rules.reader_retry, ChoiceType<ReaderRetry>{},
+             "when a reader asks again by itself; off if absent", defaulted);
+  visit.knob("reader_retry_period", rules.reader_retry_period, period_range,
+             "after which it does; 3s if absent", defaulted);
+  visit.knob("reader_nack_delay", rules.reader_nack_delay, delay_range,
+             "between two requests of a reader; 0, no such limit, if absent", defaulted);
+  visit.knob("resend_copies", rules.resend_copies, count_range(1, 1'000),
+             "copies of the announcement to a participant that is recognised, with resend: "
+             "new_only; 1 if absent",
+             defaulted);
+  visit.knob("resend_copy_period", rules.resend_copy_period, period_range,
+             "between two of them; 1s if absent", defaulted);
+  visit.knob("piggyback_account", rules.piggyback_account, ChoiceType<PiggybackAccount>{},
+             "what DATA is charged to: as piggyback says if absent, or one counter of the "
+             "participant that loses the threshold at each overflow",
+             defaulted);
+}
+
+/// Of the amended rules.
+[[nodiscard]] constexpr Presence with_amendments(ImplementationKind implementation) {
+  return traits_of(implementation).has_size_knobs ? Presence::optional : Presence::of_others;
+}
+
 /// Where a profile says whose writer it describes; the reader looks at it before anything else.
 inline constexpr std::string_view implementation_key = "implementation";
 /// And then at the way to discover.
@@ -303,9 +397,17 @@ void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
                 dds.implementation);
   visit.section("descriptors", dds.descriptors, "number and size of descriptors",
                 of_sizes(dds.implementation));
+  visit.section("amendments", dds.amendments,
+                "rules that other implementations have or had, as changes of the paper's",
+                with_amendments(dds.implementation));
   visit.knob("unmodelled", dds.unmodelled, TextMapType{},
              "settings of the real system that the model has not, and what they do there",
              Presence::optional);
+
+  visit.rule(!dds.amendments || dds.amendments->stale_acknack == StaleAckNack::process ||
+                 dds.sedp.piggyback == Piggyback::off,
+             "amendments.stale_acknack",
+             "process, or piggyback: off; HEARTBEATs in DATA have no number");
 
   const Bytes header = dds.sedp.shared_header_bytes;
   const std::string more =

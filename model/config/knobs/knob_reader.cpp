@@ -35,7 +35,12 @@ class DottedKeys {
     if (presence == Presence::of_others) return;
     keys.insert(prefix_ + std::string{key});
     DottedKeys inner{prefix_ + std::string{key} + "."};
-    visit_knobs(inner, member, context...);
+    if constexpr (requires { member.has_value(); }) {
+      typename std::remove_cvref_t<decltype(member)>::value_type present;
+      visit_knobs(inner, present, context...);
+    } else {
+      visit_knobs(inner, member, context...);
+    }
     keys.merge(inner.keys);
   }
   void rule(bool, std::string_view, std::string_view) {}

@@ -62,7 +62,11 @@ class NumericVisitor {
                const auto&... context) {
     if (presence == Presence::of_others) return;
     NumericVisitor inner{prefix_ + std::string{key} + ".", use_};
-    visit_knobs(inner, member, context...);
+    if constexpr (requires { member.has_value(); }) {  // an optional table
+      if (member) visit_knobs(inner, *member, context...);
+    } else {
+      visit_knobs(inner, member, context...);
+    }
   }
   void list(std::string_view key, auto& members, ListSize, std::string_view,
             Presence presence = Presence::required) {

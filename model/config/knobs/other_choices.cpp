@@ -22,7 +22,11 @@ class KnobVisitor {
                const auto&... context) {
     if (presence == Presence::of_others) return;
     KnobVisitor inner{prefix_ + std::string{key} + ".", use_};
-    visit_knobs(inner, member, context...);
+    if constexpr (requires { member.has_value(); }) {  // an optional table
+      if (member) visit_knobs(inner, *member, context...);
+    } else {
+      visit_knobs(inner, member, context...);
+    }
   }
   void rule(bool, std::string_view, std::string_view) {}
 

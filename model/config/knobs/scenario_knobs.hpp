@@ -143,6 +143,34 @@ void visit_knobs(auto& visit, Is<Schedule> auto& schedule) {
   visit.knob("seed", schedule.seed, SeedType{}, "of the draw; 0 if absent", Presence::optional);
 }
 
+inline constexpr NumberType participant_number = count_range(0, Deployment::max_participants - 1);
+void visit_knobs(auto& visit, Is<StaleRelation> auto& stale) {
+  visit.knob("writer", stale.writer, participant_number, "who believes that the other has all");
+  visit.knob("reader", stale.reader, participant_number, "who has forgotten the writer");
+}
+void visit_knobs(auto& visit, Is<Mute> auto& mute) {
+  visit.knob("participant", mute.participant, participant_number, "who falls silent");
+  visit.knob("from", mute.from, delay_range, "from when on");
+}
+void visit_knobs(auto& visit, Is<Outage> auto& outage) {
+  visit.knob("from", outage.from, participant_number, "whose packets are not received");
+  visit.knob("to", outage.to, participant_number, "by whom");
+  visit.knob("start", outage.start, delay_range, "the first instant");
+  visit.knob("end", outage.end, delay_range, "the first instant after it");
+  visit.rule(outage.start <= outage.end, "end", "not before its start");
+}
+
+void visit_knobs(auto& visit, Is<Life> auto& life) {
+  constexpr ListSize any{0, 1'000'000};
+  visit.list("stale", life.stale, any,
+             "before the run a writer believes that a reader has everything, and that reader has "
+             "forgotten it",
+             Presence::optional);
+  visit.list("mute", life.mute, any, "participants that fall silent for ever", Presence::optional);
+  visit.list("outages", life.outages, any,
+             "times in which one participant does not receive from another", Presence::optional);
+}
+
 /// What both forms of a deployment have.
 void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
   visit.knob(
@@ -158,6 +186,10 @@ void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
              "between two datagrams of a Discovery Server; 50us if absent; used by discovery: "
              "server and super_client",
              Presence::optional);
+  visit.section("life", deployment.life,
+                "what happened before the run, and what happens to participants in it; with "
+                "dds.amendments",
+                Presence::optional);
   visit.section(schedule_key, deployment.schedule,
                 "ranges that all start and endpoints_done are drawn from, uniformly; a time that a "
                 "participant gives beside it has to be the drawn one",
@@ -217,6 +249,33 @@ void visit_knobs(auto& visit, Is<Variation> auto& vary) {
              "relative range of the periods and delays of the DDS profile", Presence::optional);
 }
 
+/// Whether both are participants of different hosts.
+[[nodiscard]] inline bool is_cross_host(const Deployment& deployment, std::uint32_t i,
+                                        std::uint32_t j) {
+  const auto& all = deployment.participants;
+  return i < all.size() && j < all.size() && all[i].host != all[j].host;
+}
+void visit_life(auto& visit, Is<Scenario> auto& scenario) {
+  const Deployment& deployment = scenario.deployment;
+  if (!deployment.life) return;
+  const Life& life = *deployment.life;
+  visit.rule(scenario.dds.amendments.has_value(), "deployment.life",
+             "nothing of the kind, or a DDS profile with amendments, whose rules know it");
+  const auto is_stale = [&](const StaleRelation& stale) {
+    return is_cross_host(deployment, stale.writer, stale.reader);
+  };
+  const auto is_outage = [&](const Outage& outage) {
+    return is_cross_host(deployment, outage.from, outage.to);
+  };
+  const auto is_mute = [&](const Mute& mute) { return mute.participant < deployment.size(); };
+  visit.rule(std::ranges::all_of(life.stale, is_stale), "deployment.life.stale",
+             "participants of different hosts");
+  visit.rule(std::ranges::all_of(life.outages, is_outage), "deployment.life.outages",
+             "participants of different hosts");
+  visit.rule(std::ranges::all_of(life.mute, is_mute), "deployment.life.mute",
+             "participants of the deployment");
+}
+
 /// The keys whose values may be the name of a file.
 inline constexpr std::string_view dds_key = "dds";
 inline constexpr std::string_view wireless_key = "wireless";
@@ -236,6 +295,7 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
   visit.section("vary", scenario.vary, "ranges around the scenario, for stormproof fuzz",
                 Presence::optional);
 
+  visit_life(visit, scenario);
   const DescriptorProfile& defaults = scenario.dds.descriptors;
   const auto has_descriptors = [&defaults](const Participant& participant) {
     return defaults.default_publications + defaults.default_subscriptions +

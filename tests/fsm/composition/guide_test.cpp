@@ -101,6 +101,7 @@ std::string lines(const Complaints& complaints) {
 const std::map<std::string, std::string_view> page_of{{"model.md", "paper"},
                                                       {"fastdds.md", "fastdds"},
                                                       {"cyclone.md", "cyclone"},
+                                                      {"museum.md", "paper-amended"},
                                                       {"discovery-server.md", "fastdds-server"}};
 
 TEST(Guide, RefersToRulesAndEffectsThatExist) {

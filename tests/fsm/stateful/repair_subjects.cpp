@@ -1,9 +1,12 @@
 // The paper's states of descriptors towards one reader (U R Q S A), for a relation of four
-// descriptors, against the rules about ACKNACKs, repairs and suppression.
+// descriptors, against the rules about ACKNACKs, repairs and suppression; and the same of a reader
+// that may forget.
 #include <algorithm>
 #include <deque>
+#include <type_traits>
 
 #include "fsm/descriptor_repair.hpp"
+#include "fsm/reopening_repair.hpp"
 #include "tests/fsm/stateful/machine_subject.hpp"
 
 namespace stormproof::fsm::stateful {
@@ -23,7 +26,14 @@ std::size_t lowest(std::int64_t set) {
 // ---- The paper. What the relation does besides changing states: how many repair generations and
 // suppression ends are pending, and which repair packets are at the source.
 
-enum RepairCall : std::size_t { acknack, generation, left_source, suppression_ended };
+enum RepairCall : std::size_t {
+  acknack,
+  generation,
+  left_source,
+  suppression_ended,
+  reader_forgot,
+  requested_again
+};
 
 struct Relation {
   int generations = 0;
@@ -61,6 +71,12 @@ class PaperRules final : public PlainModel<PaperRules> {
         relation_.packets.pop_front();
         ++relation_.suppressions;
         break;
+      case reader_forgot:
+        std::replace(states_.begin(), states_.end(), 'A', 'U');
+        break;
+      case requested_again:
+        request_again(call.payload[0]);
+        break;
       default:
         --relation_.suppressions;
         if (states_.find('S') != std::string::npos) ++relation_.arms;
@@ -83,6 +99,15 @@ class PaperRules final : public PlainModel<PaperRules> {
     }
     if (asked) ++relation_.generations;
   }
+  void request_again(std::int64_t bitmap) {
+    bool asked = false;
+    for (std::size_t d = 0; d < descriptors; ++d) {
+      if (!has(bitmap, d) || states_[d] != 'A') continue;
+      states_[d] = 'R';
+      asked = true;
+    }
+    if (asked) ++relation_.generations;
+  }
   void generate(bool one_each) {
     --relation_.generations;
     std::int64_t together = 0;
@@ -99,6 +124,7 @@ class PaperRules final : public PlainModel<PaperRules> {
   Relation relation_;
 };
 
+template <class Machine>
 class PaperMachines final : public Reactor {
  public:
   explicit PaperMachines(Mutations mutations) : machine_{mutations} {}
@@ -108,7 +134,7 @@ class PaperMachines final : public Reactor {
       case acknack: {
         bool asked = false;
         for (std::size_t d = 0; d < descriptors; ++d) {
-          const auto output = machine_.step<AckNackReceived>(
+          const auto output = machine_.template step<AckNackReceived>(
               states_[d], {.listed = has(call.payload[0], d),
                            .below_first_missing = d < lowest(call.payload[0]),
                            .prefix_only = call.payload[1] == 1});
@@ -121,7 +147,7 @@ class PaperMachines final : public Reactor {
         --relation_.generations;
         std::int64_t together = 0;
         for (std::size_t d = 0; d < descriptors; ++d) {
-          if (!machine_.step<RepairDue>(states_[d]).generate) continue;
+          if (!machine_.template step<RepairDue>(states_[d]).generate) continue;
           if (call.payload[0] == 1) relation_.packets.push_back(std::int64_t{1} << d);
           together |= std::int64_t{1} << d;
         }
@@ -130,16 +156,20 @@ class PaperMachines final : public Reactor {
       }
       case left_source:
         for (std::size_t d = 0; d < descriptors; ++d) {
-          if (has(relation_.packets.front(), d)) machine_.step<RepairSent>(states_[d]);
+          if (has(relation_.packets.front(), d)) machine_.template step<RepairSent>(states_[d]);
         }
         relation_.packets.pop_front();
         ++relation_.suppressions;
+        break;
+      case reader_forgot:
+      case requested_again:
+        if constexpr (std::is_same_v<Machine, ReopeningRepair>) take_back(call);
         break;
       default: {
         --relation_.suppressions;
         bool returned = false;
         for (StateId& state : states_) {
-          returned = machine_.step<SuppressionEnded>(state).returned || returned;
+          returned = machine_.template step<SuppressionEnded>(state).returned || returned;
         }
         relation_.arms += returned ? 1 : 0;
       }
@@ -150,23 +180,42 @@ class PaperMachines final : public Reactor {
   }
 
  private:
-  Stepper<DescriptorRepair> machine_;
-  std::vector<StateId> states_ =
-      std::vector<StateId>(descriptors, Stepper<DescriptorRepair>::initial);
+  void take_back(const Call& call) {
+    bool asked = false;
+    for (std::size_t d = 0; d < descriptors; ++d) {
+      if (call.event == reader_forgot) {
+        machine_.template step<reopening_repair::ReaderForgot>(states_[d]);
+      } else if (has(call.payload[0], d)) {
+        const auto output = machine_.template step<reopening_repair::RequestedAgain>(states_[d]);
+        asked = asked || output.requested;
+      }
+    }
+    relation_.generations += asked ? 1 : 0;
+  }
+
+  Stepper<Machine> machine_;
+  std::vector<StateId> states_ = std::vector<StateId>(descriptors, Stepper<Machine>::initial);
   Relation relation_;
 };
 
 }  // namespace
 
 std::vector<MachineSubject> repair_subjects() {
+  const std::vector<EventShape> events{{"ACKNACK (bitmap, prefix)", {any_set, 1}},
+                                       {"repair generation (one packet each)", {1}},
+                                       {"repair packet leaves its source"},
+                                       {"suppression end"}};
+  std::vector<EventShape> with_forgetting = events;
+  with_forgetting.push_back({"the reader forgot"});
+  with_forgetting.push_back({"request for what is acknowledged (bitmap)", {any_set}});
   return {machine_subject(
-              "DescriptorRepair", "DescriptorRepair",
-              {{"ACKNACK (bitmap, prefix)", {any_set, 1}},
-               {"repair generation (one packet each)", {1}},
-               {"repair packet leaves its source"},
-               {"suppression end"}},
+              "DescriptorRepair", "DescriptorRepair", events,
               [] { return std::make_unique<PaperRules>(); },
-              [](Mutations m) { return std::make_unique<PaperMachines>(m); }),
+              [](Mutations m) { return std::make_unique<PaperMachines<DescriptorRepair>>(m); }),
+          machine_subject(
+              "ReopeningRepair", "ReopeningRepair", with_forgetting,
+              [] { return std::make_unique<PaperRules>(); },
+              [](Mutations m) { return std::make_unique<PaperMachines<ReopeningRepair>>(m); }),
           change_subject()};
 }
 

@@ -13,6 +13,7 @@
 #include "model/fastdds/protocol.hpp"
 #include "model/fastdds/server_protocol.hpp"
 #include "model/packet_sizes.hpp"
+#include "model/paper/amended_protocol.hpp"
 #include "model/paper/protocol.hpp"
 #include "model/simulator.hpp"
 #include "tests/oracle/random_scenario.hpp"
@@ -45,6 +46,10 @@ bool has_separate_receptions(const Scenario& scenario) {
 bool receives_separately(Of<comp::paper::Paper>, const Scenario& scenario) {
   return has_separate_receptions<paper::Protocol>(scenario);
 }
+bool receives_separately(Of<comp::amended::Amended>, Scenario scenario) {
+  scenario.dds.amendments.emplace();
+  return has_separate_receptions<paper::AmendedProtocol>(scenario);
+}
 bool receives_separately(Of<comp::fastdds::FastDds>, const Scenario& scenario) {
   return has_separate_receptions<fastdds::Protocol>(scenario);
 }
@@ -59,6 +64,16 @@ TEST_P(Implementations, HaveTheNamesOfTheirCompositions) {
   EXPECT_EQ(composition_of(GetParam()).name, traits().name);
   const auto name_of_visited = []<class Composition>(Of<Composition>) { return Composition::name; };
   EXPECT_EQ(visit_composition(GetParam(), name_of_visited), traits().name);
+}
+
+TEST(AmendedPaper, IsAKindOfItsOwnThatNoEngineKnows) {
+  DdsProfile dds;
+  EXPECT_EQ(kind_of(dds), ImplementationKind::paper);
+  dds.amendments.emplace();
+  EXPECT_EQ(kind_of(dds), ImplementationKind::paper_amended);
+  EXPECT_EQ(implementation_of(kind_of(dds)), ImplementationKind::paper);
+  EXPECT_EQ(composition_of(dds).name, "paper-amended");
+  EXPECT_FALSE(traits_of(dds).is_known_to_engines);
 }
 
 TEST_P(Implementations, LeaveRulesToTheProfileOrNot) {

@@ -74,7 +74,11 @@ TEST(KnobList, cyclone_dds_has_the_settings_of_its_configuration) {
 }
 
 TEST(KnobList, fast_dds_has_the_same_list_with_the_keys_of_the_paper_marked) {
-  const auto of_paper = keys_beyond(ImplementationKind::paper, ImplementationKind::fastdds);
+  auto of_paper = keys_beyond(ImplementationKind::paper, ImplementationKind::fastdds);
+  const auto is_amendment = [](const std::string& key) {
+    return key.starts_with("dds.amendments.");
+  };
+  EXPECT_GT(std::erase_if(of_paper, is_amendment), 0U);
   EXPECT_EQ(keys_beyond(ImplementationKind::fastdds, ImplementationKind::paper),
             std::set<std::string>{"dds.discovery"});
   EXPECT_EQ(of_paper,
@@ -123,7 +127,9 @@ TEST(KnobList, defaults_ranges_and_choices_can_be_set) {
     if (!knob.default_value.is_null() && !knob.expected.starts_with("text"))
       values.push_back(knob.default_value.dump());
     for (const std::string& value : values) {
-      const std::vector<std::string> overrides{key + "=" + value};
+      std::vector<std::string> overrides{key + "=" + value};
+      // HEARTBEATs that ride in DATA have no number that an ACKNACK could answer.
+      if (key == "dds.amendments.stale_acknack") overrides.push_back("dds.sedp.piggyback=off");
       const auto scenario = read_scenario(name, overrides, source_specs());
       EXPECT_TRUE(scenario) << to_string(scenario.error());
     }

@@ -17,6 +17,7 @@ namespace other_choices_test {
 DdsProfile profile_of(ImplementationKind implementation) {
   DdsProfile dds;
   dds.implementation = implementation;
+  if (implementation_of(implementation) == ImplementationKind::paper) dds.amendments.emplace();
   return dds;
 }
 

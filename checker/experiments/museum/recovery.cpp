@@ -1,0 +1,137 @@
+// live.recovery and live.isolation: from the last failure of a run on (a lost packet, the end of an
+// outage, a start), everything has to be complete within the bound. What a silent participant
+// lacks, and what others lack of it, is not asked for. The event that the monitor objects to is the
+// last one that had to do with what is missing: after it there is silence, or waiting.
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "checker/experiments/museum/claims.hpp"
+#include "model/trace/event_subject.hpp"
+#include "props/monitors/describe.hpp"
+#include "props/monitors/received_descriptors.hpp"
+
+namespace stormproof::museum {
+
+namespace {
+
+class Recovery final : public ClaimMonitor {
+ public:
+  Recovery(std::string_view claim, const model::Scenario& scenario, model::Nanoseconds bound)
+      : ClaimMonitor{claim},
+        life_{scenario.deployment.life.value_or(model::Life{})},
+        bound_{bound} {
+    for (const model::Participant& participant : scenario.deployment.participants) {
+      failed_ = std::max(failed_, participant.start);
+    }
+    for (const model::Outage& outage : life_.outages) failed_ = std::max(failed_, outage.end);
+    for (const model::Mute& mute : life_.mute) failed_ = std::max(failed_, mute.from);
+  }
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    received_.reset(topology);
+    names_.emplace(topology);
+    relations_.assign(topology.relation_count(), {});
+    for (std::uint32_t r = 0; r < topology.relation_count(); ++r) {
+      if (is_asked_for(topology.pair(r / 2))) relations_[r].missing = topology.descriptor_count(r);
+    }
+  }
+  void event_started(const model::Event& event) override {
+    Observer::event_started(event);
+    if (event.time > failed_ + bound_) judge();
+    if (model::trace::subject_of(event.kind) == model::trace::Subject::relation) {
+      touch(event.subject);
+    }
+  }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+                  std::string_view, std::uint32_t, std::uint64_t) override {
+    if (const model::Packet* data = received_.taken(machine, event)) take(*data);
+    if (machine.kind == model::MachineRef::Kind::relation) touch(machine.subject);
+  }
+  void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
+  void arrived(const model::Packet& packet, bool lost) override {
+    const bool is_of_relation = packet.kind == model::PacketKind::data ||
+                                packet.kind == model::PacketKind::heartbeat ||
+                                packet.kind == model::PacketKind::acknack;
+    if (is_of_relation) touch(packet.relation());
+    if (lost) failed_ = std::max(failed_, now());
+  }
+  void finish(model::Nanoseconds end) override {
+    undecided_ = end < failed_ + bound_ &&
+                 std::ranges::any_of(relations_, [](const Relation& r) { return r.missing > 0; });
+    if (!undecided_) judge();
+  }
+  [[nodiscard]] bool is_undecided() const override { return undecided_; }
+
+ private:
+  struct Relation {
+    std::uint64_t missing = 0;
+    std::uint64_t event = 0;  ///< the last that had to do with it, while something was missing
+    model::Nanoseconds time;
+  };
+
+  [[nodiscard]] bool is_asked_for(const model::Pair& pair) const {
+    const auto is_silent = [&](const model::Mute& mute) {
+      return mute.participant == pair.source || mute.participant == pair.destination;
+    };
+    // Who is believed to have everything of the other has, before the run, all of that other one.
+    const auto has_all = [&](const model::StaleRelation& stale) {
+      return stale.writer == pair.destination && stale.reader == pair.source;
+    };
+    return pair.cross_host && std::ranges::none_of(life_.mute, is_silent) &&
+           std::ranges::none_of(life_.stale, has_all);
+  }
+  void touch(std::uint32_t relation) {
+    Relation& r = relations_[relation];
+    if (r.missing == 0 || events() == 0) return;
+    r.event = event();
+    r.time = now();
+  }
+  void take(const model::Packet& data) {
+    touch(data.relation());
+    received_.take(data);
+    std::uint64_t& missing = relations_[data.relation()].missing;
+    if (missing == 0) return;
+    std::uint64_t has = 0;
+    for (std::uint32_t k = 0; k < received_.word_count(data.relation()); ++k) {
+      has += static_cast<std::uint64_t>(std::popcount(received_.word(data.relation(), k)));
+    }
+    missing = topology().descriptor_count(data.relation()) - has;
+  }
+  void judge() {
+    if (violation()) return;
+    const auto missing =
+        std::ranges::find_if(relations_, [](const Relation& r) { return r.missing > 0; });
+    if (missing == relations_.end()) return;
+    const auto number = static_cast<std::uint32_t>(missing - relations_.begin());
+    object(
+        missing->event, missing->time,
+        fmt::format("This is the last that happens before {} is due. Nothing fails after {}, and "
+                    "{} descriptor{} of {} {} still missing there.",
+                    props::time_text(failed_ + bound_), props::time_text(failed_), missing->missing,
+                    missing->missing == 1 ? "" : "s", props::relation_text(*names_, number),
+                    missing->missing == 1 ? "is" : "are"));
+  }
+
+  const model::Life life_;
+  const model::Nanoseconds bound_;
+  props::ReceivedDescriptors received_;
+  std::optional<model::Topology> names_;  ///< also after the run
+  std::vector<Relation> relations_;
+  model::Nanoseconds failed_;  ///< when something failed last, so far
+  bool undecided_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<ClaimMonitor> watch_recovery(std::string_view claim,
+                                             const model::Scenario& scenario,
+                                             model::Nanoseconds bound) {
+  return std::make_unique<Recovery>(claim, scenario, bound);
+}
+
+}  // namespace stormproof::museum

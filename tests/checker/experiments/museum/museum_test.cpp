@@ -1,0 +1,135 @@
+// Every exhibit that is shipped is as it says; every claim is broken by some exhibit; files that
+// are no exhibits are refused with their place.
+#include "checker/experiments/museum/museum.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "checker/experiments/museum/claims.hpp"
+
+namespace stormproof::museum {
+namespace museum_test {
+
+using model::config::SpecPath;
+
+const SpecPath& specs() {
+  static const SpecPath path = SpecPath::standard();
+  return path;
+}
+bool always() { return true; }
+
+class Exhibits : public testing::TestWithParam<std::string> {};
+
+TEST_P(Exhibits, AreAsTheySay) {
+  const auto exhibit = read_exhibit(GetParam(), specs());
+  ASSERT_TRUE(exhibit) << to_string(exhibit.error());
+  EXPECT_EQ(exhibit->id, GetParam());
+  const Report report = show({*exhibit}, always);
+  const ShownExhibit& shown = report.exhibits.front();
+  EXPECT_EQ(name_of(shown.before.verdict), std::string{name_of(exhibit->before.expected)})
+      << shown.before.how;
+  EXPECT_EQ(name_of(shown.after.verdict), std::string{name_of(exhibit->after.expected)})
+      << shown.after.how;
+  for (std::size_t k = 0; k < shown.decoys.size(); ++k) {
+    EXPECT_EQ(name_of(shown.decoys[k].verdict), std::string{name_of(exhibit->decoys[k].expected)})
+        << exhibit->decoys[k].title << ": " << shown.decoys[k].how;
+  }
+  EXPECT_TRUE(report.as_expected());
+}
+
+INSTANTIATE_TEST_SUITE_P(Museum, Exhibits, testing::ValuesIn(exhibit_names(specs())),
+                         [](const auto& exhibit) { return exhibit.param; });
+
+TEST(Museum, HasAnExhibitThatBreaksEachClaim) {
+  std::set<std::string> broken;
+  for (const std::string& name : exhibit_names(specs())) {
+    const auto exhibit = read_exhibit(name, specs());
+    ASSERT_TRUE(exhibit) << name;
+    if (exhibit->before.expected == props::VerdictKind::violated) broken.insert(exhibit->claim);
+  }
+  for (const Claim& claim : claims())
+    EXPECT_TRUE(broken.contains(std::string{claim.id})) << claim.id;
+  EXPECT_GE(exhibit_names(specs()).size(), 16U);
+}
+
+/// What went wrong with a file that has this text.
+std::string refusal(const std::string& text) {
+  const std::string path = testing::TempDir() + "exhibit.yaml";
+  std::ofstream{path} << text;
+  const auto exhibit = read_exhibit(path, specs());
+  std::filesystem::remove(path);
+  if (exhibit) return "";
+  std::string message = to_string(exhibit.error());
+  return message.starts_with(path) ? message.substr(path.size()) : message;
+}
+
+std::string shipped() {
+  std::ifstream file{STORMPROOF_SPECS_DIR "/museum/E0.yaml"};
+  return {std::istreambuf_iterator<char>{file}, {}};
+}
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = shipped();
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(MuseumFiles, AreRefusedWithTheirPlace) {
+  EXPECT_EQ(refusal(shipped()), "");
+  EXPECT_NE(refusal(with("vendor: Fast DDS", "vendo: Fast DDS")).find("unknown key 'vendo'"),
+            std::string::npos);
+  EXPECT_NE(refusal(with("year: 2017", "year: 1066")).find("expected a number from 1990 to 2100"),
+            std::string::npos);
+  EXPECT_NE(refusal(with("rules: [AnswerInitial]", "rules: [AnswerFirst]"))
+                .find("no composition has a rule 'AnswerFirst'"),
+            std::string::npos);
+  EXPECT_NE(refusal(with("claim: live.recovery", "claim: live.recover"))
+                .find("did you mean 'live.recovery'"),
+            std::string::npos);
+  EXPECT_NE(refusal(with("bound: 5s\n", "")).find("missing key 'bound'"), std::string::npos);
+  EXPECT_NE(refusal(with("after: bounded", "after: proved")).find("expected violated or bounded"),
+            std::string::npos);
+  EXPECT_NE(refusal(with("initial_acknack_resets: true", "initial_acknack_resets: maybe"))
+                .find("expected one of"),
+            std::string::npos);
+  EXPECT_NE(refusal(with("reader: 1", "reader: 7")).find("participants of different hosts"),
+            std::string::npos);
+}
+
+TEST(Museum, SaysNothingMoreIfItIsStopped) {
+  const auto exhibit = read_exhibit("E2", specs());
+  ASSERT_TRUE(exhibit);
+  int left = 5;
+  const Report report = show({*exhibit}, [&] { return left-- > 0; });
+  EXPECT_FALSE(report.finished);
+  EXPECT_FALSE(report.as_expected());
+  EXPECT_EQ(report.exhibits.front().after.verdict, props::VerdictKind::inconclusive);
+}
+
+TEST(Museum, IsInconclusiveIfRunsAreTooShort) {
+  auto exhibit = read_exhibit("E0", specs());
+  ASSERT_TRUE(exhibit);
+  exhibit->before.scenario.time_limit = model::Nanoseconds{1'000'000'000};
+  const Report report = show({*exhibit}, always);
+  EXPECT_EQ(report.exhibits.front().before.verdict, props::VerdictKind::inconclusive);
+}
+
+TEST(Museum, TellsTheShortestCounterexample) {
+  const auto exhibit = read_exhibit("E3", specs());
+  ASSERT_TRUE(exhibit);
+  const Report report = show({*exhibit}, always);
+  const auto json = to_json(report)["exhibits"][0];
+  EXPECT_EQ(json["before"]["verdict"], "violated");
+  EXPECT_TRUE(json["before"]["lost_packets"].empty());
+  EXPECT_EQ(json["after"]["verdict"], "bounded");
+  EXPECT_EQ(json["decoys"][0]["verdict"], "violated");
+  EXPECT_EQ(json["decoys"][0]["lost_packets"].size(), 1U);
+}
+
+}  // namespace museum_test
+}  // namespace stormproof::museum
