@@ -1,4 +1,7 @@
 // `stormproof museum [ID]`: defects that DDS implementations had or have, before and after.
+#include <string>
+#include <vector>
+
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/experiments/museum/museum.hpp"
@@ -11,10 +14,19 @@ struct MuseumArguments {
   std::string exhibit;  ///< a name, a path, or nothing: all of them
 };
 
+/// All, or the one, or its parts: "E8" has E8a and E8b.
+std::vector<std::string> wanted_of(std::vector<std::string> names, const std::string& exhibit) {
+  if (exhibit.empty()) return names;
+  std::erase_if(names, [&](const std::string& name) {
+    return name.size() != exhibit.size() + 1 || !name.starts_with(exhibit) || name.back() < 'a';
+  });
+  return names.empty() ? std::vector{exhibit} : names;
+}
+
 Outcome run(MuseumArguments& arguments, Session& session) {
   const model::config::SpecPath specs = model::config::SpecPath::standard();
-  std::vector<std::string> wanted = museum::exhibit_names(specs);
-  if (!arguments.exhibit.empty()) wanted = {arguments.exhibit};
+  const std::vector<std::string> wanted =
+      wanted_of(museum::exhibit_names(specs), arguments.exhibit);
   if (wanted.empty()) return Complaint{"no exhibits: expected files in specs/museum, or a path"};
   std::vector<museum::Exhibit> exhibits;
   for (const std::string& name : wanted) {
@@ -33,8 +45,8 @@ Outcome run(MuseumArguments& arguments, Session& session) {
 }
 
 void declare(Options& options, MuseumArguments& arguments) {
-  options.text("exhibit", arguments.exhibit, "One exhibit, by name (E3) or path; all if absent",
-               "ID");
+  options.text("exhibit", arguments.exhibit,
+               "One exhibit, by name (E3; E8 has two parts) or path; all if absent", "ID");
 }
 
 }  // namespace

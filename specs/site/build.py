@@ -110,7 +110,8 @@ class Site:
         if entry.suffix not in LANGUAGES:
             return f"* {entry.name}"
         first = entry.read_text(encoding="utf-8").lstrip().split("\n", 1)[0]
-        about = first.lstrip("/# ").strip() if first.startswith(("//", "#")) and not first.startswith(("#!", "#pragma", "#include")) else ""
+        is_comment = first.startswith(("//", "#")) and not first.startswith(("#!", "#pragma", "#include"))
+        about = first.lstrip("/# ").strip() if is_comment else ""
         return f"* {entry.name}" + (f": {about}" if about else "")
 
     def drawings(self) -> None:
@@ -219,7 +220,8 @@ def main() -> int:
 
     settings = (source / "specs/site/mkdocs.yml").read_text(encoding="utf-8")
     (work / "mkdocs.yml").write_text(settings + navigation(source, extras), encoding="utf-8")
-    subprocess.run(["mkdocs", "build", "--quiet", "--strict", "--config-file", work / "mkdocs.yml", "--site-dir", output], check=True)
+    subprocess.run(["mkdocs", "build", "--quiet", "--strict", "--config-file", work / "mkdocs.yml",
+                    "--site-dir", output], check=True)
     print(f"site: {output}/index.html; with search: python3 -m http.server --directory {output}")
     return 0
 

@@ -67,11 +67,11 @@ start_participants() { # <folder>
   for host in 0 1; do
     for ((index = 0; index < np; ++index)); do
       ip netns exec "$(namespace "$host")" env -u FASTRTPS_DEFAULT_PROFILES_FILE \
-        -C "$1/participants" "$participant" --host "$host" --index "$index" --np "$np" \
+        -u CYCLONEDDS_URI -C "$1/participants" "$participant" --host "$host" --index "$index" --np "$np" \
         --ne "$ne" --address "${addresses[host]}" --peer "${addresses[1 - host]}" \
         --send-buffer "$send_buffer" --create-over-us $((create_over_ns / 1000)) \
         --simultaneous "$simultaneous" --start "$1/start" \
-        --discovery "$discovery" --server "${addresses[0]}" \
+        --discovery "$discovery" --server "${addresses[0]}" --multicast "$cyclone_multicast" \
         --report "$1/participants/$host-$index.json" >>"$log" 2>&1 </dev/null &
       participant_pids+=("$!")
     done
@@ -154,6 +154,7 @@ write_record() { # <folder> <completion>
 {
   "link": "$link",
   "discovery": "$discovery",
+  "sedp_multicast": $([[ $cyclone_multicast == 1 ]] && echo true || echo false),
   "participants_per_host": $np,
   "endpoints_per_participant": $ne,
   "simultaneous": $([[ $simultaneous == 1 ]] && echo true || echo false),

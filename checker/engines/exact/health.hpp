@@ -27,7 +27,8 @@ enum class Health : std::uint8_t {
 
 /// A storm takes at least so many times the airtime of everything sent once, and so many times as
 /// long: with less, repeats are there and do not yet decide when discovery is complete. With a
-/// Discovery Server it is late and takes so many times the messages of a run without failures.
+/// Discovery Server, and with Cyclone DDS, it is late and takes so many times the messages of a run
+/// without failures.
 inline constexpr double storm_factor = 3;
 /// Discovery that takes longer than this, counted from the last start, is late, unless the
 /// scenario's limits.completion says otherwise.
@@ -42,7 +43,8 @@ struct RunHealth {
   model::Nanoseconds took;
   std::optional<double> airtime;  ///< used until then, over that of everything sent once
   std::optional<double> stretch;  ///< `took` over the airtime of everything sent once
-  /// With a Discovery Server, in place of these two: messages over those of a run without failures.
+  /// With a Discovery Server, or Cyclone DDS, in place of these two: messages over those of a run
+  /// without failures.
   std::optional<double> messages;
   double busy = 0;            ///< share of the time that the busiest channel was in use, 0 … 1
   std::uint64_t missing = 0;  ///< deliveries

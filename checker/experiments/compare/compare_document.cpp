@@ -194,15 +194,18 @@ class Builder {
     }
     document_.blocks.emplace_back(std::move(table));
     document_.blocks.emplace_back(Paragraph{fmt::format(
-        "A way breaks (✗) at the first size at which half of the runs storm, or are not complete "
-        "within {}{}; larger ones are not run.",
-        report::duration(report_.limit), limit_text())});
+        "A way breaks (✗) at the first size at which half of the runs {}; larger ones are not run.",
+        limit_text())});
   }
 
   [[nodiscard]] std::string limit_text() const {
     const auto& limits = report_.candidates.scenario.limits;
-    if (!limits || !limits->completion || *limits->completion == report_.limit) return {};
-    return fmt::format(" (limits.completion: {})", report::duration(*limits->completion));
+    if (limits && limits->completion) {
+      return fmt::format("are not complete after {} (limits.completion)",
+                         report::duration(*limits->completion));
+    }
+    return fmt::format("storm for more than {}, or are not complete within {}",
+                       report::duration(exact::late), report::duration(report_.limit));
   }
 
   void plots() {
@@ -215,19 +218,19 @@ class Builder {
   void what_to_do() {
     Table table{{{"way to discover"}, {"what to change", Column::Align::left, true}, {"profile"}},
                 {}};
-    const bool has_files =
-        std::ranges::any_of(report_.rows, [](const Row& row) { return !row.files.empty(); });
-    if (has_files) table.columns.push_back({"files", Column::Align::left, true});
+    std::vector<std::string> files;
     for (const Row& row : report_.rows) {
       const Candidate& one = row.candidate;
       std::string what = one.change;
       if (!one.note.empty()) what += " (" + one.note + ")";
-      Table::Row line{{one.name, what, one.profile}};
-      if (has_files) line.cells.emplace_back(fmt::format("{}", fmt::join(row.files, ", ")));
-      table.rows.push_back(std::move(line));
+      table.rows.push_back({{one.name, what, one.profile}});
+      files.insert(files.end(), row.files.begin(), row.files.end());
     }
     document_.blocks.emplace_back(std::move(table));
-    if (!has_files) {
+    if (!files.empty()) {
+      document_.blocks.emplace_back(
+          Facts{{{"files to deploy", fmt::format("{}", fmt::join(files, ", "))}}});
+    } else {
       document_.next.push_back({report::program() + " compare-discovery " +
                                     checker::words_of(request_.scenario, request_.overrides) +
                                     " --export ways",

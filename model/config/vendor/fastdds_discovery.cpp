@@ -110,9 +110,10 @@ void interpret_server_beside(Reading& reading) {
       find_item(participant_schema(), "rtps/builtin/discovery_config/clientAnnouncementPeriod");
   const Value value = read_value(*period, *item, reading.profile);
   if (value.number <= 0) return;
-  reading.profile.settings.push_back({"participant[SERVER]/clientAnnouncementPeriod", value.shown,
-                                      value.place, Effect::knob, "server_routine_period",
-                                      "until the server looks again who has acknowledged what"});
+  reading.profile.settings.push_back(
+      {"rtps/builtin/discovery_config/clientAnnouncementPeriod of the server", value.shown,
+       value.place, Effect::knob, "server_routine_period",
+       "until the server looks again who has acknowledged what"});
   (void)set_path(reading.profile.changes, "server_routine_period",
                  Node::scalar(value.place, period_of(value)));
 }

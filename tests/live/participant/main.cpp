@@ -89,8 +89,8 @@ void run(const Options& options) {
     }
     return;
   }
-  // Fast DDS calls the listener until the process ends.
-  static Progress progress(options.peer, expected_matches(options), expected_discoveries(options));
+  // The library counts until the process ends.
+  static Progress progress(expected_matches(options), expected_discoveries(options));
   const Schedule schedule =
       create_participant(options, progress, [&] { wait_for_start(options, signals); });
   while (!progress.is_complete() && !told_to_stop(signals, poll_ns)) {

@@ -27,7 +27,7 @@ Values values_of(int argc, const char* const* argv) {
   static const std::set<std::string_view> known = {
       "--host",           "--index",     "--np",          "--ne",           "--address",
       "--peer",           "--start",     "--send-buffer", "--simultaneous", "--report",
-      "--create-over-us", "--discovery", "--server",      "--serves"};
+      "--create-over-us", "--discovery", "--server",      "--serves",       "--multicast"};
   Values values;
   for (int at = 1; at < argc; at += 2) {
     const std::string name = argv[at];
@@ -91,6 +91,7 @@ Options parse_options(int argc, const char* const* argv) {
   options.simultaneous = optional_number(values, "--simultaneous") != 0;
   options.create_over_ns = std::int64_t{1000} * optional_number(values, "--create-over-us");
   options.discovery = discovery_of(values);
+  options.multicast = optional_number(values, "--multicast") != 0;
   options.serves = optional_number(values, "--serves") != 0;
   if (options.discovery == Discovery::server || options.discovery == Discovery::super_client) {
     options.server = required(values, "--server");

@@ -24,6 +24,7 @@ struct Options {
   Discovery discovery = Discovery::simple;
   bool serves = false;       ///< it is the Discovery Server, at its `address`, without endpoints
   std::string server{};      ///< IPv4 of the Discovery Server
+  bool multicast = false;    ///< Cyclone DDS: AllowMulticast true, otherwise spdp
   std::string start_file{};  ///< appears with the start instant in it, in ns since 1970
   std::string report{};      ///< REPORT.ready when it waits for the start, REPORT when complete
 

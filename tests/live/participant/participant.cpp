@@ -22,6 +22,7 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
 #include "endpoints.hpp"
+#include "listener.hpp"
 
 namespace stormproof::live {
 
@@ -199,10 +200,11 @@ Schedule create_participant(const Options& options, Progress& progress,
     wait_for_start();
     schedule.created_ns = now_ns();
   }
+  static Listener listener(options.peer, progress);  // called until the process ends
   dds::StatusMask matching = dds::StatusMask::publication_matched();
   matching << dds::StatusMask::subscription_matched();
   dds::DomainParticipant* participant =
-      made(factory->create_participant(0, participant_qos(options), &progress, matching),
+      made(factory->create_participant(0, participant_qos(options), &listener, matching),
            "the participant");
   Node node(*participant);
   const std::vector<EndpointPlan> plans = node_endpoints(options);

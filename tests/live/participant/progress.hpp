@@ -4,11 +4,8 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
-#include <string>
-
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
-#include <fastdds/rtps/common/RemoteLocators.hpp>
 
 namespace stormproof::live {
 
@@ -39,33 +36,13 @@ class Milestone {
   std::atomic<std::int64_t> reached_ns_{0};
 };
 
-class Progress : public eprosima::fastdds::dds::DomainParticipantListener {
- public:
-  /// `peer`: the other host's IPv4 address; its endpoints are those that announce it.
-  Progress(std::string peer, std::size_t matches, std::size_t discoveries)
-      : peer_(std::move(peer)), app(matches), strict(discoveries) {}
-
-  void on_publication_matched(
-      eprosima::fastdds::dds::DataWriter* writer,
-      const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
-  void on_subscription_matched(
-      eprosima::fastdds::dds::DataReader* reader,
-      const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
-  void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
-                              eprosima::fastrtps::rtps::WriterDiscoveryInfo&& found) override;
-  void on_subscriber_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
-                               eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& found) override;
+struct Progress {
+  Progress(std::size_t matches, std::size_t discoveries) : app(matches), strict(discoveries) {}
 
   [[nodiscard]] bool is_complete() const {
     return app.reached_ns() != 0 && strict.reached_ns() != 0;
   }
 
- private:
-  [[nodiscard]] bool is_at_peer(const eprosima::fastrtps::rtps::RemoteLocatorList& locators) const;
-
-  std::string peer_;
-
- public:
   Milestone app;
   Milestone strict;
 };

@@ -87,6 +87,15 @@ TEST(Judgement, WithAServerCountsWhatGoesToItAndWhatItTells) {
   EXPECT_EQ(run.expected_initial(), 1'265);
 }
 
+TEST(Judgement, ByMulticastDataMayBeForSeveral) {
+  RunRecord run = good_run();
+  run.sedp_multicast = true;
+  run.counts.initial_data = 20;
+  EXPECT_EQ(judge(run).outcome, Outcome::as_expected);
+  run.missing_keys = 1;
+  EXPECT_EQ(judge(run).outcome, Outcome::check_failed);
+}
+
 TEST(Judgement, CountsInitialDataAndKeys) {
   RunRecord run = good_run();
   run.counts.initial_data = 37;

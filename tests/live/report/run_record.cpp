@@ -40,6 +40,7 @@ CaptureReport capture_of(const Json& json) {
 void read_setting(const Json& json, RunRecord& run) {
   run.link = json.at("link").get<std::string>();
   run.discovery = json.value("discovery", run.discovery);
+  run.sedp_multicast = json.value("sedp_multicast", false);
   run.participants_per_host = integer(json, "participants_per_host");
   run.endpoints_per_participant = integer(json, "endpoints_per_participant");
   run.start_ns = integer(json, "start_ns");

@@ -50,6 +50,7 @@ struct RunRecord {
   std::string name{};  ///< of its folder
   std::string link{};
   std::string discovery = "simple";  ///< or "static", "server", "super_client"
+  bool sedp_multicast = false;       ///< then a DATA may be for several, and F says nothing
   std::int64_t participants_per_host = 0;
   std::int64_t endpoints_per_participant = 0;  ///< of the user
   std::int64_t start_ns = 0;

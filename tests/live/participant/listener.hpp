@@ -1,0 +1,37 @@
+// Watches what a participant of Fast DDS discovers.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/rtps/common/RemoteLocators.hpp>
+
+#include "progress.hpp"
+
+namespace stormproof::live {
+
+class Listener : public eprosima::fastdds::dds::DomainParticipantListener {
+ public:
+  /// `peer`: the other host's IPv4 address; its endpoints are those that announce it.
+  Listener(std::string peer, Progress& progress) : peer_(std::move(peer)), progress_(progress) {}
+
+  void on_publication_matched(
+      eprosima::fastdds::dds::DataWriter* writer,
+      const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
+  void on_subscription_matched(
+      eprosima::fastdds::dds::DataReader* reader,
+      const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
+  void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
+                              eprosima::fastrtps::rtps::WriterDiscoveryInfo&& found) override;
+  void on_subscriber_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
+                               eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& found) override;
+
+ private:
+  [[nodiscard]] bool is_at_peer(const eprosima::fastrtps::rtps::RemoteLocatorList& locators) const;
+
+  std::string peer_;
+  Progress& progress_;
+};
+
+}  // namespace stormproof::live
