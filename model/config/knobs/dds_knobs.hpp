@@ -354,7 +354,7 @@ inline constexpr std::string_view discovery_key = "discovery";
 
 /// How participants find each other.
 void visit_discovery(auto& visit, Is<DdsProfile> auto& dds) {
-  const ImplementationKind kind = kind_of(dds);
+  const ImplementationKind kind = kind_of(dds.implementation, dds.discovery);
   visit.knob(discovery_key, dds.discovery, UsualChoiceType<Discovery>{{}, Discovery::simple},
              "how participants find each other; simple if absent",
              with_discovery(dds.implementation));

@@ -1,0 +1,99 @@
+// The section `amendments` of a profile and `life` of a deployment: what is read, what is refused,
+// and what is written is what was read.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "model/config/knobs/effective.hpp"
+#include "model/config/scenario_file.hpp"
+#include "model/implementations.hpp"
+#include "tests/model/config/test_files.hpp"
+
+namespace stormproof::model::config {
+namespace amendments_test {
+
+Result<Scenario> with(const std::vector<std::string>& overrides) {
+  return read_scenario("smallest", overrides, source_specs());
+}
+std::string refusal(const std::vector<std::string>& overrides) {
+  const auto scenario = with(overrides);
+  return scenario ? "" : scenario.error().message;
+}
+
+TEST(Amendments, AreAbsentUnlessAProfileHasThem) {
+  const auto scenario = with({});
+  ASSERT_TRUE(scenario);
+  EXPECT_FALSE(scenario->dds.amendments);
+  EXPECT_FALSE(scenario->deployment.life);
+}
+
+TEST(Amendments, AreThoseOfThePaperUnlessTheySayOtherwise) {
+  const auto scenario = with({"dds.amendments={}"});
+  ASSERT_TRUE(scenario) << to_string(scenario.error());
+  EXPECT_EQ(scenario->dds.amendments, Amendments{});
+}
+
+TEST(Amendments, AreReadAndWritten) {
+  const auto scenario =
+      with({"dds.amendments={acked_request: reopen, resend_copies: 4, "
+            "suppression_end_arms: false, reader_nack_delay: 100ms}"});
+  ASSERT_TRUE(scenario) << to_string(scenario.error());
+  EXPECT_EQ(scenario->dds.amendments->acked_request, AckedRequest::reopen);
+  EXPECT_EQ(scenario->dds.amendments->resend_copies, 4U);
+  EXPECT_EQ(scenario->dds.amendments->suppression_end_arms, Whether::no);
+  EXPECT_EQ(scenario->dds.amendments->reader_nack_delay, Nanoseconds{100'000'000});
+  const auto again = parse_scenario(effective_json(*scenario).dump(), "again", {}, source_specs());
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_EQ(*again, *scenario);
+}
+
+TEST(Amendments, AreOfThePaperOnly) {
+  EXPECT_NE(refusal({"dds=fastdds-2.6.11", "dds.amendments={}"})
+                .find("only implementation: paper has this key"),
+            std::string::npos);
+}
+
+TEST(Amendments, AnAckNackCannotAnswerAHeartbeatInData) {
+  EXPECT_NE(refusal({"dds.amendments={stale_acknack: latest_only}"}).find("piggyback: off"),
+            std::string::npos);
+  EXPECT_EQ(refusal({"dds.amendments={stale_acknack: latest_only}", "dds.sedp.piggyback=off"}), "");
+}
+
+TEST(Life, IsReadAndWritten) {
+  const auto scenario = with({"dds.amendments={}",
+                              "deployment.life={stale: [{writer: 0, reader: 1}], mute: "
+                              "[{participant: 1, from: 2s}], outages: [{from: 1, to: 0, start: "
+                              "1s, end: 3s}]}"});
+  ASSERT_TRUE(scenario) << to_string(scenario.error());
+  const Life& life = *scenario->deployment.life;
+  EXPECT_EQ(life.stale, (std::vector<StaleRelation>{{0, 1}}));
+  EXPECT_EQ(life.mute, (std::vector<Mute>{{1, Nanoseconds{2'000'000'000}}}));
+  EXPECT_EQ(life.outages,
+            (std::vector<Outage>{{1, 0, Nanoseconds{1'000'000'000}, Nanoseconds{3'000'000'000}}}));
+  const auto again = parse_scenario(effective_json(*scenario).dump(), "again", {}, source_specs());
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_EQ(*again, *scenario);
+}
+
+TEST(Life, NeedsRulesThatKnowIt) {
+  EXPECT_NE(refusal({"deployment.life={}"}).find("a DDS profile with amendments"),
+            std::string::npos);
+}
+
+TEST(Life, IsOfParticipantsThatThereAre) {
+  const std::string rules = "dds.amendments={}";
+  EXPECT_NE(refusal({rules, "deployment.life={stale: [{writer: 0, reader: 9}]}"})
+                .find("participants of different hosts"),
+            std::string::npos);
+  EXPECT_NE(refusal({rules, "deployment.life={stale: [{writer: 0, reader: 0}]}"})
+                .find("participants of different hosts"),
+            std::string::npos);
+  EXPECT_NE(refusal({rules, "deployment.life={mute: [{participant: 9, from: 0s}]}"})
+                .find("participants of the deployment"),
+            std::string::npos);
+  EXPECT_NE(refusal({rules, "deployment.life={outages: [{from: 0, to: 1, start: 2s, end: 1s}]}"})
+                .find("not before its start"),
+            std::string::npos);
+}
+
+}  // namespace amendments_test
+}  // namespace stormproof::model::config
