@@ -172,33 +172,76 @@ void draw(Deployment& deployment, const Node* list, const std::string& path,
 
 }  // namespace
 
+namespace {
+
+/// Reads the short form. Its hosts may be a list, which is as long as their number.
+void read_short_form(const Node& map, const std::string& path, Deployment& value,
+                     std::optional<InputError>& error) {
+  const Node* hosts = map.find(hosts_key);
+  const bool listed = hosts != nullptr && hosts->is_sequence();
+  Node counted = map;
+  if (listed) {
+    *counted.find(hosts_key) = Node::scalar(hosts->place, fmt::to_string(hosts->items.size()));
+  }
+  HomogeneousForm form;
+  KnobReader of_form{counted, path, error};
+  visit_knobs(of_form, form);
+  if (error) return;
+  value = Deployment::homogeneous(form.hosts, form.participants_per_host,
+                                  form.endpoints_per_participant, form.nodes_per_participant);
+  KnobReader reader{map, path, error};
+  if (listed) visit_hosts(reader, value);
+  visit_common_knobs(reader, value);
+}
+
+void check_fleet(const Node& map, const std::string& path, const Deployment& value,
+                 std::optional<InputError>& error) {
+  if (error) return;
+  const std::optional<FleetFault> fault = fault_of_fleet(value);
+  if (!fault) return;
+  const Node* blamed = map.find(fault->list);
+  std::string name = join_path(path, fault->list);
+  if (blamed != nullptr && fault->item < blamed->items.size()) {
+    blamed = &blamed->items[fault->item];
+    name = fmt::format("{}.{}", name, fault->item);
+    if (const Node* inner = blamed->find(fault->key); inner != nullptr) {
+      blamed = inner;
+      name = join_path(name, fault->key);
+    }
+  }
+  const Node& node = blamed != nullptr ? *blamed : map;
+  error =
+      error_at(node.place, fmt::format("{}: {}; expected {}", name, node.shown(), fault->expected));
+}
+
+}  // namespace
+
 void read_knobs(const Node& map, const std::string& path, Deployment& value,
                 std::optional<InputError>& error) {
-  HomogeneousForm form;
-  const std::vector<std::string> of_form = keys_of(form).allowed;
+  const std::vector<std::string> of_form = keys_of(HomogeneousForm{}).allowed;
   KnownKeys both{of_form, {}};
-  for (const std::string& key : keys_of(value).allowed) both.allowed.push_back(key);
+  for (const std::string& key : keys_of(value).allowed) {
+    if (!contains(of_form, key)) both.allowed.push_back(key);
+  }
   if (!error) error = check_keys(map, path, both);
   if (error) return;
 
-  KnobReader reader{map, path, error};
   const Node* list = map.find(participants_key);
   if (list == nullptr) {
-    visit_knobs(reader, form);
-    if (error) return;
-    value = Deployment::homogeneous(form.hosts, form.participants_per_host,
-                                    form.endpoints_per_participant, form.nodes_per_participant);
-    visit_common_knobs(reader, value);
+    read_short_form(map, path, value, error);
   } else {
     for (const Member& member : map.members) {
-      if (!contains(of_form, member.key)) continue;
+      const bool lists_hosts = member.key == hosts_key && member.value.is_sequence();
+      if (!contains(of_form, member.key) || lists_hosts) continue;
       error = error_at(member.key_place,
                        fmt::format("{}: not together with {}; expected only one of the two forms",
                                    join_path(path, member.key), participants_key));
       return;
     }
+    KnobReader reader{map, path, error};
     visit_knobs(reader, value);
   }
+  check_fleet(map, path, value, error);
   if (!error && value.schedule) draw(value, list, path, error);
 }
 
