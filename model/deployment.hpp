@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/host.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model {
@@ -84,6 +85,16 @@ struct Deployment {
   static constexpr std::uint32_t max_endpoints = 100'000;
 
   std::vector<Participant> participants;  ///< numbered in this order
+  /// By number, at least as many as participants are on; empty: stations of one access point
+  /// (model/host.hpp).
+  std::vector<Host> hosts = {};
+  std::vector<AccessPoint> access_points = {};  ///< of the hosts; empty: one
+  /// Between a wired host and the distribution system, each way, ≥ 1.
+  std::optional<Nanoseconds> wired_delay = {};
+  /// `wired_delay`, or half of what two hosts of the profile `wired` have between them.
+  [[nodiscard]] Nanoseconds delay_of_cable() const {
+    return wired_delay.value_or(Nanoseconds{50'000});
+  }
   /// Delay of same-host packets, ≥ 0 (not of `implementation: paper`).
   Nanoseconds loopback_delay{2'000'000};
   /// Between two packets that a participant sends, ≥ 0 (`implementation: cyclone` only).

@@ -8,6 +8,8 @@ namespace stormproof::model {
 const char* name_of(EventKind kind) {
   static constexpr std::array<const char*, event_kind_count> names{"service_finished",
                                                                    "delayed_reception",
+                                                                   "distribution",
+                                                                   "beacon",
                                                                    "reception",
                                                                    "announcement_due",
                                                                    "heartbeat_expiry",
@@ -43,6 +45,7 @@ const char* name_of(EventKind kind) {
                                                                    "server_routine",
                                                                    "server_routine_again",
                                                                    "server_sending",
+                                                                   "thread_free",
                                                                    "dispatch"};
   return names[static_cast<std::size_t>(kind)];
 }

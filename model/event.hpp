@@ -16,6 +16,8 @@ enum class EventClass : std::uint8_t { service = 0, protocol = 1, dispatch = 2 }
 enum class EventKind : std::uint8_t {
   service_finished,     ///< subject: channel
   delayed_reception,    ///< subject: packet slot (constant delay)
+  distribution,         ///< subject: packet slot (of a wired host)
+  beacon,               ///< subject: access point
   reception,            ///< subject: packet slot, detail: receiving participant
   announcement_due,     ///< subject: participant
   heartbeat_expiry,     ///< subject: writer
@@ -52,6 +54,7 @@ enum class EventKind : std::uint8_t {
   server_routine,         ///< subject: the server
   server_routine_again,   ///< subject: the server, detail: which one still counts
   server_sending,         ///< subject: the server
+  thread_free,            ///< subject: participant
   dispatch,               ///< subject: channel
 };
 inline constexpr std::size_t event_kind_count = static_cast<std::size_t>(EventKind::dispatch) + 1;

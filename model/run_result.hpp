@@ -60,6 +60,12 @@ struct BacklogPeak {
   std::uint64_t packets_at_end = 0;
 };
 
+/// How long one participant could not go on, up to the end of the run.
+struct Waiting {
+  Nanoseconds sender;  ///< its packets waited for room in its source queue, and it with them
+  Nanoseconds thread;  ///< its thread was busy, or no core was free, and something waited for it
+};
+
 /// How long received packets of one class had been under way, from generation to reception.
 struct Latency {
   std::uint64_t packets = 0;
@@ -93,6 +99,7 @@ struct RunResult {
   std::uint64_t duplicate_deliveries = 0;  ///< descriptors received again
   std::vector<ChannelUse> channels;        ///< empty with constant delay
   std::vector<BacklogPeak> backlog;        ///< by participant
+  std::vector<Waiting> waiting;  ///< by participant, if it can: `sender: stalls`, processors
   std::array<Latency, traffic_class_count> latency{};
   std::optional<LastDelivery> last_delivery;
 

@@ -8,6 +8,7 @@
 
 #include "model/dds_profile.hpp"
 #include "model/deployment.hpp"
+#include "model/host.hpp"
 #include "model/limits.hpp"
 #include "model/units.hpp"
 #include "model/wireless_profile.hpp"
@@ -22,6 +23,7 @@ struct Scenario {
   Deployment deployment;
   DdsProfile dds;
   WirelessProfile wireless;
+  std::optional<Processor> hosts = {};      ///< of every host; absent: programs take no time
   Nanoseconds time_limit{200'000'000'000};  ///< events up to and including this time are processed
   RunUntil run_until = RunUntil::completion;
   std::optional<Limits> limits;   ///< what the author demands; they change no run
@@ -29,5 +31,24 @@ struct Scenario {
 
   bool operator==(const Scenario&) const = default;
 };
+
+/// Whether a seed changes the scenario: start times are drawn, how long participants are deaf, or
+/// transmissions that fail.
+[[nodiscard]] inline bool is_drawn(const Scenario& scenario) {
+  const bool is_deaf = scenario.hosts && scenario.hosts->deaf_min < scenario.hosts->deaf_max;
+  return scenario.deployment.schedule || scenario.wireless.loss || is_deaf;
+}
+/// The seed of the scenario as it is; 0 if nothing is drawn.
+[[nodiscard]] inline std::uint64_t own_seed(const Scenario& scenario) {
+  if (scenario.deployment.schedule) return scenario.deployment.schedule->seed;
+  if (scenario.wireless.loss) return scenario.wireless.loss->seed;
+  return scenario.hosts ? scenario.hosts->deaf_seed : 0;
+}
+/// Draws what is drawn from this seed.
+inline void draw(Scenario& scenario, std::uint64_t seed) {
+  if (scenario.deployment.schedule) scenario.deployment.draw_schedule(seed);
+  if (scenario.wireless.loss) scenario.wireless.loss->seed = seed;
+  if (scenario.hosts) scenario.hosts->deaf_seed = seed;
+}
 
 }  // namespace stormproof::model

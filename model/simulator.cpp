@@ -82,13 +82,33 @@ class Simulator {
 
   void process(const Event& event) {
     const bool of_network = concerns_network(event.kind);
-    if (network_.sender_stalls() && !of_network && waits(event)) return;
+    Processors* const processors = network_.processors();
+    const auto actor = processors != nullptr ? actor_of(event) : std::nullopt;
+    if (actor && !processors->begins(*actor, event)) return;
+    if (network_.sender_stalls() && !of_network && waits(event)) {
+      if (actor) processors->finish();
+      return;
+    }
+    if (actor && !of_network) processors->act();
     if (run_.probe != nullptr) run_.probe->event_started(event);
-    if (of_network)
+    if (event.kind == EventKind::thread_free)
+      processors->handle(event);
+    else if (of_network)
       network_.handle(event);
     else
       implementation_->handle(event);
+    if (actor) processors->finish();
     if (run_.probe != nullptr) run_.probe->event_finished(network_.depths());
+  }
+
+  /// Whose thread has to handle the event, if one has.
+  std::optional<std::uint32_t> actor_of(const Event& event) const {
+    if (event.kind == EventKind::reception) {
+      if (!network_.processors()->hears(event.detail)) return std::nullopt;
+      return event.detail;
+    }
+    if (concerns_network(event.kind)) return std::nullopt;
+    return implementation_->sender_of(event);
   }
 
   /// Holds the event if its participant stalls.

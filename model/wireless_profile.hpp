@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "model/limits.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model {
@@ -47,6 +48,26 @@ struct Aggregation {
   Nanoseconds overhead{198'500};
 
   bool operator==(const Aggregation&) const = default;
+};
+
+/// Periods in which a link is worse than usual (Gilbert and Elliott): before each transmission it
+/// gets worse, or recovers, with a probability.
+struct LossBursts {
+  Ratio begin;        ///< probability that a usual link gets worse
+  Ratio end;          ///< that one recovers
+  Ratio probability;  ///< that a transmission fails meanwhile
+
+  bool operator==(const LossBursts&) const = default;
+};
+
+/// Transmissions that fail, from a seed. Each station has a link of its own, for both directions.
+struct FrameLoss {
+  Ratio probability;          ///< that one transmission of a frame fails
+  std::uint32_t retries = 7;  ///< transmissions of a unicast frame after the first, at most
+  std::uint64_t seed = 0;
+  std::optional<LossBursts> bursts = {};
+
+  bool operator==(const FrameLoss&) const = default;
 };
 
 /// One stage of the route. An override that is absent means: the value of the profile.
@@ -101,6 +122,7 @@ struct WirelessProfile {
   Queueing queueing = Queueing::fifo;
   Bytes quantum{300};  ///< bytes that a flow may send before the next one does (Linux fq_impl.h)
   // Of both.
+  std::optional<FrameLoss> loss = {};  ///< of the two stages above
   Sender sender = Sender::backlog;
   CountAt count_at = CountAt::generation;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "model/implementations.hpp"
 #include "model/scenario.hpp"
@@ -19,25 +20,57 @@ constexpr std::array<std::string_view, 5> of_punctual_timers{
     "live.completion", "live.quiescence", "storm.single-copy", "storm.free-threshold",
     "storm.cannot-start"};
 
+/// They follow each packet on one way from its source to all its receivers.
+constexpr std::array<std::string_view, 2> of_one_way{"safety.conservation", "live.no-stall"};
+
 bool stalls(const model::Scenario& scenario) {
   return scenario.wireless.sender == model::Sender::stalls;
+}
+
+bool is_among(std::span<const std::string_view> list, std::string_view property) {
+  return std::ranges::find(list, property) != list.end();
 }
 }  // namespace
 
 std::string_view why_not_applicable(std::string_view property, const model::Scenario& scenario) {
   const std::string_view why = why_not_applicable(property, model::kind_of(scenario.dds));
-  if (!why.empty() || !stalls(scenario)) return why;
-  if (std::ranges::find(of_punctual_timers, property) == of_punctual_timers.end()) return {};
+  if (!why.empty()) return why;
+  const bool is_timed = is_among(of_punctual_timers, property);
+  if (scenario.hosts && property == "order.reception-first") {
+    return "a busy thread (hosts) takes what is due in the order in which it became due";
+  }
+  if (scenario.hosts && (is_timed || is_among(of_one_way, property))) {
+    return "it counts on timers and receptions that are handled when they are due; a thread that "
+           "is busy (hosts) handles them later, and a program that has just started hears nothing";
+  }
+  const bool has_fleet = !scenario.deployment.hosts.empty();
+  if ((has_fleet || scenario.wireless.loss) && (is_timed || is_among(of_one_way, property))) {
+    return has_fleet ? "it is stated for stations of one access point; the hosts of this "
+                       "deployment are listed (deployment.hosts)"
+                     : "it is stated for losses of whole packets, by number; here transmissions "
+                       "of frames fail (wireless.loss)";
+  }
+  if (!stalls(scenario) || !is_timed) return {};
   return "it counts on timers that are served when they are due; a participant that stalls "
          "(sender: "
          "stalls) serves none as long as its packets wait for room, however long that is";
 }
 
-bool is_provable(std::string_view property, const model::Scenario& scenario) {
-  if (!stalls(scenario)) return true;
+std::string_view why_not_provable(std::string_view property, const model::Scenario& scenario) {
   constexpr std::array<std::string_view, 3> of_rules{"fsm.", "order.", "composition."};
-  return std::ranges::any_of(of_rules,
-                             [&](std::string_view kind) { return property.starts_with(kind); });
+  const bool is_about_rules = std::ranges::any_of(
+      of_rules, [&](std::string_view kind) { return property.starts_with(kind); });
+  const bool is_about_services = property == "order.reception-first";
+  if (!scenario.deployment.hosts.empty() && (!is_about_rules || is_about_services)) {
+    return "the engines that prove it know no hosts that are listed (deployment.hosts)";
+  }
+  if (is_about_rules) return {};
+  if (stalls(scenario)) return "the engines that prove it know no sender that stalls";
+  if (scenario.hosts) return "the engines that prove it know no threads that are busy (hosts)";
+  if (scenario.wireless.loss) {
+    return "the engines that prove it know no transmissions that fail (wireless.loss)";
+  }
+  return {};
 }
 
 std::string_view why_not_applicable(std::string_view property,

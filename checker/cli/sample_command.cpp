@@ -49,7 +49,6 @@ void run_all(report::Sampling& sampling, Session& session) {
 
 Outcome sample(const SimulateArguments& arguments, const model::Scenario& scenario,
                Session& session) {
-  const auto& schedule = scenario.deployment.schedule;
   report::Sampling sampling;
   sampling.name = arguments.scenario;
   sampling.words = checker::words_of(arguments.scenario, arguments.overrides);
@@ -60,12 +59,13 @@ Outcome sample(const SimulateArguments& arguments, const model::Scenario& scenar
   }
   sampling.wanted =
       arguments.samples.value_or(sampling.is_drawn(scenario) ? trials::usual_samples : 1);
-  sampling.first_seed = arguments.seed.value_or(schedule ? schedule->seed : 0);
+  sampling.first_seed = arguments.seed.value_or(model::own_seed(scenario));
   if (sampling.wanted > 1 && !sampling.is_drawn(scenario)) {
     return Complaint{arguments.scenario +
                      ": all runs would be the same; let every participant start up to 100 ms later "
                      "with\n  --start-jitter 100ms\nor give the deployment ranges of start times\n"
-                     "  schedule: {start: [0ms, 20ms], endpoints_done: [50ms, 120ms]}"};
+                     "  schedule: {start: [0ms, 20ms], endpoints_done: [50ms, 120ms]}\nor the "
+                     "channel transmissions that fail\n  loss: {probability: 0.1}"};
   }
   if (const auto error = add_profiles(arguments, scenario, sampling)) return *error;
   run_all(sampling, session);

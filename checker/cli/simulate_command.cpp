@@ -71,7 +71,7 @@ class Recorders {
 std::vector<trials::Sample> other_draws(const model::Scenario& scenario, Session& session) {
   trials::SampleOptions options;
   options.samples = trials::usual_samples;
-  options.first_seed = scenario.deployment.schedule->seed;
+  options.first_seed = model::own_seed(scenario);
   options.on_progress = session.on_runs();
   return trials::sample_runs(scenario, options);
 }
@@ -101,7 +101,7 @@ Outcome run(SimulateArguments& arguments, Session& session) {
   simulation.words = checker::words_of(arguments.scenario, arguments.overrides);
   const bool recorded =
       arguments.trace.wanted() || arguments.perfetto.wanted() || arguments.pcap.wanted();
-  if (scenario->deployment.schedule && !recorded) {
+  if (model::is_drawn(*scenario) && !recorded) {
     simulation.samples = other_draws(*scenario, session);
   }
   Answer answer;

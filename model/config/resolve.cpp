@@ -13,8 +13,8 @@ struct ProfileSlot {
   std::string_view key;  ///< in the scenario
   SpecKind kind;
 };
-constexpr ProfileSlot profile_slots[] = {{dds_key, SpecKind::dds},
-                                         {wireless_key, SpecKind::wireless}};
+constexpr ProfileSlot profile_slots[] = {
+    {dds_key, SpecKind::dds}, {wireless_key, SpecKind::wireless}, {hosts_key, SpecKind::hosts}};
 
 /// What `path` is inside the profile in `slot`; nothing if it does not go below it.
 std::optional<std::string_view> path_below(const ProfileSlot& slot, std::string_view path) {

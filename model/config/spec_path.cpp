@@ -64,6 +64,8 @@ std::string folder_name(SpecKind kind) {
       return "dds";
     case SpecKind::wireless:
       return "wireless";
+    case SpecKind::hosts:
+      return "hosts";
     case SpecKind::grids:
       return "grids";
     case SpecKind::museum:

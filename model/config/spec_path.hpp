@@ -11,7 +11,7 @@
 namespace stormproof::model::config {
 
 /// What a file below `specs` is; the folder there has the same name.
-enum class SpecKind { scenarios, dds, wireless, grids, policies, museum };
+enum class SpecKind { scenarios, dds, wireless, hosts, grids, policies, museum };
 
 [[nodiscard]] std::string folder_name(SpecKind kind);
 

@@ -27,36 +27,53 @@ Network::Network(RunState& run)
       wireless_{run.scenario.wireless},
       fragmentation_{run.scenario.wireless},
       sources_(run.topology.participant_count()),
+      fleet_{run.scenario},
+      by_unit_{wireless_.service == ServedBy::unit},
+      over_access_points_{by_unit_ || fleet_.is_listed() || wireless_.loss},
       sender_stalls_{wireless_.sender == Sender::stalls},
       counts_at_admission_{wireless_.count_at == CountAt::admission} {
   if (wireless_.kind == ServiceKind::shared_channel) build_route();
-  if (wireless_.service == ServedBy::unit) {
-    std::uint32_t hosts = 0;
-    for (const Participant& p : run.scenario.deployment.participants) {
-      hosts = std::max(hosts, p.host.value + 1);
+  for (std::size_t radio = 0; by_unit_ && radio < fleet_.radios().size(); ++radio) {
+    units_.emplace_back(wireless_, fleet_.host_count(), fleet_.access_point_count());
+    for (std::uint32_t host = 0; host < fleet_.host_count(); ++host) {
+      if (const auto rate = fleet_.rate(host)) units_.back().set_rate(host, *rate);
     }
-    units_ = std::make_unique<UnitChannel>(wireless_, hosts);
   }
   if (sender_stalls_) held_.resize(sources_.size());
+  if (sender_stalls_) stalled_.resize(sources_.size());
+  if (wireless_.loss) losses_.emplace(*wireless_.loss, fleet_.host_count());
+  if (run.scenario.hosts) {
+    processors_ = std::make_unique<Processors>(run_, *run.scenario.hosts, fleet_);
+  }
 }
 
+/// One channel for each name on the route; as many for each channel of access points.
 void Network::build_route() {
-  for (std::size_t x = 0; x < wireless_.stages.size(); ++x) {
-    const Stage& stage = wireless_.stages[x];
-    auto channel = std::find_if(channels_.begin(), channels_.end(),
-                                [&](const ChannelState& c) { return c.name == stage.channel; });
-    if (channel == channels_.end()) {
-      channels_.emplace_back();
-      channel = channels_.end() - 1;
-      channel->name = stage.channel;
+  for (const std::string& radio : fleet_.radios()) {
+    const std::size_t first = channels_.size();
+    stages_.clear();
+    for (std::size_t x = 0; x < wireless_.stages.size(); ++x) {
+      const Stage& stage = wireless_.stages[x];
+      auto channel =
+          std::find_if(channels_.begin() + static_cast<std::ptrdiff_t>(first), channels_.end(),
+                       [&](const ChannelState& c) { return c.name == stage.channel; });
+      if (channel == channels_.end()) {
+        channels_.emplace_back();
+        channel = channels_.end() - 1;
+        channel->name = stage.channel;
+      }
+      StageState state;  // numbered within its radio
+      state.channel = static_cast<std::uint32_t>(channel - channels_.begin()) -
+                      static_cast<std::uint32_t>(first);
+      state.position = channel->waiting.add_stage(stage_rank(wireless_.order, x));
+      state.rate = {MemoizedRate{service_rate(wireless_, stage, false)},
+                    MemoizedRate{service_rate(wireless_, stage, true)}};
+      channel->stages.push_back(static_cast<std::uint32_t>(x));
+      stages_.push_back(state);
     }
-    StageState state;
-    state.channel = static_cast<std::uint32_t>(channel - channels_.begin());
-    state.position = channel->waiting.add_stage(stage_rank(wireless_.order, x));
-    state.rate = {MemoizedRate{service_rate(wireless_, stage, false)},
-                  MemoizedRate{service_rate(wireless_, stage, true)}};
-    channel->stages.push_back(static_cast<std::uint32_t>(x));
-    stages_.push_back(state);
+    for (std::size_t k = first; fleet_.radios().size() > 1 && k < channels_.size(); ++k) {
+      channels_[k].name = radio + " " + channels_[k].name;
+    }
   }
 }
 
@@ -64,6 +81,7 @@ void Network::emit(std::uint32_t source, Packet&& packet) {
   packet.number = next_packet_;
   packet.emitted = run_.now;
   next_packet_ += packet.copies;
+  if (processors_ != nullptr) processors_->send(packet, packet.copies);
   if (run_.probe != nullptr) {
     std::vector<std::uint32_t> destinations;
     std::uint32_t pair = packet.pair;
@@ -112,10 +130,16 @@ void Network::admit(std::uint32_t source) {
     if (counts_at_admission_) implementation_->count(flight.packet);
     const std::uint32_t requested =
         wireless_.fragment_request == FragmentRequest::at_admission ? flight.fragments : 1;
-    for (std::uint32_t k = 0; k < requested; ++k) request(slot, k, 0);
+    if (fleet_.is_wired(fleet_.host_of(source))) {
+      leave_wired_host(slot);
+      continue;
+    }
+    for (std::uint32_t k = 0; k < requested; ++k) {
+      over_access_points_ ? request_up(slot, k) : request(slot, k, 0);
+    }
   }
   queue.note_peak(run_.now);
-  if (sender_stalls_ && queue.backlog_packets() == 0) wake(source);
+  if (sender_stalls_) note_stall(source);
   if (run_.probe != nullptr) {
     run_.probe->backlog_changed(source, queue.backlog_packets(), queue.admitted_bytes());
   }
@@ -128,14 +152,15 @@ std::uint32_t Network::allocate(Packet&& packet, std::uint32_t source, std::int6
   flight.packet = std::move(packet);
   flight.source = source;
   flight.uses = 1;
+  flight.lost_on_the_way_up = false;
+  flight.lost_at.clear();
   return slot;
 }
 
 void Network::request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage) {
-  if (units_ != nullptr) return request_in_unit(slot, fragment, stage > 0);
   const StageState& target = stages_[stage];
   channels_[target.channel].waiting.push(target.position,
-                                         {run_.now, next_request_++, slot, fragment});
+                                         {run_.now, next_request_++, slot, fragment, 0});
   if (run_.probe != nullptr) {
     run_.probe->waiting_changed(target.channel, channels_[target.channel].waiting.size());
   }
@@ -145,7 +170,7 @@ void Network::request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t 
 template <class Event>
 void Network::step(std::uint32_t channel) {
   ChannelState& c = channels_[channel];
-  const bool waiting = units_ != nullptr ? !units_->empty() : !c.waiting.empty();
+  const bool waiting = by_unit_ ? !units_[channel].empty() : !c.waiting.empty();
   const auto output = channel_driver_.step<Event>(
       c.state, {.waiting = waiting, .dispatch_pending = c.dispatch_pending}, channel);
   if (output.schedule_dispatch) {
@@ -160,7 +185,7 @@ template void Network::step<fsm::channel::ServiceFinished>(std::uint32_t);
 template void Network::step<fsm::channel::EffectsDone>(std::uint32_t);
 
 void Network::serve(std::uint32_t channel) {
-  if (units_ != nullptr) return serve_unit();
+  if (by_unit_) return serve_unit(channel);
   ChannelState& c = channels_[channel];
   if (c.waiting.empty()) return;  // only a mutated table serves nothing
   const WaitingFragments::Choice choice = c.waiting.pop();
@@ -171,7 +196,10 @@ void Network::serve(std::uint32_t channel) {
   const Packet& packet = flights_[choice.request.slot].packet;
   MemoizedRate& rate = stages_[c.serving_stage].rate[packet.multicast() ? 1 : 0];
   const std::int64_t bytes = fragmentation_.bytes(packet.payload_bytes, choice.request.fragment);
-  const Nanoseconds until = run_.now + Nanoseconds{rate.airtime_ns(bytes)};
+  const std::int64_t duration =
+      over_access_points_ ? transmit(c, rate_of(c.serving, c.serving_stage).airtime_ns(bytes))
+                          : rate.airtime_ns(bytes);
+  const Nanoseconds until = run_.now + Nanoseconds{duration};
   run_.schedule(until, EventKind::service_finished, channel);
   if (run_.probe != nullptr) {
     run_.probe->waiting_changed(channel, c.waiting.size());
@@ -188,12 +216,22 @@ void Network::handle(const Event& event) {
       channels_[event.subject].dispatch_pending = false;
       step<fsm::channel::DispatchDue>(event.subject);
       break;
+    case EventKind::distribution:
+      leave_cable(event.subject);
+      break;
+    case EventKind::beacon:
+      beacon(event.subject);
+      break;
     case EventKind::source_completion:
       if (run_.probe != nullptr) run_.probe->source_completed(flights_[event.subject].packet);
       implementation_->source_completed(flights_[event.subject].packet);
       release(event.subject);
       break;
     case EventKind::reception:
+      if (processors_ != nullptr && !processors_->hears(event.detail)) {
+        release(event.subject);
+        break;
+      }
       if (const auto later = implementation_->receives_later(event.detail)) {
         flights_[event.subject].uses +=
             run_.schedule(*later, EventKind::reception, event.subject, event.detail);
@@ -205,6 +243,7 @@ void Network::handle(const Event& event) {
       if (run_.probe != nullptr) {
         run_.probe->received(flights_[event.subject].packet, event.detail);
       }
+      if (processors_ != nullptr) processors_->receive(flights_[event.subject].packet);
       implementation_->received(flights_[event.subject].packet, event.detail);
       release(event.subject);
       break;
@@ -218,8 +257,10 @@ void Network::service_finished(std::uint32_t channel) {
   ChannelState& c = channels_[channel];
   if (!c.serves) return;  // only an event that was scheduled twice finds nothing served
   c.serves = false;
-  if (units_ != nullptr) return unit_finished();
-  const auto [time, number, slot, fragment] = c.serving;
+  if (by_unit_) return unit_finished(channel);
+  if (over_access_points_) return frame_finished(channel);
+  const std::uint32_t slot = c.serving.slot;
+  const std::uint32_t fragment = c.serving.fragment;
   const std::uint32_t stage = c.serving_stage;
   const InFlight& flight = flights_[slot];
   const bool last = fragment + 1 == flight.fragments;
@@ -254,7 +295,7 @@ void Network::arrive(std::uint32_t slot) {
   const bool lost = is_lost(flight.packet.number);
   if (run_.probe != nullptr) run_.probe->arrived(flight.packet, lost);
   if (!lost) {
-    note_latency(flight);
+    note_latency(flight, run_.now);
     if (implementation_->receives_separately()) {
       schedule_receptions(slot, run_.now);
     } else {
@@ -276,6 +317,7 @@ void Network::schedule_receptions(std::uint32_t slot, Nanoseconds time) {
 
 void Network::loop_back(Packet&& packet, std::uint32_t receiver) {
   packet.emitted = run_.now;
+  if (processors_ != nullptr && !packet.multicast()) processors_->send(packet, 1);
   if (run_.probe != nullptr) run_.probe->looped_back(packet, receiver);
   const std::uint32_t slot = allocate(std::move(packet), receiver, 1);
   InFlight& flight = flights_[slot];
@@ -320,12 +362,12 @@ bool Network::is_lost(std::uint64_t number) const {
          std::binary_search(wireless_.lost_packets.begin(), wireless_.lost_packets.end(), number);
 }
 
-void Network::note_latency(const InFlight& flight) {
+void Network::note_latency(const InFlight& flight, Nanoseconds received) {
   Latency& latency = latency_[static_cast<std::size_t>(traffic_class(flight.packet))];
   ++latency.packets;
   latency.backlog_sum += flight.admitted - flight.packet.emitted;
-  latency.service_sum += run_.now - flight.admitted;
-  latency.longest = std::max(latency.longest, run_.now - flight.packet.emitted);
+  latency.service_sum += received - flight.admitted;
+  latency.longest = std::max(latency.longest, received - flight.packet.emitted);
 }
 
 /// Of the mistake that an ACKNACK's bitmap is not a snapshot.
@@ -349,15 +391,16 @@ Depths Network::depths() const {
     depths.admitted_bytes += source.admitted_bytes();
   }
   for (const ChannelState& channel : channels_) depths.waiting += channel.waiting.size();
-  if (units_ != nullptr) depths.waiting += units_->size();
+  for (const UnitChannel& units : units_) depths.waiting += units.size();
+  for (const auto& [beacon, held] : held_frames_) depths.waiting += held.size();
   return depths;
 }
 
 void Network::report(RunResult& result) const {
   for (const ChannelState& c : channels_) {
     ChannelUse use{c.name, c.busy};
-    if (c.serves && units_ != nullptr) {
-      add_use(use.busy, result.end_time);
+    if (c.serves && by_unit_) {
+      add_use(c, use.busy, result.end_time);
     } else if (c.serves) {
       const Packet& packet = flights_[c.serving.slot].packet;
       use.busy[static_cast<std::size_t>(traffic_class(packet))] +=
@@ -366,6 +409,13 @@ void Network::report(RunResult& result) const {
     result.channels.push_back(use);
   }
   for (const SourceQueue& source : sources_) result.backlog.push_back(source.peak());
+  for (std::uint32_t i = 0; (sender_stalls_ || processors_ != nullptr) && i < sources_.size();
+       ++i) {
+    Waiting& waiting = result.waiting.emplace_back();
+    if (sender_stalls_) waiting.sender = stalled_[i].sum;
+    if (sender_stalls_ && stalled_[i].stalls) waiting.sender += run_.now - stalled_[i].since;
+    if (processors_ != nullptr) waiting.thread = processors_->waited(i);
+  }
   result.latency = latency_;
   if (!result.completed() || !last_arrival_) return;
   result.last_delivery = last_arrival_;

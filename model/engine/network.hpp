@@ -6,13 +6,17 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
 #include "fsm/channel.hpp"
 #include "model/airtime.hpp"
 #include "model/engine/driver.hpp"
+#include "model/engine/fleet.hpp"
 #include "model/engine/implementation.hpp"
+#include "model/engine/link_losses.hpp"
+#include "model/engine/processors.hpp"
 #include "model/engine/run_state.hpp"
 #include "model/engine/slot_pool.hpp"
 #include "model/engine/source_queue.hpp"
@@ -47,6 +51,8 @@ class Network {
   /// that were held before it.
   void hold(std::uint32_t participant, const Event& event) { held_[participant].push_back(event); }
   [[nodiscard]] bool sender_stalls() const { return sender_stalls_; }
+  /// The threads of the participants, if they take time; otherwise null.
+  [[nodiscard]] Processors* processors() const { return processors_.get(); }
 
   [[nodiscard]] Depths depths() const;
   /// Fills the parts of the result that concern channels, backlogs and latencies.
@@ -61,6 +67,8 @@ class Network {
     std::uint32_t uses = 1;  // events that still need it; the slot is free at 0
     std::int64_t demand = 0;
     Nanoseconds admitted;
+    bool lost_on_the_way_up = false;
+    std::vector<std::uint32_t> lost_at;  // hosts that a frame did not reach
   };
   struct StageState {
     std::uint32_t channel = 0;
@@ -76,6 +84,9 @@ class Network {
     std::uint32_t serving_stage = 0;
     bool serves = false;
     ServiceRequest serving{};  // if it serves
+    Unit unit;                 // the same with `service: unit`
+    bool loses = false;        // what it serves, all of it or at the hosts below
+    std::vector<std::uint32_t> loses_at;
     Nanoseconds serving_since;
     std::array<Nanoseconds, traffic_class_count> busy{};
   };
@@ -90,11 +101,33 @@ class Network {
 
   // network_of_units.cpp
   [[nodiscard]] Flow flow_of(const InFlight& flight) const;
-  void request_in_unit(std::uint32_t slot, std::uint32_t fragment, bool downlink);
-  void serve_unit();
-  void unit_finished();
-  void add_use(std::array<Nanoseconds, traffic_class_count>& busy, Nanoseconds until) const;
+  void serve_unit(std::uint32_t channel);
+  void unit_finished(std::uint32_t channel);
+  void add_use(const ChannelState& c, std::array<Nanoseconds, traffic_class_count>& busy,
+               Nanoseconds until) const;
+  void transmit(Unit& unit, std::vector<std::uint32_t>& loses_at);
   void wake(std::uint32_t participant);
+
+  // network_of_fleet.cpp
+  void leave_wired_host(std::uint32_t slot);
+  void leave_cable(std::uint32_t slot);
+  void request_up(std::uint32_t slot, std::uint32_t fragment);
+  void request_down(std::uint32_t slot, std::uint32_t fragment, std::uint32_t access_point);
+  void distribute(std::uint32_t slot, std::uint32_t fragment);
+  void request_stage(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage,
+                     std::uint32_t access_point);
+  void unit_requested(std::uint32_t channel);
+  void beacon(std::uint32_t access_point);
+  void finish_up(std::uint32_t slot, std::uint32_t fragment, bool lost);
+  void finish_down(std::uint32_t slot, std::uint32_t fragment, std::uint32_t access_point);
+  void frame_finished(std::uint32_t channel);
+  void arrive_at(std::uint32_t slot, std::uint32_t access_point);
+  void arrive_on_cable(std::uint32_t slot);
+  [[nodiscard]] std::optional<std::uint32_t> destination_of(const Packet& packet) const;
+  void lose_multicast(std::uint32_t slot, std::uint32_t access_point,
+                      std::vector<std::uint32_t>& loses_at);
+  [[nodiscard]] std::int64_t transmit(ChannelState& c, std::int64_t airtime_ns);
+  [[nodiscard]] ServiceRate rate_of(const ServiceRequest& request, std::uint32_t stage) const;
 
   void request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage);
   template <class Event>
@@ -109,7 +142,8 @@ class Network {
   /// How long the packet with this number takes, with a constant delay.
   [[nodiscard]] PacketDelay delay_of(std::uint64_t number) const;
   [[nodiscard]] bool is_lost(std::uint64_t number) const;
-  void note_latency(const InFlight& flight);
+  void note_latency(const InFlight& flight, Nanoseconds received);
+  void note_stall(std::uint32_t participant);
   void note_journey(const InFlight& flight);
 
   RunState& run_;
@@ -121,11 +155,26 @@ class Network {
   std::vector<ChannelState> channels_;
   std::vector<SourceQueue> sources_;
   SlotPool<InFlight> flights_;
-  std::unique_ptr<UnitChannel> units_;  // of `service: unit`; its only channel is number 0
-  Unit unit_;                           // that is served, if channel 0 serves
+  const Fleet fleet_;
+  const bool by_unit_;
+  const bool over_access_points_;   // each frame goes up to one and down from it, or from several
+  std::vector<UnitChannel> units_;  // of `service: unit`, by channel
+  std::optional<LinkLosses> losses_;
+  std::unique_ptr<Processors> processors_;
+  struct Held {
+    std::uint32_t slot = 0;
+    std::uint32_t fragment = 0;
+  };
+  std::map<std::pair<std::uint32_t, Nanoseconds>, std::vector<Held>> held_frames_;
   const bool sender_stalls_;
   const bool counts_at_admission_;
   std::vector<std::vector<Event>> held_;  // by participant, if senders stall
+  struct Stall {
+    Nanoseconds since;
+    Nanoseconds sum;
+    bool stalls = false;
+  };
+  std::vector<Stall> stalled_;  // the same
   std::uint64_t next_packet_ = 0;
   std::uint64_t next_request_ = 0;
   std::array<Latency, traffic_class_count> latency_{};

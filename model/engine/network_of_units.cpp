@@ -1,91 +1,106 @@
-// The network with `service: unit` (specs/guide/wifi.md): frames instead of stages. Also senders
-// that stall, with either service.
+// The network with `service: unit` (specs/guide/wifi.md): units of frames instead of stages. Also
+// senders that stall, with either service.
+#include <numeric>
+
 #include "model/engine/network.hpp"
 
 namespace stormproof::model {
 
 Flow Network::flow_of(const InFlight& flight) const {
-  const auto host = [this](std::uint32_t participant) {
-    return run_.scenario.deployment.participants[participant].host.value;
-  };
-  std::uint32_t destination = Flow::everybody;
-  if (!flight.packet.multicast()) {
-    const Pair& pair = run_.topology.pair(flight.packet.pair);
-    destination = flight.packet.to_writer() ? pair.source : pair.destination;
-  }
+  const std::uint32_t destination = destination_of(flight.packet).value_or(Flow::everybody);
   if (flight.fragments == 1) return {false, flight.source, destination, flight.packet.port};
-  if (destination != Flow::everybody) destination = host(destination);
-  return {true, host(flight.source), destination, 0};
+  const bool to_all = destination == Flow::everybody;
+  return {true, fleet_.host_of(flight.source),
+          to_all ? Flow::everybody : fleet_.host_of(destination), 0};
 }
 
-void Network::request_in_unit(std::uint32_t slot, std::uint32_t fragment, bool downlink) {
-  const InFlight& flight = flights_[slot];
-  const std::int64_t bytes = fragmentation_.bytes(flight.packet.payload_bytes, fragment);
-  const Frame frame{next_request_++, slot, fragment, bytes};
-  const Flow flow = flow_of(flight);
-  const auto& participants = run_.scenario.deployment.participants;
-  if (!downlink) {
-    units_->request_uplink(participants[flight.source].host.value, frame, flow);
-  } else if (flow.destination == Flow::everybody || flow.by_host) {
-    units_->request_downlink(flow.destination, frame, flow);
-  } else {
-    units_->request_downlink(participants[flow.destination].host.value, frame, flow);
-  }
-  if (run_.probe != nullptr) run_.probe->waiting_changed(0, units_->size());
-  step<fsm::channel::ServiceRequested>(0);
-}
-
-void Network::serve_unit() {
-  if (units_->empty()) return;  // only a mutated table serves nothing
-  ChannelState& c = channels_[0];
-  unit_ = units_->take();
+void Network::serve_unit(std::uint32_t channel) {
+  UnitChannel& units = units_[channel];
+  if (units.empty()) return;  // only a mutated table serves nothing
+  ChannelState& c = channels_[channel];
+  c.unit = units.take();
+  c.loses_at.clear();
+  if (losses_) transmit(c.unit, c.loses_at);
   c.serves = true;
   c.serving_since = run_.now;
-  const Nanoseconds until = run_.now + Nanoseconds{unit_.duration_ns};
-  run_.schedule(until, EventKind::service_finished, 0);
+  const Nanoseconds until = run_.now + Nanoseconds{c.unit.duration_ns};
+  run_.schedule(until, EventKind::service_finished, channel);
   if (run_.probe == nullptr) return;
-  run_.probe->waiting_changed(0, units_->size());
-  for (const Frame& frame : unit_.frames) {
-    run_.probe->service_started(0, unit_.downlink ? 1 : 0, flights_[frame.slot].packet,
+  run_.probe->waiting_changed(channel, units.size());
+  for (const Frame& frame : c.unit.frames) {
+    run_.probe->service_started(channel, c.unit.downlink ? 1 : 0, flights_[frame.slot].packet,
                                 frame.fragment, until);
   }
 }
 
-/// What follows from a frame is done before that of the next one.
-void Network::unit_finished() {
-  add_use(channels_[0].busy, run_.now);
-  const Unit unit = std::move(unit_);
-  step<fsm::channel::ServiceFinished>(0);
-  for (const Frame& frame : unit.frames) {
-    const bool last = frame.fragment + 1 == flights_[frame.slot].fragments;
-    if (!unit.downlink) request_in_unit(frame.slot, frame.fragment, true);
-    if (!last) continue;
-    if (unit.downlink) {
-      arrive(frame.slot);
-    } else {
-      leave_source(frame.slot);
-    }
+/// The frames that failed follow at once, as a unit of their own, until none is left or the last
+/// transmission has failed, too.
+void Network::transmit(Unit& unit, std::vector<std::uint32_t>& loses_at) {
+  if (unit.multicast) {
+    return lose_multicast(unit.frames.front().slot, unit.access_point, loses_at);
   }
-  step<fsm::channel::EffectsDone>(0);
+  unit.lost.assign(unit.frames.size(), false);
+  unit.duration_ns = 0;
+  std::vector<std::size_t> left(unit.frames.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  for (std::uint32_t k = 1; !left.empty() && k <= losses_->most_transmissions(); ++k) {
+    std::vector<Frame> frames;
+    for (const std::size_t frame : left) frames.push_back(unit.frames[frame]);
+    unit.duration_ns += units_.front().duration_ns(frames, unit.rate);
+    std::erase_if(left, [&](std::size_t) { return !losses_->fails(unit.host); });
+  }
+  for (const std::size_t frame : left) unit.lost[frame] = true;
 }
 
-/// The airtime of the unit up to then, by class: the overhead and its own airtime to the first
-/// frame, to each other one what it adds to that.
-void Network::add_use(std::array<Nanoseconds, traffic_class_count>& busy, Nanoseconds until) const {
-  const Nanoseconds elapsed = until - channels_[0].serving_since;
+/// What follows from a frame is done before that of the next one.
+void Network::unit_finished(std::uint32_t channel) {
+  ChannelState& c = channels_[channel];
+  add_use(c, c.busy, run_.now);
+  const Unit unit = std::move(c.unit);
+  const std::vector<std::uint32_t> loses_at = std::move(c.loses_at);
+  step<fsm::channel::ServiceFinished>(channel);
+  for (std::size_t k = 0; k < unit.frames.size(); ++k) {
+    const Frame& frame = unit.frames[k];
+    const bool lost = !unit.lost.empty() && unit.lost[k];
+    if (!unit.downlink) {
+      finish_up(frame.slot, frame.fragment, lost);
+      continue;
+    }
+    std::vector<std::uint32_t>& lost_at = flights_[frame.slot].lost_at;
+    lost_at.insert(lost_at.end(), loses_at.begin(), loses_at.end());
+    if (lost) lost_at.push_back(unit.host);
+    finish_down(frame.slot, frame.fragment, unit.access_point);
+  }
+  step<fsm::channel::EffectsDone>(channel);
+}
+
+/// The airtime of the unit up to then, by class: the overhead, what failed and its own airtime to
+/// the first frame, to each other one what it adds to that.
+void Network::add_use(const ChannelState& c, std::array<Nanoseconds, traffic_class_count>& busy,
+                      Nanoseconds until) const {
+  const Nanoseconds elapsed = until - c.serving_since;
   std::int64_t bytes = 0;
-  for (const Frame& frame : unit_.frames) bytes += UnitChannel::padded(frame.bytes);
-  std::int64_t left = unit_.duration_ns;
+  for (const Frame& frame : c.unit.frames) bytes += UnitChannel::padded(frame.bytes);
+  std::int64_t left = c.unit.duration_ns;
   Nanoseconds begin;
-  for (const Frame& frame : unit_.frames) {
+  for (const Frame& frame : c.unit.frames) {
     bytes -= UnitChannel::padded(frame.bytes);
-    const bool last = &frame == &unit_.frames.back();
-    const std::int64_t rest = last ? 0 : units_->airtime_ns(bytes);
+    const bool last = &frame == &c.unit.frames.back();
+    const std::int64_t rest = last ? 0 : UnitChannel::airtime_ns(bytes, c.unit.rate);
     const Nanoseconds end = std::min(begin + Nanoseconds{left - rest}, elapsed);
     busy[static_cast<std::size_t>(traffic_class(flights_[frame.slot].packet))] += end - begin;
     begin = end;
     left = rest;
   }
+}
+
+void Network::note_stall(std::uint32_t participant) {
+  Stall& stall = stalled_[participant];
+  const bool stalls_now = sources_[participant].backlog_packets() > 0;
+  if (stalls_now && !stall.stalls) stall.since = run_.now;
+  if (!stalls_now && stall.stalls) stall.sum += run_.now - stall.since;
+  stall.stalls = stalls_now;
+  if (!stalls_now) wake(participant);
 }
 
 void Network::wake(std::uint32_t participant) {

@@ -34,11 +34,12 @@ struct RunState {
     return 1;
   }
 
-  /// Schedules an event that was due and was held back, now.
-  void schedule_again(const Event& event) {
+  /// Schedules an event that was due and was held back, now. Returns its new insertion number.
+  std::uint64_t schedule_again(const Event& event) {
     const std::uint64_t insertion =
         queue.schedule_as(event.event_class(), now, event.kind, event.subject, event.detail);
     if (probe != nullptr) probe->rescheduled(event, insertion);
+    return insertion;
   }
   /// An event that is due now, but is not in the queue: somebody holds it.
   [[nodiscard]] Event scheduled_aside(EventKind kind, std::uint32_t subject) {

@@ -5,22 +5,25 @@
 
 namespace stormproof::model {
 
-UnitChannel::UnitChannel(const WirelessProfile& wireless, std::uint32_t hosts)
+UnitChannel::UnitChannel(const WirelessProfile& wireless, std::uint32_t hosts,
+                         std::uint32_t access_points)
     : limits_{wireless.aggregation},
       in_turns_{wireless.arbitration == Arbitration::round_robin},
       queues_in_turns_{wireless.ap_queue == ApQueue::round_robin ||
                        wireless.queueing == Queueing::flows},
-      unicast_{wireless.overhead_unicast.count(), wireless.rate_unicast.count()},
+      hosts_{hosts},
+      unicast_(hosts, {wireless.overhead_unicast.count(), wireless.rate_unicast.count()}),
       multicast_{wireless.overhead_multicast.count(), wireless.rate_multicast.count()} {
   const std::int64_t quantum = wireless.queueing == Queueing::flows ? wireless.quantum.count() : 0;
-  transmitters_.resize(std::size_t{hosts} + 1);
+  transmitters_.resize(hosts_ + access_points);
   for (std::uint32_t host = 0; host < hosts; ++host) {
     transmitters_[host].queues.push_back({FrameQueue{quantum}});
   }
-  Transmitter& access_point = transmitters_.back();
-  access_point.queues.push_back({FrameQueue{0}});  // multicast
-  for (std::uint32_t host = 0; host < hosts; ++host) {
-    access_point.queues.push_back({FrameQueue{quantum}});
+  for (std::size_t k = hosts_; k < transmitters_.size(); ++k) {
+    transmitters_[k].queues.push_back({FrameQueue{0}});  // multicast
+    for (std::uint32_t host = 0; host < hosts; ++host) {
+      transmitters_[k].queues.push_back({FrameQueue{quantum}});
+    }
   }
 }
 
@@ -32,12 +35,17 @@ Unit UnitChannel::take() {
   transmitter.chosen = queue.chosen = ++choices_;
 
   Unit unit;
-  unit.downlink = chosen + 1 == transmitters_.size();
+  unit.downlink = chosen >= hosts_;
+  unit.multicast = unit.downlink && number == 0;
   const std::size_t before = queue.frames.size();
-  if (unit.downlink && number == 0) {
+  if (unit.downlink) unit.access_point = static_cast<std::uint32_t>(chosen - hosts_);
+  if (unit.multicast) {
+    unit.rate = multicast_;
     unit.frames.push_back(*queue.frames.next());
     unit.duration_ns = multicast_.airtime_ns(unit.frames.front().bytes);
   } else {
+    unit.host = static_cast<std::uint32_t>(unit.downlink ? number - 1 : chosen);
+    unit.rate = unicast_[unit.host];
     fill(unit, queue.frames);
   }
   const std::size_t taken = before - queue.frames.size();
@@ -92,16 +100,23 @@ void UnitChannel::fill(Unit& unit, FrameQueue& queue) const {
     const std::optional<Frame> frame = queue.next();
     if (!frame) break;
     const std::int64_t longer = bytes + padded(frame->bytes);
-    if (longer > limits_.max_bytes.count() || airtime_ns(longer) > limits_.max_airtime.count()) {
+    if (longer > limits_.max_bytes.count() ||
+        airtime_ns(longer, unit.rate) > limits_.max_airtime.count()) {
       queue.put_back(*frame);
       break;
     }
     bytes = longer;
     unit.frames.push_back(*frame);
   }
-  const bool alone = unit.frames.size() == 1;
-  unit.duration_ns = alone ? unicast_.airtime_ns(unit.frames.front().bytes)
-                           : limits_.overhead.count() + airtime_ns(bytes);
+  unit.duration_ns = duration_ns(unit.frames, unit.rate);
+}
+
+std::int64_t UnitChannel::duration_ns(const std::vector<Frame>& frames,
+                                      const ServiceRate& rate) const {
+  if (frames.size() == 1) return rate.airtime_ns(frames.front().bytes);
+  std::int64_t bytes = 0;
+  for (const Frame& frame : frames) bytes += padded(frame.bytes);
+  return limits_.overhead.count() + airtime_ns(bytes, rate);
 }
 
 }  // namespace stormproof::model

@@ -1,4 +1,4 @@
-// The channel of `service: unit` (specs/guide/wifi.md): hosts and their access point take turns,
+// The channel of `service: unit` (specs/guide/wifi.md): hosts and their access points take turns,
 // and whoever's turn it is sends a unit of frames to one destination (A-MPDU). What waits where,
 // whose turn it is, what goes into the unit and how long it takes is here; when, and what follows,
 // is the network's (model/engine/network.hpp).
@@ -17,21 +17,34 @@ namespace stormproof::model {
 /// What one access to the channel carries.
 struct Unit {
   bool downlink = false;
+  bool multicast = false;          ///< down
+  std::uint32_t access_point = 0;  ///< that sends it, down
+  std::uint32_t host = 0;          ///< the station that sends it, up, or that it is for, down
+  ServiceRate rate;                ///< of its frames
   std::vector<Frame> frames;
+  std::vector<bool> lost = {};  ///< by frame, if transmissions may fail
   std::int64_t duration_ns = 0;
 };
 
 class UnitChannel {
  public:
-  UnitChannel(const WirelessProfile& wireless, std::uint32_t hosts);
+  UnitChannel(const WirelessProfile& wireless, std::uint32_t hosts,
+              std::uint32_t access_points = 1);
+
+  /// Unicast to and from this host is sent at another rate than the profile's.
+  void set_rate(std::uint32_t host, BitsPerSecond rate) {
+    unicast_[host].bits_per_second = rate.count();
+  }
 
   /// A host asks for an access to send this to the access point.
   void request_uplink(std::uint32_t host, const Frame& frame, const Flow& flow) {
     push(transmitters_[host], 0, frame, flow);
   }
-  /// The access point asks for one to send it on, to a host or to all (`Flow::everybody`).
-  void request_downlink(std::uint32_t host, const Frame& frame, const Flow& flow) {
-    push(transmitters_.back(), host == Flow::everybody ? 0 : 1 + std::size_t{host}, frame, flow);
+  /// An access point asks for one to send it on, to a host or to all (`Flow::everybody`).
+  void request_downlink(std::uint32_t host, const Frame& frame, const Flow& flow,
+                        std::uint32_t access_point = 0) {
+    push(transmitters_[hosts_ + access_point], host == Flow::everybody ? 0 : 1 + std::size_t{host},
+         frame, flow);
   }
 
   [[nodiscard]] bool empty() const { return waiting_ == 0; }
@@ -39,10 +52,13 @@ class UnitChannel {
 
   /// Takes what is sent next. Something must wait.
   [[nodiscard]] Unit take();
+  /// How long a unit with these frames takes: one as it is, several with delimiters and padding.
+  [[nodiscard]] std::int64_t duration_ns(const std::vector<Frame>& frames,
+                                         const ServiceRate& rate) const;
   /// How long a unit of several frames takes without its overhead, if their sizes with delimiter
   /// and padding make so many bytes.
-  [[nodiscard]] std::int64_t airtime_ns(std::int64_t bytes) const {
-    return unicast_.airtime_ns(bytes) - unicast_.overhead_ns;
+  [[nodiscard]] static std::int64_t airtime_ns(std::int64_t bytes, const ServiceRate& rate) {
+    return rate.airtime_ns(bytes) - rate.overhead_ns;
   }
   /// Bytes of a frame in a unit of several: 4 of its delimiter, padded to a multiple of 4.
   [[nodiscard]] static std::int64_t padded(std::int64_t bytes) { return 4 + (bytes + 3) / 4 * 4; }
@@ -66,9 +82,10 @@ class UnitChannel {
   const Aggregation limits_;
   const bool in_turns_;         // of transmitters
   const bool queues_in_turns_;  // of the access point
-  const ServiceRate unicast_;
+  const std::size_t hosts_;
+  std::vector<ServiceRate> unicast_;  // by host
   const ServiceRate multicast_;
-  std::vector<Transmitter> transmitters_;  // the hosts, then the access point
+  std::vector<Transmitter> transmitters_;  // the hosts, then the access points
   std::uint64_t choices_ = 0;
   std::size_t waiting_ = 0;
 };

@@ -17,6 +17,7 @@ struct ServiceRequest {
   std::uint64_t number = 0;  ///< one counter for all requests of a run
   std::uint32_t slot = 0;    ///< the packet
   std::uint32_t fragment = 0;
+  std::uint32_t access_point = 0;  ///< that sends it, on the way down
 };
 
 class WaitingFragments {

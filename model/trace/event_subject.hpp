@@ -15,6 +15,7 @@ enum class Subject : std::uint8_t {
   pair,
   endpoint_relation,  ///< of any writer of a participant (model/cyclone/endpoints.hpp)
   endpoint_writer,
+  access_point,
   packet  ///< a slot of the network, which says nothing to a reader
 };
 
@@ -25,6 +26,7 @@ enum class Subject : std::uint8_t {
       return Subject::channel;
     case EventKind::delayed_reception:
     case EventKind::reception:
+    case EventKind::distribution:
     case EventKind::source_completion:
       return Subject::packet;
     case EventKind::announcement_due:
@@ -38,7 +40,10 @@ enum class Subject : std::uint8_t {
     case EventKind::server_routine:
     case EventKind::server_routine_again:
     case EventKind::server_sending:
+    case EventKind::thread_free:
       return Subject::participant;
+    case EventKind::beacon:
+      return Subject::access_point;
     case EventKind::client_announcement:
     case EventKind::client_sync:
     case EventKind::registration_expiry:

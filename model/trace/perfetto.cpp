@@ -26,7 +26,7 @@ void add_arg(std::string& args) {
 }  // namespace
 
 PerfettoWriter::PerfettoWriter(std::ostream& out, const Scenario& scenario, Effects effects)
-    : events_{out}, fragmentation_{scenario.wireless}, channels_{channel_names(scenario.wireless)} {
+    : events_{out}, fragmentation_{scenario.wireless}, channels_{channel_names(scenario)} {
   if (effects == Effects::named) effect_names_.emplace(scenario.dds);
   for (const Participant& participant : scenario.deployment.participants) {
     hosts_.push_back(participant.host);

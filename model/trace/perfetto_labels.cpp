@@ -172,6 +172,8 @@ const char* timer_label(EventKind kind) {
       return "server routine";
     case EventKind::server_sending:
       return "server sends";
+    case EventKind::thread_free:
+      return "thread free";
     default:
       return name_of(kind);
   }

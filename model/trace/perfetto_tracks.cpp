@@ -173,7 +173,7 @@ Track timer_track(EventKind kind, std::uint32_t subject, const Topology& topolog
 
 void name_tracks(PerfettoEvents& events, const Scenario& scenario) {
   events.process_name(network_process, "network");
-  const std::vector<std::string> channels = channel_names(scenario.wireless);
+  const std::vector<std::string> channels = channel_names(scenario);
   for (std::uint32_t c = 0; c < channels.size(); ++c) {
     events.thread_name(channel_track(c), "channel " + channels[c]);
   }

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "model/run_result.hpp"
-#include "model/wireless_profile.hpp"
+#include "model/scenario.hpp"
 
 namespace stormproof::model::trace {
 
-/// The channels by number, which is their order of appearance among the stages; none with constant
-/// delay.
-[[nodiscard]] std::vector<std::string> channel_names(const WirelessProfile& wireless);
+/// The channels by number, which is their order of appearance among the stages, for each channel of
+/// access points; none with constant delay.
+[[nodiscard]] std::vector<std::string> channel_names(const Scenario& scenario);
 
 /// "stormproof 1.2.3": the program that writes the trace.
 [[nodiscard]] std::string program_name();

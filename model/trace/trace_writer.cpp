@@ -36,7 +36,7 @@ TraceWriter::TraceWriter(std::ostream& out, const Scenario& scenario, Effects ef
 TraceWriter::TraceWriter(Sink sink, const Scenario& scenario, Effects effects)
     : sink_{std::move(sink)}, by_unit_{scenario.wireless.service == ServedBy::unit} {
   if (effects == Effects::named) effect_names_.emplace(scenario.dds);
-  for (const std::string& name : channel_names(scenario.wireless)) {
+  for (const std::string& name : channel_names(scenario)) {
     channels_.push_back(json_string(name));
   }
   serving_.resize(channels_.size());
@@ -276,6 +276,9 @@ void TraceWriter::append_subject(Subject kind, std::uint32_t subject) {
              cyclone::name_of_writer(subject % stride), "\"}");
       break;
     }
+    case Subject::access_point:
+      append(line_, R"(,"access_point":)", subject);
+      break;
     case Subject::packet:
       break;
   }

@@ -35,14 +35,12 @@ class Collector {
   template <class Section>
   void section(std::string_view, Section& member, std::string_view, Presence presence = {},
                const auto&... context) {
-    const bool was_used = is_used_;
-    is_used_ = is_used_ && presence != Presence::of_others;
-    if constexpr (requires { member.has_value(); }) {  // an optional table
-      if (member) visit_knobs(*this, *member, context...);
-    } else {
+    if constexpr (!requires { member.has_value(); }) {  // those are not in every scenario
+      const bool was_used = is_used_;
+      is_used_ = is_used_ && presence != Presence::of_others;
       visit_knobs(*this, member, context...);
+      is_used_ = was_used;
     }
-    is_used_ = was_used;
   }
   void list(std::string_view, auto&, ListSize, std::string_view, Presence = {}) {}
   void rule(bool, std::string_view, std::string_view) {}

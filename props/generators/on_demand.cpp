@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <string>
 
 namespace stormproof::props {
 
@@ -33,6 +34,65 @@ void draw_radio(Dice& dice, WirelessProfile& w) {
       Bytes{dice.among({212'992, 1, 1'000, 4'000, dice.between(100, 4'000), 20'000})};
   w.sender = dice.chance(75) ? Sender::stalls : Sender::backlog;
   w.count_at = dice.choice<CountAt>(2);
+}
+
+void draw_fleet(Dice& dice, Deployment& deployment) {
+  std::uint32_t hosts = 0;
+  for (const Participant& p : deployment.participants) hosts = std::max(hosts, p.host.value + 1);
+  deployment.hosts.clear();
+  deployment.access_points.clear();
+  const std::uint32_t points = dice.count(0, 3);
+  for (std::uint32_t k = 0; k < points; ++k) {
+    deployment.access_points.push_back(
+        {"point" + std::to_string(k), dice.pick<std::string>({"36", "36", "40", "44"})});
+  }
+  const Nanoseconds beacon{dice.among({1'000'000, 3'000'000, 102'400'000})};
+  const std::uint32_t dtim = dice.count(1, 3);
+  hosts += dice.count(0, 1);  // one without participants
+  for (std::uint32_t k = 0; k < hosts; ++k) {
+    Host host;
+    host.name = "host" + std::to_string(k);
+    if (dice.chance(30)) host.link = Link::wired;
+    const bool is_station = host.link == Link::wireless;
+    if (is_station && points > 0 && dice.chance(80)) {
+      host.access_point = "point" + std::to_string(dice.count(0, points - 1));
+    }
+    if (is_station && dice.chance(40)) {
+      host.rate = BitsPerSecond{dice.among({6'000'000, 54'000'000, 866'700'000})};
+    }
+    if (is_station && dice.chance(25)) host.power_save = PowerSave{beacon, dtim};
+    deployment.hosts.push_back(std::move(host));
+  }
+  if (dice.chance(30)) deployment.wired_delay = Nanoseconds{dice.among({1, 200'000, 5'000'000})};
+}
+
+void draw_frame_loss(Dice& dice, WirelessProfile& w) {
+  FrameLoss loss;
+  loss.probability = dice.pick<Ratio>({{1, 10}, {1, 3}, {1, 100}, {1, 2}});
+  loss.retries = dice.pick<std::uint32_t>({7, 0, 1, 2});
+  loss.seed = dice.count(0, 1'000);
+  if (dice.chance(50)) {
+    loss.bursts = LossBursts{dice.pick<Ratio>({{1, 20}, {1, 4}, {1, 100}}),
+                             dice.pick<Ratio>({{1, 5}, {1, 2}, {1, 50}}),
+                             dice.pick<Ratio>({{9, 10}, {1, 1}, {1, 2}})};
+  }
+  w.loss = loss;
+}
+
+void draw_processor(Dice& dice, Scenario& scenario) {
+  constexpr std::int64_t us = 1'000;
+  Processor processor;
+  processor.cores = dice.count(1, 3);
+  processor.reception = Nanoseconds{dice.among({0, 10, 100, 1'000}) * us};
+  processor.emission = Nanoseconds{dice.among({0, 10, 100, 500}) * us};
+  processor.submessage = Nanoseconds{dice.among({0, 5, 20, 100}) * us};
+  processor.timer = Nanoseconds{dice.among({0, 20, 300}) * us};
+  if (dice.chance(40)) {
+    processor.deaf_min = Nanoseconds{dice.among({0, 500}) * us};
+    processor.deaf_max = processor.deaf_min + Nanoseconds{dice.among({0, 2'000, 50'000}) * us};
+    processor.deaf_seed = dice.count(0, 100);
+  }
+  scenario.hosts = processor;
 }
 
 void draw_discovery(std::uint64_t seed, Discovery discovery, Scenario& scenario) {

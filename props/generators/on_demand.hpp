@@ -14,6 +14,14 @@ void draw_units(Dice& dice, model::WirelessProfile& wireless);
 /// Mostly such a channel, and hosts that may stall or count what is admitted, with a small buffer.
 void draw_radio(Dice& dice, model::WirelessProfile& wireless);
 
+/// The hosts of the deployment, listed: stations of one to three access points on one or two
+/// channels, with rates, wired ones, and some that sleep.
+void draw_fleet(Dice& dice, model::Deployment& deployment);
+/// Transmissions that fail, often or in bursts, with few retries.
+void draw_frame_loss(Dice& dice, model::WirelessProfile& wireless);
+/// Threads that take a time that matters.
+void draw_processor(Dice& dice, model::Scenario& scenario);
+
 /// Another way to discover, with odd knobs of it, as a function of the seed.
 void draw_discovery(std::uint64_t seed, model::Discovery discovery, model::Scenario& scenario);
 

@@ -101,7 +101,7 @@ class FollowedRun final : public Observer {
  private:
   static bool is_of_protocol(model::EventKind kind) {
     return model::class_of(kind) == model::EventClass::protocol &&
-           kind != model::EventKind::source_completion;
+           kind != model::EventKind::source_completion && kind != model::EventKind::thread_free;
   }
   void add(Deed deed) {
     if (follower_ != nullptr) follower_->deeds().add(std::move(deed));

@@ -133,7 +133,7 @@ TEST(FrontPage, ItsCommandsRun) {
 TEST(List, HoldsWhatTheCommandsTake) {
   Shell shell;
   const auto json = nlohmann::json::parse(shell("stormproof list --format json"));
-  ASSERT_EQ(json.at("lists").size(), 11U);
+  ASSERT_EQ(json.at("lists").size(), 12U);
   for (const auto& list : json.at("lists")) {
     EXPECT_FALSE(list.at("entries").empty()) << list.at("kind");
     for (const auto& entry : list.at("entries")) {

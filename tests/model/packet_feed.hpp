@@ -9,7 +9,11 @@
 
 namespace stormproof {
 
-/// When each packet reached its first receiver, or −1. Hosts with one participant each.
+/// When each packet reached its last receiver, or −1, over the scenario's hosts and channel. Each
+/// host has one participant, with its number.
+[[nodiscard]] std::vector<std::int64_t> arrivals(
+    const model::Scenario& scenario, const std::vector<vectors::ChannelPacket>& packets);
+/// The same over one access point.
 [[nodiscard]] std::vector<std::int64_t> arrivals(
     const model::WirelessProfile& wireless, std::uint32_t hosts,
     const std::vector<vectors::ChannelPacket>& packets);

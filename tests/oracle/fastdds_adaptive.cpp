@@ -37,11 +37,9 @@ std::set<Id> readers_behind(World& w, Id i, int s) {
 }
 
 // Schedules a cycle event that is valid until the writer's token changes.
-void schedule_cycle(World& w, EventKind kind, Time at, Id i, int s,
-                    const std::vector<Id>& readers = {}) {
+void schedule_cycle(World& w, EventKind kind, Time at, Id i, int s) {
   Event event = make_event(kind, i, i, s);
   event.token = writer(w, i, s).token;
-  event.readers = readers;
   schedule(w, at, EventClass::protocol, event);
 }
 
@@ -130,12 +128,10 @@ void cycle_end(World& w, Id i, int s, std::uint64_t token) {
   const Time next = next_period(w, wr.period, static_cast<std::int64_t>(wr.cycle_readers.size()),
                                 static_cast<std::int64_t>(wr.responded.size()));
   const Time extra = next - wr.period;
-  const std::vector<std::vector<Id>> batches = make_batches(w, wr);
-  const auto m = static_cast<std::int64_t>(batches.size());
-  std::int64_t k = 0;
-  for (const std::vector<Id>& batch : batches) {
-    schedule_cycle(w, EventKind::cycle_batch, w.now + extra * k / m, i, s, batch);
-    ++k;
+  wr.batches = make_batches(w, wr);  // those that are late by a cycle are gone
+  const auto m = static_cast<std::int64_t>(wr.batches.size());
+  for (std::int64_t k = 0; k < m; ++k) {
+    schedule_cycle(w, EventKind::cycle_batch, w.now + extra * k / m, i, s);
   }
   schedule_cycle(w, EventKind::cycle_start, w.now + (extra == 0 ? 1 : extra), i, s);
   wr.period = next;
@@ -144,8 +140,11 @@ void cycle_end(World& w, Id i, int s, std::uint64_t token) {
 void cycle_batch(World& w, const Event& event) {
   const Id i = event.from;
   const int s = event.stream;
-  if (event.token != writer(w, i, s).token) return;
-  for (const Id j : event.readers) {
+  Writer& wr = writer(w, i, s);
+  if (event.token != wr.token || wr.batches.empty()) return;
+  const std::vector<Id> readers = wr.batches.front();
+  wr.batches.erase(wr.batches.begin());
+  for (const Id j : readers) {
     if (behind(w, i, j, s)) heartbeat(w, i, j, s, heartbeat_payload);
   }
 }

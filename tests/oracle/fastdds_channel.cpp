@@ -36,12 +36,7 @@ void schedule_dispatch(World& w, const std::string& name) {
 bool by_unit(const World& w) { return w.scenario.wireless.service == model::ServedBy::unit; }
 
 void request(World& w, std::uint64_t packet, std::size_t fragment, std::size_t stage) {
-  if (by_unit(w)) return request_unit(w, w.packets.at(packet), fragment, stage > 0);
-  const std::string& name = w.scenario.wireless.stages.at(stage).channel;
-  w.channels.at(name).waiting[{w.now, stage_rank(w, stage), w.requests}] = {packet, stage,
-                                                                            fragment};
-  ++w.requests;
-  schedule_dispatch(w, name);
+  request_frame(w, w.packets.at(packet), fragment, stage, access_points(w).front());
 }
 
 void request_all(World& w, const Packet& packet, std::size_t stage) {
@@ -69,6 +64,16 @@ void admit(World& w, Id i) {
     p.backlog.pop_front();
     count_admitted(w, head);
     if (w.makes(WifiMistake::held_until_next_packet)) wake(w, i);
+    if (is_wired(w, p.host)) {
+      leave_wired_host(w, head);
+      continue;
+    }
+    if (over_access_points(w)) {
+      const bool one = w.scenario.wireless.fragment_request == model::FragmentRequest::sequential;
+      const Packet whole = head;
+      for (std::size_t k = 0; k < (one ? 1 : whole.fragments.size()); ++k) request_up(w, whole, k);
+      continue;
+    }
     if (w.scenario.wireless.fragment_request == model::FragmentRequest::sequential) {
       request(w, head.id, 0, 0);
     } else {
@@ -100,6 +105,31 @@ void schedule_receptions(World& w, const Packet& packet, bool same_host, Time at
 
 }  // namespace
 
+void request_frame(World& w, const Packet& packet, std::size_t fragment, std::size_t stage,
+                   const std::string& access_point) {
+  if (by_unit(w)) return request_unit(w, packet, fragment, stage > 0, access_point);
+  const std::string name =
+      radio_of(w, access_point) + "/" + w.scenario.wireless.stages.at(stage).channel;
+  w.channels[name].waiting[{w.now, stage_rank(w, stage), w.requests}] = {packet.id, stage, fragment,
+                                                                         access_point};
+  ++w.requests;
+  schedule_dispatch(w, name);
+}
+
+void request_up(World& w, const Packet& packet, std::size_t fragment) {
+  const Id host = w.participants.at(packet.source).host;
+  request_frame(w, packet, fragment, 0, access_point_of(w, host));
+}
+
+void leave_wired_host(World& w, const Packet& packet) {
+  w.participants.at(packet.source).queued_bytes -= demand(packet);
+  Event event;
+  event.kind = EventKind::distribution;
+  event.packet = packet.id;
+  event.from = packet.source;
+  schedule(w, w.now + w.scenario.deployment.delay_of_cable().count(), EventClass::service, event);
+}
+
 void leave_source(World& w, const Packet& packet) {
   w.participants.at(packet.source).queued_bytes -= demand(packet);
   admit(w, packet.source);
@@ -107,6 +137,33 @@ void leave_source(World& w, const Packet& packet) {
 
 void arrive(World& w, const Packet& packet) {
   if (!packet.lost) schedule_receptions(w, packet, false, w.now);
+}
+
+namespace {
+void receive_at(World& w, const Packet& packet, Id j, Time at) {
+  Event event = make_event(EventKind::reception, packet.source, j, packet.stream);
+  event.packet = packet.id;
+  schedule(w, at, EventClass::service, event);
+}
+}  // namespace
+
+void arrive_at(World& w, const Packet& packet, const std::string& access_point) {
+  if (packet.lost || packet.stopped) return;
+  for (const Id j : receivers(w, packet, false)) {
+    const Id host = w.participants.at(j).host;
+    if (!is_station(w, host, access_point)) continue;
+    if (packet.deaf.contains(host) && !w.makes(WifiMistake::losses_received)) continue;
+    receive_at(w, packet, j, w.now);
+  }
+}
+
+void arrive_on_cable(World& w, const Packet& packet) {
+  if (packet.lost || packet.stopped) return;
+  const Time cable = w.scenario.deployment.delay_of_cable().count();
+  for (const Id j : receivers(w, packet, false)) {
+    const bool on_cable = is_wired(w, w.participants.at(j).host);
+    if (on_cable) receive_at(w, packet, j, w.now + cable);
+  }
 }
 
 void emit(World& w, Packet packet) {
@@ -117,6 +174,7 @@ void emit(World& w, Packet packet) {
   if (on_channel) packet.lost = w.lost_packets.contains(number);
   if (on_channel || w.makes(Mistake::loopback_takes_a_number)) ++w.outcome.packets;
   w.packets[packet.id] = packet;
+  charge_sending(w, packet);
 
   const Time loopback =
       w.makes(Mistake::loopback_without_delay) ? 0 : w.scenario.deployment.loopback_delay.count();
@@ -136,7 +194,7 @@ void emit(World& w, Packet packet) {
 }
 
 void dispatch(World& w, const std::string& name) {
-  if (by_unit(w)) return dispatch_unit(w);
+  if (by_unit(w)) return dispatch_unit(w, name);
   Channel& channel = w.channels.at(name);
   channel.dispatch_pending = false;
   if (channel.busy || channel.waiting.empty()) return;
@@ -152,15 +210,64 @@ void dispatch(World& w, const std::string& name) {
   event.stage = next.stage;
   event.fragment = next.fragment;
   event.channel = name;
+  event.access_point = next.access_point;
   const std::int64_t bytes = packet.fragments.at(next.fragment);
-  const Time duration = airtime(w.scenario.wireless, next.stage, multicast, bytes);
+  model::WirelessProfile own = w.scenario.wireless;
+  const bool acknowledged = next.stage == 0 || !multicast;
+  const Id station = w.participants.at(next.stage == 0 ? packet.source : event.to).host;
+  if (acknowledged && over_access_points(w)) {
+    own.stages.at(next.stage).rate_unicast = model::BitsPerSecond{rate_of(
+        w, station, own.stages.at(next.stage).rate_unicast.value_or(own.rate_unicast).count())};
+  }
+  const Time once = airtime(own, next.stage, multicast, bytes);
+  Time duration = once;
+  if (own.loss && !acknowledged) event.deaf = deaf_to_multicast(w, packet, next.access_point);
+  if (own.loss && acknowledged) {
+    std::uint32_t failed = 0;
+    while (failed <= own.loss->retries && transmission_fails(w, station)) ++failed;
+    event.fails = failed > own.loss->retries;
+    const std::uint32_t sent = event.fails ? failed : failed + 1;
+    if (!w.makes(WifiMistake::retries_free)) duration = once * sent;
+    if (event.fails && next.stage == 1) event.deaf.push_back(station);
+  }
   schedule(w, w.now + duration, EventClass::service, event);
 }
 
+namespace {
+
+void frame_finished(World& w, const Event& event) {
+  const model::WirelessProfile& wireless = w.scenario.wireless;
+  const Packet packet = w.packets.at(event.packet);
+  const bool last = event.fragment + 1 == packet.fragments.size();
+  if (event.stage == 1) {
+    w.packets.at(packet.id).deaf.insert(event.deaf.begin(), event.deaf.end());
+    if (last) arrive_at(w, w.packets.at(packet.id), event.access_point);
+    return;
+  }
+  if (event.fails && !w.makes(WifiMistake::losses_received)) w.packets.at(packet.id).stopped = true;
+  const bool goes_on = !event.fails || w.makes(WifiMistake::losses_received);
+  const bool whole_datagrams = wireless.order == model::ServiceOrder::datagram_uplink;
+  if (whole_datagrams && last && !w.packets.at(packet.id).stopped) {
+    for (std::size_t k = 0; k < packet.fragments.size(); ++k) distribute(w, packet.id, k);
+  }
+  if (!last && wireless.fragment_request == model::FragmentRequest::sequential) {
+    request_up(w, packet, event.fragment + 1);
+  }
+  if (!whole_datagrams && goes_on) distribute(w, packet.id, event.fragment);
+  if (last) leave_source(w, packet);
+}
+
+}  // namespace
+
 void service_finished(World& w, const Event& event) {
-  if (by_unit(w)) return unit_finished(w);
+  if (by_unit(w)) return unit_finished(w, event.channel);
   const model::WirelessProfile& wireless = w.scenario.wireless;
   w.channels.at(event.channel).busy = false;
+  if (over_access_points(w)) {
+    frame_finished(w, event);
+    if (!w.channels.at(event.channel).waiting.empty()) schedule_dispatch(w, event.channel);
+    return;
+  }
   Packet& packet = w.packets.at(event.packet);
   ++packet.served[event.stage];
 

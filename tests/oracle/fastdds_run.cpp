@@ -62,6 +62,12 @@ const char* name_of(EventKind kind) {
       return "nack response of the server";
     case EventKind::relay_suppression_end:
       return "suppression end of the server";
+    case EventKind::distribution:
+      return "distribution";
+    case EventKind::beacon:
+      return "beacon";
+    case EventKind::thread_free:
+      return "thread free";
     case EventKind::dispatch:
       return "dispatch";
   }
@@ -84,6 +90,8 @@ void process(World& w, const Event& e) {
     case EventKind::service_finished:
       return service_finished(w, e);
     case EventKind::reception:
+      if (!hears(w, e.to)) return;
+      charge_reception(w, w.packets.at(e.packet));
       return receive(w, w.packets.at(e.packet), e.to);
     case EventKind::announcement:
       return announce(w, e.from, e.number);
@@ -133,6 +141,12 @@ void process(World& w, const Event& e) {
       return relay_response(w, e.stream);
     case EventKind::relay_suppression_end:
       return relay_suppression_end(w, e.stream, e.to);
+    case EventKind::distribution:
+      return distribution(w, e.packet);
+    case EventKind::beacon:
+      return beacon(w, e.access_point);
+    case EventKind::thread_free:
+      return thread_free(w, e.from);
     case EventKind::dispatch:
       return dispatch(w, e.channel);
   }
@@ -214,9 +228,16 @@ FastddsOutcome run(const model::Scenario& scenario, const EventLog& log, Mistake
     w.queue.erase(w.queue.begin());
     w.now = std::get<0>(key);
     ++w.outcome.events;
-    if (std::get<1>(key) == EventClass::protocol && is_held(w, event)) continue;
-    if (log) log(log_entry(key, event));
-    process(w, event);
+    const bool of_protocol = std::get<1>(key) == EventClass::protocol;
+    const std::optional<Id> actor = who_acts(w, std::get<1>(key), event);
+    if (actor && !begins(w, *actor, std::get<2>(key), std::get<1>(key), event)) continue;
+    const bool held = of_protocol && event.kind != EventKind::thread_free && is_held(w, event);
+    if (!held) {
+      if (actor && of_protocol) w.cost += w.scenario.hosts->timer.count();
+      if (log) log(log_entry(key, event));
+      process(w, event);
+    }
+    if (actor) finish(w, *actor);
   }
   w.outcome.missing = missing_descriptors(w);
   take_counts(w);

@@ -13,11 +13,7 @@ const model::WirelessProfile& wireless(const World& w) { return w.scenario.wirel
 
 bool has_flows(const World& w) { return wireless(w).queueing == model::Queueing::flows; }
 
-Id access_point(const World& w) {
-  Id most = 0;
-  for (const Participant& p : w.participants) most = std::max(most, p.host);
-  return most + 1;
-}
+bool is_access_point(const World& w, Id transmitter) { return transmitter >= host_total(w); }
 
 std::string flow_of(const World& w, const Packet& packet) {
   const bool multicast = !packet.destination.has_value();
@@ -41,8 +37,8 @@ bool waits(const Transmitter& transmitter) {
                      [](const auto& entry) { return !is_empty(entry.second); });
 }
 
-bool something_waits(const World& w) {
-  return std::any_of(w.air.transmitters.begin(), w.air.transmitters.end(),
+bool something_waits(const Air& air) {
+  return std::any_of(air.transmitters.begin(), air.transmitters.end(),
                      [](const auto& entry) { return waits(entry.second); });
 }
 
@@ -50,25 +46,27 @@ std::uint64_t least_request(const UnitQueue& queue) {
   return queue.returned ? queue.returned->number : queue.frames.front().number;
 }
 
-void schedule_dispatch(World& w) {
-  if (w.air.busy || w.air.dispatch_pending || !something_waits(w)) return;
-  w.air.dispatch_pending = true;
+void schedule_dispatch(World& w, const std::string& radio) {
+  Air& air = w.airs[radio];
+  if (air.busy || air.dispatch_pending || !something_waits(air)) return;
+  air.dispatch_pending = true;
   Event event;
   event.kind = EventKind::dispatch;
+  event.channel = radio;
   schedule(w, w.now, EventClass::dispatch, event);
 }
 
 bool keeps_flows(const World& w, Id transmitter, Id queue) {
-  return has_flows(w) && !(transmitter == access_point(w) && queue == 0);
+  return has_flows(w) && !(is_access_point(w, transmitter) && queue == 0);
 }
 
 /// Smaller is earlier.
-std::uint64_t turn(const World& w, std::uint64_t chosen) {
-  return w.makes(WifiMistake::chosen_first_again) ? w.air.choices - chosen : chosen;
+std::uint64_t turn(const World& w, const Air& air, std::uint64_t chosen) {
+  return w.makes(WifiMistake::chosen_first_again) ? air.choices - chosen : chosen;
 }
 
-Id next_queue(const World& w, Id number) {
-  const Transmitter& transmitter = w.air.transmitters.at(number);
+Id next_queue(const World& w, const Air& air, Id number) {
+  const Transmitter& transmitter = air.transmitters.at(number);
   const bool turns = has_flows(w) || wireless(w).ap_queue == model::ApQueue::round_robin ||
                      w.makes(WifiMistake::queues_in_turns);
   std::optional<std::pair<std::uint64_t, Id>> best;
@@ -81,16 +79,16 @@ Id next_queue(const World& w, Id number) {
   return best->second;
 }
 
-Id next_transmitter(const World& w) {
+Id next_transmitter(const World& w, const Air& air) {
   const bool turns = wireless(w).arbitration == model::Arbitration::round_robin ||
                      w.makes(WifiMistake::oldest_in_turns);
   std::optional<std::pair<std::uint64_t, Id>> best;
-  for (const auto& [id, transmitter] : w.air.transmitters) {
+  for (const auto& [id, transmitter] : air.transmitters) {
     if (!waits(transmitter)) continue;
-    std::uint64_t rank = turns ? turn(w, transmitter.chosen)
-                               : least_request(transmitter.queues.at(next_queue(w, id)));
+    std::uint64_t rank = turns ? turn(w, air, transmitter.chosen)
+                               : least_request(transmitter.queues.at(next_queue(w, air, id)));
     if (w.makes(WifiMistake::first_transmitter_first)) rank = 0;
-    if (w.makes(WifiMistake::access_point_first) && id == access_point(w)) return id;
+    if (w.makes(WifiMistake::access_point_first) && is_access_point(w, id)) return id;
     if (!best || rank < best->first) best = {rank, id};
   }
   return best->second;
@@ -161,11 +159,11 @@ std::int64_t transmission(std::int64_t bytes, model::BitsPerSecond rate) {
   return (8 * bytes * 1'000'000'000 + rate.count() / 2) / rate.count();
 }
 
-bool fits(const World& w, std::int64_t bytes) {
+bool fits(const World& w, std::int64_t bytes, model::BitsPerSecond rate) {
   const model::Aggregation& limits = wireless(w).aggregation;
   const std::int64_t extra =
       w.makes(WifiMistake::overhead_in_airtime) ? limits.overhead.count() : 0;
-  const std::int64_t airtime = transmission(bytes, wireless(w).rate_unicast) + extra;
+  const std::int64_t airtime = transmission(bytes, rate) + extra;
   const std::int64_t bytes_less = w.makes(WifiMistake::limit_of_bytes_excluded) ? 1 : 0;
   const std::int64_t airtime_less = w.makes(WifiMistake::limit_of_airtime_excluded) ? 1 : 0;
   return bytes <= limits.max_bytes.count() - bytes_less &&
@@ -178,14 +176,14 @@ std::int64_t bytes_of(const World& w, const std::vector<Frame>& frames) {
   return sum;
 }
 
-std::vector<Frame> fill(const World& w, UnitQueue& queue, bool flows) {
+std::vector<Frame> fill(const World& w, UnitQueue& queue, bool flows, model::BitsPerSecond rate) {
   std::vector<Frame> unit{*next_frame(w, queue, flows)};
   const std::size_t most = wireless(w).aggregation.max_frames;
   const std::size_t less = w.makes(WifiMistake::limit_of_frames_early) ? 1 : 0;
   while (unit.size() + less < most) {
     const std::optional<Frame> frame = next_frame(w, queue, flows);
     if (!frame) break;
-    if (!fits(w, bytes_of(w, unit) + in_unit(w, frame->bytes))) {
+    if (!fits(w, bytes_of(w, unit) + in_unit(w, frame->bytes), rate)) {
       put_back(w, queue, *frame, flows);
       break;
     }
@@ -194,7 +192,8 @@ std::vector<Frame> fill(const World& w, UnitQueue& queue, bool flows) {
   return unit;
 }
 
-Time cost(const World& w, const std::vector<Frame>& unit, bool multicast) {
+Time cost(const World& w, const std::vector<Frame>& unit, bool multicast,
+          model::BitsPerSecond rate) {
   const model::WirelessProfile& profile = wireless(w);
   if (multicast) {
     return profile.overhead_multicast.count() +
@@ -206,12 +205,13 @@ Time cost(const World& w, const std::vector<Frame>& unit, bool multicast) {
   const std::int64_t bytes = padded ? bytes_of(w, unit) : unit.front().bytes;
   const model::Nanoseconds overhead =
       as_one ? profile.overhead_unicast : profile.aggregation.overhead;
-  return overhead.count() + transmission(bytes, profile.rate_unicast);
+  return overhead.count() + transmission(bytes, rate);
 }
 
 }  // namespace
 
-void request_unit(World& w, const Packet& packet, std::size_t fragment, bool down) {
+void request_unit(World& w, const Packet& packet, std::size_t fragment, bool down,
+                  const std::string& access_point) {
   Frame frame;
   frame.number = w.requests;
   ++w.requests;
@@ -220,10 +220,14 @@ void request_unit(World& w, const Packet& packet, std::size_t fragment, bool dow
   frame.bytes = packet.fragments.at(fragment);
   frame.flow = flow_of(w, packet);
 
-  const Id from = down ? access_point(w) : w.participants.at(packet.source).host;
+  const std::vector<std::string> all = access_points(w);
+  const auto number = std::find(all.begin(), all.end(), access_point) - all.begin();
+  const Id from =
+      down ? host_total(w) + static_cast<Id>(number) : w.participants.at(packet.source).host;
   const bool multicast = !packet.destination.has_value();
   const Id to = !down || multicast ? 0 : 1 + w.participants.at(*packet.destination).host;
-  UnitQueue& queue = w.air.transmitters[from].queues[to];
+  const std::string radio = radio_of(w, access_point);
+  UnitQueue& queue = w.airs[radio].transmitters[from].queues[to];
   queue.frames.push_back(frame);
 
   const auto lists = [&](const std::vector<std::string>& list) {
@@ -237,49 +241,96 @@ void request_unit(World& w, const Packet& packet, std::size_t fragment, bool dow
     (w.makes(WifiMistake::new_flows_behind_old) ? queue.old_flows : queue.new_flows)
         .push_back(frame.flow);
   }
-  schedule_dispatch(w);
+  schedule_dispatch(w, radio);
 }
 
-void dispatch_unit(World& w) {
-  w.air.dispatch_pending = false;
-  if (w.air.busy || !something_waits(w)) return;
-  const Id from = next_transmitter(w);
-  const Id to = next_queue(w, from);
-  ++w.air.choices;
-  Transmitter& transmitter = w.air.transmitters.at(from);
-  UnitQueue& queue = transmitter.queues.at(to);
-  transmitter.chosen = w.air.choices;
-  queue.chosen = w.air.choices;
+namespace {
 
-  w.air.down = from == access_point(w);
-  bool multicast = w.air.down && to == 0;
-  if (multicast && !w.makes(WifiMistake::multicast_in_units)) {
-    w.air.unit = {*next_frame(w, queue, false)};
-  } else {
-    w.air.unit = fill(w, queue, keeps_flows(w, from, to));
+/// Sends what failed again and again; returns how long all of it takes.
+Time with_retries(World& w, Air& air, Id station, model::BitsPerSecond rate) {
+  std::map<std::size_t, Frame> left;
+  for (std::size_t k = 0; k < air.unit.size(); ++k) left[k] = air.unit.at(k);
+  air.fails.assign(air.unit.size(), false);
+  Time sum = 0;
+  for (std::uint32_t round = 0; !left.empty(); ++round) {
+    std::vector<Frame> frames;
+    for (const auto& [k, frame] : left) frames.push_back(frame);
+    if (round == 0 || !w.makes(WifiMistake::retries_free)) sum += cost(w, frames, false, rate);
+    std::map<std::size_t, Frame> failed;
+    for (const auto& [k, frame] : left) {
+      if (transmission_fails(w, station)) failed[k] = frame;
+    }
+    left = failed;
+    if (round < wireless(w).loss->retries) continue;
+    for (const auto& [k, frame] : left) air.fails.at(k) = true;
+    break;
   }
-  const Packet& first = w.packets.at(w.air.unit.front().packet);
-  if (w.makes(WifiMistake::multicast_up) && !first.destination && w.air.unit.size() == 1) {
+  return sum;
+}
+
+}  // namespace
+
+void dispatch_unit(World& w, const std::string& radio) {
+  Air& air = w.airs[radio];
+  air.dispatch_pending = false;
+  if (air.busy || !something_waits(air)) return;
+  const Id from = next_transmitter(w, air);
+  const Id to = next_queue(w, air, from);
+  ++air.choices;
+  Transmitter& transmitter = air.transmitters.at(from);
+  UnitQueue& queue = transmitter.queues.at(to);
+  transmitter.chosen = air.choices;
+  queue.chosen = air.choices;
+
+  air.down = is_access_point(w, from);
+  if (air.down) air.access_point = access_points(w).at(from - host_total(w));
+  bool multicast = air.down && to == 0;
+  const Id station = air.down && to > 0 ? to - 1 : from;
+  const model::BitsPerSecond rate{
+      rate_of(w, air.down && to == 0 ? host_total(w) : station, wireless(w).rate_unicast.count())};
+  if (multicast && !w.makes(WifiMistake::multicast_in_units)) {
+    air.unit = {*next_frame(w, queue, false)};
+  } else {
+    air.unit = fill(w, queue, keeps_flows(w, from, to), rate);
+  }
+  const Packet& first = w.packets.at(air.unit.front().packet);
+  if (w.makes(WifiMistake::multicast_up) && !first.destination && air.unit.size() == 1) {
     multicast = true;
   }
-  w.air.busy = true;
+  air.fails.assign(air.unit.size(), false);
+  air.deaf.clear();
+  Time duration = cost(w, air.unit, multicast, rate);
+  if (wireless(w).loss && air.down && to == 0) {
+    air.deaf = deaf_to_multicast(w, first, air.access_point);
+  } else if (wireless(w).loss) {
+    duration = with_retries(w, air, station, rate);
+  }
+  air.busy = true;
   Event event;
   event.kind = EventKind::service_finished;
-  schedule(w, w.now + cost(w, w.air.unit, multicast), EventClass::service, event);
+  event.channel = radio;
+  schedule(w, w.now + duration, EventClass::service, event);
 }
 
-void unit_finished(World& w) {
-  w.air.busy = false;
-  const std::vector<Frame> unit = w.air.unit;
+void unit_finished(World& w, const std::string& radio) {
+  Air& air = w.airs[radio];
+  air.busy = false;
+  const Air sent = air;
   std::vector<std::uint64_t> later;
-  for (const Frame& frame : unit) {
+  for (std::size_t k = 0; k < sent.unit.size(); ++k) {
+    const Frame& frame = sent.unit.at(k);
     const Packet packet = w.packets.at(frame.packet);
     const bool last = frame.fragment + 1 == packet.fragments.size();
-    if (w.air.down) {
-      if (last) arrive(w, packet);
+    const bool fails = sent.fails.at(k) && !w.makes(WifiMistake::losses_received);
+    if (sent.down) {
+      Packet& known = w.packets.at(frame.packet);
+      known.deaf.insert(sent.deaf.begin(), sent.deaf.end());
+      if (fails) known.deaf.insert(w.participants.at(*packet.destination).host);
+      if (last) arrive_at(w, known, sent.access_point);
       continue;
     }
-    request_unit(w, packet, frame.fragment, true);
+    if (fails) w.packets.at(frame.packet).stopped = true;
+    if (!fails) distribute(w, packet.id, frame.fragment);
     if (!last) continue;
     if (w.makes(WifiMistake::admission_after_the_unit)) {
       later.push_back(packet.id);
@@ -288,7 +339,7 @@ void unit_finished(World& w) {
     }
   }
   for (const std::uint64_t id : later) leave_source(w, w.packets.at(id));
-  schedule_dispatch(w);
+  schedule_dispatch(w, radio);
 }
 
 }  // namespace stormproof::oracle::fastdds

@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <random>
 #include <set>
 #include <string>
 #include <tuple>
@@ -59,6 +60,9 @@ enum class EventKind {
   relay_expiry,
   relay_response,
   relay_suppression_end,
+  distribution,  // from here on: with listed hosts. A wired host's packet leaves its cable
+  beacon,
+  thread_free,  // with processors
   dispatch,
 };
 
@@ -75,7 +79,9 @@ struct Event {
   std::size_t stage = 0;
   std::size_t fragment = 0;
   std::string channel;
-  std::vector<Id> readers;  // of a batch
+  std::string access_point;  // of a service on the way down, or of a beacon
+  bool fails = false;        // a service, in the end
+  std::vector<Id> deaf;      // hosts that do not hear it
 };
 
 enum class PacketKind {
@@ -126,6 +132,8 @@ struct Packet {
   std::int64_t number_base = 1;  // of an ACKNACK
   std::uint64_t id = 0;          // from here on: filled in by emit
   bool lost = false;
+  bool stopped = false;                       // a fragment did not get to the access point
+  std::set<Id> deaf;                          // hosts that did not hear all of it
   std::vector<std::int64_t> fragments;        // bytes on the channel
   std::map<std::size_t, std::size_t> served;  // stage → fragments served in it
 };
@@ -159,6 +167,7 @@ struct Writer {
   Id cycle_existing = 0;  // H at the cycle start
   std::uint64_t token = 0;
   std::set<Id> cycle_readers;
+  std::vector<std::vector<Id>> batches;  // of the last cycle, that are due
   std::set<Id> responded;
 };
 
@@ -182,12 +191,22 @@ struct Message {
   std::map<Id, Id> repair_data;
 };
 
+/// What a participant's thread has to do, in line.
+struct Thread {
+  std::deque<std::pair<EventClass, Event>> line;
+  bool runs = false;  // on a core
+  bool queues = false;
+  std::optional<std::uint64_t> begins_with;  // number of an event
+};
+
 struct Participant {
+  Thread thread;
   std::optional<Message> unfinished;  // of an async run that has stopped
   std::vector<Event> held;            // while it stalls
   std::vector<std::pair<int, Id>> to_create;
   std::uint32_t host = 0;
   Time start = 0;
+  Time hears_from = 0;
   std::set<Id> known;                          // whose announcement it has processed
   std::deque<std::pair<int, Id>> async_queue;  // (stream, descriptor)
   bool run_pending = false;
@@ -271,6 +290,7 @@ struct Request {
   std::uint64_t packet = 0;
   std::size_t stage = 0;
   std::size_t fragment = 0;
+  std::string access_point;
 };
 
 struct Channel {
@@ -310,7 +330,10 @@ struct Air {
   std::uint64_t choices = 0;
   std::map<Id, Transmitter> transmitters;  // by host; the access point's number is the last
   bool down = false;
-  std::vector<Frame> unit;  // being sent
+  std::vector<Frame> unit;   // being sent
+  std::vector<bool> fails;   // by frame, in the end
+  std::vector<Id> deaf;      // hosts that do not hear the multicast in it
+  std::string access_point;  // that sends it
 };
 
 struct World {
@@ -334,7 +357,14 @@ struct World {
   std::map<std::pair<Id, int>, Writer> writers;
   std::map<std::tuple<Id, Id, int>, Control> controls;  // (source, destination, topic)
   std::map<std::string, Channel> channels;
-  Air air;
+  std::map<std::string, Air> airs;  // by channel of access points
+  std::map<std::pair<std::string, Time>, std::vector<std::pair<std::uint64_t, std::size_t>>>
+      asleep;                           // (access point, beacon) → packets and fragments
+  std::map<Id, std::deque<Id>> queues;  // for a core, by host
+  std::map<Id, std::uint32_t> running;
+  Time cost = 0;  // of what a thread does now
+  std::mt19937_64 random;
+  std::map<Id, bool> worse;                 // links, by station
   std::map<std::uint64_t, Packet> packets;  // loopback packets too
   std::set<std::uint64_t> lost_packets;
   std::int64_t missing = 0;
@@ -368,19 +398,53 @@ constexpr int liveliness = -1;
 void emit(World& w, Packet packet);
 void leave_source(World& w, const Packet& packet);
 void arrive(World& w, const Packet& packet);
+void arrive_at(World& w, const Packet& packet, const std::string& access_point);
+void arrive_on_cable(World& w, const Packet& packet);
+void request_frame(World& w, const Packet& packet, std::size_t fragment, std::size_t stage,
+                   const std::string& access_point);
+void request_up(World& w, const Packet& packet, std::size_t fragment);
 void dispatch(World& w, const std::string& name);
 void service_finished(World& w, const Event& event);
 
 // fastdds_units.cpp
-void request_unit(World& w, const Packet& packet, std::size_t fragment, bool down);
-void dispatch_unit(World& w);
-void unit_finished(World& w);
+void request_unit(World& w, const Packet& packet, std::size_t fragment, bool down,
+                  const std::string& access_point);
+void dispatch_unit(World& w, const std::string& radio);
+void unit_finished(World& w, const std::string& radio);
+
+// fastdds_fleet.cpp
+[[nodiscard]] bool over_access_points(const World& w);
+[[nodiscard]] bool is_wired(const World& w, Id host);
+[[nodiscard]] Id host_total(const World& w);
+[[nodiscard]] std::vector<std::string> access_points(const World& w);
+[[nodiscard]] std::string access_point_of(const World& w, Id host);
+[[nodiscard]] std::string radio_of(const World& w, const std::string& access_point);
+[[nodiscard]] bool is_station(const World& w, Id host, const std::string& access_point);
+[[nodiscard]] std::int64_t rate_of(const World& w, Id host, std::int64_t usual);
+[[nodiscard]] bool transmission_fails(World& w, Id host);
+[[nodiscard]] std::vector<Id> deaf_to_multicast(World& w, const Packet& packet,
+                                                const std::string& access_point);
+void distribute(World& w, std::uint64_t packet, std::size_t fragment);
+void distribution(World& w, std::uint64_t packet);
+void beacon(World& w, const std::string& access_point);
+void leave_wired_host(World& w, const Packet& packet);
 
 // fastdds_stalls.cpp
 [[nodiscard]] bool stalls(const World& w, Id i);
 [[nodiscard]] bool is_held(World& w, const Event& event);
 void wake(World& w, Id i);
 void count_admitted(World& w, const Packet& packet);
+
+// fastdds_threads.cpp
+[[nodiscard]] std::optional<Id> who_acts(const World& w, EventClass event_class,
+                                         const Event& event);
+[[nodiscard]] bool begins(World& w, Id i, std::uint64_t number, EventClass event_class,
+                          const Event& event);
+void finish(World& w, Id i);
+void thread_free(World& w, Id i);
+[[nodiscard]] bool hears(const World& w, Id i);
+void charge_sending(World& w, const Packet& packet);
+void charge_reception(World& w, const Packet& packet);
 
 // fastdds_spdp.cpp
 void announce(World& w, Id i, std::int64_t k);

@@ -5,10 +5,20 @@
 
 #include <deque>
 #include <functional>
+#include <string_view>
 
 #include "tests/oracle/comparison.hpp"
 
 namespace stormproof::oracle {
+
+/// Events that were taken from the queue. Those that were held, or had to wait for a thread, are
+/// not among the events that happened.
+[[nodiscard]] inline std::uint64_t processed(const Observed& observed) {
+  for (const auto& [name, value] : observed.outcome) {
+    if (std::string_view{name} == "events") return static_cast<std::uint64_t>(value);
+  }
+  return observed.events.size();
+}
 
 /// One scenario and the run of the correct side.
 struct JudgedRun {
@@ -33,7 +43,7 @@ class JudgedRuns {
     while (runs_.size() <= k) {
       JudgedRun run{draw_(seed_++), {}};
       run.correct = judge_(run.scenario, most_events + 1);
-      if (run.correct.events.size() <= most_events) runs_.push_back(std::move(run));
+      if (processed(run.correct) <= most_events) runs_.push_back(std::move(run));
     }
     return runs_[k];
   }

@@ -145,6 +145,21 @@ enum class WifiMistake : std::uint8_t {
   stop_before_the_last,     ///< or stops though nothing is left
   stopped_run_not_pending,  ///< a run that has stopped can be asked for once more
   counted_at_generation,    ///< messages count at generation, whatever the profile says
+  // Listed hosts (specs/guide/fleet.md).
+  multicast_at_first_only,  ///< multicast leaves the distribution system at the first access point
+  one_channel,              ///< all access points are on one channel
+  equal_rates,              ///< every station has the rate of the profile
+  nobody_sleeps,            ///< unicast does not wait for a beacon
+  dtim_ignored,             ///< multicast follows each beacon
+  // Transmissions that fail.
+  losses_received,  ///< what failed goes on all the same
+  retries_free,     ///< retries take no airtime
+  no_bursts,        ///< links are never worse than usual
+  // Processors.
+  any_number_of_cores,        ///< threads run whenever they have something to do
+  receptions_free,            ///< receptions take no time and wait for nothing
+  submessages_received_free,  ///< a datagram is received in the same time whatever is in it
+  nobody_deaf,                ///< a participant hears from its start on
 };
 
 /// What the oracle of `implementation: cyclone` does wrong (specs/guide/cyclone.md has the rules).
@@ -212,7 +227,9 @@ inline constexpr std::size_t mistake_count =
 inline constexpr std::size_t fastdds_mistake_count =
     static_cast<std::size_t>(FastddsMistake::response_with_old_base) + 1;
 inline constexpr std::size_t wifi_mistake_count =
-    static_cast<std::size_t>(WifiMistake::counted_at_generation) + 1;
+    static_cast<std::size_t>(WifiMistake::nobody_deaf) + 1;
+/// The last one that scenarios without listed hosts, failing transmissions and processors can show.
+inline constexpr WifiMistake last_of_one_access_point = WifiMistake::counted_at_generation;
 inline constexpr std::size_t cyclone_mistake_count =
     static_cast<std::size_t>(CycloneMistake::answers_undirected) + 1;
 

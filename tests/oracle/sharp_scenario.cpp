@@ -170,6 +170,29 @@ Scenario varied_wifi_scenario(std::uint64_t seed) {
   return scenario;
 }
 
+Scenario varied_fleet_scenario(std::uint64_t seed) {
+  Scenario scenario = varied_wifi_scenario(seed);
+  Dice dice{seed + 2};
+  model::WirelessProfile& w = scenario.wireless;
+  if (dice.chance(50)) {
+    w.service = model::ServedBy::frame;
+    w.fragment_request = dice.choice<model::FragmentRequest>(2);
+  }
+  if (w.service == model::ServedBy::frame) {
+    w.stages = model::WirelessProfile{}.stages;
+    w.order = dice.choice<model::ServiceOrder>(4);
+    if (dice.chance(30)) w.stages.back().channel = "another";
+    if (dice.chance(30)) w.stages.back().rate_unicast = model::BitsPerSecond{8'000'000};
+    if (dice.chance(20)) w.stages.back().multicast_as = model::MulticastAs::unicast;
+    if (dice.chance(20)) w.stages.front().multicast_as = model::MulticastAs::multicast;
+  }
+  const auto drawn = dice.between(1, 7);
+  if ((drawn & 1) != 0) props::draw_fleet(dice, scenario.deployment);
+  if ((drawn & 2) != 0) props::draw_frame_loss(dice, w);
+  if ((drawn & 4) != 0) props::draw_processor(dice, scenario);
+  return scenario;
+}
+
 PacketList random_packet_list(std::uint64_t seed) {
   Dice dice{seed};
   PacketList list;

@@ -21,6 +21,9 @@ namespace stormproof::oracle {
 [[nodiscard]] model::Scenario varied_cyclone_scenario(std::uint64_t seed);
 /// One of Fast DDS over a channel of units, or with a sender that stalls, or counted at admission.
 [[nodiscard]] model::Scenario varied_wifi_scenario(std::uint64_t seed);
+/// One of Fast DDS over listed hosts, transmissions that fail, threads that take time: one of these
+/// or several, with frames or units.
+[[nodiscard]] model::Scenario varied_fleet_scenario(std::uint64_t seed);
 
 /// A channel of units with limits that matter, and packets for it, by time.
 struct PacketList {

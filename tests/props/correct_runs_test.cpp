@@ -128,6 +128,16 @@ TEST_P(RandomRuns, OverUnitsAndWithSendersThatStallHaveTrueFindingsOnly) {
   }
 }
 
+TEST_P(RandomRuns, OverListedHostsLossesAndProcessorsHaveTrueFindingsOnly) {
+  model::RunOptions options;
+  options.max_events = 3'000;
+  for (int k = 0; k < runs_each; ++k) {
+    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
+    expect_only_true_findings(oracle::varied_fleet_scenario(seed),
+                              "fleet, seed " + std::to_string(seed), options);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomRuns, testing::Range(0, 6));
 
 }  // namespace correct_runs_test

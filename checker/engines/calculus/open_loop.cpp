@@ -79,6 +79,11 @@ const char* uncovered(const model::Scenario& scenario) {
   if (scenario.wireless.service == model::ServedBy::unit) {
     return "units of several frames (service: unit) have no bound here";
   }
+  if (!scenario.deployment.hosts.empty()) {
+    return "hosts that are listed (deployment.hosts) have no bound here";
+  }
+  if (scenario.wireless.loss) return "transmissions that fail (wireless.loss) have no bound here";
+  if (scenario.hosts) return "threads that are busy (hosts) have no bound here";
   const bool stateful = model::traits_of(scenario.dds).writer == model::Writer::stateful;
   if (!stateful && sedp.initial_data == model::InitialData::pull) {
     return "DATA that readers pull has no bound here";

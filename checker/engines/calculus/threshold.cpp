@@ -22,6 +22,7 @@ bool takes_equal_times(const model::WirelessProfile& wireless) {
 /// after the other can be overtaken; or one in another flow.
 bool pushes_keep_order(const model::WirelessProfile& wireless, const OpenLoop* traffic) {
   if (wireless.kind == model::ServiceKind::constant_delay) return wireless.packet_delays.empty();
+  if (wireless.loss) return false;
   if (wireless.service == model::ServedBy::unit) {
     return wireless.queueing == model::Queueing::fifo;
   }

@@ -66,12 +66,14 @@ class Checker {
     const auto started = std::chrono::steady_clock::now();
     model::Scenario scenario = scenario_to_run(request_);
     model::Scenario specification = request_.scenario;
-    drawn_ = scenario.deployment.schedule.has_value();
+    drawn_ = model::is_drawn(scenario);
     const std::uint32_t runs = drawn_ ? std::max(1U, request_.samples) : 1;
     for (std::uint32_t k = 0; k < runs && !stopped_; ++k) {
       if (drawn_) {
-        scenario.deployment.draw_schedule(request_.seed + k);
+        model::draw(scenario, request_.seed + k);
         specification.deployment = scenario.deployment;
+        specification.wireless = scenario.wireless;
+        specification.hosts = scenario.hosts;
       }
       run(scenario, specification, k);
     }

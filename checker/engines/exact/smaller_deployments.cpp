@@ -51,6 +51,9 @@ void set_times(Deployment& deployment, const Deployment& given) {
 Scenario with(const Scenario& scenario, Deployment deployment) {
   Scenario smaller = scenario;
   smaller.deployment = std::move(deployment);
+  smaller.deployment.hosts = scenario.deployment.hosts;
+  smaller.deployment.access_points = scenario.deployment.access_points;
+  smaller.deployment.wired_delay = scenario.deployment.wired_delay;
   smaller.deployment.schedule.reset();
   return smaller;
 }

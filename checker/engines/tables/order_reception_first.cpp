@@ -21,6 +21,8 @@ Role role_of(EventKind kind) {
     case EventKind::service_finished:
     case EventKind::delayed_reception:
     case EventKind::reception:
+    case EventKind::distribution:
+    case EventKind::beacon:
       return Role::reception;
     case EventKind::announcement_due:
     case EventKind::heartbeat_expiry:
@@ -56,6 +58,7 @@ Role role_of(EventKind kind) {
     case EventKind::server_routine:
     case EventKind::server_routine_again:
     case EventKind::server_sending:
+    case EventKind::thread_free:
       return Role::decision;
     case EventKind::dispatch:
       return Role::service_start;

@@ -19,7 +19,7 @@ struct Case {
   double loss = 0;  ///< probability of each packet, drawn anew in each sample
 
   /// Whether samples differ; otherwise one run is enough.
-  [[nodiscard]] bool sampled() const { return scenario.deployment.schedule || loss > 0; }
+  [[nodiscard]] bool sampled() const { return model::is_drawn(scenario) || loss > 0; }
 };
 
 /// What the runs of a case yielded, one entry a run in the order of seeds.

@@ -12,7 +12,7 @@
 namespace stormproof::validate {
 
 bool is_drawn(const model::Scenario& scenario, const CapturedDeployment& deployment, double loss) {
-  if (loss > 0) return true;
+  if (loss > 0 || model::is_drawn(scenario)) return true;
   if (!model::traits_of(scenario.dds).creates_endpoints_over_time) return false;
   return std::ranges::any_of(deployment.participants, [](const CapturedParticipant& one) {
     return one.done_earliest() < one.done_latest();
@@ -22,6 +22,7 @@ bool is_drawn(const model::Scenario& scenario, const CapturedDeployment& deploym
 model::Scenario draw(const model::Scenario& scenario, const CapturedDeployment& deployment,
                      double loss, std::uint64_t seed) {
   model::Scenario drawn = scenario;
+  model::draw(drawn, seed);
   std::mt19937_64 random{seed};  // its sequence is fixed by the standard; distributions are not
   for (std::size_t k = 0; k < deployment.participants.size(); ++k) {
     const CapturedParticipant& one = deployment.participants[k];
@@ -49,6 +50,7 @@ Predicted predict(const model::Scenario& scenario, const Observation& observatio
     PredictedRun run;
     run.seed = seed;
     run.complete = result->completed();
+    run.shares = shares_of(*result);
     run.tally = tally.tally();
     if (run.complete) {
       run.tally[index_of(Figure::completion)] =

@@ -8,6 +8,7 @@
 
 #include "checker/evidence/validate/captured_deployment.hpp"
 #include "checker/evidence/validate/figures.hpp"
+#include "checker/evidence/validate/limiting.hpp"
 #include "checker/evidence/validate/observation.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "model/run_result.hpp"
@@ -20,6 +21,7 @@ struct PredictedRun {
   bool complete = false;  ///< otherwise its figures are lower bounds
   Tally tally{};          ///< at its cut; of an incomplete run, at the end and without completion
   Growth growth{};        ///< a run that is over keeps its counts
+  Shares shares{};        ///< what it waited for
 };
 
 struct Sampling {

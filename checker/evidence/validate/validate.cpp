@@ -217,6 +217,9 @@ Result<Report> validate(const capture::Conversation& conversation, const Request
       static_cast<std::size_t>(std::ranges::count_if(predicted.runs, &PredictedRun::complete));
   report.rows = rows_of(*observation, predicted, model::traits_of(scenario->dds), report.is_drawn);
   report.bands = bands_of(predicted.runs);
+  std::vector<Shares> shares;
+  for (const PredictedRun& run : predicted.runs) shares.push_back(run.shares);
+  report.limiting = limiting(shares);
   report.differences = differences(conversation, *observation, *scenario, predicted.sizes);
   report.agreement = agreement(report.rows, observation->complete, request.within);
   report.scenario =

@@ -89,6 +89,7 @@ struct Report {
   std::vector<std::array<Band, growth_curves>> bands{};  ///< by step; empty without a run
   std::vector<Difference> differences{};
   Agreement agreement = Agreement::not_asked;
+  Limiting limiting{};  ///< what the model's runs waited for
 
   [[nodiscard]] bool interrupted() const { return runs < wanted; }
   [[nodiscard]] const Row& of(Figure figure) const { return rows[index_of(figure)]; }

@@ -150,6 +150,27 @@ std::string creation_text(const Report& report) {
   return fmt::format("{}, each known to {} or better", times, report::duration(widest));
 }
 
+/// "the air: busy 93 % of the time (…)".
+std::string limit_text(const Limiting& limiting) {
+  const auto percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
+  const Shares& shares = limiting.median;
+  const std::string all = fmt::format(
+      "at the median the air is busy for {} of a run, a sender waits for room for {}, a thread is "
+      "waited for for {}",
+      percent(shares.air), percent(shares.sender), percent(shares.processor));
+  switch (limiting.limit) {
+    case Limit::air:
+      return "the air: " + all;
+    case Limit::sender:
+      return "the sender: " + all;
+    case Limit::processor:
+      return "the processor: " + all;
+    case Limit::none:
+      break;
+  }
+  return "start times and timers: " + all;
+}
+
 report::Facts head(const Report& report, const Heading& heading) {
   const Observation& observation = report.observation;
   model::Nanoseconds last_start;
@@ -179,6 +200,7 @@ report::Facts head(const Report& report, const Heading& heading) {
                   report.is_drawn ? fmt::format("{} of {} runs finished, {} complete", report.runs,
                                                 report.wanted, report.complete)
                                   : "one run: nothing is left to draw"));
+  if (report.runs > 0) facts.rows.emplace_back("limited by", limit_text(report.limiting));
   return facts;
 }
 

@@ -54,6 +54,19 @@ void describe(V& v, const Runs& runs) {
   v("drawn", runs.report.is_drawn);
 }
 
+/// What the model's runs waited for.
+struct WaitedFor {
+  const Limiting& limiting;
+};
+
+template <class V>
+void describe(V& v, const WaitedFor& waited) {
+  v("limited_by", waited.limiting.limit);
+  v("air_share", waited.limiting.median.air);
+  v("sender_share", waited.limiting.median.sender);
+  v("processor_share", waited.limiting.median.processor);
+}
+
 struct Missing {
   const capture::Counting& counting;
 };
@@ -133,6 +146,7 @@ void describe(V& v, const ReportWithHeading& shown) {
   v("participants", observation.deployment.participants);
   v("sampling", Runs{report});
   v("figures", figures);
+  v("waited_for", WaitedFor{report.limiting});
   v("within", report.request.within);
   v("verdict", report.agreement);
   v("over_time", OverTime{report});

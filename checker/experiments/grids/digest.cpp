@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/config/knobs/dds_knobs.hpp"
+#include "model/config/knobs/scenario_knobs.hpp"
 #include "model/config/knobs/value_json.hpp"
 #include "model/config/knobs/wireless_knobs.hpp"
 
@@ -84,6 +85,14 @@ class KnobText {
   void end() { text += "}\n"; }
 };
 
+void append_fleet(const model::Deployment& deployment, fmt::memory_buffer& text) {
+  if (deployment.hosts.empty()) return;
+  KnobText knobs;
+  config::visit_hosts(knobs, deployment);
+  config::visit_fleet_knobs(knobs, deployment);
+  text.append(knobs.text);
+}
+
 Digest digest_of_knobs(const auto& profile) {
   KnobText knobs;
   config::visit_knobs(knobs, profile);
@@ -126,6 +135,7 @@ Digest digest_of(const model::Deployment& deployment) {
   if (deployment.send_cost) {
     fmt::format_to(std::back_inserter(text), "server {}\n", deployment.send_cost->count());
   }
+  append_fleet(deployment, text);
   for (const model::Participant& participant : deployment.participants) {
     // A new member has to be named here; it would not compile otherwise.
     const auto& [host, publications, subscriptions, start, endpoints_done, open, ready] =

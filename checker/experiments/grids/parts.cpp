@@ -70,8 +70,16 @@ Scenario read_part(const Node& root, const IsPart& is_part,
 }
 
 Digest digest_of(const Rest& rest) {
-  return grids::digest_of(fmt::format("time_limit {}\nrun_until {}\n", rest.time_limit.count(),
-                                      static_cast<int>(rest.run_until)));
+  std::string text = fmt::format("time_limit {}\nrun_until {}\n", rest.time_limit.count(),
+                                 static_cast<int>(rest.run_until));
+  if (rest.hosts) {
+    // A new member has to be named here; it would not compile otherwise.
+    const auto& [cores, reception, emission, submessage, timer, low, high, seed] = *rest.hosts;
+    text +=
+        fmt::format("hosts {} {} {} {} {} {} {} {}\n", cores, reception.count(), emission.count(),
+                    submessage.count(), timer.count(), low.count(), high.count(), seed);
+  }
+  return grids::digest_of(text);
 }
 
 }  // namespace
@@ -130,6 +138,7 @@ PartReader::Tree PartReader::tree(const Choice& choice, Kind kind) {
     const std::string_view name = model::implementation_traits[implementation].name;
     return config::with_profiles(part_root(choice.variant, kind), overrides, specs_, name);
   };
+  if (kind == Kind::rest) return config::with_profile_keys(chosen(), overrides);
   if (kind != Kind::dds && kind != Kind::wireless) return chosen();
   Memory& memory = memory_[kind];
   Key key = key_of(choice, memory.choosing);
@@ -185,7 +194,7 @@ PartNumbers PartReader::read(const Choice& choice) {
   numbers.wireless =
       part_number(choice, Kind::wireless, wireless, [](const Scenario& s) { return s.wireless; });
   numbers.rest = part_number(choice, Kind::rest, rests, [](const Scenario& s) {
-    return Rest{s.time_limit, s.run_until};
+    return Rest{s.time_limit, s.run_until, s.hosts};
   });
   return numbers;
 }
@@ -206,6 +215,7 @@ std::optional<config::InputError> PartReader::error(const Choice& choice,
   scenario.deployment = deployments[numbers.deployment].value;
   scenario.dds = dds[numbers.dds].value;
   scenario.wireless = wireless[numbers.wireless].value;
+  scenario.hosts = rests[numbers.rest].value.hosts;
   RuleVisitor rules{nullptr};
   config::visit_knobs(rules, scenario);
   if (rules.all_hold) return std::nullopt;

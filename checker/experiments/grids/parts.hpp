@@ -28,6 +28,7 @@ struct Part {
 struct Rest {
   model::Nanoseconds time_limit;
   model::RunUntil run_until{};
+  std::optional<model::Processor> hosts = {};
 };
 
 /// Where the parts of one combination stand in `PartReader`.

@@ -64,7 +64,8 @@ model::Scenario Plan::scenario(std::size_t job) const {
   scenario.wireless = wireless_[parts.wireless].value;
   scenario.time_limit = rest.time_limit;
   scenario.run_until = rest.run_until;
-  if (grid_->samples) scenario.deployment.draw_schedule(seed(job));
+  scenario.hosts = rest.hosts;
+  if (grid_->samples) model::draw(scenario, seed(job));
   return scenario;
 }
 

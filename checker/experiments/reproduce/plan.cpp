@@ -22,19 +22,26 @@ struct VariantSource {
   const char* id;
   const char* title;
   const char* profile;
+  std::string_view wireless;
   bool staggered;
 };
 
 // Fast DDS creates its endpoints over time, so its outcome is a distribution over start times. The
 // paper states that all processes start at one instant and does not print when their endpoints
 // existed; so Fast DDS is run both ways: everything at time 0, the assumption of the paper's
-// model, and with start times drawn from ranges.
-constexpr std::array<VariantSource, 4> sources{
-    {{"paper", "paper's model, simultaneous start", "paper", false},
+// model, and with start times drawn from ranges. Last, on the channel that Linux and 802.11 make:
+// fragments are handed over at once, and a sender whose buffer is full waits.
+constexpr std::string_view papers_channel = "wifi-80211n-paper";
+constexpr std::array<VariantSource, 5> sources{
+    {{"paper", "paper's model, simultaneous start", "paper", papers_channel, false},
      {"fastdds-2.6.11-relations", "paper's model with relation rules of Fast DDS, simultaneous",
-      "fastdds-2.6.11-relations", false},
-     {"fastdds-2.6.11", "Fast DDS 2.6.11, simultaneous start", "fastdds-2.6.11", false},
-     {"fastdds-2.6.11-staggered", "Fast DDS 2.6.11, drawn start times", "fastdds-2.6.11", true}}};
+      "fastdds-2.6.11-relations", papers_channel, false},
+     {"fastdds-2.6.11", "Fast DDS 2.6.11, simultaneous start", "fastdds-2.6.11", papers_channel,
+      false},
+     {"fastdds-2.6.11-staggered", "Fast DDS 2.6.11, drawn start times", "fastdds-2.6.11",
+      papers_channel, true},
+     {"fastdds-2.6.11-true-channel", "Fast DDS 2.6.11 over hosts that wait, drawn start times",
+      "fastdds-2.6.11", "wifi-80211n", true}}};
 
 /// Start times in the ranges that were fitted to live runs of Fast DDS on another machine, as in
 /// specs/scenarios/live-5x20.yaml: `processes` a host, `endpoints` each, user and default ones.
@@ -106,8 +113,8 @@ model::Scenario Plan::scenario(const Case& one, std::uint64_t k) const {
   model::Scenario scenario;
   scenario.dds = variant.dds;
   scenario.dds.sedp.heartbeat_policy = one.policy;
-  scenario.wireless = one.network == Network::wireless ? wireless : wired;
-  if (one.network == Network::wireless) scenario.wireless.order = one.order;
+  scenario.wireless = one.network == Network::wireless ? variant.wireless : wired;
+  if (one.network == Network::wireless && !variant.staggered) scenario.wireless.order = one.order;
   // A loopback run discovers among participants of one host. Here each has a host of its own, so
   // that all pairs count, without any contention.
   const bool loopback = one.network == Network::loopback;
@@ -138,11 +145,8 @@ Result<Plan> make_plan(const Published& published, const PlanOptions& options,
   plan.high_load_from = {
       whole(published.values("high_load.participants_per_host_min").front()),
       whole(published.values("high_load.endpoints_per_participant_min").front())};
-  auto wireless = model::config::read_wireless_profile("wifi-80211n-paper", {}, specs);
-  if (!wireless) return wireless.error();
   auto wired = model::config::read_wireless_profile("wired", {}, specs);
   if (!wired) return wired.error();
-  plan.wireless = *wireless;
   plan.wired = *wired;
   const auto wanted = [&](const std::string& id) {
     return options.variants.empty() || std::find(options.variants.begin(), options.variants.end(),
@@ -152,8 +156,10 @@ Result<Plan> make_plan(const Published& published, const PlanOptions& options,
     if (!wanted(source.id)) continue;
     auto dds = model::config::read_dds_profile(source.profile, {}, specs);
     if (!dds) return dds.error();
-    plan.variants.push_back(
-        {source.id, source.title, *dds, source.staggered, source.staggered ? options.samples : 1});
+    auto wireless = model::config::read_wireless_profile(std::string{source.wireless}, {}, specs);
+    if (!wireless) return wireless.error();
+    plan.variants.push_back({source.id, source.title, *dds, *wireless, source.staggered,
+                             source.staggered ? options.samples : 1});
     add_cases(plan, plan.variants.size() - 1);
   }
   return plan;

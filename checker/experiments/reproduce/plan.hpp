@@ -18,6 +18,7 @@ struct Variant {
   std::string id;
   std::string title;
   model::DdsProfile dds;
+  model::WirelessProfile wireless;  ///< its Wi-Fi
   bool staggered = false;  ///< starts are drawn from ranges; several runs for each configuration
   std::size_t runs = 1;    ///< for each configuration
 };
@@ -53,7 +54,6 @@ struct Plan {
   std::vector<Configuration> configurations;
   Configuration high_load_from;  ///< both numbers at least these
   std::vector<Variant> variants;
-  model::WirelessProfile wireless;
   model::WirelessProfile wired;
   std::vector<Case> cases;
 

@@ -129,6 +129,16 @@ std::string fastest_text(const Sampling& sampling) {
   return text + ".";
 }
 
+/// What makes a run the one of seed K.
+std::string seeds_of(const model::Scenario& scenario) {
+  std::string text;
+  if (scenario.deployment.schedule) text = "--set deployment.schedule.seed=K";
+  if (scenario.wireless.loss)
+    text += (text.empty() ? "" : " ") + std::string{"--set "} + "wireless.loss.seed=K";
+  if (text.empty()) text = "--set hosts.deaf_seed=K";
+  return text;
+}
+
 }  // namespace
 
 Document document_of(const Sampling& sampling) {
@@ -164,10 +174,9 @@ Document document_of(const Sampling& sampling) {
     document.next = checker::next_steps(sampling.words, own.scenario, *outlook);
   }
   document.exit_code = all ? 0 : 3;
-  if (own.scenario.deployment.schedule) {
+  if (model::is_drawn(own.scenario)) {
     document.blocks.emplace_back(Paragraph{
-        fmt::format("One of the runs: --set deployment.schedule.seed=K --samples 1, K from "
-                    "{} to {}",
+        fmt::format("One of the runs: {} --samples 1, K from {} to {}", seeds_of(own.scenario),
                     sampling.first_seed, sampling.first_seed + sampling.wanted - 1)});
   }
   return document;

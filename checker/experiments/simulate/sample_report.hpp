@@ -32,7 +32,7 @@ struct Sampling {
 
   /// Whether the runs of a scenario differ.
   [[nodiscard]] bool is_drawn(const model::Scenario& scenario) const {
-    return scenario.deployment.schedule.has_value() || start_jitter.count() > 0;
+    return model::is_drawn(scenario) || start_jitter.count() > 0;
   }
 };
 

@@ -292,7 +292,7 @@ Document document_of(const Simulation& s) {
   } else {
     document.blocks.emplace_back(
         Paragraph{fmt::format("What follows is the run with seed {}, which completes after {}. ",
-                              s.scenario.deployment.schedule->seed,
+                              model::own_seed(s.scenario),
                               s.result.completed() ? duration(*s.result.discovery_time) : "–") +
                   elaboration(s)});
   }

@@ -8,7 +8,7 @@ namespace stormproof::trials {
 model::Scenario under_seed(model::Scenario scenario, std::uint64_t seed,
                            model::Nanoseconds start_jitter) {
   model::Deployment& deployment = scenario.deployment;
-  if (deployment.schedule) deployment.draw_schedule(seed);
+  model::draw(scenario, seed);
   if (start_jitter.count() == 0) return scenario;
   std::mt19937_64 random{seed};
   const auto values = static_cast<std::uint64_t>(start_jitter.count()) + 1;

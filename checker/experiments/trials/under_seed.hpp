@@ -9,7 +9,8 @@
 namespace stormproof::trials {
 
 /// `scenario` with start times drawn from its deployment's schedule, if it has one, and each
-/// participant started up to `start_jitter` later. The same on every machine.
+/// participant started up to `start_jitter` later; its losses, if it has any, are those of the
+/// seed. The same on every machine.
 [[nodiscard]] model::Scenario under_seed(model::Scenario scenario, std::uint64_t seed,
                                          model::Nanoseconds start_jitter = {});
 

@@ -116,8 +116,9 @@ CheckReport check(const std::vector<std::string_view>& properties, const CheckRe
     std::vector<std::string_view> own = for_engine(engine, ids);
     take_inapplicable(own, request.scenario);
     if (engine != Engine::exact_run) {
-      std::erase_if(own,
-                    [&](std::string_view id) { return !props::is_provable(id, request.scenario); });
+      std::erase_if(own, [&](std::string_view id) {
+        return !props::why_not_provable(id, request.scenario).empty();
+      });
     }
     if (own.empty()) continue;
     if (!goes_on(engine)) break;

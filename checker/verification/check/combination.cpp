@@ -88,10 +88,10 @@ PropertyResult combined(const props::Property& property, std::vector<Finding> fi
   if (result.findings.empty()) {
     Finding none;
     const std::string_view why = props::why_not_applicable(property.id, request.scenario);
-    none.how = !why.empty() ? "does not apply to this composition: " + std::string{why}
-               : props::is_provable(property.id, request.scenario)
-                   ? "no engine has looked at it"
-                   : "no run shows it, and the engines that prove it know no sender that stalls";
+    const std::string_view unproved = props::why_not_provable(property.id, request.scenario);
+    none.how = !why.empty()       ? "does not apply to this composition: " + std::string{why}
+               : unproved.empty() ? "no engine has looked at it"
+                                  : "no run shows it, and " + std::string{unproved};
     result.findings.push_back(none);
   }
   result.deciding = deciding_finding(result.findings);

@@ -45,6 +45,7 @@ std::optional<std::uint32_t> participant_of(const model::Event& event, const His
     case Subject::control_relation:
     case Subject::endpoint_relation:
     case Subject::endpoint_writer:
+    case Subject::access_point:
     case Subject::packet:
       return std::nullopt;
   }

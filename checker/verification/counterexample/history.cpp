@@ -248,11 +248,8 @@ class Recorder final : public model::Probe {
 
 History record(const props::Counterexample& counterexample) {
   const model::Scenario& scenario = counterexample.scenario;
-  History history{scenario,
-                  model::topology_of(scenario),
-                  model::trace::channel_names(scenario.wireless),
-                  {},
-                  {}};
+  History history{
+      scenario, model::topology_of(scenario), model::trace::channel_names(scenario), {}, {}};
   Recorder recorder{history, counterexample.event};
   model::RunOptions options;
   options.probe = &recorder;

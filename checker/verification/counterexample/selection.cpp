@@ -24,8 +24,9 @@ Reason reason_for(const History& history, const Relevance& relevance, std::size_
     return spdp ? Reason::spdp : Reason::other;
   }
   const auto subject = model::trace::subject_of(step.event.kind);
-  const bool network =
-      subject == model::trace::Subject::channel || subject == model::trace::Subject::packet;
+  const bool network = subject == model::trace::Subject::channel ||
+                       subject == model::trace::Subject::packet ||
+                       subject == model::trace::Subject::access_point;
   return network ? Reason::channel : Reason::other;
 }
 

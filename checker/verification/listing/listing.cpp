@@ -158,6 +158,8 @@ constexpr Kind all_kinds[] = {
     {"profiles", "--set dds=, --dds, --compare, --preset; both sides of diff", profiles},
     {"wireless", "--set wireless=, --wireless",
      [](const SpecPath& specs) { return described(SpecKind::wireless, specs); }},
+    {"hosts",
+     "--set hosts=", [](const SpecPath& specs) { return described(SpecKind::hosts, specs); }},
     {"grids", "sweep; diff --over",
      [](const SpecPath& specs) { return described(SpecKind::grids, specs); }},
     {"policies", "diff --policy",

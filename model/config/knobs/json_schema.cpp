@@ -78,9 +78,22 @@ SchemaVisitor visited(const auto& sample, const auto&... context) {
   return visitor;
 }
 
+/// What a profile has beside its own keys.
+void add_names(SchemaVisitor& visitor) {
+  visitor.properties[std::string{base_key}] = {{"description", "the profile that this one changes"},
+                                               {"type", "string"}};
+  visitor.properties[std::string{description_key}] = {{"description", "free text"},
+                                                      {"type", "string"}};
+}
+
 /// The short form of a deployment, with what both forms have.
 SchemaVisitor visited_short_form(const Deployment& deployment) {
   SchemaVisitor visitor = visited(HomogeneousForm{});
+  Json& hosts = visitor.properties[std::string{hosts_key}];
+  const Json number = hosts;
+  SchemaVisitor list;
+  visit_hosts(list, deployment);
+  hosts = {{"anyOf", Json::array({number, list.properties[std::string{hosts_key}]})}};
   visit_common_knobs(visitor, deployment);
   return visitor;
 }
@@ -101,6 +114,10 @@ void SchemaVisitor::section(std::string_view key, const Section& member, std::st
     schema = name_or(reference(schema_file_name(SchemaKind::dds)));
   } else if constexpr (std::same_as<Section, WirelessProfile>) {
     schema = name_or(reference(schema_file_name(SchemaKind::wireless)));
+  } else if constexpr (std::same_as<Section, std::optional<Processor>>) {
+    SchemaVisitor inner = visited(Processor{});
+    add_names(inner);
+    schema = name_or(inner.partial());
   } else if constexpr (std::same_as<Section, Deployment>) {
     schema["oneOf"] =
         Json::array({visited_short_form(member).complete(), visited_nodes_form(member).complete(),

@@ -206,39 +206,84 @@ Deployment deployment_of(const NodesForm& form) {
   return sharing_participants(nodes, form.nodes_per_participant);
 }
 
+Deployment deployment_of(const HomogeneousForm& form) {
+  return Deployment::homogeneous(form.hosts, form.participants_per_host,
+                                 form.endpoints_per_participant, form.nodes_per_participant);
+}
+
+bool lists_hosts(const Node& map) {
+  const Node* hosts = map.find(hosts_key);
+  return hosts != nullptr && hosts->is_sequence();
+}
+
+/// Reads a form that says how many hosts there are. They may be a list, which is as long as their
+/// number.
+template <class Form>
+void read_form(const Node& map, const std::string& path, Deployment& value,
+               std::optional<InputError>& error) {
+  Node counted = map;
+  if (lists_hosts(map)) {
+    Node& hosts = *counted.find(hosts_key);
+    hosts = Node::scalar(hosts.place, fmt::to_string(hosts.items.size()));
+  }
+  Form form;
+  KnobReader of_form{counted, path, error};
+  visit_knobs(of_form, form);
+  if (error) return;
+  value = deployment_of(form);
+  KnobReader reader{map, path, error};
+  if (lists_hosts(map)) visit_hosts(reader, value);
+  visit_common_knobs(reader, value);
+}
+
+void check_fleet(const Node& map, const std::string& path, const Deployment& value,
+                 std::optional<InputError>& error) {
+  if (error) return;
+  const std::optional<FleetFault> fault = fault_of_fleet(value);
+  if (!fault) return;
+  const Node* blamed = map.find(fault->list);
+  std::string name = join_path(path, fault->list);
+  if (blamed != nullptr && fault->item < blamed->items.size()) {
+    blamed = &blamed->items[fault->item];
+    name = fmt::format("{}.{}", name, fault->item);
+    if (const Node* inner = blamed->find(fault->key); inner != nullptr) {
+      blamed = inner;
+      name = join_path(name, fault->key);
+    }
+  }
+  const Node& node = blamed != nullptr ? *blamed : map;
+  error =
+      error_at(node.place, fmt::format("{}: {}; expected {}", name, node.shown(), fault->expected));
+}
+
 }  // namespace
 
 void read_knobs(const Node& map, const std::string& path, Deployment& value,
                 std::optional<InputError>& error) {
-  HomogeneousForm form;
-  NodesForm of_nodes;
-  const std::vector<std::string> of_list = keys_of(value).allowed;
-  KnownKeys all{keys_of(form).allowed, {}};
-  add_new(keys_of(of_nodes).allowed, all.allowed);
+  const std::vector<std::string> of_form = keys_of(HomogeneousForm{}).allowed;
+  const std::vector<std::string> of_nodes = keys_of(NodesForm{}).allowed;
+  std::vector<std::string> of_list = keys_of(value).allowed;
+  KnownKeys all{of_form, {}};
+  add_new(of_nodes, all.allowed);
   add_new(of_list, all.allowed);
   if (!error) error = check_keys(map, path, all);
   if (error) return;
 
-  KnobReader reader{map, path, error};
   const Node* list = map.find(participants_key);
   if (list != nullptr) {
+    if (!lists_hosts(map)) std::erase(of_list, hosts_key);
     refuse_others(map, path, of_list, participants_key, error);
+    KnobReader reader{map, path, error};
     visit_knobs(reader, value);
   } else if (map.find(nodes_key) != nullptr) {
-    std::vector<std::string> known = keys_of(of_nodes).allowed;
+    std::vector<std::string> known = of_nodes;
     add_new(of_list, known);
     refuse_others(map, path, known, nodes_key, error);
-    visit_knobs(reader, of_nodes);
-    if (error) return;
-    value = deployment_of(of_nodes);
-    visit_common_knobs(reader, value);
+    read_form<NodesForm>(map, path, value, error);
   } else {
-    visit_knobs(reader, form);
-    if (error) return;
-    value = Deployment::homogeneous(form.hosts, form.participants_per_host,
-                                    form.endpoints_per_participant, form.nodes_per_participant);
-    visit_common_knobs(reader, value);
+    read_form<HomogeneousForm>(map, path, value, error);
   }
+  check_fleet(map, path, value, error);
   if (!error && value.schedule) draw(value, list, path, error);
 }
 

@@ -61,10 +61,10 @@ class NumericVisitor {
   void section(std::string_view key, auto& member, std::string_view, Presence presence = {},
                const auto&... context) {
     if (presence == Presence::of_others) return;
-    NumericVisitor inner{prefix_ + std::string{key} + ".", use_};
-    if constexpr (requires { member.has_value(); }) {  // an optional table
-      if (member) visit_knobs(inner, *member, context...);
+    if constexpr (requires { member.has_value(); }) {
+      if (member) section(key, *member, {}, presence, context...);
     } else {
+      NumericVisitor inner{prefix_ + std::string{key} + ".", use_};
       visit_knobs(inner, member, context...);
     }
   }

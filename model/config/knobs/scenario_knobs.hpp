@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "model/config/knobs/dds_knobs.hpp"
+#include "model/config/knobs/host_knobs.hpp"
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/largest_packet.hpp"
 #include "model/config/knobs/value_types.hpp"
@@ -54,7 +55,7 @@ inline constexpr NumberType participant_count = count_range(1, Deployment::max_p
 inline constexpr NumberType endpoint_count = count_range(0, Deployment::max_endpoints);
 
 void visit_knobs(auto& visit, Is<HomogeneousForm> auto& form) {
-  visit.knob("hosts", form.hosts, participant_count, "number of hosts (N_H)");
+  visit.knob(hosts_key, form.hosts, participant_count, "number of hosts (N_H), or a list of them");
   visit.knob("participants_per_host", form.participants_per_host, participant_count,
              "participants on each host (N_P)");
   visit.knob("endpoints_per_participant", form.endpoints_per_participant, endpoint_count,
@@ -186,6 +187,7 @@ void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
              "between two datagrams of a Discovery Server; 50us if absent; used by discovery: "
              "server and super_client",
              Presence::optional);
+  visit_fleet_knobs(visit, deployment);
   visit.section("life", deployment.life,
                 "what happened before the run, and what happens to participants in it; with "
                 "dds.amendments",
@@ -196,9 +198,17 @@ void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
                 Presence::optional);
 }
 
+/// The hosts one by one. In the short form the same key may be their number.
+void visit_hosts(auto& visit, Is<Deployment> auto& deployment) {
+  visit.list(hosts_key, deployment.hosts, ListSize{1, Deployment::max_participants},
+             "the hosts, numbered from 0 in this order; stations of one access point if absent",
+             Presence::optional);
+}
+
 void visit_knobs(auto& visit, Is<Deployment> auto& deployment) {
   visit.list(participants_key, deployment.participants, ListSize{1, Deployment::max_participants},
              "the participants, numbered from 0 in this order");
+  visit_hosts(visit, deployment);
   visit_common_knobs(visit, deployment);
 }
 
@@ -219,6 +229,11 @@ inline constexpr std::uint64_t max_descriptor_deliveries = 10'000'000'000;
                    participant.publications + participant.subscriptions;
   }
   return descriptors * (scenario.deployment.participants.size() - 1);
+}
+
+/// Whether it is known of the participants what a thread of theirs does, and when.
+[[nodiscard]] inline bool takes_processor_time(const DdsProfile& dds) {
+  return traits_of(dds).writer == Writer::stateful && !traits_of(dds).has_server;
 }
 
 /// Amplifications of real storms are around 10; the limit keeps products within 64 bits.
@@ -284,6 +299,10 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
   visit.section("deployment", scenario.deployment, "who takes part, and where");
   visit.section(dds_key, scenario.dds, "DDS profile");
   visit.section(wireless_key, scenario.wireless, "wireless profile");
+  visit.section(hosts_key, scenario.hosts,
+                "how fast participants handle what they receive, send and have to do; they take "
+                "no time if absent",
+                Presence::optional);
   visit.knob("time_limit", scenario.time_limit, period_range,
              "events after this time are not processed");
   visit.knob("run_until", scenario.run_until, UsualChoiceType<RunUntil>{{}, RunUntil::completion},
@@ -325,6 +344,15 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
   needs_receptions(scenario.wireless.sender == Sender::backlog, "wireless.sender", "backlog");
   needs_receptions(scenario.wireless.count_at == CountAt::generation, "wireless.count_at",
                    "generation");
+
+  needs_receptions(scenario.deployment.hosts.empty(), "deployment.hosts", "a number of hosts");
+  needs_receptions(!scenario.wireless.loss, "wireless.loss", "no such key");
+  visit.rule(scenario.deployment.hosts.empty() || goes_over_access_point(scenario.wireless),
+             "deployment.hosts",
+             "a number of hosts, or a shared_channel of two stages, to the access point and from "
+             "it");
+  visit.rule(!scenario.hosts || takes_processor_time(scenario.dds), hosts_key,
+             "no such key, or a DDS profile with implementation: fastdds and no Discovery Server");
 
   const LargestPacket packet = largest_packet(scenario);
   visit.rule(scenario.wireless.kind == ServiceKind::constant_delay ||

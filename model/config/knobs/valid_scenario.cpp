@@ -73,6 +73,7 @@ bool is_consistent(const WirelessProfile& wireless) {
 }
 /// Times beside a schedule have to be the drawn ones.
 bool is_consistent(const Deployment& deployment) {
+  if (fault_of_fleet(deployment)) return false;
   if (!deployment.schedule) return true;
   Deployment drawn = deployment;
   drawn.draw_schedule(deployment.schedule->seed);
@@ -99,7 +100,9 @@ class Validator {
       table(member, context...);
     }
   }
-  void list(std::string_view, const auto& members, ListSize size, std::string_view, Presence = {}) {
+  void list(std::string_view, const auto& members, ListSize size, std::string_view,
+            Presence presence = {}) {
+    if (presence == Presence::optional && members.empty()) return;  // it need not be there
     valid = valid && members.size() >= size.minimum && members.size() <= size.maximum;
     for (const auto& member : members) table(member);
   }

@@ -83,7 +83,34 @@ void visit_knobs(auto& visit, Is<Aggregation> auto& aggregation) {
              defaulted);
 }
 
+void visit_knobs(auto& visit, Is<LossBursts> auto& bursts) {
+  visit.knob("begin", bursts.begin, RatioType{1},
+             "probability that a usual link gets worse before a transmission");
+  visit.knob("end", bursts.end, RatioType{1},
+             "probability that a worse link recovers before a transmission");
+  visit.knob("probability", bursts.probability, RatioType{1},
+             "probability that a transmission fails on a worse link");
+}
+
+void visit_knobs(auto& visit, Is<FrameLoss> auto& loss) {
+  visit.knob("probability", loss.probability, RatioType{1},
+             "probability that the transmission of a frame fails, on a usual link");
+  visit.knob("retries", loss.retries, count_range(0, 255),
+             "transmissions of a unicast frame after the first, at most; 7 if absent",
+             Presence::optional);
+  visit.knob("seed", loss.seed, SeedType{}, "of the draws; 0 if absent", Presence::optional);
+  visit.section("bursts", loss.bursts, "periods in which a link is worse (Gilbert and Elliott)",
+                Presence::optional);
+}
+
 inline constexpr std::string_view service_key = "service";
+inline constexpr std::string_view loss_key = "loss";
+
+/// From a host to its access point, and from there on, over one channel or two.
+[[nodiscard]] inline bool goes_over_access_point(const WirelessProfile& wireless) {
+  return wireless.kind == ServiceKind::shared_channel &&
+         (wireless.service == ServedBy::unit || wireless.stages.size() == 2);
+}
 
 /// What only `service: unit` has.
 void visit_unit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
@@ -159,6 +186,10 @@ void visit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
   visit.list("stages", wireless.stages, ListSize{1, WirelessProfile::max_stages},
              "the route of every packet, in order", of_frames);
   visit_unit_knobs(visit, wireless);
+  visit.section(loss_key, wireless.loss, "transmissions that fail; none if absent",
+                Presence::optional);
+  visit.rule(!wireless.loss || goes_over_access_point(wireless), loss_key,
+             "no such key, or a shared_channel of two stages, to the access point and from it");
   visit.knob(
       "sender", wireless.sender, UsualChoiceType<Sender>{{}, Sender::backlog},
       "whether a participant with packets that wait for its source queue goes on, as it does "

@@ -151,9 +151,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "tag '!special' is not known"},
         BadInput{"unknown_key", good + "timelimit: 5s\n", 52, 1,
                  "unknown key 'timelimit'; did you mean 'time_limit'?"},
-        BadInput{
-            "far_key", good + "x: 5s\n", 52, 1,
-            "unknown key 'x'; expected one of deployment, dds, wireless, time_limit, run_until"},
+        BadInput{"far_key", good + "x: 5s\n", 52, 1,
+                 "unknown key 'x'; expected one of deployment, dds, wireless, hosts, time_limit, "
+                 "run_until"},
         BadInput{"run_until", with("time_limit: 200s", "time_limit: 200s\nrun_until: forever"), 52,
                  12, "run_until: 'forever' is not known; expected one of completion, time_limit"},
         BadInput{"description", "description: [1]\n" + good, 1, 14,

@@ -29,7 +29,7 @@ TEST(UnitChannel, AUnitMayHaveExactlyTheMostBytes) {
 
 TEST(UnitChannel, AUnitMayTakeExactlyTheLongestAirtime) {
   WirelessProfile wireless = units_of_80211n();
-  const std::int64_t airtime = UnitChannel{wireless, 2}.airtime_ns(280);
+  const std::int64_t airtime = UnitChannel::airtime_ns(280, {0, 144'400'000});
   EXPECT_EQ(airtime, two_frames - wireless.aggregation.overhead.count());
   wireless.aggregation.max_airtime = Nanoseconds{airtime};
   EXPECT_EQ(frames_of_134_bytes_in_a_unit(wireless), 2U);

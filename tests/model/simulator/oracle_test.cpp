@@ -36,6 +36,12 @@ class AgainstWifiOracle : public AgainstOracle {};
 TEST_P(AgainstWifiOracle, SameEventsSameOutcome) { expect_agreement(oracle::varied_wifi_scenario); }
 INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstWifiOracle, testing::Range(0, 14));
 
+class AgainstFleetOracle : public AgainstOracle {};
+TEST_P(AgainstFleetOracle, SameEventsSameOutcome) {
+  expect_agreement(oracle::varied_fleet_scenario);
+}
+INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstFleetOracle, testing::Range(0, 14));
+
 TEST(ChannelAgainstOracle, PacketsArriveAtTheSameTimes) {
   for (std::uint64_t seed = 0; seed < 2'000; ++seed) {
     const oracle::PacketList list = oracle::random_packet_list(seed);

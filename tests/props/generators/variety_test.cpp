@@ -53,6 +53,11 @@ std::vector<Scenario> drawn_on_demand() {
     radio.wireless.packet_delays.clear();
     Dice dice{seed};
     draw_radio(dice, radio.wireless);
+    list.push_back(radio);
+    radio.wireless.stages = model::WirelessProfile{}.stages;
+    draw_fleet(dice, radio.deployment);
+    draw_frame_loss(dice, radio.wireless);
+    draw_processor(dice, radio);
     list.push_back(std::move(radio));
     for (const auto discovery : {model::Discovery::server, model::Discovery::super_client,
                                  model::Discovery::static_peers}) {
