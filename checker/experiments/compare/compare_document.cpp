@@ -43,6 +43,10 @@ std::string range_text(const Quantiles& q) {
   return fmt::format("{} [{} – {}]", time_text(q.median), time_text(q.min), time_text(q.max));
 }
 
+bool has_runs(const Row& row) {
+  return std::ranges::any_of(row.cells, [](const Cell& cell) { return !cell.runs.empty(); });
+}
+
 class Builder {
  public:
   Builder(const Report& report, const Request& request) : report_{report}, request_{request} {}
@@ -120,9 +124,7 @@ class Builder {
   [[nodiscard]] std::string furthest() const {
     std::vector<std::string> whole;
     for (const Row& row : report_.rows) {
-      const bool ran =
-          std::ranges::any_of(row.cells, [](const Cell& c) { return !c.runs.empty(); });
-      if (ran && !row.breaks_at) whole.push_back(row.candidate.name);
+      if (has_runs(row) && !row.breaks_at) whole.push_back(row.candidate.name);
     }
     if (report_.sizes.size() < 2) return {};
     return whole.empty() ? fmt::format("All of them break up to {} {}.", report_.sizes.back(),
@@ -187,9 +189,9 @@ class Builder {
                                             time_text(figure_of(cell, Figure::completion).median),
                                             count_text(figure_of(cell, Figure::messages).median)));
       }
-      line.cells.emplace_back(row.breaks_at                   ? std::to_string(*row.breaks_at)
-                              : row.candidate.skipped.empty() ? "not here"
-                                                              : "–");
+      std::string where = row.breaks_at ? std::to_string(*row.breaks_at) : "not here";
+      if (!has_runs(row)) where = "–";
+      line.cells.emplace_back(where);
       table.rows.push_back(std::move(line));
     }
     document_.blocks.emplace_back(std::move(table));
