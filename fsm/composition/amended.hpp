@@ -110,6 +110,8 @@ using Clock = ClockRules<Implementation>;
 using SharedReader = ReaderRules<Implementation>;
 using SharedAnnouncements = AnnouncementRules<Implementation>;
 
+/// The destination of the pair knew its source before the announcement that it hears.
+struct WasKnown : Flag<owner::pair> {};
 /// The writer of a relation, whom its reader knows, announces itself.
 struct AnnouncedAgain : Occasion<owner::relation> {};
 
@@ -337,10 +339,11 @@ struct CopyAgain : Procedure {
 /// `Usual` is the rule of the paper for the same packet.
 template <class Usual, class W>
 void hear(W& w) {
-  w.when(w(Recognised{}) && (w(AcksHighest{}) || w(AcksMissing{})),
-         [&] { w.for_streams([](auto& r) { r.raise(AnnouncedAgain{}); }); });
-  w.when(!w(Recognised{}) && w(ResendsCopy{}), [&] { w.call(CopyAgain{}); });
+  w.set(WasKnown{}, w(Recognised{}));
   Usual::run(w);
+  w.when(w(WasKnown{}) && (w(AcksHighest{}) || w(AcksMissing{})),
+         [&] { w.for_streams([](auto& r) { r.raise(AnnouncedAgain{}); }); });
+  w.when(!w(WasKnown{}) && w(ResendsCopy{}), [&] { w.call(CopyAgain{}); });
 }
 struct MulticastArrives : Rule<Received<SpdpMulticast>> {
   template <class W>
@@ -373,7 +376,7 @@ struct Amended : Implementation {
                           ReaderRetryDue, CopyDue>;
   /// What has a place of its own in a host.
   using Memory = TypeList<LastHeartbeat, Required, OldCounts, HasAnswered, LastHeard, LastNack,
-                          HasAsked, MatchedAt, CopiesLeft>;
+                          HasAsked, MatchedAt, CopiesLeft, WasKnown>;
   using State =
       Joined<TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay, WriterOpen,
                       CycleBegan, CyclePeriod, Contacted, Responded, AnnouncedAtStart, Resent>,
