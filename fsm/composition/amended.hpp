@@ -110,6 +110,11 @@ using Clock = ClockRules<Implementation>;
 using SharedReader = ReaderRules<Implementation>;
 using SharedAnnouncements = AnnouncementRules<Implementation>;
 
+/// The destination of the pair knew its source before the announcement that it hears.
+struct WasKnown : Flag<owner::pair> {};
+/// The writer of a relation, whom its reader knows, announces itself.
+struct AnnouncedAgain : Occasion<owner::relation> {};
+
 // The reader. -------------------------------------------------------------------------------------
 
 template <class Event, class W>
@@ -203,12 +208,12 @@ struct TakeRequestsAgain : Procedure {
   static void body(W& w) {
     w.when(w(ReopensAcknowledged{}), [&] {
       const auto again = w.feed_each(C{}, on<reopening_repair::RequestedAgain>, no_input,
-                                     [](auto& d) { return d(Listed{}); });
+                                     [](auto& d) { return d(Listed{}) && !d(RequestsNothing{}); });
       w.when(w.any(again.requested),
              [&] { w.after(paper::NackResponseDelay{}, paper::RepairGeneration{}); });
     });
     const auto asked_again = [](auto& d) {
-      return d(Listed{}) && d.in(C{}, is<descriptor_repair::A>);
+      return d(Listed{}) && !d(RequestsNothing{}) && d.in(C{}, is<descriptor_repair::A>);
     };
     w.when(w(ResendsAcknowledged{}) && w.some(asked_again), [&] {
       w.set_each(Resent{}, [&](auto& d) { return d(Resent{}) || asked_again(d); });
@@ -300,25 +305,23 @@ struct SuppressionEnds : Rule<Due<paper::SuppressionEnd>> {
 
 // Announcements. ----------------------------------------------------------------------------------
 
-/// The announcement of somebody who is known may make the reader say what it has: correctly, or
-/// with everything below the highest that it has as received.
-struct AnswerAnnouncement : Procedure {
+/// Somebody whom the reader knows announces itself again. The reader may say what it has:
+/// correctly, or with everything below the highest that it has as received.
+struct AnswerAnnouncement : Rule<Happens<AnnouncedAgain>> {
   template <class W>
-  static void body(W& w) {
-    w.for_streams([](auto& r) {
-      const auto has_some = r.some([](auto& d) { return d(X{}); });
-      r.when(r(AcksMissing{}) && has_some, [&] { Implementation::emit_acknack(r); });
-      r.when(r(AcksHighest{}) && has_some, [&] {
-        const auto above = [](auto& d) {
-          return !d(X{}) && !d.some_from_here([](auto& e) { return e(X{}); });
-        };
-        const auto below = [](auto& d) {
-          return d(X{}) || d.some_from_here([](auto& e) { return e(X{}); });
-        };
-        r.emit(AckNack{},
-               says(Says{Listed{}, above}, Says{BelowBase{}, below},
-                    Says{IsInitial{}, typename W::Bool(false)}, Says{Answered{}, r(LastHeard{})}));
-      });
+  static void run(W& w) {
+    const auto has_some = w.some([](auto& d) { return d(X{}); });
+    w.when(w(AcksMissing{}) && has_some, [&] { Implementation::emit_acknack(w); });
+    w.when(w(AcksHighest{}) && has_some, [&] {
+      const auto above = [](auto& d) {
+        return !d(X{}) && !d.some_from_here([](auto& e) { return e(X{}); });
+      };
+      const auto below = [](auto& d) {
+        return d(X{}) || d.some_from_here([](auto& e) { return e(X{}); });
+      };
+      w.emit(AckNack{},
+             says(Says{Listed{}, above}, Says{BelowBase{}, below},
+                  Says{IsInitial{}, typename W::Bool(false)}, Says{Answered{}, w(LastHeard{})}));
     });
   }
 };
@@ -336,10 +339,11 @@ struct CopyAgain : Procedure {
 /// `Usual` is the rule of the paper for the same packet.
 template <class Usual, class W>
 void hear(W& w) {
-  const auto is_known = w(Recognised{});
+  w.set(WasKnown{}, w(Recognised{}));
   Usual::run(w);
-  w.when(is_known && (w(AcksHighest{}) || w(AcksMissing{})), [&] { w.call(AnswerAnnouncement{}); });
-  w.when(!is_known && w(ResendsCopy{}), [&] { w.call(CopyAgain{}); });
+  w.when(w(WasKnown{}) && (w(AcksHighest{}) || w(AcksMissing{})),
+         [&] { w.for_streams([](auto& r) { r.raise(AnnouncedAgain{}); }); });
+  w.when(!w(WasKnown{}) && w(ResendsCopy{}), [&] { w.call(CopyAgain{}); });
 }
 struct MulticastArrives : Rule<Received<SpdpMulticast>> {
   template <class W>
@@ -372,19 +376,19 @@ struct Amended : Implementation {
                           ReaderRetryDue, CopyDue>;
   /// What has a place of its own in a host.
   using Memory = TypeList<LastHeartbeat, Required, OldCounts, HasAnswered, LastHeard, LastNack,
-                          HasAsked, MatchedAt, CopiesLeft>;
+                          HasAsked, MatchedAt, CopiesLeft, WasKnown>;
   using State =
       Joined<TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay, WriterOpen,
                       CycleBegan, CyclePeriod, Contacted, Responded, AnnouncedAtStart, Resent>,
              Memory>;
   using Packets = TypeList<SpdpMulticast, SpdpUnicast, Data, Heartbeat, AckNack>;
-  using Occasions = TypeList<ReaderOpens, WriterOpens>;
-  using Rules =
-      Joined<TypeList<SharedAnnouncements::AnnouncementIsDue, MulticastArrives, UnicastArrives,
-                      CopyIsDue, ReaderOpened, InitialAckNackDue, SharedReader::DataArrives,
-                      SharedReader::HeartbeatArrives, SharedReader::AckNackDue, ReaderRetries,
-                      WriterSideOpens, AckNackArrives, RepairIsDue, RepairHasLeft, SuppressionEnds>,
-             Clock::Rules>;
+  using Occasions = TypeList<ReaderOpens, WriterOpens, AnnouncedAgain>;
+  using Rules = Joined<
+      TypeList<SharedAnnouncements::AnnouncementIsDue, MulticastArrives, UnicastArrives, CopyIsDue,
+               AnswerAnnouncement, ReaderOpened, InitialAckNackDue, SharedReader::DataArrives,
+               SharedReader::HeartbeatArrives, SharedReader::AckNackDue, ReaderRetries,
+               WriterSideOpens, AckNackArrives, RepairIsDue, RepairHasLeft, SuppressionEnds>,
+      Clock::Rules>;
   using IsOpen = WriterOpen;
   static constexpr std::array<Unused, 0> unused{};
   static constexpr std::array from_outside{announcements_start};

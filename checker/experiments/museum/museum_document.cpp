@@ -134,12 +134,18 @@ void tell(Document& document, const ShownExhibit& shown) {
 
 Table list_of(const Report& report) {
   Table table;
+  Column defect{"defect"};
+  defect.wraps = true;
+  Column property{"property"};
+  property.audience = report::Audience::verbose;
   Column sentence{"what happens"};
   sentence.wraps = true;
   sentence.audience = report::Audience::verbose;
-  table.columns = {{"id"},     {"vendor"},   {"year", Column::Align::right},
-                   {"defect"}, {"property"}, {"before"},
-                   {"after"},  {"decoys"},   sentence};
+  Column vendor{"vendor"};
+  vendor.wraps = true;
+  table.columns = {{"id"},    vendor,     {"year", Column::Align::right},
+                   defect,    property,   {"before"},
+                   {"after"}, {"decoys"}, sentence};
   for (const ShownExhibit& shown : report.exhibits) {
     Text decoys;
     for (const Found& found : shown.decoys) {
@@ -169,7 +175,9 @@ void judge(Document& document, const Report& report) {
                     wrong == 1 ? "is" : "are", wrong == 1 ? "it is" : "they are");
   } else if (report.exhibits.size() == 1) {
     document.tone = Tone::good;
-    document.answer = report.exhibits.front().exhibit.title;
+    document.answer = fmt::format("{}: {} before, {} after.", report.exhibits.front().exhibit.title,
+                                  name_of(report.exhibits.front().before.verdict),
+                                  name_of(report.exhibits.front().after.verdict));
   } else {
     document.tone = Tone::good;
     document.answer = fmt::format(

@@ -108,13 +108,12 @@ class Recovery final : public ClaimMonitor {
         std::ranges::find_if(relations_, [](const Relation& r) { return r.missing > 0; });
     if (missing == relations_.end()) return;
     const auto number = static_cast<std::uint32_t>(missing - relations_.begin());
-    object(
-        missing->event, missing->time,
-        fmt::format("This is the last that happens before {} is due. Nothing fails after {}, and "
-                    "{} descriptor{} of {} {} still missing there.",
-                    props::time_text(failed_ + bound_), props::time_text(failed_), missing->missing,
-                    missing->missing == 1 ? "" : "s", props::relation_text(*names_, number),
-                    missing->missing == 1 ? "is" : "are"));
+    object(missing->event, missing->time,
+           fmt::format("Nothing more happens there until {}: {} descriptor{} of {} {} still "
+                       "missing, and nothing has failed since {}.",
+                       props::time_text(failed_ + bound_), missing->missing,
+                       missing->missing == 1 ? "" : "s", props::relation_text(*names_, number),
+                       missing->missing == 1 ? "is" : "are", props::time_text(failed_)));
   }
 
   const model::Life life_;

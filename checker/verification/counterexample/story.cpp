@@ -84,6 +84,26 @@ bool leaves_out_more(const Relevance& relevance, const Selected& gap) {
 
 }  // namespace
 
+namespace {
+/// "; before the run 1 has forgotten 0; 2 is silent from 500 µs": empty if nothing of the kind.
+std::string life_text(const model::Deployment& deployment) {
+  if (!deployment.life) return "";
+  std::string text;
+  for (const model::StaleRelation& stale : deployment.life->stale) {
+    text += fmt::format("{}{} has forgotten {}", text.empty() ? "; before the run " : ", ",
+                        stale.reader, stale.writer);
+  }
+  for (const model::Mute& mute : deployment.life->mute) {
+    text += fmt::format("; {} is silent from {}", mute.participant, props::time_text(mute.from));
+  }
+  for (const model::Outage& outage : deployment.life->outages) {
+    text += fmt::format("; {} does not receive from {} from {} to {}", outage.to, outage.from,
+                        props::time_text(outage.start), props::time_text(outage.end));
+  }
+  return text;
+}
+}  // namespace
+
 std::string deployment_text(const model::Scenario& scenario) {
   const auto& participants = scenario.deployment.participants;
   const auto alike = [&](const model::Participant& p) {
@@ -104,7 +124,8 @@ std::string deployment_text(const model::Scenario& scenario) {
     }
     if (participants.size() > listed) text += "; …";
   }
-  return text + fmt::format("; {}'s writer; ", model::traits_of(scenario.dds).whose) +
+  return text + life_text(scenario.deployment) +
+         fmt::format("; {}'s writer; ", model::traits_of(scenario.dds).whose) +
          network_text(scenario.wireless);
 }
 

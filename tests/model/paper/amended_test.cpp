@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/model/run_log.hpp"
+#include "tests/oracle/random_scenario.hpp"
 
 namespace stormproof::model {
 namespace amended_test {
@@ -82,6 +83,26 @@ TEST(Amended, AreThePapersIfNothingIsAmended) {
       EXPECT_EQ(one.sent[k].descriptors, other.sent[k].descriptors);
     }
   }
+}
+
+/// In any scenario, whatever the channel, the policy, and the order of things.
+TEST(Amended, AreThePapersInRandomScenarios) {
+  std::size_t completed = 0;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    const Scenario plain = oracle::random_scenario(seed, ImplementationKind{});
+    Scenario amended = plain;
+    amended.dds.amendments.emplace();
+    RunOptions options;
+    options.max_events = 20'000;
+    const RunResult one = simulate(plain, options);
+    const RunResult other = simulate(amended, options);
+    EXPECT_EQ(one.events, other.events) << seed;
+    EXPECT_EQ(one.end_time, other.end_time) << seed;
+    EXPECT_EQ(one.discovery_time, other.discovery_time) << seed;
+    EXPECT_EQ(one.counts, other.counts) << seed;
+    completed += one.completed() ? 1U : 0U;
+  }
+  EXPECT_GT(completed, 50U);
 }
 
 Scenario forgotten() {
