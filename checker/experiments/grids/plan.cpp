@@ -157,6 +157,11 @@ void Plan::add_job(std::size_t job) {
                              rests_[parts.rest].digest}) {
     text.append(part.begin(), part.end());
   }
+  // What else the seed draws.
+  const bool fails = wireless_[parts.wireless].value.loss.has_value();
+  if (grid_->samples && (fails || rests_[parts.rest].value.hosts)) {
+    text += fmt::format("seed {}", seed(job));
+  }
   digests_.push_back(digest_of(text));
 }
 

@@ -50,7 +50,7 @@ class Study {
                   return !options_.on_progress ||
                          options_.on_progress(doing_, runs, std::max(runs, about_));
                 }} {
-    const bool sampled = scenario().deployment.schedule || options.start_jitter.count() > 0;
+    const bool sampled = model::is_drawn(scenario()) || options.start_jitter.count() > 0;
     const std::size_t samples = sampled ? options.samples : 1;
     report_.is_sampled = sampled;
     report_.searched = {options.seed, sampled ? std::min(search_samples, samples) : 1};

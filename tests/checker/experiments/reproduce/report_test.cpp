@@ -181,7 +181,7 @@ TEST_F(ReportTest, JsonHasEveryCaseWithExactTimes) {
   const auto json = nlohmann::json::parse(to_json(*report_).dump());
   EXPECT_TRUE(document_of(*report_).complete);
   EXPECT_EQ(json["cases"].size(), report_->results.plan.cases.size());
-  EXPECT_EQ(json["configurations"].size(), 4U * 90);
+  EXPECT_EQ(json["configurations"].size(), 5U * 90);
   for (const auto& one : json["cases"]) {
     if (one["network"] == "wireless" && one["participants_per_host"] == 5 &&
         one["endpoints_per_participant"] == 20 && one["order"] == "fifo_uplink" &&
