@@ -192,8 +192,8 @@ void Protocol::send_spdp_to_ports(std::uint32_t i) {
         if (there[port] != i) send_spdp_copy(run_.topology.pair_between(i, there[port]));
       } else if (host != participants[i].host) {
         ++generated_.spdp_unicast;
-        Packet packet =
-            packet_of(PacketKind::spdp_unicast, run_.topology.first_pair(i), spdp_bytes);
+        const std::uint32_t somebody_there = run_.topology.pair_between(i, there.front());
+        Packet packet = packet_of(PacketKind::spdp_unicast, somebody_there, spdp_bytes);
         packet.to_nobody = true;
         network_.emit(i, std::move(packet));
       }

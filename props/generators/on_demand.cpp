@@ -116,4 +116,69 @@ void draw_discovery(std::uint64_t seed, Discovery discovery, Scenario& scenario)
   scenario.deployment.send_cost = Nanoseconds{pick(8, {50, 0, 400}) * 1'000};
 }
 
+namespace {
+void draw_rules(Dice& dice, Amendments& rules) {
+  const auto whether = [&] { return dice.choice<Whether>(2); };
+  constexpr std::int64_t ms = 1'000'000;
+  rules.initial_acknack_resets = whether();
+  rules.initial_acknack_arms = whether();
+  rules.initial_acknack_repeat = dice.choice<InitialAckNackRepeat>(4);
+  rules.initial_acknack_stop = dice.choice<InitialAckNackStop>(2);
+  rules.late_initial = dice.choice<LateInitial>(2);
+  rules.acked_request = dice.choice<AckedRequest>(3);
+  rules.heartbeat_condition = dice.choice<HeartbeatCondition>(2);
+  rules.suppression_end_arms = whether();
+  rules.repair_heartbeat = dice.choice<RepairHeartbeat>(3);
+  rules.acknack_reply = dice.choice<AckNackReply>(3);
+  rules.stale_acknack = dice.choice<StaleAckNack>(5);
+  rules.count_filter = dice.pick<std::uint32_t>({0, 1, 3});
+  rules.on_reannounce = dice.choice<OnReannounce>(3);
+  rules.reader_retry = dice.choice<ReaderRetry>(3);
+  rules.reader_retry_period = Nanoseconds{dice.among({3'000, 20, 1}) * ms};
+  rules.reader_nack_delay = Nanoseconds{dice.among({0, 100, 5}) * ms};
+  rules.resend_copies = dice.count(1, 4);
+  rules.resend_copy_period = Nanoseconds{dice.among({1'000, 50, 1}) * ms};
+  rules.piggyback_account = dice.choice<PiggybackAccount>(2);
+  // A clock that is ahead ends the run if the initial ACKNACK is repeated at once until then.
+  if (rules.initial_acknack_repeat == InitialAckNackRepeat::age_based_zero) return;
+  rules.match_clock_skew = Nanoseconds{dice.among({0, 1'000, 100 * ms})};
+}
+
+Life drawn_life(Dice& dice, const std::vector<Participant>& all) {
+  constexpr std::int64_t ms = 1'000'000;
+  const auto participants = static_cast<std::uint32_t>(all.size());
+  // Of another host; there is one.
+  const auto elsewhere = [&](std::uint32_t one) {
+    std::uint32_t other = dice.count(0, participants - 1);
+    while (all[other].host == all[one].host) other = (other + 1) % participants;
+    return other;
+  };
+  Life life;
+  for (std::uint32_t i = 0; i < participants && life.stale.size() < 3; ++i) {
+    if (dice.chance(30)) life.stale.push_back({i, elsewhere(i)});
+  }
+  if (dice.chance(40)) {
+    life.mute.push_back({dice.count(0, participants - 1),
+                         Nanoseconds{dice.among({0, 10, 500}) * ms + dice.between(0, 3)}});
+  }
+  for (std::uint32_t k = dice.count(0, 2); k > 0; --k) {
+    const std::uint32_t from = dice.count(0, participants - 1);
+    const Nanoseconds start{dice.among({0, 3, 70, 400}) * ms};
+    life.outages.push_back(
+        {from, elsewhere(from), start, start + Nanoseconds{dice.among({1, 50, 2'000}) * ms}});
+  }
+  return life;
+}
+}  // namespace
+
+void draw_amendments(Dice& dice, Scenario& scenario) {
+  Amendments rules;
+  draw_rules(dice, rules);
+  // HEARTBEATs in DATA have no number.
+  if (dice.chance(50)) scenario.dds.sedp.piggyback = Piggyback::off;
+  if (scenario.dds.sedp.piggyback != Piggyback::off) rules.stale_acknack = StaleAckNack::process;
+  scenario.dds.amendments = rules;
+  scenario.deployment.life = drawn_life(dice, scenario.deployment.participants);
+}
+
 }  // namespace stormproof::props

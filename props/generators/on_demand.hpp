@@ -1,5 +1,5 @@
-// What random scenarios of Fast DDS have only if somebody asks: channels and ways to discover of
-// which the engines and laws know too little for every test.
+// What random scenarios have only if somebody asks: channels, ways to discover, amended rules and
+// lives of participants of which the engines and laws know too little for every test.
 #pragma once
 
 #include <cstdint>
@@ -24,5 +24,9 @@ void draw_processor(Dice& dice, model::Scenario& scenario);
 
 /// Another way to discover, with odd knobs of it, as a function of the seed.
 void draw_discovery(std::uint64_t seed, model::Discovery discovery, model::Scenario& scenario);
+
+/// Amended rules of the paper's model, whose profile the scenario must have: most are left as they
+/// are. And what happened before the run, and happens to participants in it.
+void draw_amendments(Dice& dice, model::Scenario& scenario);
 
 }  // namespace stormproof::props

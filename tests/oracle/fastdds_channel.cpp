@@ -86,6 +86,7 @@ void admit(World& w, Id i) {
 // Who is to receive the packet over the loopback (same_host) or over the channel, ascending.
 std::vector<Id> receivers(const World& w, const Packet& packet, bool same_host) {
   std::vector<Id> result;
+  if (packet.to_nobody) return result;
   for (Id j = 0; j < w.participants.size(); ++j) {
     if (j == packet.source || packet.destination.value_or(j) != j) continue;
     if (cross_host(w, packet.source, j) != same_host) result.push_back(j);

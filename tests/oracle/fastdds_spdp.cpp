@@ -39,7 +39,7 @@ void send_to_ports(World& w, Id i) {
         Packet packet;
         packet.kind = PacketKind::spdp;
         packet.source = i;
-        packet.destination = static_cast<Id>(w.participants.size());
+        packet.destination = there.front();  // for its host
         packet.to_nobody = true;
         packet.payload = spdp_payload;
         ++w.outcome.spdp_unicast;

@@ -1,12 +1,16 @@
 // All monitors on correct runs: the shipped scenarios, and random ones of both implementations that
 // use every knob. What they find there is true, so the test says for which scenarios a property may
 // be violated, and that all others never are.
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "model/airtime.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "props/applicability.hpp"
+#include "props/generators/on_demand.hpp"
+#include "props/generators/space.hpp"
 #include "tests/oracle/random_scenario.hpp"
 #include "tests/oracle/sharp_scenario.hpp"
 #include "tests/props/monitored_run.hpp"
@@ -135,6 +139,22 @@ TEST_P(RandomRuns, OverListedHostsLossesAndProcessorsHaveTrueFindingsOnly) {
     const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
     expect_only_true_findings(oracle::varied_fleet_scenario(seed),
                               "fleet, seed " + std::to_string(seed), options);
+  }
+}
+
+/// Rules and lives of the museum: valid as drawn, and the network keeps its own rules whatever
+/// writers and readers do over it.
+TEST_P(RandomRuns, OfAmendedRulesHaveTrueFindingsOnly) {
+  model::RunOptions options;
+  options.max_events = 3'000;
+  for (int k = 0; k < runs_each; ++k) {
+    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
+    Scenario amended =
+        draw_scenario(seed, 100, {.implementation = model::ImplementationKind::paper});
+    Dice dice{seed};
+    draw_amendments(dice, amended);
+    EXPECT_TRUE(model::config::is_valid(amended)) << "seed " << seed;
+    expect_only_true_findings(amended, "amended, seed " + std::to_string(seed), options);
   }
 }
 

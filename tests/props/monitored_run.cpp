@@ -5,7 +5,9 @@
 #include <cstdlib>
 
 #include "model/config/scenario_file.hpp"
+#include "model/implementations.hpp"
 #include "model/trace/probe_list.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::props {
 
@@ -40,6 +42,8 @@ MonitoredRun run_monitored(const model::Scenario& scenario, const model::Scenari
   MonitoredRun run;
   model::trace::ProbeList probes;
   for (const std::string_view property : monitored_properties()) {
+    const auto kind = model::kind_of(specification.dds);
+    if (!why_not_applicable(property, kind).empty()) continue;  // its monitors know no such writer
     run.monitors.push_back(make_monitor(property, specification));
     probes.add(*run.monitors.back());
   }

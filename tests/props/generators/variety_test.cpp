@@ -46,6 +46,11 @@ std::vector<Scenario> drawn_on_demand() {
     }
   }
   for (std::uint64_t seed = 0; seed < 2 * draws_on_demand; ++seed) {
+    list.push_back(draw_scenario(seed, 100, {.implementation = model::ImplementationKind::paper}));
+    Dice dice{seed};
+    draw_amendments(dice, list.back());
+  }
+  for (std::uint64_t seed = 0; seed < 2 * draws_on_demand; ++seed) {
     const Scenario plain =
         draw_scenario(seed, 100, {.implementation = model::ImplementationKind::fastdds});
     Scenario radio = plain;
