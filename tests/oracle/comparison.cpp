@@ -152,6 +152,7 @@ Observed observe_oracle(const model::Scenario& scenario, CycloneMistake mistake,
 Observed observe_oracle(const model::Scenario& scenario, std::uint64_t max_events) {
   switch (scenario.dds.implementation) {
     case model::ImplementationKind::paper:
+    case model::ImplementationKind::paper_amended:
       break;
     case model::ImplementationKind::fastdds:
     case model::ImplementationKind::fastdds_static:

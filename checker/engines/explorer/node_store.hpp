@@ -47,9 +47,12 @@ class NodeStore {
                                      Label label) {
     Node node;
     node.group = find_group(state, frame);
+    node.extent = extent_of(frame.zone());
     std::uint32_t& newest = groups_[node.group].newest;
     for (std::uint32_t k = newest; k != none; k = nodes_[k].next) {
-      if (covers(nodes_[k], frame.zone())) return {k, false};
+      if (nodes_[k].extent.includes(node.extent) && covers(nodes_[k], frame.zone())) {
+        return {k, false};
+      }
     }
     keep(frame.zone(), node);
     node.parent = parent;
@@ -82,7 +85,18 @@ class NodeStore {
     std::uint8_t count = 0;
     std::uint8_t losses_left = 0;
   };
+  /// Sums of bounds. A zone that covers another one has none below the other's, so most that do not
+  /// are told apart without their bounds.
+  struct Extent {
+    std::int64_t since_now = 0;  ///< of the first row
+    std::int64_t others = 0;
+
+    [[nodiscard]] bool includes(const Extent& other) const {
+      return since_now >= other.since_now && others >= other.others;
+    }
+  };
   struct Node {
+    Extent extent{};
     const std::int32_t* narrow = nullptr;  ///< bounds, row by row; or
     const std::int64_t* wide = nullptr;    ///< these
     std::uint32_t group = 0;
@@ -148,6 +162,17 @@ class NodeStore {
     }
   }
 
+  static Extent extent_of(const Zone& zone) {
+    // Cut off, so that no sum overflows; cutting keeps the order.
+    constexpr std::int64_t most = std::int64_t{1} << 48;
+    Extent extent;
+    for (unsigned i = 0; i < zone.size(); ++i) {
+      std::int64_t sum = 0;
+      for (unsigned j = 0; j < zone.size(); ++j) sum += std::clamp(zone.row(i)[j], -most, most);
+      (i == 0 ? extent.since_now : extent.others) += sum;
+    }
+    return extent;
+  }
   template <class Bound>
   static bool covers(const Bound* known, const Zone& zone) {
     for (unsigned i = 0; i < zone.size(); ++i, known += zone.size()) {
