@@ -88,10 +88,12 @@ Facts facts_of(const Variant& variant, const Found& found) {
   return facts;
 }
 
-void tell(Document& document, const ShownExhibit& shown) {
+/// What it is, before, after and the decoys; `prefix` makes ids unique where there are several.
+report::Blocks story_of(const ShownExhibit& shown, const std::string& prefix,
+                        std::set<std::string>& machines) {
+  report::Blocks blocks;
   const Exhibit& exhibit = shown.exhibit;
   const Claim& claim = *find_claim(exhibit.claim);
-  std::set<std::string> machines;
 
   Section what{"What it is"};
   what.blocks.emplace_back(Paragraph{exhibit.sentence});
@@ -106,30 +108,55 @@ void tell(Document& document, const ShownExhibit& shown) {
   if (exhibit.bound) facts.rows.emplace_back("bound B", props::time_text(*exhibit.bound));
   what.blocks.emplace_back(std::move(facts));
   what.blocks.emplace_back(changed_knobs(exhibit));
-  document.blocks.emplace_back(std::move(what));
+  blocks.emplace_back(std::move(what));
 
-  Section before{"Before", "before"};
+  Section before{"Before", prefix + "before"};
   before.blocks.emplace_back(facts_of(exhibit.before, shown.before));
-  add_counterexample(before.blocks, shown.before, "before", machines);
-  document.blocks.emplace_back(std::move(before));
+  add_counterexample(before.blocks, shown.before, prefix + "before", machines);
+  blocks.emplace_back(std::move(before));
 
-  Section after{"After", "after"};
+  Section after{"After", prefix + "after"};
   after.blocks.emplace_back(Paragraph{exhibit.fix});
   after.blocks.emplace_back(facts_of(exhibit.after, shown.after));
-  add_counterexample(after.blocks, shown.after, "after", machines);
-  document.blocks.emplace_back(std::move(after));
+  add_counterexample(after.blocks, shown.after, prefix + "after", machines);
+  blocks.emplace_back(std::move(after));
 
   for (std::size_t k = 0; k < shown.decoys.size(); ++k) {
     const Variant& decoy = exhibit.decoys[k];
-    Section section{fmt::format("Instead: {}", decoy.title), fmt::format("decoy-{}", k)};
+    const std::string id = fmt::format("{}decoy-{}", prefix, k);
+    Section section{fmt::format("Instead: {}", decoy.title), id};
     section.blocks.emplace_back(Paragraph{code(text_of(decoy.changes))});
     section.blocks.emplace_back(facts_of(decoy, shown.decoys[k]));
-    add_counterexample(section.blocks, shown.decoys[k], fmt::format("decoy-{}", k), machines);
-    document.blocks.emplace_back(std::move(section));
+    add_counterexample(section.blocks, shown.decoys[k], id, machines);
+    blocks.emplace_back(std::move(section));
   }
+  return blocks;
+}
+
+void append(report::Blocks& to, report::Blocks blocks) {
+  for (report::Block& block : blocks) to.push_back(std::move(block));
+}
+
+/// One of them.
+void tell(Document& document, const ShownExhibit& shown) {
+  std::set<std::string> machines;
+  append(document.blocks, story_of(shown, "", machines));
   if (!machines.empty()) {
     document.blocks.emplace_back(counterexample::diagrams_of(machines), report::Audience::page);
   }
+}
+
+/// Each of several, folded, on pages only: they have room for all charts.
+void tell_all(Document& document, const Report& report) {
+  std::set<std::string> machines;
+  for (const ShownExhibit& shown : report.exhibits) {
+    const std::string& id = shown.exhibit.id;
+    Section section{fmt::format("{}: {}", id, shown.exhibit.title), id};
+    section.blocks = story_of(shown, id + "-", machines);
+    section.folded = true;
+    document.blocks.emplace_back(std::move(section), report::Audience::page);
+  }
+  document.blocks.emplace_back(counterexample::diagrams_of(machines), report::Audience::page);
 }
 
 Table list_of(const Report& report) {
@@ -138,14 +165,11 @@ Table list_of(const Report& report) {
   defect.wraps = true;
   Column property{"property"};
   property.audience = report::Audience::verbose;
-  Column sentence{"what happens"};
-  sentence.wraps = true;
-  sentence.audience = report::Audience::verbose;
   Column vendor{"vendor"};
   vendor.wraps = true;
-  table.columns = {{"id"},    vendor,     {"year", Column::Align::right},
-                   defect,    property,   {"before"},
-                   {"after"}, {"decoys"}, sentence};
+  table.columns = {{"id"},    vendor,    {"year", Column::Align::right},
+                   defect,    property,  {"before"},
+                   {"after"}, {"decoys"}};
   for (const ShownExhibit& shown : report.exhibits) {
     Text decoys;
     for (const Found& found : shown.decoys) {
@@ -155,7 +179,7 @@ Table list_of(const Report& report) {
     table.rows.push_back(
         {{code(shown.exhibit.id), shown.exhibit.vendor, fmt::format("{}", shown.exhibit.year),
           shown.exhibit.title, code(shown.exhibit.claim), report::badge(shown.before.verdict),
-          report::badge(shown.after.verdict), decoys, shown.exhibit.sentence},
+          report::badge(shown.after.verdict), decoys},
          !shown.as_expected()});
   }
   return table;
@@ -197,6 +221,7 @@ Document document_of(const Report& report, const std::string& reference) {
     tell(document, report.exhibits.front());
   } else {
     document.blocks.emplace_back(list_of(report));
+    tell_all(document, report);
     document.next = {{command_of("E3"), "the story of one of them"}};
   }
   document.assumptions = {
