@@ -1,6 +1,5 @@
 // The page for people: the answer, who is there, what was sent, why, and what to change.
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +7,7 @@
 #include "checker/evidence/capture/summary.hpp"
 #include "checker/evidence/doctor/doctor.hpp"
 #include "checker/presentation/text/command_line.hpp"
+#include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
@@ -25,12 +25,7 @@ using report::Tone;
 constexpr auto to_the_right = Column::Align::right;
 
 std::string time_text(const std::optional<double>& ns) {
-  if (!ns) return "not within the limit";
-  return report::duration(model::Nanoseconds{static_cast<std::int64_t>(std::llround(*ns))});
-}
-
-std::string count_text(const std::optional<double>& count) {
-  return count ? grouped(static_cast<std::uint64_t>(std::llround(*count))) : "–";
+  return report::time_figure(ns, "not within the limit");
 }
 
 std::string amplification(const Report& report) {
@@ -101,22 +96,36 @@ report::Facts who(const Report& report) {
   return facts;
 }
 
-Section messages(const Report& report) {
+/// What was captured beside what a discovery without failures needs; with `last_second`, of that,
+/// too.
+Table counts_table(const Report& report, const model::Counts* last_second = nullptr) {
   Table table{{{"messages"},
                {"captured", to_the_right},
                {"failure-free", to_the_right},
                {"amplification", to_the_right}},
               {}};
-  for (const model::MessageClass one : model::message_classes) {
-    const std::uint64_t needed = report.failure_free[one];
-    const std::uint64_t sent = report.counting.counts[one];
-    table.rows.push_back({{words_of(one), grouped(sent), grouped(needed),
-                           report::ratio(static_cast<double>(sent), static_cast<double>(needed))}});
+  const auto add = [&](std::string_view name, const auto& number) {
+    const std::uint64_t sent = number(report.counting.counts);
+    const std::uint64_t needed = number(report.failure_free);
+    Table::Row row{{name, grouped(sent), grouped(needed),
+                    report::ratio(static_cast<double>(sent), static_cast<double>(needed))}};
+    if (last_second != nullptr) {
+      row.cells.insert(row.cells.begin() + 1, grouped(number(*last_second)));
+    }
+    table.rows.push_back(std::move(row));
+  };
+  if (last_second != nullptr) {
+    table.columns.insert(table.columns.begin() + 1, Column{"last second", to_the_right});
   }
-  table.rows.push_back(
-      {{"total", grouped(report.counting.counts.total()), grouped(report.failure_free.total()),
-        report::ratio(static_cast<double>(report.counting.counts.total()),
-                      static_cast<double>(report.failure_free.total()))}});
+  for (const model::MessageClass one : model::message_classes) {
+    add(words_of(one), [one](const model::Counts& counts) { return counts[one]; });
+  }
+  add("total", [](const model::Counts& counts) { return counts.total(); });
+  return table;
+}
+
+Section messages(const Report& report) {
+  Table table = counts_table(report);
   if (report.later_announcements > 0) {
     table.caption = fmt::format(
         "{} announcements after the last descriptor go on forever and do "
@@ -161,11 +170,11 @@ Section what_to_change(const Report& report) {
                {"messages", to_the_right}},
               {}};
   table.rows.push_back({{"", "as it is", time_text(report.advice.front().before.completion_ns),
-                         count_text(report.advice.front().before.messages)}});
+                         report::count_figure(report.advice.front().before.messages)}});
   for (std::size_t k = 0; k < report.advice.size(); ++k) {
     const Advice& one = report.advice[k];
     Table::Row row{{std::to_string(k + 1), one.settings, time_text(one.after.completion_ns),
-                    count_text(one.after.messages)}};
+                    report::count_figure(one.after.messages)}};
     row.summary = "the file to deploy";
     row.details.emplace_back(report::Listing{one.xml, "xml"}, report::Audience::documents);
     if (!one.prerequisites.empty()) {
@@ -248,24 +257,8 @@ report::Document glance_at(const Report& report, std::int64_t now_ns) {
   document.tone = tone_of(report.health);
   document.answer = answer(report);
   document.blocks.emplace_back(who(report));
-  Table table{{{"messages"},
-               {"last second", to_the_right},
-               {"captured", to_the_right},
-               {"failure-free", to_the_right},
-               {"amplification", to_the_right}},
-              {}};
-  const auto row = [&](std::string name, std::uint64_t last, std::uint64_t sent,
-                       std::uint64_t needed) {
-    table.rows.push_back({{std::move(name), grouped(last), grouped(sent), grouped(needed),
-                           report::ratio(static_cast<double>(sent), static_cast<double>(needed))}});
-  };
   const model::Counts last = of_last_second(report, now_ns);
-  for (const model::MessageClass one : model::message_classes) {
-    row(std::string{words_of(one)}, last[one], report.counting.counts[one],
-        report.failure_free[one]);
-  }
-  row("total", last.total(), report.counting.counts.total(), report.failure_free.total());
-  document.blocks.emplace_back(std::move(table));
+  document.blocks.emplace_back(counts_table(report, &last));
   if (!report.causes.empty()) document.blocks.emplace_back(why(report));
   return document;
 }

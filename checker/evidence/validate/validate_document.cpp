@@ -7,6 +7,7 @@
 
 #include "checker/evidence/validate/validate.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/implementations.hpp"
@@ -23,14 +24,10 @@ using report::Tone;
 
 constexpr auto to_the_right = Column::Align::right;
 
-std::string time_text(double ns) {
-  return report::duration(model::Nanoseconds{static_cast<std::int64_t>(std::llround(ns))});
-}
-
 std::string value_text(Figure figure, const std::optional<double>& value, const char* absent) {
   if (!value) return absent;
-  if (is_time(figure)) return time_text(*value);
-  return grouped(static_cast<std::uint64_t>(std::llround(*value)));
+  if (is_time(figure)) return report::time_figure(*value);
+  return report::count_figure(*value);
 }
 
 std::string position_text(const Row& row) {
@@ -116,7 +113,7 @@ report::Section over_time(const Report& report) {
   for (std::size_t k = 1; k <= instants; ++k) {
     const std::size_t step = k * growth.points.size() / instants - 1;
     Table::Row row{
-        {time_text(static_cast<double>(growth.step_ns) * static_cast<double>(step + 1))}};
+        {report::time_figure(static_cast<double>(growth.step_ns) * static_cast<double>(step + 1))}};
     for (const std::size_t index : curves) {
       const auto median =
           static_cast<std::uint64_t>(std::llround(report.bands[step][index].median));

@@ -1,7 +1,6 @@
 // The comparison as a document: which way is best here, all of them at the scenario's own size, how
 // far each goes, and how far that was held against live runs.
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +9,7 @@
 #include "checker/experiments/simulate/tone_of_health.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/command_line.hpp"
+#include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/verification/check/next_steps.hpp"
 
@@ -27,11 +27,7 @@ using report::Tone;
 using statistics::Quantiles;
 
 std::string time_text(const std::optional<double>& ns) {
-  return ns ? report::duration(model::Nanoseconds{std::llround(*ns)}) : "> limit";
-}
-
-std::string count_text(const std::optional<double>& value) {
-  return value ? report::grouped(static_cast<std::uint64_t>(std::llround(*value))) : "–";
+  return report::time_figure(ns, "> limit");
 }
 
 const Quantiles& figure_of(const Cell& cell, Figure figure) {
@@ -158,7 +154,7 @@ class Builder {
         line.cells.emplace_back(range_text(figure_of(cell, Figure::completion)));
         for (const Figure figure : {Figure::messages, Figure::repair_data, Figure::heartbeat,
                                     Figure::acknack, Figure::initial_data, Figure::announcements}) {
-          line.cells.emplace_back(count_text(figure_of(cell, figure).median));
+          line.cells.emplace_back(report::count_figure(figure_of(cell, figure).median));
         }
         line.cells.push_back(report::badge(report::tone_of(cell.health), cell.outcome));
       }
@@ -184,10 +180,11 @@ class Builder {
       Table::Row line{{row.candidate.name}};
       for (const Cell& cell : row.cells) {
         line.cells.emplace_back(
-            cell.runs.empty() ? "–"
-                              : fmt::format("{}{}, {}", cell.breaks ? "✗ " : "",
-                                            time_text(figure_of(cell, Figure::completion).median),
-                                            count_text(figure_of(cell, Figure::messages).median)));
+            cell.runs.empty()
+                ? "–"
+                : fmt::format("{}{}, {}", cell.breaks ? "✗ " : "",
+                              time_text(figure_of(cell, Figure::completion).median),
+                              report::count_figure(figure_of(cell, Figure::messages).median)));
       }
       std::string where = row.breaks_at ? std::to_string(*row.breaks_at) : "not here";
       if (!has_runs(row)) where = "–";

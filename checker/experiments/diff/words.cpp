@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
 
 namespace stormproof::diff {
@@ -21,11 +22,9 @@ std::string signed_value(Measure measure, double value) {
 
 std::string value_text(Measure measure, double value) {
   if (std::isinf(value)) return "never";
-  if (measure == Measure::completion) {
-    return report::duration(model::Nanoseconds{std::llround(value)});
-  }
+  if (measure == Measure::completion) return report::time_figure(value);
   if (measure == Measure::amplification) return fmt::format("{:.3g}×", value);
-  return report::grouped(static_cast<std::uint64_t>(std::llround(value)));
+  return report::count_figure(value);
 }
 
 std::string value_text(Measure measure, const std::optional<double>& value) {

@@ -1,13 +1,13 @@
 // Sampled runs as a document: the distribution of one profile, or the medians of several side by
 // side.
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/core.h>
 
 #include "checker/experiments/simulate/sample_report.hpp"
 #include "checker/experiments/simulate/tone_of_health.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/verification/check/next_steps.hpp"
 
@@ -19,12 +19,8 @@ using statistics::Quantiles;
 using trials::Sample;
 
 using Print = std::string (*)(double);
-std::string as_time(double ns) {
-  return duration(model::Nanoseconds{static_cast<std::int64_t>(std::llround(ns))});
-}
-std::string as_count(double value) {
-  return grouped(static_cast<std::uint64_t>(std::llround(value)));
-}
+std::string as_time(double ns) { return report::time_figure(ns); }
+std::string as_count(double value) { return report::count_figure(value); }
 
 std::string or_beyond(const std::optional<double>& value, Print print) {
   return value ? print(*value) : "> limit";

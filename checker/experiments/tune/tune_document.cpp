@@ -8,6 +8,7 @@
 
 #include "checker/experiments/tune/tune_report.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "model/config/tree/quantities.hpp"
 
@@ -23,13 +24,9 @@ using report::Table;
 using report::Text;
 using report::Tone;
 
-std::string time(const std::optional<double>& value) {
-  return value ? report::duration(model::Nanoseconds{std::llround(*value)}) : "never";
-}
+std::string time(const std::optional<double>& value) { return report::time_figure(value, "never"); }
 
-std::string count(const std::optional<double>& value) {
-  return value ? report::grouped(static_cast<std::uint64_t>(std::llround(*value))) : "–";
-}
+std::string count(const std::optional<double>& value) { return report::count_figure(value); }
 
 /// The last element of a path of elements, with its parent; the name of a property.
 std::string element(const Change& change) {
