@@ -117,6 +117,7 @@ Packet Network::take_copy(Packet& head) const {
 
 void Network::admit(std::uint32_t source) {
   SourceQueue& queue = sources_[source];
+  const bool wired = fleet_.is_wired(fleet_.host_of(source));
   while (queue.head_fits(wireless_.source_queue_bytes)) {
     const bool last_copy = queue.head().copies == 1;
     const std::int64_t demand = queue.head_demand();
@@ -128,12 +129,12 @@ void Network::admit(std::uint32_t source) {
     flight.demand = demand;
     flight.admitted = run_.now;
     if (counts_at_admission_) implementation_->count(flight.packet);
-    const std::uint32_t requested =
-        wireless_.fragment_request == FragmentRequest::at_admission ? flight.fragments : 1;
-    if (fleet_.is_wired(fleet_.host_of(source))) {
+    if (wired) {
       leave_wired_host(slot);
       continue;
     }
+    const std::uint32_t requested =
+        wireless_.fragment_request == FragmentRequest::at_admission ? flight.fragments : 1;
     for (std::uint32_t k = 0; k < requested; ++k) {
       over_access_points_ ? request_up(slot, k) : request(slot, k, 0);
     }
