@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -52,20 +53,8 @@ bool is_assignment(const std::string& line) {
 
 /// SCENARIO, FILE.pcap, [--option], …: to be filled in by the reader.
 bool is_synopsis(const std::string& line) {
-  if (line.find("…") != std::string::npos || line.find(" [") != std::string::npos) return true;
-  std::size_t capitals = 0;
-  char before = ' ';
-  for (const char c : line) {
-    const bool counts =
-        std::isupper(static_cast<unsigned char>(c)) != 0 && (capitals > 0 || before == ' ');
-    capitals = counts ? capitals + 1 : 0;
-    if (capitals > 2 || (capitals == 1 && before == ' ' &&
-                         line.find(c + std::string{".pcap"}) != std::string::npos)) {
-      return true;
-    }
-    before = c;
-  }
-  return false;
+  static const std::regex placeholder{"…| \\[| [A-Z]{3}"};
+  return std::regex_search(line, placeholder);
 }
 
 /// Line `at` with the lines that continue it; `at` becomes the last of them.

@@ -99,63 +99,62 @@ TEST(CorrectRuns, ConstantDelayHasNothingToObjectTo) {
   EXPECT_EQ(run.result.counts.repair_data, 0U);
 }
 
-class RandomRuns : public testing::TestWithParam<int> {};
-
-constexpr int runs_each = 40;
+class RandomRuns : public testing::TestWithParam<int> {
+ protected:
+  /// Runs the scenarios that this part of the seeds draws.
+  template <class Draw>
+  static void each(std::string_view what, const model::RunOptions& options, const Draw& draw) {
+    constexpr int runs_each = 40;
+    for (int k = 0; k < runs_each; ++k) {
+      const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
+      const std::string name = std::string{what} + ", seed " + std::to_string(seed);
+      SCOPED_TRACE(name);
+      expect_only_true_findings(draw(seed), name, options);
+    }
+  }
+  static model::RunOptions short_runs() {
+    model::RunOptions options;
+    options.max_events = 3'000;
+    return options;
+  }
+};
 
 TEST_P(RandomRuns, OfThePapersProtocolHaveTrueFindingsOnly) {
-  for (int k = 0; k < runs_each; ++k) {
-    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
+  each("paper", {}, [](std::uint64_t seed) {
     Scenario scenario = oracle::random_scenario(seed);
-    if (k % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
-    expect_only_true_findings(scenario, "paper, seed " + std::to_string(seed));
-  }
+    if (seed % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
+    return scenario;
+  });
 }
 
 TEST_P(RandomRuns, OfFastDdsHaveTrueFindingsOnly) {
-  for (int k = 0; k < runs_each; ++k) {
-    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
+  each("fastdds", {}, [](std::uint64_t seed) {
     Scenario scenario = oracle::random_fastdds_scenario(seed);
     scenario.dds.implementation = model::ImplementationKind::fastdds;
-    if (k % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
-    expect_only_true_findings(scenario, "fastdds, seed " + std::to_string(seed));
-  }
+    if (seed % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
+    return scenario;
+  });
 }
 
 TEST_P(RandomRuns, OverUnitsAndWithSendersThatStallHaveTrueFindingsOnly) {
-  model::RunOptions options;
-  options.max_events = 3'000;
-  for (int k = 0; k < runs_each; ++k) {
-    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
-    expect_only_true_findings(oracle::varied_wifi_scenario(seed),
-                              "Wi-Fi, seed " + std::to_string(seed), options);
-  }
+  each("Wi-Fi", short_runs(), oracle::varied_wifi_scenario);
 }
 
 TEST_P(RandomRuns, OverListedHostsLossesAndProcessorsHaveTrueFindingsOnly) {
-  model::RunOptions options;
-  options.max_events = 3'000;
-  for (int k = 0; k < runs_each; ++k) {
-    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
-    expect_only_true_findings(oracle::varied_fleet_scenario(seed),
-                              "fleet, seed " + std::to_string(seed), options);
-  }
+  each("fleet", short_runs(), oracle::varied_fleet_scenario);
 }
 
 /// Rules and lives of the museum: valid as drawn, and the network keeps its own rules whatever
 /// writers and readers do over it.
 TEST_P(RandomRuns, OfAmendedRulesHaveTrueFindingsOnly) {
-  model::RunOptions options;
-  options.max_events = 3'000;
-  for (int k = 0; k < runs_each; ++k) {
-    const auto seed = static_cast<std::uint64_t>(runs_each * GetParam() + k);
+  each("amended", short_runs(), [](std::uint64_t seed) {
     Scenario amended =
         draw_scenario(seed, 100, {.implementation = model::ImplementationKind::paper});
     Dice dice{seed};
     draw_amendments(dice, amended);
-    EXPECT_TRUE(model::config::is_valid(amended)) << "seed " << seed;
-    expect_only_true_findings(amended, "amended, seed " + std::to_string(seed), options);
-  }
+    EXPECT_TRUE(model::config::is_valid(amended));
+    return amended;
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomRuns, testing::Range(0, 6));
