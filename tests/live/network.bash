@@ -54,6 +54,13 @@ start_access_point() {
   done
 }
 
+# shape <namespace> : packets wait in front of the link, on the account of their sockets
+shape() {
+  local problem
+  problem=$(ip netns exec "$1" tc qdisc add dev "$interface" root \
+    tbf rate "$rate" burst 3028 limit 1000000000 2>&1) || skip "cannot limit the rate: $problem"
+}
+
 # configure_host <host> : moves its end of the link into its namespace and gives it addresses
 configure_host() {
   local host=$1 space peer=$((1 - $1))
@@ -67,6 +74,7 @@ configure_host() {
     inside "$host" ethtool --offload "$interface" tx off rx off gso off tso off gro off \
       >/dev/null 2>&1 || say "note: cannot turn off checksum offload"
   fi
+  [[ -z ${rate:-} ]] || shape "$space"
   ip -n "$space" address add "${addresses[host]}/24" dev "$interface"
   ip -n "$space" link set dev "$interface" up
   ip -n "$space" route add 224.0.0.0/4 dev "$interface"

@@ -44,6 +44,7 @@ class Recorder final : public Probe {
     sent.from_repair = packet.from_repair;
     sent.carries_heartbeat = packet.carries_heartbeat;
     sent.initial_acknack = packet.initial_acknack;
+    sent.port = packet.port;
     if (destinations.empty()) log_.sent.push_back(sent);
     for (const std::uint32_t destination : destinations) {
       sent.destination = destination;

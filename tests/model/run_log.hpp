@@ -31,6 +31,7 @@ struct Sent {
   bool from_repair = false;
   bool carries_heartbeat = false;
   bool initial_acknack = false;
+  std::uint8_t port = 0;  ///< of its flow
 };
 
 struct Service {

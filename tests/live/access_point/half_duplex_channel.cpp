@@ -27,6 +27,10 @@ HalfDuplexChannel::HalfDuplexChannel(const model::WirelessProfile& wireless,
       limits_{limits},
       losses_{losses},
       random_{losses.seed} {
+  if (wireless.service == model::ServedBy::unit) {
+    units_.emplace(wireless, std::uint32_t{2});
+    return;
+  }
   for (const Direction direction : {Direction::uplink, Direction::downlink}) {
     const model::Stage& stage = wireless.stages[index_of(direction)];
     waiting_.add_stage(rank_of(wireless.order, direction));
@@ -91,43 +95,76 @@ template <class Event>
 void HalfDuplexChannel::step() {
   fsm::Flyweight<fsm::Channel>::Output output{};
   state_ = machine_.step<Event>(
-      state_, {.waiting = !waiting_.empty(), .dispatch_pending = dispatch_.has_value()}, output);
+      state_, {.waiting = waiting() > 0, .dispatch_pending = dispatch_.has_value()}, output);
   if (output.schedule_dispatch) dispatch_ = now_;
   if (output.serve) serve();
 }
 
-void HalfDuplexChannel::wait_for(Direction direction, std::uint32_t frame) {
-  waiting_.push(static_cast<std::uint32_t>(direction), {now_, next_request_++, frame, 0});
-  statistics_.deepest_queue = std::max<std::uint64_t>(statistics_.deepest_queue, waiting_.size());
+void HalfDuplexChannel::wait_for(Direction direction, std::uint32_t name) {
+  const std::uint64_t request = next_request_++;
+  if (!units_) {
+    waiting_.push(static_cast<std::uint32_t>(direction), {now_, request, name, 0});
+  } else {
+    const Frame& frame = frames_[name];
+    const model::Frame asked{request, name, 0, bytes_on_air(frame)};
+    if (direction == Direction::uplink) {
+      units_->request_uplink(frame.station, asked, frame.flow);
+    } else {
+      const bool to_all = frame.cast == Cast::multicast;
+      units_->request_downlink(to_all ? model::Flow::everybody : 1 - frame.station, asked,
+                               frame.flow);
+    }
+  }
+  statistics_.deepest_queue = std::max<std::uint64_t>(statistics_.deepest_queue, waiting());
   step<fsm::channel::ServiceRequested>();
 }
 
 void HalfDuplexChannel::serve() {
+  serving_ = units_ ? choose_unit() : choose_frame();
+  for (const std::uint32_t name : serving_->frames) {
+    --(serving_->direction == Direction::uplink ? station_queue_[frames_[name].station]
+                                                : downlink_queue_);
+  }
+}
+
+HalfDuplexChannel::InService HalfDuplexChannel::choose_frame() {
   const model::WaitingFragments::Choice choice = waiting_.pop();
-  const auto direction = static_cast<Direction>(choice.position);
   const Frame& frame = frames_[choice.request.slot];
-  --(direction == Direction::uplink ? station_queue_[frame.station] : downlink_queue_);
-  const std::int64_t bytes = frame.bytes - ethernet_header_bytes + link_overhead_bytes_;
   const std::int64_t airtime_ns =
-      rate_[index_of(direction)][index_of(frame.cast)].airtime_ns(bytes);
-  serving_ = InService{choice.request, direction, now_, now_ + Nanoseconds{airtime_ns}};
+      rate_[choice.position][index_of(frame.cast)].airtime_ns(bytes_on_air(frame));
+  return {{choice.request.slot},
+          static_cast<Direction>(choice.position),
+          now_,
+          now_ + Nanoseconds{airtime_ns}};
+}
+
+HalfDuplexChannel::InService HalfDuplexChannel::choose_unit() {
+  const model::Unit unit = units_->take();
+  InService chosen{{},
+                   unit.downlink ? Direction::downlink : Direction::uplink,
+                   now_,
+                   now_ + Nanoseconds{unit.duration_ns}};
+  for (const model::Frame& frame : unit.frames) chosen.frames.push_back(frame.slot);
+  return chosen;
 }
 
 void HalfDuplexChannel::finish() {
-  const InService served = *serving_;
-  serving_.reset();
+  const InService served = *std::exchange(serving_, std::nullopt);
   now_ = served.end;
   step<fsm::channel::ServiceFinished>();
 
-  const std::uint32_t name = served.request.slot;
-  const Frame frame = frames_[name];
-  auto& sum = statistics_.served[index_of(served.direction)][index_of(frame.cast)];
-  ++sum.frames;
-  sum.bytes += frame.bytes;
+  // What they share, a unit's frames are of one kind.
+  const Cast cast = frames_[served.frames.front()].cast;
+  auto& sum = statistics_.served[index_of(served.direction)][index_of(cast)];
   sum.busy += served.end - served.start;
-  const ServiceEnd outcome =
-      served.direction == Direction::uplink ? after_uplink(name) : after_downlink();
-  ended_.push_back({name, frame.station, served.direction, served.start, served.end, outcome});
+  for (const std::uint32_t name : served.frames) {
+    const Frame frame = frames_[name];
+    ++sum.frames;
+    sum.bytes += frame.bytes;
+    const ServiceEnd outcome =
+        served.direction == Direction::uplink ? after_uplink(name) : after_downlink();
+    ended_.push_back({name, frame.station, served.direction, served.start, served.end, outcome});
+  }
   step<fsm::channel::EffectsDone>();
 }
 

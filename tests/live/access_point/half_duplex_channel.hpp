@@ -1,9 +1,9 @@
 // The access point without sockets and clocks: requests go in with their times, services come out
 // with theirs. It serves every Ethernet frame twice on one channel, uplink then downlink, by the
 // simulator's rules (specs/guide/model.md, "Packets, fragments, queue, channel") and with the
-// simulator's own parts: the states of fsm::Channel, the waiting fragments, the airtime. What it
-// has beyond the simulator belongs to a real access point: queues that overflow, and frames that
-// are lost.
+// simulator's own parts: the states of fsm::Channel, the waiting fragments or the units of frames,
+// the airtime. What it has beyond the simulator belongs to a real access point: queues that
+// overflow, and frames that are lost.
 #pragma once
 
 #include <array>
@@ -16,6 +16,7 @@
 #include "fsm/flyweight.hpp"
 #include "model/airtime.hpp"
 #include "model/engine/slot_pool.hpp"
+#include "model/engine/unit_channel.hpp"
 #include "model/engine/waiting_fragments.hpp"
 
 namespace stormproof::live {
@@ -47,6 +48,7 @@ struct Frame {
   std::uint32_t station = 0;  ///< who sent it: 0 or 1
   std::int64_t bytes = 0;     ///< with the Ethernet header, without its checksum
   Cast cast{};
+  model::Flow flow = {};  ///< its conversation, if the profile keeps flows apart
 };
 
 /// What became of a frame at the end of a service.
@@ -114,11 +116,13 @@ class HalfDuplexChannel {
 
   [[nodiscard]] const ChannelStatistics& statistics() const { return statistics_; }
   /// Frames that wait, and the one in service.
-  [[nodiscard]] std::uint64_t frames_inside() const { return waiting_.size() + (serving_ ? 1 : 0); }
+  [[nodiscard]] std::uint64_t frames_inside() const {
+    return waiting() + (serving_ ? serving_->frames.size() : 0);
+  }
 
  private:
   struct InService {
-    model::ServiceRequest request;
+    std::vector<std::uint32_t> frames;  // one, or with `service: unit` one or several
     Direction direction{};
     Nanoseconds start;
     Nanoseconds end;
@@ -128,7 +132,13 @@ class HalfDuplexChannel {
   template <class Event>
   void step();
   void serve();
+  [[nodiscard]] InService choose_frame();
+  [[nodiscard]] InService choose_unit();
   void finish();
+  [[nodiscard]] std::size_t waiting() const { return units_ ? units_->size() : waiting_.size(); }
+  [[nodiscard]] std::int64_t bytes_on_air(const Frame& frame) const {
+    return frame.bytes - ethernet_header_bytes + link_overhead_bytes_;
+  }
   void wait_for(Direction direction, std::uint32_t frame);
   [[nodiscard]] ServiceEnd after_uplink(std::uint32_t frame);
   [[nodiscard]] ServiceEnd after_downlink();
@@ -144,11 +154,12 @@ class HalfDuplexChannel {
   Nanoseconds now_;
   std::optional<Nanoseconds> dispatch_;  // when it is pending
   std::optional<InService> serving_;
-  model::WaitingFragments waiting_;
+  model::WaitingFragments waiting_;          // with `service: frame`
+  std::optional<model::UnitChannel> units_;  // with `service: unit`
   std::array<std::uint64_t, 2> station_queue_{};
   std::uint64_t downlink_queue_ = 0;
   std::uint64_t next_request_ = 0;
-  model::SlotPool<Frame> frames_;
+  model::SlotPool<Frame> frames_;  // by name
   std::vector<Service> ended_;
   ChannelStatistics statistics_;
 };

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <span>
 
 #include <poll.h>
 #include <sched.h>
@@ -19,6 +20,26 @@ constexpr Nanoseconds polled{50'000};
 constexpr int frames_at_once = 32;
 /// The largest frame of a TAP device, with room to see that it is larger than expected.
 constexpr std::size_t buffer_bytes = 1U << 17U;
+
+/// What the kernel takes for one conversation: of a whole IPv4 datagram its addresses and ports, of
+/// a fragment its addresses alone. The sender has a queue of its own anyway.
+model::Flow flow_of(std::span<const std::byte> frame, bool group) {
+  const auto number = [&](std::size_t at) {
+    return std::to_integer<std::uint32_t>(frame[at]) << 8U |
+           std::to_integer<std::uint32_t>(frame[at + 1]);
+  };
+  constexpr std::size_t ip = ethernet_header_bytes;
+  constexpr std::uint32_t ipv4 = 0x0800;
+  constexpr std::uint32_t more_or_offset = 0x3FFF;
+  const model::Flow hosts{.by_host = true, .destination = group ? model::Flow::everybody : 0};
+  if (frame.size() < ip + 20 || number(ip - 2) != ipv4) return hosts;
+  const std::size_t header = 4 * (std::to_integer<std::size_t>(frame[ip]) & 0xFU);
+  const bool fragment = (number(ip + 6) & more_or_offset) != 0;
+  if (fragment || frame.size() < ip + header + 4) return hosts;
+  return {.source = number(ip + header),
+          .destination = number(ip + header + 2),
+          .port = group ? 1U : 0U};
+}
 
 timespec to_timespec(Nanoseconds duration) {
   const std::int64_t ns = duration > Nanoseconds{0} ? duration.count() : 0;
@@ -89,7 +110,8 @@ bool Relay::read_frame(std::uint32_t station) {
   // The first bit on the wire of the destination address tells a group from one station.
   const bool group = (buffer_[0] & std::byte{1}) != std::byte{0};
   const std::optional<std::uint32_t> name = channel_.request(
-      now(), {station, static_cast<std::int64_t>(*bytes), group ? Cast::multicast : Cast::unicast});
+      now(), {station, static_cast<std::int64_t>(*bytes), group ? Cast::multicast : Cast::unicast,
+              flow_of(std::span{buffer_}.first(*bytes), group)});
   if (!name) return true;
   if (*name >= contents_.size()) contents_.resize(*name + 1);
   const auto end = buffer_.begin() + static_cast<std::ptrdiff_t>(*bytes);

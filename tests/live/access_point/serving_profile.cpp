@@ -12,19 +12,21 @@ std::optional<std::string> why_not_served(const model::WirelessProfile& wireless
   if (wireless.kind != model::ServiceKind::shared_channel) {
     return "kind: an access point serves a channel; expected shared_channel";
   }
-  if (wireless.service == model::ServedBy::unit) {
-    return "service: the access point sends one frame at a time; expected frame";
-  }
   if (wireless.order == model::ServiceOrder::datagram_uplink) {
     return "order: an access point sees frames, not datagrams; expected fifo, fifo_uplink or "
            "fifo_downlink";
   }
-  if (wireless.stages.size() != 2 || wireless.stages[0].channel != wireless.stages[1].channel) {
+  const bool by_unit = wireless.service == model::ServedBy::unit;
+  if (!by_unit &&
+      (wireless.stages.size() != 2 || wireless.stages[0].channel != wireless.stages[1].channel)) {
     return "stages: expected two on one channel, the uplink and the downlink";
   }
   if (!wireless.lost_packets.empty()) {
     return "lost_packets: an access point cannot number the packets of a live run; expected an "
            "empty list, and --loss for random losses";
+  }
+  if (wireless.loss) {
+    return "loss: the access point repeats nothing; expected none, and --loss for random losses";
   }
   return std::nullopt;
 }

@@ -40,12 +40,19 @@ TEST(AccessPointProfile, LeavesTheSendersOfThePaperToTheHosts) {
   EXPECT_TRUE(mentions(remarks[1], "source_queue_bytes"));
 }
 
+TEST(AccessPointProfile, TakesUnitsAndFlows) {
+  const auto read = read_serving_profile("wifi-80211n-ampdu", {"queueing=flows"}, "");
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(read->service, model::ServedBy::unit);
+}
+
 TEST(AccessPointProfile, RefusesWhatTwoTapDevicesCannotBe) {
   EXPECT_TRUE(mentions(refusal("ad-hoc"), "stages: expected two"));
   EXPECT_TRUE(mentions(refusal("cellular"), "stages: expected two on one channel"));
   EXPECT_TRUE(mentions(refusal("wired"), "kind: "));
   EXPECT_TRUE(mentions(refusal("emulated-ap", {"order=datagram_uplink"}), "order: "));
   EXPECT_TRUE(mentions(refusal("emulated-ap", {"lost_packets=[3]"}), "lost_packets: "));
+  EXPECT_TRUE(mentions(refusal("emulated-ap", {"loss={probability: 0.1}"}), "loss: "));
 }
 
 TEST(AccessPointProfile, RefusesBadInputWithItsPlace) {
