@@ -2,7 +2,9 @@
 #include "checker/evidence/validate/validate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -38,17 +40,24 @@ std::int64_t longest_run_s(const capture::Conversation& conversation, const Requ
   return std::max(longest_run_least_s, longest_run_factor * observed_s);
 }
 
+/// What of a deployment a capture does not show.
+constexpr std::array<std::string_view, 4> how_hosts_are_linked{
+    "deployment.loopback_delay=", "deployment.hosts=", "deployment.access_points=",
+    "deployment.wired_delay="};
+
 /// The profiles and overrides, around the captured participants.
 Result<model::Scenario> scenario_of(const Request& request, const CapturedDeployment& deployment,
                                     std::int64_t time_limit_s) {
   for (const std::string& set : request.overrides) {
+    const auto begins = [&](std::string_view key) { return set.starts_with(key); };
     const bool is_captured =
-        (set.starts_with("deployment") && !set.starts_with("deployment.loopback_delay=")) ||
-        set.starts_with("run_until");
+        (begins("deployment") && std::ranges::none_of(how_hosts_are_linked, begins)) ||
+        begins("run_until");
     if (is_captured) {
       return InputError{"--set " + set,
                         "the capture gives the deployment; expected a key of dds or wireless, "
-                        "deployment.loopback_delay or time_limit"};
+                        "deployment.{loopback_delay, hosts, access_points, wired_delay} or "
+                        "time_limit"};
     }
   }
   if (time_limit_s > longest_run_most_s) {
