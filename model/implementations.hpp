@@ -291,13 +291,16 @@ decltype(auto) visit_composition(const DdsProfile& dds, Visit&& visit) {
   return visit_composition(kind_of(dds), visit);
 }
 
-/// The same for engines, of implementations that they know (`is_known_to_engines`). Asking for
-/// another one is a mistake of the program: std::logic_error.
+/// The same for engines, of compositions that they know; static peers have that of Fast DDS. Asking
+/// for another one is a mistake of the program: std::logic_error.
 template <class Visit>
 decltype(auto) visit_engine_composition(const DdsProfile& dds, Visit&& visit) {
-  if (!traits_of(dds).is_known_to_engines) throw std::logic_error{"no engine knows this writer"};
-  if (dds.implementation == ImplementationKind::paper) {
+  const std::size_t index = composition_index(kind_of(dds));
+  if (index == index_of(ImplementationKind::paper)) {
     return visit(Of<fsm::composition::paper::Paper>{});
+  }
+  if (index != index_of(ImplementationKind::fastdds)) {
+    throw std::logic_error{"no engine knows this composition"};
   }
   return visit(Of<fsm::composition::fastdds::FastDds>{});
 }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "checker/evidence/conform/senders.hpp"
+#include "checker/evidence/conform/static_peers.hpp"
 #include "checker/evidence/conform/words.hpp"
 
 namespace stormproof::conform {
@@ -33,51 +34,88 @@ struct Way {
 
 class Announcements {
  public:
-  Announcements(const Dialogue& dialogue, std::size_t participant, const model::SpdpProfile& spdp,
+  Announcements(const Dialogue& dialogue, std::size_t participant, const model::DdsProfile& dds,
                 const Bounds& bounds, Tally<fsm::Announcer>& announcer, Ledger& ledger)
       : dialogue_{dialogue},
         participant_{participant},
-        spdp_{spdp},
+        spdp_{dds.spdp},
         bounds_{bounds},
         announcer_{announcer},
         ledger_{ledger} {
-    for (const Announcement& one : dialogue.announcements[participant]) {
-      if (!one.destination) multicasts_.push_back(one);
+    if (dds.discovery == model::Discovery::static_peers) {
+      static_peers_.emplace(dialogue, participant, dds.peer_ports, bounds);
     }
     for (std::size_t j = 0; j < dialogue.participants(); ++j) {
-      if (j == participant) continue;
-      if (const auto known = known_since(j)) recognitions_.push_back(*known);
+      known_since_.push_back(j == participant ? std::nullopt : known_since(j));
+      if (known_since_.back()) recognitions_.push_back(*known_since_.back());
     }
     std::sort(recognitions_.begin(), recognitions_.end());
-    has_first_copy_.resize(multicasts_.size());
-    for (const Announcement& one : dialogue.announcements[participant]) {
-      if (!one.destination || !is_first_copy(one)) continue;
-      const auto distance = nearest_multicast(one);
-      if (!distance || *distance > bounds.most_send_lag_ns + capture_resolution_ns) continue;
-      has_first_copy_[multicast_with(one)] = true;
-    }
   }
 
   std::optional<Unexplained> explain() {
-    auto fault = explain_multicasts();
+    auto fault = static_peers_ ? explain_rounds() : explain_multicasts(multicasts_of_capture());
     for (const Announcement& one : dialogue_.announcements[participant_]) {
       if (fault && one.event >= fault->event) break;
-      if (!one.destination) continue;
+      if (!one.destination || is_a_round(one)) continue;
       if (auto copy_fault = explain_copy(one)) return copy_fault;
       if (auto copy_fault = one_too_many(one)) return copy_fault;
       ledger_.explained(Rule::announcement_copy, sender_of_copy(one));
     }
+    if (!fault && static_peers_) fault = one_too_few();
     return fault;
   }
 
  private:
+  [[nodiscard]] std::vector<Announcement> multicasts_of_capture() const {
+    std::vector<Announcement> found;
+    for (const Announcement& one : dialogue_.announcements[participant_]) {
+      if (!one.destination) found.push_back(one);
+    }
+    return found;
+  }
+
+  /// With static peers rounds of copies take the place of multicasts. Of ways to find them the
+  /// first that is explained is taken, otherwise the one that is explained farthest.
+  std::optional<Unexplained> explain_rounds() {
+    for (const Announcement& one : dialogue_.announcements[participant_]) {
+      if (one.destination) continue;
+      return fault(one, Fault::announcement_extra, "announcement by multicast",
+                   "with static peers announcements go to the ports of known hosts", {});
+    }
+    std::optional<Unexplained> farthest;
+    for (std::vector<Announcement>& way : static_peers_->ways(known_since_)) {
+      auto fault = explain_multicasts(std::move(way));
+      if (!fault) return std::nullopt;
+      if (!farthest || fault->event > farthest->event) farthest = std::move(fault);
+    }
+    return farthest;
+  }
+  /// Whether it is the copy that a round is known by.
+  [[nodiscard]] bool is_a_round(const Announcement& one) const {
+    return std::any_of(multicasts_.begin(), multicasts_.end(),
+                       [&](const Announcement& round) { return round.event == one.event; });
+  }
+
+  void note_first_copies() {
+    has_first_copy_.assign(multicasts_.size(), false);
+    for (const Announcement& one : dialogue_.announcements[participant_]) {
+      if (!one.destination || !is_first_copy(one)) continue;
+      const auto distance = nearest_multicast(one);
+      if (!distance || *distance > bounds_.most_send_lag_ns + capture_resolution_ns) continue;
+      has_first_copy_[multicast_with(one)] = true;
+    }
+  }
+
   /// When this participant can know participant `j`: the capture of j's first announcement to it. A
-  /// multicast reaches participants on the same host, too.
+  /// multicast reaches participants on the same host, too, and so does a round of copies.
   [[nodiscard]] std::optional<std::int64_t> known_since(std::size_t j) const {
-    const auto announced = dialogue_.first_announced(j, participant_);
-    if (!announced) return std::nullopt;
     const auto& participants = dialogue_.conversation.topology.participants;
     const bool same_host = participants[j].host == participants[participant_].host;
+    auto announced = dialogue_.first_announced(j, participant_);
+    if (static_peers_ && same_host && !dialogue_.announcements[j].empty()) {
+      announced = dialogue_.announcements[j].front().time_ns;
+    }
+    if (!announced) return std::nullopt;
     // The copy on the own host may be there before the one on the network is captured.
     return same_host ? *announced - bounds_.most_send_lag_ns
                      : *announced + bounds_.least_delay_ns - bounds_.clock_error_ns;
@@ -92,7 +130,9 @@ class Announcements {
            spdp_.resend == model::SpdpResend::new_and_multicast;
   }
 
-  std::optional<Unexplained> explain_multicasts() {
+  std::optional<Unexplained> explain_multicasts(std::vector<Announcement> multicasts) {
+    multicasts_ = std::move(multicasts);
+    note_first_copies();
     std::vector<Way> ways(1);
     for (std::size_t k = 0; k < multicasts_.size(); ++k) {
       std::vector<Way> next;
@@ -213,8 +253,10 @@ class Announcements {
   }
 
   std::optional<Unexplained> explain_copy(const Announcement& one) {
-    const auto known = known_since(*one.destination);
-    if (!known || one.time_ns + capture_resolution_ns < *known) {
+    const auto known = known_since_[*one.destination];
+    if (static_peers_ && static_peers_->reaches(*one.destination)) {
+      // It gets one in each round, whether it is known or not.
+    } else if (!known || one.time_ns + capture_resolution_ns < *known) {
       std::vector<Need> needs;
       if (known) {
         needs.push_back(
@@ -226,6 +268,7 @@ class Announcements {
                          : "no announcement of the other participant is in the capture",
                    std::move(needs));
     }
+    if (static_peers_ && multicasts_.empty()) return std::nullopt;  // no copy tells a round
     const auto distance = nearest_multicast(one);
     if (distance && *distance <= bounds_.most_send_lag_ns + capture_resolution_ns) {
       ledger_.used_lag(*distance - capture_resolution_ns);
@@ -242,6 +285,7 @@ class Announcements {
   /// Unless resends go to all, a participant gets a copy with each scheduled multicast, and one
   /// more when it is recognised.
   std::optional<Unexplained> one_too_many(const Announcement& one) {
+    if (static_peers_) return two_too_many(one);
     if (spdp_.resend == model::SpdpResend::all_known || multicasts_.empty()) return std::nullopt;
     const std::size_t most = most_scheduled_ + (spdp_.resend == model::SpdpResend::none ? 0 : 1);
     if (++copies_[*one.destination] <= most) return std::nullopt;
@@ -251,6 +295,33 @@ class Announcements {
                     "most, and with the profile's resend not with the others",
                     most_scheduled_),
         {{"as many scheduled multicasts", {}, {}}});
+  }
+
+  /// In a round a participant gets a copy because it is known, and one at its port.
+  std::optional<Unexplained> two_too_many(const Announcement& one) {
+    if (multicasts_.empty()) return std::nullopt;
+    const std::size_t of_a_round = static_peers_->most_in_a_round(*one.destination);
+    const std::size_t most = of_a_round * multicasts_.size();
+    if (++copies_[*one.destination] <= most) return std::nullopt;
+    return fault(
+        one, Fault::announcement_extra, fmt::format("announcement {} to one participant", most + 1),
+        fmt::format("it gets {} in each of {} rounds at most", of_a_round, multicasts_.size()),
+        {{"as many rounds", {}, {}}});
+  }
+  /// Each round has a copy for every port; the last one may be cut off by the end of the capture.
+  std::optional<Unexplained> one_too_few() {
+    if (multicasts_.empty()) return std::nullopt;
+    for (std::size_t j = 0; j < dialogue_.participants(); ++j) {
+      if (!static_peers_->reaches(j)) continue;
+      const std::size_t copies = static_peers_->copies_to(j);
+      if (copies + 1 >= multicasts_.size()) continue;
+      return fault(
+          multicasts_.back(), Fault::announcement_due,
+          fmt::format("{} announcements to one participant", copies),
+          fmt::format("the {} rounds until then have one each for its port", multicasts_.size()),
+          {});
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] bool is_first_copy(const Announcement& one) const {
@@ -341,7 +412,9 @@ class Announcements {
   const Bounds& bounds_;
   Tally<fsm::Announcer>& announcer_;
   Ledger& ledger_;
-  std::vector<Announcement> multicasts_;
+  std::optional<StaticPeers> static_peers_;
+  std::vector<Announcement> multicasts_;  ///< or, with static peers, the first copy of each round
+  std::vector<std::optional<std::int64_t>> known_since_;  ///< by participant
   std::vector<std::int64_t> recognitions_;     ///< when each other participant can be known
   std::vector<bool> has_first_copy_;           ///< by multicast: the first to somebody goes with it
   std::size_t most_scheduled_ = 0;             ///< multicasts, of all ways to explain them
@@ -352,10 +425,9 @@ class Announcements {
 }  // namespace
 
 std::optional<Unexplained> explain_announcements(const Dialogue& dialogue, std::size_t participant,
-                                                 const model::SpdpProfile& spdp,
-                                                 const Bounds& bounds,
+                                                 const model::DdsProfile& dds, const Bounds& bounds,
                                                  Tally<fsm::Announcer>& announcer, Ledger& ledger) {
-  return Announcements{dialogue, participant, spdp, bounds, announcer, ledger}.explain();
+  return Announcements{dialogue, participant, dds, bounds, announcer, ledger}.explain();
 }
 
 }  // namespace stormproof::conform

@@ -74,8 +74,7 @@ class Check {
 
   void announcements(std::size_t i) {
     at({i, {}, capture::entity::spdp_writer}, [&](Ledger& ledger) {
-      return explain_announcements(dialogue_, i, request_.dds.spdp, request_.bounds, announcer_,
-                                   ledger);
+      return explain_announcements(dialogue_, i, request_.dds, request_.bounds, announcer_, ledger);
     });
   }
 
@@ -239,9 +238,10 @@ std::optional<std::string> refuse_profile(const model::DdsProfile& dds) {
     return "a capture can be held against a profile with `implementation: fastdds`; of "
            "`implementation: cyclone` conformance is not supported yet";
   }
-  if (dds.discovery != model::Discovery::simple) {
-    return "a capture can be held against a profile with `discovery: simple`; conformance with a "
-           "Discovery Server or static peers is not supported yet";
+  if (model::traits_of(dds).has_server) {
+    return "a capture can be held against a profile with `discovery: simple` or `static`; "
+           "conformance "
+           "with a Discovery Server is not supported yet";
   }
   if (model::traits_of(dds).writer != model::Writer::stateful) {
     return "a capture can be held against a profile with `implementation: fastdds`; this one has "

@@ -22,9 +22,11 @@ struct Text {
 };
 
 constexpr std::array<Text, rule_count> rules{{
-    {"announcement.scheduled", "SPDP by multicast when the announcement timer expires",
+    {"announcement.scheduled",
+     "SPDP by multicast, or to the ports of static peers, when the announcement timer expires",
      sends::announcement_due},
-    {"announcement.resent", "SPDP by multicast because a participant was recognised",
+    {"announcement.resent",
+     "SPDP by multicast, or to the ports of static peers, because a participant was recognised",
      sends::resent},
     {"announcement.copy", "SPDP by unicast to a participant that is known", sends::copies_due,
      sends::copies_resent},

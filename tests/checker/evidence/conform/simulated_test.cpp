@@ -117,6 +117,37 @@ void check_random(bool losses) {
   check_conforms(in_order(drawn, versions[*rc::gen::inRange<std::size_t>(0, std::size(versions))]));
 }
 
+model::Scenario with_static_peers(model::Scenario scenario, std::uint32_t ports) {
+  scenario.dds.discovery = model::Discovery::static_peers;
+  scenario.dds.peer_ports = ports;
+  return scenario;
+}
+
+/// Whoever has no port of the first few is announced to once it is known.
+void check_static_peers(bool losses) {
+  const auto ports = *rc::gen::inRange<std::uint32_t>(1, 5);
+  check_conforms(
+      with_static_peers(in_order(*props::scenarios(space(losses)), "fastdds-2.6.11"), ports));
+}
+
+TEST(SimulatedScenario, StaticPeersConformWithTheirPortsOnly) {
+  model::Scenario simple_one = in_order(scenario("live-5x20"), "fastdds-2.6.11");
+  simple_one.deployment = model::Deployment::homogeneous(2, 5, 2);
+  const model::Scenario four = with_static_peers(simple_one, 4);
+  expect_conforming(four);
+  const Simulated run = simulated(four);
+  const Bounds bounds = exact_bounds(four, run);
+  for (const std::uint32_t ports : {2U, 3U, 5U}) {
+    const Conformance other =
+        conformance(run.conversation, with_static_peers(four, ports).dds, bounds);
+    EXPECT_EQ(other.verdict, Verdict::does_not_conform) << ports;
+  }
+  EXPECT_EQ(conformance(run.conversation, profile("fastdds-2.6.11"), bounds).verdict,
+            Verdict::does_not_conform);
+  const Simulated simple = simulated(simple_one);
+  EXPECT_EQ(conformance(simple.conversation, four.dds, bounds).verdict, Verdict::does_not_conform);
+}
+
 /// With any timers that captures resolve, any resends and budgets no run is rejected. (Of some
 /// hundred one is inconclusive, because the machines do not confirm the schedule of requests that
 /// was found.)
@@ -135,6 +166,10 @@ void check_any_knobs(bool losses) {
 RC_GTEST_PROP(SimulatedRandom, ConformsWhateverTheKnobs, ()) { check_any_knobs(true); }
 RC_GTEST_PROP(SimulatedRandom, ConformsWhateverTheKnobsWithoutLosses, ()) {
   check_any_knobs(false);
+}
+RC_GTEST_PROP(SimulatedRandom, ConformsWithStaticPeers, ()) { check_static_peers(true); }
+RC_GTEST_PROP(SimulatedRandom, ConformsWithStaticPeersWithoutLosses, ()) {
+  check_static_peers(false);
 }
 RC_GTEST_PROP(SimulatedRandom, ConformsExactly, ()) { check_random(true); }
 RC_GTEST_PROP(SimulatedRandom, ConformsWithoutAdmittingLosses, ()) { check_random(false); }
