@@ -409,7 +409,7 @@ struct Amended : Implementation {
       Clock::Rules>;
   using IsOpen = WriterOpen;
   static constexpr std::array<Unused, 0> unused{};
-  static constexpr std::array from_outside{announcements_start, participant_returns};
+  static constexpr std::array from_outside{participant_returns};
 };
 
 }  // namespace stormproof::fsm::composition::amended

@@ -111,7 +111,9 @@ struct Returns : Rule<Due<Return>> {
   }
 };
 
-inline constexpr FromOutside participant_returns{
-    "Return", "a participant is there again when the deployment says so"};
+inline constexpr FromOutside participant_returns{"Return",
+                                                 "a participant is there again when the deployment "
+                                                 "says so; its first announcement 0 is due when "
+                                                 "it starts"};
 
 }  // namespace stormproof::fsm::composition::amended
