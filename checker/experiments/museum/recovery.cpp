@@ -1,7 +1,8 @@
 // live.recovery and live.isolation: from the last failure of a run on (a lost packet, the end of an
-// outage, a start), everything has to be complete within the bound. What a silent participant
-// lacks, and what others lack of it, is not asked for. The event that the monitor objects to is the
-// last one that had to do with what is missing: after it there is silence, or waiting.
+// outage, a start or return), everything has to be complete within the bound. What a silent
+// participant lacks, and what others lack of it, is not asked for. The event that the monitor
+// objects to is the last one that had to do with what is missing: after it there is silence, or
+// waiting.
 #include <algorithm>
 #include <bit>
 #include <optional>
