@@ -69,12 +69,36 @@ struct Outage {
   bool operator==(const Outage&) const = default;
 };
 
+/// Who a participant is when it comes back: itself, whom others may still know, or somebody whom
+/// nobody has met.
+enum class Identity : std::uint8_t { same, fresh };
+/// The participant stops without goodbye, and comes back with nothing of what it knew.
+struct Restart {
+  std::uint32_t participant = 0;
+  Nanoseconds stop;
+  Nanoseconds start;  ///< > stop
+  Identity identity = Identity::same;
+
+  bool operator==(const Restart&) const = default;
+};
+/// The lease of one participant.
+struct Lease {
+  std::uint32_t participant = 0;
+  Nanoseconds duration;
+
+  bool operator==(const Lease&) const = default;
+};
+
 /// What happened before the run, and what happens to participants in it; only with
-/// `dds.amendments`, whose rules know it.
+/// `dds.amendments`, whose rules know it (model/life.hpp).
 struct Life {
   std::vector<StaleRelation> stale;
   std::vector<Mute> mute;
   std::vector<Outage> outages;
+  std::vector<Restart> restarts = {};
+  /// How long a participant is remembered of which nothing is heard; absent: for ever.
+  std::optional<Nanoseconds> lease = {};
+  std::vector<Lease> leases = {};  ///< of those with another one
 
   bool operator==(const Life&) const = default;
 };

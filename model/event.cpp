@@ -29,6 +29,7 @@ const char* name_of(EventKind kind) {
                                                                    "participant_start",
                                                                    "spdp_time",
                                                                    "reply_time",
+                                                                   "lease_check",
                                                                    "heartbeat_time",
                                                                    "ack_time",
                                                                    "thread_run",

@@ -37,6 +37,7 @@ enum class EventKind : std::uint8_t {
   participant_start,    ///< subject: participant
   spdp_time,            ///< subject: participant
   reply_time,           ///< subject: pair
+  lease_check,          ///< subject: pair, who is remembered and who remembers
   heartbeat_time,       ///< subject: writer of Cyclone DDS
   ack_time,             ///< subject: relation of Cyclone DDS
   thread_run,           ///< subject: participant

@@ -42,6 +42,15 @@ struct Variation {
   std::optional<Ratio> sizes;   ///< at most 1: of packets and their parts
   std::optional<Ratio> delays;  ///< at most 1: of airtime overheads, rates and constant delays
   std::optional<Ratio> timers;  ///< at most 1: of the periods and delays of the DDS profile
+  // Of the life of participants; all of it happens before `failures_within`.
+  std::optional<std::uint32_t> outages;       ///< at most so many, each in one direction
+  std::optional<std::uint32_t> restarts;      ///< at most so many participants come back
+  std::optional<std::uint32_t> late_joiners;  ///< at most so many participants start later
+  std::optional<Nanoseconds> failures_within;
+  /// `failures_within`, or what is usual.
+  [[nodiscard]] Nanoseconds time_of_failures() const {
+    return failures_within.value_or(Nanoseconds{10'000'000'000});
+  }
 
   bool operator==(const Variation&) const = default;
 };

@@ -88,8 +88,11 @@ struct RunResult {
   static constexpr std::size_t missing_listed = 100;
 
   RunEnd end = RunEnd::no_more_events;
-  Nanoseconds end_time;                       ///< time of the last processed event
-  std::optional<Nanoseconds> discovery_time;  ///< T_disc, if discovery was completed
+  Nanoseconds end_time;  ///< time of the last processed event
+  /// T_disc: when discovery was complete for the last time, if it was so at the end.
+  std::optional<Nanoseconds> discovery_time;
+  /// With `deployment.life`: T_disc after the last failure (model/life.hpp).
+  std::optional<Nanoseconds> recovery_time = {};
   Counts counts;
   std::uint64_t user_control = 0;  ///< messages of control-only relations, in no class
   std::uint64_t events = 0;        ///< processed events

@@ -15,9 +15,10 @@
 
 namespace stormproof::model {
 
-/// What ends a run: the completion of discovery, in the middle of the packet that completes it, or
-/// the time limit alone, so that what follows discovery is part of the run.
-enum class RunUntil : std::uint8_t { completion, time_limit };
+/// What ends a run: the completion of discovery, in the middle of the packet that completes it; the
+/// time limit alone, so that what follows discovery is part of the run; or, before that limit, that
+/// nothing is left to do but announcements, and nothing fails any more.
+enum class RunUntil : std::uint8_t { completion, time_limit, quiescence };
 
 struct Scenario {
   Deployment deployment;

@@ -1,6 +1,7 @@
 // The event loop: the least event of the one queue, again and again (paper, event evolution).
 #include "model/simulator.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "model/fastdds/protocol.hpp"
 #include "model/fastdds/server_protocol.hpp"
 #include "model/implementations.hpp"
+#include "model/life.hpp"
 #include "model/paper/amended_protocol.hpp"
 #include "model/paper/protocol.hpp"
 
@@ -62,7 +64,7 @@ class Simulator {
   RunEnd loop() {
     const std::uint64_t most =
         options_.max_events == 0 ? std::numeric_limits<std::uint64_t>::max() : options_.max_events;
-    if (run_.complete()) discovery_time_ = run_.now;  // nobody advertises anything
+    note_completeness();  // nobody advertises anything
     if (run_.ends_now()) return RunEnd::completed;
     while (!run_.queue.empty()) {
       if (run_.queue.next_time() > run_.scenario.time_limit) return RunEnd::time_limit;
@@ -70,14 +72,30 @@ class Simulator {
       run_.now = event.time;
       ++events_;
       process(event);
-      if (run_.complete() && !discovery_time_) discovery_time_ = run_.now;
+      note_completeness();
       if (run_.ends_now()) return RunEnd::completed;
+      if (is_over()) return RunEnd::no_more_events;
       if (events_ >= most) return RunEnd::interrupted;
       if (events_ % RunOptions::progress_interval == 0 && !report_progress()) {
         return RunEnd::interrupted;
       }
     }
     return RunEnd::no_more_events;
+  }
+
+  /// Who is forgotten has to be learned again.
+  void note_completeness() {
+    if (run_.complete() == discovery_time_.has_value()) return;
+    if (run_.complete())
+      discovery_time_ = run_.now;
+    else
+      discovery_time_.reset();
+  }
+
+  /// Whether the run ends because nothing is left to do.
+  bool is_over() const {
+    return run_.scenario.run_until == RunUntil::quiescence && run_.queue.is_quiet() &&
+           run_.now >= std::max(run_.settled_at, last_failure(run_.scenario.deployment));
   }
 
   void process(const Event& event) {
@@ -128,6 +146,10 @@ class Simulator {
   void report(RunResult& result) {
     result.end_time = run_.now;
     result.discovery_time = discovery_time_;
+    if (discovery_time_ && run_.scenario.deployment.life) {
+      result.recovery_time =
+          std::max(Nanoseconds{}, *discovery_time_ - last_failure(run_.scenario.deployment));
+    }
     result.counts = run_.counts;
     result.user_control = run_.user_control;
     result.events = events_;
@@ -150,6 +172,11 @@ class Simulator {
 
 RunResult simulate(const Scenario& scenario, const RunOptions& options,
                    const ImplementationMaker& maker) {
+  if (has_successors(scenario.deployment)) {
+    Scenario with_all = scenario;
+    with_all.deployment = with_successors(scenario.deployment);
+    return std::make_unique<Simulator>(with_all, options, maker)->run();
+  }
   return std::make_unique<Simulator>(scenario, options, maker)->run();
 }
 

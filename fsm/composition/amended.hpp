@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "fsm/composition/amended_life.hpp"
 #include "fsm/composition/amended_parts.hpp"
 
 namespace stormproof::fsm::composition::amended {
@@ -165,6 +166,21 @@ struct InitialAckNackDue : Rule<Due<InitialAttempt>> {
   }
 };
 
+struct DataArrives : Rule<Received<Data>> {
+  template <class W>
+  static void run(W& w) {
+    SharedReader::DataArrives::run(w);
+    w.call(HearFrom{});
+  }
+};
+struct HeartbeatArrives : Rule<Received<Heartbeat>> {
+  template <class W>
+  static void run(W& w) {
+    SharedReader::HeartbeatArrives::run(w);
+    w.call(HearFrom{});
+  }
+};
+
 struct ReaderRetries : Rule<Due<ReaderRetryDue>> {
   template <class W>
   static void run(W& w) {
@@ -251,6 +267,7 @@ struct TakeAckNack : Procedure {
 struct AckNackArrives : Rule<Received<AckNack>> {
   template <class W>
   static void run(W& w) {
+    w.reverse([](auto& back) { back.call(HearFrom{}); });
     const auto open = w(WriterOpen{});
     const auto is_old = open && w(OldCounts{}) > 0;
     const auto heard = open && !is_old;
@@ -341,6 +358,7 @@ template <class Usual, class W>
 void hear(W& w) {
   w.set(WasKnown{}, w(Recognised{}));
   Usual::run(w);
+  w.call(HearFrom{});
   w.when(w(WasKnown{}) && (w(AcksHighest{}) || w(AcksMissing{})),
          [&] { w.for_streams([](auto& r) { r.raise(AnnouncedAgain{}); }); });
   w.when(!w(WasKnown{}) && w(ResendsCopy{}), [&] { w.call(CopyAgain{}); });
@@ -373,10 +391,10 @@ struct Amended : Implementation {
   using Parts = TypeList<AnnouncementTimer, Reader, InitialTimer, C, HeartbeatClock>;
   using Timers = TypeList<Announcement, AckNackGeneration, InitialAttempt, paper::RepairGeneration,
                           paper::SuppressionEnd, HeartbeatExpiry, CycleStart, CycleEnd, BatchDue,
-                          ReaderRetryDue, CopyDue>;
+                          ReaderRetryDue, CopyDue, LeaseCheck, Return>;
   /// What has a place of its own in a host.
   using Memory = TypeList<LastHeartbeat, Required, OldCounts, HasAnswered, LastHeard, LastNack,
-                          HasAsked, MatchedAt, CopiesLeft, WasKnown>;
+                          HasAsked, MatchedAt, CopiesLeft, WasKnown, ForgottenAt, LeaseRuns>;
   using State =
       Joined<TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay, WriterOpen,
                       CycleBegan, CyclePeriod, Contacted, Responded, AnnouncedAtStart, Resent>,
@@ -385,13 +403,13 @@ struct Amended : Implementation {
   using Occasions = TypeList<ReaderOpens, WriterOpens, AnnouncedAgain>;
   using Rules = Joined<
       TypeList<SharedAnnouncements::AnnouncementIsDue, MulticastArrives, UnicastArrives, CopyIsDue,
-               AnswerAnnouncement, ReaderOpened, InitialAckNackDue, SharedReader::DataArrives,
-               SharedReader::HeartbeatArrives, SharedReader::AckNackDue, ReaderRetries,
-               WriterSideOpens, AckNackArrives, RepairIsDue, RepairHasLeft, SuppressionEnds>,
+               AnswerAnnouncement, ReaderOpened, InitialAckNackDue, DataArrives, HeartbeatArrives,
+               SharedReader::AckNackDue, ReaderRetries, LeaseIsChecked, Returns, WriterSideOpens,
+               AckNackArrives, RepairIsDue, RepairHasLeft, SuppressionEnds>,
       Clock::Rules>;
   using IsOpen = WriterOpen;
   static constexpr std::array<Unused, 0> unused{};
-  static constexpr std::array from_outside{announcements_start};
+  static constexpr std::array from_outside{participant_returns};
 };
 
 }  // namespace stormproof::fsm::composition::amended

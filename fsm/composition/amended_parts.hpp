@@ -16,6 +16,10 @@ struct C : Part<ReopeningRepair, owner::descriptor> {};
 struct ReaderRetryDue : Timer<owner::relation> {};
 /// Another copy of an announcement to a participant that was recognised.
 struct CopyDue : Timer<owner::pair> {};
+/// Whether the pair's destination has heard of its source within the lease.
+struct LeaseCheck : Timer<owner::pair> {};
+/// The participant is there again.
+struct Return : Timer<owner::participant> {};
 
 // Of initial ACKNACKs.
 struct InitialResets : Switch {};
@@ -47,6 +51,10 @@ struct RetriesAfterNack : Switch {};
 struct RetriesWheneverMissing : Switch {};
 struct RetryPeriod : Delay {};
 struct NackDelay : Delay {};
+// Of participants that come and go.
+struct LeaseDuration : Amount {};  ///< of the source of the pair; 0: it is never forgotten
+/// How many ACKNACKs of a reader that came back count as those of its earlier life.
+struct CountFilter : Delay {};
 // Of announcements.
 struct ResendCopies : Delay {};  ///< how many, the first one included
 struct ResendCopyPeriod : Delay {};
@@ -64,6 +72,8 @@ struct LastNack : Number<owner::relation> {};   ///< when it asked last, ns
 struct HasAsked : Flag<owner::relation> {};
 struct MatchedAt : Number<owner::relation> {};  ///< when the match counts as created, ns
 struct CopiesLeft : Number<owner::pair> {};
+struct ForgottenAt : Number<owner::pair> {};  ///< when the lease ends, unless it is renewed
+struct LeaseRuns : Flag<owner::pair> {};
 
 struct HeartbeatNumber : PacketNumber {};
 struct Answered : PacketNumber {};  ///< the HEARTBEAT that the ACKNACK answers

@@ -37,12 +37,12 @@ struct BlockInfo {
 };
 
 struct EffectInfo {
-  std::string id;  ///< "AckNackArrives.3"
-  std::string_view
-      kind;  ///< feed, feed each, set, set each, after, at, cancel, emit, raise, call, perform
-  std::string_view target;        ///< the part, flag, timer, packet, occasion, procedure or step
-  std::string_view owner;         ///< of the target
-  std::string detail;             ///< the event, value, delay or contents
+  std::string id;           ///< "AckNackArrives.3"
+  std::string_view kind;    ///< feed, feed each, renew, set, set each, after, at, cancel, emit,
+                            ///< raise, call, perform
+  std::string_view target;  ///< the part, flag, timer, packet, occasion, procedure or step
+  std::string_view owner;   ///< of the target
+  std::string detail;       ///< the event, value, delay or contents
   std::vector<BlockInfo> blocks;  ///< outermost first
   std::string_view file;          ///< where it is written
   unsigned line = 0;

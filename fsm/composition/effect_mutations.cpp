@@ -48,7 +48,7 @@ bool reacts_twice(const MachineInfo& machine, std::string_view event) {
 
 bool shows_twice(const EffectInfo& effect, const CompositionInfo& composition) {
   static const std::vector<MachineInfo> all = machines();
-  if (is_any(effect.kind, {"set", "set each", "cancel"})) return false;
+  if (is_any(effect.kind, {"renew", "set", "set each", "cancel"})) return false;
   if (!is_any(effect.kind, {"feed", "feed each"})) return true;
   const std::string_view event = std::string_view{effect.detail}.substr(0, effect.detail.find(' '));
   const auto part = std::ranges::find(composition.parts, effect.target, &PartInfo::name);

@@ -187,6 +187,10 @@ class Recorder {
     effect<P>("feed each", detail, site);
     return outbox_of<P>();
   }
+  template <class P>
+  void renew(P, Site site = Site::here()) {
+    effect<P>("renew", "", site);
+  }
   template <class V>
   void set(V, const Said& value, Site site = Site::here()) {
     use(value);

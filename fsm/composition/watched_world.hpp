@@ -163,6 +163,10 @@ class WatchedWorld {
     });
     return output;
   }
+  template <class P>
+  void renew(P part, Site site = Site::here()) {
+    effect<P>("renew", site, [=](auto& w) { w.renew(part); });
+  }
   template <class V, class Value>
   void set(V variable, Value to, Site site = Site::here()) {
     effect<V>("set", site, [=](auto& w) { w.set(variable, to); });

@@ -250,6 +250,9 @@ inline std::int64_t value(comp::amended::ResendCopies, const DdsProfile& dds) {
 inline std::int64_t value(comp::amended::ResendCopyPeriod, const DdsProfile& dds) {
   return dds.amendments->resend_copy_period.count();
 }
+inline std::int64_t value(comp::amended::CountFilter, const DdsProfile& dds) {
+  return dds.amendments->count_filter;
+}
 }  // namespace knobs_of_composition
 
 /// The value of a switch, or of a delay in ns.

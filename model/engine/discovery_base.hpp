@@ -226,13 +226,15 @@ class DiscoveryBase : public Implementation {
     run_.duplicate_deliveries +=
         data.descriptors.count() - bits.count_missing(relation, data.descriptors);
   }
-  /// The reader has these now, and perhaps they complete the run.
+  /// The reader has these now, and perhaps they complete the run, which asks for those that are
+  /// `required`.
   template <class Machine>
-  void take(RelationBits<Machine>& bits, std::uint32_t relation, const DescriptorSet& received) {
+  void take(RelationBits<Machine>& bits, std::uint32_t relation, const DescriptorSet& received,
+            bool required) {
     std::uint32_t& missing = readers_[relation].missing;
     const std::uint32_t fresh =
         received.count() - (topology().descriptor_count(relation) - missing);
-    if (ends(relation).cross_host) {
+    if (required) {
       if (fresh > 0 && fresh == run_.missing) {
         note_last_delivery(relation, bits.missing(relation).lowest());
       }
@@ -241,6 +243,16 @@ class DiscoveryBase : public Implementation {
     }
     bits.receive(relation, received);
     missing -= fresh;
+  }
+
+  /// The reader has lost all that it had.
+  template <class Machine>
+  void lose(RelationBits<Machine>& bits, std::uint32_t relation, bool required) {
+    std::uint32_t& missing = readers_[relation].missing;
+    const std::uint32_t all = topology().descriptor_count(relation);
+    if (required) run_.missing += all - missing;
+    bits.lose(relation);
+    missing = all;
   }
 
   /// A unicast announcement to each participant that i knows.
@@ -280,7 +292,6 @@ class DiscoveryBase : public Implementation {
   };
   std::vector<ReaderSide> readers_;  // by relation
 
- private:
   struct Announcer {
     fsm::StateId state = fsm::Stepper<fsm::Announcer>::initial;
     std::uint32_t sent = 0;
@@ -298,6 +309,10 @@ class DiscoveryBase : public Implementation {
     std::vector<std::vector<std::uint32_t>> batches;
     std::size_t next_batch = 0;
   };
+  std::vector<Announcer> announcers_;
+  std::vector<Clock> clocks_;  // by writer
+
+ private:
   /// What the cycle of its writer knows of a reader.
   struct Asked {
     bool contacted = false;
@@ -316,9 +331,7 @@ class DiscoveryBase : public Implementation {
 
   EffectMutator mutator_{run_.mutation, run_.probe};
   const bool watched_ = mutator_.is_needed();
-  std::vector<Announcer> announcers_;
-  std::vector<Clock> clocks_;  // by writer
-  std::vector<Asked> asked_;   // by relation
+  std::vector<Asked> asked_;  // by relation
   Driver<fsm::Announcer> announcer_driver_{run_, MachineRef::Kind::participant};
   Driver<fsm::DiscoveryReader> reader_driver_{run_, MachineRef::Kind::relation};
   Driver<fsm::InitialAckNack> initial_driver_{run_, MachineRef::Kind::relation};

@@ -44,6 +44,7 @@ class EventQueue {
       push_heap(event);
     }
     ++size_;
+    idle_ += is_idle(kind) ? 1U : 0U;
     return insertion;
   }
 
@@ -53,7 +54,12 @@ class EventQueue {
     return {time, order, subject, 0, kind};
   }
 
+  /// The insertion number of the next event.
+  [[nodiscard]] std::uint64_t next_insertion() const { return inserted_; }
+
   [[nodiscard]] bool empty() const { return size_ == 0; }
+  /// Whether all that is left are announcements, and looks at whether there were any.
+  [[nodiscard]] bool is_quiet() const { return size_ == idle_; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
   /// Time of the next event. The queue must not be empty.
@@ -63,7 +69,12 @@ class EventQueue {
   Event pop() {
     --size_;
     const std::size_t lane = ranking_[0].lane;
-    if (lane == heap_lane) return pop_heap();
+    if (lane == heap_lane) {
+      const Event event = pop_heap();
+      idle_ -= is_idle(event.kind) ? 1U : 0U;
+      return event;
+    }
+    idle_ -= is_idle(static_cast<EventKind>(lane)) ? 1U : 0U;
     RingBuffer<Event>& events = lanes_[lane];
     const Event event = events.front();
     events.pop_front();
@@ -82,6 +93,9 @@ class EventQueue {
     std::size_t lane = 0;
   };
 
+  static constexpr bool is_idle(EventKind kind) {
+    return kind == EventKind::announcement_due || kind == EventKind::lease_check;
+  }
   static bool later(const Event& a, const Event& b) { return b.before(a); }
 
   /// Inserts the lane with first event `event` into the ranking, which few others precede as a
@@ -126,6 +140,7 @@ class EventQueue {
   std::array<Head, event_kind_count + 1> ranking_;  // heads of the lanes in use, in ascending order
   std::size_t ranked_ = 0;
   std::size_t size_ = 0;
+  std::size_t idle_ = 0;  ///< of them, those that go on for ever
   std::uint64_t inserted_ = 0;
 };
 

@@ -51,6 +51,27 @@ class RelationBits {
     }
   }
 
+  /// The reader loses what it has: X := 0.
+  void lose(std::uint32_t relation) {
+    for (std::uint32_t k = 0; k < word_count(relation); ++k) word(relation, k).received = 0;
+  }
+  /// All descriptors in their initial state, none of them generated yet; observers are told that
+  /// those of other states have taken the `step`.
+  void renew(std::uint32_t relation, std::string_view step) {
+    using States = fsm::Reflect<Machine>;
+    for (std::uint32_t k = 0; k < word_count(relation); ++k) {
+      for (fsm::StateId s = 1; s < States::state_count && run_.probe != nullptr; ++s) {
+        const std::uint64_t members = in_state(relation, k, s);
+        if (members == 0) continue;
+        run_.probe->transition({fsm::name_of<Machine>(), MachineRef::Kind::relation, relation},
+                               step, States::state_names[s], States::state_names[0], k, members);
+      }
+      Word fresh;
+      fresh.received = word(relation, k).received;
+      word(relation, k) = fresh;
+    }
+  }
+
   /// X of the descriptors of word k.
   [[nodiscard]] std::uint64_t received(std::uint32_t relation, std::uint32_t k) const {
     return word(relation, k).received;

@@ -6,6 +6,7 @@
 #include "model/counts.hpp"
 #include "model/engine/event_queue.hpp"
 #include "model/engine/topology.hpp"
+#include "model/life.hpp"
 #include "model/mutation.hpp"
 #include "model/probe.hpp"
 #include "model/run_result.hpp"
@@ -22,6 +23,7 @@ struct RunState {
         probe{probe_},
         mutation{mutation_},
         ends_when_complete{scenario_.run_until == RunUntil::completion},
+        settled_at{model::settled_at(scenario_.deployment)},
         missing{topology.required_deliveries()} {}
 
   /// Schedules an event. Returns how many were scheduled: one, unless the run has a mistake in it.
@@ -50,13 +52,16 @@ struct RunState {
 
   [[nodiscard]] bool complete() const { return missing == 0; }
   /// Whether the run ends at once, in the middle of a packet.
-  [[nodiscard]] bool ends_now() const { return complete() && ends_when_complete; }
+  [[nodiscard]] bool ends_now() const {
+    return complete() && ends_when_complete && now >= settled_at;
+  }
 
   const Scenario& scenario;
   const Topology topology;
   Probe* const probe;
   const Mutation* const mutation;  ///< a deliberate mistake, or none
   const bool ends_when_complete;
+  const Nanoseconds settled_at;  ///< what is complete from then on stays so
   EventQueue queue;
   Nanoseconds now;
   Counts counts;

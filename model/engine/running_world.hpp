@@ -11,6 +11,7 @@
 //   said(tag, packet)                    a field of a packet as a whole
 //   fact(tag, world)                     if it keeps a fact up to date instead of evaluating it
 //   driver(part), state(part, n)         of a machine
+//   renew(part, n)                       if rules renew machines
 //   bits(part), lane_order(part)         of the machines of descriptors, and which of those that
 //                                        meet different inputs come first; moved(part, …) tells
 //                                        of each class that has taken a step
@@ -348,6 +349,10 @@ class RunningWorld {
       }
     }
     return total;
+  }
+  template <class P>
+  void renew(P part) {
+    host_.renew(part, number<P::owner>());
   }
   template <class V, class Value>
   void set(V variable, Value to) {

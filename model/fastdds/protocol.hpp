@@ -270,7 +270,7 @@ class Protocol : public DiscoveryBase {
   virtual void begin_announcing(std::uint32_t i) { start_announcing(i); }
   /// The relation's reader has these now.
   virtual void take_descriptors(std::uint32_t relation, const DescriptorSet& received) {
-    take(changes_, relation, received);
+    take(changes_, relation, received, ends(relation).cross_host);
   }
   [[nodiscard]] virtual bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const {
     return d < relations_[2 * pair + index_of(s)].notified;

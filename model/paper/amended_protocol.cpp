@@ -1,4 +1,4 @@
-// What was before the run, who hears whom, and the account of `linear_group`.
+// What was before the run, who hears whom, who is new, and the account of `linear_group`.
 #include "model/paper/amended_protocol.hpp"
 
 #include <algorithm>
@@ -6,6 +6,11 @@
 namespace stormproof::model::paper {
 
 namespace reader = fsm::discovery_reader;
+
+namespace {
+/// What observers are told of a machine that is a new one.
+constexpr std::string_view renewed = "Renewed";
+}  // namespace
 
 AmendedProtocol::AmendedProtocol(RunState& run, Network& network)
     : ProtocolOf{run, network},
@@ -15,7 +20,19 @@ AmendedProtocol::AmendedProtocol(RunState& run, Network& network)
       retries_(run.topology.relation_count()),
       accounts_(run.topology.participant_count()),
       answered_(2 * std::size_t{run.topology.participant_count()}) {
-  std::apply([&](auto&... each) { (each.of.resize(run.topology.relation_count()), ...); }, memory_);
+  const std::uint32_t owners =
+      std::max(run.topology.relation_count(), 2 * run.topology.participant_count());
+  std::apply([&](auto&... each) { (each.of.resize(owners), ...); }, memory_);
+  std::apply([&](auto&... each) { (each.before.resize(owners), ...); }, cancelled_);
+  forgets_ = forgets(life_);
+  for (std::uint32_t i = 0; i < run.topology.participant_count(); ++i) {
+    leases_.push_back(lease_of(life_, i).value_or(Nanoseconds{}).count());
+  }
+  for (std::uint32_t relation = 0; relation < run.topology.relation_count(); ++relation) {
+    if (ends(relation).cross_host && !is_required(relation)) {
+      run_.missing -= run.topology.descriptor_count(relation);
+    }
+  }
 }
 
 void AmendedProtocol::start() {
@@ -23,12 +40,17 @@ void AmendedProtocol::start() {
     open_before(stale.writer, stale.reader);
   }
   ProtocolOf::start();
+  for (const Restart& restart : life_.restarts) {
+    if (restart.identity == Identity::fresh) continue;
+    run_.schedule(restart.start, EventKind::participant_start, restart.participant);
+  }
 }
 
 void AmendedProtocol::open_before(std::uint32_t i, std::uint32_t j) {
   const std::uint32_t there = topology().pair_between(i, j);
   const std::uint32_t back = topology().pair(there).reverse;
   assign(comp::Recognised{}, back, true);
+  RunningWorld<AmendedProtocol, comp::owner::pair>{*this, back}.call(amended::HearFrom{});
   for (std::uint32_t s = 0; s < 2; ++s) {
     // The writer side of (i, j, s).
     const std::uint32_t outward = 2 * there + s;
@@ -48,14 +70,68 @@ void AmendedProtocol::open_before(std::uint32_t i, std::uint32_t j) {
   }
 }
 
-bool AmendedProtocol::is_silent(std::uint32_t participant, Nanoseconds time) const {
-  return std::ranges::any_of(life_.mute, [&](const Mute& mute) {
-    return mute.participant == participant && time >= mute.from;
+void AmendedProtocol::renew(comp::HeartbeatClock, std::uint32_t w) {
+  const auto tokens = clocks_[w].tokens;
+  clocks_[w] = {};
+  clocks_[w].tokens = tokens;
+}
+
+void AmendedProtocol::renew(comp::Reader, std::uint32_t relation) {
+  using States = fsm::Reflect<fsm::DiscoveryReader>;
+  const fsm::StateId before = readers_[relation].state;
+  const fsm::StateId after = topology().descriptor_count(relation) > 0
+                                 ? States::id<reader::Unknown>
+                                 : States::id<reader::EarlyComplete>;
+  readers_[relation].state = after;
+  if (run_.probe == nullptr) return;
+  run_.probe->transition(
+      {fsm::name_of<fsm::DiscoveryReader>(), MachineRef::Kind::relation, relation}, renewed,
+      States::state_names[before], States::state_names[after], 0, 0);
+}
+
+void AmendedProtocol::renew(amended::C, std::uint32_t relation) {
+  descriptors_.renew(relation, renewed);
+  relations_[relation].unacknowledged = topology().descriptor_count(relation);
+}
+
+void AmendedProtocol::lose_all(std::uint32_t i) {
+  renew(comp::AnnouncementTimer{}, i);
+  cancel(comp::Announcement{}, i);
+  participants_[i].sent_bytes = 0;
+  accounts_[i] = {};
+  for (std::uint32_t there = topology().first_pair(i); there < topology().first_pair(i + 1);
+       ++there) {
+    const std::uint32_t back = topology().pair(there).reverse;
+    RunningWorld<AmendedProtocol, comp::owner::pair>{*this, back}.call(amended::Forget{});
+    for (const std::uint32_t relation : {2 * back, 2 * back + 1}) {
+      if (value(comp::paper::WriterOpen{}, relation)) {
+        assign(amended::OldCounts{}, relation, amendments_.count_filter);
+      }
+    }
+  }
+  for (const std::uint32_t w : {2 * i, 2 * i + 1}) {
+    renew(comp::HeartbeatClock{}, w);
+    cancel(comp::HeartbeatExpiry{}, w);
+    cancel(comp::CycleStart{}, w);
+    cancel(comp::CycleEnd{}, w);
+    cancel(comp::BatchDue{}, w);
+    refill(w);
+    answered_[w] = 0;
+  }
+}
+
+std::vector<MissingDescriptor> AmendedProtocol::missing(std::size_t limit) {
+  std::vector<MissingDescriptor> list = descriptors_.list_missing(SIZE_MAX);
+  std::erase_if(list, [&](const MissingDescriptor& missing) {
+    return is_replaced(life_, missing.source.value) ||
+           is_replaced(life_, missing.destination.value);
   });
+  list.resize(std::min(list.size(), limit));
+  return list;
 }
 
 bool AmendedProtocol::hears(std::uint32_t i, std::uint32_t j, Nanoseconds emitted) const {
-  if (!has_started(j) || is_silent(i, emitted) || is_silent(j, run_.now)) return false;
+  if (!has_started(j) || is_away(life_, i, emitted) || is_away(life_, j, run_.now)) return false;
   return std::ranges::none_of(life_.outages, [&](const Outage& outage) {
     return outage.from == i && outage.to == j && run_.now >= outage.start && run_.now < outage.end;
   });
@@ -65,6 +141,7 @@ bool AmendedProtocol::hears(std::uint32_t i, std::uint32_t j, Nanoseconds emitte
 std::uint32_t AmendedProtocol::actor_of(const Event& event) const {
   switch (event.kind) {
     case EventKind::announcement_due:
+    case EventKind::participant_start:
       return event.subject;
     case EventKind::acknack_generation:
     case EventKind::initial_acknack_due:
@@ -74,13 +151,15 @@ std::uint32_t AmendedProtocol::actor_of(const Event& event) const {
       return ends(event.subject).source;
     case EventKind::reply_time:
       return topology().pair(event.subject).source;
+    case EventKind::lease_check:
+      return topology().pair(event.subject).destination;
     default:
       return event.subject / 2;  // of a writer
   }
 }
 
 void AmendedProtocol::handle(const Event& event) {
-  if (!is_silent(actor_of(event), run_.now)) run_due(*this, event);
+  if (!is_away(life_, actor_of(event), run_.now)) run_due(*this, event);
 }
 
 void AmendedProtocol::received(const Packet& packet, std::uint32_t) {

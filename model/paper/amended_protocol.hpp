@@ -1,5 +1,6 @@
 // The host of the amended rules (fsm/composition/amended.hpp): the paper's, with what these rules
-// remember, relations that were open before the run, participants that fall silent, and outages.
+// remember, and the life of participants: relations that were open before the run, participants
+// that fall silent, are forgotten or come back, and outages.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "fsm/composition/amended.hpp"
+#include "model/life.hpp"
 #include "model/paper/protocol.hpp"
 
 namespace stormproof::model {
@@ -19,6 +21,10 @@ inline constexpr EventKind event_kind_of<comp::amended::ReaderRetryDue> =
     EventKind::acknack_generation;
 template <>
 inline constexpr EventKind event_kind_of<comp::amended::CopyDue> = EventKind::reply_time;
+template <>
+inline constexpr EventKind event_kind_of<comp::amended::LeaseCheck> = EventKind::lease_check;
+template <>
+inline constexpr EventKind event_kind_of<comp::amended::Return> = EventKind::participant_start;
 
 }  // namespace stormproof::model
 
@@ -38,6 +44,22 @@ template <class... Vs>
 struct MemoryOf<fsm::TypeList<Vs...>> {
   using type = std::tuple<Remembered<Vs>...>;
 };
+/// Of a timer that can be cancelled, by owner: events that were scheduled before this one are.
+template <class Timer>
+struct Cancelled {
+  std::vector<std::uint64_t> before;
+};
+template <class List>
+struct CancelledOf;
+template <class... Ts>
+struct CancelledOf<fsm::TypeList<Ts...>> {
+  using type = std::tuple<Cancelled<Ts>...>;
+};
+/// Those of a participant or a side that may be a new one.
+using Cancellable =
+    fsm::TypeList<comp::Announcement, comp::AckNackGeneration, comp::InitialAttempt,
+                  comp::paper::RepairGeneration, comp::paper::SuppressionEnd, comp::HeartbeatExpiry,
+                  comp::amended::CopyDue, comp::amended::LeaseCheck>;
 template <class V, class List>
 struct IsOneOf;
 template <class V, class... Vs>
@@ -46,6 +68,8 @@ struct IsOneOf<V, fsm::TypeList<Vs...>> : std::disjunction<std::is_same<V, Vs>..
 /// What the amended rules remember beside the paper's.
 template <class V>
 concept IsRemembered = detail::IsOneOf<V, amended::Amended::Memory>::value;
+template <class Timer>
+concept IsCancellable = detail::IsOneOf<Timer, detail::Cancellable>::value;
 
 class AmendedProtocol final : public ProtocolOf<amended::C> {
  public:
@@ -58,8 +82,10 @@ class AmendedProtocol final : public ProtocolOf<amended::C> {
   void source_completed(const Packet& packet) override;
   void received(const Packet& packet, std::uint32_t receiver) override;
   void renew_bitmap(Packet& acknack) override;
+  [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
 
   // The host of a RunningWorld.
+  using ProtocolOf::answer;
   using ProtocolOf::assign;
   using ProtocolOf::assign_each;
   using ProtocolOf::cancel;
@@ -102,8 +128,49 @@ class AmendedProtocol final : public ProtocolOf<amended::C> {
   [[nodiscard]] bool is_due(amended::ReaderRetryDue, const Event& event) {
     return event.detail == retries_[event.subject] + 1;
   }
+
+  template <IsCancellable Timer>
+  void cancel(Timer, std::uint32_t owner) {
+    cancelled<Timer>()[owner] = run_.queue.next_insertion();
+  }
+  void cancel(comp::HeartbeatExpiry, std::uint32_t w) {
+    cancelled<comp::HeartbeatExpiry>()[w] = run_.queue.next_insertion();
+    clocks_[w].expiries = 0;
+  }
+  template <IsCancellable Timer>
+  [[nodiscard]] bool is_due(Timer, const Event& event) {
+    return event.insertion() >= cancelled<Timer>()[event.subject];
+  }
   [[nodiscard]] bool is_due(comp::AckNackGeneration, const Event& event) {
-    return event.detail == 0;
+    return event.detail == 0 &&
+           event.insertion() >= cancelled<comp::AckNackGeneration>()[event.subject];
+  }
+  [[nodiscard]] bool is_due(comp::HeartbeatExpiry expiry, const Event& event) {
+    return event.insertion() >= cancelled<comp::HeartbeatExpiry>()[event.subject] &&
+           ProtocolOf::is_due(expiry, event);
+  }
+
+  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
+    if (received.empty()) {
+      lose(descriptors_, relation, is_required(relation));
+    } else {
+      take(descriptors_, relation, received, is_required(relation));
+    }
+  }
+  void renew(comp::AnnouncementTimer, std::uint32_t i) { announcers_[i] = {}; }
+  void renew(comp::HeartbeatClock, std::uint32_t w);
+  void renew(comp::Reader, std::uint32_t relation);
+  void renew(comp::InitialTimer, std::uint32_t relation) {
+    readers_[relation].initial = fsm::Stepper<fsm::InitialAckNack>::initial;
+  }
+  void renew(amended::C, std::uint32_t relation);
+  template <class World>
+  [[nodiscard]] std::int64_t answer(amended::LeaseDuration, const World& w) const {
+    return leases_[topology().pair(w.template number<comp::owner::pair>()).source];
+  }
+  template <class World>
+  void perform(amended::LoseAll, World& w) {
+    lose_all(w.template number<comp::owner::participant>());
   }
 
   template <class World, class Sayings>
@@ -132,7 +199,18 @@ class AmendedProtocol final : public ProtocolOf<amended::C> {
   bool uses_up_budget(std::uint32_t writer, std::int64_t added_bytes) override;
   /// Before the run: the writers of i believe that j has everything, and i has j's descriptors.
   void open_before(std::uint32_t i, std::uint32_t j);
-  [[nodiscard]] bool is_silent(std::uint32_t participant, Nanoseconds time) const;
+  /// The participant is a new one.
+  void lose_all(std::uint32_t participant);
+  /// Whether discovery is complete only if the reader has everything.
+  [[nodiscard]] bool is_required(std::uint32_t relation) const {
+    const Pair& pair = ends(relation);
+    return pair.cross_host && !is_replaced(life_, pair.source) &&
+           !is_replaced(life_, pair.destination);
+  }
+  template <class Timer>
+  [[nodiscard]] std::vector<std::uint64_t>& cancelled() {
+    return std::get<detail::Cancelled<Timer>>(cancelled_).before;
+  }
   /// Whether j takes now what i has emitted then.
   [[nodiscard]] bool hears(std::uint32_t i, std::uint32_t j, Nanoseconds emitted) const;
   [[nodiscard]] std::uint32_t actor_of(const Event& event) const;
@@ -140,6 +218,8 @@ class AmendedProtocol final : public ProtocolOf<amended::C> {
   const Amendments& amendments_;
   const Life life_;
   detail::MemoryOf<Composition::Memory>::type memory_;
+  detail::CancelledOf<detail::Cancellable>::type cancelled_;
+  std::vector<std::int64_t> leases_;     // by participant; 0: never forgotten
   std::vector<DescriptorSet> resent_;    // by relation
   std::vector<std::uint32_t> retries_;   // by relation
   std::vector<Account> accounts_;        // by participant

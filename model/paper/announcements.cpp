@@ -7,6 +7,13 @@ namespace stormproof::model::paper {
 void ProtocolBase::send_spdp_to_known(std::uint32_t i) {
   const Participant& participant = participants_[i];
   if (participant.known == 0) return;
+  if (forgets_) {
+    for (std::uint32_t pair = topology().first_pair(i); pair < topology().first_pair(i + 1);
+         ++pair) {
+      if (known_rank_[pair] != no_rank) send_spdp_copy(pair);
+    }
+    return;
+  }
   run_.counts.spdp_unicast += participant.known;
   Packet packet = packet_of(PacketKind::spdp_unicast, participant.first_known_pair,
                             spdp_.payload_bytes.count());

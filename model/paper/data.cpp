@@ -108,6 +108,10 @@ void ProtocolBase::send_heartbeat_to(std::uint32_t relation) {
 void ProtocolBase::send_heartbeat_to_open(std::uint32_t w) {
   Writer& writer = writers_[w];
   if (writer.open == 0) return;
+  if (forgets_) {
+    for (const std::uint32_t relation : open_relations(w)) send_heartbeat_to(relation);
+    return;
+  }
   run_.counts.heartbeat += writer.open;
   refill(w);
   Packet packet = packet_on(PacketKind::heartbeat, 2 * writer.first_open_pair + w % 2,

@@ -36,17 +36,31 @@ bool ProtocolBase::has_started(std::uint32_t participant) const {
   return run_.now >= run_.topology.start(participant);
 }
 
-void ProtocolBase::assign(comp::Recognised, std::uint32_t pair, bool) {
+void ProtocolBase::assign(comp::Recognised, std::uint32_t pair, bool recognised) {
   const std::uint32_t reverse = run_.topology.pair(pair).reverse;
-  if (known_rank_[reverse] != no_rank) return;
+  if ((known_rank_[reverse] != no_rank) == recognised) return;
   Participant& participant = participants_[run_.topology.pair(pair).destination];
+  if (!recognised) {
+    known_rank_[reverse] = no_rank;
+    --participant.known;
+    return;
+  }
   known_rank_[reverse] = participant.known++;
   participant.first_known_pair = std::min(participant.first_known_pair, reverse);
 }
 
-void ProtocolBase::assign(rules::WriterOpen, std::uint32_t relation, bool) {
-  if (relations_[relation].open_rank != no_rank) return;
+void ProtocolBase::assign(rules::WriterOpen, std::uint32_t relation, bool open) {
+  if ((relations_[relation].open_rank != no_rank) == open) return;
   Writer& writer = writers_[writer_of(relation)];
+  if (!open) {
+    if (relations_[relation].unacknowledged > 0) {
+      writer.waiting_readers[peer_of(relation) / 64] ^= std::uint64_t{1} << peer_of(relation) % 64;
+      --writer.unacknowledged;
+    }
+    relations_[relation].open_rank = no_rank;
+    --writer.open;
+    return;
+  }
   relations_[relation].open_rank = writer.open++;
   writer.first_open_pair = std::min(writer.first_open_pair, relation / 2);
   if (relations_[relation].unacknowledged > 0) note_waiting(relation);
@@ -55,7 +69,7 @@ void ProtocolBase::assign(rules::WriterOpen, std::uint32_t relation, bool) {
 /// The open relation's reader has begun to wait, or has acknowledged everything.
 void ProtocolBase::note_waiting(std::uint32_t relation) {
   const std::uint32_t w = writer_of(relation);
-  const std::uint32_t peer = relation / 2 - run_.topology.first_pair(w / 2);
+  const std::uint32_t peer = peer_of(relation);
   writers_[w].waiting_readers[peer / 64] ^= std::uint64_t{1} << peer % 64;
   if (relations_[relation].unacknowledged > 0)
     ++writers_[w].unacknowledged;

@@ -46,11 +46,11 @@ class ProtocolBase : public DiscoveryBase {
   [[nodiscard]] bool value(comp::Recognised, std::uint32_t pair) const {
     return known_rank_[topology().pair(pair).reverse] != no_rank;
   }
-  void assign(comp::Recognised, std::uint32_t pair, bool);
+  void assign(comp::Recognised, std::uint32_t pair, bool recognised);
   [[nodiscard]] bool value(rules::WriterOpen, std::uint32_t relation) const {
     return relations_[relation].open_rank != no_rank;
   }
-  void assign(rules::WriterOpen, std::uint32_t relation, bool);
+  void assign(rules::WriterOpen, std::uint32_t relation, bool open);
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.descriptors.lowest(), k);
   }
@@ -86,6 +86,10 @@ class ProtocolBase : public DiscoveryBase {
   };
 
   // protocol.cpp
+  /// The number of the relation's reader among the peers of its writer.
+  [[nodiscard]] std::uint32_t peer_of(std::uint32_t relation) const {
+    return relation / 2 - topology().first_pair(writer_of(relation) / 2);
+  }
   void note_waiting(std::uint32_t relation);
   /// These descriptors, bits of a word, are acknowledged now, or not any more.
   void note_acknowledged(std::uint32_t relation, bool acknowledged, std::uint64_t members);
@@ -118,6 +122,9 @@ class ProtocolBase : public DiscoveryBase {
   void flush(Message& message);
   void charge(Message& message, std::int64_t added_bytes);
 
+  /// Whether participants may be forgotten. Ranks then say nothing, and no record stands for
+  /// several copies.
+  bool forgets_ = false;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
   std::vector<Relation> relations_;
@@ -154,7 +161,7 @@ class ProtocolOf : public ProtocolBase {
     return descriptors_.received(relation, k);
   }
   void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-    take(descriptors_, relation, received);
+    take(descriptors_, relation, received, ends(relation).cross_host);
   }
 
  protected:

@@ -53,6 +53,7 @@ enum class Subject : std::uint8_t {
     case EventKind::learner_initial:
     case EventKind::relay_suppression_end:
     case EventKind::reply_time:
+    case EventKind::lease_check:
       return Subject::pair;
     case EventKind::heartbeat_time:
       return Subject::endpoint_writer;

@@ -141,6 +141,8 @@ const char* timer_label(EventKind kind) {
       return "announcement timer";
     case EventKind::reply_time:
       return "announcement to one";
+    case EventKind::lease_check:
+      return "lease check";
     case EventKind::heartbeat_time:
       return "HEARTBEAT timer";
     case EventKind::ack_time:

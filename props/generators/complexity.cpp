@@ -75,6 +75,10 @@ Complexity complexity(const Scenario& scenario, const Scenario& base) {
     ++sum.participants;
     sum.endpoints += std::uint64_t{p.publications} + p.subscriptions;
   }
+  if (const auto& life = scenario.deployment.life) {
+    sum.failures = 1 + life->stale.size() + life->mute.size() + life->outages.size() +
+                   life->restarts.size() + life->leases.size() + (life->lease ? 1 : 0);
+  }
   count_lost_packets(scenario, base, sum);
   count_packet_delays(scenario, base, sum);
   sum.route = route_complexity(scenario.wireless, base.wireless);

@@ -15,6 +15,7 @@ struct Complexity {
   std::uint64_t participants = 0;
   std::uint64_t hosts = 0;      ///< sum of the host numbers, those of the first counting most
   std::uint64_t endpoints = 0;  ///< of the users
+  std::uint64_t failures = 0;   ///< in the life of participants
   std::uint64_t packets = 0;    ///< lost or delayed in a way of their own, unlike in the base
   std::uint64_t route = 0;    ///< 0 for the base's; else its stages, changes of channel, overrides
   std::uint64_t changed = 0;  ///< knobs that differ from the base; 1 more for its implementation

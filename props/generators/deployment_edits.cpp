@@ -36,6 +36,19 @@ void add_removals(std::size_t size, Edits& edits) {
   });
 }
 
+/// Fewer failures of one kind.
+template <class Failure>
+void add_life_edits(std::size_t size, std::vector<Failure> model::Life::*list, Edits& edits) {
+  for_parts(size, [&](std::size_t first, std::size_t last) {
+    edits.push_back([=](Scenario& s) {
+      if (!s.deployment.life) return;
+      auto& failures = (*s.deployment.life).*list;
+      failures.erase(failures.begin() + static_cast<std::ptrdiff_t>(first),
+                     failures.begin() + static_cast<std::ptrdiff_t>(last));
+    });
+  });
+}
+
 /// Hosts numbered from 0 in the order of their first participants.
 void renumber_hosts(Scenario& scenario) {
   std::vector<HostId> known;
@@ -79,6 +92,15 @@ void add_endpoint_edits(std::size_t size, void (*change)(std::uint32_t&), Edits&
 
 void add_deployment_edits(const Scenario& scenario, Edits& edits) {
   const auto& all = scenario.deployment.participants;
+  if (const auto& life = scenario.deployment.life) {
+    edits.push_back([](Scenario& s) { s.deployment.life.reset(); });
+    add_life_edits(life->stale.size(), &model::Life::stale, edits);
+    add_life_edits(life->mute.size(), &model::Life::mute, edits);
+    add_life_edits(life->outages.size(), &model::Life::outages, edits);
+    add_life_edits(life->restarts.size(), &model::Life::restarts, edits);
+    add_life_edits(life->leases.size(), &model::Life::leases, edits);
+    if (life->lease) edits.push_back([](Scenario& s) { s.deployment.life->lease.reset(); });
+  }
   add_pairs(all, edits);
   if (all.size() > 2) add_removals(all.size(), edits);
   add_host_edits(all, edits);

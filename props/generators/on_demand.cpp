@@ -144,6 +144,21 @@ void draw_rules(Dice& dice, Amendments& rules) {
   rules.match_clock_skew = Nanoseconds{dice.among({0, 1'000, 100 * ms})};
 }
 
+/// Participants that are forgotten, and such as come back.
+void draw_returns(Dice& dice, const std::vector<Participant>& all, Life& life) {
+  constexpr std::int64_t ms = 1'000'000;
+  if (dice.chance(50)) life.lease = Nanoseconds{dice.among({50, 700, 4'000}) * ms};
+  for (std::uint32_t i = 0; i < all.size() && life.restarts.size() < 3; ++i) {
+    if (dice.chance(20)) {
+      life.leases.push_back({i, Nanoseconds{dice.among({30, 1'000, 9'000}) * ms}});
+    }
+    if (!dice.chance(25)) continue;
+    const Nanoseconds stop = all[i].start + Nanoseconds{dice.among({0, 5, 90, 600}) * ms};
+    const Nanoseconds start = stop + Nanoseconds{dice.among({1, 40, 800}) * ms};
+    life.restarts.push_back({i, stop, start, dice.choice<Identity>(2)});
+  }
+}
+
 Life drawn_life(Dice& dice, const std::vector<Participant>& all) {
   constexpr std::int64_t ms = 1'000'000;
   const auto participants = static_cast<std::uint32_t>(all.size());
@@ -167,6 +182,7 @@ Life drawn_life(Dice& dice, const std::vector<Participant>& all) {
     life.outages.push_back(
         {from, elsewhere(from), start, start + Nanoseconds{dice.among({1, 50, 2'000}) * ms}});
   }
+  draw_returns(dice, all, life);
   return life;
 }
 }  // namespace

@@ -31,6 +31,13 @@ class ReceivedDescriptors {
         machine.machine == "DiscoveryReader" && machine.subject == arriving_->relation();
     return here ? arriving_ : nullptr;
   }
+  /// To be called from `transition`: whether the reader is a new one that has nothing.
+  [[nodiscard]] static bool is_new(const model::MachineRef& machine, std::string_view event) {
+    return event == "Renewed" && machine.machine == "DiscoveryReader";
+  }
+  void lose(std::uint32_t relation) {
+    for (std::uint32_t k = 0; k < word_count(relation); ++k) words_.word(relation, k) = 0;
+  }
   void take(const model::Packet& packet) { words_.add(packet.relation(), packet.descriptors); }
 
   [[nodiscard]] std::uint64_t word(std::uint32_t relation, std::uint32_t k) const {

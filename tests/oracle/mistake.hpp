@@ -59,6 +59,15 @@ enum class Mistake : std::uint8_t {
   stretch_rounded_down,      ///< T·H/A is not rounded to the nearest nanosecond
   batches_of_one,            ///< the paced HEARTBEATs go one by one
   late_response_ends_cycle,  ///< a second response of a reader can end the cycle, too
+  // The life of participants (specs/guide/museum.md has the rules).
+  lease_not_renewed,        ///< a lease runs from the recognition, whatever is heard
+  lease_renewed_by_spdp,    ///< only announcements renew a lease
+  forgets_reader_only,      ///< who forgets another one keeps the writer side towards it
+  forgotten_events_happen,  ///< what was due for a forgotten side happens at the new one
+  returns_with_memory,      ///< who comes back knows what it knew
+  hears_in_outages,         ///< outages have no effect
+  old_counts_forgotten,     ///< ACKNACKs of who comes back all count
+  ends_before_settled,      ///< the first completion ends a run
 };
 
 /// What the oracle of `implementation: fastdds` does wrong (specs/guide/fastdds.md has the rules).
@@ -223,7 +232,10 @@ enum class CycloneMistake : std::uint8_t {
 };
 
 inline constexpr std::size_t mistake_count =
-    static_cast<std::size_t>(Mistake::late_response_ends_cycle) + 1;
+    static_cast<std::size_t>(Mistake::ends_before_settled) + 1;
+/// From this one on they are about the life of participants.
+inline constexpr std::size_t first_mistake_of_life =
+    static_cast<std::size_t>(Mistake::lease_not_renewed);
 inline constexpr std::size_t fastdds_mistake_count =
     static_cast<std::size_t>(FastddsMistake::response_with_old_base) + 1;
 inline constexpr std::size_t wifi_mistake_count =

@@ -39,7 +39,7 @@ std::vector<std::string> unnoticed(JudgedRuns& runs, std::size_t count, std::siz
 
 TEST(MutatedOracle, EveryMistakeOfThePaperOracleIsNoticed) {
   JudgedRuns runs{varied_scenario, correct_product};
-  EXPECT_EQ(unnoticed<Mistake>(runs, mistake_count), std::vector<std::string>{});
+  EXPECT_EQ(unnoticed<Mistake>(runs, first_mistake_of_life), std::vector<std::string>{});
 }
 
 TEST(MutatedOracle, EveryMistakeOfTheFastddsOracleIsNoticed) {

@@ -37,6 +37,8 @@ void deactivate(World& w, Writer& writer) {
 Time next_period(const World& w, Time period, std::int64_t expected, std::int64_t answered) {
   const std::int64_t numerator = w.sedp.adaptive.epsilon_numerator;
   const std::int64_t denominator = w.sedp.adaptive.epsilon_denominator;
+  // All of them have been forgotten since it began: the shortest period, and no shorter than T.
+  if (expected == 0) return std::max(period, clamp_period(w, 0));
   Time next = 0;
   if (answered > 0 && denominator * answered >= numerator * expected) {
     const bool down = w.makes(Mistake::stretch_rounded_down);
@@ -133,7 +135,8 @@ void cycle_end(World& w, Id i, int s, std::uint64_t token) {
 void cycle_batch(World& w, const Event& event) {
   if (event.token != w.writers.at({event.from, event.stream}).token) return;
   for (const Id j : event.readers) {
-    if (all_acknowledged(relation(w, event.from, j, event.stream))) continue;
+    const Relation& r = relation(w, event.from, j, event.stream);
+    if (!r.writer_open || all_acknowledged(r)) continue;
     generate_heartbeat(w, event.from, j, event.stream);
   }
 }

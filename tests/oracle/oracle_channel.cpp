@@ -98,6 +98,7 @@ void deliver_after_delay(World& w, const Packet& packet) {
 
 void emit(World& w, Packet packet) {
   packet.number = w.outcome.packets;
+  packet.emitted = w.now;
   ++w.outcome.packets;
   packet.lost = w.lost_packets.contains(packet.number) && !w.makes(Mistake::loss_ignored);
   packet.fragments = cut_into_fragments(w.scenario.wireless, packet.payload);

@@ -10,11 +10,11 @@ void take_data(World& w, Relation& r, const Packet& packet) {
   for (const Id d : packet.descriptors) {
     if (r.received.at(d)) continue;
     r.received.at(d) = true;
-    --w.missing;
+    if (is_asked_for(w, packet.source, *packet.destination)) --w.missing;
     if (w.missing == 0) {
       w.outcome.completed = true;
       w.outcome.t_disc_ns = w.now;
-      w.ended = w.scenario.run_until == model::RunUntil::completion;
+      w.ended = completion_ends(w) && w.now >= w.settled;
       if (w.ended) return;
     }
   }
@@ -60,7 +60,7 @@ Packet renewed(World& w, Packet packet) {
 }
 
 void receive_at(World& w, Id j, const Packet& packet) {
-  if (!started(w, j)) return;
+  if (!started(w, j) || !is_heard(w, packet, j)) return;
   switch (packet.kind) {
     case PacketKind::spdp:
       receive_spdp(w, j, packet.source);
@@ -72,6 +72,8 @@ void receive_at(World& w, Id j, const Packet& packet) {
       receive_acknack(w, w.makes(Mistake::bitmap_not_snapshot) ? renewed(w, packet) : packet);
       break;
   }
+  const bool renews = packet.kind == PacketKind::spdp || !w.makes(Mistake::lease_renewed_by_spdp);
+  if (renews) heard(w, j, packet.source);
 }
 
 }  // namespace

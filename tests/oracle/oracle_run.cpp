@@ -32,6 +32,10 @@ const char* name_of(EventKind kind) {
       return "cycle end";
     case EventKind::cycle_batch:
       return "batch";
+    case EventKind::lease_check:
+      return "lease check";
+    case EventKind::participant_return:
+      return "return of a participant";
     case EventKind::dispatch:
       return "dispatch";
   }
@@ -39,6 +43,7 @@ const char* name_of(EventKind kind) {
 }
 
 void process(World& w, const Event& e) {
+  if (is_void(w, e)) return;
   switch (e.kind) {
     case EventKind::service_finished:
       return service_finished(w, e);
@@ -65,6 +70,10 @@ void process(World& w, const Event& e) {
       return cycle_end(w, e.from, e.stream, e.token);
     case EventKind::cycle_batch:
       return cycle_batch(w, e);
+    case EventKind::lease_check:
+      return lease_check(w, e.from, e.to);
+    case EventKind::participant_return:
+      return participant_return(w, e.from);
     case EventKind::dispatch:
       return dispatch(w, e.channel);
   }
@@ -77,6 +86,15 @@ void schedule_first_announcements(World& w) {
     event.from = i;
     event.to = i;
     schedule(w, w.participants.at(i).start, EventClass::protocol, event);
+  }
+  if (!w.scenario.deployment.life) return;
+  for (const model::Restart& back : w.scenario.deployment.life->restarts) {
+    if (back.identity == model::Identity::fresh) continue;
+    Event event;
+    event.kind = EventKind::participant_return;
+    event.from = back.participant;
+    event.to = back.participant;
+    schedule(w, back.start.count(), EventClass::protocol, event);
   }
 }
 
@@ -98,6 +116,7 @@ std::vector<Missing> missing_descriptors(const World& w) {
   std::vector<Missing> missing;
   for (const auto& [key, r] : w.relations) {
     const auto& [i, j, s] = key;
+    if (!is_asked_for(w, i, j)) continue;
     for (Id d = 0; d < r.received.size(); ++d) {
       if (!r.received.at(d)) missing.push_back({i, j, model::streams[s], d});
     }
@@ -107,9 +126,11 @@ std::vector<Missing> missing_descriptors(const World& w) {
 
 }  // namespace
 
-Outcome run(const model::Scenario& scenario, const EventLog& log, Mistake mistake,
+Outcome run(const model::Scenario& given, const EventLog& log, Mistake mistake,
             std::uint64_t max_events) {
+  const model::Scenario scenario = with_those_who_come_back_as_others(given);
   World w{scenario, mistake};
+  begin_life(w);
   schedule_first_announcements(w);
   while (!w.queue.empty() && !w.ended) {
     const auto key = w.queue.begin()->first;
@@ -121,6 +142,7 @@ Outcome run(const model::Scenario& scenario, const EventLog& log, Mistake mistak
     ++w.outcome.events;
     if (log) log(log_entry(key, event));
     process(w, event);
+    w.ended = w.missing == 0 && w.now >= w.settled && completion_ends(w);
   }
   w.outcome.missing = missing_descriptors(w);
   return w.outcome;

@@ -20,7 +20,7 @@ void create_relations(World& w) {
         r.generated.assign(count, false);
         r.received.assign(count, false);
         w.relations[{i, j, s}] = r;
-        w.missing += count;
+        if (is_asked_for(w, i, j)) w.missing += count;
       }
     }
   }
@@ -54,6 +54,7 @@ void schedule(World& w, Time at, EventClass event_class, const Event& event) {
   Event& scheduled = w.queue[{at, rank, w.insertions}];
   scheduled = event;
   scheduled.event_class = event_class;
+  scheduled.epoch = epoch_of(w, event);
   ++w.insertions;
 }
 
@@ -65,6 +66,8 @@ bool started(const World& w, Id i) {
   if (w.makes(Mistake::receives_unstarted)) return true;
   return w.now >= w.participants.at(i).start;
 }
+
+bool completion_ends(const World& w) { return w.scenario.run_until == model::RunUntil::completion; }
 
 Relation& relation(World& w, Id i, Id j, int s) { return w.relations.at({i, j, s}); }
 

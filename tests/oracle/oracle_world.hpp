@@ -36,6 +36,8 @@ enum class EventKind {
   cycle_start,
   cycle_end,
   cycle_batch,
+  lease_check,
+  participant_return,
   dispatch,
 };
 
@@ -52,6 +54,7 @@ struct Event {
   std::size_t fragment = 0;
   std::string channel;
   std::vector<Id> readers;  // of a batch
+  int epoch = 0;            // of its owner when it was scheduled; filled in by schedule
 };
 
 enum class PacketKind { spdp, sedp, acknack };
@@ -68,6 +71,7 @@ struct Packet {
   bool initial = false;            // an initial ACKNACK
   std::set<Id> bitmap;             // of an ACKNACK
   std::uint64_t number = 0;        // from here on: filled in by emit
+  Time emitted = 0;
   bool lost = false;
   std::vector<std::int64_t> fragments;        // bytes on the channel
   std::map<std::size_t, std::size_t> served;  // stage → fragments served in it
@@ -84,6 +88,9 @@ struct Relation {
   std::vector<bool> generated;         // at i
   std::vector<bool> received;          // at j
   int pending_acknacks = 0;            // at j; only a mistake asks for it
+  int reader_epoch = 0;                // from here on: how often j forgot i
+  int writer_epoch = 0;                // and i forgot j
+  std::uint32_t old_counts = 0;        // at i: so many ACKNACKs of j count as old
 };
 
 struct Writer {
@@ -102,6 +109,8 @@ struct Participant {
   Time start = 0;
   std::int64_t sent_bytes = 0;  // of the cumulative piggyback charge
   std::set<Id> known;           // whose announcement it has processed
+  std::map<Id, Time> forgets;   // when it forgets whom, if it hears nothing until then
+  int lives = 0;                // how often it has come back
   std::deque<std::uint64_t> backlog;
   std::int64_t queued_bytes = 0;
 };
@@ -137,6 +146,8 @@ struct World {
   std::map<std::string, Channel> channels;
   std::map<std::uint64_t, Packet> packets;
   std::set<std::uint64_t> lost_packets;
+  std::map<std::pair<Id, Id>, int> lease_epochs;  // (who is remembered, by whom)
+  Time settled = 0;                               // the run does not end before
   std::int64_t missing = 0;
   Outcome outcome;
 };
@@ -145,6 +156,7 @@ struct World {
 void schedule(World& w, Time at, EventClass event_class, const Event& event);
 [[nodiscard]] bool cross_host(const World& w, Id i, Id j);
 [[nodiscard]] bool started(const World& w, Id i);
+[[nodiscard]] bool completion_ends(const World& w);
 [[nodiscard]] Relation& relation(World& w, Id i, Id j, int s);
 [[nodiscard]] bool all_acknowledged(const Relation& r);
 [[nodiscard]] std::vector<Id> open_readers(World& w, Id i, int s);
@@ -181,6 +193,18 @@ void suppression_end(World& w, Id i, Id j, int s);
 // oracle_data.cpp
 void generate_heartbeat(World& w, Id i, Id j, int s);
 void generate_data(World& w, Id i, Id j, int s, const std::vector<Id>& descriptors, bool repair);
+
+// oracle_life.cpp
+void begin_life(World& w);
+[[nodiscard]] model::Scenario with_those_who_come_back_as_others(model::Scenario scenario);
+[[nodiscard]] bool is_away(const World& w, Id i, Time at);
+[[nodiscard]] bool is_asked_for(const World& w, Id i, Id j);
+[[nodiscard]] bool is_heard(const World& w, const Packet& packet, Id j);
+[[nodiscard]] int epoch_of(World& w, const Event& event);
+[[nodiscard]] bool is_void(World& w, const Event& event);
+void heard(World& w, Id j, Id i);
+void lease_check(World& w, Id i, Id j);
+void participant_return(World& w, Id i);
 
 // oracle_adaptive.cpp
 void activate_cycles(World& w, Id i, int s);

@@ -59,6 +59,17 @@ void cancel_expiry(World& w, Id i, int s) {
   });
 }
 
+// Without amendments all of them are the paper's.
+model::Amendments rules(const World& w) {
+  return w.scenario.dds.amendments.value_or(model::Amendments{});
+}
+
+void unacknowledge(Relation& r) {
+  for (DescriptorState& state : r.state) {
+    if (state == DescriptorState::acknowledged) state = DescriptorState::unsent;
+  }
+}
+
 Event relation_event(EventKind kind, Id i, Id j, int s) {
   Event event;
   event.kind = kind;
@@ -109,12 +120,18 @@ void receive_acknack(World& w, const Packet& packet) {
   const int s = packet.stream;
   Relation& r = relation(w, i, j, s);
   if (!r.writer_open) return;
+  if (r.old_counts > 0) {
+    --r.old_counts;
+    return;
+  }
   if (packet.initial) {
     switch (w.sedp.initial_acknack) {
       case model::InitialAckNackReply::bitmap:
         break;
       case model::InitialAckNackReply::heartbeat:
+        if (rules(w).initial_acknack_resets == model::Whether::yes) unacknowledge(r);
         generate_heartbeat(w, i, j, s);
+        if (rules(w).initial_acknack_arms == model::Whether::yes) arm_at_opening(w, i, s);
         return;
       case model::InitialAckNackReply::none:
         return;

@@ -42,6 +42,7 @@ Role role_of(EventKind kind) {
     case EventKind::participant_start:
     case EventKind::spdp_time:
     case EventKind::reply_time:
+    case EventKind::lease_check:
     case EventKind::heartbeat_time:
     case EventKind::ack_time:
     case EventKind::thread_run:

@@ -146,6 +146,15 @@ std::vector<RangeText> describe(const Ranges& ranges, const model::Scenario& sce
     lines.push_back(
         {"loss", fmt::format("each packet is lost with probability {}", percent(*vary.loss))});
   }
+  const auto failures = [&](const char* name, const std::optional<std::uint32_t>& most,
+                            const char* what) {
+    if (!most) return;
+    lines.push_back({name, fmt::format("0 to {} {} within {}", *most, what,
+                                       print_duration(vary.time_of_failures()))});
+  };
+  failures("outages", vary.outages, "outages of one direction");
+  failures("restarts", vary.restarts, "participants that stop and come back under their name");
+  failures("late_joiners", vary.late_joiners, "participants that start later");
   const auto relative = [&](const char* name, const std::optional<model::Ratio>& ratio,
                             std::size_t knobs, const char* what) {
     if (!ratio) return;

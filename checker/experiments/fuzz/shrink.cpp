@@ -51,6 +51,24 @@ std::string starts_text(const model::Deployment& deployment) {
   return fmt::format("the participants start at {}", fmt::join(starts, ", "));
 }
 
+/// What differs in the life of participants.
+void add_life_differences(const model::Deployment& now, const model::Deployment& before,
+                          std::vector<std::string>& lines) {
+  if (now.life == before.life) return;
+  if (!now.life) {
+    lines.emplace_back("nobody fails");
+    return;
+  }
+  for (const model::Outage& o : now.life->outages) {
+    lines.push_back(fmt::format("{} does not hear {} from {} to {}", o.to, o.from,
+                                print_duration(o.start), print_duration(o.end)));
+  }
+  for (const model::Restart& r : now.life->restarts) {
+    lines.push_back(fmt::format("{} stops at {} and is back at {}", r.participant,
+                                print_duration(r.stop), print_duration(r.start)));
+  }
+}
+
 std::string losses_text(const std::vector<std::uint64_t>& lost) {
   constexpr std::size_t listed = 10;
   if (lost.empty()) return "no packet is lost";
@@ -111,6 +129,7 @@ std::vector<std::string> differences(const model::Scenario& scenario, const mode
                                            std::min(new_starts.size(), old_starts.size())))) {
     lines.push_back(starts_text(now));
   }
+  add_life_differences(now, before, lines);
   add_knob_differences(scenario, base, lines);
   if (scenario.wireless.lost_packets != base.wireless.lost_packets) {
     lines.push_back(losses_text(scenario.wireless.lost_packets));

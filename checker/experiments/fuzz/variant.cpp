@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <random>
 
+#include "model/life.hpp"
+
 namespace stormproof::fuzz {
 
 namespace {
@@ -20,10 +22,13 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-enum class Purpose : std::uint8_t { values, losses };
+enum class Purpose : std::uint8_t { values, losses, life };
 
 Random generator(std::uint64_t seed, std::uint64_t number, Purpose purpose) {
-  return Random{mixed(mixed(seed) + 2 * number + static_cast<std::uint64_t>(purpose))};
+  constexpr std::uint64_t of_life = 0x6c696665U;  // in a stream of its own: others stay as they are
+  if (purpose == Purpose::life) seed ^= of_life;
+  const auto stream = static_cast<std::uint64_t>(purpose) % 2;
+  return Random{mixed(mixed(seed) + 2 * number + stream)};
 }
 
 /// From low to high, both included. The bias of the remainder is below 10^-3 for every range here.
@@ -37,6 +42,61 @@ std::int64_t part_of(std::int64_t value, const model::Ratio& ratio) {
   return value / ratio.denominator * ratio.numerator +
          value % ratio.denominator * ratio.numerator / ratio.denominator;
 }
+
+/// What happens to participants: two times in the range, the earlier one first, for each failure.
+class Fate {
+ public:
+  Fate(Random& random, const model::Variation& vary, model::Deployment& deployment)
+      : random_{random}, vary_{vary}, deployment_{deployment} {}
+
+  void draw() {
+    for (std::int64_t k = some(vary_.late_joiners); k > 0; --k) {
+      model::Participant& late = deployment_.participants[anybody()];
+      const model::Nanoseconds later{between(random_, 0, latest())};
+      late.endpoints_done += later;
+      late.start += later;
+    }
+    for (std::int64_t k = some(vary_.outages); k > 0; --k) {
+      const std::uint32_t from = anybody();
+      const std::uint32_t to = anybody();
+      const auto [start, end] = times();
+      const auto& all = deployment_.participants;
+      if (all[from].host == all[to].host || start == end) continue;
+      life().outages.push_back({from, to, start, end});
+    }
+    for (std::int64_t k = some(vary_.restarts); k > 0; --k) {
+      const std::uint32_t who = anybody();
+      const auto [stop, start] = times();
+      const model::Nanoseconds begin = deployment_.participants[who].start;
+      life().restarts.push_back({who, begin + stop, begin + std::max(start, stop + one), {}});
+      if (!comes_back_in_order(deployment_)) life().restarts.pop_back();
+    }
+  }
+
+ private:
+  static constexpr model::Nanoseconds one{1};
+
+  [[nodiscard]] std::int64_t latest() const { return vary_.time_of_failures().count(); }
+  std::int64_t some(const std::optional<std::uint32_t>& most) {
+    return most ? between(random_, 0, *most) : 0;
+  }
+  std::uint32_t anybody() {
+    return static_cast<std::uint32_t>(between(random_, 0, deployment_.size() - 1));
+  }
+  std::pair<model::Nanoseconds, model::Nanoseconds> times() {
+    const std::int64_t a = between(random_, 0, latest());
+    const std::int64_t b = between(random_, 0, latest());
+    return {model::Nanoseconds{std::min(a, b)}, model::Nanoseconds{std::max(a, b)}};
+  }
+  model::Life& life() {
+    if (!deployment_.life) deployment_.life.emplace();
+    return *deployment_.life;
+  }
+
+  Random& random_;
+  const model::Variation& vary_;
+  model::Deployment& deployment_;
+};
 
 void add_relative(std::vector<KnobRange>& ranges,
                   const std::vector<model::config::NumericKnob>& knobs,
@@ -61,6 +121,7 @@ VariantSource::VariantSource(const model::Scenario& base, const Ranges& ranges)
 
 std::optional<Variant> VariantSource::draw(std::uint64_t seed, std::uint64_t number) const {
   Random random = generator(seed, number, Purpose::values);
+  Random of_life = generator(seed, number, Purpose::life);
   for (std::uint32_t rejected = 0; rejected < most_draws; ++rejected) {
     Variant variant{base_, rejected};
     model::Scenario& scenario = variant.scenario;
@@ -73,6 +134,7 @@ std::optional<Variant> VariantSource::draw(std::uint64_t seed, std::uint64_t num
       participant.start += later;
       participant.endpoints_done += later;
     }
+    Fate{of_life, ranges_.vary, scenario.deployment}.draw();
     bool in_range = true;
     for (const KnobRange& knob : knobs_) {
       const std::int64_t value = between(random, knob.low, knob.high);

@@ -27,9 +27,11 @@ class Acknowledgments final : public ClaimMonitor {
                   std::string_view after, std::uint32_t first_word,
                   std::uint64_t descriptors) override {
     if (const model::Packet* data = received_.taken(machine, event)) received_.take(*data);
+    if (received_.is_new(machine, event)) received_.lose(machine.subject);
     const bool is_repair =
         machine.machine == "ReopeningRepair" || machine.machine == "DescriptorRepair";
-    if (!is_repair || events() == 0 || before == after) return;
+    const bool has_forgotten = event == "Renewed";  // the writer has: it believes nothing any more
+    if (!is_repair || has_forgotten || events() == 0 || before == after) return;
     const std::uint64_t has = received_.word(machine.subject, first_word);
     if (!stable_ && after == "A") judge(machine.subject, first_word, descriptors & ~has);
     if (stable_ && before == "A") judge(machine.subject, first_word, descriptors & has);

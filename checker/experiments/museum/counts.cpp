@@ -50,6 +50,12 @@ class Copies final : public ClaimMonitor {
       copy.time = now();
     });
   }
+  /// A side that was forgotten is served anew.
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+                  std::string_view, std::uint32_t, std::uint64_t) override {
+    if (event != "Renewed" || machine.kind != model::MachineRef::Kind::relation) return;
+    std::erase_if(copies_, [&](const auto& copy) { return copy.first.first == machine.subject; });
+  }
   void arrived(const model::Packet& packet, bool lost) override {
     if (packet.kind != model::PacketKind::data || !lost) return;
     packet.descriptors.for_each([&](std::uint32_t d) { ++copies_[{packet.relation(), d}].lost; });

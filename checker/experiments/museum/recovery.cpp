@@ -1,7 +1,8 @@
 // live.recovery and live.isolation: from the last failure of a run on (a lost packet, the end of an
-// outage, a start), everything has to be complete within the bound. What a silent participant
-// lacks, and what others lack of it, is not asked for. The event that the monitor objects to is the
-// last one that had to do with what is missing: after it there is silence, or waiting.
+// outage, a start or return), everything has to be complete within the bound. What a silent
+// participant lacks, and what others lack of it, is not asked for. The event that the monitor
+// objects to is the last one that had to do with what is missing: after it there is silence, or
+// waiting.
 #include <algorithm>
 #include <bit>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <fmt/core.h>
 
 #include "checker/experiments/museum/claims.hpp"
+#include "model/life.hpp"
 #include "model/trace/event_subject.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/received_descriptors.hpp"
@@ -24,11 +26,7 @@ class Recovery final : public ClaimMonitor {
       : ClaimMonitor{claim},
         life_{scenario.deployment.life.value_or(model::Life{})},
         bound_{bound} {
-    for (const model::Participant& participant : scenario.deployment.participants) {
-      failed_ = std::max(failed_, participant.start);
-    }
-    for (const model::Outage& outage : life_.outages) failed_ = std::max(failed_, outage.end);
-    for (const model::Mute& mute : life_.mute) failed_ = std::max(failed_, mute.from);
+    failed_ = last_failure(scenario.deployment);
   }
 
   void run_started(const model::Topology& topology) override {
@@ -50,6 +48,7 @@ class Recovery final : public ClaimMonitor {
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
                   std::string_view, std::uint32_t, std::uint64_t) override {
     if (const model::Packet* data = received_.taken(machine, event)) take(*data);
+    if (received_.is_new(machine, event)) lose(machine.subject);
     if (machine.kind == model::MachineRef::Kind::relation) touch(machine.subject);
   }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
@@ -82,7 +81,8 @@ class Recovery final : public ClaimMonitor {
     const auto has_all = [&](const model::StaleRelation& stale) {
       return stale.writer == pair.destination && stale.reader == pair.source;
     };
-    return pair.cross_host && std::ranges::none_of(life_.mute, is_silent) &&
+    return pair.cross_host && !is_replaced(life_, pair.source) &&
+           !is_replaced(life_, pair.destination) && std::ranges::none_of(life_.mute, is_silent) &&
            std::ranges::none_of(life_.stale, has_all);
   }
   void touch(std::uint32_t relation) {
@@ -101,6 +101,12 @@ class Recovery final : public ClaimMonitor {
       has += static_cast<std::uint64_t>(std::popcount(received_.word(data.relation(), k)));
     }
     missing = topology().descriptor_count(data.relation()) - has;
+  }
+  void lose(std::uint32_t relation) {
+    received_.lose(relation);
+    if (!is_asked_for(topology().pair(relation / 2))) return;
+    relations_[relation].missing = topology().descriptor_count(relation);
+    touch(relation);
   }
   void judge() {
     if (violation()) return;

@@ -11,6 +11,7 @@
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/next_steps.hpp"
 #include "model/implementations.hpp"
+#include "model/life.hpp"
 
 namespace stormproof::report {
 
@@ -41,16 +42,29 @@ std::string end_text(const Simulation& s) {
   return "";
 }
 
+/// How long everybody lacked something after the last failure.
+std::string recovery_text(const Simulation& s) {
+  const std::string last = duration(last_failure(s.scenario.deployment));
+  if (!s.result.recovery_time) return fmt::format("Nothing fails after {}. ", last);
+  if (s.result.recovery_time->count() == 0) {
+    return fmt::format("Nothing fails after {}, when nobody lacks anything. ", last);
+  }
+  return fmt::format("The last failure is over at {}, and recovery from it takes {}. ", last,
+                     duration(*s.result.recovery_time));
+}
+
 /// If the run goes on after discovery, that it does; then the open loop.
 std::string elaboration(const Simulation& s) {
   const RunResult& result = s.result;
   std::string text = result.completed() ? "" : end_text(s);
   if (result.completed() && result.end != model::RunEnd::completed) {
     text = fmt::format(
-        "The run goes on after that, as run_until: time_limit asks for, and ends after {}; what "
+        "The run goes on after that, as run_until: {} asks for, and ends after {}; what "
         "follows covers all of it. ",
+        s.scenario.run_until == model::RunUntil::quiescence ? "quiescence" : "time_limit",
         duration(result.end_time));
   }
+  if (s.scenario.deployment.life) text += recovery_text(s);
   if (!s.open_loop) {
     if (model::traits_of(s.scenario.dds).has_server) {
       return text + "No open-loop airtime: it is not defined with a Discovery Server.";

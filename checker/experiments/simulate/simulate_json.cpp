@@ -193,6 +193,7 @@ void describe(V& v, const Simulation& s) {
   v("completed", result.completed());
   v("end", result.end);
   v("t_disc_ns", result.discovery_time);
+  v.unless_empty("recovery_ns", result.recovery_time);
   v("end_ns", result.end_time);
   v("counts", model::AllCounts{result.counts, result.user_control});
   v("failure_free", s.failure_free);

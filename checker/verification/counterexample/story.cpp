@@ -100,6 +100,14 @@ std::string life_text(const model::Deployment& deployment) {
     text += fmt::format("; {} does not receive from {} from {} to {}", outage.to, outage.from,
                         props::time_text(outage.start), props::time_text(outage.end));
   }
+  for (const model::Restart& restart : deployment.life->restarts) {
+    text += fmt::format("; {} stops at {} and is back at {}{}", restart.participant,
+                        props::time_text(restart.stop), props::time_text(restart.start),
+                        restart.identity == model::Identity::fresh ? " as somebody new" : "");
+  }
+  if (deployment.life->lease) {
+    text += fmt::format("; leases of {}", props::time_text(*deployment.life->lease));
+  }
   return text;
 }
 }  // namespace

@@ -100,6 +100,9 @@ void visit_numbers(auto& scenario, auto use) {
   visit_knobs(dds, scenario.dds);
   NumericVisitor wireless{fmt::format("{}.", wireless_key), use};
   visit_knobs(wireless, scenario.wireless);
+  if (!scenario.deployment.life) return;
+  NumericVisitor life{"deployment.life.", use};
+  visit_knobs(life, *scenario.deployment.life);
 }
 
 }  // namespace

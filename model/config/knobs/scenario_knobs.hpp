@@ -10,6 +10,7 @@
 #include "model/config/knobs/host_knobs.hpp"
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/largest_packet.hpp"
+#include "model/config/knobs/life_knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
 #include "model/config/knobs/wireless_knobs.hpp"
 #include "model/scenario.hpp"
@@ -144,34 +145,6 @@ void visit_knobs(auto& visit, Is<Schedule> auto& schedule) {
   visit.knob("seed", schedule.seed, SeedType{}, "of the draw; 0 if absent", Presence::optional);
 }
 
-inline constexpr NumberType participant_number = count_range(0, Deployment::max_participants - 1);
-void visit_knobs(auto& visit, Is<StaleRelation> auto& stale) {
-  visit.knob("writer", stale.writer, participant_number, "who believes that the other has all");
-  visit.knob("reader", stale.reader, participant_number, "who has forgotten the writer");
-}
-void visit_knobs(auto& visit, Is<Mute> auto& mute) {
-  visit.knob("participant", mute.participant, participant_number, "who falls silent");
-  visit.knob("from", mute.from, delay_range, "from when on");
-}
-void visit_knobs(auto& visit, Is<Outage> auto& outage) {
-  visit.knob("from", outage.from, participant_number, "whose packets are not received");
-  visit.knob("to", outage.to, participant_number, "by whom");
-  visit.knob("start", outage.start, delay_range, "the first instant");
-  visit.knob("end", outage.end, delay_range, "the first instant after it");
-  visit.rule(outage.start <= outage.end, "end", "not before its start");
-}
-
-void visit_knobs(auto& visit, Is<Life> auto& life) {
-  constexpr ListSize any{0, 1'000'000};
-  visit.list("stale", life.stale, any,
-             "before the run a writer believes that a reader has everything, and that reader has "
-             "forgotten it",
-             Presence::optional);
-  visit.list("mute", life.mute, any, "participants that fall silent for ever", Presence::optional);
-  visit.list("outages", life.outages, any,
-             "times in which one participant does not receive from another", Presence::optional);
-}
-
 /// What both forms of a deployment have.
 void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
   visit.knob(
@@ -213,7 +186,8 @@ void visit_knobs(auto& visit, Is<Deployment> auto& deployment) {
 }
 
 template <>
-inline constexpr std::array<std::string_view, 2> enum_names<RunUntil>{"completion", "time_limit"};
+inline constexpr std::array<std::string_view, 3> enum_names<RunUntil>{"completion", "time_limit",
+                                                                      "quiescence"};
 
 /// Most descriptors to be delivered, over all ordered pairs of participants. A run keeps five bits
 /// for each, in words of 64: 6.25 GB at this limit.
@@ -262,33 +236,20 @@ void visit_knobs(auto& visit, Is<Variation> auto& vary) {
              "relative range of airtime overheads, rates and constant delays", Presence::optional);
   visit.knob("timers", vary.timers, RatioType{1},
              "relative range of the periods and delays of the DDS profile", Presence::optional);
-}
-
-/// Whether both are participants of different hosts.
-[[nodiscard]] inline bool is_cross_host(const Deployment& deployment, std::uint32_t i,
-                                        std::uint32_t j) {
-  const auto& all = deployment.participants;
-  return i < all.size() && j < all.size() && all[i].host != all[j].host;
-}
-void visit_life(auto& visit, Is<Scenario> auto& scenario) {
-  const Deployment& deployment = scenario.deployment;
-  if (!deployment.life) return;
-  const Life& life = *deployment.life;
-  visit.rule(scenario.dds.amendments.has_value(), "deployment.life",
-             "nothing of the kind, or a DDS profile with amendments, whose rules know it");
-  const auto is_stale = [&](const StaleRelation& stale) {
-    return is_cross_host(deployment, stale.writer, stale.reader);
-  };
-  const auto is_outage = [&](const Outage& outage) {
-    return is_cross_host(deployment, outage.from, outage.to);
-  };
-  const auto is_mute = [&](const Mute& mute) { return mute.participant < deployment.size(); };
-  visit.rule(std::ranges::all_of(life.stale, is_stale), "deployment.life.stale",
-             "participants of different hosts");
-  visit.rule(std::ranges::all_of(life.outages, is_outage), "deployment.life.outages",
-             "participants of different hosts");
-  visit.rule(std::ranges::all_of(life.mute, is_mute), "deployment.life.mute",
-             "participants of the deployment");
+  constexpr NumberType some = count_range(0, Deployment::max_participants);
+  visit.knob("outages", vary.outages, some,
+             "at most so many outages, each of one direction between two participants; with "
+             "dds.amendments",
+             Presence::optional);
+  visit.knob("restarts", vary.restarts, some,
+             "at most so many participants stop, and come back under their name; with "
+             "dds.amendments",
+             Presence::optional);
+  visit.knob("late_joiners", vary.late_joiners, some, "at most so many participants start later",
+             Presence::optional);
+  visit.knob("failures_within", vary.failures_within, period_range,
+             "outages, restarts and late starts are over by then; 10s if absent",
+             Presence::optional);
 }
 
 /// The keys whose values may be the name of a file.
@@ -306,8 +267,8 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
   visit.knob("time_limit", scenario.time_limit, period_range,
              "events after this time are not processed");
   visit.knob("run_until", scenario.run_until, UsualChoiceType<RunUntil>{{}, RunUntil::completion},
-             "whether the run ends when discovery is complete, as it does if absent, or goes on "
-             "until the time limit",
+             "whether the run ends when discovery is complete, as it does if absent, when nothing "
+             "but announcements is left to do, or at the time limit",
              Presence::optional);
   visit.section("limits", scenario.limits, "what a run may cost, for stormproof fuzz",
                 Presence::optional);

@@ -165,5 +165,56 @@ TEST(Losses, have_the_stated_rate_and_continue_each_other) {
   EXPECT_EQ((VariantSource{base, all}.losses(0, 0, 10).size()), 10U);
 }
 
+TEST(Variants, have_the_failures_that_are_asked_for) {
+  const model::Scenario base =
+      shipped("smallest", {"dds.amendments={}", "time_limit=60s",
+                           "vary={outages: 2, restarts: 1, late_joiners: 1, failures_within: 5s}"});
+  const Ranges ranges = ranges_around(base, {});
+  const VariantSource source{base, ranges};
+  const model::Nanoseconds latest{5'000'000'000};
+  std::size_t outages = 0;
+  std::size_t restarts = 0;
+  std::size_t late = 0;
+  for (std::uint64_t number = 0; number < 200; ++number) {
+    const auto variant = source.draw(3, number);
+    ASSERT_TRUE(variant) << number;
+    const model::Deployment& deployment = variant->scenario.deployment;
+    for (std::size_t i = 0; i < deployment.size(); ++i) {
+      const auto later = deployment.participants[i].start - base.deployment.participants[i].start;
+      EXPECT_LE(later, latest);
+      late += later.count() > 0 ? 1U : 0U;
+    }
+    if (!deployment.life) continue;
+    EXPECT_LE(deployment.life->outages.size(), 2U);
+    EXPECT_LE(deployment.life->restarts.size(), 1U);
+    for (const model::Outage& outage : deployment.life->outages) EXPECT_LE(outage.end, latest);
+    for (const model::Restart& restart : deployment.life->restarts) {
+      EXPECT_LE(restart.start, latest + latest + model::Nanoseconds{1});
+    }
+    outages += deployment.life->outages.size();
+    restarts += deployment.life->restarts.size();
+  }
+  EXPECT_GT(outages, 50U);
+  EXPECT_GT(restarts, 50U);
+  EXPECT_GT(late, 50U);
+}
+
+/// Those who ask for none get the values that they had without such ranges.
+TEST(Variants, of_failures_draw_in_a_stream_of_their_own) {
+  const std::vector<std::string> plain{"dds.amendments={}", "vary={timers: 0.5}"};
+  std::vector<std::string> failing = plain;
+  failing.back() = "vary={timers: 0.5, outages: 2}";
+  const model::Scenario one = shipped("smallest", plain);
+  const model::Scenario other = shipped("smallest", failing);
+  const Ranges of_one = ranges_around(one, {});
+  const Ranges of_other = ranges_around(other, {});
+  for (std::uint64_t number = 0; number < 20; ++number) {
+    const auto without = VariantSource{one, of_one}.draw(1, number);
+    const auto with = VariantSource{other, of_other}.draw(1, number);
+    ASSERT_TRUE(without && with);
+    EXPECT_EQ(without->scenario.dds, with->scenario.dds);
+  }
+}
+
 }  // namespace variant_test
 }  // namespace stormproof::fuzz

@@ -74,6 +74,43 @@ TEST(Life, IsReadAndWritten) {
   EXPECT_EQ(*again, *scenario);
 }
 
+TEST(Life, HasLeasesAndRestarts) {
+  const auto scenario =
+      with({"dds.amendments={}",
+            "deployment.life={lease: 20s, leases: [{participant: 1, duration: 5s}], "
+            "restarts: [{participant: 0, stop: 1s, start: 2s}, {participant: 1, "
+            "stop: 3s, start: 4s, identity: new}]}"});
+  ASSERT_TRUE(scenario) << to_string(scenario.error());
+  const Life& life = *scenario->deployment.life;
+  const auto seconds = [](std::int64_t count) { return Nanoseconds{count * 1'000'000'000}; };
+  EXPECT_EQ(life.lease, seconds(20));
+  EXPECT_EQ(life.leases, (std::vector<Lease>{{1, seconds(5)}}));
+  EXPECT_EQ(life.restarts, (std::vector<Restart>{{0, seconds(1), seconds(2), Identity::same},
+                                                 {1, seconds(3), seconds(4), Identity::fresh}}));
+  const auto again = parse_scenario(effective_json(*scenario).dump(), "again", {}, source_specs());
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_EQ(*again, *scenario);
+}
+
+TEST(Life, RefusesRestartsThatCannotBe) {
+  const std::string rules = "dds.amendments={}";
+  const auto refused = [&](const std::string& restarts) {
+    return refusal({rules, "deployment.life={restarts: [" + restarts + "]}"});
+  };
+  EXPECT_NE(refused("{participant: 0, stop: 2s, start: 2s}").find("later than its stop"),
+            std::string::npos);
+  EXPECT_NE(refused("{participant: 9, stop: 1s, start: 2s}").find("participants of the deployment"),
+            std::string::npos);
+  EXPECT_NE(refused("{participant: 0, stop: 1s, start: 4s}, {participant: 0, stop: 3s, start: 5s}")
+                .find("one after the other"),
+            std::string::npos);
+  EXPECT_NE(refusal({rules, "deployment.life={leases: [{participant: 9, duration: 1s}]}"})
+                .find("participants of the deployment"),
+            std::string::npos);
+  EXPECT_NE(refusal({"vary={outages: 1}"}).find("a DDS profile with amendments"),
+            std::string::npos);
+}
+
 TEST(Life, NeedsRulesThatKnowIt) {
   EXPECT_NE(refusal({"deployment.life={}"}).find("a DDS profile with amendments"),
             std::string::npos);

@@ -44,6 +44,18 @@ TEST(NumericKnobs, have_values_units_and_ranges) {
   EXPECT_EQ(print_quantity(rate->unit, rate->value), "144.4Mbps");
 }
 
+TEST(NumericKnobs, have_the_lease_of_a_life) {
+  const Scenario scenario = shipped("smallest", {"dds.amendments={}", "deployment.life.lease=20s"});
+  const std::vector<NumericKnob> knobs = numeric_knobs(scenario);
+  const NumericKnob* lease = find(knobs, "deployment.life.lease");
+  ASSERT_NE(lease, nullptr);
+  EXPECT_EQ(lease->value, 20'000'000'000);
+  Scenario other = scenario;
+  EXPECT_TRUE(set_numeric_knob(other, lease->key, 1'000));
+  EXPECT_EQ(other.deployment.life->lease, Nanoseconds{1'000});
+  EXPECT_EQ(find(numeric_knobs(shipped("smallest")), "deployment.life.lease"), nullptr);
+}
+
 TEST(NumericKnobs, leave_out_what_nothing_depends_on) {
   const auto paper = numeric_knobs(shipped("wifi-5x20"));
   EXPECT_EQ(find(paper, "wireless.one_way"), nullptr);

@@ -1,0 +1,107 @@
+// The tables of what happens to participants (`deployment.life`), and its rules. See knobs.hpp for
+// what visits them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "model/config/knobs/knobs.hpp"
+#include "model/config/knobs/value_types.hpp"
+#include "model/life.hpp"
+#include "model/scenario.hpp"
+
+namespace stormproof::model::config {
+
+inline constexpr NumberType participant_number = count_range(0, Deployment::max_participants - 1);
+void visit_knobs(auto& visit, Is<StaleRelation> auto& stale) {
+  visit.knob("writer", stale.writer, participant_number, "who believes that the other has all");
+  visit.knob("reader", stale.reader, participant_number, "who has forgotten the writer");
+}
+void visit_knobs(auto& visit, Is<Mute> auto& mute) {
+  visit.knob("participant", mute.participant, participant_number, "who falls silent");
+  visit.knob("from", mute.from, delay_range, "from when on");
+}
+void visit_knobs(auto& visit, Is<Outage> auto& outage) {
+  visit.knob("from", outage.from, participant_number, "whose packets are not received");
+  visit.knob("to", outage.to, participant_number, "by whom");
+  visit.knob("start", outage.start, delay_range, "the first instant");
+  visit.knob("end", outage.end, delay_range, "the first instant after it");
+  visit.rule(outage.start <= outage.end, "end", "not before its start");
+}
+
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Identity>{"same", "new"};
+void visit_knobs(auto& visit, Is<Restart> auto& restart) {
+  visit.knob("participant", restart.participant, participant_number, "who");
+  visit.knob("stop", restart.stop, delay_range, "when it stops, without goodbye");
+  visit.knob("start", restart.start, delay_range, "when it is there again, knowing nothing");
+  visit.knob("identity", restart.identity, UsualChoiceType<Identity>{{}, Identity::same},
+             "whether it comes back under its name, as it does if absent, or as somebody new",
+             Presence::optional);
+  visit.rule(restart.stop < restart.start, "start", "later than its stop");
+}
+void visit_knobs(auto& visit, Is<Lease> auto& lease) {
+  visit.knob("participant", lease.participant, participant_number, "whose");
+  visit.knob("duration", lease.duration, period_range, "how long others remember it");
+}
+
+void visit_knobs(auto& visit, Is<Life> auto& life) {
+  constexpr ListSize any{0, 1'000'000};
+  constexpr ListSize each_participant{0, Deployment::max_participants};
+  visit.list("stale", life.stale, any,
+             "before the run a writer believes that a reader has everything, and that reader has "
+             "forgotten it",
+             Presence::optional);
+  visit.list("mute", life.mute, any, "participants that fall silent for ever", Presence::optional);
+  visit.list("outages", life.outages, any,
+             "times in which one participant does not receive from another", Presence::optional);
+  visit.list("restarts", life.restarts, each_participant,
+             "participants that stop and come back, having lost all that they knew",
+             Presence::optional);
+  visit.knob("lease", life.lease, period_range,
+             "how long a participant is remembered of which nothing is heard; for ever if absent",
+             Presence::optional);
+  visit.list("leases", life.leases, each_participant, "of participants with another one",
+             Presence::optional);
+}
+
+/// Whether both are participants of different hosts.
+[[nodiscard]] inline bool is_cross_host(const Deployment& deployment, std::uint32_t i,
+                                        std::uint32_t j) {
+  const auto& all = deployment.participants;
+  return i < all.size() && j < all.size() && all[i].host != all[j].host;
+}
+void visit_life(auto& visit, Is<Scenario> auto& scenario) {
+  const Deployment& deployment = scenario.deployment;
+  const bool may_fail = scenario.vary && (scenario.vary->outages || scenario.vary->restarts);
+  visit.rule(!may_fail || scenario.dds.amendments.has_value(), "vary",
+             "no outages or restarts, or a DDS profile with amendments, whose rules know them");
+  if (!deployment.life) return;
+  const Life& life = *deployment.life;
+  visit.rule(scenario.dds.amendments.has_value(), "deployment.life",
+             "nothing of the kind, or a DDS profile with amendments, whose rules know it");
+  const auto is_stale = [&](const StaleRelation& stale) {
+    return is_cross_host(deployment, stale.writer, stale.reader);
+  };
+  const auto is_outage = [&](const Outage& outage) {
+    return is_cross_host(deployment, outage.from, outage.to);
+  };
+  const auto is_mute = [&](const Mute& mute) { return mute.participant < deployment.size(); };
+  visit.rule(std::ranges::all_of(life.stale, is_stale), "deployment.life.stale",
+             "participants of different hosts");
+  visit.rule(std::ranges::all_of(life.outages, is_outage), "deployment.life.outages",
+             "participants of different hosts");
+  visit.rule(std::ranges::all_of(life.mute, is_mute), "deployment.life.mute",
+             "participants of the deployment");
+  const auto is_there = [&](const auto& entry) { return entry.participant < deployment.size(); };
+  visit.rule(std::ranges::all_of(life.restarts, is_there), "deployment.life.restarts",
+             "participants of the deployment");
+  visit.rule(std::ranges::all_of(life.leases, is_there), "deployment.life.leases",
+             "participants of the deployment");
+  visit.rule(comes_back_in_order(deployment), "deployment.life.restarts",
+             "of each participant one after the other, from its start on, and nothing after it has "
+             "come back as somebody new");
+}
+
+}  // namespace stormproof::model::config

@@ -1,0 +1,96 @@
+// Looks through the lists of a life; they are short.
+#include "model/life.hpp"
+
+#include <algorithm>
+
+namespace stormproof::model {
+
+bool is_away(const Life& life, std::uint32_t participant, Nanoseconds time) {
+  const auto is_silent = [&](const Mute& mute) {
+    return mute.participant == participant && time >= mute.from;
+  };
+  const auto has_stopped = [&](const Restart& restart) {
+    return restart.participant == participant && time >= restart.stop &&
+           (time < restart.start || restart.identity == Identity::fresh);
+  };
+  return std::ranges::any_of(life.mute, is_silent) ||
+         std::ranges::any_of(life.restarts, has_stopped);
+}
+
+bool is_replaced(const Life& life, std::uint32_t participant) {
+  return std::ranges::any_of(life.restarts, [&](const Restart& restart) {
+    return restart.participant == participant && restart.identity == Identity::fresh;
+  });
+}
+
+std::optional<Nanoseconds> lease_of(const Life& life, std::uint32_t participant) {
+  const auto own = std::ranges::find(life.leases, participant, &Lease::participant);
+  return own == life.leases.end() ? life.lease : own->duration;
+}
+
+bool forgets(const Life& life) {
+  return life.lease || !life.leases.empty() || !life.restarts.empty();
+}
+
+Nanoseconds last_failure(const Deployment& deployment) {
+  Nanoseconds last;
+  for (const Participant& participant : deployment.participants) {
+    last = std::max(last, participant.start);
+  }
+  if (!deployment.life) return last;
+  for (const Outage& outage : deployment.life->outages) last = std::max(last, outage.end);
+  for (const Mute& mute : deployment.life->mute) last = std::max(last, mute.from);
+  for (const Restart& restart : deployment.life->restarts) last = std::max(last, restart.start);
+  return last;
+}
+
+Nanoseconds settled_at(const Deployment& deployment) {
+  if (!deployment.life || !forgets(*deployment.life)) return {};
+  const Life& life = *deployment.life;
+  Nanoseconds longest = life.lease.value_or(Nanoseconds{});
+  for (const Lease& lease : life.leases) longest = std::max(longest, lease.duration);
+  return last_failure(deployment) + longest;
+}
+
+bool comes_back_in_order(const Deployment& deployment) {
+  if (!deployment.life) return true;
+  std::vector<Restart> restarts = deployment.life->restarts;
+  std::ranges::sort(restarts, {}, [](const Restart& r) {
+    return std::pair{r.participant, r.stop};
+  });
+  for (std::size_t k = 0; k < restarts.size(); ++k) {
+    const Restart& restart = restarts[k];
+    const bool is_first = k == 0 || restarts[k - 1].participant != restart.participant;
+    if (restart.participant >= deployment.size()) continue;
+    if (is_first && restart.stop < deployment.participants[restart.participant].start) return false;
+    if (is_first) continue;
+    const Restart& before = restarts[k - 1];
+    if (before.identity == Identity::fresh || restart.stop < before.start) return false;
+  }
+  return true;
+}
+
+bool has_successors(const Deployment& deployment) {
+  return deployment.life &&
+         std::ranges::find(deployment.life->restarts, Identity::fresh, &Restart::identity) !=
+             deployment.life->restarts.end();
+}
+
+Deployment with_successors(const Deployment& deployment) {
+  Deployment all = deployment;
+  if (!has_successors(deployment)) return all;
+  for (const Restart& restart : deployment.life->restarts) {
+    if (restart.identity != Identity::fresh) continue;
+    Participant successor = deployment.participants[restart.participant];
+    successor.start = restart.start;
+    successor.endpoints_done = restart.start;
+    all.participants.push_back(successor);
+    for (const Lease& lease : deployment.life->leases) {
+      if (lease.participant != restart.participant) continue;
+      all.life->leases.push_back({all.size() - 1, lease.duration});
+    }
+  }
+  return all;
+}
+
+}  // namespace stormproof::model

@@ -1,0 +1,31 @@
+// What a life (`deployment.life`) means for a run as a whole: who is away when, when the last
+// failure is over, and from when on nobody forgets anybody any more.
+#pragma once
+
+#include "model/deployment.hpp"
+
+namespace stormproof::model {
+
+/// Whether it is away at that time, having stopped or fallen silent.
+[[nodiscard]] bool is_away(const Life& life, std::uint32_t participant, Nanoseconds time);
+/// Whether somebody else comes back for it; it is never there again.
+[[nodiscard]] bool is_replaced(const Life& life, std::uint32_t participant);
+/// Its lease; nothing: it is never forgotten.
+[[nodiscard]] std::optional<Nanoseconds> lease_of(const Life& life, std::uint32_t participant);
+/// Whether somebody may have to be learned again.
+[[nodiscard]] bool forgets(const Life& life);
+
+/// The latest of all starts, ends of outages, silences and returns.
+[[nodiscard]] Nanoseconds last_failure(const Deployment& deployment);
+/// From then on who hears of somebody once in a lease forgets nobody: the last failure and the
+/// longest lease are over. 0 if nobody forgets.
+[[nodiscard]] Nanoseconds settled_at(const Deployment& deployment);
+
+/// Whether the restarts of each participant follow each other, none before its start.
+[[nodiscard]] bool comes_back_in_order(const Deployment& deployment);
+/// Whether somebody comes back as somebody new.
+[[nodiscard]] bool has_successors(const Deployment& deployment);
+/// The deployment with a participant more for each that comes back as somebody new.
+[[nodiscard]] Deployment with_successors(const Deployment& deployment);
+
+}  // namespace stormproof::model
