@@ -187,7 +187,8 @@ class Distributor {
     constexpr double seconds_ahead = 0.1;
     const auto jobs = static_cast<double>(outcomes_);
     if (outcomes_ == 0 || seconds_ > seconds_ahead * jobs) return 1;
-    return 1 + static_cast<std::size_t>(std::min(1'023.0, seconds_ahead * jobs / (seconds_ + 1e-9)));
+    return 1 +
+           static_cast<std::size_t>(std::min(1'023.0, seconds_ahead * jobs / (seconds_ + 1e-9)));
   }
 
   void hand_out() {

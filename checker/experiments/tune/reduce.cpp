@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "checker/experiments/statistics/completion.hpp"
 
 namespace stormproof::tune {
 
