@@ -12,6 +12,7 @@
 #include "checker/experiments/sweep/tables.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "model/config/tree/quantities.hpp"
 
 namespace stormproof::cli {
 
@@ -22,8 +23,10 @@ using sweep::Collector;
 using sweep::Plan;
 
 struct SweepArguments {
-  std::string grid;      ///< file, or name of a shipped grid
-  std::string database;  ///< SQLite file, made or continued
+  std::string grid;                 ///< file, or name of a shipped grid
+  std::string database;             ///< SQLite file, made or continued
+  std::vector<std::string> others;  ///< databases whose rows it takes over
+  std::string shard;                ///< "K/N"; empty: the whole grid
   OutputFile csv, json;
   std::size_t threads = 0;  ///< 0: one for each core
 };
@@ -72,6 +75,9 @@ Outcome lead(SweepArguments& arguments, const Plan& plan, const sweep::MpiWorld*
   };
   auto database = sweep::Database::open(arguments.database, STORMPROOF_VERSION);
   if (!database) return refuse(database.error());
+  for (const std::string& other : arguments.others) {
+    if (const auto error = database->take_over(other)) return refuse(*error);
+  }
   Collector results{
       plan, *database, [&session](const sweep::Status& status) {
         return session.proceed([&] { return progress_text(status, session.seconds()); });
@@ -112,12 +118,33 @@ Outcome take_part(SweepArguments& arguments, const Plan& plan, bool leads, Sessi
 
 bool is_leader() { return sweep::launch().rank == 0; }
 
+/// "K/N"; the whole grid if nothing was said.
+model::config::Result<grids::Shard> shard_of(const std::string& text) {
+  if (text.empty()) return grids::Shard{};
+  const std::size_t slash = text.find('/');
+  const auto number = model::config::parse_count(text.substr(0, slash));
+  const auto count =
+      model::config::parse_count(slash == std::string::npos ? "" : text.substr(slash + 1));
+  if (!number || !count || *number >= *count) {
+    return model::config::InputError{
+        "--shard " + text, "expected K/N: the number of this shard from 0, and how many there are"};
+  }
+  return grids::Shard{static_cast<std::size_t>(*number), static_cast<std::size_t>(*count)};
+}
+
 Outcome run(SweepArguments& arguments, Session& session) {
   const bool leads = is_leader();
+  const auto shard = shard_of(arguments.shard);
+  if (!shard) return leads ? Outcome{shard.error()} : bad_input;
+  if (shard->count > 1 && sweep::launch().ranks > 1) {
+    const Complaint twice{"--shard " + arguments.shard +
+                          ": the ranks of mpirun share the jobs already; expected one of the two"};
+    return leads ? Outcome{twice} : bad_input;
+  }
   const SpecPath specs = SpecPath::standard();
   auto grid = grids::read_grid(arguments.grid, specs);
   if (!grid) return leads ? Outcome{grid.error()} : bad_input;
-  const auto plan = grids::make_plan(*std::move(grid), specs);
+  const auto plan = grids::make_plan(*std::move(grid), specs, *shard);
   if (!plan) return leads ? Outcome{plan.error()} : bad_input;
   return sweep::launch().ranks > 1 ? take_part(arguments, *plan, leads, session)
                                    : lead(arguments, *plan, nullptr, session);
@@ -129,6 +156,12 @@ void declare(Options& options, SweepArguments& arguments) {
       .written("-o,--output", arguments.database, "SQLite file of the results; made, or continued",
                "FILE")
       .required();
+  options.texts("others", arguments.others,
+                "Databases of other sweeps, such as shards, whose results are taken over first",
+                "FILE...");
+  options.text("--shard", arguments.shard,
+               "Only shard K of N, with K from 0: every N-th job; for machines that share nothing",
+               "K/N");
   options.output("--csv", arguments.csv, "Write the results as CSV");
   options.output("--json", arguments.json, "Write the results as JSON");
   options

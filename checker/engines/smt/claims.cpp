@@ -196,6 +196,7 @@ struct Claims::State {
   std::map<std::string, std::vector<Query>, std::less<>> queries;  // by property
   std::optional<std::string> second_solver;                        // its name, once looked for
   std::optional<std::string> export_error;                         // the first
+  std::map<std::string, std::string> invariants;                   // by question
 
   [[nodiscard]] bool keeps_text() const {
     return options.second_solver || !options.export_dir.empty();
@@ -245,6 +246,18 @@ Decision Claims::decide(std::string_view property, std::string_view query,
   const std::lock_guard lock{state_->mutex};
   state_->queries[std::string{property}].push_back(std::move(asked));
   return decision;
+}
+
+void Claims::remember_invariant(const std::string& question, std::string text) {
+  const std::lock_guard lock{state_->mutex};
+  state_->invariants.try_emplace(question, std::move(text));
+}
+
+std::optional<std::string> Claims::remembered_invariant(const std::string& question) const {
+  const std::lock_guard lock{state_->mutex};
+  const auto found = state_->invariants.find(question);
+  if (found == state_->invariants.end()) return std::nullopt;
+  return found->second;
 }
 
 void Claims::export_certificate(std::string_view property, const std::string& text) {

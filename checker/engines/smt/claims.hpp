@@ -79,6 +79,11 @@ class Claims {
   Decision decide(std::string_view property, std::string_view query,
                   const z3::ast_vector_tpl<z3::expr>& assertions);
 
+  /// What proved a question, as SMT-LIB, for whoever asks nearly the same of another system (of a
+  /// mutant): it is no answer there, but worth a try. The first one stays.
+  void remember_invariant(const std::string& question, std::string text);
+  [[nodiscard]] std::optional<std::string> remembered_invariant(const std::string& question) const;
+
   /// Writes a certificate as certificates/<property>.smt2 among the exports; nothing if there are
   /// none. Every answer that it asks for is unsat.
   void export_certificate(std::string_view property, const std::string& text);

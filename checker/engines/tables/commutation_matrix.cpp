@@ -186,11 +186,13 @@ std::string padded(const std::string& text, std::size_t width) {
 
 }  // namespace
 
-std::vector<PairResult> commutation_matrix(Proof& proof, const EventGroup& group, Extent extent) {
+std::vector<PairResult> commutation_matrix(Proof& proof, const EventGroup& group, Extent extent,
+                                           const std::function<bool(const PairResult&)>& goes_on) {
   std::vector<PairResult> results;
   for (std::size_t i = 0; i < group.kinds.size(); ++i) {
     for (std::size_t j = i; j < group.kinds.size(); ++j) {
       results.push_back(compare_orders(proof, group, i, j, extent));
+      if (goes_on && !goes_on(results.back())) return results;
     }
   }
   return results;

@@ -54,9 +54,11 @@ struct PairResult {
   std::string witness;  ///< of `matters` and `unreachable`
 };
 
-/// All unordered pairs of kinds, in a deployment of this size.
-[[nodiscard]] std::vector<PairResult> commutation_matrix(Proof& proof, const EventGroup& group,
-                                                         Extent extent);
+/// All unordered pairs of kinds, in a deployment of this size; none behind the one of which
+/// `goes_on` says no.
+[[nodiscard]] std::vector<PairResult> commutation_matrix(
+    Proof& proof, const EventGroup& group, Extent extent,
+    const std::function<bool(const PairResult&)>& goes_on = {});
 
 /// The matrix as lines of text.
 [[nodiscard]] std::vector<std::string> matrix_lines(const EventGroup& group,

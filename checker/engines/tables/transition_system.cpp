@@ -1,6 +1,7 @@
 // Spacer, the check of its certificate, and the search for the shortest trace.
 #include "checker/engines/tables/transition_system.hpp"
 
+#include <functional>
 #include <optional>
 
 #include "checker/engines/smt/deadline.hpp"
@@ -126,6 +127,53 @@ std::optional<std::vector<std::string>> find_trace(Proof& proof, const Transitio
   return std::nullopt;
 }
 
+/// Asks for each condition of a certificate whether it can fail, until `take` says that it is
+/// enough.
+void ask_conditions(Proof& proof, const TransitionSystem& system, const Expr& invariant,
+                    const std::function<bool(const std::string&, smt::Answer)>& take) {
+  const auto asked = [&](const std::string& query, const Exprs& conditions) {
+    return take(query, proof.ask(query, conditions).answer);
+  };
+  if (!asked("initially: the invariant fails", {system.initial, !invariant})) return;
+  for (const SystemStep& step : system.steps) {
+    const Expr after = with(invariant, system.variables, step.next);
+    if (!asked(step.name + ": the invariant is lost", {invariant, step.guard, !after})) return;
+  }
+  asked("the invariant admits a bad state", {invariant, system.bad});
+}
+
+/// Whether an invariant of another system is one of this system, and excludes its bad states.
+bool is_proof(Proof& proof, const TransitionSystem& system, const Expr& invariant) {
+  bool holds = true;
+  ask_conditions(proof, system, invariant, [&](const std::string&, smt::Answer answer) {
+    holds = answer == smt::Answer::unsat;
+    return holds;
+  });
+  return holds;
+}
+
+/// The property, the variables and what is bad; not the steps.
+std::string question_of(const Proof& proof, const TransitionSystem& system) {
+  std::string text = proof.property();
+  for (const Expr& variable : system.variables) text += "\n" + variable.decl().to_string();
+  return text + "\n" + system.bad.to_string();
+}
+
+std::string text_of(const Expr& expr) {
+  z3::solver solver{expr.ctx(), z3::solver::simple()};
+  solver.add(expr);
+  return solver.to_smt2();
+}
+
+/// Constants of the same names and sorts are those of the current context.
+Exprs expressions_in(const std::string& text) {
+  Exprs list;
+  for (const Expr& expr : smt::SymbolicContext::current().parse_string(text.c_str())) {
+    list.push_back(expr);
+  }
+  return list;
+}
+
 }  // namespace
 
 Expr with(const Expr& expr, const Exprs& variables, const Exprs& values) {
@@ -135,26 +183,29 @@ Expr with(const Expr& expr, const Exprs& variables, const Exprs& values) {
 
 bool certify(Proof& proof, const TransitionSystem& system, const Expr& invariant) {
   bool holds = true;
-  const auto refute = [&](const std::string& query, const Exprs& conditions) {
-    const smt::Answer answer = proof.ask(query, conditions).answer;
+  ask_conditions(proof, system, invariant, [&](const std::string& query, smt::Answer answer) {
     if (answer == smt::Answer::sat) proof.dispute("an invariant was found, but " + query);
     holds = holds && answer == smt::Answer::unsat;
-  };
-  refute("initially: the invariant fails", {system.initial, !invariant});
-  for (const SystemStep& step : system.steps) {
-    const Expr after = with(invariant, system.variables, step.next);
-    refute(step.name + ": the invariant is lost", {invariant, step.guard, !after});
-  }
-  refute("the invariant admits a bad state", {invariant, system.bad});
+    return true;
+  });
   return holds;
 }
 
 Reached reach_bad(Proof& proof, const TransitionSystem& system) {
-  const SpacerAnswer answer = ask_spacer(system, proof.request().claims.options());
+  smt::Claims& claims = proof.request().claims;
+  const std::string question = question_of(proof, system);
+  if (const auto text = claims.remembered_invariant(question)) {
+    const Expr invariant = all_of(expressions_in(*text));
+    if (is_proof(proof, system, invariant)) {
+      return {smt::Answer::unsat, invariant_lines(invariant), ""};
+    }
+  }
+  const SpacerAnswer answer = ask_spacer(system, claims.options());
   if (answer.reachable == smt::Answer::unsat) {
     if (!certify(proof, system, *answer.invariant)) {
       return {smt::Answer::unknown, {}, "Spacer's invariant does not pass its check"};
     }
+    claims.remember_invariant(question, text_of(*answer.invariant));
     return {smt::Answer::unsat, invariant_lines(*answer.invariant), ""};
   }
   if (auto trace = find_trace(proof, system)) return {smt::Answer::sat, std::move(*trace), ""};

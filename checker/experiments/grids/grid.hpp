@@ -15,8 +15,11 @@
 
 namespace stormproof::grids {
 
-/// Most jobs of one grid. A larger one is refused: it is rather a mistake than an evaluation.
+/// Most jobs of one plan, which a process keeps in memory. More are refused: they are rather a
+/// mistake than an evaluation, unless somebody says that it is only a shard of them.
 inline constexpr std::size_t max_jobs = 1'000'000;
+/// Most jobs of all shards of a grid together.
+inline constexpr std::size_t max_jobs_of_all_shards = 1'000'000'000'000;
 
 /// One entry of `scenarios`, or the grid's base alone.
 struct Variant {
@@ -40,6 +43,7 @@ struct Axis {
 /// changes fastest, but for the seed.
 struct Grid {
   std::string source;             ///< file name, for messages
+  model::config::Place place;     ///< where it starts
   bool has_variants = false;      ///< whether the file has `scenarios`
   std::vector<Variant> variants;  ///< at least one
   std::vector<Axis> axes;
@@ -47,14 +51,14 @@ struct Grid {
   std::uint64_t first_seed = 0;        ///< sample k has seed first_seed + k
 
   [[nodiscard]] std::size_t combinations() const;
-  /// At most `max_jobs`.
+  /// At most `max_jobs_of_all_shards`.
   [[nodiscard]] std::size_t jobs() const { return combinations() * samples.value_or(1); }
 };
 
 /// Reads a grid file; `reference` is a path or the name of a file in specs/grids. Errors, each with
 /// its place: unknown keys, values of the wrong kind, no values, keys that are given twice, no
-/// scenario, scenario files that cannot be read, more than `max_jobs` jobs. What the combinations
-/// themselves have wrong with them, `make_plan` finds out.
+/// scenario, scenario files that cannot be read, more than `max_jobs_of_all_shards` jobs. What the
+/// combinations themselves have wrong with them, `make_plan` finds out.
 [[nodiscard]] model::config::Result<Grid> read_grid(const std::string& reference,
                                                     const model::config::SpecPath& specs);
 

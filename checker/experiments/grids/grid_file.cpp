@@ -27,6 +27,7 @@ class GridReader {
   GridReader(const Node& root, std::string source, const SpecPath& specs)
       : root_{root}, specs_{specs} {
     grid_.source = std::move(source);
+    grid_.place = root.place;
   }
 
   Result<Grid> read() {
@@ -182,12 +183,11 @@ class GridReader {
   Failure check_size() const {
     std::size_t jobs = grid_.variants.size() * grid_.samples.value_or(1);
     for (const Axis& axis : grid_.axes) {
-      if (jobs <= max_jobs) jobs *= axis.values.size();
+      if (jobs <= max_jobs_of_all_shards) jobs *= axis.values.size();
     }
-    if (jobs <= max_jobs) return std::nullopt;
-    return error_at(root_.place, fmt::format("more than {} jobs; expected at most so many, in "
-                                             "several grids if need be",
-                                             max_jobs));
+    if (jobs <= max_jobs_of_all_shards) return std::nullopt;
+    return error_at(root_.place, fmt::format("more than {} jobs; expected at most so many",
+                                             max_jobs_of_all_shards));
   }
 
   const Node& root_;

@@ -52,11 +52,11 @@ Choice Plan::choice(std::size_t combination) const {
 }
 
 const std::optional<InputError>& Plan::error(std::size_t job) const {
-  return combinations_[job / samples()].error;
+  return combination(job).error;
 }
 
 model::Scenario Plan::scenario(std::size_t job) const {
-  const PartNumbers& parts = combinations_[job / samples()].parts;
+  const PartNumbers& parts = combination(job).parts;
   const Rest& rest = rests_[parts.rest].value;
   model::Scenario scenario;
   scenario.deployment = deployments_[parts.deployment].value;
@@ -78,7 +78,7 @@ std::vector<std::string> Plan::keys() const {
 }
 
 std::vector<std::string> Plan::values(std::size_t job) const {
-  const Choice chosen = choice(job / samples());
+  const Choice chosen = choice(combination(job).number);
   std::vector<std::string> values;
   if (grid_->has_variants) values.push_back(grid_->variants[chosen.variant].name);
   for (std::size_t k = 0; k < grid_->axes.size(); ++k) {
@@ -106,7 +106,7 @@ void Plan::write_members() {
 }
 
 std::string Plan::values_json(std::size_t job) const {
-  const Choice chosen = choice(job / samples());
+  const Choice chosen = choice(combination(job).number);
   std::string json = "{";
   const auto add = [&json](const std::string& member) {
     json += json.size() > 1 ? "," : "";
@@ -124,6 +124,17 @@ Digest Plan::digest() const {
   return digest_of(all);
 }
 
+std::map<std::string, std::string> Plan::unmodelled() const {
+  std::map<std::string, std::string> all;
+  std::unordered_set<std::uint32_t> known;
+  for (const Combination& one : combinations_) {
+    if (one.error || !known.insert(one.parts.dds).second) continue;
+    const auto& settings = dds_[one.parts.dds].value.unmodelled;
+    all.insert(settings.begin(), settings.end());
+  }
+  return all;
+}
+
 void Plan::add_combination(PartReader& reader, std::size_t number) {
   const Choice chosen = choice(number);
   const PartNumbers parts = reader.read(chosen);
@@ -134,18 +145,18 @@ void Plan::add_combination(PartReader& reader, std::size_t number) {
                        "as deployment.schedule: {start: [0ms, 20ms]}"};
   }
   const bool fits_together = !error || !reader.parts_are_right(parts);
-  combinations_.push_back({parts, std::move(error), fits_together});
+  combinations_.push_back({number, parts, std::move(error), fits_together});
 }
 
 void Plan::add_job(std::size_t job) {
-  const Combination& combination = combinations_[job / samples()];
-  if (combination.error) {
-    std::string text = "error " + to_string(*combination.error) + "\n";
+  const Combination& of_job = combination(job);
+  if (of_job.error) {
+    std::string text = "error " + to_string(*of_job.error) + "\n";
     for (const std::string& value : values(job)) text += value + "\n";
     digests_.push_back(digest_of(text));
     return;
   }
-  const PartNumbers& parts = combination.parts;
+  const PartNumbers& parts = of_job.parts;
   Digest deployment = deployments_[parts.deployment].digest;
   if (grid_->samples) {
     model::Deployment drawn = deployments_[parts.deployment].value;
@@ -196,9 +207,8 @@ std::optional<InputError> Plan::useless_value() const {
     }
     std::vector<bool> always(count, true);
     std::vector<const Combination*> example(count, nullptr);
-    for (std::size_t number = 0; number < combinations_.size(); ++number) {
-      const Combination& combination = combinations_[number];
-      const Choice chosen = choice(number);
+    for (const Combination& combination : combinations_) {
+      const Choice chosen = choice(combination.number);
       const std::size_t value = is_variant ? chosen.variant : chosen.values[slot];
       const bool is_its_fault = combination.error && combination.fits_together &&
                                 places[value].contains(combination.error->where);
@@ -212,21 +222,38 @@ std::optional<InputError> Plan::useless_value() const {
   return std::nullopt;
 }
 
-config::Result<Plan> make_plan(Grid grid, const config::SpecPath& specs) {
+config::Result<Plan> make_plan(Grid grid, const config::SpecPath& specs, Shard shard) {
   Plan plan;
   plan.grid_ = std::make_shared<const Grid>(std::move(grid));
+  plan.shard_ = shard;
+  const std::size_t jobs = shard.size(plan.grid_->jobs());
+  if (jobs > max_jobs) {
+    return config::error_at(
+        plan.grid_->place,
+        fmt::format("more than {} jobs; expected at most so many, in several shards "
+                    "(sweep --shard) or grids if need be",
+                    max_jobs));
+  }
   plan.write_members();
   PartReader reader{*plan.grid_, specs};
-  const std::size_t combinations = plan.grid_->combinations();
-  plan.combinations_.reserve(combinations);
-  for (std::size_t k = 0; k < combinations; ++k) plan.add_combination(reader, k);
-  if (auto error = plan.useless_value()) return *std::move(error);
+  plan.places_.reserve(jobs);
+  for (std::size_t job = 0; job < jobs; ++job) {
+    const std::size_t number = plan.number(job) / plan.samples();
+    if (plan.combinations_.empty() || plan.combinations_.back().number != number) {
+      plan.add_combination(reader, number);
+    }
+    plan.places_.push_back(static_cast<std::uint32_t>(plan.combinations_.size() - 1));
+  }
+  // A shard does not see what is wrong wherever it occurs.
+  if (shard.count == 1) {
+    if (auto error = plan.useless_value()) return *std::move(error);
+  }
   plan.deployments_ = std::move(reader.deployments);
   plan.dds_ = std::move(reader.dds);
   plan.wireless_ = std::move(reader.wireless);
   plan.rests_ = std::move(reader.rests);
-  plan.digests_.reserve(plan.grid_->jobs());
-  for (std::size_t job = 0; job < plan.grid_->jobs(); ++job) plan.add_job(job);
+  plan.digests_.reserve(jobs);
+  for (std::size_t job = 0; job < jobs; ++job) plan.add_job(job);
   plan.find_alike();
   return plan;
 }

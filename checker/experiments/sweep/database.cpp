@@ -3,6 +3,8 @@
 // many rows keep a row at a few microseconds.
 #include "checker/experiments/sweep/database.hpp"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sqlite3.h>
@@ -52,6 +54,11 @@ std::optional<std::int64_t> Database::integer(const std::string& sql) {
   return sqlite3_column_int64(statement.get(), 0);
 }
 
+std::string Database::outcome_columns() {
+  return fmt::format("\"end\", {}, error, wall_seconds, cpu_seconds",
+                     fmt::join(number_names, ", "));
+}
+
 bool Database::make_schema() {
   std::string numbers;
   for (const char* name : number_names) numbers += fmt::format("  {} INTEGER,\n", name);
@@ -85,8 +92,7 @@ std::optional<std::string> Database::accept() {
     return error();
   std::string marks = "?, ?, ?, ?";
   for (std::size_t k = 0; k < number_names.size() + 3; ++k) marks += ", ?";
-  const std::string numbers = fmt::format("{}", fmt::join(number_names, ", "));
-  const std::string outcome = "\"end\", " + numbers + ", error, wall_seconds, cpu_seconds";
+  const std::string outcome = outcome_columns();
   const bool prepared =
       prepare(fmt::format("INSERT OR REPLACE INTO runs (digest, version, keys, {}) VALUES ({})",
                           outcome, marks),
@@ -170,6 +176,30 @@ bool Database::add(const Digest& digest, const std::string& keys, const Outcome&
   sqlite3_bind_double(row, column, outcome.cpu_seconds);
   const bool added = sqlite3_step(row) == SQLITE_DONE;
   return sqlite3_reset(row) == SQLITE_OK && added;
+}
+
+std::optional<model::config::InputError> Database::take_over(const std::string& path) {
+  const auto wrong = [&](std::string text) {
+    return std::optional{model::config::InputError{path, std::move(text)}};
+  };
+  // SQLite would make the file.
+  if (!std::filesystem::is_regular_file(path)) return wrong("no such file");
+  Statement attach;
+  if (!prepare("ATTACH ? AS other", attach)) return wrong(error());
+  bind_text(attach.get(), 1, path.starts_with(':') ? "./" + path : path);
+  if (sqlite3_step(attach.get()) != SQLITE_DONE) return wrong(sqlite3_errmsg(connection_.get()));
+  std::optional<model::config::InputError> failure;
+  if (integer("PRAGMA other.application_id") != application_id ||
+      integer("PRAGMA other.user_version") != schema_version) {
+    failure = wrong("no database that this program's sweep has made; expected one");
+  } else if (!execute(fmt::format("INSERT OR IGNORE INTO main.runs (digest, version, keys, {0}) "
+                                  "SELECT digest, version, keys, {0} FROM other.runs",
+                                  outcome_columns()))) {
+    failure = wrong(sqlite3_errmsg(connection_.get()));
+  }
+  attach.reset();
+  if (!execute("DETACH other") && !failure) failure = wrong(sqlite3_errmsg(connection_.get()));
+  return failure;
 }
 
 bool Database::commit() {

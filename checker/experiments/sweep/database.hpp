@@ -41,6 +41,10 @@ class Database {
   /// Commits, and merges what SQLite keeps beside the file into it.
   [[nodiscard]] bool finish();
 
+  /// Takes over the rows of another database of sweeps, such as that of a shard; rows that are
+  /// there already stay. What is wrong with the other file, or nothing.
+  [[nodiscard]] std::optional<model::config::InputError> take_over(const std::string& path);
+
   /// What went wrong with the last operation that returned false.
   [[nodiscard]] std::string error() const;
 
@@ -52,6 +56,8 @@ class Database {
   using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
 
   Database() = default;
+  /// Of rows: all columns but the key and `keys`.
+  [[nodiscard]] static std::string outcome_columns();
   [[nodiscard]] bool execute(const std::string& sql);
   [[nodiscard]] std::optional<std::int64_t> integer(const std::string& sql);
   [[nodiscard]] bool prepare(const std::string& sql, Statement& statement);

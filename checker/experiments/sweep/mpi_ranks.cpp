@@ -61,6 +61,8 @@ namespace {
 enum Tag : int { job_tag = 1, outcome_tag, interrupted_tag, end_tag, farewell_tag };
 
 constexpr std::chrono::microseconds pause{200};
+/// Rank 0 has handed out jobs for longer than this, and every look costs some microseconds.
+constexpr std::chrono::milliseconds pause_of_first{2};
 
 /// An outcome on its way: the numbers, then the texts.
 struct Message {
@@ -157,11 +159,8 @@ class Distributor {
   void run() {
     while (!is_over()) {
       hand_out();
-      if (const auto received = receive()) {
-        take(*received);
-      } else {
-        std::this_thread::sleep_for(pause);
-      }
+      std::this_thread::sleep_for(pause_of_first);
+      while (const auto received = receive()) take(*received);
       collector_.tick();
     }
   }
@@ -185,10 +184,11 @@ class Distributor {
   /// How many jobs a rank may have at a time: short ones are handed out ahead, so that nobody waits
   /// for the next message; of long ones nobody has a second while others have none.
   [[nodiscard]] std::size_t share() const {
-    constexpr double seconds_ahead = 0.02;
+    constexpr double seconds_ahead = 0.1;
     const auto jobs = static_cast<double>(outcomes_);
     if (outcomes_ == 0 || seconds_ > seconds_ahead * jobs) return 1;
-    return 1 + static_cast<std::size_t>(std::min(63.0, seconds_ahead * jobs / (seconds_ + 1e-9)));
+    return 1 +
+           static_cast<std::size_t>(std::min(1'023.0, seconds_ahead * jobs / (seconds_ + 1e-9)));
   }
 
   void hand_out() {

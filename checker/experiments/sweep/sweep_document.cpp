@@ -87,15 +87,10 @@ void add_spread(report::Document& document, const Plan& plan, const Collector& r
   document.blocks.emplace_back(std::move(facts));
 }
 
-/// The settings that the model has not got, of all profiles in the plan.
-std::map<std::string, std::string> unmodelled_in(const Plan& plan) {
-  std::map<std::string, std::string> all;
-  for (std::size_t job = 0; job < plan.size(); ++job) {
-    if (plan.first_alike(job) != job || plan.error(job)) continue;
-    const model::DdsProfile dds = plan.scenario(job).dds;
-    all.insert(dds.unmodelled.begin(), dds.unmodelled.end());
-  }
-  return all;
+/// "3/16" of one shard, otherwise nothing.
+std::string shard_text(const Plan& plan) {
+  const grids::Shard shard = plan.shard();
+  return shard.count == 1 ? std::string{} : fmt::format("{}/{}", shard.number, shard.count);
 }
 
 }  // namespace
@@ -110,9 +105,11 @@ report::Document document_of(const Plan& plan, const Collector& results,
   document.complete = open == 0;
   document.exit_code = totals.completed == plan.size() ? 0 : 3;
   document.tone = document.exit_code == 0 ? report::Tone::good : report::Tone::warn;
-  document.subject = fmt::format("{}: {} of {} already done in {}, {} run now", plan.grid().source,
-                                 grouped(status.already_done), grouped(status.jobs), database,
-                                 grouped(status.finished));
+  const std::string shard = shard_text(plan);
+  document.subject =
+      fmt::format("{}{}: {} of {} already done in {}, {} run now", plan.grid().source,
+                  shard.empty() ? "" : ", shard " + shard, grouped(status.already_done),
+                  grouped(status.jobs), database, grouped(status.finished));
   std::string answer =
       fmt::format("{} of {} complete discovery", grouped(totals.completed), grouped(status.jobs));
   if (totals.incomplete > 0) {
@@ -129,7 +126,7 @@ report::Document document_of(const Plan& plan, const Collector& results,
                                " 'SELECT * FROM runs ORDER BY t_disc_ns DESC LIMIT 5'",
                            "the runs that take longest; --csv FILE writes all of them as a table"});
   model::DdsProfile dds;
-  dds.unmodelled = unmodelled_in(plan);
+  dds.unmodelled = plan.unmodelled();
   add_unmodelled(document, dds);
   return document;
 }
@@ -137,7 +134,7 @@ report::Document document_of(const Plan& plan, const Collector& results,
 namespace {
 
 struct SweepAnswer {
-  std::string grid, database;
+  std::string grid, shard, database;
   Status status;
   Totals totals;
   std::map<std::string, std::string> unmodelled;
@@ -146,6 +143,7 @@ struct SweepAnswer {
 template <class V>
 void describe(V& v, const SweepAnswer& answer) {
   v("grid", answer.grid);
+  v.unless_empty("shard", answer.shard);
   v("database", answer.database);
   v("jobs", answer.status.jobs);
   v("already_done", answer.status.already_done);
@@ -161,8 +159,8 @@ void describe(V& v, const SweepAnswer& answer) {
 
 nlohmann::ordered_json to_json(const Plan& plan, const Collector& results,
                                const std::string& database) {
-  return report::json_of(SweepAnswer{plan.grid().source, database, results.status(),
-                                     count(plan, results), unmodelled_in(plan)});
+  return report::json_of(SweepAnswer{plan.grid().source, shard_text(plan), database,
+                                     results.status(), count(plan, results), plan.unmodelled()});
 }
 
 nlohmann::ordered_json json_schema(report::SchemaDefinitions& definitions) {

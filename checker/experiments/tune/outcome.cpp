@@ -60,6 +60,35 @@ bool Archive::extend(const std::vector<Point>& points, Seeds seeds) {
   return !runner_.stopped();
 }
 
+bool Archive::watch(const std::vector<Point>& points, Seeds seeds) {
+  if (!problem_.watch) return true;
+  struct Job {
+    const Point* point;
+    std::uint64_t seed;
+    Outcome* outcome;
+  };
+  std::vector<Job> jobs;
+  const std::set<Point> distinct{points.begin(), points.end()};
+  for (const Point& point : distinct) {
+    for (auto& [seed, outcome] : outcomes_[point]) {
+      const bool asked = seed >= seeds.first && seed - seeds.first < seeds.count;
+      if (asked && !outcome.watched) jobs.push_back({&point, seed, &outcome});
+    }
+  }
+  if (!runner_.goes_on()) return false;
+  const auto results = runner_.run(jobs.size(), [&](std::size_t k) {
+    return problem_.watch(*jobs[k].point, jobs[k].seed, limit_);
+  });
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    if (!results[k]) continue;
+    std::vector<std::string_view>& broken = jobs[k].outcome->broken;
+    broken.insert(broken.end(), results[k]->begin(), results[k]->end());
+    std::ranges::sort(broken);
+    jobs[k].outcome->watched = true;
+  }
+  return !runner_.stopped();
+}
+
 std::vector<Outcome> Archive::outcomes(const Point& point, Seeds seeds) const {
   std::vector<Outcome> found;
   const auto runs = outcomes_.find(point);

@@ -28,6 +28,7 @@ struct Outcome {
   model::Counts counts;
   std::vector<std::string_view> broken;  ///< ids of the properties and limits that must hold and
                                          ///< do not, ascending
+  bool watched = false;                  ///< `broken` has what `Problem::watch` sees, too
 };
 
 /// What is searched: settings, whether one is a scenario at all, and the outcome of one under a
@@ -38,6 +39,11 @@ struct Problem {
   std::function<bool(const Point&)> is_valid;
   std::function<std::optional<Outcome>(const Point&, std::uint64_t seed, model::Nanoseconds limit)>
       run;
+  /// What the same run breaks beside that, if it costs several times a run to see it: asked only of
+  /// the settings that an answer rests on. Empty: nothing.
+  std::function<std::optional<std::vector<std::string_view>>(const Point&, std::uint64_t seed,
+                                                             model::Nanoseconds limit)>
+      watch{};
 };
 
 /// Seeds first, first + 1, …
@@ -61,10 +67,13 @@ class Archive {
   /// Makes the runs that `points` lack under `seeds`; false if they were interrupted.
   bool extend(const std::vector<Point>& points, Seeds seeds);
 
+  /// Has those runs of `points` watched that were made and are not yet; false if interrupted.
+  bool watch(const std::vector<Point>& points, Seeds seeds);
+
   /// The outcomes of a point under those of `seeds` that were run, by seed.
   [[nodiscard]] std::vector<Outcome> outcomes(const Point& point, Seeds seeds) const;
   [[nodiscard]] Cost cost(const Point& point, Seeds seeds) const;
-  /// Whether nothing breaks under `seeds`.
+  /// Whether nothing breaks under `seeds`, as far as the runs were watched.
   [[nodiscard]] bool keeps(const Point& point, Seeds seeds) const;
 
   /// Runs that were made.

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "checker/experiments/statistics/completion.hpp"
 
 namespace stormproof::tune {
 
@@ -69,7 +72,7 @@ class Reducer {
       const std::vector<std::size_t> none(point.size(), 0);
       journeys.push_back({point, point, Journey::Stage::setting_back, none, none});
     }
-    if (!archive_.extend(points, seeds_)) return std::nullopt;
+    if (!archive_.extend(points, seeds_) || !archive_.watch(points, seeds_)) return std::nullopt;
     const auto is_on_its_way = [](const Journey& journey) {
       return journey.stage != Journey::Stage::arrived;
     };
@@ -83,7 +86,7 @@ class Reducer {
       }
       if (!archive_.extend(candidates, seeds_)) return std::nullopt;
       for (Journey& journey : journeys) {
-        if (is_on_its_way(journey)) go_on(journey);
+        if (is_on_its_way(journey) && !go_on(journey)) return std::nullopt;
       }
     }
     std::vector<Point> reduced;
@@ -97,34 +100,47 @@ class Reducer {
   }
 
   /// Takes the step that costs least, if one may be taken. The next stage begins if none may, or
-  /// none is left.
-  void go_on(Journey& journey) const {
+  /// none is left. False: it was interrupted.
+  bool go_on(Journey& journey) {
     const bool moves_back = journey.stage == Journey::Stage::moving_back;
-    const Step* best = nullptr;
-    Cost least_cost;
+    const auto refuse = [&](const Step& step) {
+      if (moves_back) ++journey.failures[step.dimension];
+    };
     const std::vector<Step> steps = steps_of(problem_.space, journey);
+    std::vector<std::pair<Cost, const Step*>> good;
     for (const Step& step : steps) {
-      if (!is_valid(step.to) || !is_as_good(step.to, journey.original)) {
-        if (moves_back) ++journey.failures[step.dimension];
+      if (is_valid(step.to) && is_as_good(step.to, journey.original)) {
+        good.emplace_back(archive_.cost(step.to, seeds_), &step);
+      } else {
+        refuse(step);
+      }
+    }
+    std::ranges::stable_sort(good, is_sooner, &std::pair<Cost, const Step*>::first);
+    // Only what is to be taken is watched.
+    for (const auto& [cost, step] : good) {
+      if (!archive_.watch({step->to}, seeds_)) return false;
+      if (!keeps_as(step->to, journey.original)) {
+        refuse(*step);
         continue;
       }
-      const Cost cost = archive_.cost(step.to, seeds_);
-      if (best != nullptr && !is_sooner(cost, least_cost)) continue;
-      best = &step;
-      least_cost = cost;
+      if (moves_back) ++journey.moves[step->dimension];
+      journey.now = step->to;
+      return true;
     }
-    if (best != nullptr) {
-      if (moves_back) ++journey.moves[best->dimension];
-      journey.now = best->to;
-    } else if (!moves_back) {
+    if (!moves_back) {
       journey.stage = Journey::Stage::moving_back;
     } else if (steps.empty()) {
       journey.stage = Journey::Stage::arrived;
     }
+    return true;
+  }
+
+  [[nodiscard]] bool keeps_as(const Point& candidate, const Point& original) const {
+    return archive_.keeps(candidate, seeds_) || !archive_.keeps(original, seeds_);
   }
 
   [[nodiscard]] bool is_as_good(const Point& candidate, const Point& original) const {
-    if (!archive_.keeps(candidate, seeds_) && archive_.keeps(original, seeds_)) return false;
+    if (!keeps_as(candidate, original)) return false;
     const Difference change =
         difference(archive_.outcomes(candidate, seeds_), archive_.outcomes(original, seeds_));
     return !is_clearly_more(change.completion, least_) && !is_clearly_more(change.messages, least_);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <set>
 
@@ -54,7 +55,7 @@ class Search {
       goes_on = race(next);
     }
     result_.finished = goes_on;
-    conclude();
+    result_.finished = conclude() && goes_on;
     return std::move(result_);
   }
 
@@ -172,7 +173,7 @@ class Search {
       points = promising(points, level, (points.size() + 1) / 2);
     }
     for (const Point& point : points) enter(point);
-    return true;
+    return watch_front(population_, options_.seeds).has_value();
   }
 
   bool rejects(const Point& point, Seeds seeds) {
@@ -189,23 +190,53 @@ class Search {
   }
 
   /// If the first race was interrupted, there are no finalists yet: then the front is that of all
-  /// who have finished its first stage.
-  void conclude() {
+  /// who have finished its first stage. False: it was interrupted.
+  bool conclude() {
     result_.basis = options_.seeds;
     std::vector<Point> candidates = population_;
     if (!result_.finished && population_.size() <= 1) {
       result_.basis = seeds(levels_.front());
       candidates.assign(seen_.begin(), seen_.end());
     }
+    auto front = watch_front(candidates, result_.basis);
+    const bool complete = front.has_value();
+    result_.front = complete ? *std::move(front) : front_of(candidates, result_.basis);
+    return complete;
+  }
+
+  /// The front of those that keep everything; who does not is taken out of `candidates`, but for
+  /// the unchanged setting, from which others are bred. Whoever is dominated by a setting that
+  /// keeps everything need not be watched. Nothing: it was interrupted.
+  std::optional<std::vector<Point>> watch_front(std::vector<Point>& candidates, Seeds basis) {
+    for (;;) {
+      std::vector<Point> front = front_of(candidates, basis);
+      if (!archive_.watch(front, basis)) return std::nullopt;
+      bool all_keep = true;
+      for (const Point& point : front) {
+        if (archive_.keeps(point, basis)) continue;
+        all_keep = false;
+        if (point == problem_.space.unchanged()) continue;
+        rejects(point, basis);
+        std::erase(candidates, point);
+      }
+      if (all_keep) return front;
+    }
+  }
+
+  /// Of those that are known not to break anything.
+  [[nodiscard]] std::vector<Point> front_of(const std::vector<Point>& candidates,
+                                            Seeds basis) const {
     std::vector<Point> kept;
     std::vector<Cost> costs;
     for (const Point& point : candidates) {
-      const std::vector<Outcome> outcomes = archive_.outcomes(point, result_.basis);
-      if (outcomes.size() < result_.basis.count || !broken_in(outcomes).empty()) continue;
+      const std::vector<Outcome> outcomes = archive_.outcomes(point, basis);
+      if (outcomes.size() < basis.count || !broken_in(outcomes).empty()) continue;
       kept.push_back(point);
-      costs.push_back(archive_.cost(point, result_.basis));
+      costs.push_back(archive_.cost(point, basis));
     }
-    for (const std::size_t k : pareto_front(costs)) result_.front.push_back(kept[k]);
+    std::vector<Point> front;
+    for (const std::size_t k : pareto_front(costs)) front.push_back(kept[k]);
+    return front;
   }
 
   const Problem& problem_;

@@ -68,7 +68,13 @@ class Study {
       return model::config::is_valid(report_.space.apply(scenario(), point));
     };
     problem_.run = [this](const Point& point, std::uint64_t seed, Nanoseconds limit) {
-      return run_under(report_.space.apply(scenario(), point), seed, limit);
+      return run_under(report_.space.apply(scenario(), point), seed, limit, limits_);
+    };
+    problem_.watch = [this](const Point& point, std::uint64_t seed,
+                            Nanoseconds limit) -> std::optional<std::vector<std::string_view>> {
+      auto outcome = run_under(report_.space.apply(scenario(), point), seed, limit, properties_);
+      if (!outcome) return std::nullopt;
+      return std::move(outcome->broken);
     };
     if (look_at_unchanged() && search_and_choose()) compare();
     conclude();
@@ -94,9 +100,19 @@ class Study {
     return std::nullopt;
   }
 
-  std::optional<Outcome> run_under(const Scenario& changed, std::uint64_t seed, Nanoseconds limit) {
+  std::optional<Outcome> run_under(const Scenario& changed, std::uint64_t seed, Nanoseconds limit,
+                                   const std::vector<std::string_view>& ids) {
     const Scenario drawn = trials::under_seed(changed, seed, options_.start_jitter);
-    return run_once(drawn, watched_, limit, [this] { return runner_.goes_on(); });
+    return run_once(drawn, ids, limit, [this] { return runner_.goes_on(); });
+  }
+
+  /// Limits are judged by the result of a run. Properties take several times as long as the run.
+  void share_out() {
+    limits_.clear();
+    properties_.clear();
+    for (const std::string_view id : watched_) {
+      (id.starts_with("limit.") ? limits_ : properties_).push_back(id);
+    }
   }
 
   /// What holds without a change, and how long it takes.
@@ -108,15 +124,19 @@ class Study {
         if (std::ranges::find(options_.keep, id) != options_.keep.end()) watched_.push_back(id);
       }
     }
+    share_out();
     about_ = options_.budget + 20 * most_shown * report_.chosen.count / 2;
     Archive archive{problem_, scenario().time_limit, runner_};
-    if (!archive.extend({report_.space.unchanged()}, report_.searched)) return false;
+    const std::vector<Point> unchanged{report_.space.unchanged()};
+    if (!archive.extend(unchanged, report_.searched)) return false;
+    if (!archive.watch(unchanged, report_.searched)) return false;
     const auto outcomes = archive.outcomes(report_.space.unchanged(), report_.searched);
     if (options_.keep.empty()) {
       for (const std::string_view id : broken_in(outcomes)) {
         report_.not_required.emplace_back(id);
         std::erase(watched_, id);
       }
+      share_out();
     }
     for (const std::string_view id : watched_) report_.kept.emplace_back(id);
     const double median = cost_of(outcomes).completion;
@@ -223,7 +243,7 @@ class Study {
     const std::size_t samples = report_.compared.count;
     auto outcomes = runner_.run(rows.size() * samples, [&](std::size_t k) {
       return run_under(rows[k / samples].scenario, report_.compared.first + k % samples,
-                       scenario().time_limit);
+                       scenario().time_limit, watched_);
     });
     if (runner_.stopped()) return;
     std::vector<std::vector<Outcome>> by_row(rows.size());
@@ -246,7 +266,8 @@ class Study {
   const Subject& subject_;
   const Options& options_;
   Problem problem_;
-  std::vector<std::string_view> watched_;
+  std::vector<std::string_view> watched_;              ///< all that must hold
+  std::vector<std::string_view> limits_, properties_;  ///< of them
   std::vector<Point> front_;
   Point choice_;
   std::map<Point, std::vector<Outcome>> known_;

@@ -284,7 +284,8 @@ class Builder {
   [[nodiscard]] std::string kept() const {
     std::string text = report_.kept.empty()
                            ? "nothing was required"
-                           : fmt::format("in every run: {}", fmt::join(report_.kept, ", "));
+                           : fmt::format("in every run that the answer rests on: {}",
+                                         fmt::join(report_.kept, ", "));
     if (!report_.not_required.empty()) {
       text += fmt::format("; not required, as they break unchanged: {}",
                           fmt::join(report_.not_required, ", "));

@@ -94,8 +94,9 @@ TEST(Grid, MistakesAreShownWithTheirPlace) {
       {"base: smallest\nseed: 1\n", "g.yaml:2:7: seed: there are no samples"},
       {"base: smallest\nsamples: 2\nseed: -1\n", "g.yaml:3:7: seed: '-1'"},
       {"base: smallest\ndescription: [x]\n", "g.yaml:2:14: description: a list"},
-      {"base: smallest\ngrid: {a: {from: 1, to: 1000}, b: {from: 1, to: 1001}}\n",
-       "g.yaml:1:1: more than 1000000 jobs"},
+      {"base: smallest\ngrid: {a: {from: 1, to: 10000}, b: {from: 1, to: 10000}, c: {from: 1, to: "
+       "10001}}\n",
+       "g.yaml:1:1: more than 1000000000000 jobs"},
   };
   for (const Mistake& mistake : mistakes) {
     EXPECT_EQ(error(mistake.text).substr(0, std::string{mistake.expected}.size()), mistake.expected)

@@ -79,6 +79,52 @@ TEST(Plan, SamplesDrawTheirSchedules) {
             digest("base: live-5x20\ngrid: {dds: [paper], deployment.schedule.seed: [11]}\n"));
 }
 
+TEST(Plan, ShardsHaveEachJobOfTheGridOnce) {
+  const std::string text =
+      "base: live-5x20\nscenarios: [{dds: paper}, {deployment.hosts: 1}]\nsamples: 5\n"
+      "grid: {deployment.participants_per_host: [1, 2, 3]}\n";
+  const auto whole = plan_of(text);
+  ASSERT_TRUE(whole) << to_string(whole.error());
+  ASSERT_EQ(whole->size(), 30U);
+  for (const std::size_t count : {1U, 4U, 7U, 40U}) {
+    std::size_t jobs = 0;
+    for (std::size_t number = 0; number < count; ++number) {
+      auto grid = parse_grid(text, "g.yaml", SpecPath::standard());
+      ASSERT_TRUE(grid);
+      const Shard shard{number, count};
+      // Some shards have nothing but jobs that cannot run.
+      const auto plan = make_plan(*std::move(grid), SpecPath::standard(), shard);
+      ASSERT_TRUE(plan) << to_string(plan.error());
+      EXPECT_EQ(plan->size(), shard.size(whole->size()));
+      for (std::size_t k = 0; k < plan->size(); ++k) {
+        const std::size_t job = number + k * count;
+        ++jobs;
+        EXPECT_EQ(plan->digest(k), whole->digest(job)) << job;
+        EXPECT_EQ(plan->values(k), whole->values(job));
+        EXPECT_EQ(plan->values_json(k), whole->values_json(job));
+        ASSERT_EQ(plan->error(k).has_value(), whole->error(job).has_value());
+        if (!plan->error(k)) {
+          EXPECT_EQ(plan->scenario(k), whole->scenario(job));
+        }
+      }
+    }
+    EXPECT_EQ(jobs, whole->size());
+  }
+}
+
+TEST(Plan, AShardMayBelongToAGridThatIsTooLargeForOne) {
+  const std::string text =
+      "base: live-5x20\nsamples: 1000000\ngrid: {dds.sedp.heartbeat_period: {from: 1ms, to: 1s, "
+      "step: 1ms}}\n";
+  EXPECT_EQ(error(text).substr(0, 34), "g.yaml:1:1: more than 1000000 jobs");
+  auto grid = parse_grid(text, "g.yaml", SpecPath::standard());
+  ASSERT_TRUE(grid) << to_string(grid.error());
+  const auto plan = make_plan(*std::move(grid), SpecPath::standard(), {9'999'999, 10'000'000});
+  ASSERT_TRUE(plan) << to_string(plan.error());
+  ASSERT_EQ(plan->size(), 100U);
+  EXPECT_EQ(plan->values(99), (std::vector<std::string>{"1s", "999999"}));
+}
+
 TEST(Plan, DigestsLookAtInputsNotAtTheirSpelling) {
   const Digest own = digest("base: smallest\n");
   EXPECT_EQ(own, digest("scenarios: [smallest]\n"));

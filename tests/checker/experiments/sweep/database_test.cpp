@@ -96,6 +96,33 @@ TEST_F(DatabaseTest, WhatWasNotCommittedIsNotThere) {
   EXPECT_FALSE(database.find(digest_of("two")));
 }
 
+TEST_F(DatabaseTest, TakesOverTheRowsOfAnother) {
+  const fs::path other = folder_ / "it's another.db";
+  {
+    auto database = Database::open(other, "1.0");
+    ASSERT_TRUE(database);
+    Outcome differs = some_outcome();
+    differs.wall_seconds = 7;
+    EXPECT_TRUE(database->add(digest_of("one"), "{}", differs));
+    EXPECT_TRUE(database->add(digest_of("two"), "{}", some_outcome()));
+    EXPECT_TRUE(database->commit());  // and no more, as if it had been killed
+  }
+  Database database = open();
+  EXPECT_TRUE(database.add(digest_of("one"), "{}", some_outcome()));
+  EXPECT_TRUE(database.commit());
+  EXPECT_FALSE(database.take_over(other));
+  EXPECT_EQ(database.find(digest_of("one"))->wall_seconds, 0.25);
+  EXPECT_EQ(database.find(digest_of("two"))->numbers, some_outcome().numbers);
+  EXPECT_FALSE(database.take_over(other));
+
+  const fs::path absent = folder_ / "absent.db";
+  EXPECT_EQ(database.take_over(absent)->message, "no such file");
+  EXPECT_FALSE(fs::exists(absent));
+  std::ofstream{absent} << "important notes";
+  EXPECT_TRUE(database.take_over(absent));
+  EXPECT_TRUE(database.take_over(folder_));
+}
+
 TEST_F(DatabaseTest, AnEmptyFileIsANewOne) {
   std::ofstream{file_};
   EXPECT_EQ(open_error(), "no error");

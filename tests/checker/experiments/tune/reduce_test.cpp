@@ -92,6 +92,14 @@ TEST(TuneReduce, SetsNothingBackThatWouldBreak) {
     return outcome;
   };
   EXPECT_EQ(changed(reduce_with(problem, {{9, 9}}).front()), (Changed{0, 1}));
+
+  problem.run = run;
+  problem.watch = [](const Point& point, std::uint64_t,
+                     model::Nanoseconds) -> std::optional<std::vector<std::string_view>> {
+    if (point[0] > 0 && point[1] == 0) return std::vector<std::string_view>{"planted.property"};
+    return std::vector<std::string_view>{};
+  };
+  EXPECT_EQ(changed(reduce_with(problem, {{9, 9}}).front()), (Changed{0, 1}));
 }
 
 TEST(TuneReduce, AllPointsGoTheirOwnWay) {

@@ -127,6 +127,28 @@ TEST(TuneSearch, RefusesWhatBreaksAProperty) {
   EXPECT_EQ(result.rejected_by.at("planted.property"), result.rejected);
 }
 
+/// The same if it costs much to see it: then only those are watched that might be in the front.
+TEST(TuneSearch, WatchesOnlyWhatTheFrontRestsOn) {
+  Problem problem = problem_of(space_of_knobs(2, 0), planted, 0);
+  std::atomic<std::size_t> watched = 0;
+  problem.watch = [&](const Point& point, std::uint64_t seed,
+                      model::Nanoseconds) -> std::optional<std::vector<std::string_view>> {
+    ++watched;
+    if (point[0] > 200 && seed == 7) return std::vector<std::string_view>{"planted.property"};
+    return std::vector<std::string_view>{};
+  };
+  trials::Runner runner{1};
+  Archive archive{problem, stand_in_limit, runner};
+  const SearchResult result = search(problem, archive, {1'200, {0, 8}, 1});
+  ASSERT_TRUE(result.finished);
+  ASSERT_FALSE(result.front.empty());
+  for (const Point& point : result.front) EXPECT_LE(point[0], 200);
+  EXPECT_GE(result.front.front()[0], 150);
+  EXPECT_EQ(result.rejected_by.at("planted.property"), result.rejected);
+  EXPECT_GE(watched, 8 * result.front.size());
+  EXPECT_LT(watched, archive.runs());
+}
+
 /// It breaks under one seed only, the last.
 TEST(TuneSearch, RefusesWhatBreaksRarely) {
   Problem problem = problem_of(
