@@ -205,7 +205,7 @@ Projection project(const model::DdsProfile& dds, Unsound mistake) {
               exists(system, name, [&](const Expr& variable) { return happening.after(variable); });
           z3::solver solver{context};
           for (const Expr& condition : happening.conditions()) solver.add(condition);
-          if (mistake == Unsound::none && solver.check() == z3::sat) ++projection.possible;
+          if (solver.check() == z3::sat) ++projection.possible;
           solver.add(!exists_one);
           const z3::check_result result = solver.check();
           ++projection.checked;
