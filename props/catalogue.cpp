@@ -143,7 +143,7 @@ const std::array properties{
              "",
              "stated over X, what the receiver has, whatever the writer believes; an event that "
              "changes nothing does not count",
-             {explorer, exact_run},
+             {tables, explorer, exact_run},
              "model.md, all rules of the writer and the reader"},
     Property{
         "live.completion",

@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -50,6 +52,9 @@ struct CheckRequest {
   /// Called with each run of the scenario up to the end of discovery, in the order of the seeds.
   std::function<void(const model::Scenario&, const model::RunResult&)> on_run = {};
   unsigned effort = 1;  ///< multiplies the states that the explorer may look at
+  /// What engines have found in this check that others can rest on, by name; nobody keeps it if
+  /// there is none.
+  std::map<std::string, props::Finding>* known = nullptr;
 };
 /// What `--thorough` makes of the effort of all searches.
 inline constexpr unsigned thorough = 25;

@@ -15,51 +15,57 @@ Exprs holds_of(const std::vector<Clause>& clauses) {
   return all;
 }
 
-/// Of what is given, stated and found: what every step keeps. Gives up if that lacks something that
-/// is stated.
-std::vector<Clause> invariant_of(Proof& proof, const Certificate& certificate) {
+/// Of what is given, stated and found: what every step keeps, and what is stated in vain.
+struct Found {
+  std::vector<Clause> invariant;
+  std::vector<std::string> lost;
+};
+Found find(Proof& proof, const Certificate& certificate) {
   std::vector<Clause> all = certificate.given;
   all.insert(all.end(), certificate.invariant.begin(), certificate.invariant.end());
   const std::size_t stated = all.size();
   for (const Expr& candidate : certificate.candidates) all.push_back({"found", candidate});
-  const Kept found = houdini(proof, certificate.system, holds_of(all));
-  std::vector<Clause> invariant;
+  const Kept kept = houdini(proof, certificate.system, holds_of(all));
+  Found found;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (found.kept[k]) {
-      invariant.push_back(all[k]);
+    if (kept.kept[k]) {
+      found.invariant.push_back(all[k]);
     } else if (k < stated) {
-      const std::string loss = "'" + all[k].words + "' is lost at: " + found.lost_at[k];
-      proof.give_up(loss);
-      proof.detail(loss);
+      found.lost.push_back("'" + all[k].words + "' is lost at: " + kept.lost_at[k]);
     }
   }
-  return invariant;
+  return found;
 }
 
 bool follows(Proof& proof, const Certificate& certificate, const Expr& invariant) {
   bool holds = true;
+  const auto fail = [&](const std::string& why) {
+    proof.give_up(why);
+    proof.detail(why);
+    holds = false;
+  };
   for (const StepClause& clause : certificate.on_steps) {
+    bool taken = false;
     for (const SystemStep& step : certificate.system.steps) {
       if (step.name != clause.step) continue;
+      taken = true;
       const Expr after = with(clause.after, certificate.system.variables, step.next);
-      const bool possible = proof.possible(step.name + ": not so: " + clause.words,
-                                           {invariant, clause.before, step.guard, !after});
-      if (possible) proof.give_up("not so: " + clause.words);
-      holds = holds && !possible;
+      if (proof.possible(step.name + ": not so: " + clause.words,
+                         {invariant, clause.before, step.guard, !after})) {
+        fail("not so: " + clause.words);
+      }
     }
+    if (!taken) fail("there is no step " + clause.step + ": " + clause.words);
   }
   for (const Clause& clause : certificate.conclusions) {
-    const bool possible = proof.possible("not so: " + clause.words, {invariant, !clause.holds});
-    if (possible) proof.give_up("not so: " + clause.words);
-    holds = holds && !possible;
+    if (proof.possible("not so: " + clause.words, {invariant, !clause.holds})) {
+      fail("not so: " + clause.words);
+    }
   }
   return holds;
 }
 
-}  // namespace
-
-bool prove(Proof& proof, const Certificate& certificate) {
-  const std::vector<Clause> invariant = invariant_of(proof, certificate);
+bool conclude(Proof& proof, const Certificate& certificate, const std::vector<Clause>& invariant) {
   const Expr all = all_of(holds_of(invariant));
   TransitionSystem safe = certificate.system;
   safe.bad = !all;
@@ -76,6 +82,22 @@ bool prove(Proof& proof, const Certificate& certificate) {
                               certificate_text(certificate, invariant, proof.property()));
   }
   return holds;
+}
+
+}  // namespace
+
+bool prove(Proof& proof, const Certificate& certificate) {
+  const Found found = find(proof, certificate);
+  for (const std::string& loss : found.lost) {
+    proof.give_up(loss);
+    proof.detail(loss);
+  }
+  return conclude(proof, certificate, found.invariant);
+}
+
+bool prove_if_kept(Proof& proof, const Certificate& certificate) {
+  const Found found = find(proof, certificate);
+  return found.lost.empty() && conclude(proof, certificate, found.invariant);
 }
 
 }  // namespace stormproof::tables

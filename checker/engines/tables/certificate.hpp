@@ -37,6 +37,9 @@ struct Certificate {
 /// Decides it, and gives up at the first clause that a step does not keep. What is stated goes into
 /// the details. Whether all of it holds.
 bool prove(Proof& proof, const Certificate& certificate);
+/// The same for those who know better than to give up: false, and nothing is said, if a step does
+/// not keep what is stated.
+[[nodiscard]] bool prove_if_kept(Proof& proof, const Certificate& certificate);
 
 /// The certificate with this invariant as SMT-LIB, to be read and checked by others.
 [[nodiscard]] std::string certificate_text(const Certificate& certificate,

@@ -12,7 +12,7 @@ namespace {
 
 using Decide = Finding (*)(const CheckRequest&);
 
-constexpr std::array<std::string_view, 13> ids{"fsm.determinism",
+constexpr std::array<std::string_view, 14> ids{"fsm.determinism",
                                                "fsm.totality",
                                                "fsm.reachability",
                                                "composition.total",
@@ -24,8 +24,9 @@ constexpr std::array<std::string_view, 13> ids{"fsm.determinism",
                                                "safety.ack-implies-received",
                                                "safety.repair-only-if-asked",
                                                "safety.snapshot",
-                                               "timer.single-heartbeat"};
-constexpr std::array<Decide, 13> functions{fsm_determinism,
+                                               "timer.single-heartbeat",
+                                               "live.no-stall"};
+constexpr std::array<Decide, 14> functions{fsm_determinism,
                                            fsm_totality,
                                            fsm_reachability,
                                            composition_total,
@@ -37,7 +38,8 @@ constexpr std::array<Decide, 13> functions{fsm_determinism,
                                            safety_ack_implies_received,
                                            safety_repair_only_if_asked,
                                            safety_snapshot,
-                                           timer_single_heartbeat};
+                                           timer_single_heartbeat,
+                                           live_no_stall};
 
 Finding failed(const std::string& why) {
   Finding finding;

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "checker/engines/bounds/resting.hpp"
 #include "checker/engines/tables/derived_time.hpp"
 #include "checker/engines/tables/timed_certificate.hpp"
 
@@ -19,9 +20,8 @@ Expr if_then(const Expr& condition, const Expr& consequence) {
 
 class Invariant {
  public:
-  Invariant(const TimedDescriptor& system, const model::DdsProfile& dds, bool completes)
+  Invariant(const TimedDescriptor& system, const model::DdsProfile& dds)
       : system_{system},
-        completes_{completes},
         period_{system.delays().period.expr()},
         response_{system.delays().response.expr()},
         nack_{system.delays().nack.expr()},
@@ -89,7 +89,6 @@ class Invariant {
 
   /// While the descriptor is missing: its DATA is on its way, or it is in S, or `case_of_writer`.
   void missing(const Expr& case_of_writer) {
-    if (!completes_) return;
     const Expr data = is(timed::in_flight("Data")) && by(is(timed::arrives("Data")), received_);
     const Expr suppressed = is("C=S") && is("pending SuppressionEnd") &&
                             by(due("SuppressionEnd"), is(timed::limit) - period_);
@@ -118,7 +117,6 @@ class Invariant {
                                                by(due("HeartbeatExpiry"), now() + period_))});
     on_steps.push_back({"an expiry that finds it " + waits_words_ + " sends to its reader",
                         "HeartbeatExpires", waits_, is(watched::heartbeat_sent) == now()});
-    if (!completes_) return;
     conclusions.push_back(
         {"what is missing is received by the limit + F", if_then(counts_, by(now(), received_))});
   }
@@ -136,7 +134,6 @@ class Invariant {
   static Expr true_() { return smt::SymbolicContext::current().bool_val(true); }
 
   const TimedDescriptor& system_;
-  bool completes_;
   Expr period_;
   Expr response_;
   Expr nack_;
@@ -165,9 +162,10 @@ Certificate certificate_of(const TimedDescriptor& descriptor, const Invariant& i
   return certificate;
 }
 
-props::Finding certified(const checker::CheckRequest& request, std::string_view property,
-                         bool completes, const Tighter& tighter) {
-  Proof proof{property, request};
+constexpr const char* certificate_name = "live.completion.rules";
+
+props::Finding decided(const checker::CheckRequest& request, const Tighter& tighter) {
+  Proof proof{certificate_name, request};
   const model::DdsProfile& dds = proof.scenario().dds;
   const std::string how = "invariant over the steps that are derived from the rules";
   const std::string why = not_certified(dds);
@@ -181,7 +179,7 @@ props::Finding certified(const checker::CheckRequest& request, std::string_view 
                                      bound.loss = bound.loss - tighter.loss;
                                      bound.exchange = bound.exchange - tighter.exchange;
                                    }}};
-  prove(proof, certificate_of(descriptor, {descriptor, dds, completes}));
+  prove(proof, certificate_of(descriptor, {descriptor, dds}));
   return proof.finish(how + ", with all timers and delays symbolic");
 }
 
@@ -197,13 +195,12 @@ std::string not_certified(const model::DdsProfile& dds) {
   return {};
 }
 
-props::Finding expiry_certificate(const checker::CheckRequest& request, std::string_view property) {
-  return certified(request, property, false, {});
+props::Finding completion_certificate(const checker::CheckRequest& request) {
+  return checker::known(request, certificate_name, [&] { return decided(request, {}); });
 }
 
-props::Finding completion_certificate(const checker::CheckRequest& request,
-                                      const Tighter& tighter) {
-  return certified(request, "live.completion.rules", true, tighter);
+props::Finding tighter_certificate(const checker::CheckRequest& request, const Tighter& tighter) {
+  return decided(request, tighter);
 }
 
 }  // namespace stormproof::tables

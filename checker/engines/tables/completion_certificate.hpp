@@ -1,11 +1,10 @@
-// Two certificates from the rules (checker/engines/tables/certificate.hpp), for all timers, Δ and
-// σ, any number of descriptors, readers and losses. The first is a lemma: a descriptor that its
-// writer waits for has an expiry within τ_H that sends to its reader. The second is
-// live.completion: while a descriptor is missing, something is under way that brings it in time.
+// live.completion from the rules (checker/engines/tables/certificate.hpp), for all timers, Δ and σ,
+// any number of descriptors, readers and losses: while a descriptor is missing, something is under
+// way that brings it in time. With it comes a lemma: a descriptor that its writer waits for has an
+// expiry within τ_H that sends to its reader. Quiescence and no-stall rest on it.
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "checker/engines/bounds/check_request.hpp"
 
@@ -22,11 +21,10 @@ struct Tighter {
 /// Why the certificates do not say anything about a profile; empty: they do.
 [[nodiscard]] std::string not_certified(const model::DdsProfile& dds);
 
-/// The lemma, with the mutant's mistakes. `property` names it in exports.
-[[nodiscard]] props::Finding expiry_certificate(const checker::CheckRequest& request,
-                                                std::string_view property);
-/// The same and completion.
-[[nodiscard]] props::Finding completion_certificate(const checker::CheckRequest& request,
-                                                    const Tighter& tighter = {});
+/// With the mutant's mistakes. A check decides it once.
+[[nodiscard]] props::Finding completion_certificate(const checker::CheckRequest& request);
+/// The same for a bound that may be smaller.
+[[nodiscard]] props::Finding tighter_certificate(const checker::CheckRequest& request,
+                                                 const Tighter& tighter);
 
 }  // namespace stormproof::tables

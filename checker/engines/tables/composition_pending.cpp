@@ -6,9 +6,9 @@
 // makes them statements about the receiver, as live.no-stall is.
 #include <algorithm>
 
-#include "checker/engines/tables/descriptor_system.hpp"
 #include "checker/engines/tables/houdini.hpp"
 #include "checker/engines/tables/properties.hpp"
+#include "checker/engines/tables/safety_certificate.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::tables {
@@ -117,9 +117,9 @@ Finding composition_pending(const CheckRequest& request) {
   if (!proof.violated()) {
     const std::string words = "the receiver lacks it: the writer does not take it as acknowledged";
     proof.detail(words);
-    how += "; " + words + ": " +
-           prove_unreachable(proof, descriptor.with_bad(descriptor["C=A"] && !descriptor["X"]),
-                             "not so: " + words);
+    SafetyStatement statement = acknowledged_is_received(descriptor);
+    statement.never.front().breaks = "not so: " + words;
+    how += "; " + words + ": " + prove_never(proof, descriptor, statement);
   }
   return proof.finish(how);
 }

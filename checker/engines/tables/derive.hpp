@@ -54,7 +54,7 @@ void declare(Derived& derived) {
     if (derived.time != nullptr) derived.time->declare_timer(tag_name<T>(), T::counted);
   });
   composition::for_each_type(typename Composition::Packets{}, [&]<class P>() {
-    for (const auto& content : World::template all_contents<P>()) {
+    for (const auto& content : DerivedPacket<P>::all_contents()) {
       derivation.declare(content.first, false);
     }
     if (derived.time == nullptr) return;

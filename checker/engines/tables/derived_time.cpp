@@ -16,6 +16,8 @@ std::string due(std::string_view timer) { return "due " + std::string{timer}; }
 std::string earliest(std::string_view timer) { return "earliest " + std::string{timer}; }
 std::string in_flight(std::string_view packet) { return "in flight " + std::string{packet}; }
 std::string arrives(std::string_view packet) { return "arrives " + std::string{packet}; }
+std::string sent(std::string_view packet) { return "emitted " + std::string{packet}; }
+std::string first(std::string_view packet) { return "first " + std::string{packet}; }
 std::string leaving(std::string_view packet) { return "leaving " + std::string{packet}; }
 std::string leaves(std::string_view packet) { return "leaves " + std::string{packet}; }
 }  // namespace timed
@@ -36,6 +38,10 @@ void DerivedTime::declare_packet(const std::string& packet, bool leaves) {
   arriving_.push_back(packet);
   derivation_.declare(timed::in_flight(packet), false);
   derivation_.declare_count(timed::arrives(packet));
+  if (network_.exact) {
+    derivation_.declare(timed::sent(packet), false);
+    derivation_.declare_count(timed::first(packet));
+  }
   if (!leaves) return;
   leaving_.push_back(packet);
   derivation_.declare(timed::leaving(packet), false);
@@ -77,6 +83,10 @@ void DerivedTime::look_at(const std::string& flag, const std::string& by, const 
 }
 
 void DerivedTime::emitted(const std::string& packet, const Expr& when, const Says& says) {
+  if (network_.exact) {
+    look_at(timed::sent(packet), timed::first(packet),
+            when && !derivation_.now(timed::sent(packet)), now() + network_.delay);
+  }
   const Expr matters = (when && network_.matters(packet, says)).simplify();
   if (!matters.is_false()) {
     const Expr lost = network_.loses ? derivation_.unknown() : !certainly();
@@ -93,6 +103,7 @@ void DerivedTime::emitted(const std::string& packet, const Expr& when, const Say
 }
 
 void DerivedTime::arrived(const std::string& packet, const Says& says) {
+  if (network_.exact) derivation_.require(now() >= derivation_.now(timed::first(packet)));
   const Expr it = network_.matters(packet, says) && derivation_.unknown();
   derivation_.assign(timed::in_flight(packet), it, !certainly());
 }

@@ -7,7 +7,8 @@
 //      until it arrives. It arrives within Δ, and has left its source within σ. Each loss of one
 //      that would be looked at raises the ghost "limit" by what a loss costs;
 //   3. time passes as long as nothing that is looked at is overdue;
-//   4. no timer of a kind fires before "earliest T", when the first of them is due, and what must
+//   4. if every packet takes Δ, none of a kind arrives before the first one of that kind can;
+//   5. no timer of a kind fires before "earliest T", when the first of them is due, and what must
 //      arrive now arrives before a timer fires: receptions come first (order.reception-first).
 // Everything else happens when it will, as without time.
 #pragma once
@@ -31,6 +32,8 @@ inline constexpr const char* passing = "time passes";  ///< the name of that ste
 [[nodiscard]] std::string earliest(std::string_view timer);
 [[nodiscard]] std::string in_flight(std::string_view packet);
 [[nodiscard]] std::string arrives(std::string_view packet);
+[[nodiscard]] std::string sent(std::string_view packet);   ///< one has been sent
+[[nodiscard]] std::string first(std::string_view packet);  ///< when that can arrive
 [[nodiscard]] std::string leaving(std::string_view packet);
 [[nodiscard]] std::string leaves(std::string_view packet);
 }  // namespace timed
@@ -44,6 +47,7 @@ class DerivedTime {
     Expr source;  ///< σ
     Expr loss;    ///< by which a loss raises the limit
     bool loses;   ///< packets can be lost
+    bool exact;   ///< every packet takes Δ, not less
     /// Whether a packet of this name and content is looked at until it arrives.
     std::function<Expr(std::string_view packet, const Says& says)> matters;
     /// And until it has left its source.

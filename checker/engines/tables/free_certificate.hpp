@@ -1,18 +1,26 @@
-// storm.free-threshold from the rules: if nothing is lost and no packet takes longer than
-// min(τ_A, τ_I), no descriptor of the paper's writer is ever repaired, for all timers, any number
-// of descriptors and readers, and HEARTBEATs at any times.
+// storm.free-threshold and storm.single-copy from the rules: if nothing is lost and no packet takes
+// longer than a threshold, no descriptor that the paper's writer has pushed is ever repaired, and
+// so none is sent twice, for all timers, any number of descriptors and readers, and HEARTBEATs at
+// any times.
 #pragma once
+
+#include <optional>
 
 #include "checker/engines/bounds/check_request.hpp"
 
 namespace stormproof::tables {
 
-/// Whether the certificate is about a profile: DATA is pushed, both sides open at once, and initial
-/// ACKNACKs come and ask.
-[[nodiscard]] bool has_free_certificate(const model::DdsProfile& dds);
+/// Up to which delay the certificate says something: none about pulled DATA, relations whose sides
+/// do not open at once unless that makes no difference, and other writers. `constant_delay`: every
+/// packet takes the same time.
+[[nodiscard]] std::optional<model::Nanoseconds> certified_free(const model::DdsProfile& dds,
+                                                               bool constant_delay);
 
-/// With the mutant's mistakes. `more`: by how many ns more than the threshold packets may take, to
-/// show that it is one.
-[[nodiscard]] props::Finding free_certificate(const checker::CheckRequest& request, int more = 0);
+/// With the mutant's mistakes. A check decides it once.
+[[nodiscard]] props::Finding free_certificate(const checker::CheckRequest& request,
+                                              bool constant_delay);
+/// The same for packets that take `more` ns more than that, to show that it is a threshold.
+[[nodiscard]] props::Finding free_certificate_beyond(const checker::CheckRequest& request,
+                                                     bool constant_delay, int more);
 
 }  // namespace stormproof::tables

@@ -79,6 +79,7 @@ TimedDescriptor::TimedDescriptor(const model::DdsProfile& dds, const model::Muta
                     .source = delays_.source.expr(),
                     .loss = bound_.loss.expr(),
                     .loses = options.loses,
+                    .exact = options.exact,
                     .matters = is_of_an_exchange,
                     .matters_at_source = is_repair}};
   system.declare(watched::counting, false);
@@ -86,7 +87,17 @@ TimedDescriptor::TimedDescriptor(const model::DdsProfile& dds, const model::Muta
   Derived derived{dds, mistakes, system};
   derived.time = &time;
   derived.knob = [&dds](const Knob& knob) { return knob_or_unknown(knob, dds); };
+  if (options.counts_copies) {
+    system.declare(watched::data_sent, false);
+    system.declare(watched::data_sent_again, false);
+  }
   derived.emitted = [&](std::string_view packet, const Expr& when, const Says& says) {
+    if (packet == "Data" && options.counts_copies) {
+      const Expr yes = smt::SymbolicContext::current().bool_val(true);
+      const Expr it = when && said(says, "Carries");
+      system.assign(watched::data_sent_again, it && system.now(watched::data_sent), yes);
+      system.assign(watched::data_sent, it, yes);
+    }
     if (packet != "Heartbeat") return;
     system.assign(watched::heartbeat_sent, when && is_of_an_exchange(packet, says), time.now());
   };

@@ -16,6 +16,9 @@ namespace watched {
 inline constexpr const char* counting = "counting";
 /// When a HEARTBEAT was sent last that tells our reader of the descriptor.
 inline constexpr const char* heartbeat_sent = "HEARTBEAT sent";
+/// DATA that carries the descriptor has been sent to our reader, and another time.
+inline constexpr const char* data_sent = "DATA sent";
+inline constexpr const char* data_sent_again = "DATA sent again";
 }  // namespace watched
 
 class TimedDescriptor {
@@ -24,6 +27,8 @@ class TimedDescriptor {
 
   struct Options {
     bool loses = true;                      ///< packets can be lost
+    bool exact = false;                     ///< every packet takes Δ
+    bool counts_copies = false;             ///< whether DATA with the descriptor is sent again
     std::function<void(Bound&)> tighten{};  ///< changes what the limit is made of, for tests
     Unsound unsound = Unsound::none;        ///< for tests
   };

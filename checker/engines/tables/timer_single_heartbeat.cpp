@@ -2,9 +2,9 @@
 // policy, never two cycle events that are not void. The periodic policy is a question to the
 // derived system; the adaptive one to the table of the timer together with the number of events
 // that are in the queue for it, because the arithmetic of its periods would be in the way.
-#include "checker/engines/tables/descriptor_system.hpp"
 #include "checker/engines/tables/machine_step.hpp"
 #include "checker/engines/tables/properties.hpp"
+#include "checker/engines/tables/safety_certificate.hpp"
 #include "checker/engines/tables/transition_system.hpp"
 #include "fsm/heartbeat_timer.hpp"
 
@@ -98,9 +98,15 @@ Finding timer_single_heartbeat(const CheckRequest& request) {
                           "two cycle events of a writer are pending that are not void"));
   }
   const DescriptorSystem descriptor = descriptor_system(proof);
+  const Expr& pending = descriptor["pending HeartbeatExpiry"];
+  const Expr once = z3::ite(descriptor["HeartbeatClock=Armed"], number(1), number(0));
   return proof.finish(
-      prove_unreachable(proof, descriptor.with_bad(descriptor["pending HeartbeatExpiry"] >= 2),
-                        "two HEARTBEAT expiries of a writer are pending"));
+      prove_never(proof, descriptor,
+                  {{{"one expiry is pending while the timer is armed, and none "
+                     "otherwise",
+                     pending == once}},
+                   {},
+                   {{pending >= 2, "two HEARTBEAT expiries of a writer are pending"}}}));
 }
 
 }  // namespace stormproof::tables

@@ -38,27 +38,6 @@ props::Finding guarded(Decide decide, const Question& question) {
 
 }  // namespace
 
-void leave_open(props::Finding& finding, const std::string& why) {
-  if (finding.kind == props::VerdictKind::disputed) return;
-  finding.kind = props::VerdictKind::inconclusive;
-  finding.how += "; inconclusive: " + why;
-}
-
-void rest_on(props::Finding& finding, const props::Finding& certificate) {
-  finding.how += "; what it takes from the rules: " + certificate.how;
-  finding.assumptions.insert(finding.assumptions.end(), certificate.assumptions.begin(),
-                             certificate.assumptions.end());
-  finding.details.push_back("taken from the rules:");
-  for (const std::string& line : certificate.details) finding.details.push_back("  " + line);
-  finding.seconds += certificate.seconds;
-  if (certificate.kind == props::VerdictKind::disputed) {
-    dispute(finding, "so is what it takes from the rules");
-  }
-  if (certificate.kind != props::VerdictKind::proved) {
-    leave_open(finding, "the rules are not known to do what the theorem starts from");
-  }
-}
-
 void run_contradicts(props::Finding& finding, const checker::CheckRequest& request,
                      const std::string& why) {
   if (request.mutant == nullptr) {

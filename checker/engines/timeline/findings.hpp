@@ -3,9 +3,13 @@
 
 #include "checker/engines/bounds/check_request.hpp"
 #include "checker/engines/bounds/measure.hpp"
+#include "checker/engines/bounds/resting.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::timeline {
+
+using checker::leave_open;
+using checker::rest_on;
 
 /// The question and what the scenario's own run measures.
 struct Question {
@@ -31,12 +35,6 @@ struct Question {
 [[nodiscard]] props::Finding single_copy_finding(const Question& question);
 [[nodiscard]] props::Finding free_threshold_finding(const Question& question);
 
-/// Turns a finding into one without an answer, unless it is disputed.
-void leave_open(props::Finding& finding, const std::string& why);
-
-/// Adds what a theorem takes from a certificate about the rules: its assumptions, and how it is
-/// known. Without that certificate there is no proof.
-void rest_on(props::Finding& finding, const props::Finding& certificate);
 /// A run of the machines does what was proved to be impossible: a dispute between this engine and
 /// the simulator; a mutant has been noticed.
 void run_contradicts(props::Finding& finding, const checker::CheckRequest& request,

@@ -94,7 +94,7 @@ props::Finding quiescence_finding(const Question& question) {
       "comes "
       "after completion, and then attained");
   if (theorem.is_asked_for()) {
-    rest_on(finding, tables::expiry_certificate(question.request, "live.quiescence.rules"));
+    rest_on(finding, tables::completion_certificate(question.request));
   }
   if (asks_by_itself(question.sedp())) {
     finding.details.push_back(fmt::format(

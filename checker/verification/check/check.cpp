@@ -103,6 +103,8 @@ CheckReport check(const std::vector<std::string_view>& properties, const CheckRe
   if (properties.empty()) report.not_applicable = take_inapplicable(ids, request.scenario);
   std::vector<exact::RunHealth> runs;
   CheckRequest watched = request;
+  std::map<std::string, Finding> known;
+  watched.known = &known;
   watched.on_run = [&](const model::Scenario& scenario, const model::RunResult& result) {
     if (result.end != model::RunEnd::interrupted)
       runs.push_back(exact::health_of(scenario, result));

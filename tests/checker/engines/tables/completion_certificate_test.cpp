@@ -28,7 +28,7 @@ Finding certified(const model::Scenario& scenario, const checker::Mutant* mutant
   smt::Claims claims{std::move(options)};
   const checker::CheckRequest request{
       .scenario = scenario, .claims = claims, .mutant = mutant, .on_progress = {}};
-  return completion_certificate(request, tighter);
+  return tighter_certificate(request, tighter);
 }
 
 std::vector<model::Scenario> scenarios() {
@@ -105,7 +105,7 @@ TEST(CompletionCertificate, TheLemmaNoticesAnExpiryThatIsLate) {
     smt::Claims claims{{.second_solver = false}};
     const checker::CheckRequest request{
         .scenario = scenario, .claims = claims, .mutant = &mutant, .on_progress = {}};
-    const Finding finding = expiry_certificate(request, "lemma");
+    const Finding finding = completion_certificate(request);
     EXPECT_EQ(finding.kind, VerdictKind::inconclusive);
     EXPECT_TRUE(mentions(finding, "HeartbeatExpiry: what is pending is due within its delay"));
   }
