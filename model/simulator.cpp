@@ -1,6 +1,7 @@
 // The event loop: the least event of the one queue, again and again (paper, event evolution).
 #include "model/simulator.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -64,20 +65,29 @@ class Simulator {
         options_.max_events == 0 ? std::numeric_limits<std::uint64_t>::max() : options_.max_events;
     if (run_.complete()) discovery_time_ = run_.now;  // nobody advertises anything
     if (run_.ends_now()) return RunEnd::completed;
+    const bool is_plain =
+        run_.probe == nullptr && network_.processors() == nullptr && !network_.sender_stalls();
+    std::uint64_t pause = std::min(most, RunOptions::progress_interval);
     while (!run_.queue.empty()) {
       if (run_.queue.next_time() > run_.scenario.time_limit) return RunEnd::time_limit;
       const Event event = run_.queue.pop();
       run_.now = event.time;
       ++events_;
-      process(event);
-      if (run_.complete() && !discovery_time_) discovery_time_ = run_.now;
-      if (run_.ends_now()) return RunEnd::completed;
-      if (events_ >= most) return RunEnd::interrupted;
-      if (events_ % RunOptions::progress_interval == 0 && !report_progress()) {
-        return RunEnd::interrupted;
+      is_plain ? handle(event) : process(event);
+      if (run_.complete()) {
+        if (!discovery_time_) discovery_time_ = run_.now;
+        if (run_.ends_now()) return RunEnd::completed;
       }
+      if (events_ < pause) continue;
+      if (events_ >= most || !report_progress()) return RunEnd::interrupted;
+      pause = std::min(most, events_ + RunOptions::progress_interval);
     }
     return RunEnd::no_more_events;
+  }
+
+  /// What nobody observes, holds or pays for.
+  void handle(const Event& event) {
+    concerns_network(event.kind) ? network_.handle(event) : implementation_->handle(event);
   }
 
   void process(const Event& event) {
@@ -90,15 +100,14 @@ class Simulator {
       return;
     }
     if (actor && !of_network) processors->act();
-    if (run_.probe != nullptr) run_.probe->event_started(event);
+    if (run_.who_hears(Report::event_started) != nullptr) run_.probe->event_started(event);
     if (event.kind == EventKind::thread_free)
       processors->handle(event);
-    else if (of_network)
-      network_.handle(event);
     else
-      implementation_->handle(event);
+      handle(event);
     if (actor) processors->finish();
-    if (run_.probe != nullptr) run_.probe->event_finished(network_.depths());
+    if (run_.who_hears(Report::event_finished) != nullptr)
+      run_.probe->event_finished(network_.depths());
   }
 
   /// Whose thread has to handle the event, if one has.

@@ -103,14 +103,14 @@ void HalfDuplexChannel::wait_for(Direction direction, std::uint32_t frame) {
 }
 
 void HalfDuplexChannel::serve() {
-  const model::WaitingFragments::Choice choice = waiting_.pop();
-  const auto direction = static_cast<Direction>(choice.position);
-  const Frame& frame = frames_[choice.request.slot];
+  model::ServiceRequest request;
+  const auto direction = static_cast<Direction>(waiting_.pop(request));
+  const Frame& frame = frames_[request.slot];
   --(direction == Direction::uplink ? station_queue_[frame.station] : downlink_queue_);
   const std::int64_t bytes = frame.bytes - ethernet_header_bytes + link_overhead_bytes_;
   const std::int64_t airtime_ns =
       rate_[index_of(direction)][index_of(frame.cast)].airtime_ns(bytes);
-  serving_ = InService{choice.request, direction, now_, now_ + Nanoseconds{airtime_ns}};
+  serving_ = InService{request, direction, now_, now_ + Nanoseconds{airtime_ns}};
 }
 
 void HalfDuplexChannel::finish() {
