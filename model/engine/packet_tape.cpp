@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <tuple>
 
 namespace stormproof::model {
@@ -134,6 +135,7 @@ void PacketTape::write(Packet&& packet) {
     contents_.emplace_back(std::move(packet.submessages), std::move(packet.relayed));
   }
   const auto length = static_cast<std::size_t>(to - head);
+  assert(length < std::size_t{1} << 16);  // the longest streams take half of that
   const std::array<std::size_t, head_bytes> bytes{length, length >> 8, context, bits, bits >> 8};
   for (std::size_t k = 0; k < head_bytes; ++k) head[k] = static_cast<std::uint8_t>(bytes[k]);
   chunks_.back().end += length;

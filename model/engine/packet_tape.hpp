@@ -1,9 +1,9 @@
 // The packets of one participant that nobody has served yet, as they would be written down: of each
 // only what differs from the packet before it of its kind and stream. A storm leaves millions of
 // packets in the backlogs, nearly all of them HEARTBEATs and repairs that follow a pattern; such a
-// packet takes some seven bytes here, and a record of a packet a hundred. What is written is read
-// in the same order, by readers that go on at their own pace; what the last of them has read is
-// forgotten.
+// packet takes a few bytes here, and a record of a packet more than a hundred. What is written is
+// read in the same order, by readers that go on at their own pace; what the last of them has read
+// is forgotten.
 #pragma once
 
 #include <array>
