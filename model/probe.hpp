@@ -3,7 +3,9 @@
 // nothing but a test. Probes never influence a run. Traces (model/trace/) are probes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -44,9 +46,60 @@ struct Depths {
   std::uint64_t missing = 0;          ///< required deliveries that have not happened
 };
 
+/// What a probe may hear of, besides the start of a run.
+enum class Report : std::uint8_t {
+  event_started,
+  event_finished,
+  transition,
+  channel_transition,  ///< the same function, of channels
+  effect,
+  scheduled,
+  rescheduled,
+  emitted,
+  service_started,
+  source_completed,
+  arrived,
+  received,
+  looped_back,
+  backlog_changed,
+  waiting_changed
+};
+inline constexpr std::size_t report_count = static_cast<std::size_t>(Report::waiting_changed) + 1;
+
+/// A set of reports.
+class Reports {
+ public:
+  static constexpr Reports all() { return Reports{(1U << report_count) - 1}; }
+  constexpr Reports() = default;
+
+  [[nodiscard]] constexpr bool has(Report one) const { return (bits_ & bit(one)) != 0; }
+  constexpr void set(Report one, bool wanted = true) {
+    bits_ = wanted ? bits_ | bit(one) : bits_ & ~bit(one);
+  }
+  constexpr void add(const Reports& others) { bits_ |= others.bits_; }
+
+ private:
+  constexpr explicit Reports(std::uint32_t bits) : bits_{bits} {}
+  static constexpr std::uint32_t bit(Report one) { return 1U << static_cast<unsigned>(one); }
+
+  std::uint32_t bits_ = 0;
+};
+
+/// How far a run has come.
+struct RunClock {
+  std::uint64_t event = 0;   ///< number of the event that is being processed
+  std::uint64_t events = 0;  ///< that have begun
+  Nanoseconds now;
+};
+
 class Probe {
  public:
   virtual ~Probe() = default;
+
+  /// Which of its functions below do something; the others need not be called.
+  [[nodiscard]] virtual Reports reports() const { return Reports::all(); }
+  /// Offers a clock that it may read instead of counting events, before it is asked for `reports`.
+  virtual void follow_clock(const std::shared_ptr<const RunClock>&) {}
 
   virtual void run_started(const Topology&) {}
   virtual void event_started(const Event&) {}

@@ -66,26 +66,28 @@ class Simulator {
         options_.max_events == 0 ? std::numeric_limits<std::uint64_t>::max() : options_.max_events;
     note_completeness();  // nobody advertises anything
     if (run_.ends_now()) return RunEnd::completed;
+    const bool is_plain =
+        run_.probe == nullptr && network_.processors() == nullptr && !network_.sender_stalls();
+    const bool until_quiet = run_.scenario.run_until == RunUntil::quiescence;
+    std::uint64_t pause = std::min(most, RunOptions::progress_interval);
     while (!run_.queue.empty()) {
       if (run_.queue.next_time() > run_.scenario.time_limit) return RunEnd::time_limit;
       const Event event = run_.queue.pop();
       run_.now = event.time;
       ++events_;
-      process(event);
-      note_completeness();
-      if (run_.ends_now()) return RunEnd::completed;
-      if (is_over()) return RunEnd::no_more_events;
-      if (events_ >= most) return RunEnd::interrupted;
-      if (events_ % RunOptions::progress_interval == 0 && !report_progress()) {
-        return RunEnd::interrupted;
-      }
+      is_plain ? handle(event) : process(event);
+      if (run_.complete() != discovery_time_.has_value()) note_completeness();
+      if (discovery_time_ && run_.ends_now()) return RunEnd::completed;
+      if (until_quiet && is_over()) return RunEnd::no_more_events;
+      if (events_ < pause) continue;
+      if (events_ >= most || !report_progress()) return RunEnd::interrupted;
+      pause = std::min(most, events_ + RunOptions::progress_interval);
     }
     return RunEnd::no_more_events;
   }
 
   /// Who is forgotten has to be learned again.
   void note_completeness() {
-    if (run_.complete() == discovery_time_.has_value()) return;
     if (run_.complete())
       discovery_time_ = run_.now;
     else
@@ -94,8 +96,13 @@ class Simulator {
 
   /// Whether the run ends because nothing is left to do.
   bool is_over() const {
-    return run_.scenario.run_until == RunUntil::quiescence && run_.queue.is_quiet() &&
+    return run_.queue.is_quiet() &&
            run_.now >= std::max(run_.settled_at, last_failure(run_.scenario.deployment));
+  }
+
+  /// What nobody observes, holds or pays for.
+  void handle(const Event& event) {
+    concerns_network(event.kind) ? network_.handle(event) : implementation_->handle(event);
   }
 
   void process(const Event& event) {
@@ -108,15 +115,14 @@ class Simulator {
       return;
     }
     if (actor && !of_network) processors->act();
-    if (run_.probe != nullptr) run_.probe->event_started(event);
+    if (run_.who_hears(Report::event_started) != nullptr) run_.probe->event_started(event);
     if (event.kind == EventKind::thread_free)
       processors->handle(event);
-    else if (of_network)
-      network_.handle(event);
     else
-      implementation_->handle(event);
+      handle(event);
     if (actor) processors->finish();
-    if (run_.probe != nullptr) run_.probe->event_finished(network_.depths());
+    if (run_.who_hears(Report::event_finished) != nullptr)
+      run_.probe->event_finished(network_.depths());
   }
 
   /// Whose thread has to handle the event, if one has.

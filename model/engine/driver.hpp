@@ -23,7 +23,11 @@ class Driver {
   using Output = typename fsm::Stepper<Machine>::Output;
 
   Driver(const RunState& run, MachineRef::Kind kind)
-      : run_{run}, machines_{table_mutations(run)}, kind_{kind} {}
+      : run_{run},
+        machines_{table_mutations(run)},
+        kind_{kind},
+        report_{kind == MachineRef::Kind::channel ? Report::channel_transition
+                                                  : Report::transition} {}
 
   template <class Event>
   Output step(fsm::StateId& state, const Input& input, std::uint32_t subject) {
@@ -31,7 +35,7 @@ class Driver {
     const fsm::StateId before = state;
     fsm::RowId row = fsm::no_row;
     const Output output = machines_.template step<Event>(state, input, row);
-    if (run_.probe != nullptr && row != fsm::no_row) {
+    if (run_.who_hears(report_) != nullptr && row != fsm::no_row) {
       run_.probe->transition({fsm::name_of<Machine>(), kind_, subject}, fsm::name_of<Event>(),
                              Info::state_names[before], Info::state_names[state], 0, 0);
     }
@@ -42,6 +46,7 @@ class Driver {
   const RunState& run_;
   fsm::Stepper<Machine> machines_;
   MachineRef::Kind kind_;
+  Report report_;
 };
 
 }  // namespace stormproof::model

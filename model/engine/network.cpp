@@ -31,7 +31,9 @@ Network::Network(RunState& run)
       by_unit_{wireless_.service == ServedBy::unit},
       over_access_points_{by_unit_ || fleet_.is_listed() || wireless_.loss},
       sender_stalls_{wireless_.sender == Sender::stalls},
-      counts_at_admission_{wireless_.count_at == CountAt::admission} {
+      counts_at_admission_{wireless_.count_at == CountAt::admission},
+      takes_at_admission_{over_access_points_ || counts_at_admission_},
+      leaving_(sources_.size()) {
   if (wireless_.kind == ServiceKind::shared_channel) build_route();
   for (std::size_t radio = 0; by_unit_ && radio < fleet_.radios().size(); ++radio) {
     units_.emplace_back(wireless_, fleet_.host_count(), fleet_.access_point_count());
@@ -82,8 +84,9 @@ void Network::emit(std::uint32_t source, Packet&& packet) {
   packet.emitted = run_.now;
   next_packet_ += packet.copies;
   if (processors_ != nullptr) processors_->send(packet, packet.copies);
-  if (run_.probe != nullptr) {
-    std::vector<std::uint32_t> destinations;
+  if (run_.who_hears(Report::emitted) != nullptr) {
+    std::vector<std::uint32_t>& destinations = destinations_;
+    destinations.clear();
     std::uint32_t pair = packet.pair;
     for (std::uint32_t copy = 0; copy < packet.copies && !packet.multicast() && !packet.to_nobody;
          ++copy) {
@@ -97,60 +100,59 @@ void Network::emit(std::uint32_t source, Packet&& packet) {
     emit_with_delay(source, std::move(packet));
     return;
   }
+  backlog_packets_ += packet.copies;
   sources_[source].push(std::move(packet), fragmentation_);
   admit(source);
-}
-
-/// The first copy of a head that stands for several; the head then stands for the others.
-Packet Network::take_copy(Packet& head) const {
-  Packet copy;
-  copy.number = head.number++;
-  copy.emitted = head.emitted;
-  copy.pair = head.pair;
-  copy.payload_bytes = head.payload_bytes;
-  copy.kind = head.kind;
-  copy.stream = head.stream;
-  --head.copies;
-  head.pair = implementation_->next_recipient(head, head.pair + 1);
-  return copy;
 }
 
 void Network::admit(std::uint32_t source) {
   SourceQueue& queue = sources_[source];
   const bool wired = fleet_.is_wired(fleet_.host_of(source));
+  const bool at_admission = wireless_.fragment_request == FragmentRequest::at_admission;
   while (queue.head_fits(wireless_.source_queue_bytes)) {
-    const bool last_copy = queue.head().copies == 1;
-    const std::int64_t demand = queue.head_demand();
-    const std::uint32_t slot =
-        allocate(last_copy ? std::move(queue.head()) : take_copy(queue.head()), source,
-                 queue.head_fragments());
-    queue.admit_head(last_copy, fragmentation_);
-    InFlight& flight = flights_[slot];
-    flight.demand = demand;
-    flight.admitted = run_.now;
-    if (counts_at_admission_) implementation_->count(flight.packet);
+    const auto requested =
+        at_admission ? static_cast<std::uint32_t>(queue.head_fragments()) : std::uint32_t{1};
+    --backlog_packets_;
+    admitted_bytes_ += queue.head_demand();
+    queue.admit_head(fragmentation_);
+    if (!takes_at_admission_) {
+      for (std::uint32_t k = 0; k < requested; ++k) request(on_tape, k, 0, source);
+      continue;
+    }
+    const std::uint32_t slot = take(source, run_.now);
+    if (counts_at_admission_) implementation_->count(flights_[slot].packet);
     if (wired) {
       leave_wired_host(slot);
       continue;
     }
-    const std::uint32_t requested =
-        wireless_.fragment_request == FragmentRequest::at_admission ? flight.fragments : 1;
     for (std::uint32_t k = 0; k < requested; ++k) {
       over_access_points_ ? request_up(slot, k) : request(slot, k, 0);
     }
   }
   queue.note_peak(run_.now);
   if (sender_stalls_) note_stall(source);
-  if (run_.probe != nullptr) {
+  if (run_.who_hears(Report::backlog_changed) != nullptr) {
     run_.probe->backlog_changed(source, queue.backlog_packets(), queue.admitted_bytes());
   }
 }
 
-std::uint32_t Network::allocate(Packet&& packet, std::uint32_t source, std::int64_t fragments) {
+/// The next packet of those that the source has admitted, which was at that time, begins to be
+/// under way.
+std::uint32_t Network::take(std::uint32_t source, Nanoseconds admitted) {
+  const std::uint32_t slot = allocate(source);
+  InFlight& flight = flights_[slot];
+  sources_[source].take(flight.packet, next_recipient());
+  const std::int64_t fragments = fragmentation_.count(flight.packet.payload_bytes);
+  flight.fragments = static_cast<std::uint32_t>(fragments);
+  flight.demand = fragmentation_.demand(flight.packet.payload_bytes, fragments);
+  flight.admitted = admitted;
+  return slot;
+}
+
+std::uint32_t Network::allocate(std::uint32_t source) {
   const std::uint32_t slot = flights_.take();
   InFlight& flight = flights_[slot];
-  flight.fragments = static_cast<std::uint32_t>(fragments);
-  flight.packet = std::move(packet);
+  flight.fragments = 1;
   flight.source = source;
   flight.uses = 1;
   flight.lost_on_the_way_up = false;
@@ -158,18 +160,8 @@ std::uint32_t Network::allocate(Packet&& packet, std::uint32_t source, std::int6
   return slot;
 }
 
-void Network::request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage) {
-  const StageState& target = stages_[stage];
-  channels_[target.channel].waiting.push(target.position,
-                                         {run_.now, next_request_++, slot, fragment, 0});
-  if (run_.probe != nullptr) {
-    run_.probe->waiting_changed(target.channel, channels_[target.channel].waiting.size());
-  }
-  step<fsm::channel::ServiceRequested>(target.channel);
-}
-
 template <class Event>
-void Network::step(std::uint32_t channel) {
+[[gnu::always_inline]] inline void Network::step(std::uint32_t channel) {
   ChannelState& c = channels_[channel];
   const bool waiting = by_unit_ ? !units_[channel].empty() : !c.waiting.empty();
   const auto output = channel_driver_.step<Event>(
@@ -185,26 +177,42 @@ template void Network::step<fsm::channel::ServiceRequested>(std::uint32_t);
 template void Network::step<fsm::channel::ServiceFinished>(std::uint32_t);
 template void Network::step<fsm::channel::EffectsDone>(std::uint32_t);
 
+void Network::request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage,
+                      std::uint32_t source) {
+  const StageState& target = stages_[stage];
+  channels_[target.channel].waiting.push(target.position,
+                                         {run_.now, next_request_++, slot, fragment, source});
+  if (run_.who_hears(Report::waiting_changed) != nullptr) {
+    run_.probe->waiting_changed(target.channel, channels_[target.channel].waiting.size());
+  }
+  step<fsm::channel::ServiceRequested>(target.channel);
+}
+
 void Network::serve(std::uint32_t channel) {
   if (by_unit_) return serve_unit(channel);
   ChannelState& c = channels_[channel];
   if (c.waiting.empty()) return;  // only a mutated table serves nothing
-  const WaitingFragments::Choice choice = c.waiting.pop();
-  c.serving = choice.request;
+  c.serving_stage = c.stages[c.waiting.pop(c.serving)];
+  if (c.serving.slot == on_tape) {
+    std::uint32_t& slot = leaving_[c.serving.from];
+    if (c.serving.fragment == 0) slot = take(c.serving.from, c.serving.time);
+    c.serving.slot = slot;
+  }
   c.serves = true;
-  c.serving_stage = c.stages[choice.position];
   c.serving_since = run_.now;
-  const Packet& packet = flights_[choice.request.slot].packet;
+  const Packet& packet = flights_[c.serving.slot].packet;
   MemoizedRate& rate = stages_[c.serving_stage].rate[packet.multicast() ? 1 : 0];
-  const std::int64_t bytes = fragmentation_.bytes(packet.payload_bytes, choice.request.fragment);
+  const std::int64_t bytes = fragmentation_.bytes(packet.payload_bytes, c.serving.fragment);
   const std::int64_t duration =
       over_access_points_ ? transmit(c, rate_of(c.serving, c.serving_stage).airtime_ns(bytes))
                           : rate.airtime_ns(bytes);
   const Nanoseconds until = run_.now + Nanoseconds{duration};
   run_.schedule(until, EventKind::service_finished, channel);
-  if (run_.probe != nullptr) {
+  if (run_.who_hears(Report::waiting_changed) != nullptr) {
     run_.probe->waiting_changed(channel, c.waiting.size());
-    run_.probe->service_started(channel, c.serving_stage, packet, choice.request.fragment, until);
+  }
+  if (run_.who_hears(Report::service_started) != nullptr) {
+    run_.probe->service_started(channel, c.serving_stage, packet, c.serving.fragment, until);
   }
 }
 
@@ -224,7 +232,8 @@ void Network::handle(const Event& event) {
       beacon(event.subject);
       break;
     case EventKind::source_completion:
-      if (run_.probe != nullptr) run_.probe->source_completed(flights_[event.subject].packet);
+      if (run_.who_hears(Report::source_completed) != nullptr)
+        run_.probe->source_completed(flights_[event.subject].packet);
       implementation_->source_completed(flights_[event.subject].packet);
       release(event.subject);
       break;
@@ -241,7 +250,7 @@ void Network::handle(const Event& event) {
       }
       renew_bitmap(flights_[event.subject]);
       note_journey(flights_[event.subject]);
-      if (run_.probe != nullptr) {
+      if (run_.who_hears(Report::received) != nullptr) {
         run_.probe->received(flights_[event.subject].packet, event.detail);
       }
       if (processors_ != nullptr) processors_->receive(flights_[event.subject].packet);
@@ -284,8 +293,10 @@ void Network::service_finished(std::uint32_t channel) {
 
 void Network::leave_source(std::uint32_t slot) {
   const InFlight& flight = flights_[slot];
+  admitted_bytes_ -= flight.demand;
   sources_[flight.source].release(flight.demand);
-  if (run_.probe != nullptr) run_.probe->source_completed(flight.packet);
+  if (run_.who_hears(Report::source_completed) != nullptr)
+    run_.probe->source_completed(flight.packet);
   implementation_->source_completed(flight.packet);
   admit(flight.source);
 }
@@ -294,14 +305,15 @@ void Network::arrive(std::uint32_t slot) {
   InFlight& flight = flights_[slot];
   renew_bitmap(flight);
   const bool lost = is_lost(flight.packet.number);
-  if (run_.probe != nullptr) run_.probe->arrived(flight.packet, lost);
+  if (run_.who_hears(Report::arrived) != nullptr) run_.probe->arrived(flight.packet, lost);
   if (!lost) {
     note_latency(flight, run_.now);
     if (implementation_->receives_separately()) {
       schedule_receptions(slot, run_.now);
     } else {
       note_journey(flight);
-      if (run_.probe != nullptr) run_.probe->received(flight.packet, Probe::everybody);
+      if (run_.who_hears(Report::received) != nullptr)
+        run_.probe->received(flight.packet, Probe::everybody);
       implementation_->received(flight.packet, 0);
     }
   }
@@ -319,9 +331,10 @@ void Network::schedule_receptions(std::uint32_t slot, Nanoseconds time) {
 void Network::loop_back(Packet&& packet, std::uint32_t receiver) {
   packet.emitted = run_.now;
   if (processors_ != nullptr && !packet.multicast()) processors_->send(packet, 1);
-  if (run_.probe != nullptr) run_.probe->looped_back(packet, receiver);
-  const std::uint32_t slot = allocate(std::move(packet), receiver, 1);
+  if (run_.who_hears(Report::looped_back) != nullptr) run_.probe->looped_back(packet, receiver);
+  const std::uint32_t slot = allocate(receiver);
   InFlight& flight = flights_[slot];
+  flight.packet = std::move(packet);
   flight.admitted = run_.now;
   flight.uses += run_.schedule(run_.now + run_.scenario.deployment.loopback_delay,
                                EventKind::reception, slot, receiver);
@@ -331,9 +344,12 @@ void Network::loop_back(Packet&& packet, std::uint32_t receiver) {
 void Network::emit_with_delay(std::uint32_t source, Packet&& packet) {
   while (true) {
     const bool last_copy = packet.copies == 1;
-    const std::uint32_t slot =
-        allocate(last_copy ? std::move(packet) : take_copy(packet), source, 1);
+    const std::uint32_t slot = allocate(source);
     InFlight& flight = flights_[slot];
+    if (last_copy)
+      flight.packet = std::move(packet);
+    else
+      SourceQueue::take_copy(packet, flight.packet, next_recipient());
     flight.admitted = run_.now;
     if (counts_at_admission_) implementation_->count(flight.packet);
     const PacketDelay delay = delay_of(flight.packet.number);
@@ -387,10 +403,8 @@ Depths Network::depths() const {
   Depths depths;
   depths.events = run_.queue.size();
   depths.missing = run_.missing;
-  for (const SourceQueue& source : sources_) {
-    depths.backlog_packets += source.backlog_packets();
-    depths.admitted_bytes += source.admitted_bytes();
-  }
+  depths.backlog_packets = backlog_packets_;
+  depths.admitted_bytes = admitted_bytes_;
   for (const ChannelState& channel : channels_) depths.waiting += channel.waiting.size();
   for (const UnitChannel& units : units_) depths.waiting += units.size();
   for (const auto& [beacon, held] : held_frames_) depths.waiting += held.size();

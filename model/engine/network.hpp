@@ -93,8 +93,13 @@ class Network {
 
   void build_route();
   void admit(std::uint32_t source);
-  Packet take_copy(Packet& head) const;
-  std::uint32_t allocate(Packet&& packet, std::uint32_t source, std::int64_t fragments);
+  [[nodiscard]] std::uint32_t take(std::uint32_t source, Nanoseconds admitted);
+  [[nodiscard]] std::uint32_t allocate(std::uint32_t source);
+  [[nodiscard]] auto next_recipient() const {
+    return [this](const Packet& packet, std::uint32_t pair) {
+      return implementation_->next_recipient(packet, pair);
+    };
+  }
   void release(std::uint32_t slot) {
     if (--flights_[slot].uses == 0) flights_.give_back(slot);
   }
@@ -129,7 +134,10 @@ class Network {
   [[nodiscard]] std::int64_t transmit(ChannelState& c, std::int64_t airtime_ns);
   [[nodiscard]] ServiceRate rate_of(const ServiceRequest& request, std::uint32_t stage) const;
 
-  void request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage);
+  /// In place of a slot: the packet that `source` sends when the fragment is served.
+  static constexpr std::uint32_t on_tape = UINT32_MAX;
+  void request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage,
+               std::uint32_t source = 0);
   template <class Event>
   void step(std::uint32_t channel);
   void serve(std::uint32_t channel);
@@ -168,13 +176,18 @@ class Network {
   std::map<std::pair<std::uint32_t, Nanoseconds>, std::vector<Held>> held_frames_;
   const bool sender_stalls_;
   const bool counts_at_admission_;
+  const bool takes_at_admission_;         // packets, not when the channel serves them first
+  std::vector<std::uint32_t> leaving_;    // by participant: what it sends, if it takes packets then
   std::vector<std::vector<Event>> held_;  // by participant, if senders stall
   struct Stall {
     Nanoseconds since;
     Nanoseconds sum;
     bool stalls = false;
   };
-  std::vector<Stall> stalled_;  // the same
+  std::vector<Stall> stalled_;               // the same
+  std::vector<std::uint32_t> destinations_;  // of what is emitted, if somebody hears of it
+  std::uint64_t backlog_packets_ = 0;        // of all sources
+  std::int64_t admitted_bytes_ = 0;          // the same
   std::uint64_t next_packet_ = 0;
   std::uint64_t next_request_ = 0;
   std::array<Latency, traffic_class_count> latency_{};

@@ -16,6 +16,7 @@ std::optional<std::uint32_t> Network::destination_of(const Packet& packet) const
 /// A cable is faster than any program fills it.
 void Network::leave_wired_host(std::uint32_t slot) {
   InFlight& flight = flights_[slot];
+  admitted_bytes_ -= flight.demand;
   sources_[flight.source].release(flight.demand);
   flight.uses += run_.schedule(run_.now + run_.scenario.deployment.delay_of_cable(),
                                EventKind::distribution, slot);
@@ -23,7 +24,8 @@ void Network::leave_wired_host(std::uint32_t slot) {
 }
 
 void Network::leave_cable(std::uint32_t slot) {
-  if (run_.probe != nullptr) run_.probe->source_completed(flights_[slot].packet);
+  if (run_.who_hears(Report::source_completed) != nullptr)
+    run_.probe->source_completed(flights_[slot].packet);
   implementation_->source_completed(flights_[slot].packet);
   for (std::uint32_t k = 0; k < flights_[slot].fragments; ++k) distribute(slot, k);
   release(slot);
@@ -59,12 +61,14 @@ void Network::request_stage(std::uint32_t slot, std::uint32_t fragment, std::uin
                                                   stages_[stage].channel);
   WaitingFragments& waiting = channels_[channel].waiting;
   waiting.push(stages_[stage].position, {run_.now, next_request_++, slot, fragment, access_point});
-  if (run_.probe != nullptr) run_.probe->waiting_changed(channel, waiting.size());
+  if (run_.who_hears(Report::waiting_changed) != nullptr)
+    run_.probe->waiting_changed(channel, waiting.size());
   step<fsm::channel::ServiceRequested>(channel);
 }
 
 void Network::unit_requested(std::uint32_t channel) {
-  if (run_.probe != nullptr) run_.probe->waiting_changed(channel, units_[channel].size());
+  if (run_.who_hears(Report::waiting_changed) != nullptr)
+    run_.probe->waiting_changed(channel, units_[channel].size());
   step<fsm::channel::ServiceRequested>(channel);
 }
 
@@ -118,7 +122,7 @@ void Network::frame_finished(std::uint32_t channel) {
   if (up) {
     finish_up(served.slot, served.fragment, lost);
   } else {
-    finish_down(served.slot, served.fragment, served.access_point);
+    finish_down(served.slot, served.fragment, served.from);
   }
   step<fsm::channel::EffectsDone>(channel);
 }
@@ -160,7 +164,7 @@ void Network::arrive_at(std::uint32_t slot, std::uint32_t access_point) {
     if (reaches && heard && fleet_.is_station(host, access_point)) there.push_back(receiver);
   }
   const bool lost = there.empty() && (!reaches || !flight.lost_at.empty());
-  if (run_.probe != nullptr) run_.probe->arrived(flight.packet, lost);
+  if (run_.who_hears(Report::arrived) != nullptr) run_.probe->arrived(flight.packet, lost);
   if (!lost) note_latency(flight, run_.now);
   for (const std::uint32_t receiver : there) {
     flight.uses += run_.schedule(run_.now, EventKind::reception, slot, receiver);
@@ -177,7 +181,7 @@ void Network::arrive_on_cable(std::uint32_t slot) {
   }
   if (there.empty()) return;
   const bool lost = flight.lost_on_the_way_up || is_lost(flight.packet.number);
-  if (run_.probe != nullptr) run_.probe->arrived(flight.packet, lost);
+  if (run_.who_hears(Report::arrived) != nullptr) run_.probe->arrived(flight.packet, lost);
   if (lost) return;
   renew_bitmap(flight);
   note_latency(flight, time);
@@ -209,7 +213,7 @@ std::int64_t Network::transmit(ChannelState& c, std::int64_t airtime_ns) {
   const auto destination = destination_of(flight.packet);
   const bool up = c.serving_stage == 0;
   if (!up && !destination) {
-    lose_multicast(c.serving.slot, c.serving.access_point, c.loses_at);
+    lose_multicast(c.serving.slot, c.serving.from, c.loses_at);
     return airtime_ns;
   }
   const std::uint32_t host = fleet_.host_of(up ? flight.source : *destination);

@@ -1,10 +1,11 @@
 // A generated RTPS/UDP packet, from its emission until its last service. One record can stand for
 // several packets that differ only in their destination (a HEARTBEAT to every open relation of a
-// writer, an SPDP copy to every known participant): the copies are told apart when they are
-// admitted to the source queue, so a backlog of millions of HEARTBEATs takes the memory of the
-// decisions that caused them.
+// writer, an SPDP copy to every known participant): the copies are told apart when they leave the
+// source queue, so a backlog of millions of HEARTBEATs takes the memory of the decisions that
+// caused them (model/engine/packet_tape.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -31,6 +32,8 @@ enum class PacketKind : std::uint8_t {
   relayed,                 ///< DATA and HEARTBEAT, GAP and HEARTBEAT, or one of them
   relayed_acknack
 };
+inline constexpr std::size_t packet_kind_count =
+    static_cast<std::size_t>(PacketKind::relayed_acknack) + 1;
 
 [[nodiscard]] const char* name_of(PacketKind kind);
 

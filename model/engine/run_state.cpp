@@ -29,7 +29,7 @@ std::uint32_t RunState::schedule_mutated(Nanoseconds time, EventKind kind, std::
   time = std::max(time, now);
   for (std::uint32_t k = 0; k < times; ++k) {
     const std::uint64_t insertion = queue.schedule_as(event_class, time, kind, subject, detail);
-    if (probe != nullptr) probe->scheduled(insertion, time, kind, subject);
+    if (who_hears(Report::scheduled) != nullptr) probe->scheduled(insertion, time, kind, subject);
   }
   return times;
 }

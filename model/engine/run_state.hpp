@@ -21,6 +21,7 @@ struct RunState {
       : scenario{scenario_},
         topology{scenario_.deployment, scenario_.dds.descriptors, same_host},
         probe{probe_},
+        reports{probe_ == nullptr ? Reports{} : probe_->reports()},
         mutation{mutation_},
         ends_when_complete{scenario_.run_until == RunUntil::completion},
         settled_at{model::settled_at(scenario_.deployment)},
@@ -32,7 +33,7 @@ struct RunState {
     if (mutation != nullptr) [[unlikely]]
       return schedule_mutated(time, kind, subject, detail);
     const std::uint64_t insertion = queue.schedule(time, kind, subject, detail);
-    if (probe != nullptr) probe->scheduled(insertion, time, kind, subject);
+    if (who_hears(Report::scheduled) != nullptr) probe->scheduled(insertion, time, kind, subject);
     return 1;
   }
 
@@ -40,14 +41,21 @@ struct RunState {
   std::uint64_t schedule_again(const Event& event) {
     const std::uint64_t insertion =
         queue.schedule_as(event.event_class(), now, event.kind, event.subject, event.detail);
-    if (probe != nullptr) probe->rescheduled(event, insertion);
+    if (who_hears(Report::rescheduled) != nullptr) probe->rescheduled(event, insertion);
     return insertion;
   }
   /// An event that is due now, but is not in the queue: somebody holds it.
   [[nodiscard]] Event scheduled_aside(EventKind kind, std::uint32_t subject) {
     const Event event = queue.make(now, kind, subject);
-    if (probe != nullptr) probe->scheduled(event.insertion(), now, kind, subject);
+    if (who_hears(Report::scheduled) != nullptr) {
+      probe->scheduled(event.insertion(), now, kind, subject);
+    }
     return event;
+  }
+
+  /// The probe if it wants to hear of this, or null.
+  [[nodiscard]] Probe* who_hears(Report report) const {
+    return reports.has(report) ? probe : nullptr;
   }
 
   [[nodiscard]] bool complete() const { return missing == 0; }
@@ -59,6 +67,7 @@ struct RunState {
   const Scenario& scenario;
   const Topology topology;
   Probe* const probe;
+  const Reports reports;           ///< that the probe wants
   const Mutation* const mutation;  ///< a deliberate mistake, or none
   const bool ends_when_complete;
   const Nanoseconds settled_at;  ///< what is complete from then on stays so

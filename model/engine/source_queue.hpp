@@ -1,15 +1,17 @@
 // The sending side of one participant: an unbounded backlog of generated packets in front of a
 // source queue of W bytes. A packet is admitted when its fragments' bytes fit, or when the queue is
 // empty (so a packet larger than W is admitted alone); it frees its bytes when its last source-side
-// fragment has been served.
+// fragment has been served. Admission only counts: a packet stays written down, beside thousands of
+// others, until the channel takes it.
 #pragma once
 
 #include <cassert>
 #include <cstdint>
-#include <deque>
+#include <utility>
 
 #include "model/airtime.hpp"
 #include "model/engine/packet.hpp"
+#include "model/engine/packet_tape.hpp"
 #include "model/run_result.hpp"
 
 namespace stormproof::model {
@@ -18,26 +20,51 @@ class SourceQueue {
  public:
   void push(Packet&& packet, const Fragmentation& fragmentation) {
     packets_ += packet.copies;
-    backlog_.push_back(std::move(packet));
-    if (backlog_.size() == 1) measure_head(fragmentation);
+    tape_.write(std::move(packet));
+    if (packets_of_head_ == 0) measure_head(fragmentation);
   }
 
   [[nodiscard]] bool head_fits(Bytes capacity) const {
-    return !backlog_.empty() &&
+    return packets_of_head_ > 0 &&
            (admitted_bytes_ == 0 || head_demand_ <= capacity.count() - admitted_bytes_);
   }
 
-  [[nodiscard]] Packet& head() { return backlog_.front(); }
   [[nodiscard]] std::int64_t head_fragments() const { return head_fragments_; }
   [[nodiscard]] std::int64_t head_demand() const { return head_demand_; }
 
-  /// Accounts for one admitted copy of the head; the caller has copied or moved it.
-  void admit_head(bool last_copy, const Fragmentation& fragmentation) {
+  /// Admits the first packet of the backlog.
+  void admit_head(const Fragmentation& fragmentation) {
     admitted_bytes_ += head_demand_;
     --packets_;
-    if (!last_copy) return;
-    backlog_.pop_front();
-    if (!backlog_.empty()) measure_head(fragmentation);
+    --packets_of_head_;
+    if (packets_of_head_ == 0 && packets_ > 0) measure_head(fragmentation);
+  }
+
+  /// The first packet that is admitted and has not been taken. `next(packet, pair)`: the first
+  /// recipient of a record of several packets, from this pair on.
+  template <class Next>
+  void take(Packet& packet, Next&& next) {
+    if (taken_.copies == 0) {
+      service_.take(tape_, packet);
+      if (packet.copies == 1) return;
+      taken_ = std::move(packet);
+    }
+    if (taken_.copies > 1) return take_copy(taken_, packet, next);
+    packet = std::move(taken_);
+    taken_.copies = 0;
+  }
+  /// The first of several packets that are one record, which then stands for the others.
+  template <class Next>
+  static void take_copy(Packet& record, Packet& copy, Next&& next) {
+    copy = {};
+    copy.number = record.number++;
+    copy.emitted = record.emitted;
+    copy.pair = record.pair;
+    copy.payload_bytes = record.payload_bytes;
+    copy.kind = record.kind;
+    copy.stream = record.stream;
+    --record.copies;
+    record.pair = next(record, record.pair + 1);
   }
 
   /// To be called when nothing more fits: what is left is the backlog.
@@ -62,14 +89,24 @@ class SourceQueue {
   }
 
  private:
+  static Packet none() {
+    Packet packet;
+    packet.copies = 0;
+    return packet;
+  }
   void measure_head(const Fragmentation& fragmentation) {
-    const std::int64_t payload = backlog_.front().payload_bytes;
-    head_fragments_ = fragmentation.count(payload);
-    head_demand_ = fragmentation.demand(payload, head_fragments_);
+    const PacketTape::Reader::Size head = admission_.skim(tape_);
+    packets_of_head_ = head.copies;
+    head_fragments_ = fragmentation.count(head.payload_bytes);
+    head_demand_ = fragmentation.demand(head.payload_bytes, head_fragments_);
   }
 
-  std::deque<Packet> backlog_;
-  std::uint64_t packets_ = 0;  // copies counted
+  PacketTape tape_;  // of what nobody has taken
+  PacketTape::Reader admission_;
+  PacketTape::Reader service_;
+  Packet taken_ = none();              // a record of which some are taken, and not all
+  std::uint64_t packets_ = 0;          // in the backlog, copies counted
+  std::uint32_t packets_of_head_ = 0;  // of its first record
   std::int64_t admitted_bytes_ = 0;
   std::int64_t head_fragments_ = 0;
   std::int64_t head_demand_ = 0;

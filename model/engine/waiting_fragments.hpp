@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/engine/ring_buffer.hpp"
+#include "model/engine/chunk_queue.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model {
@@ -17,7 +17,7 @@ struct ServiceRequest {
   std::uint64_t number = 0;  ///< one counter for all requests of a run
   std::uint32_t slot = 0;    ///< the packet
   std::uint32_t fragment = 0;
-  std::uint32_t access_point = 0;  ///< that sends it, on the way down
+  std::uint32_t from = 0;  ///< the access point that sends it, on the way down; or the source
 };
 
 class WaitingFragments {
@@ -29,34 +29,41 @@ class WaitingFragments {
   }
 
   void push(std::uint32_t position, const ServiceRequest& request) {
-    stages_[position].requests.push_back(request);
+    ServiceRequest& last = stages_[position].requests.push_back();
+    last.time = request.time;
+    last.number = request.number;
+    last.slot = request.slot;
+    last.fragment = request.fragment;
+    last.from = request.from;
     ++size_;
   }
 
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  struct Choice {
-    ServiceRequest request;
-    std::uint32_t position;
-  };
-  /// Removes and returns the fragment that is served next. Something must wait.
-  Choice pop() {
+  /// Removes the fragment that is served next into `chosen`; returns the position of its stage.
+  /// Something must wait.
+  std::uint32_t pop(ServiceRequest& chosen) {
     std::size_t best = stages_.size();
     for (std::size_t k = 0; k < stages_.size(); ++k) {
       if (stages_[k].requests.empty()) continue;
       if (best == stages_.size() || stages_[k].before(stages_[best])) best = k;
     }
-    const Choice choice{stages_[best].requests.front(), static_cast<std::uint32_t>(best)};
+    const ServiceRequest& first = stages_[best].requests.front();
+    chosen.time = first.time;
+    chosen.number = first.number;
+    chosen.slot = first.slot;
+    chosen.fragment = first.fragment;
+    chosen.from = first.from;
     stages_[best].requests.pop_front();
     --size_;
-    return choice;
+    return static_cast<std::uint32_t>(best);
   }
 
  private:
   struct StageQueue {
     int rank;
-    RingBuffer<ServiceRequest> requests;
+    ChunkQueue<ServiceRequest> requests;
 
     [[nodiscard]] bool before(const StageQueue& other) const {
       const ServiceRequest& a = requests.front();

@@ -1,8 +1,10 @@
 // Several observers of one run, as one. They hear of everything in the order in which they were
-// added.
+// added; each only of what it wants to hear of, and the clock is the list's.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "model/probe.hpp"
@@ -12,22 +14,35 @@ namespace stormproof::model::trace {
 class ProbeList final : public Probe {
  public:
   /// The probe must outlive this list.
-  void add(Probe& probe) { probes_.push_back(&probe); }
+  void add(Probe& probe) {
+    probes_.push_back(&probe);
+    probe.follow_clock(clock_);
+    const Reports wanted = probe.reports();
+    for (std::size_t k = 0; k < report_count; ++k) {
+      if (wanted.has(static_cast<Report>(k))) who_hears_[k].push_back(&probe);
+    }
+    reports_.set(Report::event_started);  // the clock goes
+    reports_.add(wanted);
+  }
   [[nodiscard]] bool empty() const { return probes_.empty(); }
 
+  [[nodiscard]] Reports reports() const override { return reports_; }
   void run_started(const Topology& topology) override {
     for (Probe* probe : probes_) probe->run_started(topology);
   }
   void event_started(const Event& event) override {
-    for (Probe* probe : probes_) probe->event_started(event);
+    clock_->event = clock_->events++;
+    clock_->now = event.time;
+    for (Probe* probe : who_hears(Report::event_started)) probe->event_started(event);
   }
   void event_finished(const Depths& depths) override {
-    for (Probe* probe : probes_) probe->event_finished(depths);
+    for (Probe* probe : who_hears(Report::event_finished)) probe->event_finished(depths);
   }
   void transition(const MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word,
                   std::uint64_t descriptors) override {
-    for (Probe* probe : probes_) {
+    const bool of_channel = machine.kind == MachineRef::Kind::channel;
+    for (Probe* probe : who_hears(of_channel ? Report::channel_transition : Report::transition)) {
       probe->transition(machine, event, before, after, first_word, descriptors);
     }
   }
@@ -35,45 +50,57 @@ class ProbeList final : public Probe {
     return std::ranges::any_of(probes_, &Probe::wants_effects);
   }
   void effect(fsm::composition::EffectKey key) override {
-    for (Probe* probe : probes_) probe->effect(key);
+    for (Probe* probe : who_hears(Report::effect)) probe->effect(key);
   }
   void scheduled(std::uint64_t insertion, Nanoseconds time, EventKind kind,
                  std::uint32_t subject) override {
-    for (Probe* probe : probes_) probe->scheduled(insertion, time, kind, subject);
+    for (Probe* probe : who_hears(Report::scheduled))
+      probe->scheduled(insertion, time, kind, subject);
   }
   void rescheduled(const Event& event, std::uint64_t insertion) override {
-    for (Probe* probe : probes_) probe->rescheduled(event, insertion);
+    for (Probe* probe : who_hears(Report::rescheduled)) probe->rescheduled(event, insertion);
   }
   void emitted(const Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
-    for (Probe* probe : probes_) probe->emitted(packet, source, destinations);
+    for (Probe* probe : who_hears(Report::emitted)) probe->emitted(packet, source, destinations);
   }
   void service_started(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
                        std::uint32_t fragment, Nanoseconds until) override {
-    for (Probe* probe : probes_) probe->service_started(channel, stage, packet, fragment, until);
+    for (Probe* probe : who_hears(Report::service_started))
+      probe->service_started(channel, stage, packet, fragment, until);
   }
   void source_completed(const Packet& packet) override {
-    for (Probe* probe : probes_) probe->source_completed(packet);
+    for (Probe* probe : who_hears(Report::source_completed)) probe->source_completed(packet);
   }
   void arrived(const Packet& packet, bool lost) override {
-    for (Probe* probe : probes_) probe->arrived(packet, lost);
+    for (Probe* probe : who_hears(Report::arrived)) probe->arrived(packet, lost);
   }
   void received(const Packet& packet, std::uint32_t receiver) override {
-    for (Probe* probe : probes_) probe->received(packet, receiver);
+    for (Probe* probe : who_hears(Report::received)) probe->received(packet, receiver);
   }
   void looped_back(const Packet& packet, std::uint32_t receiver) override {
-    for (Probe* probe : probes_) probe->looped_back(packet, receiver);
+    for (Probe* probe : who_hears(Report::looped_back)) probe->looped_back(packet, receiver);
   }
   void backlog_changed(std::uint32_t participant, std::uint64_t packets,
                        std::int64_t admitted_bytes) override {
-    for (Probe* probe : probes_) probe->backlog_changed(participant, packets, admitted_bytes);
+    for (Probe* probe : who_hears(Report::backlog_changed))
+      probe->backlog_changed(participant, packets, admitted_bytes);
   }
   void waiting_changed(std::uint32_t channel, std::uint64_t fragments) override {
-    for (Probe* probe : probes_) probe->waiting_changed(channel, fragments);
+    for (Probe* probe : who_hears(Report::waiting_changed))
+      probe->waiting_changed(channel, fragments);
   }
 
  private:
+  [[nodiscard]] const std::vector<Probe*>& who_hears(Report report) const {
+    return who_hears_[static_cast<std::size_t>(report)];
+  }
+
+  std::shared_ptr<RunClock> clock_ =
+      std::make_shared<RunClock>();  // probes read it at the end, too
+  Reports reports_;
   std::vector<Probe*> probes_;
+  std::array<std::vector<Probe*>, report_count> who_hears_;
 };
 
 }  // namespace stormproof::model::trace

@@ -10,7 +10,7 @@ namespace stormproof::props {
 
 namespace {
 
-class Acknowledgments final : public Observer {
+class Acknowledgments : public Observer {
  public:
   Acknowledgments() : Observer{"safety.ack-implies-received"} {}
 
@@ -42,8 +42,6 @@ class Acknowledgments final : public Observer {
 
 }  // namespace
 
-MonitorPtr watch_acknowledgments(const model::Scenario&) {
-  return std::make_unique<Acknowledgments>();
-}
+MonitorPtr watch_acknowledgments(const model::Scenario&) { return attentive<Acknowledgments>(); }
 
 }  // namespace stormproof::props

@@ -44,7 +44,7 @@ model::Nanoseconds completion_bound(const model::DdsProfile& dds, model::Nanosec
 
 namespace {
 
-class Completion final : public Observer {
+class Completion : public Observer {
  public:
   Completion(const model::Scenario& scenario, std::optional<model::Nanoseconds> bound)
       : Observer{"live.completion"}, dds_{scenario.dds}, delays_{scenario}, bound_{bound} {
@@ -204,7 +204,7 @@ class Completion final : public Observer {
 
 MonitorPtr watch_completion(const model::Scenario& scenario,
                             std::optional<model::Nanoseconds> bound) {
-  return std::make_unique<Completion>(scenario, bound);
+  return attentive<Completion>(scenario, bound);
 }
 
 }  // namespace stormproof::props

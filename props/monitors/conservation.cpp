@@ -8,20 +8,20 @@
 // Packets are admitted in the order of their emission, so the length of a backlog tells which ones.
 #include <algorithm>
 #include <deque>
-#include <unordered_map>
 
 #include <fmt/core.h>
 
 #include "model/airtime.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
+#include "props/monitors/number_map.hpp"
 #include "props/monitors/observer.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
-class Conservation final : public Observer {
+class Conservation : public Observer {
  public:
   explicit Conservation(const model::Scenario& scenario)
       : Observer{"safety.conservation"},
@@ -89,15 +89,15 @@ class Conservation final : public Observer {
     }
     use.busy_since = now();
     use.busy_until = until;
-    const auto found = admitted_.find(packet.number);
-    if (found == admitted_.end()) {
+    Admitted* const found = admitted_.find(packet.number);
+    if (found == nullptr) {
       object_now(
           fmt::format("At {} fragment {} of packet {} is served in stage {}, though the "
                       "packet is not in the queue.",
                       time_text(now()), fragment, packet.number, stage));
       return;
     }
-    Admitted& flight = found->second;
+    Admitted& flight = *found;
     ++flight.served;
     if (stage == 0) ++flight.served_at_source;
     if (flight.served > flight.fragments * stages_ || flight.served_at_source > flight.fragments) {
@@ -110,13 +110,13 @@ class Conservation final : public Observer {
   }
   void source_completed(const model::Packet& packet) override {
     if (!shared_) return;
-    const auto found = admitted_.find(packet.number);
-    if (found == admitted_.end() || found->second.left) {
+    Admitted* const found = admitted_.find(packet.number);
+    if (found == nullptr || found->left) {
       object_now(fmt::format("At {} packet {} leaves its source without being in the queue.",
                              time_text(now()), packet.number));
       return;
     }
-    Admitted& flight = found->second;
+    Admitted& flight = *found;
     if (flight.served_at_source < flight.fragments) {
       object_now(fmt::format("At {} packet {} leaves its source with {} of {} fragments served.",
                              time_text(now()), packet.number, flight.served_at_source,
@@ -129,13 +129,12 @@ class Conservation final : public Observer {
   void arrived(const model::Packet& packet, bool lost) override {
     if (!shared_) return;
     if (!lost) to_be_received_.push_back(packet.number);
-    const auto found = admitted_.find(packet.number);
-    if (found == admitted_.end() || !found->second.left ||
-        found->second.served != found->second.fragments * stages_) {
+    const Admitted* const found = admitted_.find(packet.number);
+    if (found == nullptr || !found->left || found->served != found->fragments * stages_) {
       object_now(fmt::format("At {} packet {} arrives without having had all its services.",
                              time_text(now()), packet.number));
     }
-    if (found != admitted_.end()) admitted_.erase(found);
+    admitted_.remove(packet.number);
   }
 
   void received(const model::Packet& packet, std::uint32_t) override {
@@ -178,7 +177,7 @@ class Conservation final : public Observer {
   void admit(std::uint32_t participant, Source& source) {
     Emitted& head = source.backlog.front();
     const Admitted flight{participant, head.demand, head.fragments, 0, 0, false};
-    if (!admitted_.emplace(head.number, flight).second) {
+    if (!admitted_.add(head.number, flight)) {
       object_now(
           fmt::format("At {} packet {} is admitted a second time.", time_text(now()), head.number));
     }
@@ -216,15 +215,15 @@ class Conservation final : public Observer {
   bool by_unit_;  // the frames of a unit are served together
   std::vector<Source> sources_;
   std::vector<ChannelUse> channels_;
-  std::unordered_map<std::uint64_t, Admitted> admitted_;  // by packet number
-  std::vector<std::uint64_t> to_be_received_;             // arrived in this instant
+  NumberMap<Admitted> admitted_;               // by packet number
+  std::vector<std::uint64_t> to_be_received_;  // arrived in this instant
   std::int64_t peak_ = 0;
 };
 
 }  // namespace
 
 MonitorPtr watch_conservation(const model::Scenario& scenario) {
-  return std::make_unique<Conservation>(scenario);
+  return attentive<Conservation>(scenario);
 }
 
 }  // namespace stormproof::props

@@ -15,7 +15,7 @@ namespace stormproof::props {
 
 namespace {
 
-class EventOrder final : public Observer {
+class EventOrder : public Observer {
  public:
   EventOrder() : Observer{"order.reception-first"} {}
 
@@ -51,6 +51,6 @@ class EventOrder final : public Observer {
 
 }  // namespace
 
-MonitorPtr watch_event_order(const model::Scenario&) { return std::make_unique<EventOrder>(); }
+MonitorPtr watch_event_order(const model::Scenario&) { return attentive<EventOrder>(); }
 
 }  // namespace stormproof::props

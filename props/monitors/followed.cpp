@@ -4,7 +4,7 @@
 // that leave their source start them. What they do must be what the run did, in order: every
 // transition, every event that is scheduled, every packet; and what is missing then. What a rule
 // leaves to its host may be whatever its contract allows.
-#include <functional>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@ namespace stormproof::props {
 
 namespace {
 
-class FollowedRun final : public Observer {
+class FollowedRun : public Observer {
  public:
   explicit FollowedRun(const model::Scenario& scenario)
       : Observer{"composition.followed"}, scenario_{scenario} {}
@@ -26,7 +26,7 @@ class FollowedRun final : public Observer {
     Observer::run_started(topology);
     follower_ = model::visit_engine_composition(
         scenario_.dds, [&](auto composition) { return follow(composition, scenario_, topology); });
-    if (follower_ != nullptr) trigger_ = [this] { follower_->started(); };
+    if (follower_ != nullptr) trigger_ = Trigger::start;
   }
   void event_started(const model::Event& event) override {
     follow_rule();
@@ -34,19 +34,22 @@ class FollowedRun final : public Observer {
     if (follower_ == nullptr) return;
     ++followed_;
     follower_->happens_at(event.time);
-    if (is_of_protocol(event.kind)) trigger_ = [this, event] { follower_->due(event); };
+    if (!is_of_protocol(event.kind)) return;
+    trigger_ = Trigger::due;
+    due_ = event;
   }
   void received(const model::Packet& packet, std::uint32_t receiver) override {
     follow_rule();
     if (follower_ == nullptr) return;
-    trigger_ = [this, message = message_of(packet), receiver] {
-      follower_->received(message, receiver);
-    };
+    trigger_ = Trigger::received;
+    message_ = message_of(packet);
+    receiver_ = receiver;
   }
   void source_completed(const model::Packet& packet) override {
     follow_rule();
     if (follower_ == nullptr) return;
-    trigger_ = [this, message = message_of(packet)] { follower_->left_source(message); };
+    trigger_ = Trigger::left_source;
+    message_ = message_of(packet);
   }
   void event_finished(const model::Depths& depths) override {
     follow_rule();
@@ -99,6 +102,9 @@ class FollowedRun final : public Observer {
   }
 
  private:
+  /// What starts the next rule.
+  enum class Trigger : std::uint8_t { nothing, start, due, received, left_source };
+
   static bool is_of_protocol(model::EventKind kind) {
     return model::class_of(kind) == model::EventClass::protocol &&
            kind != model::EventKind::source_completion && kind != model::EventKind::thread_free;
@@ -106,11 +112,24 @@ class FollowedRun final : public Observer {
   void add(Deed deed) {
     if (follower_ != nullptr) follower_->deeds().add(std::move(deed));
   }
+  void run_rule(Trigger trigger) {
+    switch (trigger) {
+      case Trigger::nothing:
+        return;
+      case Trigger::start:
+        return follower_->started();
+      case Trigger::due:
+        return follower_->due(due_);
+      case Trigger::received:
+        return follower_->received(message_, receiver_);
+      case Trigger::left_source:
+        return follower_->left_source(message_);
+    }
+  }
   /// Holds what was done since the last trigger against the rule that it started.
   void follow_rule() {
     if (follower_ == nullptr) return;
-    if (trigger_) trigger_();
-    trigger_ = nullptr;
+    run_rule(std::exchange(trigger_, Trigger::nothing));
     follower_->nothing_more();
     if (!follower_->difference()) return;
     object_now("At " + time_text(now()) + ", " + *follower_->difference());
@@ -119,14 +138,17 @@ class FollowedRun final : public Observer {
 
   const model::Scenario scenario_;
   std::unique_ptr<Follower> follower_;
-  std::function<void()> trigger_;
+  Trigger trigger_ = Trigger::nothing;
+  model::Event due_;            // if it is
+  Message message_;             // that is received or has left its source
+  std::uint32_t receiver_ = 0;  // of it
   std::uint64_t followed_ = 0;
 };
 
 }  // namespace
 
 MonitorPtr watch_composition(const model::Scenario& scenario) {
-  return std::make_unique<FollowedRun>(scenario);
+  return attentive<FollowedRun>(scenario);
 }
 
 }  // namespace stormproof::props

@@ -3,16 +3,17 @@
 // paper's and Fast DDS's own steps are in followed_paper.cpp and followed_fastdds.cpp.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
-#include <set>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "fsm/adaptive_period.hpp"
-#include "fsm/flyweight.hpp"
+#include "fsm/stepper.hpp"
 #include "props/monitors/followed_world.hpp"
 #include "props/monitors/follower.hpp"
 
@@ -29,16 +30,15 @@ class FollowedRules : public Follower {
   void due(const model::Event& event) override {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       if (event.kind != model::event_kind_of<T>) return;
-      if (T::counted && pending_[{event.kind, event.subject}].erase(event.insertion()) == 0) return;
+      if (T::counted && std::erase(pending_of(event.kind, event.subject), event.insertion()) == 0) {
+        return;
+      }
       run<comp::Due<T>>(place_of(T::owner, event.subject));
     });
   }
 
   void rescheduled(const model::Event& event, std::uint64_t insertion) override {
-    const auto found = pending_.find({event.kind, event.subject});
-    if (found != pending_.end() && found->second.erase(event.insertion()) > 0) {
-      found->second.insert(insertion);
-    }
+    std::ranges::replace(pending_of(event.kind, event.subject), event.insertion(), insertion);
   }
 
   // Places.
@@ -81,10 +81,8 @@ class FollowedRules : public Follower {
   template <class P, class E>
   auto step(const Place& place, const typename P::Machine::Io::template Input<fsm::Plain>& input,
             fsm::RowId& row) {
-    typename P::Machine::Io::template Output<fsm::Plain> output{};
     fsm::StateId& now = state<P>(place);
-    now = std::get<States<P>>(states_).machine.template step<E>(now, input, output, row);
-    return output;
+    return std::get<States<P>>(states_).machine.template step<E>(now, input, row);
   }
   /// Something that was false or 0 is no longer.
   template <class V>
@@ -112,9 +110,9 @@ class FollowedRules : public Follower {
 
   // Timers.
   [[nodiscard]] std::int64_t pending(model::EventKind kind, std::uint32_t owner) {
-    return static_cast<std::int64_t>(pending_[{kind, owner}].size());
+    return static_cast<std::int64_t>(pending_of(kind, owner).size());
   }
-  void cancel(model::EventKind kind, std::uint32_t owner) { pending_[{kind, owner}].clear(); }
+  void cancel(model::EventKind kind, std::uint32_t owner) { pending_of(kind, owner).clear(); }
 
   // What packets say, and what only a host knows.
   static bool says(comp::Carries, const Message& message, std::uint32_t d) {
@@ -172,7 +170,7 @@ class FollowedRules : public Follower {
       return it.kind == wanted.kind && it.subject == owner && it.time == time;
     });
     if (T::counted && actual != nullptr) {
-      pending_[{wanted.kind, owner}].insert(actual->insertion);
+      pending_of(wanted.kind, owner).push_back(actual->insertion);
     }
   }
   void expect(const Message& wanted, comp::Site site) {
@@ -262,7 +260,7 @@ class FollowedRules : public Follower {
   template <class P>
   struct States {
     std::vector<fsm::StateId> of;
-    fsm::Flyweight<typename P::Machine> machine;
+    fsm::Stepper<typename P::Machine> machine;
   };
   template <template <class> class Each, class... Ts>
   static std::tuple<Each<Ts>...> each_of(fsm::TypeList<Ts...>);
@@ -276,6 +274,11 @@ class FollowedRules : public Follower {
         of_descriptor ? place.number(owner) * stride_ + place.descriptor : place.number(owner);
     if (n >= values.size()) values.resize(n + 1, first);
     return values[n];
+  }
+  std::vector<std::uint64_t>& pending_of(model::EventKind kind, std::uint32_t owner) {
+    auto& owners = pending_[static_cast<std::size_t>(kind)];
+    if (owner >= owners.size()) owners.resize(owner + 1);
+    return owners[owner];
   }
   static bool same_kind(const Move& one, const Move& other) {
     return one.machine.subject == other.machine.subject && one.machine.kind == other.machine.kind &&
@@ -301,7 +304,8 @@ class FollowedRules : public Follower {
   const std::size_t stride_ = largest_stream();
   std::map<std::uint32_t, std::vector<std::uint32_t>> readers_;               // by writer
   std::map<std::uint32_t, std::vector<std::vector<std::uint32_t>>> batches_;  // the last is next
-  std::map<std::pair<model::EventKind, std::uint32_t>, std::set<std::uint64_t>> pending_;
+  /// Insertion numbers, by kind and owner.
+  std::array<std::vector<std::vector<std::uint64_t>>, model::event_kind_count> pending_;
 };
 
 }  // namespace stormproof::props

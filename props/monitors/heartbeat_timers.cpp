@@ -12,7 +12,7 @@ namespace stormproof::props {
 
 namespace {
 
-class HeartbeatTimers final : public Observer {
+class HeartbeatTimers : public Observer {
  public:
   HeartbeatTimers() : Observer{"timer.single-heartbeat"} {}
 
@@ -50,8 +50,6 @@ class HeartbeatTimers final : public Observer {
 
 }  // namespace
 
-MonitorPtr watch_heartbeat_timers(const model::Scenario&) {
-  return std::make_unique<HeartbeatTimers>();
-}
+MonitorPtr watch_heartbeat_timers(const model::Scenario&) { return attentive<HeartbeatTimers>(); }
 
 }  // namespace stormproof::props

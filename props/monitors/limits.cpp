@@ -122,7 +122,7 @@ class LimitMonitor : public Observer {
   std::optional<model::Nanoseconds> completed_;
 };
 
-class CompletionLimit final : public LimitMonitor {
+class CompletionLimit : public LimitMonitor {
  public:
   CompletionLimit(std::string_view id, model::Nanoseconds limit)
       : LimitMonitor{id}, limit_{limit} {}
@@ -151,7 +151,7 @@ class CompletionLimit final : public LimitMonitor {
 };
 
 /// Of messages, absolute or relative to the failure-free reference.
-class MessageLimit final : public LimitMonitor {
+class MessageLimit : public LimitMonitor {
  public:
   explicit MessageLimit(std::uint64_t limit)
       : LimitMonitor{"limit.messages"},
@@ -187,7 +187,7 @@ class MessageLimit final : public LimitMonitor {
   std::uint64_t messages_ = 0;
 };
 
-class BacklogLimit final : public LimitMonitor {
+class BacklogLimit : public LimitMonitor {
  public:
   explicit BacklogLimit(std::uint64_t limit) : LimitMonitor{"limit.backlog"}, limit_{limit} {}
 
@@ -210,21 +210,21 @@ class BacklogLimit final : public LimitMonitor {
 
 std::unique_ptr<LimitMonitor> make_limit_monitor(std::string_view id,
                                                  const model::Scenario& scenario) {
-  if (id == "limit.time") return std::make_unique<CompletionLimit>(id, scenario.time_limit);
+  if (id == "limit.time") return attentive<CompletionLimit>(id, scenario.time_limit);
   if (!scenario.limits) return nullptr;
   const model::Limits& limits = *scenario.limits;
   if (id == "limit.completion" && limits.completion) {
-    return std::make_unique<CompletionLimit>(id, *limits.completion);
+    return attentive<CompletionLimit>(id, *limits.completion);
   }
   if (id == "limit.messages" && limits.messages) {
-    return std::make_unique<MessageLimit>(*limits.messages);
+    return attentive<MessageLimit>(*limits.messages);
   }
   if (id == "limit.amplification" && limits.amplification) {
-    return std::make_unique<MessageLimit>(*limits.amplification,
-                                          model::failure_free_reference(scenario).total());
+    return attentive<MessageLimit>(*limits.amplification,
+                                   model::failure_free_reference(scenario).total());
   }
   if (id == "limit.backlog" && limits.backlog) {
-    return std::make_unique<BacklogLimit>(*limits.backlog);
+    return attentive<BacklogLimit>(*limits.backlog);
   }
   return nullptr;
 }

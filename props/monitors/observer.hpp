@@ -3,8 +3,11 @@
 // mutated rules, too; whatever they know of X, C and pending timers they gather from what happened.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "model/engine/packet.hpp"
 #include "model/engine/topology.hpp"
@@ -20,26 +23,73 @@ class Observer : public Monitor {
 
   void run_started(const model::Topology& topology) override { topology_ = &topology; }
   void event_started(const model::Event& event) override {
-    event_ = events_++;
-    now_ = event.time;
+    own_->event = own_->events++;
+    own_->now = event.time;
   }
 
  protected:
   /// Objects to what happens in the current event.
-  void object_now(std::string reason) { object(event_, now_, std::move(reason)); }
+  void object_now(std::string reason) { object(event(), now(), std::move(reason)); }
 
-  [[nodiscard]] std::uint64_t event() const { return event_; }
-  [[nodiscard]] std::uint64_t events() const { return events_; }
-  [[nodiscard]] model::Nanoseconds now() const { return now_; }
+  [[nodiscard]] std::uint64_t event() const { return clock_->event; }
+  [[nodiscard]] std::uint64_t events() const { return clock_->events; }
+  [[nodiscard]] model::Nanoseconds now() const { return clock_->now; }
   /// Exists while the run lasts, not in `finish` and `remarks`.
   [[nodiscard]] const model::Topology& topology() const { return *topology_; }
+
+  void read(const std::shared_ptr<const model::RunClock>& clock) { clock_ = clock; }
 
  private:
   std::string_view property_;
   const model::Topology* topology_ = nullptr;
-  std::uint64_t event_ = 0;
-  std::uint64_t events_ = 0;
-  model::Nanoseconds now_;
+  const std::shared_ptr<model::RunClock> own_ = std::make_shared<model::RunClock>();
+  std::shared_ptr<const model::RunClock> clock_ = own_;
 };
+
+/// A monitor that hears of nothing but what it has functions for. Channels have no relations, so no
+/// monitor cares how they move.
+template <class M>
+class Attentive final : public M {
+ public:
+  using M::M;
+
+  void follow_clock(const std::shared_ptr<const model::RunClock>& clock) override {
+    if (!counts_events) this->read(clock);
+  }
+  [[nodiscard]] model::Reports reports() const override {
+    using enum model::Report;
+    using model::Probe;
+    model::Reports reports;
+    reports.set(event_started, counts_events);
+    const auto hears = [&]([[maybe_unused]] model::Report report, [[maybe_unused]] auto own,
+                           [[maybe_unused]] auto inherited) {
+      reports.set(report, !std::is_same_v<decltype(own), decltype(inherited)>);
+    };
+    hears(event_finished, &M::event_finished, &Probe::event_finished);
+    hears(transition, &M::transition, &Probe::transition);
+    hears(effect, &M::effect, &Probe::effect);
+    hears(scheduled, &M::scheduled, &Probe::scheduled);
+    hears(rescheduled, &M::rescheduled, &Probe::rescheduled);
+    hears(emitted, &M::emitted, &Probe::emitted);
+    hears(service_started, &M::service_started, &Probe::service_started);
+    hears(source_completed, &M::source_completed, &Probe::source_completed);
+    hears(arrived, &M::arrived, &Probe::arrived);
+    hears(received, &M::received, &Probe::received);
+    hears(looped_back, &M::looped_back, &Probe::looped_back);
+    hears(backlog_changed, &M::backlog_changed, &Probe::backlog_changed);
+    hears(waiting_changed, &M::waiting_changed, &Probe::waiting_changed);
+    return reports;
+  }
+
+ private:
+  /// Whether it does more when an event begins than to count it.
+  static constexpr bool counts_events =
+      !std::is_same_v<decltype(&M::event_started), decltype(&Observer::event_started)>;
+};
+
+template <class M, class... Args>
+[[nodiscard]] std::unique_ptr<M> attentive(Args&&... args) {
+  return std::make_unique<Attentive<M>>(std::forward<Args>(args)...);
+}
 
 }  // namespace stormproof::props

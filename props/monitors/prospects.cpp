@@ -64,7 +64,7 @@ void Prospects::run_started(const model::Topology& topology) {
 void Prospects::event_started(const model::Event& event) {
   arriving_ = nullptr;
   delivered_ = nullptr;
-  departing_ = {};
+  if (constant_delay_) departing_ = {};
   heartbeats_.started(event);
   count(event.kind, event.subject, less);
 }
@@ -195,6 +195,17 @@ void Prospects::in_source(const Load& load, std::uint32_t change) {
 
 void Prospects::emitted(const model::Packet& packet, std::uint32_t source,
                         std::span<const std::uint32_t> destinations) {
+  const bool of_writer = packet.kind == PacketKind::data || packet.kind == PacketKind::heartbeat;
+  if (!constant_delay_) {
+    Load load = load_of(packet);
+    in_source(load, more);
+    for (std::uint32_t copy = 0; copy < packet.copies; ++copy) {
+      if (packet.copies > 1) load.pair = topology_->pair_between(source, destinations[copy]);
+      if (of_writer) relations_[load.relation()].writer_open = true;
+      if (!is_lost(packet.number + copy)) move(load, more);
+    }
+    return;
+  }
   Departing next;
   next.load = load_of(packet);
   next.number = packet.number;
@@ -205,27 +216,19 @@ void Prospects::emitted(const model::Packet& packet, std::uint32_t source,
       next.pairs.push_back(topology_->pair_between(source, destination));
     }
   }
-  if (packet.kind == PacketKind::data || packet.kind == PacketKind::heartbeat) {
+  if (of_writer) {
     for (const std::uint32_t pair : next.pairs) {
       relations_[2 * pair + next.load.stream].writer_open = true;
     }
   }
-  if (constant_delay_) {
-    std::vector<std::uint64_t> words;
-    for (std::uint32_t k = 0; !packet.descriptors.empty() && k < packet.descriptors.end_word(); ++k)
-      words.push_back(packet.descriptors.word(k));
-    next.descriptors = model::DescriptorSet{words};
-    departing_ = std::move(next);
-    departing_.load.descriptors = &departing_.descriptors;
-    if (traits_.receives_separately && packet.multicast()) {  // a reception for each receiver
-      departing_.pairs.resize(topology_->peer_count(source), packet.pair);
-    }
-    return;
-  }
-  in_source(next.load, more);
-  for (std::size_t copy = 0; copy < next.pairs.size(); ++copy) {
-    next.load.pair = next.pairs[copy];
-    if (!is_lost(packet.number + copy)) move(next.load, more);
+  std::vector<std::uint64_t> words;
+  for (std::uint32_t k = 0; !packet.descriptors.empty() && k < packet.descriptors.end_word(); ++k)
+    words.push_back(packet.descriptors.word(k));
+  next.descriptors = model::DescriptorSet{words};
+  departing_ = std::move(next);
+  departing_.load.descriptors = &departing_.descriptors;
+  if (traits_.receives_separately && packet.multicast()) {  // a reception for each receiver
+    departing_.pairs.resize(topology_->peer_count(source), packet.pair);
   }
 }
 
@@ -277,11 +280,11 @@ void Prospects::touch_all() {
   for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) touch(relation);
 }
 
-std::vector<std::uint32_t> Prospects::take_touched() {
-  for (const std::uint32_t relation : touched_) relations_[relation].touched = false;
-  std::vector<std::uint32_t> touched;
-  touched.swap(touched_);
-  return touched;
+const std::vector<std::uint32_t>& Prospects::take_touched() {
+  taken_.clear();
+  taken_.swap(touched_);
+  for (const std::uint32_t relation : taken_) relations_[relation].touched = false;
+  return taken_;
 }
 
 }  // namespace stormproof::props

@@ -37,8 +37,9 @@ class Prospects {
   void arrived(const model::Packet& packet, bool lost);
   void received(const model::Packet& packet, std::uint32_t receiver);
 
-  /// Relations of which something may have got lost since the last call; each once.
-  [[nodiscard]] std::vector<std::uint32_t> take_touched();
+  /// Relations of which something may have got lost since the last call; each once. They are there
+  /// until the next one.
+  [[nodiscard]] const std::vector<std::uint32_t>& take_touched();
   void touch_all();
 
   /// A descriptor that the relation's reader lacks and that nothing can bring to it any more.
@@ -131,6 +132,7 @@ class Prospects {
   std::vector<Participant> participants_;
   std::vector<std::uint32_t> copies_;  // by pair: SPDP unicast copies under way
   std::vector<std::uint32_t> touched_;
+  std::vector<std::uint32_t> taken_;  // of them, last
 };
 
 }  // namespace stormproof::props

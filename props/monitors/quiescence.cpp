@@ -88,7 +88,7 @@ model::Nanoseconds quiescence_bound(const model::DdsProfile& dds, model::Nanosec
 
 namespace {
 
-class Quiescence final : public QuiescenceMonitor {
+class Quiescence : public QuiescenceMonitor {
  public:
   explicit Quiescence(const model::Scenario& scenario)
       : QuiescenceMonitor{"live.quiescence"},
@@ -237,7 +237,7 @@ class Quiescence final : public QuiescenceMonitor {
 }  // namespace
 
 std::unique_ptr<QuiescenceMonitor> make_quiescence_monitor(const model::Scenario& scenario) {
-  return std::make_unique<Quiescence>(scenario);
+  return attentive<Quiescence>(scenario);
 }
 
 MonitorPtr watch_quiescence(const model::Scenario& scenario) {

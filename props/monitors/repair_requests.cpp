@@ -13,7 +13,7 @@ namespace stormproof::props {
 
 namespace {
 
-class RepairRequests final : public Observer {
+class RepairRequests : public Observer {
  public:
   explicit RepairRequests(const model::Scenario& scenario)
       : Observer{"safety.repair-only-if-asked"},
@@ -71,7 +71,7 @@ class RepairRequests final : public Observer {
 }  // namespace
 
 MonitorPtr watch_repair_requests(const model::Scenario& scenario) {
-  return std::make_unique<RepairRequests>(scenario);
+  return attentive<RepairRequests>(scenario);
 }
 
 }  // namespace stormproof::props

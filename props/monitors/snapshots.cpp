@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
-#include <unordered_map>
 
 #include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
+#include "props/monitors/number_map.hpp"
 #include "props/monitors/observer.hpp"
 #include "props/monitors/received_descriptors.hpp"
 
@@ -18,12 +18,18 @@ namespace stormproof::props {
 namespace {
 
 struct Snapshot {
-  std::vector<std::uint64_t> words;
+  std::uint64_t first = 0;
+  std::vector<std::uint64_t> others;  ///< words, of long streams
   std::uint32_t base = 0;
+
+  void put(std::uint32_t k, std::uint64_t word) {
+    if (k == 0) first = word;
+    if (k > 0) others.push_back(word);
+  }
   bool operator==(const Snapshot&) const = default;
 };
 
-class Snapshots final : public Observer {
+class Snapshots : public Observer {
  public:
   explicit Snapshots(const model::Scenario& scenario)
       : Observer{"safety.snapshot"}, bases_{model::traits_of(scenario.dds).acknacks_have_bases} {}
@@ -45,13 +51,13 @@ class Snapshots final : public Observer {
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {
-    if (packet.kind == model::PacketKind::acknack) under_way_[packet.number] = check(packet);
+    if (packet.kind == model::PacketKind::acknack) under_way_.add(packet.number, check(packet));
   }
   void looped_back(const model::Packet& packet, std::uint32_t) override {
     if (packet.kind == model::PacketKind::acknack) looped_[key(packet)].push_back(check(packet));
   }
   void arrived(const model::Packet& packet, bool lost) override {
-    if (lost && packet.kind == model::PacketKind::acknack) under_way_.erase(packet.number);
+    if (lost && packet.kind == model::PacketKind::acknack) under_way_.remove(packet.number);
   }
   void received(const model::Packet& packet, std::uint32_t) override {
     received_.arriving(packet);
@@ -77,7 +83,7 @@ class Snapshots final : public Observer {
   Snapshot content(const model::Packet& packet) const {
     Snapshot snapshot;
     for (std::uint32_t k = 0; k < received_.word_count(packet.relation()); ++k) {
-      snapshot.words.push_back(packet.descriptors.word(k));
+      snapshot.put(k, packet.descriptors.word(k));
     }
     if (bases_) snapshot.base = packet.detail;
     return snapshot;
@@ -93,7 +99,7 @@ class Snapshots final : public Observer {
     for (std::uint32_t k = 0; k < received_.word_count(relation); ++k) {
       const std::uint64_t lacking = RelationWords::below(count, k) & ~received_.word(relation, k);
       const std::uint32_t limit = bases_ ? announced_[relation] : count;
-      snapshot.words.push_back(claims ? lacking & RelationWords::below(limit, k) : 0);
+      snapshot.put(k, claims ? lacking & RelationWords::below(limit, k) : 0);
       if (lacking != 0 && first == count) {
         first = 64 * k + static_cast<std::uint32_t>(std::countr_zero(lacking));
       }
@@ -116,10 +122,10 @@ class Snapshots final : public Observer {
     const Snapshot arriving = content(packet);
     bool same = true;
     if (topology().pair(packet.pair).cross_host) {
-      const auto found = under_way_.find(packet.number);
-      if (found == under_way_.end()) return;
-      same = found->second == arriving;
-      under_way_.erase(found);
+      const Snapshot* const found = under_way_.find(packet.number);
+      if (found == nullptr) return;
+      same = *found == arriving;
+      under_way_.remove(packet.number);
     } else {
       const auto found = looped_.find(key(packet));
       if (found == looped_.end()) return;
@@ -139,7 +145,7 @@ class Snapshots final : public Observer {
   ReceivedDescriptors received_;
   const model::Packet* announcing_ = nullptr;
   std::vector<std::uint32_t> announced_;  // by relation
-  std::unordered_map<std::uint64_t, Snapshot> under_way_;
+  NumberMap<Snapshot> under_way_;
   std::map<LoopKey, std::vector<Snapshot>> looped_;
   std::uint64_t compared_ = 0;
 };
@@ -147,7 +153,7 @@ class Snapshots final : public Observer {
 }  // namespace
 
 MonitorPtr watch_snapshots(const model::Scenario& scenario) {
-  return std::make_unique<Snapshots>(scenario);
+  return attentive<Snapshots>(scenario);
 }
 
 }  // namespace stormproof::props

@@ -12,7 +12,7 @@ namespace stormproof::props {
 
 namespace {
 
-class Stalls final : public Observer {
+class Stalls : public Observer {
  public:
   explicit Stalls(const model::Scenario& scenario)
       : Observer{"live.no-stall"}, prospects_{scenario} {}
@@ -84,8 +84,6 @@ class Stalls final : public Observer {
 
 }  // namespace
 
-MonitorPtr watch_stalls(const model::Scenario& scenario) {
-  return std::make_unique<Stalls>(scenario);
-}
+MonitorPtr watch_stalls(const model::Scenario& scenario) { return attentive<Stalls>(scenario); }
 
 }  // namespace stormproof::props

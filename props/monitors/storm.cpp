@@ -51,7 +51,7 @@ class LossAware : public Observer {
   model::Nanoseconds largest_;
 };
 
-class SingleCopies final : public LossAware {
+class SingleCopies : public LossAware {
  public:
   explicit SingleCopies(const model::Scenario& scenario)
       : LossAware{"storm.single-copy", scenario} {}
@@ -94,7 +94,7 @@ class SingleCopies final : public LossAware {
   std::uint64_t copies_ = 0;
 };
 
-class NeedlessRepairs final : public LossAware {
+class NeedlessRepairs : public LossAware {
  public:
   NeedlessRepairs(std::string_view property, const model::Scenario& scenario)
       : LossAware{property, scenario} {}
@@ -124,11 +124,11 @@ class NeedlessRepairs final : public LossAware {
 }  // namespace
 
 MonitorPtr watch_single_copies(const model::Scenario& scenario) {
-  return std::make_unique<SingleCopies>(scenario);
+  return attentive<SingleCopies>(scenario);
 }
 
 MonitorPtr watch_needless_repairs(const model::Scenario& scenario, std::string_view property) {
-  return std::make_unique<NeedlessRepairs>(property, scenario);
+  return attentive<NeedlessRepairs>(property, scenario);
 }
 
 }  // namespace stormproof::props

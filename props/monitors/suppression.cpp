@@ -18,7 +18,7 @@ namespace stormproof::props {
 
 namespace {
 
-class Suppression final : public Observer {
+class Suppression : public Observer {
  public:
   explicit Suppression(const model::Scenario& scenario)
       : Observer{"timer.suppression-honoured"},
@@ -89,7 +89,7 @@ class Suppression final : public Observer {
 }  // namespace
 
 MonitorPtr watch_suppression(const model::Scenario& scenario) {
-  return std::make_unique<Suppression>(scenario);
+  return attentive<Suppression>(scenario);
 }
 
 }  // namespace stormproof::props

@@ -128,14 +128,12 @@ void HalfDuplexChannel::serve() {
 }
 
 HalfDuplexChannel::InService HalfDuplexChannel::choose_frame() {
-  const model::WaitingFragments::Choice choice = waiting_.pop();
-  const Frame& frame = frames_[choice.request.slot];
+  model::ServiceRequest request;
+  const std::uint32_t position = waiting_.pop(request);
+  const Frame& frame = frames_[request.slot];
   const std::int64_t airtime_ns =
-      rate_[choice.position][index_of(frame.cast)].airtime_ns(bytes_on_air(frame));
-  return {{choice.request.slot},
-          static_cast<Direction>(choice.position),
-          now_,
-          now_ + Nanoseconds{airtime_ns}};
+      rate_[position][index_of(frame.cast)].airtime_ns(bytes_on_air(frame));
+  return {{request.slot}, static_cast<Direction>(position), now_, now_ + Nanoseconds{airtime_ns}};
 }
 
 HalfDuplexChannel::InService HalfDuplexChannel::choose_unit() {

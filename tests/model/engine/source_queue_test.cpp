@@ -22,7 +22,7 @@ TEST(SourceQueue, APacketThatExactlyFillsTheQueueFits) {
   queue.push(packet(42), fragmentation);  // 42 + 8 + 58 = 108
   EXPECT_EQ(queue.head_demand(), 1'538);
   EXPECT_TRUE(queue.head_fits(Bytes{1}));
-  queue.admit_head(true, fragmentation);
+  queue.admit_head(fragmentation);
   EXPECT_EQ(queue.head_demand(), 108);
   EXPECT_TRUE(queue.head_fits(Bytes{1'538 + 108}));
   EXPECT_FALSE(queue.head_fits(Bytes{1'538 + 107}));
@@ -34,7 +34,7 @@ TEST(SourceQueue, APacketLargerThanTheQueueIsAdmittedAlone) {
   queue.push(packet(1), fragmentation);
   EXPECT_TRUE(queue.head_fits(Bytes{100}));
   const std::int64_t demand = queue.head_demand();
-  queue.admit_head(true, fragmentation);
+  queue.admit_head(fragmentation);
   EXPECT_EQ(queue.admitted_bytes(), demand);
   EXPECT_FALSE(queue.head_fits(Bytes{100}));
   queue.release(demand);
@@ -45,7 +45,7 @@ TEST(SourceQueue, APacketLargerThanTheQueueIsAdmittedAlone) {
 TEST(SourceQueue, AnUnlimitedQueueTakesEverything) {
   SourceQueue queue;
   for (int k = 0; k < 100; ++k) queue.push(packet(65'000), fragmentation);
-  while (queue.head_fits(WirelessProfile::unlimited)) queue.admit_head(true, fragmentation);
+  while (queue.head_fits(WirelessProfile::unlimited)) queue.admit_head(fragmentation);
   EXPECT_EQ(queue.backlog_packets(), 0U);
   EXPECT_FALSE(queue.head_fits(WirelessProfile::unlimited));
 }
@@ -57,14 +57,14 @@ TEST(SourceQueue, EveryCopyOfARecordIsAdmittedForItself) {
   EXPECT_EQ(queue.backlog_packets(), 4U);
   EXPECT_EQ(queue.head_fragments(), 1);
   EXPECT_TRUE(queue.head_fits(Bytes{300}));
-  queue.admit_head(false, fragmentation);
+  queue.admit_head(fragmentation);
   EXPECT_TRUE(queue.head_fits(Bytes{300}));
-  queue.admit_head(false, fragmentation);
+  queue.admit_head(fragmentation);
   EXPECT_EQ(queue.admitted_bytes(), 268);
   EXPECT_FALSE(queue.head_fits(Bytes{300}));
   EXPECT_EQ(queue.backlog_packets(), 2U);
   queue.release(134);
-  queue.admit_head(true, fragmentation);
+  queue.admit_head(fragmentation);
   EXPECT_EQ(queue.head_fragments(), 2);
   EXPECT_EQ(queue.backlog_packets(), 1U);
 }
@@ -72,14 +72,35 @@ TEST(SourceQueue, EveryCopyOfARecordIsAdmittedForItself) {
 TEST(SourceQueue, ThePeakIsWhatDidNotFit) {
   SourceQueue queue;
   queue.push(packet(68, 5), fragmentation);
-  queue.admit_head(false, fragmentation);
+  queue.admit_head(fragmentation);
   queue.note_peak(Nanoseconds{10});
-  queue.admit_head(false, fragmentation);
+  queue.admit_head(fragmentation);
   queue.note_peak(Nanoseconds{20});
   const BacklogPeak peak = queue.peak();
   EXPECT_EQ(peak.packets, 4U);
   EXPECT_EQ(peak.at, Nanoseconds{10});
   EXPECT_EQ(peak.packets_at_end, 3U);
+}
+
+TEST(SourceQueue, WhatIsAdmittedIsTakenInTheOrderInWhichItCame) {
+  SourceQueue queue;
+  Packet first = packet(68, 3);
+  first.number = 7;
+  first.pair = 4;
+  queue.push(std::move(first), fragmentation);
+  Packet second = packet(90);
+  second.number = 10;
+  queue.push(std::move(second), fragmentation);
+  while (queue.head_fits(WirelessProfile::unlimited)) queue.admit_head(fragmentation);
+  const auto every_second_pair = [](const Packet&, std::uint32_t pair) { return pair + pair % 2; };
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    Packet taken;
+    queue.take(taken, every_second_pair);
+    EXPECT_EQ(taken.number, 7U + k);
+    EXPECT_EQ(taken.copies, 1U);
+    EXPECT_EQ(taken.pair, k < 3 ? 4 + 2 * k : 0);
+    EXPECT_EQ(taken.payload_bytes, k < 3 ? 68U : 90U);
+  }
 }
 
 }  // namespace source_queue_test

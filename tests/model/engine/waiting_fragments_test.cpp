@@ -48,13 +48,18 @@ RC_GTEST_PROP(WaitingFragments, ServesTheLeastOfTimeRankAndNumber, ()) {
     } else if (!reference.empty()) {
       const auto [key, stage] = *reference.begin();
       reference.erase(reference.begin());
-      const WaitingFragments::Choice choice = waiting.pop();
-      RC_ASSERT(choice.request.number == std::get<2>(key));
-      RC_ASSERT(choice.position == stage);
+      ServiceRequest chosen;
+      RC_ASSERT(waiting.pop(chosen) == stage);
+      RC_ASSERT(chosen.number == std::get<2>(key));
     }
     RC_ASSERT(waiting.size() == reference.size());
     RC_ASSERT(waiting.empty() == reference.empty());
   }
+}
+
+std::uint32_t pop(WaitingFragments& waiting) {
+  ServiceRequest chosen;
+  return waiting.pop(chosen);
 }
 
 TEST(WaitingFragments, AtTheSameInstantTheRankDecidesBeforeTheNumber) {
@@ -64,7 +69,7 @@ TEST(WaitingFragments, AtTheSameInstantTheRankDecidesBeforeTheNumber) {
     const std::uint32_t down = waiting.add_stage(downlink);
     waiting.push(down, {Nanoseconds{4}, 0, 0, 0});
     waiting.push(up, {Nanoseconds{4}, 1, 0, 1});
-    EXPECT_EQ(waiting.pop().position, downlink > 0 ? up : down);
+    EXPECT_EQ(pop(waiting), downlink > 0 ? up : down);
   }
 }
 
@@ -74,7 +79,7 @@ TEST(WaitingFragments, AnEarlierRequestComesBeforeAnyRank) {
   const std::uint32_t down = waiting.add_stage(1);
   waiting.push(down, {Nanoseconds{3}, 0, 0, 0});
   waiting.push(up, {Nanoseconds{4}, 1, 0, 0});
-  EXPECT_EQ(waiting.pop().position, down);
+  EXPECT_EQ(pop(waiting), down);
 }
 
 TEST(WaitingFragments, WithEqualRanksTheNumberDecides) {
@@ -83,8 +88,8 @@ TEST(WaitingFragments, WithEqualRanksTheNumberDecides) {
   const std::uint32_t down = waiting.add_stage(0);
   waiting.push(down, {Nanoseconds{4}, 7, 0, 0});
   waiting.push(up, {Nanoseconds{4}, 8, 0, 0});
-  EXPECT_EQ(waiting.pop().position, down);
-  EXPECT_EQ(waiting.pop().position, up);
+  EXPECT_EQ(pop(waiting), down);
+  EXPECT_EQ(pop(waiting), up);
 }
 
 }  // namespace waiting_fragments_test

@@ -180,10 +180,11 @@ class SourceQueueUnderTest final : public Reactor {
       queue_.push(std::move(packet), fragmentation_);
     } else if (call.event == admitted) {
       while (queue_.head_fits(Bytes{queue_bytes})) {
-        Packet& head = queue_.head();
-        out.push_back(head.number++);
         inside_.push_back(queue_.head_demand());
-        queue_.admit_head(--head.copies == 0, fragmentation_);
+        queue_.admit_head(fragmentation_);
+        Packet packet;
+        queue_.take(packet, [](const Packet&, std::uint32_t pair) { return pair; });
+        out.push_back(packet.number);
       }
     } else {
       const auto k = static_cast<std::size_t>(call.payload[0]) % inside_.size();
