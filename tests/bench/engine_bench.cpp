@@ -33,8 +33,8 @@ using namespace stormproof;
 using hold_model::holds_per_second;
 using hold_model::processor_seconds;
 
-constexpr std::size_t rounds = 7;
-constexpr std::size_t holds = 2'000'000;
+constexpr std::size_t rounds = 5;
+constexpr std::size_t holds = 1'000'000;
 
 class StandardQueue {
  public:
