@@ -195,6 +195,7 @@ void draw_amendments(Dice& dice, Scenario& scenario) {
   if (scenario.dds.sedp.piggyback != Piggyback::off) rules.stale_acknack = StaleAckNack::process;
   scenario.dds.amendments = rules;
   scenario.deployment.life = drawn_life(dice, scenario.deployment.participants);
+  if (dice.chance(15)) scenario.run_until = RunUntil::quiescence;
 }
 
 }  // namespace stormproof::props

@@ -38,6 +38,8 @@ class Observer : public Monitor {
   [[nodiscard]] const model::Topology& topology() const { return *topology_; }
 
   void read(const std::shared_ptr<const model::RunClock>& clock) { clock_ = clock; }
+  /// Alone in a run it counts events itself.
+  [[nodiscard]] bool has_own_clock() const { return clock_ == own_; }
 
  private:
   std::string_view property_;
@@ -60,7 +62,7 @@ class Attentive final : public M {
     using enum model::Report;
     using model::Probe;
     model::Reports reports;
-    reports.set(event_started, counts_events);
+    reports.set(event_started, counts_events || this->has_own_clock());
     const auto hears = [&]([[maybe_unused]] model::Report report, [[maybe_unused]] auto own,
                            [[maybe_unused]] auto inherited) {
       reports.set(report, !std::is_same_v<decltype(own), decltype(inherited)>);

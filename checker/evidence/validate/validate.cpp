@@ -42,8 +42,8 @@ std::int64_t longest_run_s(const capture::Conversation& conversation, const Requ
 
 /// What of a deployment a capture does not show.
 constexpr std::array<std::string_view, 4> how_hosts_are_linked{
-    "deployment.loopback_delay=", "deployment.hosts=", "deployment.access_points=",
-    "deployment.wired_delay="};
+    "deployment.loopback_delay=", "deployment.hosts=[",
+    "deployment.access_points=", "deployment.wired_delay="};
 
 /// The profiles and overrides, around the captured participants.
 Result<model::Scenario> scenario_of(const Request& request, const CapturedDeployment& deployment,

@@ -76,7 +76,7 @@ class PushOnceHost final : public DiscoveryBase {
     return changes_.received(relation, k);
   }
   void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-    take(changes_, relation, received);
+    take(changes_, relation, received, ends(relation).cross_host);
   }
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.descriptors.lowest(), k);

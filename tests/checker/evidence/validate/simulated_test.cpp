@@ -157,6 +157,11 @@ TEST(SimulatedCapture, TheDeploymentCannotBeOverridden) {
   EXPECT_FALSE(validate(simulated(), wanted));
   wanted.overrides = {"deployment.loopback_delay=60us"};
   EXPECT_TRUE(validate(simulated(), wanted));
+  // How hosts are linked no capture shows.
+  wanted.overrides = {"deployment.hosts=[{name: one}, {name: two, rate: 54Mbps}]"};
+  EXPECT_TRUE(validate(simulated(), wanted));
+  wanted.overrides = {"deployment.hosts=[{name: one}]"};
+  EXPECT_FALSE(validate(simulated(), wanted));
   wanted.dds = "no-such-profile";
   EXPECT_FALSE(validate(simulated(), wanted));
 }
