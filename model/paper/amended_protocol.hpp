@@ -129,17 +129,25 @@ class AmendedProtocol final : public ProtocolOf<amended::C> {
     return event.detail == retries_[event.subject] + 1;
   }
 
-  template <IsCancellable Timer>
-  void cancel(Timer, std::uint32_t owner) {
-    cancelled<Timer>()[owner] = run_.queue.next_insertion();
+  template <class Timer>
+  void cancel(Timer timer, std::uint32_t owner) {
+    if constexpr (IsCancellable<Timer>) {
+      cancelled<Timer>()[owner] = run_.queue.next_insertion();
+    } else {
+      ProtocolOf::cancel(timer, owner);
+    }
   }
   void cancel(comp::HeartbeatExpiry, std::uint32_t w) {
     cancelled<comp::HeartbeatExpiry>()[w] = run_.queue.next_insertion();
     clocks_[w].expiries = 0;
   }
-  template <IsCancellable Timer>
-  [[nodiscard]] bool is_due(Timer, const Event& event) {
-    return event.insertion() >= cancelled<Timer>()[event.subject];
+  template <class Timer>
+  [[nodiscard]] bool is_due(Timer timer, const Event& event) {
+    if constexpr (IsCancellable<Timer>) {
+      return event.insertion() >= cancelled<Timer>()[event.subject];
+    } else {
+      return ProtocolOf::is_due(timer, event);
+    }
   }
   [[nodiscard]] bool is_due(comp::AckNackGeneration, const Event& event) {
     return event.detail == 0 &&
