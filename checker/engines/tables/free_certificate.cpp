@@ -14,7 +14,7 @@
 namespace stormproof::tables {
 namespace {
 
-constexpr const char* certificate_name = "storm.free-threshold.rules";
+constexpr const char* free_certificate_name = "storm.free-threshold.rules";
 
 /// The writer takes an initial ACKNACK for one that asks.
 bool counts_initial(const model::DdsProfile& dds) {
@@ -97,7 +97,7 @@ void give_threshold(Proof& proof, Certificate& certificate, const TimedDescripto
 }
 
 props::Finding decided(const checker::CheckRequest& request, bool exact, int more) {
-  Proof proof{certificate_name, request};
+  Proof proof{free_certificate_name, request};
   const model::DdsProfile& dds = proof.scenario().dds;
   assume_in_time(proof);
   const TimedDescriptor descriptor{
@@ -161,7 +161,7 @@ std::optional<model::Nanoseconds> certified_free(const model::DdsProfile& dds,
 }
 
 props::Finding free_certificate(const checker::CheckRequest& request, bool constant_delay) {
-  return checker::known(request, certificate_name,
+  return checker::known(request, free_certificate_name,
                         [&] { return decided(request, constant_delay, 0); });
 }
 

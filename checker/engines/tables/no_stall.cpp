@@ -16,9 +16,10 @@ namespace {
 constexpr const char* announced = "announced";
 
 /// All rules about one generic pair, one relation of it, and one descriptor.
-class Pair {
+class RecognisingPair {
  public:
-  Pair(const model::DdsProfile& dds, const model::Mutation& mistakes) : derivation_{Unsound::none} {
+  RecognisingPair(const model::DdsProfile& dds, const model::Mutation& mistakes)
+      : derivation_{Unsound::none} {
     derivation_.declare(announced, false);
     derivation_.declare(raised_back("WriterOpens"), false);
     const Expr yes = smt::SymbolicContext::current().bool_val(true);
@@ -45,7 +46,7 @@ struct Statement {
   std::vector<StepClause> on_steps;
 };
 
-Statement about(const Pair& is, const model::DdsProfile& dds) {
+Statement about(const RecognisingPair& is, const model::DdsProfile& dds) {
   Statement statement;
   const Expr yes = smt::SymbolicContext::current().bool_val(true);
   const auto always = [&](const char* words, const Expr& condition, const Expr& consequence) {
@@ -81,7 +82,7 @@ Statement about(const Pair& is, const model::DdsProfile& dds) {
   return statement;
 }
 
-Certificate certificate_of(const Pair& pair, const Statement& statement) {
+Certificate certificate_of(const RecognisingPair& pair, const Statement& statement) {
   TransitionSystem whole = pair.whole();
   Exprs seen;
   for (const Clause& clause : statement.invariant) seen.push_back(!clause.holds);
@@ -112,7 +113,7 @@ Certificate certificate_of(const Pair& pair, const Statement& statement) {
 
 Finding decided(const CheckRequest& request) {
   Proof proof{"live.no-stall.recognition", request};
-  const Pair pair{proof.scenario().dds, proof.mistakes()};
+  const RecognisingPair pair{proof.scenario().dds, proof.mistakes()};
   prove(proof, certificate_of(pair, about(pair, proof.scenario().dds)));
   return proof.finish("invariant over the steps of all rules, any number of them");
 }

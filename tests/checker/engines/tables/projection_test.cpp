@@ -95,10 +95,10 @@ class Happening {
   /// The packet that arrives here has been sent, with some announcement if it has any.
   void was_sent(SymbolicWorld<Composition>& world) {
     Exprs cases;
-    for (const auto& [sent, content] : DerivedPacket<Cause>::all_contents()) {
-      Exprs said{SymbolicBool::named(sent).expr()};
+    for (const auto& packet : DerivedPacket<Cause>::all_contents()) {
+      Exprs said{SymbolicBool::named(packet.first).expr()};
       comp::for_each_type(typename Cause::Fields{}, [&]<class F>() {
-        for (const auto& [field, value] : content) {
+        for (const auto& [field, value] : packet.second) {
           if (field == fsm::name_of<F>())
             said.push_back(world(F{}).expr() == (value ? yes() : !yes()));
         }
