@@ -3,6 +3,7 @@
 #include "checker/evidence/capture/recording.hpp"
 
 #include <filesystem>
+#include <string>
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,10 @@
 namespace stormproof::capture {
 namespace recording_test {
 
-std::string file() { return ::testing::TempDir() + "/recording.pcap"; }
+/// Other tests of this file may run at the same time, in processes of their own.
+std::string file() {
+  return ::testing::TempDir() + "/recording-" + std::to_string(getpid()) + ".pcap";
+}
 
 /// One datagram to the discard port of this machine.
 void send_one() {
