@@ -33,7 +33,15 @@ void send_one() {
   close(socket_fd);
 }
 
-TEST(Recording, KeepsWhatPassesTheInterface) {
+/// Leaves no file behind.
+class Recordings : public ::testing::Test {
+ protected:
+  void TearDown() override {
+    for (const std::string& name : {file(), file() + ".1"}) std::filesystem::remove(name);
+  }
+};
+
+TEST_F(Recordings, KeepsWhatPassesTheInterface) {
   const auto recorded = record({"lo", model::Nanoseconds{400'000'000}, file()}, [](std::uint64_t) {
     send_one();
     return true;
@@ -52,7 +60,7 @@ TEST(Recording, KeepsWhatPassesTheInterface) {
   EXPECT_TRUE(opened->damage().empty()) << opened->damage();
 }
 
-TEST(Recording, ARingKeepsTheNewestPacketsInTwoFiles) {
+TEST_F(Recordings, ARingKeepsTheNewestPacketsInTwoFiles) {
   constexpr std::uint64_t most_bytes = 2000;
   const Recording ring{"lo", model::Nanoseconds{2'000'000'000}, file(), most_bytes};
   std::filesystem::remove(ring.older());
@@ -75,7 +83,7 @@ TEST(Recording, ARingKeepsTheNewestPacketsInTwoFiles) {
   EXPECT_LT(kept, *recorded);
 }
 
-TEST(Recording, RefusesAnInterfaceThatIsNotThere) {
+TEST_F(Recordings, RefusesAnInterfaceThatIsNotThere) {
   const auto recorded = record({"nosuch0", model::Nanoseconds{1'000'000}, file()},
                                [](std::uint64_t) { return true; });
   ASSERT_FALSE(recorded);
