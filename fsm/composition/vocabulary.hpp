@@ -23,9 +23,7 @@
 //                                             writer, the entries of the participant
 //   w.in(part, state)          the machine is in this state
 //   w.set(flag or number, value), w.set_each(flag, term)
-//   w.renew(part)              the machine is a new one, in its initial state; of descriptors: all
-//   of
-//                              them
+//   w.renew(part)              the machine is a new one, in its initial state (of descriptors: all)
 //   w.after(delay, timer), w.at(time, timer), w.cancel(timer)
 //   w.emit(packet, says(…))
 //   w.raise(occasion)          the rule of the occasion runs here and now

@@ -22,8 +22,9 @@ AmendedProtocol::AmendedProtocol(RunState& run, Network& network)
       answered_(2 * std::size_t{run.topology.participant_count()}) {
   const std::uint32_t owners =
       std::max(run.topology.relation_count(), 2 * run.topology.participant_count());
-  std::apply([&](auto&... each) { (each.of.resize(owners), ...); }, memory_);
-  std::apply([&](auto&... each) { (each.before.resize(owners), ...); }, cancelled_);
+  const auto resize = [&](auto&... each) { (each.of.resize(owners), ...); };
+  std::apply(resize, memory_);
+  std::apply(resize, cancelled_);
   forgets_ = forgets(life_);
   for (std::uint32_t i = 0; i < run.topology.participant_count(); ++i) {
     leases_.push_back(lease_of(life_, i).value_or(Nanoseconds{}).count());

@@ -33,29 +33,18 @@ namespace stormproof::model::paper {
 namespace amended = fsm::composition::amended;
 
 namespace detail {
-/// The values of a number or flag, by owner.
-template <class V>
+/// What is remembered of a number, flag or timer, by owner.
+template <class Of, class Value>
 struct Remembered {
-  std::vector<std::int64_t> of;
+  std::vector<Value> of;
 };
-template <class List>
+template <class List, class Value>
 struct MemoryOf;
-template <class... Vs>
-struct MemoryOf<fsm::TypeList<Vs...>> {
-  using type = std::tuple<Remembered<Vs>...>;
+template <class... Each, class Value>
+struct MemoryOf<fsm::TypeList<Each...>, Value> {
+  using type = std::tuple<Remembered<Each, Value>...>;
 };
-/// Of a timer that can be cancelled, by owner: events that were scheduled before this one are.
-template <class Timer>
-struct Cancelled {
-  std::vector<std::uint64_t> before;
-};
-template <class List>
-struct CancelledOf;
-template <class... Ts>
-struct CancelledOf<fsm::TypeList<Ts...>> {
-  using type = std::tuple<Cancelled<Ts>...>;
-};
-/// Those of a participant or a side that may be a new one.
+/// The timers of a participant or a side that may be a new one.
 using Cancellable =
     fsm::TypeList<comp::Announcement, comp::AckNackGeneration, comp::InitialAttempt,
                   comp::paper::RepairGeneration, comp::paper::SuppressionEnd, comp::HeartbeatExpiry,
@@ -99,11 +88,11 @@ class AmendedProtocol final : public ProtocolOf<amended::C> {
 
   template <IsRemembered V>
   [[nodiscard]] std::int64_t value(V, std::uint32_t owner) const {
-    return std::get<detail::Remembered<V>>(memory_).of[owner];
+    return std::get<detail::Remembered<V, std::int64_t>>(memory_).of[owner];
   }
   template <IsRemembered V>
   void assign(V, std::uint32_t owner, std::int64_t to) {
-    std::get<detail::Remembered<V>>(memory_).of[owner] = to;
+    std::get<detail::Remembered<V, std::int64_t>>(memory_).of[owner] = to;
   }
   [[nodiscard]] std::uint64_t word(amended::Resent, std::uint32_t relation, std::uint32_t k) const {
     return resent_[relation].word(k);
@@ -215,9 +204,10 @@ class AmendedProtocol final : public ProtocolOf<amended::C> {
     return pair.cross_host && !is_replaced(life_, pair.source) &&
            !is_replaced(life_, pair.destination);
   }
+  /// By owner: events of the timer that were scheduled before this one are cancelled.
   template <class Timer>
   [[nodiscard]] std::vector<std::uint64_t>& cancelled() {
-    return std::get<detail::Cancelled<Timer>>(cancelled_).before;
+    return std::get<detail::Remembered<Timer, std::uint64_t>>(cancelled_).of;
   }
   /// Whether j takes now what i has emitted then.
   [[nodiscard]] bool hears(std::uint32_t i, std::uint32_t j, Nanoseconds emitted) const;
@@ -225,8 +215,8 @@ class AmendedProtocol final : public ProtocolOf<amended::C> {
 
   const Amendments& amendments_;
   const Life life_;
-  detail::MemoryOf<Composition::Memory>::type memory_;
-  detail::CancelledOf<detail::Cancellable>::type cancelled_;
+  detail::MemoryOf<Composition::Memory, std::int64_t>::type memory_;
+  detail::MemoryOf<detail::Cancellable, std::uint64_t>::type cancelled_;
   std::vector<std::int64_t> leases_;     // by participant; 0: never forgotten
   std::vector<DescriptorSet> resent_;    // by relation
   std::vector<std::uint32_t> retries_;   // by relation

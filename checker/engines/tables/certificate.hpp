@@ -26,11 +26,11 @@ struct StepClause {
 
 struct Certificate {
   TransitionSystem system;
-  Exprs constants;                     ///< unknowns that are no variables
-  std::vector<Clause> given;           ///< what is assumed of them
-  std::vector<Clause> invariant;       ///< what is stated
-  Exprs candidates;                    ///< of what else holds
-  std::vector<Clause> conclusions;     ///< in every state
+  Exprs constants{};                   ///< unknowns that are no variables
+  std::vector<Clause> given{};         ///< what is assumed of them
+  std::vector<Clause> invariant{};     ///< what is stated
+  Exprs candidates{};                  ///< of what else holds
+  std::vector<Clause> conclusions{};   ///< in every state
   std::vector<StepClause> on_steps{};  ///< of steps
 };
 

@@ -94,12 +94,7 @@ Certificate certificate_of(const RecognisingPair& pair, const Statement& stateme
   }
   whole.bad = any_of(seen);
   const Moving moving{whole};
-  Certificate certificate{.system = what_matters(moving.system),
-                          .constants = {},
-                          .given = {},
-                          .invariant = {},
-                          .candidates = {},
-                          .conclusions = {}};
+  Certificate certificate{.system = what_matters(moving.system)};
   for (const Clause& clause : statement.invariant) {
     certificate.invariant.push_back({clause.words, moving(clause.holds)});
   }

@@ -22,12 +22,7 @@ Certificate certificate_of(const DescriptorSystem& descriptor, const SafetyState
   for (const Never& never : statement.never) broken.push_back(never.bad);
   whole.bad = any_of(broken);
   const Moving moving{whole};
-  Certificate certificate{.system = what_matters(moving.system),
-                          .constants = {},
-                          .given = {},
-                          .invariant = {},
-                          .candidates = {},
-                          .conclusions = {}};
+  Certificate certificate{.system = what_matters(moving.system)};
   for (const Clause& clause : statement.invariant) {
     certificate.invariant.push_back({in_both_languages(clause), moving(clause.holds)});
   }

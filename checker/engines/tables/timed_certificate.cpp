@@ -54,10 +54,7 @@ void give(Certificate& certificate, std::string words, const Expr& holds) {
 Certificate certificate_in_time(const TimedDescriptor& descriptor, const Moving& moving) {
   Certificate certificate{.system = moving.system,
                           .constants = descriptor.unknowns(),
-                          .given = {},
-                          .invariant = {},
-                          .candidates = candidates_of(descriptor, moving),
-                          .conclusions = {}};
+                          .candidates = candidates_of(descriptor, moving)};
   for (const Expr& assumption : descriptor.assumptions()) give(certificate, "given", assumption);
   return certificate;
 }

@@ -84,9 +84,9 @@ class Announcements {
     }
     std::optional<Unexplained> farthest;
     for (std::vector<Announcement>& way : static_peers_->ways(known_since_)) {
-      auto fault = explain_multicasts(std::move(way));
-      if (!fault) return std::nullopt;
-      if (!farthest || fault->event > farthest->event) farthest = std::move(fault);
+      auto unexplained = explain_multicasts(std::move(way));
+      if (!unexplained) return std::nullopt;
+      if (!farthest || unexplained->event > farthest->event) farthest = std::move(unexplained);
     }
     return farthest;
   }

@@ -39,6 +39,18 @@ std::optional<std::uint32_t> port_index(const capture::Participant& participant)
   return (offset - metatraffic) / 2;
 }
 
+StaticPeers::StaticPeers(const Dialogue& dialogue, std::size_t participant, std::uint32_t ports,
+                         const Bounds& bounds)
+    : dialogue_{dialogue},
+      participant_{participant},
+      ports_{ports},
+      bounds_{bounds},
+      copies_(dialogue.participants()) {
+  for (const Announcement& one : dialogue.announcements[participant]) {
+    if (one.destination) ++copies_[*one.destination];
+  }
+}
+
 bool StaticPeers::reaches(std::size_t destination) const {
   const auto& participants = dialogue_.conversation.topology.participants;
   if (participants[destination].host == participants[participant_].host) return false;
@@ -73,13 +85,6 @@ std::vector<std::vector<Announcement>> StaticPeers::ways(
   std::stable_partition(found.begin(), found.end(),
                         [&](const std::vector<Announcement>& way) { return agree(way); });
   return found;
-}
-
-std::size_t StaticPeers::copies_to(std::size_t destination) const {
-  const std::vector<Announcement>& all = dialogue_.announcements[participant_];
-  return static_cast<std::size_t>(
-      std::count_if(all.begin(), all.end(),
-                    [&](const Announcement& one) { return one.destination == destination; }));
 }
 
 /// Of each round but the last, which the capture may cut off, a port has had its copy.

@@ -21,8 +21,7 @@ class StaticPeers {
  public:
   /// Of the announcements of `participant`, which go to `ports` ports of each host.
   StaticPeers(const Dialogue& dialogue, std::size_t participant, std::uint32_t ports,
-              const Bounds& bounds)
-      : dialogue_{dialogue}, participant_{participant}, ports_{ports}, bounds_{bounds} {}
+              const Bounds& bounds);
 
   /// Whether every round has a copy for it, known or not.
   [[nodiscard]] bool reaches(std::size_t destination) const;
@@ -31,7 +30,9 @@ class StaticPeers {
   [[nodiscard]] std::size_t most_in_a_round(std::size_t destination) const {
     return reaches(destination) ? 2 : 1;
   }
-  [[nodiscard]] std::size_t copies_to(std::size_t destination) const;
+  [[nodiscard]] std::size_t copies_to(std::size_t destination) const {
+    return copies_[destination];
+  }
 
   /// The rounds that the copies can have been, if a participant can be known from `known_since` on:
   /// first those with which all copies agree. One without rounds if the copies do not tell.
@@ -46,6 +47,7 @@ class StaticPeers {
   std::size_t participant_;
   std::uint32_t ports_;
   const Bounds& bounds_;
+  std::vector<std::size_t> copies_;  // by destination
 };
 
 }  // namespace stormproof::conform
