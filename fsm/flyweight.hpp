@@ -3,9 +3,10 @@
 // model/engine/relation_bits.hpp); a step puts that number into the object, lets MSM process the
 // event, and reads the new number back. So every transition of the simulator goes through
 // `back::state_machine`, at a few nanoseconds and without a machine in memory.
+//
+// MSM's back end takes long to compile. That of the machines in this folder is compiled once, in
+// machines.cpp; who has a machine of his own includes fsm/msm.hpp where it runs.
 #pragma once
-
-#include <boost/msm/back/state_machine.hpp>
 
 #include "fsm/reflect.hpp"
 
@@ -23,13 +24,7 @@ class Flyweight {
   /// actions ask for, `row` which row fired: `no_row` if none did.
   template <class Event>
   StateId step(StateId state, const Input& input, Output& output, RowId& row) {
-    // MSM offers the current state for reading only; the object itself is ours and not const.
-    int* current = const_cast<int*>(machine_.current_state());
-    *current = state;
-    const Event event{{input, output}};
-    machine_.process_event(event);
-    row = event.row;
-    return static_cast<StateId>(*current);
+    return process(state, Reflect<Machine>::template event_id<Event>, input, output, row);
   }
   template <class Event>
   StateId step(StateId state, const Input& input, Output& output) {
@@ -38,7 +33,8 @@ class Flyweight {
   }
 
  private:
-  boost::msm::back::state_machine<Machine> machine_;
+  static StateId process(StateId state, std::uint8_t event, const Input& input, Output& output,
+                         RowId& row);  // fsm/msm.hpp
 };
 
 }  // namespace stormproof::fsm

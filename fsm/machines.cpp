@@ -1,4 +1,4 @@
-// Reflects every front end once.
+// Reflects every front end, and compiles it with Boost.MSM, once.
 #include "fsm/machines.hpp"
 
 #include "fsm/announcer.hpp"
@@ -14,11 +14,28 @@
 #include "fsm/initial_acknack.hpp"
 #include "fsm/matched_reader.hpp"
 #include "fsm/movable_timer.hpp"
-#include "fsm/reflect.hpp"
+#include "fsm/msm.hpp"
 #include "fsm/reopening_repair.hpp"
 #include "fsm/single_shot.hpp"
 
 namespace stormproof::fsm {
+
+template class Flyweight<DescriptorRepair>;
+template class Flyweight<DiscoveryReader>;
+template class Flyweight<HeartbeatTimer>;
+template class Flyweight<InitialAckNack>;
+template class Flyweight<Announcer>;
+template class Flyweight<Channel>;
+template class Flyweight<ChangeForReader>;
+template class Flyweight<SingleShot>;
+template class Flyweight<ControlWriter>;
+template class Flyweight<ControlReader>;
+template class Flyweight<CautiousReader>;
+template class Flyweight<MatchedReader>;
+template class Flyweight<HeartbeatPacer>;
+template class Flyweight<EventThread>;
+template class Flyweight<MovableTimer>;
+template class Flyweight<ReopeningRepair>;
 
 std::vector<MachineInfo> machines() {
   return {Reflect<DescriptorRepair>::info(), Reflect<DiscoveryReader>::info(),

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "fsm/flyweight.hpp"
+#include "fsm/msm.hpp"
 
 namespace stormproof::fsm {
 
@@ -34,7 +34,7 @@ class FlyweightLaw {
   explicit FlyweightLaw(const std::vector<Input>& inputs) : inputs_{inputs} {
     for (std::size_t k = 0; k < machine_count; ++k) {
       states_.push_back(Flyweight<Machine>::initial);
-      own_.push_back(std::make_unique<typename Info::BackEnd>());
+      own_.push_back(std::make_unique<BackEnd<Machine>>());
       own_.back()->start();
     }
   }
@@ -73,7 +73,7 @@ class FlyweightLaw {
   const std::vector<Input>& inputs_;
   Flyweight<Machine> engine_;
   std::vector<StateId> states_;
-  std::vector<std::unique_ptr<typename Info::BackEnd>> own_;
+  std::vector<std::unique_ptr<BackEnd<Machine>>> own_;
 };
 
 inline void showValue(const RandomEvent& random, std::ostream& out) {

@@ -14,7 +14,7 @@
 
 #include <boost/pfr.hpp>
 
-#include "fsm/flyweight.hpp"
+#include "fsm/msm.hpp"
 #include "fsm/reflect.hpp"
 #include "tests/fsm/table_law.hpp"
 
@@ -146,7 +146,7 @@ class Surveyor {
 
   template <class... States>
   void list_msm_ids(TypeList<States...>) {
-    using Stt = typename Info::BackEnd::stt;
+    using Stt = typename BackEnd<Machine>::stt;
     result_.msm_ids = {boost::msm::back::get_state_id<Stt, States>::value...};
   }
 
