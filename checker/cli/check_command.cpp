@@ -203,7 +203,8 @@ void declare(Options& options, CheckArguments& arguments) {
       .within(1, 1'000'000);
   options
       .number("--readers", arguments.readers,
-              "Let the explorer look at several readers of one writer, too: 2 or 3 (default 1)",
+              "Let the explorer look at several readers of one writer, 2 or 3, and at both writers "
+              "of a participant, too (default 1)",
               "N")
       .within(1U, explorer::most_readers);
 }

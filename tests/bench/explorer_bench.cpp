@@ -77,6 +77,9 @@ int main() {
   for (const Scope& scope : shared_scopes(scenario, delay, most_readers)) {
     measure<RelationWorld<PaperPacking, most_readers>>("paper", scenario, scope);
   }
+  for (const Scope& scope : shared_scopes(scenario, delay, 1, most_writers)) {
+    measure<RelationWorld<PaperPacking, 1, most_writers>>("paper", scenario, scope);
+  }
   scenario.dds.sedp.grouping = model::Grouping::single;
   for (const Scope& scope : scopes(scenario, delay)) {
     if (scope.descriptors == 2) measure<PaperWorld>("single", scenario, scope);
@@ -91,6 +94,9 @@ int main() {
   }
   for (const Scope& scope : shared_scopes(scenario, delay, most_readers)) {
     measure<RelationWorld<FastDdsPacking, most_readers>>("fastdds", scenario, scope);
+  }
+  for (const Scope& scope : shared_scopes(scenario, delay, 1, most_writers)) {
+    measure<RelationWorld<FastDdsPacking, 1, most_writers>>("fastdds", scenario, scope);
   }
   std::printf("all       %llu steps in %.2f s: %.0f steps/s\n",
               static_cast<unsigned long long>(steps), spent, static_cast<double>(steps) / spent);

@@ -27,22 +27,30 @@ const char* reason_of(CutShort cut_short) {
   return "";
 }
 
+/// ", or 2 of one writer"; empty: one only.
+std::string several_relations(const Surroundings& where) {
+  std::string text;
+  if (where.readers > 1) text += fmt::format(", or {} of one writer", where.readers);
+  if (where.writers > 1) text += ", or one of each writer of a participant";
+  return text;
+}
+
 void add(std::string& list, const std::string& what) { list += (list.empty() ? "" : "; ") + what; }
 
 }  // namespace
 
-std::vector<std::string> assumptions_of(const model::Scenario& running, const DelayBound& delay,
-                                        unsigned readers) {
+std::vector<std::string> assumptions_of(const model::Scenario& running, const Surroundings& where) {
   std::vector<std::string> list;
+  const std::string several = several_relations(where);
   list.push_back(
-      readers > 1
-          ? fmt::format("One relation, or {} of one writer; every packet of theirs has a delay of "
-                        "its own, or the one that the scope names. What they share with other "
-                        "relations of the participant is theirs alone.",
-                        readers)
-          : "One relation; every packet of it has a delay of its own. What it shares with other "
-            "relations of its writer and participant is its own.");
-  list.push_back(delay.origin);
+      several.empty()
+          ? "One relation; every packet of it has a delay of its own. What it shares with other "
+            "relations of its writer and participant is its own."
+          : fmt::format("One relation{}; every packet of theirs has a delay of its own, or the "
+                        "one that the scope names. What they share with other relations of the "
+                        "participant is theirs alone.",
+                        several));
+  list.push_back(where.delay.origin);
   const bool created = creates_over_time(running);
   if (created) list.emplace_back("No HEARTBEATs ride in DATA packets.");
   const model::SedpProfile& sedp = running.dds.sedp;
@@ -105,10 +113,13 @@ void Answer::note_effort(std::uint64_t states, double seconds) {
 }
 
 std::string Answer::what_was_explored(const Surroundings& surroundings) const {
-  return fmt::format("one relation{} with packet delays up to {}, {} zone states",
-                     surroundings.readers > 1
-                         ? fmt::format(", and of {} of one writer,", surroundings.readers)
-                         : "",
+  std::string several;
+  if (surroundings.readers > 1) {
+    several += fmt::format(", and of {} of one writer", surroundings.readers);
+  }
+  if (surroundings.writers > 1) several += ", and of one of each writer of a participant";
+  if (!several.empty()) several += ',';
+  return fmt::format("one relation{} with packet delays up to {}, {} zone states", several,
                      props::time_text(surroundings.delay.delay), states_);
 }
 

@@ -17,13 +17,14 @@ namespace stormproof::explorer {
 struct Surroundings {
   DelayBound delay;
   unsigned readers = 1;      ///< of one writer, at most
+  unsigned writers = 1;      ///< of one participant, at most
   bool interrupted = false;  ///< somebody ended the searches
   std::vector<std::string> assumptions;
 };
 
-/// `running` is the scenario that runs, `readers` how many are looked at together, at most.
+/// `running` is the scenario that runs.
 [[nodiscard]] std::vector<std::string> assumptions_of(const model::Scenario& running,
-                                                      const DelayBound& delay, unsigned readers);
+                                                      const Surroundings& where);
 
 class Answer {
  public:

@@ -69,11 +69,15 @@ class Exploration {
 
   void run() {
     where_.readers = request_.readers;
+    where_.writers = request_.writers;
     where_.delay = delay_bound(request_.scenario, [&] { return go_on("measuring packet delays"); });
-    where_.assumptions = assumptions_of(running_, where_.delay, request_.readers);
+    where_.assumptions = assumptions_of(running_, where_);
     run(scopes(running_, where_.delay.delay));
     for (unsigned readers = 2; readers <= request_.readers; ++readers) {
       run(shared_scopes(running_, where_.delay.delay, readers));
+    }
+    if (request_.writers > 1) {
+      run(shared_scopes(running_, where_.delay.delay, 1, request_.writers));
     }
   }
 
@@ -112,6 +116,7 @@ class Exploration {
   }
   template <class Packing>
   void explore_packing(const Scope& scope) {
+    if (scope.writers > 1) return explore<RelationWorld<Packing, 1, most_writers>>(scope);
     if (scope.readers == 1) return explore<RelationWorld<Packing>>(scope);
     if (scope.readers == 2) return explore<RelationWorld<Packing, 2>>(scope);
     explore<RelationWorld<Packing, most_readers>>(scope);
@@ -206,8 +211,13 @@ class Exploration {
 
 checker::Findings check(std::span<const std::string_view> properties,
                         const checker::CheckRequest& request) {
-  return explore(properties, {request.scenario, request.mutant, request.on_progress,
-                              request.readers, request.effort});
+  return explore(properties, {request.scenario,
+                              request.mutant,
+                              request.on_progress,
+                              request.readers,
+                              request.effort,
+                              {},
+                              request.readers > 1 ? most_writers : 1U});
 }
 
 checker::Findings explore(std::span<const std::string_view> properties, const Request& request) {

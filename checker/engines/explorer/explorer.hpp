@@ -1,9 +1,10 @@
-// The engine "explorer": runs the concrete machines of one relation, or of one writer with several
-// readers, along every interleaving of a small scope, with event times as difference constraints,
-// and reports what breaks first. Its counterexamples have the fewest possible events; each has been
-// replayed by the simulator before it is reported; if that does not confirm it, explorer and
-// simulator disagree, and the finding is disputed. What it does not find is bounded by the scopes
-// that it has exhausted, which the finding states; without one it is inconclusive.
+// The engine "explorer": runs the concrete machines of one relation, of one writer with several
+// readers, or of both writers of a participant, along every interleaving of a small scope, with
+// event times as difference constraints, and reports what breaks first. Its counterexamples have
+// the fewest possible events; each has been replayed by the simulator before it is reported; if
+// that does not confirm it, explorer and simulator disagree, and the finding is disputed. What it
+// does not find is bounded by the scopes that it has exhausted, which the finding states; without
+// one it is inconclusive.
 #pragma once
 
 #include <span>
@@ -13,9 +14,9 @@
 
 namespace stormproof::explorer {
 
-/// Answers about those of `properties` that are about one relation. Searches end after so many
-/// states that a check takes about 5 s, several times that with several readers; an unfinished
-/// search says how far it came.
+/// Answers about those of `properties` that are about one relation. Who asks for several readers is
+/// told of both writers of a participant, too. Searches end after so many states that a check takes
+/// about 5 s, several times that with several readers; an unfinished search says how far it came.
 [[nodiscard]] checker::Findings check(std::span<const std::string_view> properties,
                                       const checker::CheckRequest& request);
 
@@ -29,6 +30,8 @@ struct Request {
   unsigned effort = 1;  ///< multiplies the states that are looked at
   /// What the explored world does wrong and runs do not: for the test that notices it.
   model::Mutation misread = {};
+  /// 2: both writers of a participant, too.
+  unsigned writers = 1;
 };
 [[nodiscard]] checker::Findings explore(std::span<const std::string_view> properties,
                                         const Request& request);

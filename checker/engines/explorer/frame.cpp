@@ -125,7 +125,7 @@ void Frame::emit(Slot packet) {
     if (arrival > before && count() > arrival) relate(before, arrival, 0);
     for (unsigned k = 0; scope_->fifo && count() > arrival && k < before; ++k) {
       if (!is_packet(slots_[k].what)) continue;
-      if (have_one_source(slots_[k], packet)) relate(k, arrival, 0);
+      if (have_one_source(slots_[k], packet, scope_->writers)) relate(k, arrival, 0);
     }
   }
   if (log_ == nullptr) return;
@@ -141,7 +141,7 @@ bool Frame::belong_the_other_way(unsigned k) const {
   const Slot& b = slots_[k + 1];
   if (is_mark(a.what) || is_mark(b.what)) {
     const auto key = [](const Slot& slot) {
-      return is_mark(slot.what) ? std::tuple{slot.what, slot.reader, slot.set}
+      return is_mark(slot.what) ? std::tuple{slot.what, slot.relation, slot.set}
                                 : std::tuple{What{}, std::uint8_t{}, std::uint16_t{}};
     };
     return key(b) < key(a);
@@ -180,24 +180,26 @@ void Frame::erase(unsigned k) {
   }
 }
 
-void Frame::erase_marks(What what, std::uint16_t set, unsigned reader) {
+void Frame::erase_marks(What what, std::uint16_t set, unsigned relation) {
   for (unsigned k = count(); k-- > 0;) {
     const Slot& slot = slots_[k];
-    if (slot.what == what && slot.reader == reader && (slot.set & ~set) == 0) erase(k);
+    if (slot.what == what && slot.relation == relation && (slot.set & ~set) == 0) erase(k);
   }
 }
 
-unsigned Frame::find(What what, std::uint16_t set, unsigned reader) const {
+unsigned Frame::find(What what, std::uint16_t set, unsigned relation) const {
   for (unsigned k = 0; k < count(); ++k) {
     const Slot& slot = slots_[k];
-    if (slot.what == what && slot.set == set && slot.reader == reader) return k;
+    if (slot.what == what && slot.set == set && slot.relation == relation) return k;
   }
   return count();
 }
 
-unsigned Frame::pending(What what) const {
+unsigned Frame::pending(What what, unsigned relation) const {
   unsigned found = 0;
-  for (unsigned k = 0; k < count(); ++k) found += slots_[k].what == what ? 1U : 0U;
+  for (unsigned k = 0; k < count(); ++k) {
+    found += slots_[k].what == what && slots_[k].relation == relation ? 1U : 0U;
+  }
   return found;
 }
 

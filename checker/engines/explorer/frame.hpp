@@ -116,10 +116,10 @@ class Frame {
   void sort();
   /// The present is remembered.
   void mark(Slot slot);
-  void erase_marks(What what, std::uint16_t set, unsigned reader = 0);
+  void erase_marks(What what, std::uint16_t set, unsigned relation = 0);
   /// Position of the first such slot, or `count()`.
-  [[nodiscard]] unsigned find(What what, std::uint16_t set = 0, unsigned reader = 0) const;
-  [[nodiscard]] unsigned pending(What what) const;
+  [[nodiscard]] unsigned find(What what, std::uint16_t set = 0, unsigned relation = 0) const;
+  [[nodiscard]] unsigned pending(What what, unsigned relation) const;
   [[nodiscard]] bool any_pending() const;
 
   /// The claim is broken in every concrete run of this frame.

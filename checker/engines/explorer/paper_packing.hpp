@@ -17,11 +17,13 @@ class PaperPacking {
   using Composition = comp::paper::Paper;
   using WriterOpens = comp::paper::WriterOpens;
   using State = fsm::TypeList<Budget, SentBytes>;
+  template <unsigned, unsigned>
   using SharedState = fsm::TypeList<>;
   static constexpr unsigned max_descriptors = most_descriptors;
   static constexpr bool receives_separately = false;
   static constexpr bool one_event_opens_both = true;
   static constexpr bool repairs_leave_later = true;
+  static constexpr bool lists_what_is_announced = false;
 
   PaperPacking(const model::Scenario& running, const Scope& scope)
       : sedp_{running.dds.sedp},
@@ -29,31 +31,33 @@ class PaperPacking {
         counts_bytes_{scope.counts_bytes && sedp_.piggyback != model::Piggyback::off},
         sizes_{without_defaults(running.dds.descriptors)} {}
 
-  [[nodiscard]] unsigned descriptors() const { return count_; }
+  [[nodiscard]] unsigned descriptors(model::Stream) const { return count_; }
 
   template <class Host>
   void start(Host& host) const {
-    refill(host.state());
+    for (unsigned s = 0; s < Host::writer_count; ++s) refill(host.state(), s);
   }
   template <class Host>
   static void create(Host&, const Slot&) {}  // everything exists
   template <class W>
   void perform(comp::RefillBudget, W& w) {
-    refill(w.host().state());
+    auto& host = w.host();
+    refill(host.state(), host.template relation_at<comp::owner::writer>(w));
   }
   template <class W>
   static void perform(comp::paper::Clock::SendBatch, W&) {}
   template <class W>
   void perform(comp::paper::Generate, W& w, const model::DescriptorSet& set, bool repair) {
     auto& host = w.host();
-    const std::uint8_t reader = host.reader_at(w);
-    note_generated(host.state(), host.frame(), reader, members_of(set), repair);
-    const Slot empty{What::data, repair ? Slot::from_repair : std::uint8_t{0}, 0, 0, reader};
+    const std::uint8_t relation = host.relation_at(w);
+    const std::uint32_t writer = w.template number<comp::owner::writer>();
+    note_generated(host.state(), host.frame(), relation, members_of(set), repair);
+    const Slot empty{What::data, repair ? Slot::from_repair : std::uint8_t{0}, 0, 0, relation};
     const std::int64_t shared = sedp_.shared_header_bytes.count();
     Slot packet = empty;
     std::int64_t payload_bytes = 0;
     set.for_each([&](std::uint32_t d) {
-      const std::int64_t bytes = sizes_.bytes(model::Stream::pub, d);
+      const std::int64_t bytes = sizes_.bytes(model::streams[writer], d);
       if (packet.set != 0 && packet_is_full(sedp_, payload_bytes, bytes - shared)) {
         host.send(std::exchange(packet, empty));
         payload_bytes = 0;
@@ -61,9 +65,9 @@ class PaperPacking {
       const std::int64_t added = packet.set == 0 ? bytes : bytes - shared;
       packet.set |= member(d);
       payload_bytes += added;
-      const auto open = host.readers(0);
+      const auto open = host.readers(writer);
       const bool rides = open.size() <= 1;
-      if (!is_used_up(host.state(), added, rides)) return;
+      if (!is_used_up(host.state(), relation, added, rides)) return;
       if (rides) {
         packet.flags |= Slot::carries_heartbeat;
         payload_bytes += sedp_.piggyback_heartbeat_bytes.count();
@@ -71,8 +75,8 @@ class PaperPacking {
       }
       host.send(std::exchange(packet, empty));
       payload_bytes = 0;
-      for (const std::uint32_t relation : open) {
-        const auto to = static_cast<std::uint8_t>(host.reader_of(relation));
+      for (const std::uint32_t number : open) {
+        const auto to = static_cast<std::uint8_t>(host.relation_of(number));
         host.send({What::heartbeat, 0, 0, 0, to});
       }
     });
@@ -87,21 +91,22 @@ class PaperPacking {
     return profile;
   }
   template <class State>
-  void refill(State& state) const {
+  void refill(State& state, unsigned relation) const {
     if (!counts_bytes_) return;
-    state.template set<Budget>(sedp_.piggyback_threshold_bytes.count());
+    state.template set<Budget>(sedp_.piggyback_threshold_bytes.count(), relation);
   }
   /// Charges the bytes, and those of the HEARTBEAT that follows from that; whether it does.
   template <class State>
-  [[nodiscard]] bool is_used_up(State& state, std::int64_t added, bool rides) const {
+  [[nodiscard]] bool is_used_up(State& state, unsigned relation, std::int64_t added,
+                                bool rides) const {
     if (!counts_bytes_) return false;
     const bool cumulative = sedp_.piggyback == model::Piggyback::cumulative;
     const std::int64_t sent = state.template get<SentBytes>() + added;
     if (cumulative) state.template set<SentBytes>(sent);
-    const std::int64_t budget = state.template get<Budget>() - (cumulative ? sent : added);
-    state.template set<Budget>(budget);
+    const std::int64_t budget = state.template get<Budget>(relation) - (cumulative ? sent : added);
+    state.template set<Budget>(budget, relation);
     if (budget >= 0) return false;
-    refill(state);
+    refill(state, relation);
     if (cumulative) {
       const model::Bytes heartbeat =
           rides ? sedp_.piggyback_heartbeat_bytes : sedp_.heartbeat_bytes;
@@ -121,5 +126,6 @@ using SharedPaperWorld = RelationWorld<PaperPacking, 2>;
 extern template class RelationWorld<PaperPacking>;
 extern template class RelationWorld<PaperPacking, 2>;
 extern template class RelationWorld<PaperPacking, most_readers>;
+extern template class RelationWorld<PaperPacking, 1, most_writers>;
 
 }  // namespace stormproof::explorer

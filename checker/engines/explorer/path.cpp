@@ -48,9 +48,9 @@ std::optional<ConcretePath> solve(const PathLog& log, std::vector<std::string> s
   return path;
 }
 
-std::optional<model::Nanoseconds> ConcretePath::time_of(What what, unsigned reader) const {
+std::optional<model::Nanoseconds> ConcretePath::time_of(What what, unsigned relation) const {
   for (const Scheduled& event : scheduled) {
-    if (event.slot.what == what && event.slot.reader == reader) return event.time;
+    if (event.slot.what == what && event.slot.relation == relation) return event.time;
   }
   return std::nullopt;
 }
@@ -104,10 +104,11 @@ std::string what_text(const Slot& slot) {
 
 }  // namespace
 
-std::string step_text(const ConcretePath::Step& step, unsigned readers) {
-  const std::string whose = readers > 1 && is_of_reader(step.slot.what)
-                                ? fmt::format(" (reader {})", step.slot.reader)
-                                : "";
+std::string step_text(const ConcretePath::Step& step, const Scope& scope) {
+  const bool which_reader = scope.readers > 1 && is_of_reader(step.slot.what);
+  const bool which_writer = scope.writers > 1 && is_of_writer(step.slot.what);
+  const std::string whose =
+      which_reader || which_writer ? " (" + relation_text(scope, step.slot.relation) + ")" : "";
   return fmt::format("t = {}: {}{} [{}]", props::time_text(step.time), what_text(step.slot), whose,
                      step.state);
 }

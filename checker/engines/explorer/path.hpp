@@ -32,7 +32,7 @@ struct ConcretePath {
   std::vector<Scheduled> scheduled;
 
   /// When the first event of this kind happens, or would.
-  [[nodiscard]] std::optional<model::Nanoseconds> time_of(What what, unsigned reader = 0) const;
+  [[nodiscard]] std::optional<model::Nanoseconds> time_of(What what, unsigned relation = 0) const;
 };
 
 /// The least times of variables 0 … n-1 with time 0 for variable 0, none negative, that satisfy all
@@ -40,8 +40,8 @@ struct ConcretePath {
 [[nodiscard]] std::optional<std::vector<std::int64_t>> earliest_times(
     std::uint32_t variables, const std::vector<Constraint>& constraints);
 
-/// One line: what happens in a step, and with which reader if there are several.
-[[nodiscard]] std::string step_text(const ConcretePath::Step& step, unsigned readers);
+/// One line: what happens in a step, and in which relation if there are several.
+[[nodiscard]] std::string step_text(const ConcretePath::Step& step, const Scope& scope);
 
 /// Times for the logged path.
 [[nodiscard]] std::optional<ConcretePath> solve(const PathLog& log,

@@ -179,13 +179,14 @@ std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
 // With delays of their own for all packets of two relations there are too many interleavings to try
 // all of them; with one delay for all there are few, and several losses are possible.
 std::vector<Scope> shared_scopes(const model::Scenario& scenario, Nanoseconds delay,
-                                 unsigned readers) {
+                                 unsigned readers, unsigned writers) {
   const bool created = creates_over_time(scenario);
   std::vector<Scope> list;
   const auto add = [&](unsigned losses, bool one_delay) -> Scope& {
     Scope& scope =
         list.emplace_back(scope_of(scenario, delay, created ? default_publications : 1, losses));
     scope.readers = readers;
+    scope.writers = writers;
     if (one_delay) {
       scope.least_delay = delay;
       scope.leaves_within = Nanoseconds{0};
@@ -193,8 +194,8 @@ std::vector<Scope> shared_scopes(const model::Scenario& scenario, Nanoseconds de
     return scope;
   };
   add(2, true);
-  if (!list.front().side_by_side) add(1, true).joins_within = delay;
-  if (created) add(1, true).pushed = 1;
+  if (readers > 1 && !list.front().side_by_side) add(1, true).joins_within = delay;
+  if (readers > 1 && created) add(1, true).pushed = 1;
   if (!has_one_delay(scenario)) add(0, false);
   return list;
 }

@@ -29,9 +29,11 @@ struct DelayBound {
 /// The scopes of one relation to explore, cheap ones first.
 [[nodiscard]] std::vector<Scope> scopes(const model::Scenario& scenario, model::Nanoseconds delay);
 
-/// Those of the relations of one writer with so many readers, 2 … most_readers, cheap ones first.
+/// Those of relations that share something, cheap ones first: of one writer with so many readers,
+/// 2 … most_readers; or of both writers of a participant with one reader.
 [[nodiscard]] std::vector<Scope> shared_scopes(const model::Scenario& scenario,
-                                               model::Nanoseconds delay, unsigned readers);
+                                               model::Nanoseconds delay, unsigned readers,
+                                               unsigned writers = 1);
 
 /// Whether descriptors of the world come into being one after the other. There, HEARTBEATs that
 /// ride in DATA are left out.

@@ -1,5 +1,5 @@
-// One relation as a world for the explorer, or those of one writer to several readers: which rule
-// each event is, and what must hold after it.
+// One relation as a world for the explorer, or those of one writer to several readers, or of both
+// writers of a participant: which rule each event is, and what must hold after it.
 // The rules are those that the simulator executes, in the order in which it does, so a path of the
 // explorer can be run by the simulator.
 #pragma once
@@ -16,14 +16,15 @@
 
 namespace stormproof::explorer {
 
-template <class Packing, unsigned readers = 1>
+template <class Packing, unsigned readers = 1, unsigned writers = 1>
 class RelationWorld {
  public:
-  using Host = RuleHost<Packing, readers>;
+  using Host = RuleHost<Packing, readers, writers>;
   using Composition = typename Packing::Composition;
   using C = typename Host::C;
   using State = typename Host::State;
-  static constexpr bool sorts_slots = readers > 1;
+  static constexpr unsigned relations = readers * writers;
+  static constexpr bool sorts_slots = relations > 1;
 
   /// `scenario` is the one that runs, `specification` the one whose τ_S has to be honoured.
   RelationWorld(const model::Scenario& scenario, const model::Scenario& specification,
@@ -42,16 +43,24 @@ class RelationWorld {
   [[nodiscard]] bool complete(const State& state) const {
     return received(state) == (std::uint32_t{1} << deliveries()) - 1;
   }
-  /// A bit for each reader and descriptor, reader by reader.
+  /// A bit for each relation and descriptor, relation by relation.
   [[nodiscard]] std::uint32_t received(const State& state) const {
     std::uint32_t bits = 0;
-    for (unsigned r = 0; r < readers; ++r) {
-      bits |= std::uint32_t{state.template get<comp::X>(r)} << r * descriptors();
+    unsigned end = 0;
+    for (unsigned k = 0; k < relations; ++k) {
+      bits |= std::uint32_t{state.template get<comp::X>(k)} << end;
+      end += descriptors(k);
     }
     return bits;
   }
-  [[nodiscard]] unsigned deliveries() const { return readers * descriptors(); }
-  [[nodiscard]] unsigned descriptors() const { return host_.descriptors(); }
+  [[nodiscard]] unsigned deliveries() const {
+    unsigned count = 0;
+    for (unsigned k = 0; k < relations; ++k) count += descriptors(k);
+    return count;
+  }
+  [[nodiscard]] unsigned descriptors(unsigned relation = 0) const {
+    return host_.descriptors(relation);
+  }
   [[nodiscard]] const Scope& scope() const { return scope_; }
   [[nodiscard]] const EventRules& rules() const { return rules_; }
   /// The state in words.
@@ -60,10 +69,14 @@ class RelationWorld {
  private:
   void happen(const Slot& slot);
   void schedule_openings(Frame& frame) const;
-  void open_writer(const Slot& slot) {
-    host_.template run_rule<comp::Happens<typename Packing::WriterOpens>>(slot);
+  /// The sides of all writers with the slot's reader.
+  template <class Opens>
+  void open(Slot slot) {
+    for (unsigned s = 0; s < writers; ++s, ++slot.relation) {
+      host_.template run_rule<comp::Happens<Opens>>(slot);
+    }
   }
-  [[nodiscard]] std::string describe(const State& state, unsigned reader) const;
+  [[nodiscard]] std::string describe(const State& state, unsigned relation) const;
   [[nodiscard]] bool opens_at_once() const {
     return Packing::one_event_opens_both && !scope_.side_by_side;
   }
@@ -75,8 +88,8 @@ class RelationWorld {
   Host host_;
 };
 
-template <class Packing, unsigned readers>
-auto RelationWorld<Packing, readers>::start(Frame& frame) -> State {
+template <class Packing, unsigned readers, unsigned writers>
+auto RelationWorld<Packing, readers, writers>::start(Frame& frame) -> State {
   static_assert(std::has_unique_object_representations_v<State>);
   State state;
   host_.go_on_with(state, frame);
@@ -85,20 +98,20 @@ auto RelationWorld<Packing, readers>::start(Frame& frame) -> State {
   return state;
 }
 
-/// One announcement of the writer opens the reader sides, so they open together; the writer sides
-/// open in ascending order of the readers, which is what tells these apart. The writer hears first
-/// of a reader that joins later, and answers at once.
-template <class Packing, unsigned readers>
-void RelationWorld<Packing, readers>::schedule_openings(Frame& frame) const {
+/// One announcement of the participant opens the reader sides of all its writers, so they open
+/// together; the writer sides open in ascending order of the readers, which is what tells these
+/// apart. The participant hears first of a reader that joins later, and answers at once.
+template <class Packing, unsigned readers, unsigned writers>
+void RelationWorld<Packing, readers, writers>::schedule_openings(Frame& frame) const {
   const std::int64_t apart = scope_.side_by_side ? scope_.largest_delay.count() : 0;
   const std::int64_t late = scope_.joins_within.count();
   const unsigned early = readers > 1 && late > 0 ? readers - 1 : readers;
   const auto schedule = [&](What what, unsigned reader, std::int64_t within) {
-    frame.schedule_between({what, 0, 0, 0, static_cast<std::uint8_t>(reader)}, 0, within);
+    frame.schedule_between({what, 0, 0, 0, static_cast<std::uint8_t>(reader * writers)}, 0, within);
   };
   const auto in_order = [&](What what, unsigned r, What other, unsigned s) {
-    const unsigned first = frame.find(what, 0, r);
-    const unsigned second = frame.find(other, 0, s);
+    const unsigned first = frame.find(what, 0, r * writers);
+    const unsigned second = frame.find(other, 0, s * writers);
     if (std::max(first, second) < frame.count()) frame.precede(first, second);  // no mistake made
   };
   for (unsigned r = 0; r < early; ++r) {
@@ -118,15 +131,17 @@ void RelationWorld<Packing, readers>::schedule_openings(Frame& frame) const {
   in_order(What::reader_opens, early, What::writer_opens, early);
 }
 
-template <class Packing, unsigned readers>
-void RelationWorld<Packing, readers>::fire(State& state, Frame& frame, const Slot& slot) {
+template <class Packing, unsigned readers, unsigned writers>
+void RelationWorld<Packing, readers, writers>::fire(State& state, Frame& frame, const Slot& slot) {
   const State before = state;
   host_.go_on_with(state, frame);
   happen(slot);
-  for (unsigned r = 0; r < readers; ++r) {
-    check_descriptors<C>(before, state, frame, r, suppression_ns_);
+  for (unsigned k = 0; k < relations; ++k) {
+    check_descriptors<C>(before, state, frame, k, suppression_ns_);
   }
-  if (frame.pending(What::heartbeat_expiry) > 1) frame.object(Claim::single_heartbeat);
+  for (unsigned s = 0; s < writers; ++s) {
+    if (frame.pending(What::heartbeat_expiry, s) > 1) frame.object(Claim::single_heartbeat);
+  }
   if constexpr (readers > 1) {
     // Completion counts from the last opening.
     const bool opens = slot.what == What::reader_opens || slot.what == What::writer_opens;
@@ -136,21 +151,22 @@ void RelationWorld<Packing, readers>::fire(State& state, Frame& frame, const Slo
   }
 }
 
-template <class Packing, unsigned readers>
-void RelationWorld<Packing, readers>::happen(const Slot& slot) {
+template <class Packing, unsigned readers, unsigned writers>
+void RelationWorld<Packing, readers, writers>::happen(const Slot& slot) {
+  host_.arrives_from(slot);
   switch (slot.what) {
     case What::reader_opens:
-      host_.template run_rule<comp::Happens<comp::ReaderOpens>>(slot);
-      if (opens_at_once()) open_writer(slot);
+      open<comp::ReaderOpens>(slot);
+      if (opens_at_once()) open<typename Packing::WriterOpens>(slot);
       break;
     case What::writer_opens:
-      open_writer(slot);
+      open<typename Packing::WriterOpens>(slot);
       break;
     case What::creation:
       host_.packing().create(host_, slot);
       break;
     case What::data:
-      note_copies(host_.state(), host_.frame(), slot.reader, slot.set);
+      note_copies(host_.state(), host_.frame(), slot.relation, slot.set);
       host_.template run_rule<comp::Received<typename Composition::Data>>(slot);
       break;
     case What::heartbeat:
@@ -158,14 +174,13 @@ void RelationWorld<Packing, readers>::happen(const Slot& slot) {
       break;
     case What::acknack: {
       const Slot arrived = live_bitmaps_ ? host_.said_now(slot) : slot;
-      host_.acknack_is_as_emitted(arrived == slot);
       host_.template run_rule<comp::Received<typename Composition::AckNack>>(arrived);
       break;
     }
     case What::source_completion:
       if constexpr (Packing::repairs_leave_later) {
         for (unsigned left = slot.set; left != 0; left &= left - 1) {
-          note_left(host_.frame(), slot.reader, static_cast<Members>(left & -left));
+          note_left(host_.frame(), slot.relation, static_cast<Members>(left & -left));
         }
         host_.template run_rule<comp::LeftSource<typename Composition::Data>>(slot);
       }
@@ -175,31 +190,33 @@ void RelationWorld<Packing, readers>::happen(const Slot& slot) {
   }
 }
 
-template <class Packing, unsigned readers>
-std::string RelationWorld<Packing, readers>::describe(const State& state) const {
-  if constexpr (readers == 1) return describe(state, 0);
+template <class Packing, unsigned readers, unsigned writers>
+std::string RelationWorld<Packing, readers, writers>::describe(const State& state) const {
+  if constexpr (relations == 1) return describe(state, 0);
   std::string text;
-  for (unsigned r = 0; r < readers; ++r) {
-    text += fmt::format("{}reader {}: {}", r == 0 ? "" : "; ", r, describe(state, r));
+  for (unsigned k = 0; k < relations; ++k) {
+    text +=
+        fmt::format("{}{}: {}", k == 0 ? "" : "; ", relation_text(scope_, k), describe(state, k));
   }
   return text;
 }
 
-template <class Packing, unsigned readers>
-std::string RelationWorld<Packing, readers>::describe(const State& state, unsigned reader) const {
+template <class Packing, unsigned readers, unsigned writers>
+std::string RelationWorld<Packing, readers, writers>::describe(const State& state,
+                                                               unsigned relation) const {
   std::string letters;
   std::string bits;
   std::string each;
-  for (unsigned d = 0; d < descriptors(); ++d) {
+  for (unsigned d = 0; d < descriptors(relation); ++d) {
     const std::string_view name =
-        fsm::Reflect<typename C::Machine>::state_names[state.template state<C>(d, reader)];
-    const char bit = (state.template get<comp::X>(reader) & member(d)) != 0 ? '1' : '0';
+        fsm::Reflect<typename C::Machine>::state_names[state.template state<C>(d, relation)];
+    const char bit = (state.template get<comp::X>(relation) & member(d)) != 0 ? '1' : '0';
     each += fmt::format("{}d{}: C = {}, X = {}", d == 0 ? "" : "; ", d, name, bit);
     letters += name == "Absent" ? "-" : name;
     bits += bit;
   }
   constexpr unsigned few = 3;
-  return descriptors() <= few ? each : "C = " + letters + ", X = " + bits;
+  return descriptors(relation) <= few ? each : "C = " + letters + ", X = " + bits;
 }
 
 }  // namespace stormproof::explorer

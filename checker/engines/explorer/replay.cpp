@@ -19,8 +19,8 @@ namespace {
 using model::Nanoseconds;
 using model::PacketKind;
 
-/// Notes the packets of the relations from participant 0 to the readers, and the announcements.
-/// Reader r is participant r + 1.
+/// Notes the packets of the explored relations from participant 0 to the readers, and the
+/// announcements. Reader r is participant r + 1.
 class PacketList final : public model::Probe {
  public:
   struct Entry {
@@ -29,12 +29,13 @@ class PacketList final : public model::Probe {
     PacketKind kind{};
     std::uint16_t set = 0;
     std::uint32_t source = 0;
-    std::uint32_t reader = 0;  ///< of an announcement of participant 0: of a copy to one
+    std::uint32_t reader = 0;    ///< of an announcement of participant 0: of a copy to one
+    std::uint32_t relation = 0;  ///< of the explored ones
   };
   std::vector<Entry> of_relations;
   std::vector<Entry> announcements;
 
-  explicit PacketList(unsigned readers) : readers_{readers} {}
+  explicit PacketList(const Scope& scope) : scope_{scope} {}
 
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
@@ -55,9 +56,10 @@ class PacketList final : public model::Probe {
       case PacketKind::heartbeat:
       case PacketKind::acknack:
         // The first pairs go from participant 0 to all others.
-        if (packet.pair >= readers_ || packet.stream != model::Stream::pub) break;
+        if (!is_explored(packet, scope_)) break;
         for (const std::uint32_t destination : destinations) {
-          entry.reader = (packet.to_writer() ? source : destination) - 1;
+          const std::uint32_t reader = (packet.to_writer() ? source : destination) - 1;
+          entry.relation = explored_relation(packet, reader, scope_);
           of_relations.push_back(entry);
           ++entry.number;
         }
@@ -68,7 +70,7 @@ class PacketList final : public model::Probe {
   }
 
  private:
-  unsigned readers_;
+  const Scope& scope_;
 };
 
 /// When participant 0 has created its last endpoint.
@@ -86,9 +88,11 @@ model::Scenario bare_scenario(const ReplayRequest& request, const ConcretePath& 
   const Nanoseconds start = start_of_world(request, path);
   model::Scenario scenario;
   scenario.dds = request.running.dds;
-  model::Participant writer{model::HostId{0}, request.scope.descriptors, 0, {}, {}};
+  const unsigned subscriptions = request.scope.writers > 1 ? request.scope.descriptors : 0;
+  model::Participant writer{model::HostId{0}, request.scope.descriptors, subscriptions, {}, {}};
   if (creates_over_time(request.running)) {
     writer.publications = 0;
+    writer.subscriptions = 0;
     writer.endpoints_done = endpoints_done(request, path, start);
     scenario.dds.sedp.piggyback = model::Piggyback::off;
   } else {
@@ -99,7 +103,8 @@ model::Scenario bare_scenario(const ReplayRequest& request, const ConcretePath& 
   for (unsigned r = 0; r < request.scope.readers; ++r) {
     const bool joins = r > 0 && request.scope.joins_within.count() > 0;
     const Nanoseconds begin =
-        joins ? start + path.time_of(What::reader_opens, r).value_or(Nanoseconds{0})
+        joins ? start + path.time_of(What::reader_opens, r * request.scope.writers)
+                            .value_or(Nanoseconds{0})
               : Nanoseconds{0};
     scenario.deployment.participants.push_back({model::HostId{r + 1}, 0, 0, begin, begin});
   }
@@ -127,7 +132,8 @@ void assign(const ReplayRequest& request, const ConcretePath& path, const Packet
   lost.clear();
   for (const PacketList::Entry& packet : list.announcements) {
     const bool by_writer = packet.source == 0;
-    const std::uint32_t of = by_writer ? packet.reader : packet.source - 1;
+    const std::uint32_t of =
+        (by_writer ? packet.reader : packet.source - 1) * request.scope.writers;
     const Nanoseconds reader = path.time_of(What::reader_opens, of).value_or(Nanoseconds{0});
     const Nanoseconds writer = path.time_of(What::writer_opens, of).value_or(reader);
     const Nanoseconds arrival = std::max(packet.emitted, start + (by_writer ? reader : writer));
@@ -156,7 +162,7 @@ std::string difference(const ConcretePath& path, const PacketList& list, Nanosec
     }
     const PacketList::Entry& entry = list.of_relations[k];
     if (entry.kind == kind_of(expected.slot.what) && entry.emitted == time &&
-        entry.set == expected.slot.set && entry.reader == expected.slot.reader) {
+        entry.set == expected.slot.set && entry.relation == expected.slot.relation) {
       continue;
     }
     return fmt::format(
@@ -198,7 +204,7 @@ std::optional<model::Scenario> scenario_of(const ReplayRequest& request, const C
   const Nanoseconds start = start_of_world(request, path);
   // Each round settles at least one more packet, and announcements settle with them.
   for (std::size_t round = 0; round < path.packets.size() + 20; ++round) {
-    PacketList list{request.scope.readers};
+    PacketList list{request.scope};
     run(request, scenario, list);
     const model::Scenario before = scenario;
     assign(request, path, list, scenario);
@@ -240,7 +246,7 @@ ReplayOutcome replay(const ReplayRequest& request, const ConcretePath& path,
   const Nanoseconds start = start_of_world(request, path);
   for (const ConcretePath::Step& step : path.steps) {
     if (start + step.time <= violation.time) {
-      example.steps.push_back(step_text(step, request.scope.readers));
+      example.steps.push_back(step_text(step, request.scope));
     }
   }
   outcome.counterexample = std::move(example);

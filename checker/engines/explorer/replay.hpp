@@ -10,6 +10,7 @@
 #include <string>
 
 #include "checker/engines/explorer/path.hpp"
+#include "model/engine/packet.hpp"
 #include "model/probe.hpp"
 #include "model/run_result.hpp"
 #include "props/verdict.hpp"
@@ -29,6 +30,16 @@ struct ReplayRequest {
   /// Who executes the rules, if not the implementation that the profile names.
   const model::ImplementationMaker* maker = nullptr;
 };
+
+/// Whether a packet of a run is one of the explored relations, the first ones of participant 0; and
+/// of which of them, with the reader to or from which it goes.
+[[nodiscard]] inline bool is_explored(const model::Packet& packet, const Scope& scope) {
+  return packet.pair < scope.readers && index_of(packet.stream) < scope.writers;
+}
+[[nodiscard]] inline std::uint32_t explored_relation(const model::Packet& packet,
+                                                     std::uint32_t reader, const Scope& scope) {
+  return scope.writers * reader + static_cast<std::uint32_t>(index_of(packet.stream));
+}
 
 struct ReplayOutcome {
   std::optional<props::Counterexample> counterexample;

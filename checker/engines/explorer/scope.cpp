@@ -23,6 +23,7 @@ std::string to_text(const Scope& scope) {
     text += fmt::format(", repairs leave within {}", time_text(scope.leaves_within));
   }
   if (scope.side_by_side) text += ", the two sides open apart";
+  if (scope.writers > 1) text += ", two writers";
   if (scope.readers > 1) text += fmt::format(", {} readers", scope.readers);
   if (scope.joins_within.count() > 0) {
     text += fmt::format(", the last of them joins within {}", time_text(scope.joins_within));
@@ -30,12 +31,21 @@ std::string to_text(const Scope& scope) {
   return text;
 }
 
+std::string relation_text(const Scope& scope, unsigned relation) {
+  const std::string writer =
+      std::string{name_of(model::streams[relation % scope.writers])} + " writer";
+  const std::string reader = fmt::format("reader {}", relation / scope.writers);
+  if (scope.writers == 1) return reader;
+  return scope.readers == 1 ? writer : writer + ", " + reader;
+}
+
 std::string short_text(const Scope& scope) {
   std::string text = fmt::format("D = {}, k = {}", scope.descriptors, scope.losses);
   if (scope.pushed > 0) text += fmt::format(", {} created later", scope.pushed);
   if (scope.side_by_side) text += ", opening apart";
-  if (scope.readers == 1) return text;
-  text += fmt::format(", {} readers", scope.readers);
+  if (scope.readers == 1 && scope.writers == 1) return text;
+  if (scope.writers > 1) text += ", two writers";
+  if (scope.readers > 1) text += fmt::format(", {} readers", scope.readers);
   if (scope.joins_within.count() > 0) text += ", one joining later";
   if (scope.least_delay == scope.largest_delay) {
     text += fmt::format(", each packet {}", time_text(scope.largest_delay));

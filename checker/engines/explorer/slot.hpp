@@ -44,10 +44,16 @@ enum class What : std::uint8_t {
 [[nodiscard]] constexpr bool is_packet(What what) { return what <= What::acknack; }
 [[nodiscard]] constexpr bool from_writer(What what) { return what <= What::heartbeat; }
 
-/// It belongs to the relation with one reader; otherwise to the writer or its participant.
+/// It belongs to one reader's relations; otherwise to a writer or its participant.
 [[nodiscard]] constexpr bool is_of_reader(What what) {
   return !is_mark(what) && what != What::heartbeat_expiry && what != What::nack_response &&
          what != What::async_run && what != What::creation;
+}
+/// It belongs to one writer's relations or to the writer; otherwise to the participant, whose
+/// announcement opens the relations of all its writers.
+[[nodiscard]] constexpr bool is_of_writer(What what) {
+  return !is_mark(what) && what != What::async_run && what != What::reader_opens &&
+         what != What::writer_opens;
 }
 
 struct Slot {
@@ -55,7 +61,10 @@ struct Slot {
   std::uint8_t flags = 0;
   std::uint16_t set = 0;    ///< descriptors, bit d is descriptor d
   std::uint8_t number = 0;  ///< what a HEARTBEAT announces; the base of an ACKNACK
-  std::uint8_t reader = 0;  ///< whose relation it belongs to; 0 for what is the writer's own
+  /// The relation that it belongs to: with w writers, s + w·r is that of writer s with reader r. Of
+  /// what is a writer's own that with reader 0, of what is a reader's own that with writer 0; 0 for
+  /// what is the participant's.
+  std::uint8_t relation = 0;
 
   static constexpr std::uint8_t carries_heartbeat = 1;  ///< DATA with a piggybacked HEARTBEAT
   static constexpr std::uint8_t initial = 2;            ///< ACKNACK marked initial
@@ -67,10 +76,10 @@ struct Slot {
 // Slots are compared and hashed bytewise.
 static_assert(std::has_unique_object_representations_v<Slot>);
 
-/// Two packets.
-[[nodiscard]] constexpr bool have_one_source(const Slot& a, const Slot& b) {
+/// Two packets; the participant has so many writers.
+[[nodiscard]] constexpr bool have_one_source(const Slot& a, const Slot& b, unsigned writers) {
   if (from_writer(a.what) != from_writer(b.what)) return false;
-  return from_writer(a.what) || a.reader == b.reader;
+  return from_writer(a.what) || a.relation / writers == b.relation / writers;
 }
 
 /// The simulator's kind of event. Packets are received after the constant delay of their own.

@@ -24,6 +24,8 @@ using Members = std::uint16_t;
 /// Listed by an ACKNACK since it was generated last.
 struct Asked : comp::Flag<comp::owner::descriptor> {};
 struct Generated : comp::Flag<comp::owner::descriptor> {};
+/// The reader has heard that it exists; only where ACKNACKs list nothing else.
+struct Announced : comp::Flag<comp::owner::descriptor> {};
 
 /// The explored relations are opened from outside, their writer keeps the periodic policy, and they
 /// have no topics.
@@ -43,6 +45,8 @@ inline constexpr bool is_of_descriptors = (T::owner.indices & comp::owner::descr
 template <class T>
 inline constexpr bool is_of_readers = (T::owner.indices & comp::owner::peer_index) != 0;
 template <class T>
+inline constexpr bool is_of_writers = (T::owner.indices & comp::owner::stream_index) != 0;
+template <class T>
 constexpr auto kept_as() {
   if constexpr (requires { typename T::Machine; }) {
     return fsm::StateId{};
@@ -60,9 +64,9 @@ template <class T>
 using KeptAs = decltype(detail::kept_as<T>());
 
 /// `Things` are parts, timers, flags and numbers; a machine of descriptors is there for each of
-/// `descriptors`, what belongs to a relation for each of `readers`. What is left out is false or 0,
-/// whatever it is set to.
-template <class Things, unsigned descriptors, unsigned readers = 1>
+/// `descriptors`, what belongs to a relation for each of `readers` of each of `writers`, and what
+/// belongs to a writer for each of these. What is left out is false or 0, whatever it is set to.
+template <class Things, unsigned descriptors, unsigned readers = 1, unsigned writers = 1>
 class WorldState {
  public:
   bool operator==(const WorldState& other) const {
@@ -72,32 +76,32 @@ class WorldState {
     return true;
   }
 
-  /// Of what belongs to a relation, that of `reader`.
+  /// That of a relation, or of its writer, reader or participant, whoever has it.
   template <class T>
-  [[nodiscard]] KeptAs<T> get(unsigned reader = 0) const {
+  [[nodiscard]] KeptAs<T> get(unsigned relation = 0) const {
     KeptAs<T> value{};
-    if constexpr (size<T>() > 0) std::memcpy(&value, bytes() + offset<T>(reader), sizeof value);
+    if constexpr (size<T>() > 0) std::memcpy(&value, bytes() + offset<T>(relation), sizeof value);
     return value;
   }
   template <class T>
-  void set(KeptAs<T> value, unsigned reader = 0) {
-    if constexpr (size<T>() > 0) std::memcpy(bytes() + offset<T>(reader), &value, sizeof value);
+  void set(KeptAs<T> value, unsigned relation = 0) {
+    if constexpr (size<T>() > 0) std::memcpy(bytes() + offset<T>(relation), &value, sizeof value);
   }
   /// The state of a machine, of descriptor d if each of them has one.
   template <class P>
-  [[nodiscard]] fsm::StateId& state(unsigned d = 0, unsigned reader = 0) {
-    return bytes()[offset<P>(reader) + d];
+  [[nodiscard]] fsm::StateId& state(unsigned d = 0, unsigned relation = 0) {
+    return bytes()[offset<P>(relation) + d];
   }
   template <class P>
-  [[nodiscard]] fsm::StateId state(unsigned d = 0, unsigned reader = 0) const {
-    return bytes()[offset<P>(reader) + d];
+  [[nodiscard]] fsm::StateId state(unsigned d = 0, unsigned relation = 0) const {
+    return bytes()[offset<P>(relation) + d];
   }
   /// The descriptors whose machines are in a state.
   template <class P>
-  [[nodiscard]] Members in_state(fsm::StateId wanted, unsigned reader = 0) const {
+  [[nodiscard]] Members in_state(fsm::StateId wanted, unsigned relation = 0) const {
     unsigned members = 0;
     for (unsigned d = 0; d < descriptors; ++d) {
-      members |= static_cast<unsigned>(state<P>(d, reader) == wanted) << d;
+      members |= static_cast<unsigned>(state<P>(d, relation) == wanted) << d;
     }
     return static_cast<Members>(members);
   }
@@ -115,20 +119,29 @@ class WorldState {
       return sizeof(KeptAs<T>);
     }
   }
+  /// How many of them there are, and which one is that of a relation.
+  template <class T>
+  static constexpr unsigned count() {
+    return (detail::is_of_readers<T> ? readers : 1) * (detail::is_of_writers<T> ? writers : 1);
+  }
+  template <class T>
+  static constexpr unsigned place(unsigned relation) {
+    if constexpr (!detail::is_of_readers<T>) return relation % writers;
+    if constexpr (!detail::is_of_writers<T>) return relation / writers;
+    return relation;
+  }
   template <class T, class... Ts>
   static constexpr std::size_t offset_in(fsm::TypeList<Ts...>) {
     std::size_t sum = 0;
     bool found = false;
-    ((found = found || std::is_same_v<T, Ts>,
-      sum += found ? 0 : size<Ts>() * (detail::is_of_readers<Ts> ? readers : 1)),
-     ...);
+    ((found = found || std::is_same_v<T, Ts>, sum += found ? 0 : size<Ts>() * count<Ts>()), ...);
     return sum;
   }
   template <class T>
-  static constexpr std::size_t offset(unsigned reader) {
+  static constexpr std::size_t offset(unsigned relation) {
     constexpr std::size_t k = offset_in<T>(Things{});
     static_assert(k < offset_in<void>(Things{}), "this is not part of the state");
-    return detail::is_of_readers<T> && readers > 1 ? k + reader * size<T>() : k;
+    return count<T>() == 1 ? k : k + place<T>(relation) * size<T>();
   }
   [[nodiscard]] unsigned char* bytes() { return reinterpret_cast<unsigned char*>(words_.data()); }
   [[nodiscard]] const unsigned char* bytes() const {

@@ -10,5 +10,7 @@ template class RelationWorld<PaperPacking, 2>;
 template class RelationWorld<FastDdsPacking, 2>;
 template class RelationWorld<PaperPacking, most_readers>;
 template class RelationWorld<FastDdsPacking, most_readers>;
+template class RelationWorld<PaperPacking, 1, most_writers>;
+template class RelationWorld<FastDdsPacking, 1, most_writers>;
 
 }  // namespace stormproof::explorer

@@ -90,7 +90,7 @@ class Check {
     const std::set<std::size_t> to_everybody = sent_to_everybody(
         dialogue_, messages_of(dialogue_, place.source, request_.bounds), request_.bounds);
     const WriterContext context{dialogue_,
-                                sedp,
+                                request_.dds,
                                 request_.bounds,
                                 announced,
                                 last - first == 1 && !dialogue_.has_neighbour[place.source],
@@ -102,7 +102,7 @@ class Check {
         return explain_data(context, relation, changes_, timers_, ledger);
       });
       at(relation.place, [&](Ledger& ledger) {
-        return explain_reader(dialogue_, relation, sedp, request_.bounds, readers_, timers_,
+        return explain_reader(dialogue_, relation, request_.dds, request_.bounds, readers_, timers_,
                               ledger);
       });
     }

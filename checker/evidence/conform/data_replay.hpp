@@ -1,11 +1,12 @@
-// Replays a plan of requests and transmissions of one relation through the descriptors' machines,
-// which decide whether each transmission is what they would send.
+// Replays a plan of requests and transmissions of one relation through the writer's rules and
+// machines (writer_host.hpp), which decide whether each transmission is what they would send.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "checker/evidence/conform/requests.hpp"
+#include "checker/evidence/conform/writer_host.hpp"
 #include "checker/evidence/conform/writer_side.hpp"
 
 namespace stormproof::conform {
@@ -23,14 +24,7 @@ class DataReplay {
   /// `existing`: how many descriptors there were when the relation opened.
   DataReplay(const WriterContext& context, const Relation& relation,
              const std::vector<Transmission>& transmissions, std::uint32_t existing,
-             Tally<fsm::ChangeForReader>& changes, Tally<fsm::SingleShot>& timers, Ledger& ledger)
-      : context_{context},
-        relation_{relation},
-        transmissions_{transmissions},
-        existing_{existing},
-        changes_{changes},
-        timers_{timers},
-        ledger_{ledger} {}
+             Tally<fsm::ChangeForReader>& changes, Tally<fsm::SingleShot>& timers, Ledger& ledger);
 
   /// Writes into the ledger what the machines confirm. Returns an ACKNACK that must have arrived
   /// and is not answered, if nothing may be lost. `lag`: from a serialization to its capture, ns.
@@ -43,26 +37,19 @@ class DataReplay {
     std::size_t index = 0;
   };
 
-  void open();
-  [[nodiscard]] std::size_t known() const;
   /// False: it must have arrived, and is not answered.
   bool arrive(const Step& step, const Arrival& arrival);
   /// Whether it asks for something unacknowledged that is never sent again.
   [[nodiscard]] bool is_unanswered(const Answer& answer, std::int64_t now) const;
   void transmit(const Step& step, bool to_everybody);
-  void end_suppression(std::int64_t now);
 
   const WriterContext& context_;
   const Relation& relation_;
   const std::vector<Transmission>& transmissions_;
   std::uint32_t existing_;
-  Tally<fsm::ChangeForReader>& changes_;
-  Tally<fsm::SingleShot>& timers_;
   Ledger& ledger_;
-  std::vector<fsm::StateId> states_;
-  fsm::StateId response_ = Tally<fsm::SingleShot>::Fly::initial;
-  fsm::StateId suppression_ = Tally<fsm::SingleShot>::Fly::initial;
-  std::int64_t suppressed_until_ns_ = INT64_MAX;
+  const std::uint32_t count_;  ///< descriptors
+  WriterHost host_;
 };
 
 }  // namespace stormproof::conform

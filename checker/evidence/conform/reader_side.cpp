@@ -21,16 +21,16 @@ struct Window {
 
 class ReaderSide {
  public:
-  ReaderSide(const Dialogue& dialogue, const Relation& relation, const model::SedpProfile& sedp,
+  ReaderSide(const Dialogue& dialogue, const Relation& relation, const model::DdsProfile& dds,
              const Bounds& bounds, ReaderMachines& machines, Tally<fsm::SingleShot>& timers,
              Ledger& ledger)
       : dialogue_{dialogue},
         relation_{relation},
-        sedp_{sedp},
+        sedp_{dds.sedp},
         bounds_{bounds},
         ledger_{ledger},
         sent_{relation.sent},
-        replay_{dialogue, relation, sedp, bounds, machines, timers, ledger} {}
+        replay_{dialogue, relation, dds, bounds, machines, timers, ledger} {}
 
   std::optional<Unexplained> explain() {
     const auto announced =
@@ -100,7 +100,7 @@ class ReaderSide {
     ++attempts_;
     at_least_ns_ += next_delay_ns_;
     last_initial_ns_ = answer.time_ns;
-    next_delay_ns_ = replay_.attempt(answer, next_delay_ns_);
+    next_delay_ns_ = replay_.attempt(answer);
     return std::nullopt;
   }
 
@@ -363,10 +363,10 @@ class ReaderSide {
 }  // namespace
 
 std::optional<Unexplained> explain_reader(const Dialogue& dialogue, const Relation& relation,
-                                          const model::SedpProfile& sedp, const Bounds& bounds,
+                                          const model::DdsProfile& dds, const Bounds& bounds,
                                           ReaderMachines& machines, Tally<fsm::SingleShot>& timers,
                                           Ledger& ledger) {
-  return ReaderSide{dialogue, relation, sedp, bounds, machines, timers, ledger}.explain();
+  return ReaderSide{dialogue, relation, dds, bounds, machines, timers, ledger}.explain();
 }
 
 }  // namespace stormproof::conform

@@ -24,7 +24,7 @@ struct ReaderMachines {
 
 /// Explains all ACKNACKs of `relation`, or returns the first that it cannot.
 [[nodiscard]] std::optional<Unexplained> explain_reader(
-    const Dialogue& dialogue, const Relation& relation, const model::SedpProfile& sedp,
+    const Dialogue& dialogue, const Relation& relation, const model::DdsProfile& dds,
     const Bounds& bounds, ReaderMachines& machines, Tally<fsm::SingleShot>& timers, Ledger& ledger);
 
 }  // namespace stormproof::conform

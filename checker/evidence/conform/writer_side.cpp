@@ -69,7 +69,7 @@ class WriterSide {
   [[nodiscard]] std::vector<Demand> demands(std::int64_t lag, bool exact) const {
     std::vector<Demand> all;
     std::vector<std::int64_t> unacknowledged;  // since when, by descriptor
-    const std::int64_t suppression = context_.sedp.nack_suppression_duration.count();
+    const std::int64_t suppression = context_.dds.sedp.nack_suppression_duration.count();
     std::int64_t suppressed_until = INT64_MIN;
     for (std::size_t k = 0; k < transmissions_.size(); ++k) {
       const Transmission& one = transmissions_[k];
@@ -252,7 +252,7 @@ class WriterSide {
   /// Between two transmissions of a descriptor a suppression ends, and from one end to the next it
   /// takes τ_S: so between n + 1 transmissions at least (n − 1)·τ_S, but for the send lag.
   std::optional<Unexplained> sent_while_suppressed() {
-    const std::int64_t suppression = context_.sedp.nack_suppression_duration.count();
+    const std::int64_t suppression = context_.dds.sedp.nack_suppression_duration.count();
     const std::int64_t slack = context_.bounds.most_send_lag_ns + capture_resolution_ns;
     struct Chain {
       std::int64_t count = 0;
@@ -323,7 +323,7 @@ class WriterSide {
 
   Unexplained too_early(const Transmission& one, const Answer& request, std::int64_t by_ns) {
     const std::int64_t waited = one.time_ns - request.time_ns;
-    const std::int64_t delay = context_.sedp.nack_response_delay.count();
+    const std::int64_t delay = context_.dds.sedp.nack_response_delay.count();
     return fault(
         one.event, Fault::data_early,
         fmt::format("{}, {} after the ACKNACK that asks for it", transmission_text(one),

@@ -20,7 +20,7 @@ using AnnouncedSince = std::map<std::uint32_t, std::int64_t>;
 
 struct WriterContext {
   const Dialogue& dialogue;
-  const model::SedpProfile& sedp;
+  const model::DdsProfile& dds;
   const Bounds& bounds;
   const AnnouncedSince& announced;
   /// The writer has no reader but this one, not even on its own host, so that no other request can
@@ -31,7 +31,7 @@ struct WriterContext {
 
   /// From the arrival of a request to the transmission, at least, ns.
   [[nodiscard]] std::int64_t response_ns() const {
-    return is_only_reader ? sedp.nack_response_delay.count() : 0;
+    return is_only_reader ? dds.sedp.nack_response_delay.count() : 0;
   }
 };
 

@@ -50,14 +50,16 @@ class Packing {
   using Composition = push_once::PushOnce;
   using WriterOpens = push_once::WriterOpens;
   using State = fsm::TypeList<>;
+  template <unsigned, unsigned>
   using SharedState = fsm::TypeList<>;
   static constexpr unsigned max_descriptors = 3;
   static constexpr bool receives_separately = false;
   static constexpr bool one_event_opens_both = true;
   static constexpr bool repairs_leave_later = false;
+  static constexpr bool lists_what_is_announced = false;
 
   Packing(const model::Scenario&, const explorer::Scope& scope) : count_{scope.descriptors} {}
-  [[nodiscard]] unsigned descriptors() const { return count_; }
+  [[nodiscard]] unsigned descriptors(model::Stream) const { return count_; }
   template <class Host>
   static void start(Host&) {}
   template <class Host>
@@ -65,9 +67,9 @@ class Packing {
   template <class W>
   void perform(push_once::Push, W& w) {
     const auto all = static_cast<explorer::Members>(explorer::member(count_) - 1);
-    const std::uint8_t reader = w.host().reader_at(w);
-    explorer::note_generated(w.host().state(), w.host().frame(), reader, all, false);
-    w.host().send({explorer::What::data, 0, all, 0, reader});
+    const std::uint8_t relation = w.host().relation_at(w);
+    explorer::note_generated(w.host().state(), w.host().frame(), relation, all, false);
+    w.host().send({explorer::What::data, 0, all, 0, relation});
   }
 
  private:

@@ -78,7 +78,7 @@ TEST(Answer, IsDisputedIfTheSimulatorDoesNotConfirmAPath) {
 
 TEST(Answer, StatesWhatTheWorldLeavesOut) {
   const auto has = [](const model::Scenario& scenario, std::string_view part) {
-    return std::ranges::any_of(assumptions_of(scenario, {}, 1), [&](const std::string& assumption) {
+    return std::ranges::any_of(assumptions_of(scenario, {}), [&](const std::string& assumption) {
       return says(assumption, part);
     });
   };

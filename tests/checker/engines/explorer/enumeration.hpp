@@ -28,11 +28,11 @@ struct Outcomes {
   bool operator==(const Outcomes&) const = default;
 };
 
-/// A packet of a history: "D0{0,1}+" is a repair of two descriptors for reader 0.
-inline std::string word_of(What what, std::uint16_t set, unsigned reader, bool repair, bool initial,
-                           bool carries_heartbeat) {
+/// A packet of a history: "D0{0,1}+" is a repair of two descriptors in relation 0.
+inline std::string word_of(What what, std::uint16_t set, unsigned relation, bool repair,
+                           bool initial, bool carries_heartbeat) {
   const char letter = what == What::data ? 'D' : what == What::heartbeat ? 'H' : 'A';
-  std::string word = fmt::format("{}{}", letter, reader);
+  std::string word = fmt::format("{}{}", letter, relation);
   if (what != What::heartbeat) word += fmt::format("{{{:x}}}", set);
   return word + (repair ? "+" : "") + (initial ? "i" : "") + (carries_heartbeat ? "h" : "") + " ";
 }
@@ -58,7 +58,7 @@ class RememberingWorld {
     std::string history = histories_[state.history];
     for (const PathLog::Emission& each : log_.emissions) {
       const Slot& packet = each.packet;
-      history += word_of(packet.what, packet.set, packet.reader, packet.has(Slot::from_repair),
+      history += word_of(packet.what, packet.set, packet.relation, packet.has(Slot::from_repair),
                          packet.has(Slot::initial), packet.has(Slot::carries_heartbeat));
     }
     state.history = number_of(history);
@@ -103,7 +103,8 @@ Outcomes explored(const model::Scenario& scenario, const Scope& scope) {
   return outcomes;
 }
 
-/// The packets of the relations from participant 0 to the readers, and when these are complete.
+/// The packets of the explored relations from participant 0 to the readers, and when these are
+/// complete.
 class RelationHistory final : public model::Probe {
  public:
   struct Entry {
@@ -115,16 +116,17 @@ class RelationHistory final : public model::Probe {
   std::string until_completion;
   std::optional<model::Nanoseconds> completion;
 
-  explicit RelationHistory(unsigned readers) : readers_{readers} {}
+  explicit RelationHistory(const Scope& scope) : scope_{scope} {}
   void event_started(const model::Event& event) override { now_ = event.time; }
   void event_finished(const model::Depths&) override {
-    if (completion || complete_.size() < readers_) return;
+    if (completion || complete_.size() < scope_.readers * scope_.writers) return;
     completion = now_;
     until_completion = history;
   }
   void transition(const model::MachineRef& machine, std::string_view, std::string_view,
                   std::string_view after, std::uint32_t, std::uint64_t) override {
-    const bool of_ours = machine.subject % 2 == 0 && machine.subject / 2 < readers_;
+    const bool of_ours =
+        machine.subject % 2 < scope_.writers && machine.subject / 2 < scope_.readers;
     if (machine.machine == "DiscoveryReader" && of_ours && after.ends_with("Complete")) {
       complete_.insert(machine.subject);
     }
@@ -134,23 +136,23 @@ class RelationHistory final : public model::Probe {
     const bool sedp = packet.kind == model::PacketKind::data ||
                       packet.kind == model::PacketKind::heartbeat ||
                       packet.kind == model::PacketKind::acknack;
-    if (!sedp || packet.pair >= readers_ || packet.stream != model::Stream::pub) return;
+    if (!sedp || !is_explored(packet, scope_)) return;
     for (const std::uint32_t destination : destinations) {
       const std::uint32_t reader = (packet.to_writer() ? source : destination) - 1;
       Slot slot{packet.kind == model::PacketKind::data        ? What::data
                 : packet.kind == model::PacketKind::heartbeat ? What::heartbeat
                                                               : What::acknack};
       slot.set = static_cast<std::uint16_t>(packet.descriptors.word(0));
-      slot.reader = static_cast<std::uint8_t>(reader);
+      slot.relation = static_cast<std::uint8_t>(explored_relation(packet, reader, scope_));
       if (packet.from_repair) slot.flags = Slot::from_repair;
       packets.push_back({slot, packet.emitted});
-      history += word_of(slot.what, slot.set, reader, packet.from_repair, packet.initial_acknack,
-                         packet.carries_heartbeat);
+      history += word_of(slot.what, slot.set, slot.relation, packet.from_repair,
+                         packet.initial_acknack, packet.carries_heartbeat);
     }
   }
 
  private:
-  unsigned readers_;
+  const Scope& scope_;
   model::Nanoseconds now_;
   std::set<std::uint32_t> complete_;
 };
@@ -211,7 +213,7 @@ class Enumeration {
     std::string why_not;
     const auto scenario = scenario_of(request_, path_, why_not);
     ASSERT_TRUE(scenario) << why_not;
-    RelationHistory seen{scope_.readers};
+    RelationHistory seen{scope_};
     run(request_, *scenario, seen);
     ++runs;
     if (seen.packets.size() == path_.packets.size()) {

@@ -2,7 +2,6 @@
 // reader are found, and what is explored is what the simulator does.
 #include <algorithm>
 #include <array>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -10,10 +9,9 @@
 #include "checker/engines/explorer/fastdds_packing.hpp"
 #include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
-#include "checker/engines/explorer/replay.hpp"
 #include "fsm/composition/compositions.hpp"
 #include "fsm/composition/effect_mutation.hpp"
-#include "tests/checker/engines/explorer/tiny.hpp"
+#include "tests/checker/engines/explorer/walks.hpp"
 
 namespace stormproof::explorer {
 namespace several_readers_test {
@@ -118,42 +116,6 @@ INSTANTIATE_TEST_SUITE_P(
                             "NackResponds.2:if2", EffectMutation::Change::first_only,
                             "live.completion"}),
     [](const auto& test) { return std::string{test.param.name}; });
-
-/// Paths at random, each with concrete times and as a run of the simulator, which has to emit what
-/// the path says. How many could not be run, and why the first one could not.
-struct Walks {
-  unsigned refused = 0;
-  std::string why;
-};
-template <class World>
-Walks walk(const model::Scenario& scenario, const Scope& scope) {
-  World world{scenario, scenario, scope, {}};
-  std::mt19937_64 dice{1};
-  Walks walks;
-  for (unsigned number = 0; number < 20; ++number) {
-    Frame frame{scope, world.rules()};
-    frame.set_losses(scope.losses);
-    typename World::State state = world.start(frame);
-    std::vector<Label> path;
-    while (path.size() < 40) {
-      std::vector<unsigned> next;
-      for (unsigned k = 0; k < frame.count(); ++k) {
-        if (!is_mark(frame.slot(k).what) && frame.can_be_next(k)) next.push_back(k);
-      }
-      if (next.empty() || frame.overflowed()) break;
-      const Label label{static_cast<std::uint8_t>(next[dice() % next.size()]),
-                        std::uint8_t{frame.losses_left() > 0 && dice() % 8 == 0}};
-      Search<World>::step(world, state, frame, label, {});
-      path.push_back(label);
-    }
-    const auto concrete = concrete_path(world, path, Claim::completion, {});
-    std::string why = concrete ? "" : "no concrete times";
-    const ReplayRequest request{scenario, scenario, nullptr, scope, {}};
-    if (concrete && scenario_of(request, *concrete, why)) continue;
-    if (walks.refused++ == 0) walks.why = why;
-  }
-  return walks;
-}
 
 TEST(SeveralReaders, ThePapersWorldDoesWhatTheSimulatorDoes) {
   model::Scenario scenario = wired(model::ImplementationKind::paper);

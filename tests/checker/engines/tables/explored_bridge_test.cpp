@@ -50,7 +50,7 @@ class Walk {
     note_state();
     for (std::size_t k = emitted; k < log_.emissions.size(); ++k) note(log_.emissions[k].packet);
     note_timers(slot, scheduled);
-    comp::Place place{0, slot.reader, 0};
+    comp::Place place{0, slot.relation, 0};
     place.descriptor = slot.what == What::creation ? std::countr_zero(slot.set) : 0;
     with_rule(slot.what, [&]<class Rule>() { visit(name<Rule>(), Rule::owner, place); });
     return true;
@@ -86,7 +86,7 @@ class Walk {
   void note_timers(const Slot& due, std::size_t scheduled) {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       const auto key_of = [](const Slot& slot) {
-        return comp::Key{name<T>(), {0, slot.reader, 0}};
+        return comp::Key{name<T>(), {0, slot.relation, 0}};
       };
       if constexpr (T::counted) {
         seen_.pending[key_of({})] = state_.template get<T>();
@@ -108,7 +108,7 @@ class Walk {
   }
   template <class P>
   void note_packet(const Slot& packet) {
-    comp::SentPacket sent{name<P>(), {0, packet.reader, 0}, {}};
+    comp::SentPacket sent{name<P>(), {0, packet.relation, 0}, {}};
     comp::for_each_type(typename P::Fields{}, [&]<class F>() {
       std::uint32_t& said = sent.says[name<F>()];
       if constexpr (std::derived_from<F, comp::PacketField>) {

@@ -1,0 +1,119 @@
+// Replays decide by the rules of the composition: what was chosen is confirmed only if they send
+// just what was captured, and then.
+#include <gtest/gtest.h>
+
+#include "checker/evidence/conform/data_replay.hpp"
+#include "checker/evidence/conform/reader_replay.hpp"
+
+namespace stormproof::conform {
+namespace replay_rules_test {
+
+constexpr std::int64_t ms = 1'000'000;
+
+/// One relation of two descriptors.
+struct Scene {
+  capture::Conversation conversation{};
+  Dialogue dialogue{conversation};
+  Relation relation{};
+  model::DdsProfile dds{};
+  Bounds bounds{};
+  Conformance result{};
+  PlaceResult place{};
+  Ledger ledger{result, place};
+  Tally<fsm::SingleShot> timers{};
+
+  Scene() {
+    dds.implementation = model::ImplementationKind::fastdds;
+    relation.place = {0, 1, capture::entity::publications_writer};
+    dialogue.descriptors = {2, 0, 0, 0};
+    dialogue.end_ns = 10'000 * ms;
+  }
+  [[nodiscard]] std::uint64_t explained(Rule rule) const {
+    return result.by_rule[static_cast<std::size_t>(rule)];
+  }
+};
+
+/// The reader hears of both descriptors and says which it lacks.
+Scene replied(const std::vector<std::uint32_t>& missing, bool arrives) {
+  Scene scene;
+  scene.relation.sent = {{2 * ms, 0, 1, {}, Heartbeat{1, 2, 1, true, false}}};
+  const Answer answer{20 * ms, 1, 0, missing, false};
+  ReaderMachines machines;
+  ReaderReplay replay{scene.dialogue, scene.relation, scene.dds,   scene.bounds,
+                      machines,       scene.timers,   scene.ledger};
+  replay.open(ms);
+  Choice choice{1, {}, 3 * ms};
+  choice.arrivals.arrived = {arrives};
+  if (arrives) choice.arrivals.heartbeat = 0;
+  replay.reply(answer, choice);
+  return scene;
+}
+
+TEST(ReplayRules, AReplyListsWhatIsKnownAndMissing) {
+  const Scene right = replied({0, 1}, true);
+  EXPECT_EQ(right.explained(Rule::acknack_reply), 1U);
+  EXPECT_EQ(right.result.not_replayed, 0U);
+  const Scene wrong = replied({0}, true);
+  EXPECT_EQ(wrong.explained(Rule::acknack_reply), 0U);
+  EXPECT_EQ(wrong.result.not_replayed, 1U);
+}
+
+TEST(ReplayRules, WithoutAHeartbeatThereIsNoReply) {
+  EXPECT_EQ(replied({0, 1}, false).result.not_replayed, 1U);
+}
+
+/// Descriptor 0 is sent at these times; ACKNACKs that ask for it arrive at those.
+Scene sent(const std::vector<std::int64_t>& times, const std::vector<std::int64_t>& requests,
+           std::uint32_t existing = 2) {
+  Scene scene;
+  std::vector<Transmission> transmissions;
+  Plan plan;
+  for (const std::int64_t time : requests) {
+    scene.relation.answers.push_back({time, 0, 0, {0}, false});
+    plan.arrivals.push_back({time, time, true});
+  }
+  for (const std::int64_t time : times) {
+    transmissions.push_back({0, time, 0, time == times.front(), existing == 0});
+    plan.request.emplace_back();
+    plan.to_everybody.push_back(false);
+  }
+  Tally<fsm::ChangeForReader> changes;
+  const AnnouncedSince announced;
+  const std::set<std::size_t> to_everybody;
+  const WriterContext context{scene.dialogue, scene.dds, scene.bounds, announced, true,
+                              to_everybody,   {}};
+  DataReplay replay{context, scene.relation, transmissions, existing,
+                    changes, scene.timers,   scene.ledger};
+  EXPECT_EQ(replay.run(plan, 0), nullptr);
+  return scene;
+}
+
+TEST(ReplayRules, WhatIsAskedForIsSent) {
+  const Scene pulled = sent({20 * ms}, {10 * ms});
+  EXPECT_EQ(pulled.explained(Rule::data_pull), 1U);
+  EXPECT_EQ(pulled.result.not_replayed, 0U);
+  EXPECT_EQ(sent({20 * ms}, {}).result.not_replayed, 1U);
+}
+
+TEST(ReplayRules, WhatIsCreatedLaterIsPushed) {
+  const Scene pushed = sent({20 * ms}, {}, 0);
+  EXPECT_EQ(pushed.explained(Rule::data_push), 1U);
+  EXPECT_EQ(pushed.result.not_replayed, 0U);
+}
+
+/// A request that arrives while the descriptor is suppressed is not one.
+TEST(ReplayRules, WhatIsSuppressedIsNotSentAgain) {
+  Scene scene;
+  const std::int64_t suppression = scene.dds.sedp.nack_suppression_duration.count();
+  ASSERT_GT(suppression, 3);
+  const std::int64_t first = 20 * ms;
+  const Scene again = sent({first, first + suppression / 2}, {10 * ms, first + 1});
+  EXPECT_EQ(again.explained(Rule::data_repair), 0U);
+  EXPECT_EQ(again.result.not_replayed, 1U);
+  const Scene later = sent({first, first + 2 * suppression}, {10 * ms, first + suppression + 1});
+  EXPECT_EQ(later.explained(Rule::data_repair), 1U);
+  EXPECT_EQ(later.result.not_replayed, 0U);
+}
+
+}  // namespace replay_rules_test
+}  // namespace stormproof::conform
