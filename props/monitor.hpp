@@ -29,6 +29,8 @@ class Monitor : public model::Probe {
   virtual void finish(model::Nanoseconds /*end*/) {}
 
   [[nodiscard]] const std::optional<Violation>& violation() const { return violation_; }
+  /// After the run: whether it was too short to say.
+  [[nodiscard]] virtual bool is_undecided() const { return false; }
   /// What the monitor takes from the run instead of judging it; one sentence each.
   [[nodiscard]] virtual std::vector<std::string> assumptions() const { return {}; }
   /// Lines worth reporting if nothing broke: largest delay, margins, counts.

@@ -25,7 +25,8 @@ constexpr Names all_names[] = {
     {"diff", "profiles"},         {"profile show", "profiles"}, {"profile lint", "profiles"},
     {"draw", "machines"},         {"--dds", "profiles"},        {"--compare", "profiles"},
     {"--preset", "profiles"},     {"--wireless", "wireless"},   {"--over", "scenarios"},
-    {"--policy", "policies"},     {"--property", "properties"}, {"--mutant", "mutants"}};
+    {"--policy", "policies"},     {"--property", "properties"}, {"--mutant", "mutants"},
+    {"--exhibit", "exhibits"},    {"museum", "exhibits"}};
 
 /// Empty: none.
 std::string_view names_behind(std::string_view command_or_option) {

@@ -1,7 +1,9 @@
-// `stormproof diff BASE CANDIDATE`: what a change of a DDS profile does to discovery.
+// `stormproof diff BASE CANDIDATE`: what a change of a DDS profile does to discovery. With
+// --exhibit the change is that of an exhibit of the museum.
 #include <fmt/core.h>
 
 #include "checker/cli/commands.hpp"
+#include "checker/cli/diff_exhibit.hpp"
 #include "checker/cli/diff_files.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/experiments/diff/diff_report.hpp"
@@ -13,6 +15,7 @@ namespace {
 
 struct DiffArguments {
   std::string base, candidate;
+  std::string exhibit;
   std::vector<std::string> overrides;  ///< of both profiles
   std::string grid;
   std::string scenario;
@@ -25,20 +28,46 @@ struct DiffArguments {
   std::size_t jobs = 0;
 };
 
-/// What is compared, from the command line; the error if something in it is wrong.
-model::config::Result<diff::DiffRequest> request_of(const DiffArguments& arguments,
+/// What is wrong with what is given to be compared; empty if nothing is.
+std::string wrong_sides(const DiffArguments& arguments) {
+  if (arguments.exhibit.empty()) {
+    if (arguments.base.empty()) return "missing BASE and CANDIDATE; expected two DDS profiles";
+    if (arguments.candidate.empty()) return "missing CANDIDATE; expected a second DDS profile";
+    return "";
+  }
+  if (arguments.candidate.empty()) return "";
+  return "CANDIDATE: with --exhibit there is none; expected at most the profile that its knobs are "
+         "changed in";
+}
+
+/// Puts the two profiles into the request.
+std::optional<model::config::InputError> read_sides(const DiffArguments& arguments,
                                                     const model::config::SpecPath& specs,
-                                                    Session& session) {
+                                                    diff::DiffRequest& request) {
   const auto base = model::config::trace_dds_profile(arguments.base, arguments.overrides, specs);
   if (!base) return base.error();
   const auto candidate =
       model::config::trace_dds_profile(arguments.candidate, arguments.overrides, specs);
   if (!candidate) return candidate.error();
-  const auto policy = diff::read_policy(arguments.policy, specs);
-  if (!policy) return policy.error();
-  diff::DiffRequest request;
   request.base = *base;
   request.candidate = *candidate;
+  return std::nullopt;
+}
+
+/// What is compared, from the command line; the error if something in it is wrong.
+model::config::Result<diff::DiffRequest> request_of(const DiffArguments& arguments,
+                                                    const std::optional<ExhibitSides>& exhibit,
+                                                    const model::config::SpecPath& specs,
+                                                    Session& session) {
+  diff::DiffRequest request;
+  if (exhibit) {
+    request.base = exhibit->before;
+    request.candidate = exhibit->after;
+  } else if (const auto error = read_sides(arguments, specs, request)) {
+    return *error;
+  }
+  const auto policy = diff::read_policy(arguments.policy, specs);
+  if (!policy) return policy.error();
   request.policy = *policy;
   request.grid = arguments.grid;
   request.scenario = arguments.scenario;
@@ -54,10 +83,19 @@ model::config::Result<diff::DiffRequest> request_of(const DiffArguments& argumen
 
 Outcome run(DiffArguments& arguments, Session& session) {
   const model::config::SpecPath specs = model::config::SpecPath::standard();
-  const auto request = request_of(arguments, specs, session);
+  if (const std::string wrong = wrong_sides(arguments); !wrong.empty()) return Complaint{wrong};
+  std::optional<ExhibitSides> exhibit;
+  if (!arguments.exhibit.empty()) {
+    const auto& over = arguments.scenario.empty() ? arguments.grid : arguments.scenario;
+    auto sides = sides_of(arguments.exhibit, arguments.base, arguments.overrides, over, specs);
+    if (!sides) return sides.error();
+    exhibit = *std::move(sides);
+  }
+  const auto request = request_of(arguments, exhibit, specs, session);
   if (!request) return request.error();
-  OutputFolder folder{
-      "--output", arguments.directory, "diff", {arguments.base, arguments.candidate}};
+  std::vector<std::string> sides{arguments.base, arguments.candidate};
+  if (exhibit) sides = {exhibit->exhibit.id};
+  OutputFolder folder{"--output", arguments.directory, "diff", sides};
   if (const auto error = folder.prepare()) return Complaint{*error};
   const auto report = diff::diff(*request, specs);
   if (!report) return report.error();
@@ -70,13 +108,24 @@ Outcome run(DiffArguments& arguments, Session& session) {
   answer.json = to_json(*report, files);
   answer.document.next = {{report::command_line({"profile", "show", arguments.candidate}),
                            "which of its values a user can set"}};
+  if (exhibit) {
+    answer.document.title = "stormproof diff --exhibit " + exhibit->exhibit.id;
+    answer.document.answer =
+        reach_of(exhibit->exhibit, *report) + ". " + std::string{answer.document.answer.plain()};
+    answer.document.next = {
+        {report::command_line({"museum", exhibit->exhibit.id}), "the story of the exhibit"}};
+  }
   return answer;
 }
 
 void declare(Options& options, DiffArguments& arguments) {
-  options.text("base", arguments.base, "DDS profile before the change: name, file or XML", "BASE")
-      .required();
-  options.text("candidate", arguments.candidate, "DDS profile after it", "CANDIDATE").required();
+  options.text("base", arguments.base, "DDS profile before the change: name, file or XML", "BASE");
+  options.text("candidate", arguments.candidate, "DDS profile after it", "CANDIDATE");
+  options.text(
+      "--exhibit", arguments.exhibit,
+      "Instead of two profiles: the knobs of an exhibit of the museum before and after its "
+      "repair, in BASE if that is given",
+      "ID");
   options.overrides(arguments.overrides, "both profiles");
   options.text("--over", arguments.grid,
                "Grid of deployments, or one scenario, to compare over (default: review)", "GRID");

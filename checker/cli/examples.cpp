@@ -37,7 +37,9 @@ constexpr OfCommand all_examples[] = {
         "what another version does to one deployment"},
        {"stormproof diff specs/vendor/fastdds/humble-default.xml "
         "specs/vendor/fastdds/large-send-buffer.xml --over three-hosts --no-check",
-        "two files of a vendor, and the smallest scenario that tells them apart"}}}},
+        "two files of a vendor, and the smallest scenario that tells them apart"},
+       {"stormproof diff --exhibit E7 paper --over smallest --no-telling-apart",
+        "does a defect of the museum reach this deployment?"}}}},
     {"compare-discovery",
      {{{"stormproof compare-discovery smallest --set dds=humble --start-jitter 20ms --samples 3",
         "Discovery Server, static peers, Cyclone: which is best here, and how far does each go?"},

@@ -33,7 +33,8 @@ Outcome run(ListArguments& arguments, Session& /*session*/) {
 void declare(Options& options, ListArguments& arguments) {
   options
       .texts("kinds", arguments.kinds,
-             "scenarios, profiles, wireless, grids, policies, machines, mutants, properties, "
+             "scenarios, profiles, wireless, grids, exhibits, policies, machines, mutants, "
+             "properties, "
              "findings, captures or vendor; without one, all",
              "KIND")
       .one_of({listing::kinds().begin(), listing::kinds().end()});

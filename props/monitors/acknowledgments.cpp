@@ -1,6 +1,9 @@
 // safety.ack-implies-received: a descriptor that the writer takes as acknowledged (A) has been
-// received (X = 1). X never goes back, so it is enough to look when a descriptor enters A; and that
-// holds for both implementations, though Fast DDS's writer may leave A again.
+// received (X = 1); it is looked at when it enters A. safety.ack-stable: it leaves A only if its
+// reader has not got it any more. What was acknowledged before the run is not judged: a reader may
+// have forgotten it there.
+#include <bit>
+
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
@@ -10,38 +13,99 @@ namespace stormproof::props {
 
 namespace {
 
+/// Sees descriptors change their states, and knows who has them.
 class Acknowledgments : public Observer {
  public:
-  Acknowledgments() : Observer{"safety.ack-implies-received"} {}
+  using Observer::Observer;
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
     received_.reset(topology);
   }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word,
                   std::uint64_t descriptors) override {
     if (const model::Packet* data = received_.taken(machine, event)) received_.take(*data);
-    if (descriptors == 0 || after != "A") return;
-    acknowledged_ += static_cast<std::uint64_t>(std::popcount(descriptors));
-    const std::uint64_t wrong = descriptors & ~received_.word(machine.subject, first_word);
-    if (wrong == 0) return;
-    const auto d = 64 * first_word + static_cast<std::uint32_t>(std::countr_zero(wrong));
-    object_now("The writer takes " + descriptor_text(topology(), machine.subject, d) +
-               " as acknowledged at " + time_text(now()) + ", but it has not been received there.");
+    if (ReceivedDescriptors::is_new(machine, event)) received_.lose(machine.subject);
+    const bool begins_anew = event == "Renewed";  // a writer that has forgotten believes nothing
+    if (descriptors == 0 || begins_anew || events() == 0 || before == after) return;
+    moved({machine.subject, first_word, descriptors}, before, after,
+          received_.word(machine.subject, first_word));
   }
-  [[nodiscard]] std::vector<std::string> remarks() const override {
-    return {std::to_string(acknowledged_) + " descriptors became acknowledged."};
+
+ protected:
+  struct Moved {
+    std::uint32_t relation = 0;
+    std::uint32_t first_word = 0;
+    std::uint64_t descriptors = 0;
+  };
+  /// Descriptors of one word went from state to state; `has` are those that the reader has.
+  virtual void moved(const Moved&, std::string_view before, std::string_view after,
+                     std::uint64_t has) = 0;
+  /// The first of those of the word.
+  [[nodiscard]] std::string first_of(const Moved& in, std::uint64_t some) const {
+    const auto d = 64 * in.first_word + static_cast<std::uint32_t>(std::countr_zero(some));
+    return descriptor_text(topology(), in.relation, d);
   }
 
  private:
   ReceivedDescriptors received_;
+};
+
+class TruthOfAcknowledgments : public Acknowledgments {
+ public:
+  TruthOfAcknowledgments() : Acknowledgments{"safety.ack-implies-received"} {}
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {std::to_string(acknowledged_) + " descriptors became acknowledged."};
+  }
+
+ protected:
+  void moved(const Moved& what, std::string_view, std::string_view after,
+             std::uint64_t has) override {
+    if (after != "A") return;
+    acknowledged_ += static_cast<std::uint64_t>(std::popcount(what.descriptors));
+    const std::uint64_t wrong = what.descriptors & ~has;
+    if (wrong == 0) return;
+    object_now("The writer takes " + first_of(what, wrong) + " as acknowledged at " +
+               time_text(now()) + ", but it has not been received there.");
+  }
+
+ private:
   std::uint64_t acknowledged_ = 0;
+};
+
+class StabilityOfAcknowledgments : public Acknowledgments {
+ public:
+  StabilityOfAcknowledgments() : Acknowledgments{"safety.ack-stable"} {}
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {std::to_string(taken_back_) + " acknowledgments were taken back of what was missing."};
+  }
+
+ protected:
+  void moved(const Moved& what, std::string_view before, std::string_view,
+             std::uint64_t has) override {
+    if (before != "A") return;
+    taken_back_ += static_cast<std::uint64_t>(std::popcount(what.descriptors & ~has));
+    const std::uint64_t wrong = what.descriptors & has;
+    if (wrong == 0) return;
+    object_now("The writer takes back the acknowledgment of " + first_of(what, wrong) + " at " +
+               time_text(now()) + ", which has it and has not forgotten it.");
+  }
+
+ private:
+  std::uint64_t taken_back_ = 0;
 };
 
 }  // namespace
 
-MonitorPtr watch_acknowledgments(const model::Scenario&) { return attentive<Acknowledgments>(); }
+MonitorPtr watch_acknowledgments(const model::Scenario&) {
+  return attentive<TruthOfAcknowledgments>();
+}
+MonitorPtr watch_stable_acknowledgments(const model::Scenario&) {
+  return attentive<StabilityOfAcknowledgments>();
+}
 
 }  // namespace stormproof::props

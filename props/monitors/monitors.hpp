@@ -28,6 +28,16 @@ using MonitorPtr = std::unique_ptr<Monitor>;
 /// Of storm.free-threshold or storm.cannot-start.
 [[nodiscard]] MonitorPtr watch_needless_repairs(const model::Scenario&, std::string_view property);
 [[nodiscard]] MonitorPtr watch_composition(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_stable_acknowledgments(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_progress(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_joins(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_piggybacks(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_feedback(const model::Scenario&);
+/// `bound` is the longest time from the last failure to completion; without one it follows from the
+/// profile (recovery_bound.hpp).
+[[nodiscard]] MonitorPtr watch_recovery(const model::Scenario&,
+                                        std::optional<model::Nanoseconds> bound = {});
+[[nodiscard]] MonitorPtr watch_isolation(const model::Scenario&);
 /// Of a limit of the scenario, by its id (props/limits.hpp); null if it is not set.
 [[nodiscard]] MonitorPtr watch_limit(std::string_view id, const model::Scenario&);
 

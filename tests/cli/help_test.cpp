@@ -133,7 +133,7 @@ TEST(FrontPage, ItsCommandsRun) {
 TEST(List, HoldsWhatTheCommandsTake) {
   Shell shell;
   const auto json = nlohmann::json::parse(shell("stormproof list --format json"));
-  ASSERT_EQ(json.at("lists").size(), 12U);
+  ASSERT_EQ(json.at("lists").size(), 13U);
   for (const auto& list : json.at("lists")) {
     EXPECT_FALSE(list.at("entries").empty()) << list.at("kind");
     for (const auto& entry : list.at("entries")) {
@@ -168,6 +168,7 @@ TEST(Completion, KnowsCommandsOptionsAndNames) {
   EXPECT_EQ(completed("stormproof profile li"), "lint\n");
   EXPECT_EQ(completed("stormproof profile show --se"), "--set\n");
   EXPECT_EQ(completed("stormproof simulate --sam"), "--samples\n");
+  EXPECT_EQ(completed("stormproof diff --exhibit E8"), "E8a\nE8b\n");
   EXPECT_EQ(completed("stormproof fuzz smallest --start"), "--start-jitter\n");
   EXPECT_EQ(completed("stormproof simulate three"), "three-hosts\n");
   EXPECT_EQ(completed("stormproof diff humb"), "humble\n");

@@ -47,6 +47,7 @@ const Case cases[] = {
     {"tune", "tune \"$S\" --preset fastdds-2.6.11 --budget 50 --set 'time_limit=3s'"},
     {"diff",
      "diff fastdds-2.6.11 'it'\"'\"'s new.yaml' --over \"$S\" --no-check --no-telling-apart"},
+    {"diff_exhibit", "diff --exhibit E7 paper --over \"$S\" --no-check --no-telling-apart"},
     {"compare_discovery",
      "compare-discovery \"$S\" --set dds=fastdds-2.6.11 --set 'time_limit=3s' --start-jitter 20ms "
      "--samples 2 --sizes 2,3 --seed 4 --limit 2s"},

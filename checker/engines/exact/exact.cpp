@@ -41,6 +41,7 @@ struct Judgment {
   std::vector<std::string> assumptions;
   std::uint32_t runs = 0;
   std::uint32_t incomplete = 0;
+  std::uint32_t undecided = 0;
   bool interrupted = false;
   std::uint64_t events = 0;  ///< of the last run
   model::Nanoseconds until;
@@ -121,6 +122,7 @@ class Checker {
       if (monitor == nullptr || judgment.counterexample) continue;
       ++judgment.runs;
       if (!run.result.completed()) ++judgment.incomplete;
+      if (monitor->is_undecided()) ++judgment.undecided;
       judgment.interrupted = judgment.interrupted || run.result.end == RunEnd::interrupted;
       judgment.events = run.result.events;
       judgment.until = std::max(judgment.until, run.known_until);
@@ -152,7 +154,7 @@ class Checker {
       return answer;
     }
     const bool silent = judgment.incomplete > 0 && needs_completion(judgment.property);
-    if (judgment.interrupted || judgment.runs == 0 || silent) {
+    if (judgment.interrupted || judgment.runs == 0 || judgment.undecided > 0 || silent) {
       inconclusive(judgment, answer);
       return answer;
     }
@@ -176,6 +178,9 @@ class Checker {
     answer.kind = VerdictKind::inconclusive;
     if (judgment.interrupted || judgment.runs == 0) {
       answer.how = fmt::format("the run was interrupted at {}", time_text(judgment.until));
+    } else if (judgment.undecided > 0) {
+      answer.how = fmt::format("{} of {} runs, up to {}, are too short to say", judgment.undecided,
+                               judgment.runs, time_text(judgment.until));
     } else {
       answer.how = fmt::format("discovery was not completed in {} of {} runs, up to {}",
                                judgment.incomplete, judgment.runs, time_text(judgment.until));

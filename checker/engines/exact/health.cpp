@@ -7,6 +7,7 @@
 
 #include "checker/presentation/text/numbers.hpp"
 #include "model/implementations.hpp"
+#include "model/life.hpp"
 #include "model/reference.hpp"
 #include "model/simulator.hpp"
 
@@ -16,10 +17,9 @@ using model::Nanoseconds;
 
 namespace {
 
-Nanoseconds last_start(const model::Deployment& deployment) {
-  Nanoseconds last;
-  for (const model::Participant& one : deployment.participants) last = std::max(last, one.start);
-  return last;
+bool has_failures(const model::Deployment& deployment) {
+  const auto& life = deployment.life;
+  return life && !(life->mute.empty() && life->outages.empty() && life->restarts.empty());
 }
 
 /// Airtime of all channels.
@@ -57,8 +57,9 @@ Health judged(const RunHealth& run, const std::optional<model::Limits>& limits) 
 }
 
 std::string after_last_start(const RunHealth& run) {
-  return run.last_start.count() > 0 ? report::duration(run.took) + " after the last start"
-                                    : "after " + report::duration(run.took);
+  if (run.last_start.count() == 0) return "after " + report::duration(run.took);
+  return report::duration(run.took) +
+         (run.has_failures ? " after the last failure or start" : " after the last start");
 }
 
 }  // namespace
@@ -104,7 +105,8 @@ RunHealth health_of(const model::Scenario& scenario, const model::RunResult& res
   }
   RunHealth run;
   run.completion = result.discovery_time;
-  run.last_start = last_start(scenario.deployment);
+  run.last_start = model::last_failure(scenario.deployment);
+  run.has_failures = has_failures(scenario.deployment);
   run.missing = result.missing_count;
   const bool cut = result.end == model::RunEnd::interrupted;
   const Nanoseconds end =

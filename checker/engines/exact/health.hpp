@@ -37,8 +37,11 @@ inline constexpr model::Nanoseconds late{1'000'000'000};
 struct RunHealth {
   Health health{};
   std::optional<model::Nanoseconds> completion;  ///< T_disc; absent: not complete
-  model::Nanoseconds last_start;                 ///< when the last participant started
-  /// From the last start to T_disc, or to the end of a run that is not complete; 0 if discovery was
+  /// When the last participant started or came back, or the last outage ended: what comes before
+  /// is not waiting for discovery.
+  model::Nanoseconds last_start;
+  bool has_failures = false;  ///< some of the deployment's life, beside starts
+  /// From then on to T_disc, or to the end of a run that is not complete; 0 if discovery was
   /// complete before.
   model::Nanoseconds took;
   std::optional<double> airtime;  ///< used until then, over that of everything sent once

@@ -25,7 +25,12 @@ void run_with(ObservedRun& run, const RunPlan& plan) {
   options.probe = probes.empty() ? nullptr : &probes;
   options.mutation = plan.mutation;
   options.max_events = plan.max_events;
-  options.on_progress = [&](const model::Progress&) { return !plan.goes_on || plan.goes_on(); };
+  // An instant without end would be the last one.
+  const props::Monitor* const progress = run.monitor("timer.progress");
+  options.on_progress = [&](const model::Progress&) {
+    if (progress != nullptr && progress->violation()) return false;
+    return !plan.goes_on || plan.goes_on();
+  };
   run.result = model::simulate(run.scenario, options);
   const bool whole =
       run.result.end == RunEnd::time_limit || run.result.end == RunEnd::no_more_events;

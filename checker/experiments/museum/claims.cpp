@@ -4,55 +4,54 @@
 #include <algorithm>
 #include <array>
 
+#include "props/monitors/monitors.hpp"
+#include "props/property.hpp"
+
 namespace stormproof::museum {
 
 namespace {
-constexpr std::array all_claims{
-    Claim{"live.recovery",
-          "Once nothing fails any more, everybody has what it lacks within a bound.",
-          "∀ t* such that no packet is lost, no outage lasts and nobody starts after t*: "
-          "X_ij,d = 1 at t* + B for all d of all living i, j",
-          true},
-    Claim{"live.isolation", "A participant that is dead delays nobody else.",
-          "∀ dead k, ∀ i, j ≠ k: X_ij,d = 1 at t* + B, where B says nothing of k", true},
-    Claim{"timer.progress", "Time goes on: no instant carries infinitely many events.",
-          "∀ t: |{e : time(e) = t}| < ∞ (a run is held to 10000)"},
-    Claim{"safety.ack-implies-received", "Who is believed to have a descriptor has it.",
-          "□ (C_ij,d = A ⇒ X_ij,d = 1) for relations that nobody has forgotten"},
-    Claim{"safety.ack-stable", "What is acknowledged stays so unless the reader forgot it.",
-          "□ (C_ij,d leaves A ⇒ X_ij,d = 0)"},
-    Claim{"storm.copy-per-loss", "A descriptor is sent again only if it was lost.",
-          "∀ i, j, s, d: generated(d) ≤ 1 + |{lost packets that carry d to j}|"},
-    Claim{"storm.join-cost", "Who is recognised costs one announcement.",
-          "∀ event in which r participants are recognised: announcements sent in it ≤ r"},
-    Claim{"storm.piggyback-rate", "DATA causes HEARTBEATs in proportion to its bytes.",
-          "∀ t: HEARTBEATs that ride in DATA up to t ≤ bytes of DATA up to t / threshold + "
-          "|writers|"},
-    Claim{"storm.feedback-gain",
-          "An ACKNACK that changes nothing causes no HEARTBEAT at once, and none causes two.",
-          "∀ reception of an ordinary ACKNACK: HEARTBEATs sent in it ≤ 1, and 0 unless some C "
-          "changes"}};
-}  // namespace
 
-std::span<const Claim> claims() { return all_claims; }
+constexpr std::string_view copy_per_loss = "storm.copy-per-loss";
+/// The one of which an exhibit says the bound: the smallest scenarios recover sooner than any.
+constexpr std::string_view recovery = "live.recovery";
 
-const Claim* find_claim(std::string_view id) {
-  const auto* const found = std::ranges::find(all_claims, id, &Claim::id);
-  return found == all_claims.end() ? nullptr : found;
+constexpr std::array<std::string_view, 8> of_the_catalogue{recovery,
+                                                           "live.isolation",
+                                                           "timer.progress",
+                                                           "safety.ack-implies-received",
+                                                           "safety.ack-stable",
+                                                           "storm.join-cost",
+                                                           "storm.piggyback-rate",
+                                                           "storm.feedback-gain"};
+
+std::vector<Claim> all_claims() {
+  std::vector<Claim> all;
+  for (const std::string_view id : of_the_catalogue) {
+    const props::Property& property = *props::find_property(id);
+    all.push_back({property.id, property.statement, property.formal, id == recovery});
+  }
+  all.push_back({copy_per_loss, "A descriptor is sent again only if it was lost.",
+                 "∀ i, j, s, d: generated(d) ≤ 1 + |{lost packets that carry d to j}|"});
+  return all;
 }
 
-std::unique_ptr<ClaimMonitor> monitor_of(std::string_view claim, const model::Scenario& scenario,
-                                         std::optional<model::Nanoseconds> bound) {
-  if (claim == "live.recovery" || claim == "live.isolation") {
-    return watch_recovery(claim, scenario, bound.value_or(scenario.time_limit));
-  }
-  if (claim == "timer.progress") return watch_progress();
-  if (claim == "safety.ack-implies-received") return watch_acknowledgments(false);
-  if (claim == "safety.ack-stable") return watch_acknowledgments(true);
-  if (claim == "storm.copy-per-loss") return watch_copies();
-  if (claim == "storm.join-cost") return watch_joins();
-  if (claim == "storm.piggyback-rate") return watch_piggybacks(scenario);
-  return watch_feedback();
+}  // namespace
+
+const std::vector<Claim>& claims() {
+  static const std::vector<Claim> all = all_claims();
+  return all;
+}
+
+const Claim* find_claim(std::string_view id) {
+  const auto found = std::ranges::find(claims(), id, &Claim::id);
+  return found == claims().end() ? nullptr : &*found;
+}
+
+std::unique_ptr<props::Monitor> monitor_of(std::string_view claim, const model::Scenario& scenario,
+                                           std::optional<model::Nanoseconds> bound) {
+  if (claim == copy_per_loss) return watch_copies();
+  if (claim == recovery) return props::watch_recovery(scenario, bound);
+  return props::make_monitor(claim, scenario);
 }
 
 }  // namespace stormproof::museum

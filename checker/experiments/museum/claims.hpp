@@ -1,16 +1,14 @@
-// What exhibits of the museum of defects are held against: properties of runs of participants that
-// forget, fall silent or come back, each with a formal statement and a monitor. Those of the
-// catalogue (props/catalogue.cpp) are about writers that engines know; these are about runs, and
-// hold or break under any rules.
+// What exhibits of the museum of defects are held against: properties of the catalogue that a
+// monitor decides whatever the rules are, and one more. A claim says nothing of its own about them.
 #pragma once
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
+#include <vector>
 
 #include "model/scenario.hpp"
-#include "props/monitors/observer.hpp"
+#include "props/monitor.hpp"
 
 namespace stormproof::museum {
 
@@ -21,34 +19,16 @@ struct Claim {
   bool has_bound = false;  ///< an exhibit says the bound B
 };
 
-[[nodiscard]] std::span<const Claim> claims();
+[[nodiscard]] const std::vector<Claim>& claims();
 /// Null if there is none.
 [[nodiscard]] const Claim* find_claim(std::string_view id);
 
-/// Objects to the first event that breaks its claim.
-class ClaimMonitor : public props::Observer {
- public:
-  using Observer::Observer;
-
-  /// After the run: whether it was too short to say.
-  [[nodiscard]] virtual bool is_undecided() const { return false; }
-};
-
 /// The monitor of one of the `claims` for runs of the scenario.
-[[nodiscard]] std::unique_ptr<ClaimMonitor> monitor_of(std::string_view claim,
-                                                       const model::Scenario& scenario,
-                                                       std::optional<model::Nanoseconds> bound);
+[[nodiscard]] std::unique_ptr<props::Monitor> monitor_of(std::string_view claim,
+                                                         const model::Scenario& scenario,
+                                                         std::optional<model::Nanoseconds> bound);
 
-// One for each kind of claim; claims.cpp says which is whose.
-[[nodiscard]] std::unique_ptr<ClaimMonitor> watch_recovery(std::string_view claim,
-                                                           const model::Scenario& scenario,
-                                                           model::Nanoseconds bound);
-[[nodiscard]] std::unique_ptr<ClaimMonitor> watch_progress();
-[[nodiscard]] std::unique_ptr<ClaimMonitor> watch_copies();
-[[nodiscard]] std::unique_ptr<ClaimMonitor> watch_feedback();
-[[nodiscard]] std::unique_ptr<ClaimMonitor> watch_joins();
-[[nodiscard]] std::unique_ptr<ClaimMonitor> watch_piggybacks(const model::Scenario& scenario);
-/// Acknowledged and not received; or, with `stable`, received and not acknowledged any more.
-[[nodiscard]] std::unique_ptr<ClaimMonitor> watch_acknowledgments(bool stable);
+/// Of storm.copy-per-loss.
+[[nodiscard]] std::unique_ptr<props::Monitor> watch_copies();
 
 }  // namespace stormproof::museum

@@ -50,6 +50,9 @@ struct Exhibit {
 /// Reads the exhibit of this name, or the file. Errors have the place and what was expected.
 [[nodiscard]] model::config::Result<Exhibit> read_exhibit(const std::string& reference,
                                                           const model::config::SpecPath& specs);
+/// The changes as overrides of a DDS profile: "sedp.heartbeat_period=50ms". An exhibit whose
+/// changes are of something else cannot be carried to another deployment; nothing then.
+[[nodiscard]] std::optional<std::vector<std::string>> profile_overrides(const Changes& changes);
 /// Their names, in the order of their numbers.
 [[nodiscard]] std::vector<std::string> exhibit_names(const model::config::SpecPath& specs);
 

@@ -239,6 +239,16 @@ Result<Exhibit> read_exhibit(const std::string& reference, const config::SpecPat
   return ExhibitReader{*root, specs}.read();
 }
 
+std::optional<std::vector<std::string>> profile_overrides(const Changes& changes) {
+  const std::string prefix = std::string{config::dds_key} + ".";
+  std::vector<std::string> overrides;
+  for (const auto& [key, value] : changes) {
+    if (!key.starts_with(prefix)) return std::nullopt;
+    overrides.push_back(key.substr(prefix.size()) + "=" + value);
+  }
+  return overrides;
+}
+
 std::vector<std::string> exhibit_names(const config::SpecPath& specs) {
   std::vector<std::string> names = specs.names(config::SpecKind::museum);
   std::ranges::stable_sort(names, {}, number_of);

@@ -78,7 +78,9 @@ std::string elaboration(const Simulation& s) {
   text += fmt::format("Everything sent once would need {} of airtime (open loop); ",
                       duration(*s.open_loop));
   const std::string took = ratio(static_cast<double>(run.took.count()), open_loop);
-  const std::string from = run.last_start.count() > 0 ? ", from the last start" : "";
+  const std::string after =
+      run.has_failures ? ", from the last failure or start" : ", from the last start";
+  const std::string from = run.last_start.count() > 0 ? after : "";
   return text + (result.completed() ? fmt::format("the closed loop takes {} as long{}.", took, from)
                                     : fmt::format("the run ended after {} of that.", took));
 }

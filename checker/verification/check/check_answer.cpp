@@ -148,6 +148,24 @@ void say_whether_it_passes(report::Document& document, const CheckReport& report
   }
 }
 
+/// A line for each reason.
+void add_inapplicable(report::Document& document, const CheckReport& report) {
+  std::vector<std::pair<std::string_view, std::vector<std::string_view>>> by_reason;
+  for (const auto& [id, reason] : report.not_applicable) {
+    auto known = by_reason.begin();
+    while (known != by_reason.end() && known->first != reason) ++known;
+    if (known == by_reason.end()) known = by_reason.insert(known, {reason, {}});
+    known->second.push_back(id);
+  }
+  for (const auto& [reason, ids] : by_reason) {
+    const std::string what =
+        ids.size() == 1 ? std::string{"1 property does not apply to this scenario"}
+                        : fmt::format("{} properties do not apply to this composition", ids.size());
+    document.blocks.emplace_back(Paragraph{
+        fmt::format("{}, because {}: {}.", what, reason, ids_of(ids)), report::Tone::info});
+  }
+}
+
 void add_subject(report::Document& document, const CheckReport& report,
                  const CheckContext& context) {
   std::string counts;
@@ -164,14 +182,7 @@ void add_subject(report::Document& document, const CheckReport& report,
     document.blocks.emplace_back(
         Paragraph{"Interrupted: what was not checked is inconclusive.", report::Tone::warn});
   }
-  if (!report.not_applicable.empty()) {
-    std::vector<std::string_view> ids;
-    for (const auto& one : report.not_applicable) ids.push_back(one.first);
-    document.blocks.emplace_back(
-        Paragraph{fmt::format("{} properties do not apply to this composition, because {}: {}.",
-                              ids.size(), report.not_applicable.front().second, ids_of(ids)),
-                  report::Tone::info});
-  }
+  add_inapplicable(document, report);
   for (const Failure& one : context.gate.outdated) {
     document.blocks.emplace_back(Paragraph{
         fmt::format("The baseline accepts {}, which does not fail any more.", one.property),

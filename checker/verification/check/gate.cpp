@@ -33,9 +33,12 @@ const char* name_of(Standing standing) {
 
 namespace {
 
-/// Network calculus computes with the load of one deployment.
+/// Network calculus computes with the load of one deployment; what is only observed is seen in one.
 bool is_about_deployment(const Property& property) {
-  return std::ranges::find(property.engines, props::Engine::calculus) != property.engines.end();
+  using props::Engine;
+  const auto is_run = [](Engine engine) { return engine == Engine::exact_run; };
+  return std::ranges::find(property.engines, Engine::calculus) != property.engines.end() ||
+         std::ranges::all_of(property.engines, is_run);
 }
 
 }  // namespace

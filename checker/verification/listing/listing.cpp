@@ -33,11 +33,12 @@ std::string text_in(const std::string& file, std::string_view key) {
   return node != nullptr && node->is_scalar() ? node->text : "";
 }
 
-Entries described(SpecKind kind, const SpecPath& specs) {
+/// By what their files say under `key`.
+Entries described(SpecKind kind, const SpecPath& specs, std::string_view key = "description") {
   Entries entries;
   for (const std::string& name : specs.names(kind)) {
     const std::string file = specs.named(kind, name).value_or("");
-    entries.push_back({name, text_in(file, "description"), file});
+    entries.push_back({name, text_in(file, key), file});
   }
   return entries;
 }
@@ -162,6 +163,8 @@ constexpr Kind all_kinds[] = {
      "--set hosts=", [](const SpecPath& specs) { return described(SpecKind::hosts, specs); }},
     {"grids", "sweep; diff --over",
      [](const SpecPath& specs) { return described(SpecKind::grids, specs); }},
+    {"exhibits", "museum, diff --exhibit",
+     [](const SpecPath& specs) { return described(SpecKind::museum, specs, "title"); }},
     {"policies", "diff --policy",
      [](const SpecPath& specs) { return described(SpecKind::policies, specs); }},
     {"machines", "draw", [](const SpecPath&) { return machines(); }},

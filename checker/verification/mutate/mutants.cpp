@@ -106,6 +106,34 @@ void add_rules(std::vector<CatalogueEntry>& list) {
          if (w != model::WirelessProfile::unlimited) w = w * 2;
        });
 
+  // Of rules for those that forget; the trials have scenarios for each.
+  const auto amended = [&](std::string id, std::string description, auto change) {
+    knob(std::move(id), std::move(description), where_rules_are_knobs(),
+         [change](model::Scenario& s) {
+           if (s.dds.amendments) change(*s.dds.amendments, s.dds);
+         });
+  };
+  using Rules = model::Amendments;
+  using Dds = model::DdsProfile;
+  amended("attempts-end-early", "a reader asks no more once any HEARTBEAT has come",
+          [](Rules& rules, Dds&) {
+            rules.initial_acknack_stop = model::InitialAckNackStop::any_heartbeat;
+          });
+  amended("attempt-at-the-same-instant", "an initial ACKNACK is repeated in the same instant",
+          [](Rules& rules, Dds&) {
+            rules.initial_acknack_repeat = model::InitialAckNackRepeat::age_based_zero;
+          });
+  amended("late-attempt-resets", "an initial ACKNACK takes acknowledgments back at any time",
+          [](Rules& rules, Dds&) { rules.late_initial = model::LateInitial::reset; });
+  amended("acknack-answered-at-once", "every ACKNACK is answered by a HEARTBEAT",
+          [](Rules& rules, Dds&) { rules.acknack_reply = model::AckNackReply::all; });
+  amended("waits-for-the-dead", "the period of a writer follows its slowest reader",
+          [](Rules&, Dds& dds) { dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive; });
+  amended("announces-to-all", "whoever recognises somebody announces itself to all it knows",
+          [](Rules&, Dds& dds) { dds.spdp.resend = model::SpdpResend::all_known; });
+  amended("charged-with-everything", "each DATA is charged with all that was sent before",
+          [](Rules&, Dds& dds) { dds.sedp.piggyback = model::Piggyback::cumulative; });
+
   const auto order = [&](std::string id, std::string description, checker::OrderRule rule) {
     CatalogueEntry entry = named(Kind::order, std::move(id), std::move(description), everywhere());
     entry.mutant.order = rule;

@@ -38,6 +38,81 @@ model::Scenario crowded() {
   return scenario;
 }
 
+/// Rules that recover when somebody has forgotten somebody.
+model::Amendments repaired() {
+  model::Amendments rules;
+  rules.initial_acknack_resets = model::Whether::yes;
+  rules.initial_acknack_arms = model::Whether::yes;
+  rules.initial_acknack_stop = model::InitialAckNackStop::complete;
+  rules.match_clock_skew = ms(200);
+  return rules;
+}
+
+/// Participants that may forget, fall silent or come back, each on its host, with one publication.
+model::Scenario amended(std::uint32_t participants) {
+  model::Scenario scenario = quiet({});
+  scenario.deployment = model::Deployment::homogeneous(participants, 1, 0);
+  scenario.dds.spdp.startup_announcements = 0;
+  scenario.dds.spdp.resend = model::SpdpResend::new_only;
+  model::SedpProfile& sedp = scenario.dds.sedp;
+  sedp.relation_opening = model::RelationOpening::each_side;
+  sedp.initial_data = model::InitialData::pull;
+  sedp.unmatched = model::Unmatched::drop;
+  sedp.initial_acknack = model::InitialAckNackReply::heartbeat;
+  sedp.acknowledge = model::Acknowledge::prefix;
+  sedp.heartbeat_recipients = model::HeartbeatRecipients::matched;
+  scenario.dds.amendments = repaired();
+  scenario.deployment.life.emplace();
+  scenario.run_until = model::RunUntil::time_limit;
+  return scenario;
+}
+
+/// Participant 1 has forgotten 0, and hears of everything from 2.
+model::Scenario forgotten() {
+  model::Scenario scenario = amended(3);
+  scenario.deployment.life->stale = {{0, 1}, {1, 2}, {2, 1}};
+  scenario.dds.sedp.piggyback = model::Piggyback::linear;
+  scenario.dds.sedp.piggyback_threshold_bytes = Bytes{400};
+  return scenario;
+}
+
+/// 2 is dead when 1 joins, and the first DATA to 1 is lost if periods follow the slowest reader.
+model::Scenario dead() {
+  model::Scenario scenario = amended(3);
+  scenario.dds.spdp.period = ms(200);
+  scenario.deployment.participants[1].start = ms(7'300);
+  scenario.deployment.participants[1].endpoints_done = ms(7'300);
+  scenario.deployment.life->mute = {{2, Nanoseconds{500'000}}};
+  scenario.wireless.lost_packets = {105};
+  scenario.dds.amendments->late_initial = model::LateInitial::ignore_after_ack;
+  scenario.time_limit = ms(20'000);
+  return scenario;
+}
+
+/// An initial ACKNACK comes when the reader is complete.
+model::Scenario late() {
+  model::Scenario scenario = amended(2);
+  scenario.wireless.packet_delays = {model::PacketDelay{.packet = 6, .one_way = ms(71)},
+                                     model::PacketDelay{.packet = 12, .one_way = ms(1'050)}};
+  scenario.dds.amendments->initial_acknack_stop = model::InitialAckNackStop::any_heartbeat;
+  scenario.dds.amendments->late_initial = model::LateInitial::ignore_after_ack;
+  return scenario;
+}
+
+/// So many descriptors that DATA fills the budget between two HEARTBEATs several times.
+model::Scenario charged() {
+  model::Scenario scenario = amended(2);
+  scenario.deployment.participants[0].publications = 60;
+  model::SedpProfile& sedp = scenario.dds.sedp;
+  sedp.relation_opening = model::RelationOpening::receiver;
+  sedp.initial_data = model::InitialData::push;
+  sedp.grouping = model::Grouping::single;
+  sedp.piggyback = model::Piggyback::linear;
+  sedp.piggyback_threshold_bytes = Bytes{20'000};
+  scenario.time_limit = ms(4'000);
+  return scenario;
+}
+
 std::vector<Trial> trials_of(model::Of<fsm::composition::paper::Paper>) {
   std::vector<Trial> list;
   list.push_back({"one loss", quiet({6}), true});
@@ -56,6 +131,10 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::paper::Paper>) {
   model::Scenario lossless = quiet({});  // a repair after discovery is needless, too
   lossless.run_until = model::RunUntil::time_limit;
   list.push_back({"no loss", lossless, false});
+  list.push_back({"forgotten", forgotten(), false});
+  list.push_back({"dead", dead(), false});
+  list.push_back({"late", late(), false});
+  list.push_back({"charged", charged(), false});
   return list;
 }
 

@@ -17,6 +17,26 @@ RunHealth health(const char* name, const std::vector<std::string>& overrides = {
   return health_of(scenario, model::simulate(scenario));
 }
 
+/// Who comes back after 30 s and is there after 75 ms was not slow.
+TEST(Health, CountsFromTheEndOfTheLastFailure) {
+  model::Scenario scenario;
+  scenario.deployment = model::Deployment::homogeneous(2, 1, 1);
+  scenario.dds.amendments.emplace();
+  scenario.wireless.kind = model::ServiceKind::constant_delay;
+  scenario.wireless.one_way = Nanoseconds{1'000'000};
+  scenario.time_limit = Nanoseconds{60'000'000'000};
+  model::Life& life = scenario.deployment.life.emplace();
+  life.lease = Nanoseconds{5'000'000'000};
+  life.restarts = {{1, Nanoseconds{10'000'000'000}, Nanoseconds{30'000'000'000}}};
+  const RunHealth run = health_of(scenario, model::simulate(scenario));
+  ASSERT_TRUE(run.completion);
+  EXPECT_GT(*run.completion, Nanoseconds{30'000'000'000});
+  EXPECT_EQ(run.last_start, Nanoseconds{30'000'000'000});
+  EXPECT_EQ(run.took, *run.completion - run.last_start);
+  EXPECT_EQ(run.health, Health::fine);
+  EXPECT_NE(Outlook{{run}}.sentence().find("after the last failure or start"), std::string::npos);
+}
+
 TEST(Health, ShippedScenariosAreWhatTheirNamesSay) {
   EXPECT_EQ(health("smallest").health, Health::fine);
   EXPECT_EQ(health("wired-5x20").health, Health::fine);

@@ -71,6 +71,21 @@ TEST(SensitivityStudy, KnobsOfThePolicyThatIsNotUsedComeLast) {
   EXPECT_FALSE(knob_in(report, "wireless.overhead_unicast").is_without_effect(Measure::completion));
 }
 
+/// Nobody hears the other for longer than its lease, and for less than a longer one; who was
+/// forgotten is learned again from its next announcement.
+TEST(SensitivityStudy, RanksLeasesAndAnnouncementPeriods) {
+  const model::Scenario scenario = scenario_with(
+      {"wireless=wired", "dds=paper", "dds.amendments={}", "dds.spdp.period=3s", "time_limit=60s",
+       "deployment.life={lease: 10s, outages: [{from: 1, to: 0, start: 5s, end: 14s}, "
+       "{from: 0, to: 1, start: 5s, end: 14s}]}"});
+  const Report report = analyse(scenario, {});
+  for (const char* key : {"dds.spdp.period", "deployment.life.lease"}) {
+    EXPECT_FALSE(knob_in(report, key).is_without_effect(Measure::completion)) << key;
+    EXPECT_LT(position(report, key), position(report, "dds.sedp.adaptive.min_period")) << key;
+  }
+  EXPECT_LT(effect(report, "deployment.life.lease", Direction::up).median, -1'000'000'000);
+}
+
 TEST(SensitivityStudy, RanksByTheMeasureThatIsAskedFor) {
   Options options;
   options.by = Measure::messages;

@@ -177,7 +177,7 @@ TEST(Catalogue, IdsAreUniqueAndEveryEntryIsComplete) {
     EXPECT_FALSE(property.engines.empty()) << property.id;
     EXPECT_EQ(props::find_property(property.id), &property);
   }
-  EXPECT_EQ(ids.size(), 22U);
+  EXPECT_EQ(ids.size(), 29U);
   EXPECT_EQ(props::find_property("no.such"), nullptr);
 }
 

@@ -72,6 +72,13 @@ TEST(Mutate, EachKindOfMistakeIsNoticedByTheRightProperty) {
       {"order-pairwise", "order.total"},
       {"attempts-at-once", "storm.cannot-start"},
       {"base-ignored", "safety.ack-implies-received"},
+      {"attempts-end-early", "live.recovery"},
+      {"attempt-at-the-same-instant", "timer.progress"},
+      {"late-attempt-resets", "safety.ack-stable"},
+      {"acknack-answered-at-once", "storm.feedback-gain"},
+      {"waits-for-the-dead", "live.isolation"},
+      {"announces-to-all", "storm.join-cost"},
+      {"charged-with-everything", "storm.piggyback-rate"},
       {"control-writer-silent", "fsm.totality"},
       {"control-writer-closed", "fsm.reachability"}};
   MutateOptions options;

@@ -1,8 +1,7 @@
-// live.recovery and live.isolation: from the last failure of a run on (a lost packet, the end of an
-// outage, a start or return), everything has to be complete within the bound. What a silent
-// participant lacks, and what others lack of it, is not asked for. The event that the monitor
-// objects to is the last one that had to do with what is missing: after it there is silence, or
-// waiting.
+// live.recovery: from the last failure of a run on (a lost packet, the end of an outage, a start or
+// return), everything has to be complete within the bound. What a silent participant lacks, and
+// what others lack of it, is not asked for. The event that the monitor objects to is the last one
+// that had to do with what is missing: after it there is silence, or waiting.
 #include <algorithm>
 #include <bit>
 #include <optional>
@@ -10,24 +9,28 @@
 
 #include <fmt/core.h>
 
-#include "checker/experiments/museum/claims.hpp"
 #include "model/life.hpp"
 #include "model/trace/event_subject.hpp"
+#include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
 #include "props/monitors/received_descriptors.hpp"
+#include "props/monitors/recovery_bound.hpp"
 
-namespace stormproof::museum {
+namespace stormproof::props {
 
 namespace {
 
-class Recovery final : public ClaimMonitor {
+class Recovery : public Observer {
  public:
-  Recovery(std::string_view claim, const model::Scenario& scenario, model::Nanoseconds bound)
-      : ClaimMonitor{claim},
+  Recovery(const model::Scenario& scenario, std::optional<model::Nanoseconds> bound)
+      : Observer{"live.recovery"},
+        scenario_{scenario},
         life_{scenario.deployment.life.value_or(model::Life{})},
-        bound_{bound} {
-    failed_ = last_failure(scenario.deployment);
-  }
+        given_bound_{bound},
+        delays_{scenario},
+        failed_{last_failure(scenario.deployment)} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -40,7 +43,7 @@ class Recovery final : public ClaimMonitor {
   }
   void event_started(const model::Event& event) override {
     Observer::event_started(event);
-    if (event.time > failed_ + bound_) judge();
+    if (event.time > failed_ && event.time > due(event.time)) judge(event.time);
     if (model::trace::subject_of(event.kind) == model::trace::Subject::relation) {
       touch(event.subject);
     }
@@ -51,8 +54,16 @@ class Recovery final : public ClaimMonitor {
     if (received_.is_new(machine, event)) lose(machine.subject);
     if (machine.kind == model::MachineRef::Kind::relation) touch(machine.subject);
   }
-  void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t>) override {
+    delays_.emitted(packet, now());
+  }
+  void received(const model::Packet& packet, std::uint32_t receiver) override {
+    delays_.received(topology(), packet, receiver, now());
+    received_.arriving(packet);
+  }
   void arrived(const model::Packet& packet, bool lost) override {
+    delays_.arrived(packet, lost);
     const bool is_of_relation = packet.kind == model::PacketKind::data ||
                                 packet.kind == model::PacketKind::heartbeat ||
                                 packet.kind == model::PacketKind::acknack;
@@ -60,11 +71,19 @@ class Recovery final : public ClaimMonitor {
     if (lost) failed_ = std::max(failed_, now());
   }
   void finish(model::Nanoseconds end) override {
-    undecided_ = end < failed_ + bound_ &&
-                 std::ranges::any_of(relations_, [](const Relation& r) { return r.missing > 0; });
-    if (!undecided_) judge();
+    end_ = end;
+    undecided_ = end < due(end) && is_missing_something();
+    if (!undecided_) judge(end);
   }
   [[nodiscard]] bool is_undecided() const override { return undecided_; }
+  [[nodiscard]] std::vector<std::string> assumptions() const override {
+    return {fmt::format("no packet takes longer than Δ (in this run the largest delay is {})",
+                        time_text(delays_.largest(end_)))};
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {
+        fmt::format("Nothing fails after {}; B = {}.", time_text(failed_), time_text(bound(end_)))};
+  }
 
  private:
   struct Relation {
@@ -73,6 +92,16 @@ class Recovery final : public ClaimMonitor {
     model::Nanoseconds time;
   };
 
+  /// B; of packets under way at that time their age counts.
+  [[nodiscard]] model::Nanoseconds bound(model::Nanoseconds time) const {
+    return given_bound_ ? *given_bound_ : recovery_bound(scenario_, failed_, delays_.largest(time));
+  }
+  [[nodiscard]] model::Nanoseconds due(model::Nanoseconds time) const {
+    return failed_ + bound(time);
+  }
+  [[nodiscard]] bool is_missing_something() const {
+    return std::ranges::any_of(relations_, [](const Relation& r) { return r.missing > 0; });
+  }
   [[nodiscard]] bool is_asked_for(const model::Pair& pair) const {
     const auto is_silent = [&](const model::Mute& mute) {
       return mute.participant == pair.source || mute.participant == pair.destination;
@@ -108,7 +137,7 @@ class Recovery final : public ClaimMonitor {
     relations_[relation].missing = topology().descriptor_count(relation);
     touch(relation);
   }
-  void judge() {
+  void judge(model::Nanoseconds time) {
     if (violation()) return;
     const auto missing =
         std::ranges::find_if(relations_, [](const Relation& r) { return r.missing > 0; });
@@ -117,26 +146,28 @@ class Recovery final : public ClaimMonitor {
     object(missing->event, missing->time,
            fmt::format("Nothing more happens there until {}: {} descriptor{} of {} {} still "
                        "missing, and nothing has failed since {}.",
-                       props::time_text(failed_ + bound_), missing->missing,
-                       missing->missing == 1 ? "" : "s", props::relation_text(*names_, number),
-                       missing->missing == 1 ? "is" : "are", props::time_text(failed_)));
+                       time_text(due(time)), missing->missing, missing->missing == 1 ? "" : "s",
+                       relation_text(*names_, number), missing->missing == 1 ? "is" : "are",
+                       time_text(failed_)));
   }
 
+  const model::Scenario scenario_;
   const model::Life life_;
-  const model::Nanoseconds bound_;
-  props::ReceivedDescriptors received_;
+  const std::optional<model::Nanoseconds> given_bound_;
+  DelayMeter delays_;
+  ReceivedDescriptors received_;
   std::optional<model::Topology> names_;  ///< also after the run
   std::vector<Relation> relations_;
   model::Nanoseconds failed_;  ///< when something failed last, so far
+  model::Nanoseconds end_;
   bool undecided_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<ClaimMonitor> watch_recovery(std::string_view claim,
-                                             const model::Scenario& scenario,
-                                             model::Nanoseconds bound) {
-  return std::make_unique<Recovery>(claim, scenario, bound);
+MonitorPtr watch_recovery(const model::Scenario& scenario,
+                          std::optional<model::Nanoseconds> bound) {
+  return attentive<Recovery>(scenario, bound);
 }
 
-}  // namespace stormproof::museum
+}  // namespace stormproof::props

@@ -1,0 +1,134 @@
+// What one event may cause: storm.join-cost, announcements for somebody who is recognised;
+// storm.piggyback-rate, HEARTBEATs for DATA; storm.feedback-gain, HEARTBEATs for an ACKNACK.
+#include <fmt/core.h>
+
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+class Joins : public Observer {
+ public:
+  Joins() : Observer{"storm.join-cost"} {}
+
+  void event_started(const model::Event& event) override {
+    Observer::event_started(event);
+    opened_ = sent_ = 0;
+  }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
+                  std::string_view after, std::uint32_t, std::uint64_t) override {
+    // One reader of each stream opens.
+    const bool is_reader = machine.machine == "DiscoveryReader";
+    if (is_reader && event == "AnnouncementReceived" && before != after) ++opened_;
+  }
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t>) override {
+    const bool announces = packet.kind == model::PacketKind::spdp_multicast ||
+                           packet.kind == model::PacketKind::spdp_unicast;
+    if (announces) sent_ += packet.copies;
+  }
+  void event_finished(const model::Depths&) override {
+    if (opened_ == 0) return;
+    most_ = std::max(most_, sent_);
+    if (2 * sent_ <= opened_) return;
+    const std::uint64_t recognised = opened_ / 2;
+    object_now(fmt::format("At {} {} announcements are sent because {} participant{} recognised.",
+                           time_text(now()), sent_, recognised, recognised == 1 ? " is" : "s are"));
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("At most {} announcements were sent because of one recognition.", most_)};
+  }
+
+ private:
+  std::uint64_t opened_ = 0;
+  std::uint64_t sent_ = 0;
+  std::uint64_t most_ = 0;
+};
+
+class Piggybacks : public Observer {
+ public:
+  explicit Piggybacks(const model::Scenario& scenario)
+      : Observer{"storm.piggyback-rate"},
+        threshold_{static_cast<std::uint64_t>(scenario.dds.sedp.piggyback_threshold_bytes.count())},
+        writers_{2 * std::uint64_t{scenario.deployment.size()}} {}
+
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t>) override {
+    if (packet.kind != model::PacketKind::data) return;
+    bytes_ += packet.payload_bytes;
+    heartbeats_ += packet.heartbeats;
+    if (heartbeats_ <= most()) return;
+    object_now(
+        fmt::format("Up to {} {} HEARTBEATs ride in {} bytes of DATA; in proportion to the "
+                    "threshold of {} bytes and {} writers there are at most {}.",
+                    time_text(now()), heartbeats_, bytes_, threshold_, writers_, most()));
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("{} HEARTBEATs rode in {} bytes of DATA; at most {} are in proportion.",
+                        heartbeats_, bytes_, most())};
+  }
+
+ private:
+  [[nodiscard]] std::uint64_t most() const {
+    return (threshold_ == 0 ? bytes_ : bytes_ / threshold_) + writers_;
+  }
+
+  const std::uint64_t threshold_;
+  const std::uint64_t writers_;
+  std::uint64_t bytes_ = 0;
+  std::uint64_t heartbeats_ = 0;
+};
+
+class Feedback : public Observer {
+ public:
+  Feedback() : Observer{"storm.feedback-gain"} {}
+
+  void event_started(const model::Event& event) override {
+    Observer::event_started(event);
+    is_acknack_ = changes_ = false;
+    heartbeats_ = 0;
+  }
+  void received(const model::Packet& packet, std::uint32_t) override {
+    is_acknack_ = packet.kind == model::PacketKind::acknack && !packet.initial_acknack;
+  }
+  void transition(const model::MachineRef&, std::string_view event, std::string_view before,
+                  std::string_view after, std::uint32_t, std::uint64_t) override {
+    changes_ = changes_ || (event == "AckNackReceived" && before != after);
+  }
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t>) override {
+    if (packet.kind == model::PacketKind::heartbeat) heartbeats_ += packet.copies;
+  }
+  void event_finished(const model::Depths&) override {
+    if (!is_acknack_) return;
+    most_ = std::max(most_, heartbeats_);
+    if (heartbeats_ <= (changes_ ? 1U : 0U)) return;
+    object_now(changes_ ? fmt::format("At {} one ACKNACK causes {} HEARTBEATs.", time_text(now()),
+                                      heartbeats_)
+                        : fmt::format("At {} an ACKNACK that changes nothing is answered by a "
+                                      "HEARTBEAT at once, which asks for the next ACKNACK.",
+                                      time_text(now())));
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("The reception of an ACKNACK sent at most {} HEARTBEATs.", most_)};
+  }
+
+ private:
+  bool is_acknack_ = false;
+  bool changes_ = false;
+  std::uint64_t heartbeats_ = 0;
+  std::uint64_t most_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_joins(const model::Scenario&) { return attentive<Joins>(); }
+MonitorPtr watch_piggybacks(const model::Scenario& scenario) {
+  return attentive<Piggybacks>(scenario);
+}
+MonitorPtr watch_feedback(const model::Scenario&) { return attentive<Feedback>(); }
+
+}  // namespace stormproof::props

@@ -1,0 +1,168 @@
+// Properties of participants that forget, fail and come back: rules that are repaired recover
+// within the bound in random lives, the paper's rules without a knob do not, and where a property
+// says nothing it says why.
+#include <gtest/gtest.h>
+
+#include "model/life.hpp"
+#include "props/applicability.hpp"
+#include "props/generators/on_demand.hpp"
+#include "props/generators/space.hpp"
+#include "props/monitors/recovery_bound.hpp"
+#include "tests/props/monitored_run.hpp"
+
+namespace stormproof::props {
+namespace life_properties_test {
+
+using model::Nanoseconds;
+using model::Scenario;
+
+constexpr Nanoseconds ms(std::int64_t count) { return Nanoseconds{count * 1'000'000}; }
+
+/// Three participants on hosts of their own, 1 ms apart.
+Scenario trio() {
+  Scenario scenario;
+  scenario.deployment = model::Deployment::homogeneous(3, 1, 0);
+  scenario.wireless.kind = model::ServiceKind::constant_delay;
+  scenario.wireless.one_way = ms(1);
+  scenario.dds.descriptors.default_publications = 1;
+  scenario.dds.descriptors.default_subscriptions = 0;
+  model::SedpProfile& sedp = scenario.dds.sedp;
+  sedp.piggyback = model::Piggyback::off;
+  sedp.relation_opening = model::RelationOpening::each_side;
+  sedp.initial_data = model::InitialData::pull;
+  sedp.initial_acknack = model::InitialAckNackReply::heartbeat;
+  scenario.dds.amendments.emplace();
+  scenario.deployment.life.emplace();
+  scenario.time_limit = ms(120'000);
+  scenario.run_until = model::RunUntil::time_limit;
+  return scenario;
+}
+
+void repair(Scenario& scenario) {
+  model::Amendments& rules = scenario.dds.amendments.emplace();
+  rules.initial_acknack_resets = model::Whether::yes;
+  rules.initial_acknack_arms = model::Whether::yes;
+  rules.initial_acknack_stop = model::InitialAckNackStop::complete;
+}
+
+/// What the monitor of the property says of the scenario's run.
+std::unique_ptr<Monitor> watched(const std::string& property, const Scenario& scenario) {
+  auto monitor = make_monitor(property, scenario);
+  model::RunOptions options;
+  options.probe = monitor.get();
+  options.max_events = 2'000'000;
+  EXPECT_NE(model::simulate(scenario, options).end, model::RunEnd::interrupted);
+  monitor->finish(scenario.time_limit);
+  return monitor;
+}
+
+class Recovery : public testing::TestWithParam<int> {};
+
+TEST_P(Recovery, OfRepairedRulesIsWithinTheBoundInRandomLives) {
+  int decided = 0;
+  for (int k = 0; k < 25; ++k) {
+    const auto seed = static_cast<std::uint64_t>(25 * GetParam() + k);
+    Scenario scenario = trio();
+    Dice dice{seed};
+    draw_amendments(dice, scenario);
+    repair(scenario);
+    scenario.run_until = model::RunUntil::time_limit;
+    // Whoever is forgotten sooner than it announces itself is forgotten again and again.
+    model::Life& life = *scenario.deployment.life;
+    if (life.lease) life.lease = ms(7'000);
+    for (model::Lease& lease : life.leases) lease.duration = ms(10'000);
+    // A writer that has lost a restarted reader's memory for ever is another matter.
+    if (!life.restarts.empty() && !life.lease) life.lease = ms(7'000);
+    if (dice.chance(50)) scenario.wireless.lost_packets = {3, 8 + seed % 7, 20 + seed % 11};
+    const auto monitor = watched("live.recovery", scenario);
+    EXPECT_FALSE(monitor->violation()) << "seed " << seed << ": " << monitor->violation()->reason;
+    if (!monitor->is_undecided()) ++decided;
+  }
+  EXPECT_GE(decided, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Recovery, testing::Range(0, 4));
+
+TEST(Recovery, OfThePapersRulesFails) {
+  Scenario scenario = trio();
+  scenario.deployment.life->stale = {{0, 1}};
+  const auto broken = watched("live.recovery", scenario);
+  ASSERT_TRUE(broken->violation());
+  EXPECT_NE(broken->violation()->reason.find("still missing"), std::string::npos);
+  repair(scenario);
+  EXPECT_FALSE(watched("live.recovery", scenario)->violation());
+}
+
+TEST(Recovery, OfARunThatIsTooShortIsUndecided) {
+  Scenario scenario = trio();
+  scenario.deployment.life->stale = {{0, 1}};
+  scenario.time_limit = ms(2'000);
+  const auto monitor = watched("live.recovery", scenario);
+  EXPECT_FALSE(monitor->violation());
+  EXPECT_TRUE(monitor->is_undecided());
+}
+
+TEST(RecoveryBound, ContainsLeasesAndAnnouncementPeriods) {
+  Scenario scenario = trio();
+  const Nanoseconds without = recovery_bound(scenario, {}, ms(1));
+  scenario.deployment.life->lease = ms(20'000);
+  EXPECT_EQ(recovery_bound(scenario, {}, ms(1)), without + ms(20'000));
+  scenario.deployment.life->leases = {{1, ms(30'000)}};
+  EXPECT_EQ(recovery_bound(scenario, {}, ms(1)), without + ms(30'000));
+  const Nanoseconds period = scenario.dds.spdp.period;
+  scenario.dds.spdp.period = period + ms(1'000);
+  EXPECT_GE(recovery_bound(scenario, {}, ms(1)), without + ms(31'000));
+  // The next of attempts that double comes as late again as the last failure.
+  EXPECT_EQ(recovery_bound(scenario, ms(5'000), ms(1)),
+            recovery_bound(scenario, {}, ms(1)) + ms(5'000));
+}
+
+TEST(Isolation, IsBrokenByAPeriodThatFollowsTheSlowest) {
+  Scenario scenario = trio();
+  scenario.dds.spdp.startup_announcements = 0;
+  scenario.dds.sedp.initial_acknack = model::InitialAckNackReply::bitmap;
+  scenario.dds.spdp.resend = model::SpdpResend::new_only;
+  scenario.dds.spdp.period = ms(200);
+  scenario.deployment.participants[1].start = ms(8'300);
+  scenario.deployment.participants[1].endpoints_done = ms(8'300);
+  scenario.deployment.life->mute = {{2, Nanoseconds{500'000}}};
+  scenario.time_limit = ms(20'000);
+  int broken = 0;
+  int broken_if_periodic = 0;
+  for (std::uint64_t lost = 100; lost < 130; ++lost) {
+    scenario.wireless.lost_packets = {lost};
+    scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
+    if (watched("live.isolation", scenario)->violation()) ++broken;
+    scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
+    if (watched("live.isolation", scenario)->violation()) ++broken_if_periodic;
+  }
+  EXPECT_GT(broken, 0);
+  EXPECT_EQ(broken_if_periodic, 0);
+}
+
+TEST(LifeProperties, SayWhereTheySayNothing) {
+  Scenario scenario = trio();
+  const auto why = [&](std::string_view property) {
+    return std::string{why_not_applicable(property, scenario)};
+  };
+  EXPECT_NE(why("live.recovery").find("nobody forgets"), std::string::npos);
+  EXPECT_NE(why("live.isolation").find("nobody falls silent"), std::string::npos);
+  scenario.deployment.life->mute = {{2, ms(5)}};
+  EXPECT_EQ(why("live.recovery"), "");
+  EXPECT_EQ(why("live.isolation"), "");
+  scenario.wireless = {};
+  EXPECT_EQ(why("live.recovery"), "");
+  EXPECT_NE(why("live.isolation").find("constant delays"), std::string::npos);
+  EXPECT_EQ(why("safety.ack-stable"), "");
+  EXPECT_EQ(why("storm.join-cost"), "");
+  EXPECT_NE(why("live.no-stall"), "");
+  scenario.deployment.life.reset();
+  scenario.dds = {};
+  scenario.dds.implementation = model::ImplementationKind::fastdds;
+  EXPECT_NE(why("storm.join-cost"), "");
+  EXPECT_EQ(why("storm.feedback-gain"), "");
+  EXPECT_EQ(why("timer.progress"), "");
+}
+
+}  // namespace life_properties_test
+}  // namespace stormproof::props
