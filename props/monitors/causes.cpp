@@ -1,5 +1,8 @@
 // What one event may cause: storm.join-cost, announcements for somebody who is recognised;
 // storm.piggyback-rate, HEARTBEATs for DATA; storm.feedback-gain, HEARTBEATs for an ACKNACK.
+#include <algorithm>
+#include <span>
+
 #include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
