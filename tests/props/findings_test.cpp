@@ -18,24 +18,25 @@ TEST(Findings, ARepairBatchThatSpansPacketsIsNotSuppressedLongEnough) {
             "The suppression of descriptor 3 of participant 0's sub stream at participant 1 ends "
             "at 17.49194 ms, 1.723173 ms after its own repair left the source at 15.768767 ms; "
             "τ_S is 2 ms.");
-  EXPECT_EQ(run.violated(), "timer.suppression-honoured");
+  EXPECT_EQ(run.violated(), "timer.suppression-honoured storm.join-cost");
 }
 
 TEST(Findings, TheSameBatchInOnePacketIsSuppressedLongEnough) {
   const MonitoredRun run =
       run_monitored(shipped("smallest", {"dds.sedp.nack_suppression_duration=100us", lost_batch,
                                          "run_until=time_limit", "time_limit=3s"}));
-  EXPECT_EQ(run.violated(), "");
+  EXPECT_EQ(run.violated(), "storm.join-cost");
   EXPECT_EQ(run.remarks("timer.suppression-honoured"),
             "The shortest suppression of a descriptor was 100 µs; τ_S is 100 µs.\n");
 }
 
 TEST(Findings, AdditiveTimersMultiply) {
   const std::vector<std::string> overrides{lost_batch, "run_until=time_limit", "time_limit=3s"};
-  EXPECT_EQ(run_monitored(shipped("smallest", overrides)).violated(), "");
+  EXPECT_EQ(run_monitored(shipped("smallest", overrides)).violated(), "storm.join-cost");
   auto additive = overrides;
   additive.emplace_back("dds.sedp.heartbeat_timer=additive");
-  EXPECT_EQ(run_monitored(shipped("smallest", additive)).violated(), "timer.single-heartbeat");
+  EXPECT_EQ(run_monitored(shipped("smallest", additive)).violated(),
+            "timer.single-heartbeat storm.join-cost");
 }
 
 /// One suppression timer serves the whole relation, and it runs from the first serialization.
@@ -47,7 +48,8 @@ TEST(Findings, FastDdsSuppressesTooShort) {
 
 TEST(Findings, AStormRepairsWhatIsUnderWay) {
   const MonitoredRun run = run_monitored(shipped("wifi-5x20"));
-  EXPECT_EQ(run.violated(), "storm.single-copy storm.free-threshold storm.cannot-start");
+  EXPECT_EQ(run.violated(),
+            "storm.join-cost storm.single-copy storm.free-threshold storm.cannot-start");
   EXPECT_EQ(run.violation("storm.free-threshold")->event, 16489U);
 }
 
@@ -66,7 +68,7 @@ TEST(Findings, InitialAckNacksNeverEndAfterALostHeartbeat) {
       shipped("smallest", {"wireless={kind: constant_delay, one_way: 1ms, lost_packets: [5]}",
                            "dds.sedp.piggyback=off", "run_until=time_limit", "time_limit=10s"}));
   ASSERT_TRUE(run.result.completed());
-  EXPECT_EQ(run.violated(), "live.quiescence");
+  EXPECT_EQ(run.violated(), "live.quiescence storm.join-cost");
 }
 
 }  // namespace findings_test

@@ -151,7 +151,9 @@ class Fuzzer {
       for (const JudgedRun& run : report_.runs) {
         if (!judgment.sampled) break;
         const Breach* breach = run.breach(judgment.id);
-        if (breach == nullptr && needs_completion(judgment.id) && !run.discovery_time) continue;
+        const bool goes_far_enough =
+            run.decides(judgment.id) && (!needs_completion(judgment.id) || run.discovery_time);
+        if (breach == nullptr && !goes_far_enough) continue;
         ++judgment.runs;
         if (breach == nullptr) continue;
         if (judgment.broken++ > 0) continue;

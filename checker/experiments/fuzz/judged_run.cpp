@@ -77,6 +77,10 @@ const Breach* JudgedRun::breach(std::string_view id) const {
   return found == breaches.end() ? nullptr : &*found;
 }
 
+bool JudgedRun::decides(std::string_view id) const {
+  return std::ranges::find(undecided, id) == undecided.end();
+}
+
 std::optional<JudgedRun> run_and_judge(model::Scenario& scenario,
                                        std::span<const std::string_view> ids, const Losses& losses,
                                        std::uint64_t expected, const GoesOn& goes_on) {
@@ -107,6 +111,7 @@ std::optional<JudgedRun> run_and_judge(model::Scenario& scenario,
     for (const auto& monitor : monitors) {
       monitor->finish(model::trace::known_until(result, scenario));
       note(*monitor, monitor->property(), run);
+      if (monitor->is_undecided()) run.undecided.push_back(monitor->property());
     }
     break;
   }

@@ -37,10 +37,12 @@ struct JudgedRun {
   std::uint64_t packets = 0;  ///< emitted
   std::uint64_t lost = 0;     ///< of them
   std::uint64_t events = 0;
-  exact::RunHealth health{};     ///< storm, slow link, fine
-  std::vector<Breach> breaches;  ///< in the order of the ids
+  exact::RunHealth health{};                ///< storm, slow link, fine
+  std::vector<Breach> breaches;             ///< in the order of the ids
+  std::vector<std::string_view> undecided;  ///< ids of which the run was too short to say anything
 
   [[nodiscard]] const Breach* breach(std::string_view id) const;
+  [[nodiscard]] bool decides(std::string_view id) const;
 };
 
 /// Tells which packets a run loses, of so many.

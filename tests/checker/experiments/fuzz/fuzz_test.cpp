@@ -52,6 +52,20 @@ model::Scenario lossy() {
                               "vary={loss: 0.05, start_jitter: 20ms, timers: 0.1}"});
 }
 
+/// The bound of live.recovery is seconds, so what runs half a second has not broken it yet.
+TEST(Fuzz, a_run_that_is_too_short_is_no_sample) {
+  FuzzOptions options = runs(3);
+  options.only = {"live.recovery"};
+  const model::Scenario scenario =
+      shipped("smallest", {"dds.amendments={}",
+                           "deployment.life={outages: [{from: 0, to: 1, start: 0s, end: 499ms}]}",
+                           "time_limit=500ms", "vary={start_jitter: 1ms}"});
+  const FuzzReport report = run(scenario, options);
+  ASSERT_EQ(report.runs.size(), 3U);
+  EXPECT_EQ(of(report, "live.recovery").runs, 0U);
+  EXPECT_NE(of(report, "live.recovery").verdict, VerdictKind::sampled);
+}
+
 TEST(Fuzz, finds_counts_and_bounds_a_planted_violation) {
   const FuzzReport report = run(lossy(), runs(60));
   ASSERT_EQ(report.runs.size(), 60U);

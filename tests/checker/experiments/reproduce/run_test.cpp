@@ -100,7 +100,9 @@ TEST(Plan, TheTrueChannelIsThatOfFastDdsAlone) {
     const model::WirelessProfile w = plan.scenario(one, 3).wireless;
     const bool is_wireless = one.network == Network::wireless;
     EXPECT_EQ(w.sender == model::Sender::stalls, is_true && is_wireless);
-    if (is_true && is_wireless) EXPECT_EQ(w.order, model::ServiceOrder::fifo);
+    if (is_true && is_wireless) {
+      EXPECT_EQ(w.order, model::ServiceOrder::fifo);
+    }
   }
 }
 
