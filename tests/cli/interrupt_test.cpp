@@ -116,9 +116,9 @@ void PrintTo(const Case& tested, std::ostream* out) { *out << tested.name; }
 const std::array cases{
     Case{"check", {"check", "high-load-6x30"}},
     Case{"check_without_cvc5", {"check", "wifi-5x20-fastdds", "--single-solver"}},
-    Case{"mutate", {"mutate"}},
-    Case{"diff", {"diff", "fastdds-2.6.11", "fastdds-2.9.1"}},
-    Case{"fuzz", {"fuzz", "wifi-5x20", "--runs", "100000"}},
+    Case{"mutate", {"mutate"}}, Case{"diff", {"diff", "fastdds-2.6.11", "fastdds-2.9.1"}},
+    // What a variant has broken by then would be the answer.
+    Case{"fuzz", {"fuzz", "wifi-5x20", "--runs", "100000", "--property", "safety.conservation"}},
     Case{"tune", {"tune", "wifi-5x20-fastdds", "--budget", "1000000"}},
     Case{"samples", {"simulate", "live-5x20", "--samples", "1000000"}},
     Case{"sweep", {"sweep", "big.yaml", "-o", "runs.db"}},
