@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "checker/evidence/conform/reader_side.hpp"
-#include "model/engine/running_world.hpp"
+#include "checker/evidence/conform/relation_host.hpp"
 
 namespace stormproof::conform {
 
@@ -26,15 +26,14 @@ struct MadeAckNack {
   model::DescriptorSet listed{};
 };
 
-class ReaderHost {
+class ReaderHost : public RelationHost {
  public:
   using Composition = comp::fastdds::FastDds;
   using Packet = Submessage;
   /// `count`: how many descriptors the writer has.
   ReaderHost(const model::DdsProfile& dds, std::uint32_t count, ReaderMachines& machines,
              Tally<fsm::SingleShot>& timers)
-      : dds_{dds},
-        topology_{count},
+      : RelationHost{dds, count},
         machines_{machines},
         timers_{timers},
         x_(model::words_for(count)),
@@ -63,22 +62,8 @@ class ReaderHost {
   }
 
   // What a RunningWorld asks of its host.
-  [[nodiscard]] static comp::Watcher* watcher() { return nullptr; }
-  struct OneRelation {
-    std::uint32_t count;
-    [[nodiscard]] static model::Pair pair(std::uint32_t) { return {0, 1, 0, true}; }
-    [[nodiscard]] std::uint32_t descriptor_count(std::uint32_t, model::Stream) const {
-      return count;
-    }
-  };
-  [[nodiscard]] OneRelation topology() const { return topology_; }
-  [[nodiscard]] std::int64_t now() const { return now_ns_; }
   /// Of the writer there is this one.
   [[nodiscard]] static std::array<std::uint32_t, 1> readers(std::uint32_t) { return {0}; }
-  template <class Knob>
-  [[nodiscard]] auto knob(Knob knob) const {
-    return model::knob_value(knob, dds_);
-  }
   template <class World>
   [[nodiscard]] std::int64_t answer(comp::Now, const World&) const {
     return now_ns_;
@@ -170,11 +155,8 @@ class ReaderHost {
     }
   }
 
-  const model::DdsProfile& dds_;
-  const OneRelation topology_;
   ReaderMachines& machines_;
   Tally<fsm::SingleShot>& timers_;
-  std::int64_t now_ns_ = 0;
   fsm::StateId reader_ = Tally<fsm::DiscoveryReader>::Fly::initial;
   fsm::StateId initial_ = Tally<fsm::InitialAckNack>::Fly::initial;
   fsm::StateId reply_ = Tally<fsm::SingleShot>::Fly::initial;

@@ -19,13 +19,13 @@
 #include <boost/pfr.hpp>
 
 #include "checker/evidence/conform/ledger.hpp"
-#include "model/engine/running_world.hpp"
+#include "checker/evidence/conform/relation_host.hpp"
 
 namespace stormproof::conform {
 
 namespace comp = fsm::composition;
 
-class WriterHost {
+class WriterHost : public RelationHost {
  public:
   using Composition = comp::fastdds::FastDds;
   using Packet = Answer;
@@ -34,8 +34,7 @@ class WriterHost {
   /// `count`: how many descriptors there are in all.
   WriterHost(const model::DdsProfile& dds, std::uint32_t count,
              Tally<fsm::ChangeForReader>& changes, Tally<fsm::SingleShot>& timers)
-      : dds_{dds},
-        topology_{count},
+      : RelationHost{dds, count},
         changes_{changes},
         timers_{timers},
         states_(count, Tally<fsm::ChangeForReader>::Fly::initial),
@@ -80,20 +79,6 @@ class WriterHost {
   }
 
   // What a RunningWorld asks of its host.
-  [[nodiscard]] static comp::Watcher* watcher() { return nullptr; }
-  struct OneRelation {
-    std::uint32_t count;
-    [[nodiscard]] static model::Pair pair(std::uint32_t) { return {0, 1, 0, true}; }
-    [[nodiscard]] std::uint32_t descriptor_count(std::uint32_t, model::Stream) const {
-      return count;
-    }
-  };
-  [[nodiscard]] OneRelation topology() const { return topology_; }
-  [[nodiscard]] std::int64_t now() const { return now_ns_; }
-  template <class Knob>
-  [[nodiscard]] auto knob(Knob knob) const {
-    return model::knob_value(knob, dds_);
-  }
   /// No capture is held against a profile with cycles, whose readers are counted.
   template <class Tag, class World>
   [[nodiscard]] auto answer(Tag, const World&) const {
@@ -243,15 +228,12 @@ class WriterHost {
     }
   };
 
-  const model::DdsProfile& dds_;
-  const OneRelation topology_;
   Tally<fsm::ChangeForReader>& changes_;
   Tally<fsm::SingleShot>& timers_;
   fsm::Stepper<fsm::SingleShot> queue_runs_;
   fsm::Stepper<fsm::HeartbeatTimer> clocks_;
   std::vector<fsm::StateId> states_;
   std::vector<std::uint64_t> exists_;  ///< words
-  std::int64_t now_ns_ = 0;
   std::int64_t suppressed_until_ns_ = INT64_MAX;
   fsm::StateId response_ = Tally<fsm::SingleShot>::Fly::initial;
   fsm::StateId suppression_ = Tally<fsm::SingleShot>::Fly::initial;
