@@ -25,8 +25,8 @@ class Progress : public Observer {
       fired_.clear();
     }
     Observer::event_started(event);
-    if (++count_ <= most)
-      return;  // most instants have few events: no clock can have fired so often
+    // Most instants have few events: no clock can have fired so often.
+    if (++count_ <= most) return;
     using model::trace::Subject;
     const Subject subject = model::trace::subject_of(event.kind);
     if (subject == Subject::channel || subject == Subject::packet) return;

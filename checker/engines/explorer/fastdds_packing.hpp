@@ -1,8 +1,8 @@
 // What Fast DDS's rules (fsm/composition/fastdds.hpp) leave to a host, for a default participant's
 // nine publications, of which the last ones may be created after the match, and its eight
 // subscriptions. What is sent at once by one writer to the same readers is one message, as long as
-// there is room. Piggybacked HEARTBEATs are left
-// out, because they depend on everything that the participant sends.
+// there is room. Piggybacked HEARTBEATs are left out, because they depend on everything that the
+// participant sends.
 #pragma once
 
 #include <bit>
