@@ -1,4 +1,4 @@
-// Compositions are listed in the order of implementations.
+// Compositions are listed in the order of implementations; the last one is that of lives.
 #include "model/composition_of.hpp"
 
 #include "fsm/composition/compositions.hpp"
@@ -12,6 +12,16 @@ const fsm::composition::CompositionInfo& composition_of(ImplementationKind kind)
 
 const fsm::composition::CompositionInfo& composition_of(const DdsProfile& dds) {
   return composition_of(kind_of(dds));
+}
+
+bool is_living_fastdds(const Scenario& scenario) {
+  const ImplementationTraits& traits = traits_of(scenario.dds);
+  return scenario.deployment.life && traits.knows_lives && traits.writer == Writer::stateful;
+}
+
+const fsm::composition::CompositionInfo& composition_of(const Scenario& scenario) {
+  return is_living_fastdds(scenario) ? fsm::composition::compositions().back()
+                                     : composition_of(scenario.dds);
 }
 
 }  // namespace stormproof::model

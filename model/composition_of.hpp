@@ -3,10 +3,16 @@
 
 #include "fsm/composition/composition_info.hpp"
 #include "model/dds_profile.hpp"
+#include "model/scenario.hpp"
 
 namespace stormproof::model {
 
 [[nodiscard]] const fsm::composition::CompositionInfo& composition_of(const DdsProfile& dds);
 [[nodiscard]] const fsm::composition::CompositionInfo& composition_of(ImplementationKind kind);
+
+/// Whether participants have a life under Fast DDS's rules: they are those of a composition of
+/// their own (fsm/composition/fastdds_life.hpp), which no engine knows.
+[[nodiscard]] bool is_living_fastdds(const Scenario& scenario);
+[[nodiscard]] const fsm::composition::CompositionInfo& composition_of(const Scenario& scenario);
 
 }  // namespace stormproof::model

@@ -89,8 +89,19 @@ struct Lease {
   bool operator==(const Lease&) const = default;
 };
 
+/// User endpoints that a participant creates in the run, and may delete again.
+struct LateEndpoints {
+  std::uint32_t participant = 0;
+  std::uint32_t publications = 0;
+  std::uint32_t subscriptions = 0;
+  Nanoseconds at;
+  std::optional<Nanoseconds> until = {};  ///< > at
+
+  bool operator==(const LateEndpoints&) const = default;
+};
+
 /// What happened before the run, and what happens to participants in it; only with
-/// `dds.amendments`, whose rules know it (model/life.hpp).
+/// rules that know it (model/life.hpp, `ImplementationTraits::knows_lives`).
 struct Life {
   std::vector<StaleRelation> stale;
   std::vector<Mute> mute;
@@ -99,6 +110,7 @@ struct Life {
   /// How long a participant is remembered of which nothing is heard; absent: for ever.
   std::optional<Nanoseconds> lease = {};
   std::vector<Lease> leases = {};  ///< of those with another one
+  std::vector<LateEndpoints> endpoints = {};
 
   bool operator==(const Life&) const = default;
 };

@@ -103,6 +103,8 @@ struct ImplementationTraits {
   /// Engines, monitors and laws that are about descriptors know its writer. Otherwise only what is
   /// about machines, the network or results says something of it (props/applicability.hpp).
   bool is_known_to_engines = true;
+  /// Its rules know participants that forget each other and come back (`deployment.life`).
+  bool knows_lives = false;
   Writer writer = Writer::of_the_paper;
 };
 
@@ -148,6 +150,7 @@ inline constexpr ImplementationTraits traits_of_programs{
   traits.rules = "the amended rules of the closed-loop model";
   traits.guide = "specs/guide/museum.md";
   traits.is_known_to_engines = false;
+  traits.knows_lives = true;
   return traits;
 }
 
@@ -158,6 +161,7 @@ inline constexpr ImplementationTraits traits_of_programs{
   traits.rules = "Fast DDS's own rules";
   traits.guide = "specs/guide/fastdds.md";
   traits.vendor = vendor::fastdds;
+  traits.knows_lives = true;
   traits.writer = Writer::stateful;
   return traits;
 }
@@ -178,8 +182,8 @@ inline constexpr ImplementationTraits traits_of_programs{
 [[nodiscard]] constexpr ImplementationTraits traits_of_fastdds_static() {
   ImplementationTraits traits = traits_of_fastdds();
   traits.rules = "Fast DDS's own rules with static peers";
+  traits.knows_lives = false;
   traits.guide = "specs/guide/discovery-server.md";
-  traits.is_known_to_engines = false;
   return traits;
 }
 
@@ -188,6 +192,7 @@ inline constexpr ImplementationTraits traits_of_programs{
   ImplementationTraits traits = traits_of_fastdds_static();
   traits.rules = "the rules of Fast DDS's Discovery Server";
   traits.has_server = true;
+  traits.is_known_to_engines = false;
   traits.writer = Writer::of_server;
   return traits;
 }

@@ -23,6 +23,14 @@ bool is_replaced(const Life& life, std::uint32_t participant) {
   });
 }
 
+bool hears(const Life& life, std::uint32_t i, std::uint32_t j, Nanoseconds emitted,
+           Nanoseconds now) {
+  if (is_away(life, i, emitted) || is_away(life, j, now)) return false;
+  return std::ranges::none_of(life.outages, [&](const Outage& outage) {
+    return outage.from == i && outage.to == j && now >= outage.start && now < outage.end;
+  });
+}
+
 std::optional<Nanoseconds> lease_of(const Life& life, std::uint32_t participant) {
   const auto own = std::ranges::find(life.leases, participant, &Lease::participant);
   return own == life.leases.end() ? life.lease : own->duration;
@@ -32,15 +40,33 @@ bool forgets(const Life& life) {
   return life.lease || !life.leases.empty() || !life.restarts.empty();
 }
 
-Nanoseconds last_failure(const Deployment& deployment) {
+std::uint32_t late_descriptors(const Life& life, std::uint32_t participant, Stream s) {
+  std::uint32_t count = 0;
+  for (const LateEndpoints& late : life.endpoints) {
+    if (late.participant != participant) continue;
+    count += (s == Stream::pub ? late.publications : late.subscriptions) * (late.until ? 2 : 1);
+  }
+  return count;
+}
+
+Nanoseconds last_start(const Deployment& deployment) {
   Nanoseconds last;
   for (const Participant& participant : deployment.participants) {
     last = std::max(last, participant.start);
   }
   if (!deployment.life) return last;
+  for (const Restart& restart : deployment.life->restarts) last = std::max(last, restart.start);
+  for (const LateEndpoints& late : deployment.life->endpoints) {
+    last = std::max(last, late.until.value_or(late.at));
+  }
+  return last;
+}
+
+Nanoseconds last_failure(const Deployment& deployment) {
+  Nanoseconds last = last_start(deployment);
+  if (!deployment.life) return last;
   for (const Outage& outage : deployment.life->outages) last = std::max(last, outage.end);
   for (const Mute& mute : deployment.life->mute) last = std::max(last, mute.from);
-  for (const Restart& restart : deployment.life->restarts) last = std::max(last, restart.start);
   return last;
 }
 
@@ -70,6 +96,18 @@ bool comes_back_in_order(const Deployment& deployment) {
   return true;
 }
 
+bool creates_while_there(const Deployment& deployment) {
+  if (!deployment.life) return true;
+  const auto is_there = [&](std::uint32_t participant, Nanoseconds time) {
+    return time >= deployment.participants[participant].start &&
+           !is_away(*deployment.life, participant, time);
+  };
+  return std::ranges::all_of(deployment.life->endpoints, [&](const LateEndpoints& late) {
+    return late.participant < deployment.size() && is_there(late.participant, late.at) &&
+           (!late.until || is_there(late.participant, *late.until));
+  });
+}
+
 bool has_successors(const Deployment& deployment) {
   return deployment.life &&
          std::ranges::find(deployment.life->restarts, Identity::fresh, &Restart::identity) !=
@@ -82,8 +120,8 @@ Deployment with_successors(const Deployment& deployment) {
   for (const Restart& restart : deployment.life->restarts) {
     if (restart.identity != Identity::fresh) continue;
     Participant successor = deployment.participants[restart.participant];
+    successor.endpoints_done = restart.start + (successor.endpoints_done - successor.start);
     successor.start = restart.start;
-    successor.endpoints_done = restart.start;
     all.participants.push_back(successor);
     for (const Lease& lease : deployment.life->leases) {
       if (lease.participant != restart.participant) continue;

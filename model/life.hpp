@@ -10,12 +10,21 @@ namespace stormproof::model {
 [[nodiscard]] bool is_away(const Life& life, std::uint32_t participant, Nanoseconds time);
 /// Whether somebody else comes back for it; it is never there again.
 [[nodiscard]] bool is_replaced(const Life& life, std::uint32_t participant);
+/// Whether j takes now what i has emitted then: neither is away, and no outage is between them.
+[[nodiscard]] bool hears(const Life& life, std::uint32_t i, std::uint32_t j, Nanoseconds emitted,
+                         Nanoseconds now);
 /// Its lease; nothing: it is never forgotten.
 [[nodiscard]] std::optional<Nanoseconds> lease_of(const Life& life, std::uint32_t participant);
 /// Whether somebody may have to be learned again.
 [[nodiscard]] bool forgets(const Life& life);
 
-/// The latest of all starts, ends of outages, silences and returns.
+/// How many samples its writer of the stream writes in the run: one for each endpoint that it
+/// creates, and one for each that it deletes.
+[[nodiscard]] std::uint32_t late_descriptors(const Life& life, std::uint32_t participant, Stream s);
+
+/// The latest of all starts, returns, creations and deletions of endpoints.
+[[nodiscard]] Nanoseconds last_start(const Deployment& deployment);
+/// The last start, or the end of an outage or a silence if that is later.
 [[nodiscard]] Nanoseconds last_failure(const Deployment& deployment);
 /// From then on who hears of somebody once in a lease forgets nobody: the last failure and the
 /// longest lease are over. 0 if nobody forgets.
@@ -23,6 +32,8 @@ namespace stormproof::model {
 
 /// Whether the restarts of each participant follow each other, none before its start.
 [[nodiscard]] bool comes_back_in_order(const Deployment& deployment);
+/// Whether participants create and delete endpoints while they are there.
+[[nodiscard]] bool creates_while_there(const Deployment& deployment);
 /// Whether somebody comes back as somebody new.
 [[nodiscard]] bool has_successors(const Deployment& deployment);
 /// The deployment with a participant more for each that comes back as somebody new.

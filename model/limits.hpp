@@ -43,9 +43,10 @@ struct Variation {
   std::optional<Ratio> delays;  ///< at most 1: of airtime overheads, rates and constant delays
   std::optional<Ratio> timers;  ///< at most 1: of the periods and delays of the DDS profile
   // Of the life of participants; all of it happens before `failures_within`.
-  std::optional<std::uint32_t> outages;       ///< at most so many, each in one direction
-  std::optional<std::uint32_t> restarts;      ///< at most so many participants come back
-  std::optional<std::uint32_t> late_joiners;  ///< at most so many participants start later
+  std::optional<std::uint32_t> outages;             ///< at most so many, each in one direction
+  std::optional<std::uint32_t> restarts;            ///< at most so many participants come back
+  std::optional<std::uint32_t> late_joiners;        ///< at most so many participants start later
+  std::optional<std::uint32_t> new_endpoints = {};  ///< at most so many times some are created
   std::optional<Nanoseconds> failures_within;
   /// `failures_within`, or what is usual.
   [[nodiscard]] Nanoseconds time_of_failures() const {

@@ -93,6 +93,8 @@ struct RunResult {
   std::optional<Nanoseconds> discovery_time;
   /// With `deployment.life`: T_disc after the last failure (model/life.hpp).
   std::optional<Nanoseconds> recovery_time = {};
+  /// With `deployment.life`: messages from the last start on (model/life.hpp), if there was one.
+  std::optional<std::uint64_t> messages_since_last_start = {};
   Counts counts;
   std::uint64_t user_control = 0;  ///< messages of control-only relations, in no class
   std::uint64_t events = 0;        ///< processed events

@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 
+#include "model/composition_of.hpp"
 #include "model/cyclone/protocol.hpp"
 #include "model/engine/implementation_maker.hpp"
 #include "model/engine/network.hpp"
 #include "model/engine/run_state.hpp"
+#include "model/fastdds/living_protocol.hpp"
 #include "model/fastdds/protocol.hpp"
 #include "model/fastdds/server_protocol.hpp"
 #include "model/implementations.hpp"
@@ -74,6 +76,7 @@ class Simulator {
       if (run_.queue.next_time() > run_.scenario.time_limit) return RunEnd::time_limit;
       const Event event = run_.queue.pop();
       run_.now = event.time;
+      if (run_.now >= next_start_) note_last_start();
       ++events_;
       is_plain ? handle(event) : process(event);
       if (run_.complete() != discovery_time_.has_value()) note_completeness();
@@ -92,6 +95,12 @@ class Simulator {
       discovery_time_ = run_.now;
     else
       discovery_time_.reset();
+  }
+
+  /// What was sent before it.
+  void note_last_start() {
+    next_start_ = never;
+    sent_before_ = run_.counts.total();
   }
 
   /// Whether the run ends because nothing is left to do.
@@ -156,6 +165,7 @@ class Simulator {
       result.recovery_time =
           std::max(Nanoseconds{}, *discovery_time_ - last_failure(run_.scenario.deployment));
     }
+    if (sent_before_) result.messages_since_last_start = run_.counts.total() - *sent_before_;
     result.counts = run_.counts;
     result.user_control = run_.user_control;
     result.events = events_;
@@ -172,6 +182,11 @@ class Simulator {
   std::unique_ptr<Implementation> implementation_;
   std::uint64_t events_ = 0;
   std::optional<Nanoseconds> discovery_time_;
+  static constexpr Nanoseconds never{std::numeric_limits<std::int64_t>::max()};
+  /// The last start, until it is reached; never without a life.
+  Nanoseconds next_start_ =
+      run_.scenario.deployment.life ? last_start(run_.scenario.deployment) : never;
+  std::optional<std::uint64_t> sent_before_;
 };
 
 }  // namespace
@@ -187,6 +202,10 @@ RunResult simulate(const Scenario& scenario, const RunOptions& options,
 }
 
 RunResult simulate(const Scenario& scenario, const RunOptions& options) {
+  if (is_living_fastdds(scenario)) {
+    return simulate(scenario, options,
+                    maker_of<fastdds::LivingProtocol>(same_host_pairs(scenario.dds)));
+  }
   const auto maker = [&](auto composition) {
     return maker_for(composition, same_host_pairs(scenario.dds));
   };

@@ -5,6 +5,8 @@
 #include <array>
 #include <span>
 
+#include "model/composition_of.hpp"
+#include "model/fastdds/peer_ports.hpp"
 #include "model/implementations.hpp"
 #include "model/scenario.hpp"
 
@@ -27,6 +29,9 @@ constexpr std::array<std::string_view, 7> of_amended_rules{"safety.ack-implies-r
 constexpr std::array<std::string_view, 4> of_the_papers_rules{
     "live.recovery", "live.isolation", "storm.join-cost", "storm.piggyback-rate"};
 
+/// Of these, those that a certificate from the rules proves, amended or not.
+constexpr std::array<std::string_view, 1> certified_of_amended_rules{"live.recovery"};
+
 /// Their bounds and theorems count from instants at which timers are due.
 constexpr std::array<std::string_view, 7> of_punctual_timers{
     "live.completion",   "live.quiescence",      "live.recovery",     "live.isolation",
@@ -43,14 +48,20 @@ bool is_among(std::span<const std::string_view> list, std::string_view property)
   return std::ranges::find(list, property) != list.end();
 }
 
+bool is_of_all(std::string_view property) {
+  return property.starts_with("limit.") || is_among(of_all, property);
+}
+
 /// A run that live.isolation is compared with has to lose the same packets, found one by one.
 constexpr std::size_t most_losses_to_find = 100;
 
 std::string_view why_nothing_to_recover_from(const model::Scenario& scenario) {
   const auto& life = scenario.deployment.life;
   const bool fails = life && !(life->stale.empty() && life->mute.empty() && life->outages.empty() &&
-                               life->restarts.empty());
-  return fails ? "" : "nobody forgets, fails or comes back in this deployment (deployment.life)";
+                               life->restarts.empty() && life->endpoints.empty());
+  return fails ? ""
+               : "nobody forgets, fails, comes back or changes its endpoints in this deployment "
+                 "(deployment.life)";
 }
 
 std::string_view why_nobody_to_isolate(const model::Scenario& scenario) {
@@ -71,6 +82,11 @@ std::string_view why_nobody_to_isolate(const model::Scenario& scenario) {
 
 std::string_view why_not_applicable(std::string_view property, const model::Scenario& scenario) {
   std::string_view why = why_not_applicable(property, model::kind_of(scenario.dds));
+  if (why.empty() && model::is_living_fastdds(scenario) && !is_of_all(property)) {
+    return "it is stated for participants of Fast DDS that nobody forgets; with deployment.life "
+           "only "
+           "machines, network and results are checked";
+  }
   if (why.empty() && property == "live.recovery") why = why_nothing_to_recover_from(scenario);
   if (why.empty() && property == "live.isolation") why = why_nobody_to_isolate(scenario);
   if (!why.empty()) return why;
@@ -104,8 +120,18 @@ std::string_view why_not_provable(std::string_view property, const model::Scenar
     return "the engines that prove it know no hosts that are listed (deployment.hosts)";
   }
   if (is_about_rules) return {};
-  if (!model::traits_of(scenario.dds).is_known_to_engines) {
+  const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
+  const bool is_certified = traits.writer == model::Writer::of_the_paper &&
+                            is_among(certified_of_amended_rules, property);
+  if (!traits.is_known_to_engines && !is_certified) {
     return "the engines that prove it know the rules of the paper and of Fast DDS only";
+  }
+  if (!model::fastdds::announcements_reach_all(scenario)) {
+    return "somebody is at no port that announcements go to (dds.peer_ports), and only runs tell "
+           "whether the others hear of it";
+  }
+  if (model::is_living_fastdds(scenario)) {
+    return "the engines that prove it know nobody who forgets or comes back (deployment.life)";
   }
   if (stalls(scenario)) return "the engines that prove it know no sender that stalls";
   if (scenario.hosts) return "the engines that prove it know no threads that are busy (hosts)";
@@ -117,7 +143,7 @@ std::string_view why_not_provable(std::string_view property, const model::Scenar
 
 std::string_view why_not_applicable(std::string_view property,
                                     model::ImplementationKind implementation) {
-  if (property.starts_with("limit.") || is_among(of_all, property)) return {};
+  if (is_of_all(property)) return {};
   const bool is_paper = model::traits_of(implementation).writer == model::Writer::of_the_paper;
   if (is_paper && is_among(of_amended_rules, property)) return {};
   if (is_among(of_the_papers_rules, property)) {

@@ -23,7 +23,8 @@ struct SendHeartbeat : Procedure {
   static void body(W& w) {
     w.perform(RefillBudget{});
     w.set(LastHeartbeat{}, w(LastHeartbeat{}) + 1);
-    w.emit(Heartbeat{}, says(Says{HeartbeatNumber{}, w(LastHeartbeat{})}));
+    w.emit(Heartbeat{}, says(Says{HeartbeatNumber{}, w(LastHeartbeat{})},
+                             Says{Announces{}, [](auto& d) { return d(Exists{}); }}));
   }
 };
 
@@ -52,13 +53,21 @@ struct Implementation : AnswersEachHeartbeat {
   using Heartbeat = amended::Heartbeat;
   using Waits = amended::Waits;
   using NeedsHeartbeat = SomeReaderWaits;
-  using Exists = paper::Implementation::Exists;
+  using Exists = amended::Exists;
   static constexpr bool multicast_first = paper::Implementation::multicast_first;
 
   // The reader.
+  /// Samples have numbers: those before one that has come exist.
+  template <class W>
+  static void learn_from_data(W& w) {
+    w.set_each(Known{}, [](auto& d) {
+      return d(Known{}) || d.some_from_here([](auto& e) { return e(Carries{}); });
+    });
+  }
   template <class W>
   static void learn_from_heartbeat(W& w) {
     w.set(LastHeard{}, w(HeartbeatNumber{}));
+    w.set_each(Known{}, [](auto& d) { return d(Known{}) || d(Announces{}); });
   }
   /// A HEARTBEAT stands for the reader's own question.
   template <class W>
@@ -68,11 +77,15 @@ struct Implementation : AnswersEachHeartbeat {
   }
   template <class W, class Body>
   static void acknack_due(W& w, Body&& body) {
-    const auto asks = w(Missing{}) > 0;
+    const auto asks = w(Lacks{});
     const auto too_early = asks && w(HasAsked{}) && w(LastNack{}) + w(NackDelay{}) > w(Now{});
     w.when(!too_early, body);
     w.when(asks && !too_early, [&] { w.call(RetryAfterNack{}); });
     w.when(too_early && w(RetriesWheneverMissing{}), [&] { w.call(RetryAfterDelay{}); });
+  }
+  static auto bitmap() {
+    return says(Says{Listed{}, is_lacking}, Says{BelowBase{}, is_confirmed},
+                Says{Covers{}, [](auto& d) { return d(Known{}); }});
   }
   template <class W>
   static void emit_acknack(W& w) {
@@ -184,7 +197,7 @@ struct HeartbeatArrives : Rule<Received<Heartbeat>> {
 struct ReaderRetries : Rule<Due<ReaderRetryDue>> {
   template <class W>
   static void run(W& w) {
-    w.when(w(Missing{}) > 0, [&] {
+    w.when(w(Lacks{}), [&] {
       Implementation::acknack_due(w, [&] {
         const auto reader = ask<discovery_reader::AckNackDue>(w);
         w.when(reader.send_acknack, [&] { Implementation::emit_acknack(w); });
@@ -200,11 +213,29 @@ struct WriterSideOpens : Rule<Happens<WriterOpens>> {
   static void run(W& w) {
     w.when(!w(WriterOpen{}), [&] {
       w.set(WriterOpen{}, typename W::Bool(true));
-      w.when(w(paper::PushesInitialData{}),
-             [&] { w.perform(paper::Generate{}, w.set_of(everyone), typename W::Bool(false)); });
+      w.when(w(paper::PushesInitialData{}), [&] {
+        const auto all = w.set_of([](auto& d) { return d(Exists{}); });
+        w.perform(paper::Generate{}, all, typename W::Bool(false));
+      });
       Implementation::heartbeat(w);
       Clock::arm(w);
     });
+  }
+};
+
+/// A descriptor comes into being, or the sample that disposes of one; readers take them alike.
+struct EndpointChanges : Rule<Happens<Written>> {
+  template <class W>
+  static void run(W& w) {
+    w.set(Exists{}, typename W::Bool(true));
+    w.set(WrittenLater{}, typename W::Bool(true));
+    w.for_readers([](auto& r) {
+      r.when(r(paper::PushesInitialData{}), [&] {
+        const auto it = r.set_of([](auto& d) { return d.is_subject(); });
+        r.perform(paper::Generate{}, it, typename W::Bool(false));
+      });
+    });
+    Clock::arm(w);
   }
 };
 
@@ -251,7 +282,7 @@ struct TakeAckNack : Procedure {
                                               .below_first_missing = d(BelowBase{}),
                                               .prefix_only = d(paper::PrefixOnly{})};
         },
-        [](auto& d) { return !d(Listed{}) || !d(RequestsNothing{}); });
+        [](auto& d) { return d(Covers{}) && (!d(Listed{}) || !d(RequestsNothing{})); });
     w.when(w.any(changes.requested),
            [&] { w.after(paper::NackResponseDelay{}, paper::RepairGeneration{}); });
     w.call(TakeRequestsAgain{});
@@ -331,14 +362,15 @@ struct AnswerAnnouncement : Rule<Happens<AnnouncedAgain>> {
     w.when(w(AcksMissing{}) && has_some, [&] { Implementation::emit_acknack(w); });
     w.when(w(AcksHighest{}) && has_some, [&] {
       const auto above = [](auto& d) {
-        return !d(X{}) && !d.some_from_here([](auto& e) { return e(X{}); });
+        return is_lacking(d) && !d.some_from_here([](auto& e) { return e(X{}); });
       };
       const auto below = [](auto& d) {
         return d(X{}) || d.some_from_here([](auto& e) { return e(X{}); });
       };
       w.emit(AckNack{},
              says(Says{Listed{}, above}, Says{BelowBase{}, below},
-                  Says{IsInitial{}, typename W::Bool(false)}, Says{Answered{}, w(LastHeard{})}));
+                  Says{IsInitial{}, typename W::Bool(false)}, Says{Answered{}, w(LastHeard{})},
+                  Says{Covers{}, [](auto& d) { return d(Known{}); }}));
     });
   }
 };
@@ -395,21 +427,25 @@ struct Amended : Implementation {
   /// What has a place of its own in a host.
   using Memory = TypeList<LastHeartbeat, Required, OldCounts, HasAnswered, LastHeard, LastNack,
                           HasAsked, MatchedAt, CopiesLeft, WasKnown, ForgottenAt, LeaseRuns>;
-  using State =
-      Joined<TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay, WriterOpen,
-                      CycleBegan, CyclePeriod, Contacted, Responded, AnnouncedAtStart, Resent>,
-             Memory>;
+  using State = Joined<TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay,
+                                WriterOpen, CycleBegan, CyclePeriod, Contacted, Responded,
+                                AnnouncedAtStart, Resent, Known, Exists, WrittenLater>,
+                       Memory>;
   using Packets = TypeList<SpdpMulticast, SpdpUnicast, Data, Heartbeat, AckNack>;
-  using Occasions = TypeList<ReaderOpens, WriterOpens, AnnouncedAgain>;
+  using Occasions = TypeList<ReaderOpens, WriterOpens, AnnouncedAgain, Written>;
+  using Reading = TypeList<AnswerAnnouncement, ReaderOpened, InitialAckNackDue, DataArrives,
+                           HeartbeatArrives, SharedReader::AckNackDue, ReaderRetries>;
+  using Writing =
+      Joined<TypeList<WriterSideOpens, AckNackArrives, RepairIsDue, RepairHasLeft, SuppressionEnds>,
+             Clock::Rules>;
+  /// Those of relations and writers whose participants stay.
+  using Exchange = Joined<Reading, Writing>;
   using Rules = Joined<
-      TypeList<SharedAnnouncements::AnnouncementIsDue, MulticastArrives, UnicastArrives, CopyIsDue,
-               AnswerAnnouncement, ReaderOpened, InitialAckNackDue, DataArrives, HeartbeatArrives,
-               SharedReader::AckNackDue, ReaderRetries, LeaseIsChecked, Returns, WriterSideOpens,
-               AckNackArrives, RepairIsDue, RepairHasLeft, SuppressionEnds>,
-      Clock::Rules>;
+      TypeList<SharedAnnouncements::AnnouncementIsDue, MulticastArrives, UnicastArrives, CopyIsDue>,
+      Reading, TypeList<Life::LeaseIsChecked, Life::Returns, EndpointChanges>, Writing>;
   using IsOpen = WriterOpen;
   static constexpr std::array<Unused, 0> unused{};
-  static constexpr std::array from_outside{participant_returns};
+  static constexpr std::array from_outside{participant_returns, endpoint_changes};
 };
 
 }  // namespace stormproof::fsm::composition::amended

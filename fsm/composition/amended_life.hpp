@@ -1,26 +1,13 @@
-// Participants that forget each other, and that come back having lost what they knew: part of the
-// amended composition (fsm/composition/amended.hpp). A side of a relation that was forgotten is a
-// new one: its machines are, it remembers nothing, and what was due for the old one is due no more.
+// What the amended rules (fsm/composition/amended.hpp) lose of a side of a relation that is
+// forgotten, and of a participant that comes back; the rest is in fsm/composition/life.hpp. And
+// endpoints that are created and deleted in a run.
 // Source: specs/guide/museum.md, "Participants that come and go".
 #pragma once
 
 #include "fsm/composition/amended_parts.hpp"
+#include "fsm/composition/life.hpp"
 
 namespace stormproof::fsm::composition::amended {
-
-/// Anything of the pair's source has reached its destination.
-struct HearFrom : Procedure {
-  template <class W>
-  static void body(W& w) {
-    w.when(w(Recognised{}) && w(LeaseDuration{}) > 0, [&] {
-      w.set(ForgottenAt{}, w(Now{}) + w(LeaseDuration{}));
-      w.when(!w(LeaseRuns{}), [&] {
-        w.set(LeaseRuns{}, typename W::Bool(true));
-        w.at(w(ForgottenAt{}), LeaseCheck{});
-      });
-    });
-  }
-};
 
 /// The reader side of a relation is a new one.
 struct ForgetWriter : Procedure {
@@ -29,6 +16,7 @@ struct ForgetWriter : Procedure {
     w.renew(Reader{});
     w.renew(InitialTimer{});
     w.set_each(X{}, [](auto& d) { return !everyone(d); });
+    w.set_each(Known{}, [](auto& d) { return d(Exists{}) && !d(WrittenLater{}); });
     w.set(HeartbeatSeen{}, typename W::Bool(false));
     w.set(LastHeard{}, typename W::Int(0));
     w.set(HasAsked{}, typename W::Bool(false));
@@ -55,29 +43,18 @@ struct ForgetReader : Procedure {
   }
 };
 
-/// The pair's destination forgets its source, as reader and as writer.
-struct Forget : Procedure {
+struct LoseAll;
+/// What it forgets.
+struct Forgetting {
+  using ForgetWriter = amended::ForgetWriter;
+  using ForgetReader = amended::ForgetReader;
+  using LoseAll = amended::LoseAll;
   template <class W>
-  static void body(W& w) {
-    w.set(Recognised{}, typename W::Bool(false));
-    w.set(LeaseRuns{}, typename W::Bool(false));
-    w.cancel(LeaseCheck{});
-    w.for_streams([](auto& r) { r.call(ForgetWriter{}); });
-    w.reverse([](auto& back) {
-      back.cancel(CopyDue{});
-      back.for_streams([](auto& r) { r.call(ForgetReader{}); });
-    });
+  static void forget_peer(W& w) {
+    w.cancel(CopyDue{});
   }
 };
-
-struct LeaseIsChecked : Rule<Due<LeaseCheck>> {
-  template <class W>
-  static void run(W& w) {
-    const auto heard = w(ForgottenAt{}) > w(Now{});
-    w.when(heard, [&] { w.at(w(ForgottenAt{}), LeaseCheck{}); });
-    w.when(!heard, [&] { w.call(Forget{}); });
-  }
-};
+using Life = LifeRules<Forgetting>;
 
 /// The participant is a new one in all that it has; others remember it as they did, and take some
 /// of its ACKNACKs for those of its earlier life.
@@ -88,7 +65,7 @@ struct LoseAll : Opaque {
     w.set(AnnouncementsSent{}, typename W::Int(0));
     w.cancel(Announcement{});
     w.for_known_peers([](auto& peer) {
-      peer.reverse([](auto& back) { back.call(Forget{}); });
+      peer.reverse([](auto& back) { back.call(Life::Forget{}); });
       peer.for_streams([](auto& r) {
         r.renew(HeartbeatClock{});
         r.cancel(HeartbeatExpiry{});
@@ -103,17 +80,11 @@ struct LoseAll : Opaque {
     });
   }
 };
-struct Returns : Rule<Due<Return>> {
-  template <class W>
-  static void run(W& w) {
-    w.perform(LoseAll{});
-    w.at(w(Now{}), Announcement{});
-  }
-};
 
-inline constexpr FromOutside participant_returns{"Return",
-                                                 "a participant is there again when the deployment "
-                                                 "says so; its first announcement 0 is due when "
-                                                 "it starts"};
+/// The application creates or deletes an endpoint.
+struct Written : Occasion<owner::entry> {};
+
+inline constexpr FromOutside endpoint_changes{"Written",
+                                              "the application creates and deletes endpoints"};
 
 }  // namespace stormproof::fsm::composition::amended

@@ -16,10 +16,6 @@ struct C : Part<ReopeningRepair, owner::descriptor> {};
 struct ReaderRetryDue : Timer<owner::relation> {};
 /// Another copy of an announcement to a participant that was recognised.
 struct CopyDue : Timer<owner::pair> {};
-/// Whether the pair's destination has heard of its source within the lease.
-struct LeaseCheck : Timer<owner::pair> {};
-/// The participant is there again.
-struct Return : Timer<owner::participant> {};
 
 // Of initial ACKNACKs.
 struct InitialResets : Switch {};
@@ -52,12 +48,18 @@ struct RetriesWheneverMissing : Switch {};
 struct RetryPeriod : Delay {};
 struct NackDelay : Delay {};
 // Of participants that come and go.
-struct LeaseDuration : Amount {};  ///< of the source of the pair; 0: it is never forgotten
 /// How many ACKNACKs of a reader that came back count as those of its earlier life.
 struct CountFilter : Delay {};
 // Of announcements.
 struct ResendCopies : Delay {};  ///< how many, the first one included
 struct ResendCopyPeriod : Delay {};
+
+/// The writer has written the sample: those that its participant starts with, and one for each
+/// endpoint that was created or deleted since.
+struct Exists : Flag<owner::entry> {
+  static constexpr bool from_the_start = true;
+};
+struct WrittenLater : Flag<owner::entry> {};  ///< of those that exist: not one of the start
 
 // What a writer remembers of a reader.
 struct LastHeartbeat : Number<owner::relation> {};  ///< H, how many HEARTBEATs it has sent
@@ -67,27 +69,41 @@ struct OldCounts : Number<owner::relation> {};
 struct HasAnswered : Flag<owner::relation> {};  ///< an ordinary ACKNACK has come
 struct Resent : Flag<owner::descriptor> {};     ///< acknowledged, and part of the next repair
 // What a reader remembers.
+/// It knows that the descriptor exists: those of the start from its announcement.
+struct Known : Flag<owner::descriptor> {
+  static constexpr bool from_the_start = true;
+};
 struct LastHeard : Number<owner::relation> {};  ///< the HEARTBEAT that it heard last
 struct LastNack : Number<owner::relation> {};   ///< when it asked last, ns
 struct HasAsked : Flag<owner::relation> {};
 struct MatchedAt : Number<owner::relation> {};  ///< when the match counts as created, ns
 struct CopiesLeft : Number<owner::pair> {};
-struct ForgottenAt : Number<owner::pair> {};  ///< when the lease ends, unless it is renewed
-struct LeaseRuns : Flag<owner::pair> {};
 
 struct HeartbeatNumber : PacketNumber {};
 struct Answered : PacketNumber {};  ///< the HEARTBEAT that the ACKNACK answers
 
-struct Heartbeat : Packet<owner::relation, HeartbeatNumber> {};
-struct AckNack : Packet<owner::relation, Listed, BelowBase, IsInitial, Answered> {};
+/// The ACKNACK is about the descriptor: its reader knew it.
+struct Covers : DescriptorField {};
+
+struct Heartbeat : Packet<owner::relation, HeartbeatNumber, Announces> {};
+struct AckNack : Packet<owner::relation, Listed, BelowBase, IsInitial, Answered, Covers> {};
+
+/// What a reader knows and lacks, which is what it can ask for.
+inline constexpr auto is_lacking = [](auto& d) { return d(Known{}) && !d(X{}); };
+struct Lacks : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return w.some(is_lacking);
+  }
+};
 
 /// The reader has something to acknowledge that keeps the periodic HEARTBEAT going.
 struct Waits : Fact {
   template <class W>
   static auto of(W& w) {
     return w(paper::WriterOpen{}) && w.some([](auto& d) {
-      return d.in(C{}, is<descriptor_repair::U>) ||
-             (!d(OnlyInUWaits{}) && !d.in(C{}, is<descriptor_repair::A>));
+      return d(Exists{}) && (d.in(C{}, is<descriptor_repair::U>) ||
+                             (!d(OnlyInUWaits{}) && !d.in(C{}, is<descriptor_repair::A>)));
     });
   }
 };
@@ -101,7 +117,7 @@ struct SomeReaderWaits : Fact {
 struct AsksNoMore : Fact {
   template <class W>
   static auto of(W& w) {
-    return w(HeartbeatSeen{}) && (!w(StopsWhenComplete{}) || !(w(Missing{}) > 0));
+    return w(HeartbeatSeen{}) && (!w(StopsWhenComplete{}) || !w(Lacks{}));
   }
 };
 /// The ACKNACK that arrives answers a HEARTBEAT before the required one: it requests nothing.

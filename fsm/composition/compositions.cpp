@@ -6,6 +6,7 @@
 #include "fsm/composition/amended.hpp"
 #include "fsm/composition/cyclone.hpp"
 #include "fsm/composition/fastdds.hpp"
+#include "fsm/composition/fastdds_life.hpp"
 #include "fsm/composition/paper.hpp"
 #include "fsm/composition/recorder.hpp"
 #include "fsm/composition/server.hpp"
@@ -24,8 +25,9 @@ std::string_view label(Owner owner) {
 
 const std::vector<CompositionInfo>& compositions() {
   static const std::vector<CompositionInfo> all{
-      recorded<paper::Paper>(), recorded<fastdds::FastDds>(), recorded<cyclone::Cyclone>(),
-      recorded<server::FastDdsServer>(), recorded<amended::Amended>()};
+      recorded<paper::Paper>(),     recorded<fastdds::FastDds>(),
+      recorded<cyclone::Cyclone>(), recorded<server::FastDdsServer>(),
+      recorded<amended::Amended>(), recorded<fastdds::FastDdsLiving>()};
   return all;
 }
 

@@ -82,6 +82,10 @@ class DescriptorLanes {
                                           fsm::Reflect<typename P::Machine>::template id<S>)};
   }
   [[nodiscard]] Lanes is_in(const DescriptorSet& set) const { return Lanes{set.word(k_)}; }
+  [[nodiscard]] Lanes is_subject() const {
+    const std::uint32_t d = world_.descriptor();
+    return Lanes{d / 64 == k_ ? std::uint64_t{1} << d % 64 : 0};
+  }
   /// The term holds for the descriptor and for every lower one.
   template <class Term>
   Lanes all_up_to(Term&& term) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "model/implementations.hpp"
+#include "model/life.hpp"
 
 namespace stormproof::model {
 
@@ -36,8 +37,13 @@ Topology::Topology(const Deployment& deployment, const DescriptorProfile& descri
       start_.push_back({});
       continue;
     }
-    descriptor_count_.push_back(descriptors.default_publications + participants[i].publications);
-    descriptor_count_.push_back(descriptors.default_subscriptions + participants[i].subscriptions);
+    const auto late = [&](Stream s) {
+      return deployment.life ? late_descriptors(*deployment.life, i, s) : 0;
+    };
+    descriptor_count_.push_back(descriptors.default_publications + participants[i].publications +
+                                late(Stream::pub));
+    descriptor_count_.push_back(descriptors.default_subscriptions + participants[i].subscriptions +
+                                late(Stream::sub));
     start_.push_back(participants[i].start);
   }
   first_pair_[participant_count_] = pair_count();

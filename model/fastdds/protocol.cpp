@@ -3,8 +3,8 @@
 #include "model/fastdds/protocol.hpp"
 
 #include <algorithm>
-#include <map>
 
+#include "model/fastdds/peer_ports.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::model::fastdds {
@@ -12,11 +12,11 @@ namespace stormproof::model::fastdds {
 Protocol::Protocol(RunState& run, Network& network)
     : DiscoveryBase{run, network},
       changes_{run},
-      inline_qos_bytes_{traits_of(run.scenario.dds).has_server ? inline_qos_bytes : 0},
       control_{run},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
+      inline_qos_bytes_{traits_of(run.scenario.dds).has_server ? inline_qos_bytes : 0},
       known_(run.topology.pair_count(), false),
       generated_{counts_at_admission(run) ? of_no_interest_ : run.counts} {
   for (std::uint32_t w = 0; w < writers_.size(); ++w) {
@@ -81,32 +81,37 @@ void Protocol::count(const Packet& packet) {
 
 void Protocol::start() {
   for (std::uint32_t i = 0; i < run_.scenario.deployment.size(); ++i) {
-    const model::Participant& participant = run_.scenario.deployment.participants[i];
-    const std::int64_t start = participant.start.count();
-    const std::int64_t span = participant.endpoints_done.count() - start;
-    const std::int64_t endpoints = run_.topology.descriptor_count(i, Stream::pub) +
-                                   run_.topology.descriptor_count(i, Stream::sub);
     begin_announcing(i);
-    for (std::int64_t k = 0; k < endpoints; ++k) {
-      run_.schedule(Nanoseconds{start + span * (k + 1) / endpoints}, EventKind::endpoint_creation,
-                    i, static_cast<std::uint32_t>(k));
-    }
+    schedule_creations(i, run_.scenario.deployment.participants[i].start);
+  }
+}
+
+void Protocol::schedule_creations(std::uint32_t i, Nanoseconds start) {
+  const model::Participant& participant = run_.scenario.deployment.participants[i];
+  const std::int64_t span = (participant.endpoints_done - participant.start).count();
+  const std::int64_t endpoints = run_.topology.descriptor_count(i, Stream::pub) +
+                                 run_.topology.descriptor_count(i, Stream::sub);
+  for (std::int64_t k = 0; k < endpoints; ++k) {
+    run_.schedule(start + Nanoseconds{span * (k + 1) / endpoints}, EventKind::endpoint_creation, i,
+                  static_cast<std::uint32_t>(k));
   }
 }
 
 void Protocol::handle(const Event& event) {
-  if (event.kind != EventKind::endpoint_creation) {
+  if (event.kind == EventKind::endpoint_creation) {
+    create(*this, event);
+  } else {
     run_due(*this, event);
-    return;
   }
+}
+
+Endpoint Protocol::created_by(const Event& event) {
   const std::uint32_t user_publications =
       run_.topology.descriptor_count(event.subject, Stream::pub) - default_publications;
   // A creation that was held can meet the next one; the application creates them in their order.
   const std::uint32_t k =
       network_.sender_stalls() ? participants_[event.subject].endpoints++ : event.detail;
-  const auto [stream, d] = creation_order(k, user_publications);
-  run_rule<comp::Happens<rules::Created>>(
-      *this, 2 * event.subject + static_cast<std::uint32_t>(index_of(stream)), nullptr, d);
+  return creation_order(k, user_publications);
 }
 
 std::vector<std::uint32_t> Protocol::receivers(const Packet& packet) const {
@@ -126,35 +131,7 @@ std::vector<std::uint32_t> Protocol::receivers(const Packet& packet) const {
 }
 
 void Protocol::received(const Packet& packet, std::uint32_t receiver) {
-  if (run_.now < run_.topology.start(receiver)) return;
-  const std::uint32_t relation = packet.relation();
-  switch (packet.kind) {
-    case PacketKind::spdp_multicast:
-      run_rule<comp::Received<comp::SpdpMulticast>>(
-          *this, run_.topology.pair_between(packet.pair, receiver));
-      break;
-    case PacketKind::spdp_unicast:
-      run_rule<comp::Received<comp::SpdpUnicast>>(*this, packet.pair);
-      break;
-    case PacketKind::data:
-      count_copies(changes_, packet);
-      run_rule<comp::Received<rules::Data>>(*this, relation, &packet);
-      break;
-    case PacketKind::heartbeat:
-      run_rule<comp::Received<rules::Heartbeat>>(*this, relation, &packet);
-      break;
-    case PacketKind::acknack:
-      run_rule<comp::Received<rules::AckNack>>(*this, relation, &packet);
-      break;
-    case PacketKind::user_heartbeat:
-      run_rule<comp::Received<control::UserHeartbeat>>(*this, packet.detail, &packet);
-      break;
-    case PacketKind::user_acknack:
-      run_rule<comp::Received<control::UserAckNack>>(*this, packet.detail, &packet);
-      break;
-    default:
-      break;  // sent by others only
-  }
+  take_in(*this, packet, receiver);
 }
 
 std::vector<std::uint32_t> Protocol::open_relations(std::uint32_t w) const {
@@ -183,14 +160,12 @@ void Protocol::send_spdp_to_known(std::uint32_t i) {
 /// With static peers there is no group: a copy goes to each of the first ports of every host,
 /// whether somebody is there or not. On one's own host nobody hears of the latter.
 void Protocol::send_spdp_to_ports(std::uint32_t i) {
-  const std::vector<model::Participant>& participants = run_.scenario.deployment.participants;
-  std::map<HostId, std::vector<std::uint32_t>> hosts;
-  for (std::uint32_t j = 0; j < participants.size(); ++j) hosts[participants[j].host].push_back(j);
-  for (const auto& [host, there] : hosts) {
+  const HostId own = run_.scenario.deployment.participants[i].host;
+  for (const auto& [host, there] : participants_at_ports(run_.scenario.deployment)) {
     for (std::uint32_t port = 0; port < run_.scenario.dds.peer_ports; ++port) {
       if (port < there.size()) {
         if (there[port] != i) send_spdp_copy(run_.topology.pair_between(i, there[port]));
-      } else if (host != participants[i].host) {
+      } else if (host != own) {
         ++generated_.spdp_unicast;
         const std::uint32_t somebody_there = run_.topology.pair_between(i, there.front());
         Packet packet = packet_of(PacketKind::spdp_unicast, somebody_there, spdp_bytes);

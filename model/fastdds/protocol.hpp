@@ -91,8 +91,9 @@ class Protocol : public DiscoveryBase {
     return relations_[relation].matched;
   }
   void assign(rules::WriterOpen, std::uint32_t relation, bool matched) {
-    if (std::exchange(relations_[relation].matched, matched)) return;
-    writers_[writer_of(relation)].readers.push_back(relation);
+    if (std::exchange(relations_[relation].matched, matched) == matched) return;
+    std::vector<std::uint32_t>& readers = writers_[writer_of(relation)].readers;
+    matched ? readers.push_back(relation) : static_cast<void>(std::erase(readers, relation));
   }
   [[nodiscard]] bool value(rules::SomeConfirmed, std::uint32_t relation) const {
     return relations_[relation].some_confirmed;
@@ -117,8 +118,12 @@ class Protocol : public DiscoveryBase {
     return bits_below(relations_[relation].known, k);
   }
   void assign_word(rules::Known, std::uint32_t relation, std::uint32_t k, std::uint64_t known) {
-    if (known == 0) return;
-    relations_[relation].known = 64 * k + 64 - static_cast<std::uint32_t>(std::countl_zero(known));
+    std::uint32_t& end = relations_[relation].known;
+    if (known != 0) {
+      end = 64 * k + 64 - static_cast<std::uint32_t>(std::countl_zero(known));
+    } else if (k == 0) {
+      end = 0;
+    }
   }
   [[nodiscard]] std::uint64_t word(rules::Notified, std::uint32_t relation, std::uint32_t k) const {
     return bits_below(relations_[relation].notified, k);
@@ -246,8 +251,9 @@ class Protocol : public DiscoveryBase {
     flush(async_message_, SendMode::async);
   }
   /// After a recognition, a notification or a creation, as the world's place says.
-  template <Owner place>
-  void perform(control::OpenTopics, RunningWorld<Protocol, place>& w) {
+  template <class World>
+  void perform(control::OpenTopics, World& w) {
+    constexpr Owner place = World::place;
     const std::uint32_t d = w.descriptor();
     if constexpr (place == comp::owner::pair) {
       open_liveliness(w.template number<comp::owner::pair>());
@@ -283,9 +289,19 @@ class Protocol : public DiscoveryBase {
   void open_liveliness(std::uint32_t pair);
   void open_notified(std::uint32_t pair, Stream s, std::uint32_t d);
 
+  void refill(std::uint32_t writer) override;
+  /// Participant i creates its endpoints one after the other from `start` on.
+  void schedule_creations(std::uint32_t i, Nanoseconds start);
+  /// The endpoint of a creation.
+  [[nodiscard]] Endpoint created_by(const Event& event);
+  /// Creations and receptions by the rules of the host, which is this.
+  template <class Host>
+  static void create(Host& host, const Event& event);
+  template <class Host>
+  static void take_in(Host& host, const Packet& packet, std::uint32_t receiver);
+
   RelationBits<fsm::ChangeForReader> changes_;
 
- private:
   struct Relation {
     // Writer side.
     bool matched = false;
@@ -310,7 +326,12 @@ class Protocol : public DiscoveryBase {
     Message unfinished;           ///< that of an async run which stalls, if it is open
     std::uint32_t endpoints = 0;  ///< created so far, of a participant that may stall
   };
+  ControlRelations control_;
+  std::vector<Participant> participants_;
+  std::vector<Writer> writers_;  // 2 · participant + stream
+  std::vector<Relation> relations_;
 
+ private:
   // protocol.cpp
   [[nodiscard]] std::vector<std::uint32_t> open_relations(std::uint32_t writer) const override;
   void enqueue(std::uint32_t writer, const DescriptorSet& requested);
@@ -334,7 +355,6 @@ class Protocol : public DiscoveryBase {
 
   // sender.cpp
   enum class SendMode : std::uint8_t { sync, async };
-  void refill(std::uint32_t writer) override;
   void pack(Message& message, std::uint32_t writer, std::uint32_t d,
             const std::vector<std::uint32_t>& readers, SendMode mode);
   void charge(Message& message, std::uint32_t d, SendMode mode);
@@ -354,10 +374,6 @@ class Protocol : public DiscoveryBase {
   [[nodiscard]] bool crosses(std::uint32_t relation) const { return ends(relation).cross_host; }
 
   const std::int64_t inline_qos_bytes_;
-  ControlRelations control_;
-  std::vector<Participant> participants_;
-  std::vector<Writer> writers_;  // 2 · participant + stream
-  std::vector<Relation> relations_;
   std::vector<bool> known_;  // by pair (i, j): i has recognised j
   Message sync_message_;
   Message async_message_;
@@ -370,5 +386,46 @@ class Protocol : public DiscoveryBase {
   SingleShots writer_shots_{run_, MachineRef::Kind::writer};
   SingleShots relation_shots_{run_, MachineRef::Kind::relation};
 };
+
+template <class Host>
+void Protocol::create(Host& host, const Event& event) {
+  const auto [stream, d] = host.created_by(event);
+  run_rule<comp::Happens<rules::Created>>(
+      host, 2 * event.subject + static_cast<std::uint32_t>(index_of(stream)), nullptr, d);
+}
+
+template <class Host>
+void Protocol::take_in(Host& host, const Packet& packet, std::uint32_t receiver) {
+  const Topology& topology = host.topology();
+  if (host.run_.now < topology.start(receiver)) return;
+  const std::uint32_t relation = packet.relation();
+  switch (packet.kind) {
+    case PacketKind::spdp_multicast:
+      run_rule<comp::Received<comp::SpdpMulticast>>(host,
+                                                    topology.pair_between(packet.pair, receiver));
+      break;
+    case PacketKind::spdp_unicast:
+      run_rule<comp::Received<comp::SpdpUnicast>>(host, packet.pair);
+      break;
+    case PacketKind::data:
+      host.count_copies(host.changes_, packet);
+      run_rule<comp::Received<rules::Data>>(host, relation, &packet);
+      break;
+    case PacketKind::heartbeat:
+      run_rule<comp::Received<rules::Heartbeat>>(host, relation, &packet);
+      break;
+    case PacketKind::acknack:
+      run_rule<comp::Received<rules::AckNack>>(host, relation, &packet);
+      break;
+    case PacketKind::user_heartbeat:
+      run_rule<comp::Received<control::UserHeartbeat>>(host, packet.detail, &packet);
+      break;
+    case PacketKind::user_acknack:
+      run_rule<comp::Received<control::UserAckNack>>(host, packet.detail, &packet);
+      break;
+    default:
+      break;  // sent by others only
+  }
+}
 
 }  // namespace stormproof::model::fastdds

@@ -7,32 +7,21 @@ namespace stormproof::model::paper {
 
 namespace reader = fsm::discovery_reader;
 
-namespace {
-/// What observers are told of a machine that is a new one.
-constexpr std::string_view renewed = "Renewed";
-}  // namespace
-
 AmendedProtocol::AmendedProtocol(RunState& run, Network& network)
-    : ProtocolOf{run, network},
+    : LivingHost{run, network},
       amendments_{run.scenario.dds.amendments.value()},
-      life_{run.scenario.deployment.life.value_or(Life{})},
       resent_(run.topology.relation_count()),
       retries_(run.topology.relation_count()),
       accounts_(run.topology.participant_count()),
       answered_(2 * std::size_t{run.topology.participant_count()}) {
-  const std::uint32_t owners =
-      std::max(run.topology.relation_count(), 2 * run.topology.participant_count());
-  const auto resize = [&](auto&... each) { (each.of.resize(owners), ...); };
-  std::apply(resize, memory_);
-  std::apply(resize, cancelled_);
   forgets_ = forgets(life_);
-  for (std::uint32_t i = 0; i < run.topology.participant_count(); ++i) {
-    leases_.push_back(lease_of(life_, i).value_or(Nanoseconds{}).count());
+  for (std::uint32_t w = 0; w < writers_.size(); ++w) {
+    const std::uint32_t all = run.topology.descriptor_count(w / 2, stream_of(w));
+    const std::uint32_t at_start = all - late_descriptors(life_, w / 2, stream_of(w));
+    written_.push_back({at_start, at_start});
   }
   for (std::uint32_t relation = 0; relation < run.topology.relation_count(); ++relation) {
-    if (ends(relation).cross_host && !is_required(relation)) {
-      run_.missing -= run.topology.descriptor_count(relation);
-    }
+    known_.push_back(written_[writer_of(relation)].at_start);
   }
 }
 
@@ -41,9 +30,13 @@ void AmendedProtocol::start() {
     open_before(stale.writer, stale.reader);
   }
   ProtocolOf::start();
-  for (const Restart& restart : life_.restarts) {
-    if (restart.identity == Identity::fresh) continue;
-    run_.schedule(restart.start, EventKind::participant_start, restart.participant);
+  schedule_returns();
+  for (std::uint32_t k = 0; k < life_.endpoints.size(); ++k) {
+    const LateEndpoints& late = life_.endpoints[k];
+    run_.schedule(late.at, EventKind::endpoint_creation, late.participant, k);
+    if (late.until) {
+      run_.schedule(*late.until, EventKind::endpoint_creation, late.participant, k);
+    }
   }
 }
 
@@ -51,43 +44,41 @@ void AmendedProtocol::open_before(std::uint32_t i, std::uint32_t j) {
   const std::uint32_t there = topology().pair_between(i, j);
   const std::uint32_t back = topology().pair(there).reverse;
   assign(comp::Recognised{}, back, true);
-  RunningWorld<AmendedProtocol, comp::owner::pair>{*this, back}.call(amended::HearFrom{});
+  RunningWorld<AmendedProtocol, comp::owner::pair>{*this, back}.call(comp::HearFrom{});
   for (std::uint32_t s = 0; s < 2; ++s) {
     // The writer side of (i, j, s).
     const std::uint32_t outward = 2 * there + s;
     RunningWorld<AmendedProtocol, comp::owner::relation> w{*this, outward};
-    w.feed_each(amended::C{}, comp::on<fsm::descriptor_repair::AckNackReceived>, [](auto&) {
-      return fsm::DescriptorRepairIo::Input<LaneDomain>{
-          .listed = Lanes{false}, .below_first_missing = Lanes{true}, .prefix_only = Lanes{false}};
-    });
+    const auto exists = [](auto& d) { return d(amended::Exists{}); };
+    w.feed_each(
+        amended::C{}, comp::on<fsm::descriptor_repair::AckNackReceived>,
+        [](auto&) {
+          return fsm::DescriptorRepairIo::Input<LaneDomain>{.listed = Lanes{false},
+                                                            .below_first_missing = Lanes{true},
+                                                            .prefix_only = Lanes{false}};
+        },
+        exists);
     assign(comp::paper::WriterOpen{}, outward, true);
     assign(amended::OldCounts{}, outward, amendments_.count_filter);
     // The reader side of (j, i, s).
     const std::uint32_t inward = 2 * back + s;
     RunningWorld<AmendedProtocol, comp::owner::relation> r{*this, inward};
-    assign_each(comp::X{}, inward, r.set_of(comp::everyone));
-    readers_[inward].state = fsm::Reflect<fsm::DiscoveryReader>::id<reader::Complete>;
+    assign_each(comp::X{}, inward, r.set_of(exists));
+    using States = fsm::Reflect<fsm::DiscoveryReader>;
+    readers_[inward].state = readers_[inward].missing == 0 ? States::id<reader::Complete>
+                                                           : States::id<reader::Recognised>;
     readers_[inward].heartbeat_seen = true;
   }
 }
 
-void AmendedProtocol::renew(comp::HeartbeatClock, std::uint32_t w) {
-  const auto tokens = clocks_[w].tokens;
-  clocks_[w] = {};
-  clocks_[w].tokens = tokens;
-}
-
-void AmendedProtocol::renew(comp::Reader, std::uint32_t relation) {
-  using States = fsm::Reflect<fsm::DiscoveryReader>;
-  const fsm::StateId before = readers_[relation].state;
-  const fsm::StateId after = topology().descriptor_count(relation) > 0
-                                 ? States::id<reader::Unknown>
-                                 : States::id<reader::EarlyComplete>;
-  readers_[relation].state = after;
-  if (run_.probe == nullptr) return;
-  run_.probe->transition(
-      {fsm::name_of<fsm::DiscoveryReader>(), MachineRef::Kind::relation, relation}, renewed,
-      States::state_names[before], States::state_names[after], 0, 0);
+void AmendedProtocol::write(const LateEndpoints& endpoints) {
+  for (const Stream s : streams) {
+    const std::uint32_t w = 2 * endpoints.participant + static_cast<std::uint32_t>(s);
+    const std::uint32_t count = s == Stream::pub ? endpoints.publications : endpoints.subscriptions;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      run_rule<comp::Happens<amended::Written>>(*this, w, nullptr, written_[w].now);
+    }
+  }
 }
 
 void AmendedProtocol::renew(amended::C, std::uint32_t relation) {
@@ -103,7 +94,7 @@ void AmendedProtocol::lose_all(std::uint32_t i) {
   for (std::uint32_t there = topology().first_pair(i); there < topology().first_pair(i + 1);
        ++there) {
     const std::uint32_t back = topology().pair(there).reverse;
-    RunningWorld<AmendedProtocol, comp::owner::pair>{*this, back}.call(amended::Forget{});
+    RunningWorld<AmendedProtocol, comp::owner::pair>{*this, back}.call(amended::Life::Forget{});
     for (const std::uint32_t relation : {2 * back, 2 * back + 1}) {
       if (value(comp::paper::WriterOpen{}, relation)) {
         assign(amended::OldCounts{}, relation, amendments_.count_filter);
@@ -121,28 +112,12 @@ void AmendedProtocol::lose_all(std::uint32_t i) {
   }
 }
 
-std::vector<MissingDescriptor> AmendedProtocol::missing(std::size_t limit) {
-  std::vector<MissingDescriptor> list = descriptors_.list_missing(SIZE_MAX);
-  std::erase_if(list, [&](const MissingDescriptor& missing) {
-    return is_replaced(life_, missing.source.value) ||
-           is_replaced(life_, missing.destination.value);
-  });
-  list.resize(std::min(list.size(), limit));
-  return list;
-}
-
-bool AmendedProtocol::hears(std::uint32_t i, std::uint32_t j, Nanoseconds emitted) const {
-  if (!has_started(j) || is_away(life_, i, emitted) || is_away(life_, j, run_.now)) return false;
-  return std::ranges::none_of(life_.outages, [&](const Outage& outage) {
-    return outage.from == i && outage.to == j && run_.now >= outage.start && run_.now < outage.end;
-  });
-}
-
 /// Readers act in their relations at the destination, writers at the source.
 std::uint32_t AmendedProtocol::actor_of(const Event& event) const {
   switch (event.kind) {
     case EventKind::announcement_due:
     case EventKind::participant_start:
+    case EventKind::endpoint_creation:
       return event.subject;
     case EventKind::acknack_generation:
     case EventKind::initial_acknack_due:
@@ -160,12 +135,15 @@ std::uint32_t AmendedProtocol::actor_of(const Event& event) const {
 }
 
 void AmendedProtocol::handle(const Event& event) {
-  if (!is_away(life_, actor_of(event), run_.now)) run_due(*this, event);
+  if (is_away(life_, actor_of(event), run_.now)) return;
+  if (event.kind == EventKind::endpoint_creation) return write(life_.endpoints[event.detail]);
+  run_due(*this, event);
 }
 
 void AmendedProtocol::received(const Packet& packet, std::uint32_t) {
-  take_in(*this, packet,
-          [&](std::uint32_t i, std::uint32_t j) { return hears(i, j, packet.emitted); });
+  take_in(*this, packet, [&](std::uint32_t i, std::uint32_t j) {
+    return has_started(j) && hears(life_, i, j, packet.emitted, run_.now);
+  });
 }
 
 void AmendedProtocol::source_completed(const Packet& packet) {

@@ -95,6 +95,7 @@ void ProtocolBase::send_heartbeat(std::uint32_t relation, std::uint32_t number) 
   ++run_.counts.heartbeat;
   Packet packet = packet_on(PacketKind::heartbeat, relation, sedp_.heartbeat_bytes.count());
   packet.initial_data = number;
+  packet.detail = writers_[writer_of(relation)].announced;
   network_.emit(ends(relation).source, std::move(packet));
 }
 
@@ -116,6 +117,7 @@ void ProtocolBase::send_heartbeat_to_open(std::uint32_t w) {
   refill(w);
   Packet packet = packet_on(PacketKind::heartbeat, 2 * writer.first_open_pair + w % 2,
                             sedp_.heartbeat_bytes.count());
+  packet.detail = writer.announced;
   packet.copies = writer.open;
   packet.rank_limit = writer.open;
   network_.emit(w / 2, std::move(packet));

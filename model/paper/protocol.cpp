@@ -121,16 +121,17 @@ std::vector<std::uint32_t> ProtocolBase::waiting(std::uint32_t w) const {
   return relations;
 }
 
-/// The bitmap takes four bytes for every 32 descriptors of the stream.
+/// The bitmap takes four bytes for every 32 descriptors that the reader knows.
 void ProtocolBase::send_acknack(std::uint32_t relation, DescriptorSet&& bitmap, bool initial,
-                                std::uint32_t answered) {
+                                std::uint32_t known, std::uint32_t answered) {
   ++run_.counts.acknack;
   Packet packet = packet_on(PacketKind::acknack, relation, sedp_.acknack_bytes.count());
   packet.descriptors = std::move(bitmap);
   packet.initial_acknack = initial;
   packet.initial_data = answered;
+  packet.repair_data = known;
   if (!initial && !packet.descriptors.empty()) {
-    packet.payload_bytes += 4 * ((run_.topology.descriptor_count(relation) + 31) / 32);
+    packet.payload_bytes += 4 * ((known + 31) / 32);
   }
   network_.emit(ends(relation).destination, std::move(packet));
 }

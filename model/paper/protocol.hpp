@@ -76,6 +76,7 @@ class ProtocolBase : public DiscoveryBase {
     std::uint32_t open = 0;            ///< open relations
     std::uint32_t unacknowledged = 0;  ///< open relations with a descriptor not in A
     std::uint32_t first_open_pair = UINT32_MAX;
+    std::uint32_t announced = 0;  ///< by its HEARTBEATs, if it has written something in the run
     std::vector<std::uint64_t> waiting_readers;  ///< bit per peer: open and something not in A
   };
 
@@ -99,8 +100,9 @@ class ProtocolBase : public DiscoveryBase {
   [[nodiscard]] std::vector<std::uint32_t> open_relations(std::uint32_t writer) const override;
   [[nodiscard]] std::vector<std::uint32_t> waiting(std::uint32_t writer) const;
   [[nodiscard]] bool has_started(std::uint32_t participant) const;
+  /// `known`: of how many descriptors the reader knows.
   void send_acknack(std::uint32_t relation, DescriptorSet&& bitmap, bool initial,
-                    std::uint32_t answered = 0);
+                    std::uint32_t known, std::uint32_t answered = 0);
 
   // announcements.cpp
   void send_spdp_to_known(std::uint32_t i) override;
@@ -241,8 +243,9 @@ class Protocol final : public ProtocolOf<rules::C> {
   }
   template <class World, class Sayings>
   void emit(rules::AckNack, World& w, const Sayings& sayings) {
-    send_acknack(w.template number<comp::owner::relation>(),
-                 w.set_of(said_of<comp::Listed>(sayings)), said_of<comp::IsInitial>(sayings));
+    const auto relation = w.template number<comp::owner::relation>();
+    send_acknack(relation, w.set_of(said_of<comp::Listed>(sayings)),
+                 said_of<comp::IsInitial>(sayings), topology().descriptor_count(relation));
   }
   template <class World>
   void perform(rules::HeartbeatToRecipients, World& w) {

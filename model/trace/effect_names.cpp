@@ -9,6 +9,10 @@ namespace stormproof::model::trace {
 
 EffectNames::EffectNames(const DdsProfile& dds)
     : ids_{fsm::composition::effect_ids(composition_of(dds))} {
+  // With a life its rules are those of another composition, which shares most of them.
+  if (traits_of(dds).knows_lives && traits_of(dds).writer == Writer::stateful) {
+    ids_.merge(fsm::composition::effect_ids(fsm::composition::compositions().back()));
+  }
   if (!traits_of(dds).has_server) return;
   // Descriptors on their way to the server go by the rules of Fast DDS.
   ids_.merge(fsm::composition::effect_ids(composition_of(dds.implementation)));

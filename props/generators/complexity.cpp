@@ -77,7 +77,8 @@ Complexity complexity(const Scenario& scenario, const Scenario& base) {
   }
   if (const auto& life = scenario.deployment.life) {
     sum.failures = 1 + life->stale.size() + life->mute.size() + life->outages.size() +
-                   life->restarts.size() + life->leases.size() + (life->lease ? 1 : 0);
+                   life->restarts.size() + life->leases.size() + life->endpoints.size() +
+                   (life->lease ? 1 : 0);
   }
   count_lost_packets(scenario, base, sum);
   count_packet_delays(scenario, base, sum);

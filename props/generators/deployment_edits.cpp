@@ -99,6 +99,7 @@ void add_deployment_edits(const Scenario& scenario, Edits& edits) {
     add_life_edits(life->outages.size(), &model::Life::outages, edits);
     add_life_edits(life->restarts.size(), &model::Life::restarts, edits);
     add_life_edits(life->leases.size(), &model::Life::leases, edits);
+    add_life_edits(life->endpoints.size(), &model::Life::endpoints, edits);
     if (life->lease) edits.push_back([](Scenario& s) { s.deployment.life->lease.reset(); });
   }
   add_pairs(all, edits);

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <string>
 
+#include "model/life.hpp"
+
 namespace stormproof::props {
 
 using namespace model;
@@ -159,6 +161,21 @@ void draw_returns(Dice& dice, const std::vector<Participant>& all, Life& life) {
   }
 }
 
+/// Endpoints that are created while their participant is there, and some deleted.
+void draw_endpoints(Dice& dice, const std::vector<Participant>& all, Life& life) {
+  constexpr std::int64_t ms = 1'000'000;
+  for (std::uint32_t i = 0; i < all.size() && life.endpoints.size() < 3; ++i) {
+    if (!dice.chance(30)) continue;
+    LateEndpoints late{i, dice.count(0, 2), dice.count(0, 2), all[i].start, {}};
+    late.at += Nanoseconds{dice.among({0, 1, 60, 900}) * ms};
+    if (dice.chance(40)) late.until = late.at + Nanoseconds{dice.among({1, 30, 700}) * ms};
+    const auto is_there = [&](Nanoseconds time) { return !is_away(life, i, time); };
+    if (is_there(late.at) && is_there(late.until.value_or(late.at))) {
+      life.endpoints.push_back(late);
+    }
+  }
+}
+
 Life drawn_life(Dice& dice, const std::vector<Participant>& all) {
   constexpr std::int64_t ms = 1'000'000;
   const auto participants = static_cast<std::uint32_t>(all.size());
@@ -194,8 +211,14 @@ void draw_amendments(Dice& dice, Scenario& scenario) {
   if (dice.chance(50)) scenario.dds.sedp.piggyback = Piggyback::off;
   if (scenario.dds.sedp.piggyback != Piggyback::off) rules.stale_acknack = StaleAckNack::process;
   scenario.dds.amendments = rules;
-  scenario.deployment.life = drawn_life(dice, scenario.deployment.participants);
+  draw_life(dice, scenario);
   if (dice.chance(15)) scenario.run_until = RunUntil::quiescence;
+}
+
+void draw_life(Dice& dice, Scenario& scenario) {
+  const std::vector<Participant>& all = scenario.deployment.participants;
+  Life& life = scenario.deployment.life.emplace(drawn_life(dice, all));
+  if (scenario.dds.amendments) draw_endpoints(dice, all, life);
 }
 
 }  // namespace stormproof::props

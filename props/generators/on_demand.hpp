@@ -26,7 +26,9 @@ void draw_processor(Dice& dice, model::Scenario& scenario);
 void draw_discovery(std::uint64_t seed, model::Discovery discovery, model::Scenario& scenario);
 
 /// Amended rules of the paper's model, whose profile the scenario must have: most are left as they
-/// are. And what happened before the run, and happens to participants in it.
+/// are. And a life.
 void draw_amendments(Dice& dice, model::Scenario& scenario);
+/// What happened before the run, and happens to participants in it.
+void draw_life(Dice& dice, model::Scenario& scenario);
 
 }  // namespace stormproof::props

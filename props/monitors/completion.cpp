@@ -6,7 +6,8 @@
 // It objects if that time exceeds the bound that it was given; and, at the end, if a descriptor
 // came later, or is later than, completion_bound() after the start of both ends. That bound is not
 // tight: it is for runs that never come to an end although packets arrive.
-//   * From the start of both, each hears of the other within (k + 1)·max(τ_P, startup period) + Δ.
+//   * From the start of both, each hears of the other within (k + 1)·max(τ_P, startup period) + Δ;
+//     with static peers within twice that, as one may have to hear of the other first.
 //   * Then the relation is open. While the reader lacks a descriptor the writer has it not in A, so
 //     a HEARTBEAT leaves within P (τ_H; adaptive: max(τ_H, T_max) + 1 ns) and an ACKNACK comes back
 //     within 2Δ + τ_A. In U the descriptor is then repaired: τ_N + Δ. In R it was already asked
@@ -31,7 +32,9 @@ namespace stormproof::props {
 model::Nanoseconds completion_bound(const model::DdsProfile& dds, model::Nanoseconds delay,
                                     std::uint64_t losses) {
   const model::SedpProfile& sedp = dds.sedp;
-  const model::Nanoseconds announced = std::max(dds.spdp.period, dds.spdp.startup_period);
+  model::Nanoseconds announced = std::max(dds.spdp.period, dds.spdp.startup_period);
+  // Who is at no port that is asked is answered once it has announced itself.
+  if (dds.discovery == model::Discovery::static_peers) announced = announced * 2 + delay;
   model::Nanoseconds asked = sedp.heartbeat_period;
   if (sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive) {
     asked = std::max(asked, sedp.adaptive.max_period) + model::Nanoseconds{1};

@@ -128,7 +128,7 @@ class Conservation : public Observer {
   }
   void arrived(const model::Packet& packet, bool lost) override {
     if (!shared_) return;
-    if (!lost) to_be_received_.push_back(packet.number);
+    if (!lost && !packet.to_nobody) to_be_received_.push_back(packet.number);
     const Admitted* const found = admitted_.find(packet.number);
     if (found == nullptr || !found->left || found->served != found->fragments * stages_) {
       object_now(fmt::format("At {} packet {} arrives without having had all its services.",

@@ -27,13 +27,13 @@ std::string subject_text(const model::Topology& topology, Subject subject, std::
   }
 }
 
-std::string descriptors_text(const std::vector<std::uint32_t>& descriptors) {
+std::string descriptors_text(const DescriptorList& descriptors) {
   return fmt::format("descriptor{} {}", descriptors.size() == 1 ? "" : "s",
                      fmt::join(descriptors, ", "));
 }
 
 std::string move_text(const Move& move, const model::Topology& topology) {
-  std::vector<std::uint32_t> descriptors;
+  DescriptorList descriptors;
   for (std::uint64_t left = move.descriptors; left != 0; left &= left - 1) {
     descriptors.push_back(64 * move.first_word +
                           static_cast<std::uint32_t>(std::countr_zero(left)));
@@ -54,7 +54,8 @@ std::string message_text(const Message& message, const model::Topology& topology
       break;
     case spdp_unicast:
       text +=
-          fmt::format(" of participant {} to participant {}", topology.pair(message.pair).source,
+          fmt::format(" of participant {} to {}participant {}", topology.pair(message.pair).source,
+                      message.to_nobody ? "a port that nobody has on the host of " : "",
                       topology.pair(message.pair).destination);
       break;
     case user_heartbeat:
@@ -87,6 +88,7 @@ Message message_of(const model::Packet& packet) {
   message.initial = packet.initial_acknack;
   message.repair = packet.from_repair;
   message.carries_heartbeat = packet.carries_heartbeat;
+  message.to_nobody = packet.to_nobody;
   return message;
 }
 

@@ -9,11 +9,16 @@
 #include <variant>
 #include <vector>
 
+#include <boost/container/small_vector.hpp>
+
 #include "model/engine/packet.hpp"
 #include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 
 namespace stormproof::props {
+
+/// Descriptors of a stream, ascending; a few need no memory of their own.
+using DescriptorList = boost::container::small_vector<std::uint32_t, 16>;
 
 /// A row fired; `descriptors` are the bits of word `first_word`, 0 if the machine has none.
 struct Move {
@@ -38,12 +43,13 @@ struct Message {
   model::PacketKind kind{};
   std::uint32_t pair = 0;  ///< of a multicast: the sending participant; control-only relations: 0
   model::Stream stream{};
-  std::uint32_t loops_to = UINT32_MAX;     ///< a multicast that goes to a participant of its host
-  std::vector<std::uint32_t> descriptors;  ///< carried or listed, ascending
-  std::uint32_t detail = 0;                ///< as in `Packet`
-  bool initial = false;                    ///< ACKNACK marked initial
+  std::uint32_t loops_to = UINT32_MAX;  ///< a multicast that goes to a participant of its host
+  DescriptorList descriptors;           ///< carried or listed
+  std::uint32_t detail = 0;             ///< as in `Packet`
+  bool initial = false;                 ///< ACKNACK marked initial
   bool repair = false;
   bool carries_heartbeat = false;
+  bool to_nobody = false;
 
   bool operator==(const Message&) const = default;
   [[nodiscard]] std::uint32_t relation() const {

@@ -17,7 +17,7 @@ void DelayMeter::emitted(const model::Packet& packet, model::Nanoseconds now) {
   for (std::uint32_t copy = 0; copy < packet.copies; ++copy) {
     const bool gone = silent_loss_ && will_be_lost(packet.number + copy);
     if (gone) ++lost_;
-    under_way_.push_back({now, gone});
+    under_way_.push_back({now, gone || packet.to_nobody});
   }
 }
 

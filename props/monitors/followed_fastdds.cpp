@@ -1,6 +1,7 @@
 // Follows Fast DDS's composition: which packets reach whom, how descriptors become messages, and
 // which sides of control-only relations open.
 #include "model/fastdds/endpoints.hpp"
+#include "model/fastdds/peer_ports.hpp"
 #include "props/monitors/control_sides.hpp"
 #include "props/monitors/followed_rules.hpp"
 
@@ -94,9 +95,10 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
   }
 
   using FollowedRules::emit;
-  /// To every participant of the same host, then to the others.
+  /// To every participant of the same host, then to the others; with static peers to the ports.
   void emit(comp::SpdpMulticast, World& w, const std::tuple<>&, comp::Site site) {
     const std::uint32_t i = w.place().participant;
+    if (scenario_.dds.discovery == model::Discovery::static_peers) return emit_to_ports(i, site);
     Message message;
     message.kind = model::PacketKind::spdp_multicast;
     message.pair = i;
@@ -169,7 +171,7 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
   struct OpenMessage {
     std::uint32_t writer = 0;
     std::vector<std::uint32_t> readers;  ///< relations
-    std::vector<std::uint32_t> descriptors;
+    DescriptorList descriptors;
     bool heartbeat_may_ride = false;
     bool heartbeats_may_follow = false;  ///< to all readers, of whom it goes to some
   };
@@ -210,7 +212,7 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
     send(model::PacketKind::heartbeat, readers(message.writer), {}, false);
   }
   void send(model::PacketKind kind, const std::vector<std::uint32_t>& relations,
-            const std::vector<std::uint32_t>& descriptors, bool carries_heartbeat) {
+            const DescriptorList& descriptors, bool carries_heartbeat) {
     for (const std::uint32_t relation : relations) {
       Message wanted;
       wanted.kind = kind;
@@ -224,6 +226,23 @@ class FastDdsFollower final : public FollowedRules<FastDdsFollower, fastdds::Fas
             static_cast<std::uint32_t>(w.count([](World& d) { return d(fastdds::Exists{}); }));
       }
       expect(wanted, site_);
+    }
+  }
+
+  /// A copy to each port of every host that is asked; on one's own host, if somebody is there.
+  void emit_to_ports(std::uint32_t i, comp::Site site) {
+    const model::Deployment& deployment = scenario_.deployment;
+    Message message;
+    message.kind = model::PacketKind::spdp_unicast;
+    for (const auto& [host, there] : model::fastdds::participants_at_ports(deployment)) {
+      for (std::uint32_t port = 0; port < dds().peer_ports; ++port) {
+        message.to_nobody = port >= there.size();
+        const std::uint32_t somebody = message.to_nobody ? there.front() : there[port];
+        if (somebody == i) continue;
+        if (message.to_nobody && host == deployment.participants[i].host) continue;
+        message.pair = topology_.pair_between(i, somebody);
+        expect(message, site);
+      }
     }
   }
 

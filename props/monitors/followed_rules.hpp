@@ -65,18 +65,18 @@ class FollowedRules : public Follower {
   // State. What nobody has changed has its first value.
   template <class V>
   std::int64_t value(const Place& place) {
-    return at(std::get<Values<V>>(values_).of, V::owner, place, 0);
+    return at<V::owner>(std::get<Values<V>>(values_).of, place, 0);
   }
   template <class V>
   void assign(const Place& place, std::int64_t to) {
-    ValueOf<V>& value = at(std::get<Values<V>>(values_).of, V::owner, place, 0);
+    ValueOf<V>& value = at<V::owner>(std::get<Values<V>>(values_).of, place, 0);
     if (value == 0 && to != 0) static_cast<Self*>(this)->becomes(V{}, place);
     value = static_cast<ValueOf<V>>(to);
   }
   template <class P>
   fsm::StateId& state(const Place& place) {
-    return at(std::get<States<P>>(states_).of, P::owner, place,
-              fsm::Flyweight<typename P::Machine>::initial);
+    return at<P::owner>(std::get<States<P>>(states_).of, place,
+                        fsm::Flyweight<typename P::Machine>::initial);
   }
   template <class P, class E>
   auto step(const Place& place, const typename P::Machine::Io::template Input<fsm::Plain>& input,
@@ -266,14 +266,19 @@ class FollowedRules : public Follower {
   static std::tuple<Each<Ts>...> each_of(fsm::TypeList<Ts...>);
 
   /// The value of an owner; of one with a descriptor, `place` says which.
-  template <class T>
-  T& at(std::vector<T>& values, comp::Owner owner, const Place& place,
-        std::type_identity_t<T> first) {
-    const bool of_descriptor = (owner.indices & comp::owner::descriptor_index) != 0;
-    const std::size_t n =
-        of_descriptor ? place.number(owner) * stride_ + place.descriptor : place.number(owner);
-    if (n >= values.size()) values.resize(n + 1, first);
+  template <comp::Owner owner, class T>
+  T& at(std::vector<T>& values, const Place& place, std::type_identity_t<T> first) {
+    constexpr bool of_descriptor = (owner.indices & comp::owner::descriptor_index) != 0;
+    std::size_t n = place.number(owner);
+    if constexpr (of_descriptor) n = n * stride_ + place.descriptor;
+    if (n >= values.size()) [[unlikely]] {
+      grow(values, n, first);
+    }
     return values[n];
+  }
+  template <class T>
+  [[gnu::noinline]] static void grow(std::vector<T>& values, std::size_t n, T first) {
+    values.resize(n + 1, first);
   }
   std::vector<std::uint64_t>& pending_of(model::EventKind kind, std::uint32_t owner) {
     auto& owners = pending_[static_cast<std::size_t>(kind)];
@@ -282,8 +287,13 @@ class FollowedRules : public Follower {
   }
   static bool same_kind(const Move& one, const Move& other) {
     return one.machine.subject == other.machine.subject && one.machine.kind == other.machine.kind &&
-           one.before == other.before && one.after == other.after && one.event == other.event &&
-           one.machine.machine == other.machine.machine;
+           same_text(one.before, other.before) && same_text(one.after, other.after) &&
+           same_text(one.event, other.event) &&
+           same_text(one.machine.machine, other.machine.machine);
+  }
+  /// Names are mostly the very same characters.
+  static bool same_text(std::string_view one, std::string_view other) {
+    return one.size() == other.size() && (one.data() == other.data() || one == other);
   }
   static bool same(const Move& one, const Move& other) {
     return one.descriptors == other.descriptors && one.first_word == other.first_word &&

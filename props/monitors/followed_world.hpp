@@ -22,9 +22,9 @@ namespace stormproof::props {
 
 namespace comp = fsm::composition;
 
-/// Descriptors of a stream, ascending.
+/// The descriptors of a stream that something is true of.
 struct Members {
-  std::vector<std::uint32_t> list;
+  DescriptorList list;
 
   [[nodiscard]] bool has(std::uint32_t d) const { return std::ranges::binary_search(list, d); }
 };

@@ -184,6 +184,7 @@ Living living(const model::Scenario& scenario) {
   keep(rest.outages, &model::Outage::from, &model::Outage::to);
   keep(rest.restarts, &model::Restart::participant);
   keep(rest.leases, &model::Lease::participant);
+  keep(rest.endpoints, &model::LateEndpoints::participant);
   // Successors come after all others, in the order of the restarts, here and there.
   std::uint32_t successor = scenario.deployment.size();
   for (const model::Restart& restart : life.restarts) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "model/fastdds/peer_ports.hpp"
 #include "props/monitors/delay_meter.hpp"
 
 namespace stormproof::props {
@@ -39,6 +40,7 @@ Prospects::Prospects(const model::Scenario& scenario)
       each_side_{rules_.relation_opening == model::RelationOpening::each_side},
       accepts_unmatched_{!each_side_ || rules_.unmatched == model::Unmatched::accept},
       adaptive_{scenario.dds.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive},
+      hears_announcements_{model::fastdds::reached_by_announcements(scenario)},
       lost_packets_{scenario.wireless.lost_packets} {}
 
 void Prospects::run_started(const model::Topology& topology) {
@@ -196,6 +198,10 @@ void Prospects::in_source(const Load& load, std::uint32_t change) {
 void Prospects::emitted(const model::Packet& packet, std::uint32_t source,
                         std::span<const std::uint32_t> destinations) {
   const bool of_writer = packet.kind == PacketKind::data || packet.kind == PacketKind::heartbeat;
+  if (packet.to_nobody) {
+    departing_ = {};
+    return;
+  }
   if (!constant_delay_) {
     Load load = load_of(packet);
     in_source(load, more);
@@ -237,7 +243,7 @@ void Prospects::source_completed(const model::Packet& packet) {
 }
 
 void Prospects::arrived(const model::Packet& packet, bool lost) {
-  if (!is_lost(packet.number)) move(load_of(packet), less);
+  if (!is_lost(packet.number) && !packet.to_nobody) move(load_of(packet), less);
   delivered_ = traits_.receives_separately && !lost ? &packet : nullptr;
 }
 

@@ -101,6 +101,7 @@ class Prospects {
   void touch(std::uint32_t relation);
   void touch_writer(std::uint32_t writer);
   void touch_participant(std::uint32_t participant);
+  [[nodiscard]] bool can_be_announced(std::uint32_t pair) const;
   [[nodiscard]] bool can_be_recognised(std::uint32_t pair) const;
   [[nodiscard]] bool can_open(std::uint32_t relation) const;
   [[nodiscard]] bool will_ask(std::uint32_t relation) const;
@@ -115,6 +116,7 @@ class Prospects {
   bool each_side_;
   bool accepts_unmatched_;
   bool adaptive_;
+  std::vector<bool> hears_announcements_;  // to everybody; by participant
   std::vector<std::uint64_t> lost_packets_;
   std::optional<model::Topology> topology_;  // a copy: asked after the run, too
 

@@ -16,10 +16,22 @@
 
 namespace stormproof::props {
 
-/// Whether the pair's destination may still hear of its source.
+/// Whether the pair's source may still tell its destination of itself, unasked.
+bool Prospects::can_be_announced(std::uint32_t pair) const {
+  const model::Pair& ends = topology_->pair(pair);
+  const Participant& source = participants_[ends.source];
+  if (source.multicasts > 0 || copies_[pair] > 0) return true;
+  const bool reaches =
+      hears_announcements_[ends.destination] || relations_[2 * ends.reverse].reader_open;
+  return source.announcements_due > 0 && reaches;
+}
+
+/// Whether the pair's destination may still hear of its source: the source announces itself, or
+/// will do so because it hears of the other one.
 bool Prospects::can_be_recognised(std::uint32_t pair) const {
-  const Participant& source = participants_[topology_->pair(pair).source];
-  return source.announcements_due > 0 || source.multicasts > 0 || copies_[pair] > 0;
+  const model::Pair& ends = topology_->pair(pair);
+  if (can_be_announced(pair)) return true;
+  return participants_[ends.source].announcements_due > 0 && can_be_announced(ends.reverse);
 }
 
 /// The relation is not open on both sides: whether it may still open.

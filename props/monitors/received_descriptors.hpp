@@ -38,7 +38,8 @@ class ReceivedDescriptors {
   void lose(std::uint32_t relation) {
     for (std::uint32_t k = 0; k < word_count(relation); ++k) words_.word(relation, k) = 0;
   }
-  void take(const model::Packet& packet) { words_.add(packet.relation(), packet.descriptors); }
+  void take(const model::Packet& packet) { take(packet.relation(), packet.descriptors); }
+  void take(std::uint32_t relation, const model::DescriptorSet& set) { words_.add(relation, set); }
 
   [[nodiscard]] std::uint64_t word(std::uint32_t relation, std::uint32_t k) const {
     return words_.word(relation, k);

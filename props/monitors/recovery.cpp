@@ -39,6 +39,7 @@ class Recovery : public Observer {
     relations_.assign(topology.relation_count(), {});
     for (std::uint32_t r = 0; r < topology.relation_count(); ++r) {
       if (is_asked_for(topology.pair(r / 2))) relations_[r].missing = topology.descriptor_count(r);
+      if (lives(topology.pair(r / 2)) && has_all(topology.pair(r / 2))) begin_with_all(r);
     }
   }
   void event_started(const model::Event& event) override {
@@ -103,16 +104,32 @@ class Recovery : public Observer {
     return std::ranges::any_of(relations_, [](const Relation& r) { return r.missing > 0; });
   }
   [[nodiscard]] bool is_asked_for(const model::Pair& pair) const {
+    return lives(pair) && !has_all(pair);
+  }
+  [[nodiscard]] bool lives(const model::Pair& pair) const {
     const auto is_silent = [&](const model::Mute& mute) {
       return mute.participant == pair.source || mute.participant == pair.destination;
     };
-    // Who is believed to have everything of the other has, before the run, all of that other one.
-    const auto has_all = [&](const model::StaleRelation& stale) {
-      return stale.writer == pair.destination && stale.reader == pair.source;
-    };
     return pair.cross_host && !is_replaced(life_, pair.source) &&
-           !is_replaced(life_, pair.destination) && std::ranges::none_of(life_.mute, is_silent) &&
-           std::ranges::none_of(life_.stale, has_all);
+           !is_replaced(life_, pair.destination) && std::ranges::none_of(life_.mute, is_silent);
+  }
+  /// Who is believed to have everything of the other has, before the run, all of that other one.
+  [[nodiscard]] bool has_all(const model::Pair& pair) const {
+    return std::ranges::any_of(life_.stale, [&](const model::StaleRelation& stale) {
+      return stale.writer == pair.destination && stale.reader == pair.source;
+    });
+  }
+  /// It lacks only what the other one creates in the run.
+  void begin_with_all(std::uint32_t relation) {
+    const model::Stream s = relation % 2 == 0 ? model::Stream::pub : model::Stream::sub;
+    const std::uint32_t source = topology().pair(relation / 2).source;
+    const std::uint32_t late = late_descriptors(life_, source, s);
+    model::DescriptorSet had;
+    for (std::uint32_t k = 0; k < received_.word_count(relation); ++k) {
+      had.add(k, model::bits_below(topology().descriptor_count(relation) - late, k));
+    }
+    received_.take(relation, had);
+    relations_[relation].missing = late;
   }
   void touch(std::uint32_t relation) {
     Relation& r = relations_[relation];

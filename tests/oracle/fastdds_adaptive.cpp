@@ -22,7 +22,7 @@ bool behind(World& w, Id i, Id j, int s) {
   const Relation& r = relation(w, i, j, s);
   const Id existing = writer(w, i, s).existing;
   if (existing > 0 && r.low == 0) return true;
-  for (Id d = r.low; d < existing; ++d) {
+  for (Id d = 0; d < existing; ++d) {
     if (r.state.at(d) != DescriptorState::acknowledged) return true;
   }
   return false;
@@ -52,6 +52,8 @@ void deactivate(World& w, Writer& wr) {
 Time next_period(const World& w, Time period, std::int64_t expected, std::int64_t answered) {
   const std::int64_t numerator = w.sedp.adaptive.epsilon_numerator;
   const std::int64_t denominator = w.sedp.adaptive.epsilon_denominator;
+  // All of them have been forgotten since it began: the shortest period, and no shorter than T.
+  if (expected == 0) return std::max(period, clamp_period(w, 0));
   Time next = 0;
   if (answered > 0 && denominator * answered >= numerator * expected) {
     next = clamp_period(w, divide_half_up(period * expected, answered));

@@ -16,10 +16,10 @@ void take_data(World& w, Relation& r, const Packet& packet, Id j) {
     r.received.at(d) = true;
     if (!w.makes(Mistake::data_announces_nothing)) r.announced = std::max(r.announced, d + 1);
   }
+  w.ended = ends_complete(w);
   if (w.missing > 0 || w.outcome.completed) return;
   w.outcome.completed = true;
   w.outcome.t_disc_ns = w.now;
-  w.ended = w.scenario.run_until == model::RunUntil::completion;
 }
 
 void notify_in_order(World& w, Relation& r, Id i, Id j, int s) {
@@ -70,10 +70,7 @@ void send_acknack(World& w, const Packet& packet) {
   emit(w, packet);
 }
 
-}  // namespace
-
-void receive(World& w, const Packet& packet, Id j) {
-  if (!started(w, j)) return;
+void take_in(World& w, const Packet& packet, Id j) {
   switch (packet.kind) {
     case PacketKind::spdp:
       return receive_spdp(w, j, packet.source);
@@ -96,6 +93,14 @@ void receive(World& w, const Packet& packet, Id j) {
     case PacketKind::learning_acknack:
       return receive_learning_acknack(w, packet);
   }
+}
+
+}  // namespace
+
+void receive(World& w, const Packet& packet, Id j) {
+  if (!started(w, j) || !is_heard(w, packet, j)) return;
+  take_in(w, packet, j);
+  heard(w, j, packet.source);
 }
 
 void generate_acknack(World& w, Id j, Id i, int s) {

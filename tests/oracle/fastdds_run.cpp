@@ -68,6 +68,10 @@ const char* name_of(EventKind kind) {
       return "beacon";
     case EventKind::thread_free:
       return "thread free";
+    case EventKind::lease_check:
+      return "lease check";
+    case EventKind::participant_return:
+      return "return of a participant";
     case EventKind::dispatch:
       return "dispatch";
   }
@@ -147,15 +151,20 @@ void process(World& w, const Event& e) {
       return beacon(w, e.access_point);
     case EventKind::thread_free:
       return thread_free(w, e.from);
+    case EventKind::lease_check:
+      return lease_check(w, e.from, e.to);
+    case EventKind::participant_return:
+      return participant_return(w, e.from);
     case EventKind::dispatch:
       return dispatch(w, e.channel);
   }
 }
 
-void schedule_creations(World& w, Id i) {
+}  // namespace
+
+void schedule_creations(World& w, Id i, Time start) {
   const model::Participant& p = w.scenario.deployment.participants.at(i);
-  const Time start = p.start.count();
-  const Time span = p.endpoints_done.count() - start;
+  const Time span = (p.endpoints_done - p.start).count();
   std::vector<std::pair<int, Id>> order = creation_order(w.scenario, i);
   if (w.makes(Mistake::publications_first)) std::sort(order.begin(), order.end());
   w.participants.at(i).to_create = order;
@@ -169,11 +178,13 @@ void schedule_creations(World& w, Id i) {
   }
 }
 
+namespace {
+
 void schedule_beginning(World& w) {
   for (Id i = 0; i < w.scenario.deployment.size(); ++i) {
     const Event announcement = make_event(EventKind::announcement, i, i, 0);
     schedule(w, w.participants.at(i).start, EventClass::protocol, announcement);
-    schedule_creations(w, i);
+    schedule_creations(w, i, w.participants.at(i).start);
   }
 }
 
@@ -216,10 +227,13 @@ void take_counts(World& w) {
   w.outcome.user_control = w.admitted.user_control;
 }
 
-FastddsOutcome run(const model::Scenario& scenario, const EventLog& log, Mistake mistake,
+FastddsOutcome run(const model::Scenario& given, const EventLog& log, Mistake mistake,
                    std::uint64_t max_events, WifiMistake of_wifi) {
+  const model::Scenario scenario = with_those_who_come_back_as_others(given);
   World w{scenario, mistake, of_wifi};
+  begin_life(w);
   schedule_beginning(w);
+  schedule_returns(w);
   while (!w.queue.empty() && !w.ended) {
     const auto key = w.queue.begin()->first;
     const Event event = w.queue.begin()->second;
@@ -235,9 +249,10 @@ FastddsOutcome run(const model::Scenario& scenario, const EventLog& log, Mistake
     if (!held) {
       if (actor && of_protocol) w.cost += w.scenario.hosts->timer.count();
       if (log) log(log_entry(key, event));
-      process(w, event);
+      if (!is_void(w, std::get<1>(key), event)) process(w, event);
     }
     if (actor) finish(w, *actor);
+    if (scenario.deployment.life) w.ended = ends_complete(w);
   }
   w.outcome.missing = missing_descriptors(w);
   take_counts(w);

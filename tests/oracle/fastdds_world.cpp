@@ -74,7 +74,9 @@ Event make_event(EventKind kind, Id from, Id to, int s) {
 }
 
 void schedule(World& w, Time at, EventClass event_class, const Event& event) {
-  w.queue[{at, event_class, w.insertions}] = event;
+  Event& scheduled = w.queue[{at, event_class, w.insertions}];
+  scheduled = event;
+  if (event_class == EventClass::protocol) scheduled.epoch = epoch_of(w, event);
   ++w.insertions;
 }
 

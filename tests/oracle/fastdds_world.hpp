@@ -63,6 +63,8 @@ enum class EventKind {
   distribution,  // from here on: with listed hosts. A wired host's packet leaves its cable
   beacon,
   thread_free,  // with processors
+  lease_check,  // from here on: of a life
+  participant_return,
   dispatch,
 };
 
@@ -82,6 +84,7 @@ struct Event {
   std::string access_point;  // of a service on the way down, or of a beacon
   bool fails = false;        // a service, in the end
   std::vector<Id> deaf;      // hosts that do not hear it
+  int epoch = 0;             // of its owner when it was scheduled; filled in by schedule
 };
 
 enum class PacketKind {
@@ -131,6 +134,7 @@ struct Packet {
   std::int64_t last = 0;
   std::int64_t number_base = 1;  // of an ACKNACK
   std::uint64_t id = 0;          // from here on: filled in by emit
+  Time emitted = 0;
   bool lost = false;
   bool stopped = false;                       // a fragment did not get to the access point
   std::set<Id> deaf;                          // hosts that did not hear all of it
@@ -152,7 +156,9 @@ struct Relation {
   bool acknack_pending = false;
   std::vector<bool> received;
   Id announced = 0;
-  Id notified = 0;  // descriptors below it have been notified
+  Id notified = 0;       // descriptors below it have been notified
+  int reader_epoch = 0;  // from here on: how often j forgot i
+  int writer_epoch = 0;  // and i forgot j
 };
 
 struct Writer {
@@ -177,6 +183,7 @@ struct Control {
   bool reader_open = false;
   bool heartbeat_seen = false;
   bool reply_pending = false;
+  int epoch = 0;  // how often the reader forgot the writer
 };
 
 /// The message that a creation or an async run fills.
@@ -207,7 +214,9 @@ struct Participant {
   std::uint32_t host = 0;
   Time start = 0;
   Time hears_from = 0;
-  std::set<Id> known;                          // whose announcement it has processed
+  std::set<Id> known;          // whose announcement it has processed
+  std::map<Id, Time> forgets;  // when it forgets whom, if it hears nothing until then
+  int lives = 0;               // how often it has come back
   std::deque<std::pair<int, Id>> async_queue;  // (stream, descriptor)
   bool run_pending = false;
   std::int64_t sent_bytes = 0;  // of the cumulative piggyback charge
@@ -367,6 +376,8 @@ struct World {
   std::map<Id, bool> worse;                 // links, by station
   std::map<std::uint64_t, Packet> packets;  // loopback packets too
   std::set<std::uint64_t> lost_packets;
+  std::map<std::pair<Id, Id>, int> lease_epochs;  // (who is remembered, by whom)
+  Time settled = 0;                               // the run does not end before
   std::int64_t missing = 0;
   std::optional<Server> server;
   FastddsOutcome outcome;
@@ -428,6 +439,22 @@ void distribute(World& w, std::uint64_t packet, std::size_t fragment);
 void distribution(World& w, std::uint64_t packet);
 void beacon(World& w, const std::string& access_point);
 void leave_wired_host(World& w, const Packet& packet);
+
+// fastdds_run.cpp
+void schedule_creations(World& w, Id i, Time start);
+
+// fastdds_life.cpp
+void begin_life(World& w);
+void schedule_returns(World& w);
+[[nodiscard]] bool ends_complete(const World& w);
+[[nodiscard]] bool is_away(const World& w, Id i, Time at);
+[[nodiscard]] bool is_replaced(const World& w, Id i);
+[[nodiscard]] bool is_heard(const World& w, const Packet& packet, Id j);
+[[nodiscard]] int epoch_of(World& w, const Event& event);
+[[nodiscard]] bool is_void(World& w, EventClass event_class, const Event& event);
+void heard(World& w, Id j, Id i);
+void lease_check(World& w, Id i, Id j);
+void participant_return(World& w, Id i);
 
 // fastdds_stalls.cpp
 [[nodiscard]] bool stalls(const World& w, Id i);

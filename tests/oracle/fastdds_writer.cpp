@@ -17,7 +17,7 @@ bool needs_heartbeat(World& w, Id i, Id j, int s) {
   const Relation& r = relation(w, i, j, s);
   const Id existing = writer(w, i, s).existing;
   if (existing > 0 && r.low == 0) return true;
-  for (Id d = r.low; d < existing; ++d) {
+  for (Id d = 0; d < existing; ++d) {
     if (r.state.at(d) == DescriptorState::unsent) return true;
     const bool acknowledged = r.state.at(d) == DescriptorState::acknowledged;
     if (w.makes(Mistake::expiry_until_acknowledged) && !acknowledged) return true;
@@ -37,8 +37,8 @@ void take_initial_acknack(World& w, Id i, Id j, int s) {
 }
 
 // Returns whether at least one descriptor went from U to R.
-bool take_bitmap(const World& w, Relation& r, const Packet& packet) {
-  for (Id d = 0; d < packet.base; ++d) {
+bool take_bitmap(const World& w, Relation& r, const Packet& packet, Id existing) {
+  for (Id d = 0; d < std::min(packet.base, existing); ++d) {
     const bool unsent = r.state.at(d) == DescriptorState::unsent;
     if (w.makes(Mistake::base_confirms_unsent_only) && !unsent) continue;
     r.state.at(d) = DescriptorState::acknowledged;
@@ -46,7 +46,7 @@ bool take_bitmap(const World& w, Relation& r, const Packet& packet) {
   if (!w.makes(Mistake::low_not_raised)) r.low = std::max(r.low, packet.base);
   bool requested = false;
   for (const Id d : packet.bitmap) {
-    if (r.state.at(d) != DescriptorState::unsent) continue;
+    if (d >= existing || r.state.at(d) != DescriptorState::unsent) continue;
     r.state.at(d) = DescriptorState::requested;
     requested = true;
   }
@@ -111,7 +111,7 @@ void receive_acknack(World& w, const Packet& packet) {
     return;
   }
   Writer& wr = writer(w, i, s);
-  if (take_bitmap(w, r, packet)) {
+  if (take_bitmap(w, r, packet, wr.existing)) {
     if (!wr.response_pending || w.makes(Mistake::response_per_request)) {
       wr.response_pending = true;
       schedule_after(w, w.sedp.nack_response_delay, make_event(EventKind::nack_response, i, i, s));

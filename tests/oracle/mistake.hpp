@@ -68,6 +68,14 @@ enum class Mistake : std::uint8_t {
   hears_in_outages,         ///< outages have no effect
   old_counts_forgotten,     ///< ACKNACKs of who comes back all count
   ends_before_settled,      ///< the first completion ends a run
+  // Endpoints that are created and deleted in the run.
+  exists_from_the_start,      ///< a descriptor that is created later exists from the start
+  creation_not_pushed,        ///< what is created waits to be asked for
+  creation_does_not_arm,      ///< a creation leaves the timer alone
+  deletion_writes_nothing,    ///< a deletion sends nothing
+  heartbeats_announce_start,  ///< HEARTBEATs announce what the participant started with
+  acknack_confirms_unknown,   ///< an ACKNACK is about what its reader does not know, too
+  numbers_not_forgotten,      ///< who forgets another one still knows how much it has written
 };
 
 /// What the oracle of `implementation: fastdds` does wrong (specs/guide/fastdds.md has the rules).
@@ -109,6 +117,15 @@ enum class FastddsMistake : std::uint8_t {
   control_initial_ignored,  ///< a control writer does not answer initial ACKNACKs
   control_always_doubled,   ///< its initial ACKNACKs double a distance that is constant
   response_with_old_base,   ///< a clean ACKNACK counts whatever its base
+  // The life of participants (specs/guide/museum.md has the rules).
+  lease_not_renewed,        ///< a lease runs from the recognition, whatever is heard
+  forgets_reader_only,      ///< who forgets another one keeps the writer side towards it
+  topics_remembered,        ///< or the control-only relations
+  forgotten_events_happen,  ///< what was due for a forgotten side happens at the new one
+  returns_with_memory,      ///< who comes back knows what it knew
+  returns_with_endpoints,   ///< or has its endpoints already
+  hears_in_outages,         ///< outages have no effect
+  ends_before_settled,      ///< the first completion ends a run
 };
 
 /// What the oracle of the Wi-Fi channel does wrong (specs/guide/wifi.md has the rules): units,
@@ -232,12 +249,15 @@ enum class CycloneMistake : std::uint8_t {
 };
 
 inline constexpr std::size_t mistake_count =
-    static_cast<std::size_t>(Mistake::ends_before_settled) + 1;
+    static_cast<std::size_t>(Mistake::numbers_not_forgotten) + 1;
 /// From this one on they are about the life of participants.
 inline constexpr std::size_t first_mistake_of_life =
     static_cast<std::size_t>(Mistake::lease_not_renewed);
 inline constexpr std::size_t fastdds_mistake_count =
-    static_cast<std::size_t>(FastddsMistake::response_with_old_base) + 1;
+    static_cast<std::size_t>(FastddsMistake::ends_before_settled) + 1;
+/// From this one on they are about the life of participants.
+inline constexpr std::size_t first_fastdds_mistake_of_life =
+    static_cast<std::size_t>(FastddsMistake::lease_not_renewed);
 inline constexpr std::size_t wifi_mistake_count =
     static_cast<std::size_t>(WifiMistake::nobody_deaf) + 1;
 /// The last one that scenarios without listed hosts, failing transmissions and processors can show.

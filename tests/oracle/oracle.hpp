@@ -63,6 +63,9 @@ using EventLog = std::function<void(const LogEntry&)>;
 [[nodiscard]] Outcome run(const model::Scenario& scenario, const EventLog& log = {},
                           Mistake mistake = Mistake::none, std::uint64_t max_events = 0);
 
+/// With a participant more for each that comes back as somebody new.
+[[nodiscard]] model::Scenario with_those_who_come_back_as_others(model::Scenario scenario);
+
 /// The airtime of everything a loss-free discovery has to send once, summed over all stages.
 [[nodiscard]] std::int64_t open_loop_ns(const model::Scenario& scenario);
 

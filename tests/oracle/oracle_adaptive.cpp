@@ -91,6 +91,7 @@ void cycle_start(World& w, Id i, int s, std::uint64_t token) {
     return;
   }
   writer.cycle_start = w.now;
+  writer.cycle_announced = writer.written;
   for (const Id j : readers) generate_heartbeat(w, i, j, s);
   schedule_cycle(w, EventKind::cycle_end, w.now + writer.period, i, s);
 }
@@ -135,8 +136,8 @@ void cycle_end(World& w, Id i, int s, std::uint64_t token) {
 void cycle_batch(World& w, const Event& event) {
   if (event.token != w.writers.at({event.from, event.stream}).token) return;
   for (const Id j : event.readers) {
-    const Relation& r = relation(w, event.from, j, event.stream);
-    if (!r.writer_open || all_acknowledged(r)) continue;
+    if (!relation(w, event.from, j, event.stream).writer_open) continue;
+    if (all_acknowledged(w, event.from, j, event.stream)) continue;
     generate_heartbeat(w, event.from, j, event.stream);
   }
 }

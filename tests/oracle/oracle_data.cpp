@@ -89,6 +89,9 @@ void generate_heartbeat(World& w, Id i, Id j, int s) {
   Packet packet = empty_packet(i, j, s, false);
   packet.payload = w.sedp.heartbeat_bytes.count();
   packet.carries_heartbeat = true;
+  const Writer& writer = w.writers.at({i, s});
+  packet.announces =
+      w.makes(Mistake::heartbeats_announce_start) ? writer.written_at_start : writer.written;
   emit(w, packet);
 }
 

@@ -42,6 +42,7 @@ void forget(World& w, Id i, Id j) {
       w.outcome.t_disc_ns = -1;
     }
     in.received.assign(in.received.size(), false);
+    if (!w.makes(Mistake::numbers_not_forgotten)) in.known = count_at_start(w.scenario, i, s);
     ++in.reader_epoch;
 
     if (w.makes(Mistake::forgets_reader_only)) continue;
@@ -63,14 +64,17 @@ void open_before(World& w, Id i, Id j) {
   for (int s = 0; s < 2; ++s) {
     Relation& out = relation(w, i, j, s);
     out.writer_open = true;
-    out.state.assign(out.state.size(), DescriptorState::acknowledged);
+    for (Id d = 0; d < count_at_start(w.scenario, i, s); ++d) {
+      out.state.at(d) = DescriptorState::acknowledged;
+    }
     out.old_counts = w.scenario.dds.amendments->count_filter;
     Relation& in = relation(w, j, i, s);
     in.reader_open = true;
     in.heartbeat_seen = true;
-    const auto lacking = std::count(in.received.begin(), in.received.end(), false);
-    if (is_asked_for(w, j, i)) w.missing -= lacking;
-    in.received.assign(in.received.size(), true);
+    for (Id d = 0; d < count_at_start(w.scenario, j, s); ++d) {
+      if (!in.received.at(d) && is_asked_for(w, j, i)) --w.missing;
+      in.received.at(d) = true;
+    }
   }
 }
 
@@ -87,6 +91,9 @@ Time settled(const World& w) {
   for (const model::Outage& outage : life.outages) last = std::max(last, outage.end.count());
   for (const model::Mute& mute : life.mute) last = std::max(last, mute.from.count());
   for (const model::Restart& back : life.restarts) last = std::max(last, back.start.count());
+  for (const model::LateEndpoints& late : life.endpoints) {
+    last = std::max(last, late.until.value_or(late.at).count());
+  }
   if (life.lease) longest = std::max(longest, life.lease->count());
   return forgets ? last + longest : 0;
 }
@@ -100,7 +107,9 @@ model::Scenario with_those_who_come_back_as_others(model::Scenario scenario) {
     if (back.identity == model::Identity::same) continue;
     const Id other = scenario.deployment.size();
     scenario.deployment.participants.push_back(scenario.deployment.participants[back.participant]);
-    scenario.deployment.participants.back().start = back.start;
+    model::Participant& there = scenario.deployment.participants.back();
+    there.endpoints_done = back.start + (there.endpoints_done - there.start);
+    there.start = back.start;
     for (std::size_t k = 0; k < life.leases.size(); ++k) {
       if (life.leases[k].participant != back.participant) continue;
       life.leases.push_back({other, life.leases[k].duration});
@@ -165,6 +174,7 @@ int epoch_of(World& w, const Event& e) {
     case EventKind::lease_check:
       return w.lease_epochs[{e.from, e.to}];
     case EventKind::participant_return:
+    case EventKind::endpoint_change:
     case EventKind::service_finished:
     case EventKind::delayed_reception:
     case EventKind::source_completion:
@@ -215,6 +225,11 @@ void lease_check(World& w, Id i, Id j) {
   schedule(w, end, EventClass::protocol, check);
 }
 
+void change_endpoints(World& w, const model::LateEndpoints& late) {
+  for (Id k = 0; k < late.publications; ++k) write_descriptor(w, late.participant, 0);
+  for (Id k = 0; k < late.subscriptions; ++k) write_descriptor(w, late.participant, 1);
+}
+
 void participant_return(World& w, Id i) {
   Participant& p = w.participants.at(i);
   ++p.lives;
@@ -230,6 +245,8 @@ void participant_return(World& w, Id i) {
   }
   for (int s = 0; s < 2; ++s) {
     Writer fresh;
+    fresh.written_at_start = w.writers.at({i, s}).written_at_start;
+    fresh.written = w.writers.at({i, s}).written;
     fresh.budget = w.sedp.piggyback_threshold_bytes.count();
     fresh.period = w.sedp.heartbeat_period.count();
     w.writers.at({i, s}) = fresh;

@@ -1,5 +1,7 @@
 // The receiving end: what a participant does with a packet that reaches it, and the ACKNACKs that
 // its readers send. The run completes here, with the last missing descriptor.
+#include <algorithm>
+
 #include "tests/oracle/oracle_world.hpp"
 
 namespace stormproof::oracle {
@@ -25,6 +27,8 @@ void receive_sedp(World& w, Id j, const Packet& packet) {
   const bool strict = w.sedp.unmatched == model::Unmatched::drop &&
                       w.sedp.relation_opening == model::RelationOpening::each_side;
   if (strict && !r.reader_open) return;
+  for (const Id d : packet.descriptors) r.known = std::max(r.known, d + 1);
+  r.known = std::max(r.known, packet.announces);
   take_data(w, r, packet);
   if (w.ended || !packet.carries_heartbeat) return;
   r.heartbeat_seen = true;
@@ -47,9 +51,10 @@ Packet acknack_packet(World& w, Id j, Id i, int s) {
   packet.stream = s;
   packet.payload = w.sedp.acknack_bytes.count();
   const Relation& r = relation(w, i, j, s);
-  for (Id d = 0; d < r.received.size(); ++d) {
+  for (Id d = 0; d < r.known; ++d) {
     if (!r.received.at(d)) packet.bitmap.insert(d);
   }
+  packet.announces = r.known;
   return packet;
 }
 
@@ -91,7 +96,7 @@ void receive(World& w, const Packet& packet) {
 void generate_acknack(World& w, Id j, Id i, int s) {
   --relation(w, i, j, s).pending_acknacks;
   Packet packet = acknack_packet(w, j, i, s);
-  const auto count = static_cast<std::int64_t>(relation(w, i, j, s).received.size());
+  const std::int64_t count = relation(w, i, j, s).known;
   const std::int64_t words =
       w.makes(Mistake::acknack_words_down) ? count / 32 : ceil_div(count, 32);
   if (!packet.bitmap.empty()) packet.payload += 4 * words;

@@ -36,6 +36,8 @@ const char* name_of(EventKind kind) {
       return "lease check";
     case EventKind::participant_return:
       return "return of a participant";
+    case EventKind::endpoint_change:
+      return "endpoint creation";
     case EventKind::dispatch:
       return "dispatch";
   }
@@ -74,6 +76,9 @@ void process(World& w, const Event& e) {
       return lease_check(w, e.from, e.to);
     case EventKind::participant_return:
       return participant_return(w, e.from);
+    case EventKind::endpoint_change:
+      return change_endpoints(
+          w, w.scenario.deployment.life->endpoints.at(static_cast<std::size_t>(e.number)));
     case EventKind::dispatch:
       return dispatch(w, e.channel);
   }
@@ -95,6 +100,18 @@ void schedule_first_announcements(World& w) {
     event.from = back.participant;
     event.to = back.participant;
     schedule(w, back.start.count(), EventClass::protocol, event);
+  }
+  std::int64_t k = 0;
+  for (const model::LateEndpoints& late : w.scenario.deployment.life->endpoints) {
+    Event event;
+    event.kind = EventKind::endpoint_change;
+    event.from = late.participant;
+    event.to = late.participant;
+    event.number = k++;
+    if (w.makes(Mistake::exists_from_the_start)) continue;
+    schedule(w, late.at.count(), EventClass::protocol, event);
+    if (!late.until || w.makes(Mistake::deletion_writes_nothing)) continue;
+    schedule(w, late.until->count(), EventClass::protocol, event);
   }
 }
 

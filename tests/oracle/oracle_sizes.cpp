@@ -21,9 +21,22 @@ std::uint32_t default_count(const model::Scenario& scenario, int s) {
 
 std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-Id descriptor_count(const model::Scenario& scenario, Id i, int s) {
+Id count_at_start(const model::Scenario& scenario, Id i, int s) {
   const model::Participant& p = scenario.deployment.participants.at(i);
   return default_count(scenario, s) + (s == 0 ? p.publications : p.subscriptions);
+}
+
+// A deletion takes a number of its own.
+Id descriptor_count(const model::Scenario& scenario, Id i, int s) {
+  Id count = count_at_start(scenario, i, s);
+  if (!scenario.deployment.life) return count;
+  for (const model::LateEndpoints& late : scenario.deployment.life->endpoints) {
+    if (late.participant != i) continue;
+    const Id endpoints = s == 0 ? late.publications : late.subscriptions;
+    count += endpoints;
+    if (late.until) count += endpoints;
+  }
+  return count;
 }
 
 std::int64_t descriptor_bytes(const model::Scenario& scenario, int s, Id d) {

@@ -19,6 +19,7 @@ void create_relations(World& w) {
         r.state.assign(count, DescriptorState::unsent);
         r.generated.assign(count, false);
         r.received.assign(count, false);
+        r.known = count_at_start(w.scenario, i, s);
         w.relations[{i, j, s}] = r;
         if (is_asked_for(w, i, j)) w.missing += count;
       }
@@ -41,6 +42,10 @@ World::World(const model::Scenario& s, Mistake m) : scenario{s}, sedp{s.dds.sedp
     for (int stream = 0; stream < 2; ++stream) {
       writers[{i, stream}].budget = sedp.piggyback_threshold_bytes.count();
       writers[{i, stream}].period = sedp.heartbeat_period.count();
+      const Id first = makes(Mistake::exists_from_the_start) ? descriptor_count(s, i, stream)
+                                                             : count_at_start(s, i, stream);
+      writers[{i, stream}].written_at_start = first;
+      writers[{i, stream}].written = first;
     }
   }
   for (const model::Stage& stage : s.wireless.stages) channels[stage.channel];
@@ -71,9 +76,10 @@ bool completion_ends(const World& w) { return w.scenario.run_until == model::Run
 
 Relation& relation(World& w, Id i, Id j, int s) { return w.relations.at({i, j, s}); }
 
-bool all_acknowledged(const Relation& r) {
-  for (const DescriptorState state : r.state) {
-    if (state != DescriptorState::acknowledged) return false;
+bool all_acknowledged(World& w, Id i, Id j, int s) {
+  const Relation& r = relation(w, i, j, s);
+  for (Id d = 0; d < w.writers.at({i, s}).written; ++d) {
+    if (r.state.at(d) != DescriptorState::acknowledged) return false;
   }
   return true;
 }
@@ -89,7 +95,7 @@ std::vector<Id> open_readers(World& w, Id i, int s) {
 std::vector<Id> lacking_readers(World& w, Id i, int s) {
   std::vector<Id> readers;
   for (const Id j : open_readers(w, i, s)) {
-    if (!all_acknowledged(relation(w, i, j, s))) readers.push_back(j);
+    if (!all_acknowledged(w, i, j, s)) readers.push_back(j);
   }
   return readers;
 }

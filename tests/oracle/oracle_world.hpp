@@ -38,6 +38,7 @@ enum class EventKind {
   cycle_batch,
   lease_check,
   participant_return,
+  endpoint_change,
   dispatch,
 };
 
@@ -70,6 +71,7 @@ struct Packet {
   bool repair = false;             // its DATA was generated as a repair
   bool initial = false;            // an initial ACKNACK
   std::set<Id> bitmap;             // of an ACKNACK
+  Id announces = 0;                // of a HEARTBEAT: so many exist; of an ACKNACK: are known
   std::uint64_t number = 0;        // from here on: filled in by emit
   Time emitted = 0;
   bool lost = false;
@@ -91,6 +93,7 @@ struct Relation {
   int reader_epoch = 0;                // from here on: how often j forgot i
   int writer_epoch = 0;                // and i forgot j
   std::uint32_t old_counts = 0;        // at i: so many ACKNACKs of j count as old
+  Id known = 0;                        // at j: so many descriptors exist
 };
 
 struct Writer {
@@ -100,6 +103,9 @@ struct Writer {
   Time period = 0;
   Time cycle_start = 0;
   std::uint64_t token = 0;
+  Id written_at_start = 0;  // so many descriptors exist when the participant starts
+  Id written = 0;           // and now
+  Id cycle_announced = 0;   // and when the cycle started
   std::set<Id> cycle_readers;
   std::set<Id> responded;
 };
@@ -158,12 +164,13 @@ void schedule(World& w, Time at, EventClass event_class, const Event& event);
 [[nodiscard]] bool started(const World& w, Id i);
 [[nodiscard]] bool completion_ends(const World& w);
 [[nodiscard]] Relation& relation(World& w, Id i, Id j, int s);
-[[nodiscard]] bool all_acknowledged(const Relation& r);
+[[nodiscard]] bool all_acknowledged(World& w, Id i, Id j, int s);
 [[nodiscard]] std::vector<Id> open_readers(World& w, Id i, int s);
 [[nodiscard]] std::vector<Id> lacking_readers(World& w, Id i, int s);
 
 // oracle_sizes.cpp (and oracle_sizes.hpp)
 [[nodiscard]] Id descriptor_count(const model::Scenario& scenario, Id i, int s);
+[[nodiscard]] Id count_at_start(const model::Scenario& scenario, Id i, int s);
 [[nodiscard]] std::int64_t descriptor_bytes(const model::Scenario& scenario, int s, Id d);
 [[nodiscard]] std::int64_t grouping_limit(const model::SedpProfile& sedp);
 
@@ -183,6 +190,7 @@ void initial_acknack(World& w, Id j, Id i, int s, Time delay);
 
 // oracle_writer.cpp
 void open_writer(World& w, Id i, Id j, int s);
+void write_descriptor(World& w, Id i, int s);
 void arm_heartbeat(World& w, Id i, int s);
 void heartbeat_expiry(World& w, Id i, int s);
 void receive_acknack(World& w, const Packet& packet);
@@ -196,7 +204,6 @@ void generate_data(World& w, Id i, Id j, int s, const std::vector<Id>& descripto
 
 // oracle_life.cpp
 void begin_life(World& w);
-[[nodiscard]] model::Scenario with_those_who_come_back_as_others(model::Scenario scenario);
 [[nodiscard]] bool is_away(const World& w, Id i, Time at);
 [[nodiscard]] bool is_asked_for(const World& w, Id i, Id j);
 [[nodiscard]] bool is_heard(const World& w, const Packet& packet, Id j);
@@ -205,6 +212,7 @@ void begin_life(World& w);
 void heard(World& w, Id j, Id i);
 void lease_check(World& w, Id i, Id j);
 void participant_return(World& w, Id i);
+void change_endpoints(World& w, const model::LateEndpoints& late);
 
 // oracle_adaptive.cpp
 void activate_cycles(World& w, Id i, int s);

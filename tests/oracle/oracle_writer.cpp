@@ -23,11 +23,14 @@ void schedule_expiry(World& w, Id i, int s) {
 }
 
 // Returns whether at least one descriptor went from U to R.
-bool apply_bitmap(World& w, Relation& r, const std::set<Id>& bitmap) {
+bool apply_bitmap(World& w, Relation& r, const Packet& packet) {
+  const std::set<Id>& bitmap = packet.bitmap;
+  const Id all = static_cast<Id>(r.state.size());
+  const Id known = w.makes(Mistake::acknack_confirms_unknown) ? all : packet.announces;
   const bool prefix = w.sedp.acknowledge == model::Acknowledge::prefix;
   const Id more = w.makes(Mistake::prefix_goes_too_far) ? 2 : 0;
   bool requested = false;
-  for (Id d = 0; d < r.state.size(); ++d) {
+  for (Id d = 0; d < known; ++d) {
     DescriptorState& state = r.state.at(d);
     if (bitmap.contains(d)) {
       if (state != DescriptorState::unsent) continue;
@@ -87,12 +90,23 @@ void open_writer(World& w, Id i, Id j, int s) {
   r.writer_open = true;
   if (w.sedp.initial_data == model::InitialData::push) {
     std::vector<Id> all;
-    for (Id d = 0; d < r.state.size(); ++d) all.push_back(d);
+    for (Id d = 0; d < w.writers.at({i, s}).written; ++d) all.push_back(d);
     generate_data(w, i, j, s, all, false);
   }
   if (w.makes(Mistake::opening_arms_first)) arm_at_opening(w, i, s);
   generate_heartbeat(w, i, j, s);
   arm_at_opening(w, i, s);
+}
+
+// One more, of an endpoint that is created or deleted.
+void write_descriptor(World& w, Id i, int s) {
+  const Id d = w.writers.at({i, s}).written++;
+  const bool pushes =
+      w.sedp.initial_data == model::InitialData::push && !w.makes(Mistake::creation_not_pushed);
+  for (const Id j : open_readers(w, i, s)) {
+    if (pushes) generate_data(w, i, j, s, {d}, false);
+  }
+  if (!w.makes(Mistake::creation_does_not_arm)) arm_at_opening(w, i, s);
 }
 
 void arm_heartbeat(World& w, Id i, int s) {
@@ -137,12 +151,13 @@ void receive_acknack(World& w, const Packet& packet) {
         return;
     }
   }
-  if (apply_bitmap(w, r, packet.bitmap)) {
+  if (apply_bitmap(w, r, packet)) {
     const Time delay = w.sedp.nack_response_delay.count();
     schedule(w, w.now + delay, EventClass::protocol,
              relation_event(EventKind::repair_generation, i, j, s));
   }
-  if (adaptive(w) && packet.bitmap.empty()) response(w, i, j, s);
+  const bool has_all = packet.announces >= w.writers.at({i, s}).cycle_announced;
+  if (adaptive(w) && packet.bitmap.empty() && has_all) response(w, i, j, s);
 }
 
 void generate_repair(World& w, Id i, Id j, int s) {

@@ -8,6 +8,7 @@
 
 #include "model/airtime.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
+#include "model/fastdds/peer_ports.hpp"
 #include "props/applicability.hpp"
 #include "props/generators/on_demand.hpp"
 #include "props/generators/space.hpp"
@@ -63,6 +64,9 @@ bool may_violate(const Scenario& scenario, std::string_view property) {
     return !is_fastdds(scenario) &&
            scenario.dds.sedp.heartbeat_timer == model::HeartbeatTimerKind::additive &&
            scenario.dds.sedp.heartbeat_policy == model::HeartbeatPolicy::periodic;
+  }
+  if (property == "live.no-stall" || property == "live.completion") {
+    return !model::fastdds::announcements_reach_all(scenario);
   }
   if (property == "live.quiescence") {
     return !is_fastdds(scenario) && may_lose_heartbeats(scenario);
@@ -140,6 +144,40 @@ TEST_P(RandomRuns, OfFastDdsHaveTrueFindingsOnly) {
     if (seed % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
     return scenario;
   });
+}
+
+TEST_P(RandomRuns, WithStaticPeersHaveTrueFindingsOnly) {
+  each("static peers", short_runs(), [](std::uint64_t seed) {
+    Scenario scenario = oracle::random_fastdds_scenario(seed);
+    draw_discovery(seed, model::Discovery::static_peers, scenario);
+    if (seed % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
+    return scenario;
+  });
+}
+
+/// Two hosts; who is at no port that is asked is found if it hears of somebody who then answers.
+Scenario with_one_port(const std::string& participants) {
+  return shipped("wifi-5x20-fastdds",
+                 {"dds=fastdds-static-2.6.11", "dds.peer_ports=1", "run_until=time_limit",
+                  "time_limit=30s", "deployment={participants: " + participants + "}"});
+}
+
+TEST(CorrectRuns, StaticPeersThatAreNeverAskedStall) {
+  EXPECT_EQ(why_not_provable("live.completion", shipped("smallest", {"dds=fastdds-static-2.6.11"})),
+            "");
+  const std::string one = "{host: 0, publications: 1, subscriptions: 1}";
+  const std::string other = "{host: 1, publications: 1, subscriptions: 1}";
+  const Scenario answered = with_one_port("[" + one + ", " + other + ", " + other + "]");
+  EXPECT_NE(why_not_provable("live.completion", answered), "");
+  const MonitoredRun found = run_monitored(answered);
+  EXPECT_TRUE(found.result.discovery_time);
+  EXPECT_EQ(found.violation("live.no-stall"), nullptr);
+  EXPECT_EQ(found.violation("live.completion"), nullptr);
+  const MonitoredRun never =
+      run_monitored(with_one_port("[" + one + ", " + one + ", " + other + ", " + other + "]"));
+  EXPECT_FALSE(never.result.discovery_time);
+  EXPECT_NE(never.violation("live.no-stall"), nullptr);
+  EXPECT_NE(never.violation("live.completion"), nullptr);
 }
 
 TEST_P(RandomRuns, OverUnitsAndWithSendersThatStallHaveTrueFindingsOnly) {

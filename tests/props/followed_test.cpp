@@ -9,6 +9,7 @@
 
 #include "fsm/composition/compositions.hpp"
 #include "model/engine/packet.hpp"
+#include "props/generators/on_demand.hpp"
 #include "tests/oracle/random_scenario.hpp"
 #include "tests/props/monitored_run.hpp"
 
@@ -89,6 +90,29 @@ TEST_P(Followed, CorrectRunsAreWhatTheRulesSay) {
     ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
                   << monitor->violation()->reason;
   }
+}
+
+TEST(Followed, RunsWithStaticPeersAreWhatTheRulesSay) {
+  model::RunOptions options;
+  options.max_events = 10'000;
+  int ports_of_nobody = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Scenario scenario = oracle::random_scenario(seed, ImplementationKind::fastdds);
+    draw_discovery(seed, model::Discovery::static_peers, scenario);
+    const auto monitor = follow(scenario, options);
+    EXPECT_FALSE(monitor->violation()) << "seed " << seed << ": " << monitor->violation()->reason;
+    if (scenario.deployment.host_count() < 2) continue;
+    Scenario specification = scenario;
+    ++specification.dds.peer_ports;  // one packet more to each other host
+    const auto other = make_monitor("composition.followed", specification);
+    model::RunOptions observed = options;
+    observed.probe = other.get();
+    (void)simulate(scenario, observed);
+    ASSERT_TRUE(other->violation()) << "seed " << seed;
+    const std::string& reason = other->violation()->reason;
+    if (reason.find("a port that nobody has") != std::string::npos) ++ports_of_nobody;
+  }
+  EXPECT_GT(ports_of_nobody, 50);
 }
 
 /// When a piggyback budget is used up is the host's: HEARTBEATs may ride or follow, or not.

@@ -155,6 +155,7 @@ std::vector<RangeText> describe(const Ranges& ranges, const model::Scenario& sce
   failures("outages", vary.outages, "outages of one direction");
   failures("restarts", vary.restarts, "participants that stop and come back under their name");
   failures("late_joiners", vary.late_joiners, "participants that start later");
+  failures("new_endpoints", vary.new_endpoints, "times somebody creates endpoints");
   const auto relative = [&](const char* name, const std::optional<model::Ratio>& ratio,
                             std::size_t knobs, const char* what) {
     if (!ratio) return;

@@ -67,6 +67,12 @@ void add_life_differences(const model::Deployment& now, const model::Deployment&
     lines.push_back(fmt::format("{} stops at {} and is back at {}", r.participant,
                                 print_duration(r.stop), print_duration(r.start)));
   }
+  for (const model::LateEndpoints& late : now.life->endpoints) {
+    lines.push_back(fmt::format(
+        "{} creates {} publications and {} subscriptions at {}{}", late.participant,
+        late.publications, late.subscriptions, print_duration(late.at),
+        late.until ? fmt::format(" and deletes them at {}", print_duration(*late.until)) : ""));
+  }
 }
 
 std::string losses_text(const std::vector<std::uint64_t>& lost) {

@@ -71,6 +71,16 @@ class Fate {
       life().restarts.push_back({who, begin + stop, begin + std::max(start, stop + one), {}});
       if (!comes_back_in_order(deployment_)) life().restarts.pop_back();
     }
+    for (std::int64_t k = some(vary_.new_endpoints); k > 0; --k) {
+      const std::uint32_t who = anybody();
+      const auto [at, until] = times();
+      const model::Nanoseconds begin = deployment_.participants[who].start;
+      life().endpoints.push_back({who, 1, 1, begin + at, {}});
+      if (until > at && between(random_, 0, 1) == 1) {
+        life().endpoints.back().until = begin + until;
+      }
+      if (!creates_while_there(deployment_)) life().endpoints.pop_back();
+    }
   }
 
  private:

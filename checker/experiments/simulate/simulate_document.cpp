@@ -65,6 +65,11 @@ std::string elaboration(const Simulation& s) {
         duration(result.end_time));
   }
   if (s.scenario.deployment.life) text += recovery_text(s);
+  if (result.messages_since_last_start) {
+    text +=
+        fmt::format("From the last start or change of endpoints on ({}) {} messages are sent. ",
+                    duration(last_start(s.scenario.deployment)), *result.messages_since_last_start);
+  }
   if (!s.open_loop) {
     if (model::traits_of(s.scenario.dds).has_server) {
       return text + "No open-loop airtime: it is not defined with a Discovery Server.";

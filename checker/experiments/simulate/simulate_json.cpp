@@ -194,6 +194,7 @@ void describe(V& v, const Simulation& s) {
   v("end", result.end);
   v("t_disc_ns", result.discovery_time);
   v.unless_empty("recovery_ns", result.recovery_time);
+  v.unless_empty("messages_since_last_start", result.messages_since_last_start);
   v("end_ns", result.end_time);
   v("counts", model::AllCounts{result.counts, result.user_control});
   v("failure_free", s.failure_free);

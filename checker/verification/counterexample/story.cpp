@@ -105,6 +105,11 @@ std::string life_text(const model::Deployment& deployment) {
                         props::time_text(restart.stop), props::time_text(restart.start),
                         restart.identity == model::Identity::fresh ? " as somebody new" : "");
   }
+  for (const model::LateEndpoints& late : deployment.life->endpoints) {
+    text += fmt::format("; {} creates {} + {} endpoints at {}", late.participant, late.publications,
+                        late.subscriptions, props::time_text(late.at));
+    if (late.until) text += fmt::format(" and deletes them at {}", props::time_text(*late.until));
+  }
   if (deployment.life->lease) {
     text += fmt::format("; leases of {}", props::time_text(*deployment.life->lease));
   }

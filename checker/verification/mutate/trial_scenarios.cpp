@@ -92,8 +92,9 @@ model::Scenario dead() {
 /// An initial ACKNACK comes when the reader is complete.
 model::Scenario late() {
   model::Scenario scenario = amended(2);
-  scenario.wireless.packet_delays = {model::PacketDelay{.packet = 6, .one_way = ms(71)},
-                                     model::PacketDelay{.packet = 12, .one_way = ms(1'050)}};
+  scenario.wireless.packet_delays = {
+      model::PacketDelay{.packet = 6, .leaves_after = {}, .one_way = ms(71)},
+      model::PacketDelay{.packet = 12, .leaves_after = {}, .one_way = ms(1'050)}};
   scenario.dds.amendments->initial_acknack_stop = model::InitialAckNackStop::any_heartbeat;
   scenario.dds.amendments->late_initial = model::LateInitial::ignore_after_ack;
   return scenario;

@@ -8,11 +8,13 @@
 
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
+#include "model/implementations.hpp"
 #include "model/life.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::model::config {
 
+inline constexpr NumberType endpoint_count = count_range(0, Deployment::max_endpoints);
 inline constexpr NumberType participant_number = count_range(0, Deployment::max_participants - 1);
 void visit_knobs(auto& visit, Is<StaleRelation> auto& stale) {
   visit.knob("writer", stale.writer, participant_number, "who believes that the other has all");
@@ -46,6 +48,16 @@ void visit_knobs(auto& visit, Is<Lease> auto& lease) {
   visit.knob("duration", lease.duration, period_range, "how long others remember it");
 }
 
+void visit_knobs(auto& visit, Is<LateEndpoints> auto& late) {
+  visit.knob("participant", late.participant, participant_number, "who");
+  visit.knob("publications", late.publications, endpoint_count, "how many it creates");
+  visit.knob("subscriptions", late.subscriptions, endpoint_count, "how many it creates");
+  visit.knob("at", late.at, delay_range, "when it creates them");
+  visit.knob("until", late.until, delay_range, "when it deletes them; never if absent",
+             Presence::optional);
+  visit.rule(!late.until || late.at < *late.until, "until", "later than their creation");
+}
+
 void visit_knobs(auto& visit, Is<Life> auto& life) {
   constexpr ListSize any{0, 1'000'000};
   constexpr ListSize each_participant{0, Deployment::max_participants};
@@ -64,6 +76,9 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
              Presence::optional);
   visit.list("leases", life.leases, each_participant, "of participants with another one",
              Presence::optional);
+  visit.list("endpoints", life.endpoints, any,
+             "user endpoints that participants create in the run, and may delete again",
+             Presence::optional);
 }
 
 /// Whether both are participants of different hosts.
@@ -72,15 +87,26 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
   const auto& all = deployment.participants;
   return i < all.size() && j < all.size() && all[i].host != all[j].host;
 }
+/// Whether the rules know of a life. Those of Fast DDS do as long as no event waits for a thread or
+/// a full queue.
+[[nodiscard]] inline bool knows_lives(const Scenario& scenario) {
+  const bool is_punctual = !scenario.hosts && scenario.wireless.sender == Sender::backlog;
+  return traits_of(scenario.dds).knows_lives && (is_punctual || scenario.dds.amendments);
+}
 void visit_life(auto& visit, Is<Scenario> auto& scenario) {
   const Deployment& deployment = scenario.deployment;
   const bool may_fail = scenario.vary && (scenario.vary->outages || scenario.vary->restarts);
-  visit.rule(!may_fail || scenario.dds.amendments.has_value(), "vary",
-             "no outages or restarts, or a DDS profile with amendments, whose rules know them");
+  visit.rule(!may_fail || knows_lives(scenario), "vary",
+             "no outages or restarts, or a DDS profile whose rules know them: one with amendments, "
+             "or implementation: fastdds with discovery: simple, sender: backlog and no hosts");
+  const bool may_write = scenario.vary && scenario.vary->new_endpoints;
+  visit.rule(!may_write || scenario.dds.amendments.has_value(), "vary.new_endpoints",
+             "none, or a DDS profile with amendments, whose rules know them");
   if (!deployment.life) return;
   const Life& life = *deployment.life;
-  visit.rule(scenario.dds.amendments.has_value(), "deployment.life",
-             "nothing of the kind, or a DDS profile with amendments, whose rules know it");
+  visit.rule(knows_lives(scenario), "deployment.life",
+             "nothing of the kind, or a DDS profile whose rules know it: one with amendments, or "
+             "implementation: fastdds with discovery: simple, sender: backlog and no hosts");
   const auto is_stale = [&](const StaleRelation& stale) {
     return is_cross_host(deployment, stale.writer, stale.reader);
   };
@@ -99,6 +125,12 @@ void visit_life(auto& visit, Is<Scenario> auto& scenario) {
              "participants of the deployment");
   visit.rule(std::ranges::all_of(life.leases, is_there), "deployment.life.leases",
              "participants of the deployment");
+  visit.rule(life.endpoints.empty() || scenario.dds.amendments.has_value(),
+             "deployment.life.endpoints",
+             "none, or a DDS profile with amendments, whose rules know them");
+  visit.rule(creates_while_there(deployment), "deployment.life.endpoints",
+             "created and deleted by participants of the deployment, from their start on and not "
+             "while they are away");
   visit.rule(comes_back_in_order(deployment), "deployment.life.restarts",
              "of each participant one after the other, from its start on, and nothing after it has "
              "come back as somebody new");

@@ -53,7 +53,6 @@ inline constexpr std::string_view ready_key = "ready";
 inline constexpr std::string_view open_before_key = "open_before";
 
 inline constexpr NumberType participant_count = count_range(1, Deployment::max_participants);
-inline constexpr NumberType endpoint_count = count_range(0, Deployment::max_endpoints);
 
 void visit_knobs(auto& visit, Is<HomogeneousForm> auto& form) {
   visit.knob(hosts_key, form.hosts, participant_count, "number of hosts (N_H), or a list of them");
@@ -163,7 +162,7 @@ void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
   visit_fleet_knobs(visit, deployment);
   visit.section("life", deployment.life,
                 "what happened before the run, and what happens to participants in it; with "
-                "dds.amendments",
+                "dds.amendments or implementation: fastdds",
                 Presence::optional);
   visit.section(schedule_key, deployment.schedule,
                 "ranges that all start and endpoints_done are drawn from, uniformly; a time that a "
@@ -202,6 +201,9 @@ inline constexpr std::uint64_t max_descriptor_deliveries = 10'000'000'000;
     descriptors += std::uint64_t{defaults.default_publications} + defaults.default_subscriptions +
                    participant.publications + participant.subscriptions;
   }
+  for (const LateEndpoints& late : scenario.deployment.life.value_or(Life{}).endpoints) {
+    descriptors += 2 * (std::uint64_t{late.publications} + late.subscriptions);
+  }
   return descriptors * (scenario.deployment.participants.size() - 1);
 }
 
@@ -239,16 +241,20 @@ void visit_knobs(auto& visit, Is<Variation> auto& vary) {
   constexpr NumberType some = count_range(0, Deployment::max_participants);
   visit.knob("outages", vary.outages, some,
              "at most so many outages, each of one direction between two participants; with "
-             "dds.amendments",
+             "dds.amendments or implementation: fastdds",
              Presence::optional);
   visit.knob("restarts", vary.restarts, some,
              "at most so many participants stop, and come back under their name; with "
-             "dds.amendments",
+             "dds.amendments or implementation: fastdds",
              Presence::optional);
   visit.knob("late_joiners", vary.late_joiners, some, "at most so many participants start later",
              Presence::optional);
+  visit.knob("new_endpoints", vary.new_endpoints, some,
+             "at most so many times a participant creates a publication and a subscription in the "
+             "run, and may delete them again; with dds.amendments",
+             Presence::optional);
   visit.knob("failures_within", vary.failures_within, period_range,
-             "outages, restarts and late starts are over by then; 10s if absent",
+             "outages, restarts, late starts and new endpoints are over by then; 10s if absent",
              Presence::optional);
 }
 

@@ -14,6 +14,7 @@
 
 #include <boost/pfr.hpp>
 
+#include "fsm/composition/first_value.hpp"
 #include "fsm/flyweight.hpp"
 #include "model/engine/composition_knobs.hpp"
 
@@ -60,6 +61,7 @@ struct SmallState {
 struct SmallClock {
   std::int64_t now = 0;
   std::function<void(const Key& timer, bool counted, std::int64_t due)> started;
+  std::function<void(const Key& timer)> cancelled;
   std::function<void(const SentPacket& packet)> sent;
 };
 
@@ -113,9 +115,11 @@ class SmallWorld {
     } else if constexpr (requires { typename Tag::IsNumber; }) {
       return std::int64_t{value<Tag>()};
     } else if constexpr (std::derived_from<Tag, DescriptorField>) {
-      return (packet_->says.at(tag<Tag>()) >> place_.descriptor & 1) != 0;
+      return (said<Tag>() >> place_.descriptor & 1) != 0;
     } else if constexpr (std::derived_from<Tag, PacketField>) {
-      return packet_->says.at(tag<Tag>()) != 0;
+      return said<Tag>() != 0;
+    } else if constexpr (std::derived_from<Tag, PacketNumber>) {
+      return std::int64_t{said<Tag>()};
     } else if constexpr (std::derived_from<Tag, Amount>) {
       if (std::is_same_v<Tag, Now> && clock_ != nullptr) return clock_->now;
       return std::int64_t{draw(4)};
@@ -228,6 +232,13 @@ class SmallWorld {
     });
     if (part.bits != 0) body(part);
   }
+  /// The other direction has places of its own.
+  template <class Body>
+  void reverse(Body&& body) {
+    SmallWorld back = *this;
+    back.place_.peer += small_peers;
+    body(back);
+  }
 
   // Effects.
   template <class P, class E>
@@ -270,7 +281,10 @@ class SmallWorld {
   }
   template <class T>
   void cancel(T) {
-    state_->pending[{tag<T>(), place_.of(T::owner)}] = 0;
+    const Key key{tag<T>(), place_.of(T::owner)};
+    state_->pending[key] = 0;
+    state_->surely_pending.erase(key);
+    if (clock_ != nullptr) clock_->cancelled(key);
   }
   template <class P, class... Sayings>
   void emit(P, const std::tuple<Sayings...>& sayings) {
@@ -301,10 +315,17 @@ class SmallWorld {
   }
   template <class T>
   std::int64_t& value() {
-    return state_->values[{tag<T>(), place_.of(T::owner)}];
+    const Key key{tag<T>(), place_.of(T::owner)};
+    return state_->values.try_emplace(key, first_value<T>()).first->second;
   }
 
  private:
+  /// What a packet has no field for it does not say: 0.
+  template <class Tag>
+  [[nodiscard]] std::uint32_t said() const {
+    const auto found = packet_->says.find(tag<Tag>());
+    return found == packet_->says.end() ? 0 : found->second;
+  }
   int draw(int count) { return static_cast<int>((*dice_)() % static_cast<std::uint64_t>(count)); }
   SmallWorld at_place(Place place) const {
     SmallWorld world = *this;
@@ -337,6 +358,8 @@ class SmallWorld {
     if (!packet.says.contains(tag<F>())) return;
     if constexpr (std::is_same_v<Value, bool>) {
       packet.says[tag<F>()] = saying.value ? 1 : 0;
+    } else if constexpr (std::derived_from<F, PacketNumber>) {
+      packet.says[tag<F>()] = static_cast<std::uint32_t>(saying.value);
     } else {
       packet.says[tag<F>()] = set_of(saying.value).bits;
     }

@@ -44,6 +44,47 @@ void separate(Scenario& scenario, std::int64_t start, std::int64_t end) {
   life(scenario).outages.push_back({1, 0, Nanoseconds{start}, Nanoseconds{end}});
 }
 
+/// One more publication, from 30 s on.
+TEST(EndpointsComeAndGo, DiscoveryIsCompleteAgainWhenAllHaveThem) {
+  Scenario scenario = pair_of_participants();
+  life(scenario).endpoints = {{0, 1, 0, Nanoseconds{30 * sec}, {}}};
+  const RunResult pulled = simulate(scenario);
+  ASSERT_TRUE(pulled.completed());
+  // The clock of HEARTBEATs, then an answer, then the repair.
+  EXPECT_GT(*pulled.recovery_time, scenario.dds.sedp.heartbeat_period);
+  EXPECT_LT(*pulled.recovery_time, scenario.dds.sedp.heartbeat_period * 2);
+  scenario.dds.sedp.initial_data = InitialData::push;
+  const RunResult pushed = simulate(scenario);
+  ASSERT_TRUE(pushed.completed());
+  EXPECT_EQ(*pushed.recovery_time, Nanoseconds{ms});
+  EXPECT_EQ(pushed.useful_deliveries, 3U) << "two that they start with, and the new one";
+}
+
+/// Who deletes says so; and who counts from then on counts that alone.
+TEST(EndpointsComeAndGo, ADeletionIsOneMoreSample) {
+  Scenario scenario = pair_of_participants();
+  scenario.dds.sedp.initial_data = InitialData::push;
+  life(scenario).endpoints = {{0, 0, 2, Nanoseconds{30 * sec}, Nanoseconds{31 * sec}}};
+  scenario.dds.sedp.heartbeat_period = Nanoseconds{2 * sec};
+  const RunResult result = simulate(scenario);
+  ASSERT_TRUE(result.completed());
+  EXPECT_EQ(*result.discovery_time, Nanoseconds{31 * sec + ms});
+  EXPECT_EQ(result.useful_deliveries, 6U);
+  EXPECT_EQ(result.messages_since_last_start, 2U) << "a DATA for each that is gone";
+}
+
+/// The push is lost: the reader does not know that there is something, until a HEARTBEAT says so.
+TEST(EndpointsComeAndGo, AReaderAsksForWhatItKnows) {
+  Scenario scenario = pair_of_participants();
+  scenario.dds.sedp.initial_data = InitialData::push;
+  life(scenario).endpoints = {{0, 1, 0, Nanoseconds{30 * sec}, {}}};
+  life(scenario).outages = {{0, 1, Nanoseconds{30 * sec}, Nanoseconds{30 * sec + 2 * ms}}};
+  const RunResult result = simulate(scenario);
+  ASSERT_TRUE(result.completed());
+  EXPECT_GT(*result.discovery_time, Nanoseconds{30 * sec} + scenario.dds.sedp.heartbeat_period);
+  EXPECT_EQ(result.counts.repair_data, 1U);
+}
+
 TEST(ParticipantsComeAndGo, AShortOutageIsNoFailure) {
   Scenario scenario = pair_of_participants();
   const RunResult alone = simulate(scenario);

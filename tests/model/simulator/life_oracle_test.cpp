@@ -31,15 +31,32 @@ model::Scenario living(std::uint64_t seed) {
   scenario.dds.amendments->initial_acknack_resets = drawn.initial_acknack_resets;
   scenario.dds.amendments->initial_acknack_arms = drawn.initial_acknack_arms;
   scenario.dds.amendments->count_filter = drawn.count_filter;
+  // The oracle does not look whether all is quiet.
+  if (scenario.run_until == model::RunUntil::quiescence) {
+    scenario.run_until = model::RunUntil::time_limit;
+  }
   // Who falls silent for ever is missing for ever.
   if (seed % 4 != 0) scenario.deployment.life->mute.clear();
   return scenario;
 }
 
-TEST(Life, IsThatOfTheOracle) {
+/// A scenario of Fast DDS with a life.
+model::Scenario living_fastdds(std::uint64_t seed) {
+  model::Scenario scenario = random_fastdds_scenario(seed);
+  props::Dice dice{seed};
+  props::draw_life(dice, scenario);
+  if (seed % 4 != 0) scenario.deployment.life->mute.clear();
+  return scenario;
+}
+
+using Draw = model::Scenario(std::uint64_t);
+
+/// `least_changed`: so many of them at least are complete though endpoints come and go.
+void expect_equal_runs(Draw& living, std::size_t least_changed) {
   std::size_t complete = 0;
   std::size_t recovered = 0;
-  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+  std::size_t changed = 0;
+  for (std::uint64_t seed = 1; seed <= 1'000; ++seed) {
     const model::Scenario scenario = living(seed);
     ASSERT_TRUE(model::config::is_valid(scenario)) << seed;
     const auto difference = oracle::difference(scenario);
@@ -49,10 +66,30 @@ TEST(Life, IsThatOfTheOracle) {
     const model::RunResult result = model::simulate(scenario, options);
     complete += result.completed() ? 1U : 0U;
     recovered += result.recovery_time && result.recovery_time->count() > 0 ? 1U : 0U;
+    const bool with_changes = !scenario.deployment.life->endpoints.empty();
+    changed += with_changes && result.completed() ? 1U : 0U;
   }
-  std::cout << complete << " of 400 lives are complete, " << recovered << " after a failure\n";
-  EXPECT_GE(complete, 40U);
-  EXPECT_GE(recovered, 20U);
+  std::cout << complete << " of 1000 lives are complete, " << recovered << " after a failure, "
+            << changed << " with changes of endpoints\n";
+  EXPECT_GE(complete, 80U);
+  EXPECT_GE(recovered, 40U);
+  EXPECT_GE(changed, least_changed);
+}
+
+TEST(Life, IsThatOfTheOracle) { expect_equal_runs(living, 20); }
+
+/// Whose endpoints come and go with their participants only.
+TEST(Life, IsThatOfTheOracleOfFastDds) { expect_equal_runs(living_fastdds, 0); }
+
+/// Where nothing happens to anybody, the rules with a life are those without.
+TEST(Life, OfNobodyWhoFailsIsFastDds) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    model::Scenario scenario = random_fastdds_scenario(seed);
+    const Observed without = observe_product(scenario, nullptr, most_compared_events);
+    scenario.deployment.life.emplace();
+    const Observed with = observe_product(scenario, nullptr, most_compared_events);
+    EXPECT_EQ(first_difference(with, without), std::nullopt) << seed;
+  }
 }
 
 class Effects final : public model::Probe {
@@ -64,7 +101,7 @@ class Effects final : public model::Probe {
 };
 
 /// Every effect of the rules about lives happens in some of them.
-TEST(Life, EveryEffectHappens) {
+void expect_all_effects(Draw& living, std::size_t least) {
   Effects effects;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     model::RunOptions options;
@@ -72,25 +109,31 @@ TEST(Life, EveryEffectHappens) {
     options.max_events = most_compared_events;
     (void)model::simulate(living(seed), options);
   }
-  const auto& composition = model::composition_of(model::ImplementationKind::paper_amended);
+  const auto& composition = model::composition_of(living(1));
   std::set<std::string> never;
   std::size_t known = 0;
   for (const auto& [key, id] : fsm::composition::effect_ids(composition)) {
     const std::string rule = id.substr(0, id.find('.'));
-    constexpr std::array of_lives{"HearFrom",     "LeaseIsChecked", "Forget",
-                                  "ForgetReader", "ForgetWriter",   "Returns"};
+    constexpr std::array of_lives{"HearFrom",       "LeaseIsChecked", "Forget",
+                                  "ForgetReader",   "ForgetWriter",   "Returns",
+                                  "EndpointChanges"};
     if (std::ranges::find(of_lives, rule) == of_lives.end()) continue;
     ++known;
     if (!effects.seen.contains(key)) never.insert(id);
   }
   EXPECT_EQ(never, std::set<std::string>{});
-  EXPECT_GT(known, 30U);
+  EXPECT_GE(known, least);
 }
 
+TEST(Life, EveryEffectHappens) { expect_all_effects(living, 31); }
+
+TEST(Life, EveryEffectHappensInFastDds) { expect_all_effects(living_fastdds, 29); }
+
 /// Each mistake about lives shows in some of them.
-TEST(Life, MistakesOfTheOracleAreNoticed) {
-  for (std::size_t k = first_mistake_of_life; k < mistake_count; ++k) {
-    const auto mistake = static_cast<Mistake>(k);
+template <class Kind>
+void expect_all_noticed(Draw& living, std::size_t first, std::size_t count) {
+  for (std::size_t k = first; k < count; ++k) {
+    const auto mistake = static_cast<Kind>(k);
     bool noticed = false;
     for (std::uint64_t seed = 1; seed <= 400 && !noticed; ++seed) {
       const model::Scenario scenario = living(seed);
@@ -100,6 +143,15 @@ TEST(Life, MistakesOfTheOracleAreNoticed) {
     }
     EXPECT_TRUE(noticed) << name_of(mistake);
   }
+}
+
+TEST(Life, MistakesOfTheOracleAreNoticed) {
+  expect_all_noticed<Mistake>(living, first_mistake_of_life, mistake_count);
+}
+
+TEST(Life, MistakesOfTheOracleOfFastDdsAreNoticed) {
+  expect_all_noticed<FastddsMistake>(living_fastdds, first_fastdds_mistake_of_life,
+                                     fastdds_mistake_count);
 }
 
 }  // namespace life_oracle_test

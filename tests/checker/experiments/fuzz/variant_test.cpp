@@ -168,13 +168,15 @@ TEST(Losses, have_the_stated_rate_and_continue_each_other) {
 TEST(Variants, have_the_failures_that_are_asked_for) {
   const model::Scenario base =
       shipped("smallest", {"dds.amendments={}", "time_limit=60s",
-                           "vary={outages: 2, restarts: 1, late_joiners: 1, failures_within: 5s}"});
+                           "vary={outages: 2, restarts: 1, late_joiners: 1, new_endpoints: 1, "
+                           "failures_within: 5s}"});
   const Ranges ranges = ranges_around(base, {});
   const VariantSource source{base, ranges};
   const model::Nanoseconds latest{5'000'000'000};
   std::size_t outages = 0;
   std::size_t restarts = 0;
   std::size_t late = 0;
+  std::size_t changes = 0;
   for (std::uint64_t number = 0; number < 200; ++number) {
     const auto variant = source.draw(3, number);
     ASSERT_TRUE(variant) << number;
@@ -191,12 +193,17 @@ TEST(Variants, have_the_failures_that_are_asked_for) {
     for (const model::Restart& restart : deployment.life->restarts) {
       EXPECT_LE(restart.start, latest + latest + model::Nanoseconds{1});
     }
+    for (const model::LateEndpoints& endpoints : deployment.life->endpoints) {
+      EXPECT_LE(endpoints.until.value_or(endpoints.at), latest + latest);
+    }
+    changes += deployment.life->endpoints.size();
     outages += deployment.life->outages.size();
     restarts += deployment.life->restarts.size();
   }
   EXPECT_GT(outages, 50U);
   EXPECT_GT(restarts, 50U);
   EXPECT_GT(late, 50U);
+  EXPECT_GT(changes, 50U);
 }
 
 /// Those who ask for none get the values that they had without such ranges.

@@ -6,6 +6,7 @@
 #include "model/config/knobs/effective.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/implementations.hpp"
+#include "model/life.hpp"
 #include "tests/model/config/test_files.hpp"
 
 namespace stormproof::model::config {
@@ -107,12 +108,62 @@ TEST(Life, RefusesRestartsThatCannotBe) {
   EXPECT_NE(refusal({rules, "deployment.life={leases: [{participant: 9, duration: 1s}]}"})
                 .find("participants of the deployment"),
             std::string::npos);
-  EXPECT_NE(refusal({"vary={outages: 1}"}).find("a DDS profile with amendments"),
+  EXPECT_NE(refusal({"vary={outages: 1}"}).find("a DDS profile whose rules know them"),
             std::string::npos);
+  for (const char* key : {"vary={new_endpoints: 1}",
+                          "deployment.life={endpoints: [{participant: 0, publications: 1, "
+                          "subscriptions: 0, at: 1s}]}"}) {
+    EXPECT_NE(refusal({"dds=fastdds-2.6.11", key}).find("a DDS profile with amendments"),
+              std::string::npos)
+        << key;
+  }
+}
+
+TEST(Life, HasEndpoints) {
+  const auto scenario =
+      with({"dds.amendments={}",
+            "deployment.life={endpoints: [{participant: 1, publications: 2, subscriptions: 0, at: "
+            "1s}, {participant: 0, publications: 0, subscriptions: 1, at: 2s, until: 3s}]}"});
+  ASSERT_TRUE(scenario) << to_string(scenario.error());
+  const auto seconds = [](std::int64_t count) { return Nanoseconds{count * 1'000'000'000}; };
+  EXPECT_EQ(
+      scenario->deployment.life->endpoints,
+      (std::vector<LateEndpoints>{{1, 2, 0, seconds(1), {}}, {0, 0, 1, seconds(2), seconds(3)}}));
+  const auto again = parse_scenario(effective_json(*scenario).dump(), "again", {}, source_specs());
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_EQ(*again, *scenario);
+}
+
+TEST(Life, RefusesEndpointsOfWhoIsNotThere) {
+  const auto refused = [&](const std::string& times, const std::string& others = "") {
+    return refusal({"dds.amendments={}", "deployment.life={" + others +
+                                             "endpoints: [{publications: 1, subscriptions: 0, " +
+                                             times + "}]}"});
+  };
+  EXPECT_EQ(refused("participant: 1, at: 1s"), "");
+  EXPECT_NE(refused("participant: 1, at: 2s, until: 2s").find("later than their creation"),
+            std::string::npos);
+  const char* const absent = "not while they are away";
+  EXPECT_NE(refused("participant: 9, at: 2s").find(absent), std::string::npos);
+  const std::string mute = "mute: [{participant: 1, from: 3s}], ";
+  EXPECT_EQ(refused("participant: 1, at: 2s", mute), "");
+  EXPECT_NE(refused("participant: 1, at: 2s, until: 3s", mute).find(absent), std::string::npos);
+  const std::string restart = "restarts: [{participant: 1, stop: 2s, start: 4s}], ";
+  EXPECT_NE(refused("participant: 1, at: 3s", restart).find(absent), std::string::npos);
+  EXPECT_EQ(refused("participant: 1, at: 4s", restart), "");
+  EXPECT_NE(refusal({"vary={new_endpoints: 1}"}).find("a DDS profile with amendments"),
+            std::string::npos);
+  auto scenario = with({"dds.amendments={}",
+                        "deployment.life={endpoints: [{participant: 1, publications: 1, "
+                        "subscriptions: 0, at: 1s}]}"});
+  ASSERT_TRUE(scenario);
+  EXPECT_TRUE(creates_while_there(scenario->deployment));
+  scenario->deployment.participants[1].start = Nanoseconds{1'000'000'001};
+  EXPECT_FALSE(creates_while_there(scenario->deployment));
 }
 
 TEST(Life, NeedsRulesThatKnowIt) {
-  EXPECT_NE(refusal({"deployment.life={}"}).find("a DDS profile with amendments"),
+  EXPECT_NE(refusal({"deployment.life={}"}).find("a DDS profile whose rules know it"),
             std::string::npos);
 }
 

@@ -1,0 +1,193 @@
+// Fast DDS whose participants have a life: its rules (fsm/composition/fastdds.hpp), with what is
+// heard of others, and what is lost of those that are forgotten or come back. `FastDdsLiving` is
+// the whole composition. Of what nobody forgets its runs are those of `FastDds`.
+// Source: specs/guide/museum.md, "Participants that come and go"; specs/guide/fastdds.md.
+#pragma once
+
+#include "fsm/composition/fastdds.hpp"
+#include "fsm/composition/life.hpp"
+
+namespace stormproof::fsm::composition::fastdds {
+
+/// The other end of a control-only relation is heard of: its writer, or its reader.
+struct HearWriter : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.call(HearFrom{});
+  }
+};
+struct HearReader : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.reverse([](auto& back) { back.call(HearFrom{}); });
+  }
+};
+
+/// The reader side of a relation is a new one.
+struct ForgetWriter : Procedure {
+  template <class W>
+  static void body(W& w) {
+    w.renew(Reader{});
+    w.renew(InitialTimer{});
+    w.renew(Reply{});
+    w.set_each(X{}, [](auto& d) { return !everyone(d); });
+    w.set_each(Known{}, [](auto& d) { return !everyone(d); });
+    w.set_each(Notified{}, [](auto& d) { return !everyone(d); });
+    w.set(HeartbeatSeen{}, typename W::Bool(false));
+    w.cancel(InitialAttempt{});
+    w.cancel(AckNackGeneration{});
+  }
+};
+/// The writer side of a relation is a new one. What its writer and its participant have to do goes
+/// on for the others: the HEARTBEAT clock, the nack response, the asynchronous queue.
+struct ForgetReader : Procedure {
+  template <class W>
+  static void body(W& w) {
+    w.set(WriterOpen{}, typename W::Bool(false));
+    w.renew(C{});
+    w.renew(Suppression{});
+    w.set(SomeConfirmed{}, typename W::Bool(false));
+    w.set(Contacted{}, typename W::Bool(false));
+    w.set(Responded{}, typename W::Bool(false));
+    w.cancel(SuppressionEnd{});
+  }
+};
+/// The sides that the pair's source has of control-only relations with its destination are new
+/// ones.
+struct ForgetTopics : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.renew(control::ControlWriterSide{});
+    w.renew(control::ControlReaderSide{});
+    w.renew(control::ControlInitialTimer{});
+    w.renew(control::ControlReply{});
+    w.set(control::ControlHeartbeatSeen{}, typename W::Bool(false));
+    w.cancel(control::ControlInitialAttempt{});
+    w.cancel(control::ControlReplyDue{});
+  }
+};
+
+struct LoseAll;
+/// What it forgets.
+struct Forgetting {
+  using ForgetWriter = fastdds::ForgetWriter;
+  using ForgetReader = fastdds::ForgetReader;
+  using LoseAll = fastdds::LoseAll;
+  template <class W>
+  static void forget_peer(W& w) {
+    w.perform(ForgetTopics{});
+  }
+};
+using Life = LifeRules<Forgetting>;
+
+/// The participant is a new one in all that it has, without endpoints; others remember it as they
+/// did.
+struct LoseAll : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.renew(AnnouncementTimer{});
+    w.set(AnnouncementsSent{}, typename W::Int(0));
+    w.cancel(Announcement{});
+    w.renew(AsyncRun{});
+    w.cancel(AsyncRunDue{});
+    w.for_known_peers([](auto& peer) {
+      peer.reverse([](auto& back) { back.call(Life::Forget{}); });
+      peer.for_streams([](auto& r) {
+        r.set_each(Exists{}, [](auto& d) { return !everyone(d); });
+        r.set_each(Enqueued{}, [](auto& d) { return !everyone(d); });
+        r.renew(HeartbeatClock{});
+        r.renew(NackResponse{});
+        r.cancel(NackResponseDue{});
+        r.cancel(HeartbeatExpiry{});
+        r.cancel(CycleStart{});
+        r.cancel(CycleEnd{});
+        r.cancel(BatchDue{});
+        r.perform(RefillBudget{});
+      });
+    });
+  }
+};
+
+// What is heard. ----------------------------------------------------------------------------------
+
+using LivingAnnouncements = AnnouncementRules<Implementation>;
+using LivingReader = ReaderRules<Implementation>;
+
+struct HeardMulticast : Rule<Received<SpdpMulticast>> {
+  template <class W>
+  static void run(W& w) {
+    LivingAnnouncements::MulticastArrives::run(w);
+    w.call(HearFrom{});
+  }
+};
+struct HeardUnicast : Rule<Received<SpdpUnicast>> {
+  template <class W>
+  static void run(W& w) {
+    LivingAnnouncements::UnicastArrives::run(w);
+    w.call(HearFrom{});
+  }
+};
+struct HeardData : Rule<Received<Data>> {
+  template <class W>
+  static void run(W& w) {
+    LivingReader::DataArrives::run(w);
+    w.call(HearFrom{});
+  }
+};
+struct HeardHeartbeat : Rule<Received<Heartbeat>> {
+  template <class W>
+  static void run(W& w) {
+    LivingReader::HeartbeatArrives::run(w);
+    w.call(HearFrom{});
+  }
+};
+struct HeardAckNack : Rule<Received<AckNack>> {
+  template <class W>
+  static void run(W& w) {
+    w.reverse([](auto& back) { back.call(HearFrom{}); });
+    AckNackArrives::run(w);
+  }
+};
+struct HeardControlHeartbeat : Rule<Received<control::UserHeartbeat>> {
+  template <class W>
+  static void run(W& w) {
+    w.perform(HearWriter{});
+    control::ControlHeartbeatArrives::run(w);
+  }
+};
+struct HeardControlAckNack : Rule<Received<control::UserAckNack>> {
+  template <class W>
+  static void run(W& w) {
+    w.perform(HearReader{});
+    control::ControlAckNackArrives::run(w);
+  }
+};
+
+/// The whole composition.
+struct FastDdsLiving : Implementation {
+  static constexpr std::string_view name = "fastdds-living";
+  using AckNack = fastdds::AckNack;
+  using Parts = FastDds::Parts;
+  using Timers = Joined<FastDds::Timers, TypeList<LeaseCheck, Return>>;
+  /// What it has besides.
+  using Memory = TypeList<ForgottenAt, LeaseRuns>;
+  using State = Joined<FastDds::State, Memory>;
+  using Packets = FastDds::Packets;
+  using Occasions = FastDds::Occasions;
+  using Rules = Joined<
+      TypeList<LivingAnnouncements::AnnouncementIsDue, HeardMulticast, HeardUnicast,
+               LivingReader::ReaderOpened, LivingReader::InitialAckNackDue, HeardData,
+               HeardHeartbeat, LivingReader::AckNackDue, ReaderIsMatched, DescriptorIsCreated,
+               HeardAckNack, NackResponds, QueueIsSent, SuppressionEnds>,
+      Clock::Rules,
+      TypeList<control::ControlWriterOpened, control::ControlReaderOpened, HeardControlHeartbeat,
+               HeardControlAckNack, control::ControlInitialAckNackDue, control::ControlReplyIsDue>,
+      Life::Rules>;
+  using IsOpen = WriterOpen;
+  using IsQueued = Enqueued;
+  static constexpr auto unused = FastDds::unused;
+  static constexpr std::array from_outside{
+      participant_returns, FromOutside{"Created", "the application creates endpoints"}};
+};
+
+}  // namespace stormproof::fsm::composition::fastdds

@@ -1,0 +1,160 @@
+// What was before the run, who hears whom, and who is new.
+#include "model/fastdds/living_protocol.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace stormproof::model::fastdds {
+
+bool LivingProtocol::was_there_before(std::uint32_t i) const {
+  return std::ranges::find(life_.stale, i, &StaleRelation::writer) != life_.stale.end();
+}
+
+void LivingProtocol::start() {
+  for (const StaleRelation& stale : life_.stale) open_before(stale.writer, stale.reader);
+  Protocol::start();
+  for (std::uint32_t i = 0; i < topology().participant_count(); ++i) {
+    // Its endpoints exist already.
+    if (was_there_before(i)) cancel_all(rules::Created{}, i);
+  }
+  schedule_returns();
+}
+
+void LivingProtocol::open_before(std::uint32_t i, std::uint32_t j) {
+  const std::uint32_t there = topology().pair_between(i, j);
+  const std::uint32_t back = topology().pair(there).reverse;
+  assign(comp::Recognised{}, back, true);
+  hear_from(back);
+  for (std::uint32_t s = 0; s < 2; ++s) {
+    // The writer side of (i, j, s).
+    const std::uint32_t outward = 2 * there + s;
+    writers_[2 * i + s].created = topology().descriptor_count(outward);
+    RunningWorld<LivingProtocol, comp::owner::relation> w{*this, outward};
+    w.feed_each(rules::C{}, comp::on<fsm::change_for_reader::ReaderMatched>);
+    w.feed_each(rules::C{}, comp::on<fsm::change_for_reader::AckNackReceived>, [](auto&) {
+      return fsm::ChangeForReaderIo::Input<LaneDomain>{.listed = Lanes{false},
+                                                       .below_base = Lanes{true}};
+    });
+    assign(rules::WriterOpen{}, outward, true);
+    assign(rules::SomeConfirmed{}, outward, true);
+    // The reader side of (j, i, s).
+    const std::uint32_t inward = 2 * back + s;
+    RunningWorld<LivingProtocol, comp::owner::relation> r{*this, inward};
+    const DescriptorSet all = r.set_of(comp::everyone);
+    take(changes_, inward, all, is_required(inward));
+    relations_[inward].known = topology().descriptor_count(inward);
+    relations_[inward].notified = topology().descriptor_count(inward);
+    readers_[inward].state =
+        fsm::Reflect<fsm::DiscoveryReader>::id<fsm::discovery_reader::Complete>;
+    readers_[inward].heartbeat_seen = true;
+  }
+  open_topics_before(there, back);
+}
+
+/// i's sides of the control-only relations of both directions are open, and it has heard of the
+/// other's writers.
+void LivingProtocol::open_topics_before(std::uint32_t there, std::uint32_t back) {
+  for (std::uint32_t t = 0; control_.find(there, t) != topic::none; ++t) {
+    control_.of(control_.find(there, t)).writer =
+        fsm::Reflect<fsm::ControlWriter>::id<fsm::control_relation::Open>;
+  }
+  for (std::uint32_t t = 0; control_.find(back, t) != topic::none; ++t) {
+    ControlRelations::Relation& relation = control_.of(control_.find(back, t));
+    relation.reader = fsm::Reflect<fsm::ControlReader>::id<fsm::control_relation::Open>;
+    relation.heartbeat_seen = true;
+  }
+}
+
+void LivingProtocol::take_descriptors(std::uint32_t relation, const DescriptorSet& received) {
+  if (received.empty()) {
+    lose(changes_, relation, is_required(relation));
+  } else {
+    take(changes_, relation, received, is_required(relation));
+  }
+}
+
+void LivingProtocol::renew(fsm::StateId& shot, MachineRef::Kind kind, std::uint32_t n) {
+  const fsm::StateId before = std::exchange(shot, fsm::Stepper<fsm::SingleShot>::initial);
+  if (before != shot) note_renewed<fsm::SingleShot>(kind, n, before, shot);
+}
+
+void LivingProtocol::assign(rules::WriterOpen open, std::uint32_t relation, bool matched) {
+  Protocol::assign(open, relation, matched);
+  if (matched) return;
+  for (std::vector<std::uint32_t>& batch : clocks_[writer_of(relation)].batches) {
+    std::erase(batch, relation);
+  }
+}
+
+void LivingProtocol::hear_from(std::uint32_t pair) {
+  RunningWorld<LivingProtocol, comp::owner::pair>{*this, pair}.call(comp::HearFrom{});
+}
+
+void LivingProtocol::forget_topics(std::uint32_t there) {
+  for (std::uint32_t t = 0; control_.find(there, t) != topic::none; ++t) {
+    control_.of(control_.find(there, t)).writer = fsm::Stepper<fsm::ControlWriter>::initial;
+  }
+  const std::uint32_t back = topology().pair(there).reverse;
+  for (std::uint32_t t = 0; control_.find(back, t) != topic::none; ++t) {
+    const std::uint32_t relation = control_.find(back, t);
+    ControlRelations::Relation fresh;
+    fresh.pair = back;
+    fresh.writer = control_.of(relation).writer;
+    control_.of(relation) = fresh;
+    cancel(control::ControlInitialAttempt{}, relation);
+    cancel(control::ControlReplyDue{}, relation);
+  }
+}
+
+void LivingProtocol::lose_all(std::uint32_t i) {
+  renew(comp::AnnouncementTimer{}, i);
+  cancel(comp::Announcement{}, i);
+  cancel_all(rules::Created{}, i);
+  renew(participants_[i].async_run, MachineRef::Kind::participant, i);
+  cancel(rules::AsyncRunDue{}, i);
+  participants_[i] = {};
+  for (std::uint32_t there = topology().first_pair(i); there < topology().first_pair(i + 1);
+       ++there) {
+    const std::uint32_t back = topology().pair(there).reverse;
+    RunningWorld<LivingProtocol, comp::owner::pair>{*this, back}.call(rules::Life::Forget{});
+  }
+  for (const std::uint32_t w : {2 * i, 2 * i + 1}) {
+    renew(comp::HeartbeatClock{}, w);
+    renew(writers_[w].nack_response, MachineRef::Kind::writer, w);
+    cancel(rules::NackResponseDue{}, w);
+    cancel(comp::HeartbeatExpiry{}, w);
+    cancel(comp::CycleStart{}, w);
+    cancel(comp::CycleEnd{}, w);
+    cancel(comp::BatchDue{}, w);
+    writers_[w].created = 0;
+    std::ranges::fill(writers_[w].enqueued, 0);
+    refill(w);
+  }
+}
+
+std::optional<std::uint32_t> LivingProtocol::sender_of(const Event& event) const {
+  if (event.kind == EventKind::participant_start) return event.subject;
+  if (event.kind == EventKind::lease_check) return topology().pair(event.subject).destination;
+  return Protocol::sender_of(event);
+}
+
+void LivingProtocol::handle(const Event& event) {
+  const std::optional<std::uint32_t> actor = sender_of(event);
+  if (actor && is_away(life_, *actor, run_.now)) return;
+  if (event.kind == EventKind::endpoint_creation) {
+    if (!is_cancelled(rules::Created{}, event)) create(*this, event);
+    return;
+  }
+  run_due(*this, event);
+  if (event.kind == EventKind::participant_start) schedule_creations(event.subject, run_.now);
+}
+
+void LivingProtocol::received(const Packet& packet, std::uint32_t receiver) {
+  const Pair* const ends = packet.multicast() ? nullptr : &topology().pair(packet.pair);
+  const std::uint32_t sender = ends == nullptr      ? packet.pair
+                               : packet.to_writer() ? ends->destination
+                                                    : ends->source;
+  if (hears(life_, sender, receiver, packet.emitted, run_.now)) take_in(*this, packet, receiver);
+}
+
+}  // namespace stormproof::model::fastdds
