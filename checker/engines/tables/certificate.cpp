@@ -17,8 +17,12 @@ Exprs holds_of(const std::vector<Clause>& clauses) {
 
 /// Of what is given, stated and found: what every step keeps, and what is stated in vain.
 struct Found {
+  struct Loss {
+    std::string words;
+    std::string state;  ///< in which the step is taken
+  };
   std::vector<Clause> invariant;
-  std::vector<std::string> lost;
+  std::vector<Loss> lost;
 };
 Found find(Proof& proof, const Certificate& certificate) {
   std::vector<Clause> all = certificate.given;
@@ -31,7 +35,8 @@ Found find(Proof& proof, const Certificate& certificate) {
     if (kept.kept[k]) {
       found.invariant.push_back(all[k]);
     } else if (k < stated) {
-      found.lost.push_back("'" + all[k].words + "' is lost at: " + kept.lost_at[k]);
+      found.lost.push_back(
+          {"'" + all[k].words + "' is lost at: " + kept.lost_at[k], kept.lost_in[k]});
     }
   }
   return found;
@@ -88,9 +93,10 @@ bool conclude(Proof& proof, const Certificate& certificate, const std::vector<Cl
 
 bool prove(Proof& proof, const Certificate& certificate) {
   const Found found = find(proof, certificate);
-  for (const std::string& loss : found.lost) {
-    proof.give_up(loss);
-    proof.detail(loss);
+  for (const Found::Loss& loss : found.lost) {
+    proof.give_up(loss.words);
+    proof.detail(loss.words);
+    proof.detail("a state in which it is: " + loss.state);
   }
   return conclude(proof, certificate, found.invariant);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Decide = Finding (*)(const CheckRequest&);
 
-constexpr std::array<std::string_view, 14> ids{"fsm.determinism",
+constexpr std::array<std::string_view, 15> ids{"fsm.determinism",
                                                "fsm.totality",
                                                "fsm.reachability",
                                                "composition.total",
@@ -25,8 +25,9 @@ constexpr std::array<std::string_view, 14> ids{"fsm.determinism",
                                                "safety.repair-only-if-asked",
                                                "safety.snapshot",
                                                "timer.single-heartbeat",
-                                               "live.no-stall"};
-constexpr std::array<Decide, 14> functions{fsm_determinism,
+                                               "live.no-stall",
+                                               "live.recovery"};
+constexpr std::array<Decide, 15> functions{fsm_determinism,
                                            fsm_totality,
                                            fsm_reachability,
                                            composition_total,
@@ -39,7 +40,8 @@ constexpr std::array<Decide, 14> functions{fsm_determinism,
                                            safety_repair_only_if_asked,
                                            safety_snapshot,
                                            timer_single_heartbeat,
-                                           live_no_stall};
+                                           live_no_stall,
+                                           live_recovery};
 
 Finding failed(const std::string& why) {
   Finding finding;

@@ -14,14 +14,10 @@
 namespace stormproof::tables {
 namespace {
 
-Expr if_then(const Expr& condition, const Expr& consequence) {
-  return z3::implies(condition, consequence);
-}
-
-class Invariant {
+class Invariant : public TimedStatement {
  public:
   Invariant(const TimedDescriptor& system, const model::DdsProfile& dds)
-      : system_{system},
+      : TimedStatement{system},
         period_{system.delays().period.expr()},
         response_{system.delays().response.expr()},
         nack_{system.delays().nack.expr()},
@@ -32,13 +28,10 @@ class Invariant {
         received_{is(timed::limit) + system.bound().exchange.expr()},
         counts_{is(watched::counting) && !is("X")} {
     say("only what is received is in A", if_then(is("C=A"), is("X")));
-    for (const char* packet : {"Heartbeat", "AckNack", "Data"}) {
-      say(std::string{packet} + ": what is looked at arrives within Δ",
-          if_then(is(timed::in_flight(packet)), by(is(timed::arrives(packet)), now() + delta_)));
-    }
-    within("HeartbeatExpiry", is("pending HeartbeatExpiry") >= 1, period_);
-    within("AckNackGeneration", is("pending AckNackGeneration"), response_);
-    within("SuppressionEnd", is("pending SuppressionEnd"), suppression_);
+    for (const char* packet : {"Heartbeat", "AckNack", "Data"}) arrives_in_time(packet);
+    within("HeartbeatExpiry", pending("HeartbeatExpiry") >= 1, period_);
+    within("AckNackGeneration", pending("AckNackGeneration"), response_);
+    within("SuppressionEnd", pending("SuppressionEnd"), suppression_);
     say("an expiry is pending, and only one, exactly while the timer is armed",
         is("pending HeartbeatExpiry") == z3::ite(is("HeartbeatClock=Armed"), number(1), number(0)));
     say("what can be asked for counts, and nothing else",
@@ -47,17 +40,11 @@ class Invariant {
     conclude();
   }
 
-  std::vector<Clause> stated;
-  std::vector<Clause> conclusions;
-  std::vector<StepClause> on_steps;
-
  private:
   void add(model::Of<fsm::composition::paper::Paper>) {
     const Expr open = is("WriterOpen");
-    within("RepairGeneration", is("pending RepairGeneration"), nack_);
-    say("a repair that is looked at leaves its source within σ",
-        if_then(is(timed::leaving("Data")),
-                by(is(timed::leaves("Data")), now() + system_.delays().source.expr())));
+    within("RepairGeneration", pending("RepairGeneration"), nack_);
+    repairs_leave_in_time();
     say("open and not in A: the timer is armed",
         if_then(open && !is("C=A"), is("HeartbeatClock=Armed")));
     waits_ = open && !is("C=A");
@@ -89,7 +76,7 @@ class Invariant {
 
   /// While the descriptor is missing: its DATA is on its way, or it is in S, or `case_of_writer`.
   void missing(const Expr& case_of_writer) {
-    const Expr data = is(timed::in_flight("Data")) && by(is(timed::arrives("Data")), received_);
+    const Expr data = arrives_by("Data", received_);
     const Expr suppressed = is("C=S") && is("pending SuppressionEnd") &&
                             by(due("SuppressionEnd"), is(timed::limit) - period_);
     say("what is missing is on its way, or something is pending that asks for it, in time",
@@ -98,20 +85,18 @@ class Invariant {
   /// In U: an expiry is due, or an exchange is under way.
   Expr answer(const Expr& in_state, const Expr& known) {
     const Expr limit = is(timed::limit);
-    return in_state &&
-           ((is("pending HeartbeatExpiry") >= 1 && by(due("HeartbeatExpiry"), limit)) ||
-            (is(timed::in_flight("Heartbeat")) &&
-             by(is(timed::arrives("Heartbeat")), limit + delta_)) ||
-            (known && is("pending AckNackGeneration") &&
-             by(due("AckNackGeneration"), limit + delta_ + response_)) ||
-            (is(timed::in_flight("AckNack")) && by(is(timed::arrives("AckNack")), asked_)));
+    return in_state && ((pending("HeartbeatExpiry") >= 1 && by(due("HeartbeatExpiry"), limit)) ||
+                        arrives_by("Heartbeat", limit + delta_) ||
+                        (known && pending("AckNackGeneration") &&
+                         by(due("AckNackGeneration"), limit + delta_ + response_)) ||
+                        arrives_by("AckNack", asked_));
   }
   Expr repaired(const Expr& in_state, const std::string& timer) {
     return in_state && is("pending " + timer) && by(due(timer), generated_);
   }
 
   void conclude() {
-    const Expr expiry = is("pending HeartbeatExpiry") >= 1;
+    const Expr expiry = pending("HeartbeatExpiry") >= 1;
     conclusions.push_back({waits_words_ + ": an expiry is pending within τ_H",
                            if_then(waits_, expiry && now() <= due("HeartbeatExpiry") &&
                                                by(due("HeartbeatExpiry"), now() + period_))});
@@ -121,19 +106,6 @@ class Invariant {
         {"what is missing is received by the limit + F", if_then(counts_, by(now(), received_))});
   }
 
-  void say(std::string words, const Expr& holds) { stated.push_back({std::move(words), holds}); }
-  void within(const std::string& timer, const Expr& pending, const Expr& delay) {
-    say(timer + ": what is pending is due within its delay",
-        if_then(pending, now() <= due(timer) && by(due(timer), now() + delay)));
-  }
-  [[nodiscard]] Expr is(const std::string& name) const { return system_[name]; }
-  [[nodiscard]] Expr due(const std::string& timer) const { return is(timed::due(timer)); }
-  [[nodiscard]] Expr now() const { return is(timed::now); }
-  static Expr by(const Expr& time, const Expr& latest) { return time <= latest; }
-  static Expr number(int value) { return smt::SymbolicContext::current().int_val(value); }
-  static Expr true_() { return smt::SymbolicContext::current().bool_val(true); }
-
-  const TimedDescriptor& system_;
   Expr period_;
   Expr response_;
   Expr nack_;
@@ -147,21 +119,6 @@ class Invariant {
   std::string waits_words_;
 };
 
-Certificate certificate_of(const TimedDescriptor& descriptor, const Invariant& invariant) {
-  const Moving moving{descriptor.whole()};
-  Certificate certificate = certificate_in_time(descriptor, moving);
-  const auto add = [&](const std::vector<Clause>& from, std::vector<Clause>& to) {
-    for (const Clause& clause : from) to.push_back({clause.words, moving(clause.holds)});
-  };
-  add(invariant.stated, certificate.invariant);
-  add(invariant.conclusions, certificate.conclusions);
-  for (const StepClause& clause : invariant.on_steps) {
-    certificate.on_steps.push_back(
-        {clause.words, clause.step, moving(clause.before), moving(clause.after)});
-  }
-  return certificate;
-}
-
 constexpr const char* certificate_name = "live.completion.rules";
 
 props::Finding decided(const checker::CheckRequest& request, const Tighter& tighter) {
@@ -174,12 +131,8 @@ props::Finding decided(const checker::CheckRequest& request, const Tighter& tigh
     return proof.finish(how);
   }
   assume_in_time(proof);
-  const TimedDescriptor descriptor{dds, proof.mistakes(), {.tighten = [&](auto& bound) {
-                                     bound.first = bound.first - tighter.first;
-                                     bound.loss = bound.loss - tighter.loss;
-                                     bound.exchange = bound.exchange - tighter.exchange;
-                                   }}};
-  prove(proof, certificate_of(descriptor, {descriptor, dds}));
+  const TimedDescriptor descriptor{dds, proof.mistakes(), {.tighten = tightened_by(tighter)}};
+  prove(proof, certificate_of(descriptor, Invariant{descriptor, dds}));
   return proof.finish(how + ", with all timers and delays symbolic");
 }
 

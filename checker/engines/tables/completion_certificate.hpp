@@ -7,16 +7,9 @@
 #include <string>
 
 #include "checker/engines/bounds/check_request.hpp"
+#include "checker/engines/tables/timed_certificate.hpp"
 
 namespace stormproof::tables {
-
-/// By how many nanoseconds the parts of the bound (checker/engines/bounds/loss_bound.hpp) are
-/// claimed to be smaller than they are: none, except to show that they cannot be.
-struct Tighter {
-  int first = 0;
-  int loss = 0;
-  int exchange = 0;
-};
 
 /// Why the certificates do not say anything about a profile; empty: they do.
 [[nodiscard]] std::string not_certified(const model::DdsProfile& dds);

@@ -34,7 +34,7 @@ void forget(std::vector<composition::RuleInfo>& rules, std::string_view timer) {
 
 /// The composition of the scenario's implementation, with the mutant's mistakes.
 CompositionInfo composition_of(const Proof& proof) {
-  CompositionInfo info = model::composition_of(proof.scenario().dds);
+  CompositionInfo info = model::composition_of(proof.scenario());
   for (const composition::EffectMutation& mistake : proof.mistakes().effects) {
     if (mistake.change != composition::EffectMutation::Change::drop) continue;
     for (auto* rules : {&info.rules, &info.procedures}) {

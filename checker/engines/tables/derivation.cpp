@@ -215,6 +215,10 @@ void Derivation::declare_count(const std::string& name) {
   start_.push_back(context_of_derivation().int_val(0));
 }
 
+void Derivation::start_with(const std::string& name, bool value) {
+  start_.at(index_.at(name)) = context_of_derivation().bool_val(value);
+}
+
 void Derivation::begin() {
   now_ = variables_;
   inputs_.clear();

@@ -37,6 +37,8 @@ class Derivation {
   // Variables.
   void declare(const std::string& name, bool start);
   void declare_count(const std::string& name);
+  /// The system starts with another value of the variable.
+  void start_with(const std::string& name, bool value);
   [[nodiscard]] bool has(const std::string& name) const { return index_.contains(name); }
   /// The variable itself, for properties.
   [[nodiscard]] const Expr& variable(const std::string& name) const {

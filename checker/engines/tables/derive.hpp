@@ -3,6 +3,7 @@
 #pragma once
 
 #include "checker/engines/tables/derived_world.hpp"
+#include "fsm/composition/first_value.hpp"
 #include "fsm/composition/watched_world.hpp"
 #include "model/engine/effect_mutator.hpp"
 
@@ -41,17 +42,19 @@ void declare(Derived& derived) {
     }
   });
   composition::for_each_type(typename Composition::State{}, [&]<class V>() {
-    if constexpr (requires { typename V::IsFlag; }) derivation.declare(tag_name<V>(), false);
+    if constexpr (requires { typename V::IsFlag; }) {
+      derivation.declare(tag_name<V>(), composition::first_value<V>() != 0);
+    }
   });
   composition::for_each_type(typename Composition::Timers{}, [&]<class T>() {
-    if constexpr (T::counted) {
+    if (derived.counts<T>()) {
       derivation.declare_count("pending " + tag_name<T>());
       derivation.declare_count("counted " + tag_name<T>());
     } else {
       derivation.declare("pending " + tag_name<T>(), false);
       derivation.declare("started " + tag_name<T>(), comes_from_outside<T, Composition>());
     }
-    if (derived.time != nullptr) derived.time->declare_timer(tag_name<T>(), T::counted);
+    if (derived.time != nullptr) derived.time->declare_timer(tag_name<T>(), derived.counts<T>());
   });
   composition::for_each_type(typename Composition::Packets{}, [&]<class P>() {
     for (const auto& content : DerivedPacket<P>::all_contents()) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,11 +40,18 @@ struct Derived {
   std::function<Expr(const Knob&)> knob{};
   /// With it, things under way have deadlines.
   DerivedTime* time = nullptr;
+  /// Timers of which it matters how many are pending, though no rule asks for that.
+  std::set<std::string> counted{};
 
   /// Effects are counted as the recorder does (fsm/composition/recorder.hpp): within a rule,
   /// procedure or step, each once, however often it runs.
   std::string within{};
   unsigned number = 0;
+
+  template <class T>
+  [[nodiscard]] bool counts() const {
+    return T::counted || counted.contains(std::string{fsm::name_of<T>()});
+  }
 
   /// The next effect happens `when`, here or at a place that is not ours.
   void effect(const Expr& when, bool is_ours) {

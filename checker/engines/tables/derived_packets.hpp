@@ -1,5 +1,6 @@
 // A kind of packet in a derived system: one variable for each content with which one has been sent
-// to or by our relation. What was sent may arrive at any time, any number of times.
+// to or by our relation. What was sent may arrive at any time, any number of times. Numbers that a
+// packet says are unknown to its receiver.
 #pragma once
 
 #include <algorithm>
@@ -25,6 +26,7 @@ class DerivedPacket {
   static std::vector<std::pair<std::string, Content>> all_contents() {
     std::vector<std::pair<std::string, Content>> all{{"sent " + tag_name<P>(), {}}};
     composition::for_each_type(typename P::Fields{}, [&]<class F>() {
+      if constexpr (std::derived_from<F, composition::PacketNumber>) return;
       const std::size_t count = all.size();
       for (std::size_t k = 0; k < count; ++k) {
         all.push_back(all[k]);
@@ -53,6 +55,7 @@ class DerivedPacket {
   [[nodiscard]] Says inputs() const {
     Says says;
     composition::for_each_type(typename P::Fields{}, [&]<class F>() {
+      if constexpr (std::derived_from<F, composition::PacketNumber>) return;
       says.emplace(tag_name<F>(), system().input(tag_name<F>()));
     });
     return says;

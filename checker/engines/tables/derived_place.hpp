@@ -77,11 +77,22 @@ class DerivedPlace {
   }
   template <class V, class Value>
   void assign(const Value& value) {
+    if (is_foreign(V::owner)) return;
     if constexpr (requires { typename V::IsFlag; }) {
-      if (!is_foreign(V::owner)) derivation().assign(tag_name<V>(), path_, Bool{value}.expr());
+      derivation().assign(tag_name<V>(), path_, Bool{value}.expr());
+    } else if (derivation().has(tag_name<V>())) {
+      derivation().assign(tag_name<V>(), path_, Int{value}.expr());
     }
   }
 
+  template <class P>
+  void start_anew(const Expr& when) const {
+    using Info = fsm::Reflect<typename P::Machine>;
+    for (std::size_t k = 0; k < Info::state_count; ++k) {
+      const bool start = k == Info::template id<typename P::Machine::initial_state>;
+      derived_->derivation.assign(state_name<P>(k), when, Bool{start}.expr());
+    }
+  }
   template <class P, class E>
   auto step(const Expr& when, const typename P::Machine::Io::template Input<D>& input) {
     using Step = MachineStep<typename P::Machine>;

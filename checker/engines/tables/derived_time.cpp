@@ -35,9 +35,11 @@ void DerivedTime::declare_timer(const std::string& timer, bool counted) {
 }
 
 void DerivedTime::declare_packet(const std::string& packet, bool leaves) {
-  arriving_.push_back(packet);
-  derivation_.declare(timed::in_flight(packet), false);
-  derivation_.declare_count(timed::arrives(packet));
+  for (const std::string& kind : kinds_of(packet)) {
+    arriving_.push_back(kind);
+    derivation_.declare(timed::in_flight(kind), false);
+    derivation_.declare_count(timed::arrives(kind));
+  }
   if (network_.exact) {
     derivation_.declare(timed::sent(packet), false);
     derivation_.declare_count(timed::first(packet));
@@ -46,6 +48,12 @@ void DerivedTime::declare_packet(const std::string& packet, bool leaves) {
   leaving_.push_back(packet);
   derivation_.declare(timed::leaving(packet), false);
   derivation_.declare_count(timed::leaves(packet));
+}
+
+std::vector<std::string> DerivedTime::kinds_of(const std::string& packet) const {
+  const auto further = network_.further.find(packet);
+  if (further == network_.further.end()) return {packet};
+  return {packet, further->second};
 }
 
 Expr DerivedTime::is_pending(const Timer& timer) {
@@ -82,20 +90,21 @@ void DerivedTime::look_at(const std::string& flag, const std::string& by, const 
   derivation_.assign(flag, when, certainly());
 }
 
+void DerivedTime::emitted_as(const std::string& kind, const Expr& when, const Says& says) {
+  const Expr matters = (when && network_.matters(kind, says)).simplify();
+  if (matters.is_false()) return;
+  const Expr lost = network_.loses ? derivation_.unknown() : !certainly();
+  const Expr looked_at = matters && !derivation_.now(timed::in_flight(kind));
+  derivation_.assign(timed::limit, looked_at && lost, network_.lost(derivation_.now(timed::limit)));
+  look_at(timed::in_flight(kind), timed::arrives(kind), looked_at && !lost, now() + network_.delay);
+}
+
 void DerivedTime::emitted(const std::string& packet, const Expr& when, const Says& says) {
   if (network_.exact) {
     look_at(timed::sent(packet), timed::first(packet),
             when && !derivation_.now(timed::sent(packet)), now() + network_.delay);
   }
-  const Expr matters = (when && network_.matters(packet, says)).simplify();
-  if (!matters.is_false()) {
-    const Expr lost = network_.loses ? derivation_.unknown() : !certainly();
-    const Expr looked_at = matters && !derivation_.now(timed::in_flight(packet));
-    derivation_.assign(timed::limit, looked_at && lost,
-                       derivation_.now(timed::limit) + network_.loss);
-    look_at(timed::in_flight(packet), timed::arrives(packet), looked_at && !lost,
-            now() + network_.delay);
-  }
+  for (const std::string& kind : kinds_of(packet)) emitted_as(kind, when, says);
   if (std::ranges::find(leaving_, packet) == leaving_.end()) return;
   const Expr leaves = when && network_.matters_at_source(packet, says);
   look_at(timed::leaving(packet), timed::leaves(packet),
@@ -104,8 +113,10 @@ void DerivedTime::emitted(const std::string& packet, const Expr& when, const Say
 
 void DerivedTime::arrived(const std::string& packet, const Says& says) {
   if (network_.exact) derivation_.require(now() >= derivation_.now(timed::first(packet)));
-  const Expr it = network_.matters(packet, says) && derivation_.unknown();
-  derivation_.assign(timed::in_flight(packet), it, !certainly());
+  for (const std::string& kind : kinds_of(packet)) {
+    const Expr it = network_.matters(kind, says) && derivation_.unknown();
+    derivation_.assign(timed::in_flight(kind), it, !certainly());
+  }
 }
 
 void DerivedTime::left(const std::string& packet, const Says& says) {

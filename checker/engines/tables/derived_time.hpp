@@ -5,7 +5,8 @@
 //      pending;
 //   2. of each kind of packet at most one is looked at: the first that matters and is not lost,
 //      until it arrives. It arrives within Δ, and has left its source within σ. Each loss of one
-//      that would be looked at raises the ghost "limit" by what a loss costs;
+//      that would be looked at raises the ghost "limit" as far as a loss does. A packet may be of a
+//      further kind that is looked at beside;
 //   3. time passes as long as nothing that is looked at is overdue;
 //   4. if every packet takes Δ, none of a kind arrives before the first one of that kind can;
 //   5. no timer of a kind fires before "earliest T", when the first of them is due, and what must
@@ -43,15 +44,17 @@ class DerivedTime {
   /// What a packet says of our descriptor and of itself, by field.
   using Says = std::map<std::string, Expr>;
   struct Network {
-    Expr delay;   ///< Δ
-    Expr source;  ///< σ
-    Expr loss;    ///< by which a loss raises the limit
-    bool loses;   ///< packets can be lost
-    bool exact;   ///< every packet takes Δ, not less
-    /// Whether a packet of this name and content is looked at until it arrives.
-    std::function<Expr(std::string_view packet, const Says& says)> matters;
+    Expr delay;                                   ///< Δ
+    Expr source;                                  ///< σ
+    std::function<Expr(const Expr& limit)> lost;  ///< the limit after a loss
+    bool loses;                                   ///< packets can be lost
+    bool exact;                                   ///< every packet takes Δ, not less
+    /// Whether a packet with this content is looked at as one of this kind until it arrives.
+    std::function<Expr(std::string_view kind, const Says& says)> matters;
     /// And until it has left its source.
     std::function<Expr(std::string_view packet, const Says& says)> matters_at_source;
+    /// The further kind of a packet, by its name.
+    std::map<std::string, std::string> further{};
   };
 
   DerivedTime(Derivation& derivation, Network network);
@@ -79,6 +82,8 @@ class DerivedTime {
   };
 
   [[nodiscard]] Expr is_pending(const Timer& timer);
+  [[nodiscard]] std::vector<std::string> kinds_of(const std::string& packet) const;
+  void emitted_as(const std::string& kind, const Expr& when, const Says& says);
   void look_at(const std::string& flag, const std::string& by, const Expr& when, const Expr& end);
 
   Derivation& derivation_;

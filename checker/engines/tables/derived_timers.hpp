@@ -28,7 +28,7 @@ class DerivedTimer {
     if (derived_.time != nullptr && copies() > 0) {
       derived_.time->started(tag_name<T>(), when, (due + late()).expr());
     }
-    if constexpr (T::counted) {
+    if (derived_.counts<T>()) {
       system().assign(pending(), when, system().now(pending()) + copies());
       if (counter() != pending()) {
         system().assign(counter(), when, system().now(counter()) + 1);
@@ -40,6 +40,9 @@ class DerivedTimer {
     }
   }
   void cancelled(const Expr& when) {
+    if (!derived_.counts<T>()) {
+      return system().assign(pending(), when, smt::SymbolicBool{false}.expr());
+    }
     const Expr none = Int{0}.expr();
     system().assign(pending(), when, none);
     system().assign(counter(), when, none);
@@ -47,7 +50,7 @@ class DerivedTimer {
   /// It is due.
   void fires() {
     if (derived_.time != nullptr) derived_.time->fires(tag_name<T>());
-    if constexpr (T::counted) {
+    if (derived_.counts<T>()) {
       system().require(system().now(pending()) >= 1);
       system().now(pending()) = system().now(pending()) - 1;
       if (counter() == pending()) return;

@@ -2,7 +2,8 @@
 // generic descriptor, once for us and once for every kind of other, and makes each a step of a
 // transition system (checker/engines/tables/derivation.hpp says by which rules). See
 // fsm/composition/vocabulary.hpp for what a world is. Delays play no part unless time does
-// (checker/engines/tables/derived_time.hpp); numbers and what only a host knows are unknowns.
+// (checker/engines/tables/derived_time.hpp). What only a host knows is unknown, and so are numbers,
+// but for those of our place that were declared before.
 #pragma once
 
 #include <type_traits>
@@ -36,10 +37,16 @@ class DerivedWorld : public DerivedPlace {
     } else if constexpr (requires { typename Tag::IsFlag; }) {
       return is_foreign(Tag::owner) ? unknown() : Bool{derivation().now(tag_name<Tag>())};
     } else if constexpr (requires { typename Tag::IsNumber; }) {
+      if (!is_foreign(Tag::owner) && derivation().has(tag_name<Tag>())) {
+        return Int{derivation().now(tag_name<Tag>())};
+      }
+      return Int{derivation().unknown_count()};
+    } else if constexpr (std::derived_from<Tag, PacketNumber>) {
       return Int{derivation().unknown_count()};
     } else if constexpr (std::derived_from<Tag, DescriptorField> ||
                          std::derived_from<Tag, PacketField>) {
-      return Bool{packet_->at(tag_name<Tag>())};
+      const auto said = packet_->find(tag_name<Tag>());  // what it has no field for is not said
+      return said == packet_->end() ? Bool{false} : Bool{said->second};
     } else if constexpr (std::derived_from<Tag, Amount>) {
       if (std::is_same_v<Tag, Now> && derived_->time != nullptr) return Int{derived_->time->now()};
       return Int{derivation().unknown_count()};
@@ -180,6 +187,13 @@ class DerivedWorld : public DerivedPlace {
     derived_->effect(when, d.foreign_ == 0);
     return d.template step<P, E>(when, in);
   }
+  /// The machines of this place, of all descriptors, are new ones.
+  template <class P>
+  void renew(P) {
+    effect();
+    const DerivedWorld d = ours(composition::owner::descriptor_index);
+    if (!d.is_foreign(P::owner)) d.template start_anew<P>(path_);
+  }
   template <class V, class Value>
   void set(V, const Value& value) {
     effect();
@@ -291,7 +305,9 @@ class DerivedWorld : public DerivedPlace {
 
   template <class F, class Value>
   void say(Says& says, const composition::Says<F, Value>& saying) {
-    if constexpr (std::is_same_v<Value, Bool>) {
+    if constexpr (std::derived_from<F, composition::PacketNumber>) {
+      return;
+    } else if constexpr (std::is_same_v<Value, Bool>) {
       says.insert_or_assign(tag_name<F>(), saying.value.expr());
     } else {
       says.insert_or_assign(tag_name<F>(), Bool{saying.value(*this)}.expr());

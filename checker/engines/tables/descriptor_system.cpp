@@ -2,6 +2,7 @@
 #include "checker/engines/tables/descriptor_system.hpp"
 
 #include <map>
+#include <stdexcept>
 
 #include "checker/engines/tables/derived_world.hpp"
 #include "checker/engines/tables/machine_step.hpp"
@@ -46,8 +47,13 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
 }
 
 void derive_composition(Derived& derived) {
-  model::visit_engine_composition(derived.dds,
-                                  [&](auto composition) { derive_of(composition, derived); });
+  model::visit_composition(derived.dds, [&](auto composition) {
+    if constexpr (requires { derive_of(composition, derived); }) {
+      derive_of(composition, derived);
+    } else {
+      throw std::logic_error{"nobody derives this composition"};
+    }
+  });
 }
 
 TransitionSystem DescriptorSystem::with_bad(const Expr& bad) const {

@@ -24,7 +24,7 @@ inline constexpr const char* listed_at_first = "it listed the descriptor at its 
 }  // namespace watched
 
 struct Derived;
-/// That of the profile's implementation.
+/// That of the profile's implementation; of one that is not derived: std::logic_error.
 void derive_composition(Derived& derived);
 
 class DescriptorSystem {
@@ -49,6 +49,7 @@ class DescriptorSystem {
 /// Derive all steps of one composition, each in a source file of its own.
 void derive_of(model::Of<fsm::composition::paper::Paper>, Derived& derived);
 void derive_of(model::Of<fsm::composition::fastdds::FastDds>, Derived& derived);
+void derive_of(model::Of<fsm::composition::amended::Amended>, Derived& derived);
 
 /// States in the finding what everything assumes that is derived from a composition.
 void assume_for_descriptors(Proof& proof);

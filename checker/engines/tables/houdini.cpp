@@ -17,6 +17,7 @@ class Search {
         system_{system},
         candidates_{candidates},
         result_{std::vector<bool>(candidates.size(), true),
+                std::vector<std::string>(candidates.size()),
                 std::vector<std::string>(candidates.size())} {}
 
   Kept run() {
@@ -65,11 +66,13 @@ class Search {
       return false;
     }
     const z3::model model = solver.get_model();
+    const std::string state = notable_in(model, system_.variables);
     bool removes = false;
     for (std::size_t k = 0; k < after.size(); ++k) {
       if (!result_.kept[k] || is_true_in(model, after[k])) continue;
       result_.kept[k] = false;
       result_.lost_at[k] = where;
+      result_.lost_in[k] = state;
       removes = true;
     }
     if (!removes) stop(where + ": a model in the search for an invariant breaks none of them");

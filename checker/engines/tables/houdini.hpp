@@ -13,6 +13,7 @@ namespace stormproof::tables {
 struct Kept {
   std::vector<bool> kept;            ///< by candidate
   std::vector<std::string> lost_at;  ///< the step that breaks it, or "initially"; empty if kept
+  std::vector<std::string> lost_in;  ///< the state before that step: what is not false and not 0
 };
 
 /// The largest set of `candidates` that hold initially and that every step keeps together. About

@@ -4,10 +4,13 @@
 #include "checker/engines/smt/claims.hpp"
 #include "checker/engines/tables/ruled_out.hpp"
 #include "model/composition_of.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 
 std::vector<ImpossibleEffects> impossible_effects(const model::DdsProfile& dds) {
+  // Engines do not execute the rules of Cyclone DDS.
+  if (model::traits_of(dds).writer == model::Writer::of_cyclone) return {};
   model::Scenario scenario;
   scenario.dds = dds;
   smt::Claims claims;

@@ -23,5 +23,6 @@ using props::Finding;
 [[nodiscard]] Finding composition_pending(const CheckRequest& request);
 [[nodiscard]] Finding timer_single_heartbeat(const CheckRequest& request);
 [[nodiscard]] Finding live_no_stall(const CheckRequest& request);
+[[nodiscard]] Finding live_recovery(const CheckRequest& request);
 
 }  // namespace stormproof::tables

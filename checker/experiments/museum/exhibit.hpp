@@ -24,7 +24,8 @@ struct Variant {
   std::string title;  ///< of a decoy: what somebody might try instead of the repair
   Changes changes;
   model::Scenario scenario;
-  /// `violated`, or `bounded` if no loss pattern within the scope breaks the claim.
+  /// `violated`; `bounded` if no loss pattern within the scope breaks the claim; `proved` if,
+  /// besides, it is known from the rules for all losses, delays and deployments.
   props::VerdictKind expected = props::VerdictKind::inconclusive;
 };
 

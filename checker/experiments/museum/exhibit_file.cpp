@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/experiments/museum/certified.hpp"
 #include "checker/experiments/museum/claims.hpp"
 #include "checker/experiments/museum/exhibit.hpp"
 #include "fsm/composition/compositions.hpp"
@@ -183,9 +184,12 @@ class ExhibitReader {
       of.expected = props::VerdictKind::violated;
     } else if (word == "bounded") {
       of.expected = props::VerdictKind::bounded;
+    } else if (word == "proved" && is_provable(exhibit_.claim)) {
+      of.expected = props::VerdictKind::proved;
     } else {
-      fail(*map.find(key), fmt::format("{}: {}; expected violated or bounded",
-                                       config::join_path(path, key), map.find(key)->shown()));
+      fail(*map.find(key),
+           fmt::format("{}: {}; expected violated, bounded{}", config::join_path(path, key),
+                       map.find(key)->shown(), is_provable(exhibit_.claim) ? " or proved" : ""));
     }
   }
   /// The scenario with the changes of the map at `key`.

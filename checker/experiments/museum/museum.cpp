@@ -3,7 +3,19 @@
 
 #include <algorithm>
 
+#include "checker/experiments/museum/certified.hpp"
+
 namespace stormproof::museum {
+
+namespace {
+
+Found decided(const Exhibit& exhibit, const Variant& variant, const std::function<bool()>& go_on) {
+  Found found = search(exhibit, variant, go_on);
+  if (variant.expected == props::VerdictKind::proved) certify(found, exhibit, variant, go_on);
+  return found;
+}
+
+}  // namespace
 
 bool ShownExhibit::as_expected() const {
   const auto is = [](const Found& found, const Variant& variant) {
@@ -26,10 +38,10 @@ Report show(std::vector<Exhibit> exhibits, const std::function<bool()>& go_on) {
   for (Exhibit& exhibit : exhibits) {
     ShownExhibit& shown = report.exhibits.emplace_back();
     shown.exhibit = std::move(exhibit);
-    shown.before = search(shown.exhibit, shown.exhibit.before, still);
-    shown.after = search(shown.exhibit, shown.exhibit.after, still);
+    shown.before = decided(shown.exhibit, shown.exhibit.before, still);
+    shown.after = decided(shown.exhibit, shown.exhibit.after, still);
     for (const Variant& decoy : shown.exhibit.decoys) {
-      shown.decoys.push_back(search(shown.exhibit, decoy, still));
+      shown.decoys.push_back(decided(shown.exhibit, decoy, still));
     }
   }
   return report;

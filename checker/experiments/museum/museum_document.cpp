@@ -78,6 +78,9 @@ Facts facts_of(const Variant& variant, const Found& found) {
   Facts facts;
   facts.rows.emplace_back("verdict", report::badge(found.verdict));
   facts.rows.emplace_back("how", found.how);
+  for (const std::string& sentence : found.assumptions) {
+    facts.rows.emplace_back("assumes", sentence);
+  }
   if (found.counterexample) facts.rows.emplace_back("why", found.counterexample->reason);
   if (found.latest) {
     facts.rows.emplace_back("latest completion", props::time_text(*found.latest));
@@ -224,10 +227,11 @@ Document document_of(const Report& report, const std::string& reference) {
     tell_all(document, report);
     document.next = {{command_of("E3"), "the story of one of them"}};
   }
-  document.assumptions = {
-      Text{"Bounded verdicts are about the scenario of the exhibit: its participants, delays and "
-           "starts, and every pattern of so many lost packets among the first ones. They are no "
-           "proofs for other deployments."}};
+  document.assumptions = {Text{
+      "Bounded verdicts are about the scenario of the exhibit: its participants, delays and "
+      "starts, and every pattern of so many lost packets among the first ones. They are no "
+      "proofs for other deployments. Proved ones are about all deployments and losses, under what "
+      "they assume, with the bound of the catalogue instead of that of the exhibit."}};
   return document;
 }
 

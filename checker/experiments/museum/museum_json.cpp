@@ -39,6 +39,7 @@ void describe(V& v, const Decided& decided) {
   v("verdict", found.verdict);
   v("expected_verdict", decided.variant.expected);
   v("how", found.how);
+  v("assumptions", found.assumptions);
   v("runs", found.runs);
   v("lost_packets", found.lost);
   v("time_ns", time);

@@ -22,7 +22,8 @@ struct Found {
   std::optional<props::Counterexample> counterexample;
   /// Over all runs that are complete: the latest completion.
   std::optional<model::Nanoseconds> latest;
-  std::string how;  ///< what was decided, one sentence
+  std::string how;                       ///< what was decided, one sentence
+  std::vector<std::string> assumptions;  ///< of a proof
 };
 
 /// `go_on` is asked before each run; if it says no, the verdict is inconclusive.

@@ -32,7 +32,8 @@ Values seen_from(const comp::SmallState& state, const comp::Place& place) {
   comp::for_each_type(typename Composition::State{}, [&]<class V>() {
     if constexpr (requires { typename V::IsFlag; }) {
       const auto found = state.values.find(at.template operator()<V>());
-      values[std::string{fsm::name_of<V>()}] = found == state.values.end() ? 0 : found->second;
+      values[std::string{fsm::name_of<V>()}] =
+          found == state.values.end() ? comp::first_value<V>() : found->second;
     }
   });
   comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
@@ -51,7 +52,9 @@ Values seen_from(const comp::SmallState& state, const comp::Place& place) {
       if (packet.name != fsm::name_of<P>() || packet.place != place.of(P::owner)) continue;
       std::string name = "sent " + packet.name;
       comp::for_each_type(typename P::Fields{}, [&]<class F>() {
-        const std::uint32_t said = packet.says.at(std::string{fsm::name_of<F>()});
+        if constexpr (std::derived_from<F, comp::PacketNumber>) return;
+        const auto field = packet.says.find(std::string{fsm::name_of<F>()});
+        const std::uint32_t said = field == packet.says.end() ? 0 : field->second;
         const bool of_descriptor = std::derived_from<F, comp::DescriptorField>;
         const bool says = of_descriptor ? (said >> place.descriptor & 1) != 0 : said != 0;
         if (says) name += " " + std::string{fsm::name_of<F>()};

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "fsm/composition/amended.hpp"
+
 namespace stormproof::tables {
 namespace bridge_test {
 
@@ -89,6 +91,28 @@ TEST(Bridge, EveryStepOfFastDdssRulesIsDerived) {
   }
 }
 
+TEST(Bridge, EveryStepOfTheAmendedRulesIsDerived) {
+  model::DdsProfile eager = paper();
+  eager.sedp.initial_acknack = model::InitialAckNackReply::heartbeat;
+  model::Amendments& rules = eager.amendments.emplace();
+  rules.initial_acknack_resets = model::Whether::yes;
+  rules.initial_acknack_stop = model::InitialAckNackStop::complete;
+  rules.acked_request = model::AckedRequest::reopen;
+  rules.repair_heartbeat = model::RepairHeartbeat::after;
+  rules.acknack_reply = model::AckNackReply::all;
+  rules.stale_acknack = model::StaleAckNack::required_drop;
+  rules.on_reannounce = model::OnReannounce::ack_missing;
+  rules.reader_retry = model::ReaderRetry::whenever_missing;
+  rules.reader_nack_delay = model::Nanoseconds{1};
+  model::DdsProfile plain = paper();
+  plain.amendments.emplace();
+  for (const model::DdsProfile& dds : {plain, eager}) {
+    const Crossing crossing = cross<comp::amended::Amended>(dds, Unsound::none, 16, 1);
+    EXPECT_GT(crossing.distinct, 400U);
+    EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
+  }
+}
+
 TEST(Bridge, RefusesADerivationThatForgetsOthers) {
   for (const Unsound mistake : {Unsound::others_never_ask, Unsound::rules_for_us_only,
                                 Unsound::loops_for_us_only, Unsound::packets_arrive_once}) {
@@ -97,7 +121,11 @@ TEST(Bridge, RefusesADerivationThatForgetsOthers) {
   }
   for (const Unsound mistake :
        {Unsound::others_never_ask, Unsound::rules_for_us_only, Unsound::packets_arrive_once}) {
-    const Crossing crossing = cross<comp::paper::Paper>(paper(), mistake, 2, 1);
+    Crossing crossing = cross<comp::paper::Paper>(paper(), mistake, 2, 1);
+    EXPECT_FALSE(crossing.refused.empty()) << static_cast<int>(mistake);
+    model::DdsProfile amended = paper();
+    amended.amendments.emplace();
+    crossing = cross<comp::amended::Amended>(amended, mistake, 2, 1);
     EXPECT_FALSE(crossing.refused.empty()) << static_cast<int>(mistake);
   }
 }

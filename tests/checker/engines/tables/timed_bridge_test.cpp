@@ -46,13 +46,14 @@ TransitionSystem with_values(const TimedDescriptor& descriptor, const model::Dds
 
 template <class Composition>
 Crossing cross(const model::DdsProfile& dds, unsigned walks, const Wrong& wrong = {},
-               bool exact = false) {
+               bool exact = false, bool stale = false) {
   z3::context context;
   const smt::SymbolicContext current{context};
   const TimedDescriptor descriptor{
       dds,
       model::Mutation{},
       {.exact = exact || wrong.exact,
+       .attempts = Walk<Composition>::attempts,
        .tighten = [&](auto& bound) { bound.loss = bound.loss - wrong.loss; },
        .unsound = wrong.unsound}};
   const TransitionSystem system = with_values(descriptor, dds, wrong);
@@ -61,7 +62,7 @@ Crossing cross(const model::DdsProfile& dds, unsigned walks, const Wrong& wrong 
   std::set<std::tuple<std::string, Values, Values>> known;
   std::mt19937_64 dice{1};
   for (unsigned walk = 0; walk < walks; ++walk) {
-    Walk<Composition> path{dds, dice, exact};
+    Walk<Composition> path{dds, dice, exact, stale};
     for (unsigned k = 0; k < 300; ++k) {
       std::map<comp::Place, Values> before;
       for (int d = 0; d < comp::small_descriptors; ++d) before[{0, 0, d}] = path.seen({0, 0, d});
@@ -116,6 +117,45 @@ TEST(TimedBridge, EveryStepWithConstantDelaysIsDerived) {
   EXPECT_GT(crossing.distinct, 200U);
   EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
   EXPECT_NE(first_of(cross<comp::paper::Paper>(hasty({}), 4, {.exact = true})), "");
+}
+
+model::DdsProfile amended() {
+  model::DdsProfile dds = hasty({});
+  dds.sedp.relation_opening = model::RelationOpening::each_side;
+  dds.sedp.initial_data = model::InitialData::pull;
+  dds.sedp.unmatched = model::Unmatched::drop;
+  dds.sedp.initial_acknack = model::InitialAckNackReply::heartbeat;
+  model::Amendments& rules = dds.amendments.emplace();
+  rules.initial_acknack_resets = model::Whether::yes;
+  rules.initial_acknack_arms = model::Whether::yes;
+  rules.initial_acknack_stop = model::InitialAckNackStop::complete;
+  return dds;
+}
+
+TEST(TimedBridge, EveryTimedStepOfTheAmendedRulesIsDerived) {
+  model::DdsProfile constant = amended();
+  constant.sedp.initial_acknack_interval = model::InitialAckNackInterval::constant;
+  constant.amendments->acked_request = model::AckedRequest::reopen;
+  constant.amendments->reader_retry = model::ReaderRetry::after_nack;
+  for (const auto& [dds, stale] :
+       {std::pair{amended(), false}, std::pair{amended(), true}, std::pair{constant, true}}) {
+    const Crossing crossing = cross<comp::amended::Amended>(dds, 7, {}, false, stale);
+    EXPECT_GT(crossing.distinct, 300U);
+    EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
+  }
+}
+
+TEST(TimedBridge, RefusesOtherAmendedRulesAndTimes) {
+  const auto refused = [](const Wrong& wrong) {
+    return first_of(cross<comp::amended::Amended>(amended(), 4, wrong));
+  };
+  for (const Wrong& wrong : {Wrong{.response = 1}, Wrong{.delta = 1}, Wrong{.source = 1},
+                             Wrong{.loss = 1}, Wrong{.initial = 1}}) {
+    EXPECT_NE(refused(wrong), "");
+  }
+  for (const Unsound mistake : {Unsound::others_never_ask, Unsound::packets_arrive_once}) {
+    EXPECT_NE(refused({.unsound = mistake}), "");
+  }
 }
 
 TEST(TimedBridge, RefusesADerivationThatForgetsOthers) {

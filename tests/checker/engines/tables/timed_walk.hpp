@@ -1,13 +1,14 @@
 // Random executions of the rules with a clock, in which timers are due when the rules say, and each
 // packet arrives within Δ or is lost, seen by each descriptor as the timed derived system sees
 // them. What is looked at and the ghost limit are computed here from what was sent and lost, not
-// from the system.
+// from the system. Of the amended rules attempts of initial ACKNACKs are looked at, too.
 #pragma once
 
 #include <utility>
 
 #include "checker/engines/tables/derived_time.hpp"
 #include "checker/engines/tables/timed_descriptor.hpp"
+#include "fsm/composition/amended.hpp"
 #include "tests/checker/engines/tables/bridge.hpp"
 
 namespace stormproof::tables::timed_walk {
@@ -20,6 +21,7 @@ struct Ghost {
   std::map<std::string, unsigned> flying;   ///< by kind of packet: its number
   std::map<std::string, unsigned> leaving;  ///< the same
   Values values;
+  bool reader_open = false;  ///< or has been
 };
 
 struct Flying {
@@ -34,8 +36,11 @@ struct Flying {
 template <class Composition>
 class Walk {
  public:
-  /// `exact`: every packet takes Δ.
-  Walk(const model::DdsProfile& dds, std::mt19937_64& dice, bool exact)
+  /// Whether the limit is that of attempts.
+  static constexpr bool attempts = std::is_same_v<Composition, comp::amended::Amended>;
+
+  /// `exact`: every packet takes Δ. `stale`: writers hold all readers as up to date.
+  Walk(const model::DdsProfile& dds, std::mt19937_64& dice, bool exact, bool stale = false)
       : dds_{dds}, dice_{dice}, exact_{exact} {
     losses_ = timeline::losses<fsm::Plain>(
         dds, {.period = dds.sedp.heartbeat_period.count(),
@@ -46,11 +51,15 @@ class Walk {
               .source = source});
     clock_.started = [this](const comp::Key& key, bool counted, std::int64_t due) {
       queue_.emplace_back(key, due);
+      counted = counted || is_counted(key);
       const bool pending = counted ? state_.pending[key] > 0 : state_.surely_pending.contains(key);
       std::int64_t& known = due_[key];
       if (!pending || (counted ? due > known : due < known)) known = due;
       const auto [first, fresh] = earliest_.emplace(key, due);
       first->second = std::min(first->second, due);
+    };
+    clock_.cancelled = [this](const comp::Key& key) {
+      std::erase_if(queue_, [&](const auto& it) { return it.first == key; });
     };
     clock_.sent = [this](const comp::SentPacket& packet) {
       sent_now_.push_back({number_++, packet, clock_.now, dice_() % 4 == 0});
@@ -58,6 +67,7 @@ class Walk {
     for (int s = 0; s < comp::small_streams; ++s) {
       for (int d = 0; d < comp::small_descriptors; ++d) ghosts_[{s, 0, d}];
     }
+    if (stale) start_stale();
   }
 
   /// What the system calls its variables, as the descriptor at `place` sees them.
@@ -65,10 +75,15 @@ class Walk {
     Values values = seen_from<Composition>(state_, place);
     const Ghost& ghost = ghosts_.at(place);
     for (const auto& [name, value] : ghost.values) values[name] = value;
-    for (const char* packet : {"Heartbeat", "AckNack", "Data"}) {
-      values[timed::in_flight(packet)] = ghost.flying.contains(packet) ? 1 : 0;
-      values[timed::leaving(packet)] = ghost.leaving.contains(packet) ? 1 : 0;
+    for (const char* kind : {"Heartbeat", "AckNack", "Data", watched::initial_acknack}) {
+      values[timed::in_flight(kind)] = ghost.flying.contains(kind) ? 1 : 0;
+      values[timed::leaving(kind)] = ghost.leaving.contains(kind) ? 1 : 0;
     }
+    for (const char* number : {"LastDelay", "LastNack", "OldCounts"}) {
+      values[number] = state_.values[{number, place.of(comp::owner::relation)}];
+    }
+    const comp::Key attempt{"InitialAttempt", place.of(comp::owner::relation)};
+    if (is_counted(attempt)) values["pending InitialAttempt"] = state_.pending[attempt];
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       const comp::Key key{fsm::name_of<T>(), place.of(T::owner)};
       values[timed::due(fsm::name_of<T>())] = due_.contains(key) ? due_.at(key) : 0;
@@ -95,6 +110,25 @@ class Walk {
 
  private:
   using World = comp::SmallWorld<Composition>;
+
+  static bool is_counted(const comp::Key& key) { return attempts && key.first == "InitialAttempt"; }
+  void start_stale() {
+    namespace repair = fsm::descriptor_repair;
+    for (int s = 0; s < comp::small_streams; ++s) {
+      for (int p = 0; p < comp::small_peers; ++p) {
+        state_.values[{"WriterOpen", {s, p, 0}}] = 1;
+        for (int d = 0; d < comp::small_descriptors; ++d) {
+          state_.values[{"C", {s, p, d}}] = fsm::Reflect<fsm::ReopeningRepair>::id<repair::A>;
+        }
+      }
+    }
+  }
+  [[nodiscard]] std::int64_t next_attempt(std::int64_t time, std::int64_t opened) const {
+    const std::int64_t first = dds_.sedp.initial_acknack_delay.count();
+    const bool doubles =
+        dds_.sedp.initial_acknack_interval == model::InitialAckNackInterval::doubling;
+    return doubles ? 2 * time - opened + first : time + first;
+  }
 
   template <class R, class Before, class Visit>
   void run(const comp::Place& at, Before&& before, const comp::SentPacket* packet, unsigned number,
@@ -125,32 +159,52 @@ class Walk {
           !std::exchange(values[timed::sent(it.packet.name)], 1)) {
         values[timed::first(it.packet.name)] = clock_.now + delta;
       }
-      if (!matters(it.packet, place)) continue;
       const std::string& kind = it.packet.name;
+      if (is_initial(it.packet, place)) look_at(it, watched::initial_acknack, ghost, raised);
+      if (!matters(it.packet, place)) continue;
       if (kind == "Heartbeat") values[watched::heartbeat_sent] = clock_.now;
-      if (!ghost.flying.contains(kind)) {
-        if (it.lost) {
-          raised += losses_.loss;
-        } else {
-          ghost.flying[kind] = it.number;
-          values[timed::arrives(kind)] = clock_.now + delta;
-        }
-      }
+      look_at(it, kind, ghost, raised);
       const bool repair = it.packet.says.contains("IsRepair") && it.packet.says.at("IsRepair") != 0;
       if (!repair || ghost.leaving.contains(kind) || !waits_for_source()) continue;
       ghost.leaving[kind] = it.number;
       values[timed::leaves(kind)] = clock_.now + source;
     }
-    values[timed::limit] += raised;
+    std::int64_t& limit = values[timed::limit];
+    std::int64_t& opened = values[watched::opened];
+    if (attempts && raised > 0) {
+      const auto& spoils = dds_.sedp.nack_suppression_duration;
+      limit = next_attempt(clock_.now + source + spoils.count(), opened);
+    } else {
+      limit += raised;
+    }
     const Values now = seen_from<Composition>(state_, place);
+    const bool reader_open = now.at("Reader=Recognised") + now.at("Reader=Complete") > 0;
+    if (reader_open && !std::exchange(ghost.reader_open, true)) opened = clock_.now;
     const Expr open = can_be_asked_for(dds_, [&](const char* name) {
       return smt::SymbolicContext::current().bool_val(now.at(name) != 0);
     });
     if (values[watched::counting] != 0 || !open.simplify().is_true()) return;
+    if (attempts && !reader_open) return;
     values[watched::counting] = 1;
-    values[timed::limit] = clock_.now + losses_.first + raised;
+    limit = attempts ? next_attempt(clock_.now, opened) : clock_.now + losses_.first + raised;
   }
-  static bool waits_for_source() { return std::is_same_v<Composition, comp::paper::Paper>; }
+  /// Looks at it as one of this kind.
+  void look_at(const Flying& it, const std::string& kind, Ghost& ghost, std::int64_t& raised) {
+    if (ghost.flying.contains(kind)) return;
+    if (it.lost) {
+      raised += losses_.loss;
+    } else {
+      ghost.flying[kind] = it.number;
+      ghost.values[timed::arrives(kind)] = clock_.now + delta;
+    }
+  }
+  static bool is_initial(const comp::SentPacket& packet, const comp::Place& place) {
+    return attempts && packet.name == "AckNack" && packet.says.at("IsInitial") != 0 &&
+           packet.place == place.of(comp::owner::relation);
+  }
+  static bool waits_for_source() {
+    return attempts || std::is_same_v<Composition, comp::paper::Paper>;
+  }
   static bool matters(const comp::SentPacket& packet, const comp::Place& place) {
     const auto says = [&](const char* field) {
       const auto found = packet.says.find(field);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "checker/experiments/museum/certified.hpp"
 #include "checker/experiments/museum/claims.hpp"
 
 namespace stormproof::museum {
@@ -92,7 +93,8 @@ TEST(MuseumFiles, AreRefusedWithTheirPlace) {
                 .find("did you mean 'live.recovery'"),
             std::string::npos);
   EXPECT_NE(refusal(with("bound: 5s\n", "")).find("missing key 'bound'"), std::string::npos);
-  EXPECT_NE(refusal(with("after: bounded", "after: proved")).find("expected violated or bounded"),
+  EXPECT_NE(refusal(with("after: bounded", "after: observed"))
+                .find("expected violated, bounded or proved"),
             std::string::npos);
   EXPECT_NE(refusal(with("initial_acknack_resets: true", "initial_acknack_resets: maybe"))
                 .find("expected one of"),
@@ -120,15 +122,49 @@ TEST(Museum, IsInconclusiveIfRunsAreTooShort) {
 }
 
 TEST(Museum, TellsTheShortestCounterexample) {
-  const auto exhibit = read_exhibit("E3", specs());
+  auto exhibit = read_exhibit("E3", specs());
   ASSERT_TRUE(exhibit);
+  exhibit->losses = 1;
   const Report report = show({*exhibit}, always);
   const auto json = to_json(report)["exhibits"][0];
   EXPECT_EQ(json["before"]["verdict"], "violated");
   EXPECT_TRUE(json["before"]["lost_packets"].empty());
-  EXPECT_EQ(json["after"]["verdict"], "bounded");
+  EXPECT_EQ(json["after"]["verdict"], "proved");
+  EXPECT_FALSE(json["after"]["assumptions"].empty());
   EXPECT_EQ(json["decoys"][0]["verdict"], "violated");
   EXPECT_EQ(json["decoys"][0]["lost_packets"].size(), 1U);
+  EXPECT_EQ(json["decoys"][1]["verdict"], "proved");
+}
+
+/// What is expected is asked for, not believed.
+TEST(Museum, IsNotProvedBecauseItIsExpectedToBe) {
+  auto exhibit = read_exhibit("E1", specs());
+  ASSERT_TRUE(exhibit);
+  exhibit->losses = 0;
+  exhibit->after.expected = props::VerdictKind::proved;
+  const Report report = show({*exhibit}, always);
+  EXPECT_EQ(report.exhibits.front().after.verdict, props::VerdictKind::bounded);
+  EXPECT_FALSE(report.as_expected());
+}
+
+/// A run that breaks only the bound of an exhibit contradicts no proof.
+TEST(Museum, DisputesAProofThatRunsContradict) {
+  const auto exhibit = read_exhibit("E3", specs());
+  ASSERT_TRUE(exhibit);
+  Exhibit strict = *exhibit;
+  strict.losses = 0;
+  strict.bound = model::Nanoseconds{1};
+  Found late = search(strict, strict.after, always);
+  ASSERT_EQ(late.verdict, props::VerdictKind::violated);
+  certify(late, strict, strict.after, always);
+  EXPECT_EQ(late.verdict, props::VerdictKind::violated);
+
+  props::Finding proof;
+  take(late, proof);
+  EXPECT_EQ(late.verdict, props::VerdictKind::violated);
+  proof.kind = props::VerdictKind::proved;
+  take(late, proof);
+  EXPECT_EQ(late.verdict, props::VerdictKind::disputed);
 }
 
 }  // namespace museum_test
