@@ -1,6 +1,8 @@
 // Kinds, and what is said of them.
 #include "checker/engines/bounds/resting.hpp"
 
+#include <algorithm>
+
 namespace stormproof::checker {
 
 using props::Finding;
@@ -14,8 +16,10 @@ void leave_open(Finding& finding, const std::string& why) {
 
 void rest_on(Finding& finding, const Finding& certificate) {
   finding.how += "; what it takes from the rules: " + certificate.how;
-  finding.assumptions.insert(finding.assumptions.end(), certificate.assumptions.begin(),
-                             certificate.assumptions.end());
+  for (const std::string& sentence : certificate.assumptions) {
+    if (std::ranges::find(finding.assumptions, sentence) != finding.assumptions.end()) continue;
+    finding.assumptions.push_back(sentence);
+  }
   finding.details.push_back("taken from the rules:");
   for (const std::string& line : certificate.details) finding.details.push_back("  " + line);
   finding.seconds += certificate.seconds;

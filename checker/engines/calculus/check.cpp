@@ -7,6 +7,7 @@
 
 #include "checker/engines/calculus/calculus.hpp"
 #include "checker/engines/calculus/cannot_start.hpp"
+#include "checker/engines/calculus/closed_loop.hpp"
 #include "checker/engines/calculus/gain.hpp"
 #include "checker/engines/timeline/theorem.hpp"
 #include "model/implementations.hpp"
@@ -128,7 +129,11 @@ props::Finding decide(const checker::CheckRequest& request) {
   }
   add_margin(judged, finding);
   add_load(judged, finding);
-  if (gain && !judged.is_proved()) finding.details.push_back(gain_line(*gain, until));
+  if (judged.is_proved()) return finding;
+  if (gain) finding.details.push_back(gain_line(*gain, until));
+  for (std::string& line : closed_loop_lines(closed_loop(request.scenario), request.scenario)) {
+    finding.details.push_back(std::move(line));
+  }
   return finding;
 }
 
@@ -167,16 +172,26 @@ Judged judge(const model::Scenario& scenario, const Omission& omission) {
 checker::Findings check(std::span<const std::string_view> properties,
                         const checker::CheckRequest& request) {
   checker::Findings findings;
-  if (request.mutant != nullptr || std::ranges::find(properties, cannot_start) == properties.end())
-    return findings;
-  if (request.on_progress && !request.on_progress(cannot_start)) return findings;
-  try {
-    findings.emplace_back(cannot_start, decide(request));
-  } catch (const z3::exception& error) {
-    findings.emplace_back(cannot_start, failed(error.msg()));
-  } catch (const std::exception& error) {
-    findings.emplace_back(cannot_start, failed(error.what()));
-  }
+  if (request.mutant != nullptr) return findings;
+  const auto is_asked = [&](std::string_view id) {
+    return std::ranges::find(properties, id) != properties.end() &&
+           (!request.on_progress || request.on_progress(id));
+  };
+  const auto answer = [&](std::string_view id, const auto& decided) {
+    if (!is_asked(id)) return;
+    try {
+      if (std::optional<props::Finding> finding = decided()) {
+        findings.emplace_back(id, *std::move(finding));
+      }
+    } catch (const z3::exception& error) {
+      findings.emplace_back(id, failed(error.msg()));
+    } catch (const std::exception& error) {
+      findings.emplace_back(id, failed(error.what()));
+    }
+  };
+  answer(cannot_start, [&] { return std::optional{decide(request)}; });
+  answer("live.completion",
+         [&] { return deployment_finding(closed_loop(request.scenario), request); });
   return findings;
 }
 

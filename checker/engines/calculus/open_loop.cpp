@@ -16,8 +16,6 @@ using Add = void (*)(const model::Scenario&, const Omission&, Flows&);
 Add adder_of(model::Of<fsm::composition::paper::Paper>) { return add_flows_of_the_paper; }
 Add adder_of(model::Of<fsm::composition::fastdds::FastDds>) { return add_flows_of_fastdds; }
 
-constexpr std::int64_t hour = 3'600'000'000'000;
-
 }  // namespace
 
 void Flows::add(const char* what, model::TrafficClass traffic_class, const Recurrence& when,
@@ -34,18 +32,17 @@ void Flows::add(const char* what, model::TrafficClass traffic_class, const Recur
 }
 
 void Flows::add_announcements(const model::SpdpProfile& spdp, std::int64_t payload_bytes,
-                              std::int64_t peers, std::int64_t recognitions) {
+                              ToAll to_all, std::int64_t peers, std::int64_t recognitions) {
   using model::SpdpResend;
   using model::TrafficClass;
-  const std::int64_t multicast = route.packet_ns(payload_bytes, true);
   const std::int64_t copy = unicast(payload_bytes);
   const Recurrence schedule = Recurrence::announcements(spdp);
-  add("scheduled announcements", TrafficClass::spdp, schedule, 1, multicast);
+  add("scheduled announcements", TrafficClass::spdp, schedule, to_all.packets, to_all.each);
   add("scheduled announcements", TrafficClass::spdp, schedule, peers, copy);
   constexpr const char* answers = "announcements to new participants";
   const bool group =
       spdp.resend == SpdpResend::all_known || spdp.resend == SpdpResend::new_and_multicast;
-  if (group) add(answers, TrafficClass::spdp, {}, recognitions, multicast);
+  if (group) add(answers, TrafficClass::spdp, {}, recognitions * to_all.packets, to_all.each);
   if (spdp.resend == SpdpResend::all_known) {
     // At the k-th recognition min(k, peers) of those that are known are on other hosts, at most.
     const std::int64_t copies = peers * (peers + 1) / 2 + (recognitions - peers) * peers;
@@ -61,6 +58,10 @@ std::int64_t cross_peers(const model::Topology& topology, std::uint32_t i) {
     if (topology.pair(pair).cross_host) ++peers;
   }
   return peers;
+}
+
+std::int64_t rounding(const Flows& flows, std::int64_t fragments) {
+  return fragments * static_cast<std::int64_t>(flows.route.stages());
 }
 
 std::int64_t OpenLoop::work(std::int64_t window, std::int64_t delay) const {

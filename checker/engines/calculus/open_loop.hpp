@@ -13,6 +13,9 @@
 
 namespace stormproof::calculus {
 
+/// No longer delays are looked for, ns.
+inline constexpr std::int64_t hour = 3'600'000'000'000;
+
 /// Packets of one kind with one cause.
 struct Flow {
   const char* what = "";  ///< "periodic HEARTBEATs"
@@ -28,6 +31,9 @@ struct Omission {
   bool piggyback = false;     ///< those that DATA causes
   bool same_host = false;     ///< participants of the same host
   bool user_control = false;  ///< control-only relations
+  bool port_copies = false;   ///< what static peers send instead of a multicast
+  bool repairs = false;       ///< what is asked for without need (closed_loop.hpp)
+  bool caused = false;        ///< the HEARTBEATs that repairs add to
 };
 
 struct OpenLoop {

@@ -26,30 +26,24 @@ constexpr std::int64_t largest_step =
 /// What a delivery is charged if it is charged with itself only.
 constexpr std::int64_t largest_charge = fastdds::message_header_bytes + largest_descriptor;
 
-/// How often the two writers of a participant use up their budgets, at most: `created` descriptors
-/// are charged with their own bytes; `asked` deliveries, each with all that was sent before. Every
-/// exhaustion takes more than the threshold.
-std::int64_t exhaustions(const model::SedpProfile& sedp, std::int64_t created, std::int64_t asked) {
-  if (sedp.piggyback == model::Piggyback::off) return 0;
-  const bool cumulative = sedp.piggyback == model::Piggyback::cumulative;
-  const std::int64_t sums =
-      cumulative ? times(times(asked, asked + 1) / 2, largest_step) : times(asked, largest_charge);
-  const std::int64_t charged = plus(sums, times(created, largest_charge));
-  const std::int64_t most = charged / plus(sedp.piggyback_threshold_bytes.count(), 1);
-  return std::min(most, plus(created, asked));
+std::int64_t alone(Stream s, std::uint32_t d) {
+  return one_destination + fastdds::timestamp_bytes + fastdds::submessage_bytes(s, d);
 }
 
 class Adder {
  public:
   Adder(const model::Scenario& scenario, const Omission& omission, Flows& flows)
-      : dds_{scenario.dds}, omission_{omission}, flows_{flows} {}
+      : dds_{scenario.dds},
+        omission_{omission},
+        flows_{flows},
+        to_all_{packets_to_all(scenario, omission, flows)} {}
 
   void add_participant(std::uint32_t i) {
     const model::Topology& topology = flows_.topology;
     const std::int64_t peers = cross_peers(topology, i);
     const std::int64_t others =
         omission_.same_host ? peers : std::int64_t{topology.participant_count()} - 1;
-    flows_.add_announcements(dds_.spdp, fastdds::spdp_bytes, peers, others);
+    flows_.add_announcements(dds_.spdp, fastdds::spdp_bytes, to_all_, peers, others);
     std::int64_t created = 0;
     for (const Stream s : model::streams) {
       const std::uint32_t descriptors = topology.descriptor_count(i, s);
@@ -62,7 +56,8 @@ class Adder {
     }
     if (dds_.sedp.initial_acknack_delay > model::Nanoseconds{0}) add_attempts(peers);
     if (omission_.piggyback) return;
-    const std::int64_t exhausted = exhaustions(dds_.sedp, created, times(others, created));
+    const std::int64_t exhausted =
+        exhaustions_of_fastdds(dds_.sedp, created, times(others, created));
     flows_.traffic.exhaustions = plus(flows_.traffic.exhaustions, exhausted);
     add_heartbeats("piggyback HEARTBEATs", "ACKNACKs to piggyback HEARTBEATs", {},
                    times(exhausted, peers));
@@ -86,17 +81,21 @@ class Adder {
   }
 
  private:
-  /// Packets that share nothing have more fragments; 1 ns each for what rounding may hide.
+  /// With static peers a copy goes to each port of every other host that is asked.
+  static Flows::ToAll packets_to_all(const model::Scenario& scenario, const Omission& omission,
+                                     const Flows& flows) {
+    if (scenario.dds.discovery != model::Discovery::static_peers || omission.port_copies) {
+      return flows.multicast(fastdds::spdp_bytes);
+    }
+    const std::int64_t other_hosts = std::int64_t{scenario.deployment.host_count()} - 1;
+    return {other_hosts * scenario.dds.peer_ports, flows.unicast(fastdds::spdp_bytes)};
+  }
+
   void add_data(Stream s, std::uint32_t descriptors, std::int64_t peers) {
     for (std::uint32_t d = 0; d < descriptors; ++d) {
-      const std::int64_t bytes =
-          one_destination + fastdds::timestamp_bytes + fastdds::submessage_bytes(s, d);
-      const std::int64_t fragments = flows_.route.fragments(bytes);
-      const auto stages = static_cast<std::int64_t>(flows_.route.stages());
-      flows_.add("DATA", TrafficClass::initial_data, {}, peers,
-                 flows_.unicast(bytes) + fragments * stages);
+      flows_.add("DATA", TrafficClass::initial_data, {}, peers, alone_in_fastdds(flows_, s, d));
       const std::int64_t with_ride =
-          flows_.route.fragments(bytes + fastdds::heartbeat_submessage_bytes);
+          flows_.route.fragments(alone(s, d) + fastdds::heartbeat_submessage_bytes);
       flows_.traffic.push_fragments = std::max(flows_.traffic.push_fragments, with_ride);
     }
   }
@@ -119,12 +118,29 @@ class Adder {
   const model::DdsProfile& dds_;
   const Omission omission_;
   Flows& flows_;
+  const Flows::ToAll to_all_;
   const std::int64_t heartbeat_ = flows_.unicast(fastdds::heartbeat_to_one_bytes);
   const std::int64_t acknack_ =
       flows_.unicast(fastdds::acknack_bytes + fastdds::acknack_bitmap_bytes);
 };
 
 }  // namespace
+
+std::int64_t exhaustions_of_fastdds(const model::SedpProfile& sedp, std::int64_t created,
+                                    std::int64_t asked) {
+  if (sedp.piggyback == model::Piggyback::off) return 0;
+  const bool cumulative = sedp.piggyback == model::Piggyback::cumulative;
+  const std::int64_t sums =
+      cumulative ? times(times(asked, asked + 1) / 2, largest_step) : times(asked, largest_charge);
+  const std::int64_t charged = plus(sums, times(created, largest_charge));
+  const std::int64_t most = charged / plus(sedp.piggyback_threshold_bytes.count(), 1);
+  return std::min(most, plus(created, asked));
+}
+
+std::int64_t alone_in_fastdds(const Flows& flows, Stream s, std::uint32_t d) {
+  const std::int64_t bytes = alone(s, d);
+  return flows.unicast(bytes) + rounding(flows, flows.route.fragments(bytes));
+}
 
 void add_flows_of_fastdds(const model::Scenario& scenario, const Omission& omission, Flows& flows) {
   Adder adder{scenario, omission, flows};

@@ -133,6 +133,14 @@ void add_writer(const model::SedpProfile& sedp, std::int64_t peers, std::uint32_
 
 }  // namespace
 
+Generation generation_of_the_paper(const model::Scenario& scenario, const Flows& flows, Stream s,
+                                   std::uint32_t descriptors) {
+  std::array<std::uint32_t, 2> counts{};
+  counts[index_of(s)] = descriptors;
+  const Pushed pushed = Pusher{scenario.dds, flows.route, false}.push(1, counts);
+  return {pushed.packets, pushed.airtime};
+}
+
 void add_flows_of_the_paper(const model::Scenario& scenario, const Omission& omission,
                             Flows& flows) {
   const model::SedpProfile& sedp = scenario.dds.sedp;
@@ -148,8 +156,8 @@ void add_flows_of_the_paper(const model::Scenario& scenario, const Omission& omi
     const Pushed& pushed = entry->second;
     flows.traffic.exhaustions += pushed.exhaustions;
     flows.traffic.push_fragments = std::max(flows.traffic.push_fragments, pushed.most_fragments);
-    flows.add_announcements(scenario.dds.spdp, scenario.dds.spdp.payload_bytes.count(), peers,
-                            peers);
+    const std::int64_t bytes = scenario.dds.spdp.payload_bytes.count();
+    flows.add_announcements(scenario.dds.spdp, bytes, flows.multicast(bytes), peers, peers);
     flows.add("DATA", TrafficClass::initial_data, {}, 1, pushed.airtime);
     for (const Stream s : model::streams) {
       add_writer(sedp, peers, descriptors[index_of(s)], flows, pushed, s, omission);

@@ -17,19 +17,6 @@ bool takes_equal_times(const model::WirelessProfile& wireless) {
   return wireless.kind == model::ServiceKind::constant_delay && wireless.packet_delays.empty();
 }
 
-/// Pushed DATA reaches its readers before whatever its source sends later. Each stage of a channel
-/// serves the fragments in the order of their requests, so only a packet that requests one fragment
-/// after the other can be overtaken; or one in another flow.
-bool pushes_keep_order(const model::WirelessProfile& wireless, const OpenLoop* traffic) {
-  if (wireless.kind == model::ServiceKind::constant_delay) return wireless.packet_delays.empty();
-  if (wireless.loss) return false;
-  if (wireless.service == model::ServedBy::unit) {
-    return wireless.queueing == model::Queueing::fifo;
-  }
-  return wireless.fragment_request == model::FragmentRequest::at_admission ||
-         (traffic != nullptr && traffic->push_fragments <= 1);
-}
-
 Threshold none(std::string why) {
   Threshold threshold;
   threshold.why = std::move(why);
@@ -64,15 +51,6 @@ Threshold of_the_paper(const model::Scenario& scenario, const OpenLoop* traffic)
   return threshold;
 }
 
-/// All endpoints exist when their participant starts, whatever is drawn.
-bool is_created_at_once(const model::Deployment& deployment) {
-  const auto& schedule = deployment.schedule;
-  if (schedule && schedule->endpoints_done_max > schedule->start_min) return false;
-  return std::ranges::all_of(deployment.participants, [](const model::Participant& participant) {
-    return participant.endpoints_done == participant.start;
-  });
-}
-
 Threshold of_the_stateful(const model::Scenario& scenario, const OpenLoop* traffic) {
   const model::SedpProfile& sedp = scenario.dds.sedp;
   if (scenario.dds.spdp.resend == model::SpdpResend::none) {
@@ -101,6 +79,24 @@ Threshold of_the_stateful(const model::Scenario& scenario, const OpenLoop* traff
 }
 
 }  // namespace
+
+bool pushes_keep_order(const model::WirelessProfile& wireless, const OpenLoop* traffic) {
+  if (wireless.kind == model::ServiceKind::constant_delay) return wireless.packet_delays.empty();
+  if (wireless.loss) return false;
+  if (wireless.service == model::ServedBy::unit) {
+    return wireless.queueing == model::Queueing::fifo;
+  }
+  return wireless.fragment_request == model::FragmentRequest::at_admission ||
+         (traffic != nullptr && traffic->push_fragments <= 1);
+}
+
+bool is_created_at_once(const model::Deployment& deployment) {
+  const auto& schedule = deployment.schedule;
+  if (schedule && schedule->endpoints_done_max > schedule->start_min) return false;
+  return std::ranges::all_of(deployment.participants, [](const model::Participant& participant) {
+    return participant.endpoints_done == participant.start;
+  });
+}
 
 Threshold threshold_of(const model::Scenario& scenario, const OpenLoop* traffic) {
   switch (model::traits_of(scenario.dds).writer) {

@@ -29,6 +29,15 @@ struct Threshold {
   [[nodiscard]] bool exists() const { return lemma != Lemma::none; }
 };
 
+/// Pushed DATA reaches its readers before whatever its source sends later. Each stage of a channel
+/// serves the fragments in the order of their requests, so only a packet that requests one fragment
+/// after the other can be overtaken; or one in another flow.
+[[nodiscard]] bool pushes_keep_order(const model::WirelessProfile& wireless,
+                                     const OpenLoop* traffic);
+
+/// All endpoints exist when their participant starts, whatever is drawn.
+[[nodiscard]] bool is_created_at_once(const model::Deployment& deployment);
+
 /// `traffic`: the scenario's; null if it is not known (constant delay, or not covered).
 [[nodiscard]] Threshold threshold_of(const model::Scenario& scenario, const OpenLoop* traffic);
 

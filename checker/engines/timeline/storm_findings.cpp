@@ -60,7 +60,7 @@ void judge(const Question& question, std::string_view property, props::Finding& 
 }
 
 /// What is proved is so by the rules, too, where they have a certificate for these delays.
-void rest_on_rules(const Question& question, props::Finding& finding) {
+void rest_on_free_certificate(const Question& question, props::Finding& finding) {
   if (finding.kind != props::VerdictKind::proved) return;
   const bool constant = question.has_constant_delay();
   const auto covered = tables::certified_free(question.dds(), constant);
@@ -102,7 +102,7 @@ props::Finding free_threshold_finding(const Question& question) {
     finding.details.push_back("  eliminated: " + part.eliminated);
   }
   judge(question, "storm.free-threshold", finding);
-  if (theorem.is_asked_for()) rest_on_rules(question, finding);
+  if (theorem.is_asked_for()) rest_on_free_certificate(question, finding);
   if (question.writer() == model::Writer::of_the_paper) {
     hold_against_runs(threshold_points(question.dds()), "storm.free-threshold", question.request,
                       finding);
@@ -129,7 +129,7 @@ props::Finding single_copy_finding(const Question& question) {
                                         time_text(lower), time_text(upper),
                                         lower + Nanoseconds{1} < upper ? "" : ", so never"));
   judge(question, "storm.single-copy", finding);
-  if (theorem.is_asked_for()) rest_on_rules(question, finding);
+  if (theorem.is_asked_for()) rest_on_free_certificate(question, finding);
   if (question.writer() == model::Writer::of_the_paper) {
     hold_against_runs(single_copy_points(question.dds()), "storm.single-copy", question.request,
                       finding);

@@ -29,6 +29,11 @@ inline model::Scenario covered_scenario(std::uint64_t seed) {
   if (scenario.dds.spdp.resend == model::SpdpResend::none && dice.chance(80)) {
     scenario.dds.spdp.resend = model::SpdpResend::all_known;
   }
+  const bool can_have_peers = scenario.dds.implementation == model::implementation_with_discovery;
+  if (can_have_peers && dice.chance(30)) {
+    scenario.dds.discovery = model::Discovery::static_peers;
+    scenario.dds.peer_ports = static_cast<std::uint32_t>(dice.between(1, 6));
+  }
   if (dice.chance(50)) sedp.piggyback = model::Piggyback::off;
   if (dice.chance(50)) scenario.wireless.fragment_request = model::FragmentRequest::at_admission;
   return scenario;

@@ -11,10 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "checker/engines/calculus/cannot_start.hpp"
-#include "model/engine/packet.hpp"
-#include "model/simulator.hpp"
-#include "props/monitors/delay_meter.hpp"
 #include "tests/checker/engines/calculus/covered_scenarios.hpp"
+#include "tests/checker/engines/calculus/observed_delays.hpp"
 
 namespace stormproof::calculus {
 namespace soundness_test {
@@ -24,51 +22,6 @@ using model::TrafficClass;
 
 constexpr std::uint64_t deployments = 300;
 constexpr std::uint64_t schedules = 3;
-
-struct Observed {
-  model::Scenario scenario;
-  model::RunResult result;
-  Nanoseconds longest;  ///< delay of a packet
-};
-
-class DelayProbe final : public model::Probe {
- public:
-  explicit DelayProbe(const model::Scenario& scenario) : meter{scenario} {}
-  void run_started(const model::Topology& topology) override { topology_ = &topology; }
-  void event_started(const model::Event& event) override { now_ = event.time; }
-  void emitted(const model::Packet& packet, std::uint32_t,
-               std::span<const std::uint32_t>) override {
-    meter.emitted(packet, now_);
-  }
-  void arrived(const model::Packet& packet, bool lost) override { meter.arrived(packet, lost); }
-  void received(const model::Packet& packet, std::uint32_t receiver) override {
-    meter.received(*topology_, packet, receiver, now_);
-  }
-  props::DelayMeter meter;
-
- private:
-  const model::Topology* topology_ = nullptr;
-  Nanoseconds now_;
-};
-
-/// Goes on until long after discovery, but not for ever.
-Observed run_of(model::Scenario scenario, Nanoseconds delay) {
-  const model::SedpProfile& sedp = scenario.dds.sedp;
-  Nanoseconds latest;
-  for (const model::Participant& p : scenario.deployment.participants) {
-    latest = std::max(latest, p.endpoints_done);
-  }
-  scenario.time_limit = latest + delay * 6 + sedp.heartbeat_period * 3 +
-                        sedp.heartbeat_response_delay * 3 + scenario.dds.spdp.startup_period * 2;
-  Observed run{std::move(scenario), {}, {}};
-  DelayProbe probe{run.scenario};
-  model::RunOptions options;
-  options.probe = &probe;
-  options.max_events = 60'000;
-  run.result = model::simulate(run.scenario, options);
-  run.longest = probe.meter.largest(run.result.end_time);
-  return run;
-}
 
 /// Airtime of traffic in a window, by what can be told apart: a HEARTBEAT inside of DATA counts as
 /// one of both.
@@ -155,11 +108,12 @@ TEST(CannotStart, NoRunExceedsTheBoundAndNoProvedOneRepairs) {
 }
 
 TEST(CannotStart, ABoundThatForgetsSomethingIsNoticed) {
-  constexpr std::array<std::pair<const char*, Omission>, 4> omissions{
+  constexpr std::array<std::pair<const char*, Omission>, 5> omissions{
       {{"HEARTBEATs", {.heartbeats = true}},
        {"piggyback HEARTBEATs", {.piggyback = true}},
        {"same-host participants", {.same_host = true}},
-       {"user control", {.user_control = true}}}};
+       {"user control", {.user_control = true}},
+       {"copies to ports", {.port_copies = true}}}};
   std::array<int, omissions.size()> noticed{};
   for_runs([&](std::uint64_t, const Observed& run, const Judged& correct) {
     if (!correct.is_proved() || !correct.busy) return;

@@ -1,0 +1,75 @@
+// What the closed loop says of a deployment, for reports.
+#include <fmt/core.h>
+
+#include "checker/engines/bounds/resting.hpp"
+#include "checker/engines/calculus/closed_loop.hpp"
+#include "checker/engines/tables/completion_certificate.hpp"
+#include "checker/engines/timeline/theorem.hpp"
+#include "props/monitors/describe.hpp"
+#include "props/property.hpp"
+
+namespace stormproof::calculus {
+
+namespace {
+
+using model::Nanoseconds;
+using props::time_text;
+
+std::string repairs_line(const ClosedLoop& loop) {
+  if (loop.repairs.sent == 0) return "nothing is repaired without need";
+  if (loop.repairs.sent == endless) return "how often something is repaired has no bound";
+  return fmt::format("at most {} repairs without need, {} of a descriptor at a reader",
+                     loop.repairs.sent, loop.repairs.copies);
+}
+
+}  // namespace
+
+std::vector<std::string> closed_loop_lines(const ClosedLoop& loop,
+                                           const model::Scenario& scenario) {
+  std::vector<std::string> lines;
+  if (loop.gain) {
+    lines.push_back(fmt::format(
+        "gain of lateness {:.3g}: each second that packets take longer allows for so many seconds "
+        "of repairs and what they cause",
+        *loop.gain));
+  }
+  if (!loop.delay) {
+    lines.push_back("the closed loop has no bound: " + loop.gap);
+    return lines;
+  }
+  lines.push_back(
+      fmt::format("no packet takes longer than D* = {}, repairs included", time_text(*loop.delay)));
+  lines.push_back(repairs_line(loop));
+  const std::int64_t messages = loop.messages(scenario.time_limit);
+  if (messages != endless) {
+    lines.push_back(
+        fmt::format("at most {} messages within {}", messages, time_text(scenario.time_limit)));
+  }
+  return lines;
+}
+
+std::optional<props::Finding> deployment_finding(const ClosedLoop& loop,
+                                                 const checker::CheckRequest& request) {
+  if (!loop.delay) return std::nullopt;
+  timeline::Theorem theorem{"live.completion.deployment", request};
+  prove_closed_loop(theorem, loop);
+  props::Finding finding = theorem.finish(fmt::format(
+      "from the deployment alone: without a loss everything is received within {} of the last "
+      "start or creation",
+      time_text(loop.completion)));
+  finding.engine = props::name_of(props::Engine::calculus);
+  finding.assumptions = {
+      "no packet is lost", "start times may be any",
+      "the bound of the rules (live.completion.rules), at Δ = D*, and what it assumes"};
+  if (loop.busy) {
+    finding.assumptions.emplace_back(
+        "the channel never pauses while something waits for it (safety.conservation)");
+  }
+  finding.details = closed_loop_lines(loop, request.scenario);
+  if (tables::completion_certificate(request).kind != props::VerdictKind::proved) {
+    checker::leave_open(finding, "the rules are not known to do what it rests on");
+  }
+  return finding;
+}
+
+}  // namespace stormproof::calculus
