@@ -35,6 +35,7 @@ struct ConformArguments {
   std::string lateness;
   std::string clock_age;
   std::string same_host;
+  std::string queueing;
   std::string clock_error;
   bool no_loss = false;
   double seconds_each = 20;  ///< without `dds`
@@ -64,6 +65,7 @@ Result<Bounds, std::string> parse_bounds(const ConformArguments& arguments) {
   if (!error) error = read("--lateness", arguments.lateness, bounds.most_lateness_ns);
   if (!error) error = read("--clock-age", arguments.clock_age, bounds.most_clock_age_ns);
   if (!error) error = read("--same-host", arguments.same_host, bounds.most_same_host_ns);
+  if (!error) error = read("--queueing", arguments.queueing, bounds.most_queueing_ns);
   if (!error) error = read("--clock-error", arguments.clock_error, bounds.clock_error_ns);
   if (error) return *error;
   bounds.may_lose = !arguments.no_loss;
@@ -260,6 +262,9 @@ void declare_bounds(Options& options, ConformArguments& arguments) {
   add("--same-host", arguments.same_host,
       "From the last cause to the end of what participants of one host exchange, at most",
       printed(defaults.most_same_host_ns), "DURATION");
+  add("--queueing", arguments.queueing,
+      "How long a message of Cyclone DDS may wait in its participant's queue, at most",
+      printed(defaults.most_queueing_ns), "DURATION");
   add("--clock-error", arguments.clock_error, "How far the clocks of the captures may be apart",
       printed(defaults.clock_error_ns), "DURATION");
   options.flag("--no-loss", arguments.no_loss, "Every captured datagram arrives");

@@ -106,19 +106,15 @@ class Announcements {
     }
   }
 
-  /// When this participant can know participant `j`: the capture of j's first announcement to it. A
-  /// multicast reaches participants on the same host, too, and so does a round of copies.
+  /// When this participant can know participant `j`. A round of copies to static peers reaches
+  /// those on the same host, too.
   [[nodiscard]] std::optional<std::int64_t> known_since(std::size_t j) const {
     const auto& participants = dialogue_.conversation.topology.participants;
     const bool same_host = participants[j].host == participants[participant_].host;
-    auto announced = dialogue_.first_announced(j, participant_);
     if (static_peers_ && same_host && !dialogue_.announcements[j].empty()) {
-      announced = dialogue_.announcements[j].front().time_ns;
+      return dialogue_.announcements[j].front().time_ns - bounds_.most_send_lag_ns;
     }
-    if (!announced) return std::nullopt;
-    // The copy on the own host may be there before the one on the network is captured.
-    return same_host ? *announced - bounds_.most_send_lag_ns
-                     : *announced + bounds_.least_delay_ns - bounds_.clock_error_ns;
+    return conform::known_since(dialogue_, participant_, j, bounds_);
   }
 
   [[nodiscard]] std::int64_t period_after(std::size_t number) const {

@@ -28,6 +28,9 @@ struct Bounds {
   std::int64_t clock_error_ns = 0;
   /// Whether a datagram may be lost after its capture.
   bool may_lose = true;
+  /// How long a message may wait in the queue of a Cyclone DDS participant's thread, ns: the thread
+  /// serves its timers first, and sends one copy after the other.
+  std::int64_t most_queueing_ns = 2'000'000'000;
 
   bool operator==(const Bounds&) const = default;
 };

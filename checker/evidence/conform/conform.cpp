@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "checker/evidence/conform/announcements.hpp"
+#include "checker/evidence/conform/cyclone.hpp"
 #include "checker/evidence/conform/dialogue.hpp"
 #include "checker/evidence/conform/heartbeats.hpp"
 #include "checker/evidence/conform/ledger.hpp"
@@ -23,10 +24,18 @@ namespace {
 
 using model::config::InputError;
 
+bool is_of_cyclone(const model::DdsProfile& dds) {
+  return model::traits_of(dds).writer == model::Writer::of_cyclone;
+}
+
 class Check {
  public:
   explicit Check(const Request& request)
-      : request_{request}, dialogue_{sort_out(request.conversation, request.until_ns)} {
+      : request_{request},
+        is_of_cyclone_{is_of_cyclone(request.dds)},
+        dialogue_{sort_out(
+            request.conversation, request.until_ns,
+            is_of_cyclone_ && request.dds.allow_multicast == model::AllowMulticast::always)} {
     result_.bounds = request.bounds;
     result_.checked = dialogue_.checked;
     result_.not_checked = dialogue_.not_checked;
@@ -74,6 +83,7 @@ class Check {
 
   void announcements(std::size_t i) {
     at({i, {}, capture::entity::spdp_writer}, [&](Ledger& ledger) {
+      if (is_of_cyclone_) return cyclone::explain_announcements(by_cyclone_, i, ledger);
       return explain_announcements(dialogue_, i, request_.dds, request_.bounds, announcer_, ledger);
     });
   }
@@ -81,8 +91,9 @@ class Check {
   void writer(std::size_t first, std::size_t last) {
     WriterRelations writer;
     for (std::size_t r = first; r < last; ++r) writer.relations.push_back(&dialogue_.relations[r]);
+    if (is_of_cyclone_) return writer_of_cyclone(writer);
     const AnnouncedSince announced = announced_since(writer);
-    const Place& place = dialogue_.relations[first].place;
+    const Place& place = writer.place();
     const model::SedpProfile& sedp = request_.dds.sedp;
     at({place.source, {}, place.writer}, [&](Ledger& ledger) {
       return explain_heartbeats(dialogue_, writer, sedp, request_.bounds, heartbeat_timer_, ledger);
@@ -104,6 +115,19 @@ class Check {
       at(relation.place, [&](Ledger& ledger) {
         return explain_reader(dialogue_, relation, request_.dds, request_.bounds, readers_, timers_,
                               ledger);
+      });
+    }
+  }
+
+  void writer_of_cyclone(const WriterRelations& writer) {
+    const Place place{writer.place().source, {}, writer.place().writer};
+    at(place, [&](Ledger& ledger) {
+      return cyclone::explain_heartbeats(by_cyclone_, writer, cyclone_, ledger);
+    });
+    at(place, [&](Ledger& ledger) { return cyclone::explain_data(by_cyclone_, writer, ledger); });
+    for (const Relation* relation : writer.relations) {
+      at(relation->place, [&](Ledger& ledger) {
+        return cyclone::explain_reader(by_cyclone_, *relation, cyclone_, ledger);
       });
     }
   }
@@ -169,12 +193,7 @@ class Check {
     for (const auto& [place, one] : places_) result_.places.push_back(one);
     std::stable_sort(result_.hidden.begin(), result_.hidden.end(),
                      [](const Hidden& a, const Hidden& b) { return a.time_ns < b.time_ns; });
-    announcer_.report(result_.rows);
-    heartbeat_timer_.report(result_.rows);
-    changes_.report(result_.rows);
-    timers_.report(result_.rows);
-    readers_.reader.report(result_.rows);
-    readers_.initial.report(result_.rows);
+    report_machines();
     result_.verdict = Verdict::conforms;
     if (!has_descriptor()) {
       result_.verdict = Verdict::inconclusive;
@@ -198,8 +217,23 @@ class Check {
     assume();
   }
 
+  void report_machines() {
+    if (is_of_cyclone_) {
+      cyclone_.pacer.report(result_.rows);
+      cyclone_.reader.report(result_.rows);
+      return;
+    }
+    announcer_.report(result_.rows);
+    heartbeat_timer_.report(result_.rows);
+    changes_.report(result_.rows);
+    timers_.report(result_.rows);
+    readers_.reader.report(result_.rows);
+    readers_.initial.report(result_.rows);
+  }
+
   void assume() {
     auto& all = result_.assumptions;
+    if (is_of_cyclone_) all = cyclone::assumptions(request_.bounds);
     all.emplace_back(
         "the capture holds everything that left the hosts since before the first announcement");
     all.emplace_back("between two participants datagrams arrive in order, or are lost");
@@ -221,6 +255,7 @@ class Check {
   }
 
   const Request& request_;
+  bool is_of_cyclone_;
   Dialogue dialogue_;
   Conformance result_;
   std::map<Place, PlaceResult> places_;
@@ -229,23 +264,24 @@ class Check {
   Tally<fsm::ChangeForReader> changes_;
   Tally<fsm::SingleShot> timers_;
   ReaderMachines readers_;
+  cyclone::Context by_cyclone_{dialogue_, request_.dds, request_.bounds};
+  cyclone::Machines cyclone_;
 };
 
 }  // namespace
 
 std::optional<std::string> refuse_profile(const model::DdsProfile& dds) {
-  if (model::traits_of(dds).writer == model::Writer::of_cyclone) {
-    return "a capture can be held against a profile with `implementation: fastdds`; of "
-           "`implementation: cyclone` conformance is not supported yet";
-  }
+  if (is_of_cyclone(dds)) return std::nullopt;
   if (model::traits_of(dds).has_server) {
     return "a capture can be held against a profile with `discovery: simple` or `static`; "
            "conformance "
            "with a Discovery Server is not supported yet";
   }
   if (model::traits_of(dds).writer != model::Writer::stateful) {
-    return "a capture can be held against a profile with `implementation: fastdds`; this one has "
-           "the writer of the paper's model, which is not message for message that of any program";
+    return "a capture can be held against a profile with `implementation: fastdds` or `cyclone`; "
+           "this "
+           "one has the writer of the paper's model, which is not message for message that of any "
+           "program";
   }
   if (dds.sedp.heartbeat_policy != model::HeartbeatPolicy::periodic) {
     return "a capture can be held against a profile with `heartbeat_policy: periodic`; no program "

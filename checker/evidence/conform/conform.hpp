@@ -43,9 +43,16 @@ enum class Rule : std::uint8_t {
   data_repair,             ///< a later one, asked for while the descriptor is unacknowledged
   data_to_everybody,       ///< nobody asked here, but a reader was matched meanwhile
   acknack_reply,           ///< a HEARTBEAT arrived τ_A ago
-  acknack_initial          ///< no HEARTBEAT arrived for τ_I, doubled or constant
+  acknack_initial,         ///< no HEARTBEAT arrived for τ_I, doubled or constant
+  // Of Cyclone DDS only.
+  announcement_reply,  ///< directed SPDP to a participant that was recognised
+  heartbeat_answer,    ///< to one reader, because of its ACKNACK
+  heartbeat_on_write,  ///< rides on DATA
+  data_merged,         ///< another reader's request made it one to all
+  data_same_host,      ///< a reader on the sender's own host asked, which no capture shows
+  acknack_again        ///< AutoReschedNackDelay is over
 };
-inline constexpr std::size_t rule_count = 14;
+inline constexpr std::size_t rule_count = 20;
 /// "heartbeat.open", as reports write it.
 [[nodiscard]] std::string_view name_of(Rule rule);
 /// One sentence: when this rule sends.
@@ -58,6 +65,8 @@ struct Sender {
 
   auto operator<=>(const Sender&) const = default;
 };
+/// Whether the profile's implementation has the rule.
+[[nodiscard]] bool is_rule_of(Rule rule, const model::DdsProfile& dds);
 /// What can have sent an event that the rule explains; none: what the capture does not show.
 [[nodiscard]] std::span<const Sender> senders_of(Rule rule);
 

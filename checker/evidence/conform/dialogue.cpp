@@ -39,7 +39,8 @@ bool has_no_number(const Event& event) {
 
 class Sorter {
  public:
-  explicit Sorter(Dialogue& dialogue) : dialogue_{dialogue}, conversation_{dialogue.conversation} {
+  Sorter(Dialogue& dialogue, bool sedp_multicast)
+      : dialogue_{dialogue}, conversation_{dialogue.conversation}, sedp_multicast_{sedp_multicast} {
     const auto& participants = conversation_.topology.participants;
     for (std::size_t i = 0; i < participants.size(); ++i) index_[participants[i].prefix] = i;
     dialogue.announcements.resize(participants.size());
@@ -79,11 +80,15 @@ class Sorter {
     ++dialogue_.checked;
     if (traffic == Traffic::spdp && event.data() != nullptr) {
       dialogue_.announcements[source->second].push_back({event.time_ns, k, destination});
-    } else if (traffic != Traffic::sedp || !destination || event.gap() != nullptr ||
+    } else if (traffic != Traffic::sedp || event.gap() != nullptr ||
                (event.data() != nullptr && event.data()->fragment != 0)) {
       dialogue_.strange.push_back(k);
-    } else {
+    } else if (destination) {
       add_sedp(k, source->second, *destination);
+    } else if (sedp_multicast_ && event.acknack() == nullptr) {
+      add_multicast(k, source->second);
+    } else {
+      dialogue_.strange.push_back(k);
     }
   }
 
@@ -112,6 +117,15 @@ class Sorter {
     return found;
   }
 
+  void add_multicast(std::size_t k, std::size_t source) {
+    const auto& participants = conversation_.topology.participants;
+    const std::size_t beyond = dialogue_.beyond.size();
+    for (std::size_t j = 0; j < participants.size(); ++j) {
+      if (participants[j].host == participants[source].host) continue;
+      if (dialogue_.beyond.size() == beyond) add_sedp(k, source, j);
+    }
+  }
+
   void add_sedp(std::size_t k, std::size_t source, std::size_t destination) {
     const Event& event = conversation_.events[k];
     const bool is_answer = event.acknack() != nullptr;
@@ -127,7 +141,7 @@ class Sorter {
       return;
     }
     std::uint32_t& known = dialogue_.descriptors[2 * source + stream_index(event.writer)];
-    Submessage submessage{event.time_ns, k, event.datagram, {}, {}};
+    Submessage submessage{event.time_ns, k, event.datagram, {}, {}, event.is_multicast};
     if (const auto* data = event.data()) {
       submessage.descriptor = descriptor_of(data->sequence_number);
       known = std::max(known, *submessage.descriptor + 1);
@@ -156,6 +170,7 @@ class Sorter {
 
   Dialogue& dialogue_;
   const Conversation& conversation_;
+  bool sedp_multicast_;
   std::map<capture::GuidPrefix, std::size_t> index_;
   std::map<Place, Relation> relations_;
   /// By participant and writer: the sequence numbers of its DATA.
@@ -175,9 +190,20 @@ std::optional<std::int64_t> Dialogue::first_announced(std::size_t from, std::siz
   return std::nullopt;
 }
 
-Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns) {
+std::optional<std::int64_t> known_since(const Dialogue& dialogue, std::size_t i, std::size_t j,
+                                        const Bounds& bounds) {
+  const auto announced = dialogue.first_announced(j, i);
+  if (!announced) return std::nullopt;
+  const auto& participants = dialogue.conversation.topology.participants;
+  // The copy on the own host may be there before the one on the network is captured.
+  return participants[j].host == participants[i].host
+             ? *announced - bounds.most_send_lag_ns
+             : *announced + bounds.least_delay_ns - bounds.clock_error_ns;
+}
+
+Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns, bool sedp_multicast) {
   Dialogue dialogue{conversation};
-  Sorter sorter{dialogue};
+  Sorter sorter{dialogue, sedp_multicast};
   for (const Event& event : conversation.events) sorter.look_at(event);
   for (std::size_t k = 0; k < conversation.events.size(); ++k) {
     const Event& event = conversation.events[k];

@@ -27,6 +27,7 @@ struct Submessage {
   std::uint32_t datagram = 0;
   std::optional<std::uint32_t> descriptor{};  ///< DATA
   std::optional<Heartbeat> heartbeat{};
+  bool is_multicast = false;  ///< the same event is in the relations to all other hosts
 };
 
 /// An ACKNACK from the reader of a relation to its writer.
@@ -93,6 +94,13 @@ struct Dialogue {
   return writer == capture::entity::publications_writer ? 0 : 1;
 }
 
-[[nodiscard]] Dialogue sort_out(const capture::Conversation& conversation, std::int64_t until_ns);
+/// When participant `i` can know participant `j`: the capture of j's first announcement to it. A
+/// multicast reaches participants on the same host, too.
+[[nodiscard]] std::optional<std::int64_t> known_since(const Dialogue& dialogue, std::size_t i,
+                                                      std::size_t j, const Bounds& bounds);
+
+/// `sedp_multicast`: DATA and HEARTBEATs of SEDP may go to the group; otherwise that is strange.
+[[nodiscard]] Dialogue sort_out(const capture::Conversation& conversation, std::int64_t until_ns,
+                                bool sedp_multicast = false);
 
 }  // namespace stormproof::conform

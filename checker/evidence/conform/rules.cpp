@@ -5,6 +5,7 @@
 
 #include "checker/evidence/conform/conform.hpp"
 #include "checker/evidence/conform/senders.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::conform {
 
@@ -51,6 +52,19 @@ constexpr std::array<Text, rule_count> rules{{
     {"acknack.reply", "the heartbeat response delay after a HEARTBEAT arrived", sends::reply},
     {"acknack.initial", "the initial ACKNACK delay after the relation opened without a HEARTBEAT",
      sends::initial},
+    {"announcement.reply",
+     "SPDP to one participant by name, when it was recognised and at intervals after that",
+     sends::cyclone::reply_due},
+    {"heartbeat.answer", "to one reader, because of its pre-emptive ACKNACK or its request",
+     sends::cyclone::answer},
+    {"heartbeat.on_write", "to all readers, in a datagram with DATA of the same writer"},
+    {"data.merged", "to all readers, because another one asked while it was queued",
+     sends::cyclone::requested},
+    {"data.same_host",
+     "to all readers, because of a request on the writer's own host, which the capture does not "
+     "show"},
+    {"acknack.again", "without a HEARTBEAT, the renewal delay after the last request",
+     sends::cyclone::reply},
 }};
 
 constexpr std::array<std::string_view, fault_count> faults{
@@ -70,6 +84,22 @@ constexpr std::array<std::string_view, 3> verdicts{"conforms", "does not conform
 
 std::string_view name_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].name; }
 std::string_view statement_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].statement; }
+bool is_rule_of(Rule rule, const model::DdsProfile& dds) {
+  const bool is_of_cyclone = model::traits_of(dds).writer == model::Writer::of_cyclone;
+  switch (rule) {
+    case Rule::announcement_scheduled:
+    case Rule::announcement_copy:
+    case Rule::heartbeat_periodic:
+    case Rule::data_push:
+    case Rule::data_pull:
+    case Rule::data_repair:
+    case Rule::acknack_reply:
+    case Rule::acknack_initial:
+      return true;
+    default:
+      return is_of_cyclone == (rule >= Rule::announcement_reply);
+  }
+}
 std::span<const Sender> senders_of(Rule rule) {
   const Text& text = rules[static_cast<std::size_t>(rule)];
   return std::span{text.senders}.first(text.sender_count);

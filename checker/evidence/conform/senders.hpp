@@ -21,4 +21,17 @@ inline constexpr Sender budget_of_requested{"Deliver ToRequesters", "Heartbeat"}
 inline constexpr Sender reply{"AckNackDue", "AckNack"};
 inline constexpr Sender initial{"InitialAckNackDue", "AckNack"};
 
+/// The same in the composition of Cyclone DDS (fsm/composition/cyclone.hpp).
+namespace cyclone {
+inline constexpr Sender start{"AnnounceAndGoOn SpdpStartupPeriod", "Spdp"};
+inline constexpr Sender announcement_due{"AnnounceAndGoOn SpdpPeriod", "Spdp"};
+inline constexpr Sender reply_due{"ReplyTimerIsTaken", "Spdp"};
+inline constexpr Sender expiry{"HeartbeatTimerIsTaken", "Heartbeat"};
+inline constexpr Sender answer{"AnswerReader", "Heartbeat"};
+inline constexpr Sender pushed{"DescriptorIsCreated", "Data"};
+inline constexpr Sender requested{"RepeatListed", "Data"};
+inline constexpr Sender preemptive{"AckTimerIsTaken", "AckNack"};
+inline constexpr Sender reply{"Reply", "AckNack"};
+}  // namespace cyclone
+
 }  // namespace stormproof::conform::sends

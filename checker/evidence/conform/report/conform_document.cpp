@@ -152,12 +152,15 @@ class ConformPage {
     Table table{{{"rule"}, {"events", to_the_right}, {"when it sends", to_the_left, true}}, {}};
     for (std::size_t k = 0; k < rule_count; ++k) {
       const auto rule = static_cast<Rule>(k);
+      if (!is_rule_of(rule, report_.dds)) continue;
       std::string sentence{statement_of(rule)};
-      if (rule == Rule::heartbeat_same_host) sentence += " (an assumption)";
+      if (rule == Rule::heartbeat_same_host || rule == Rule::data_same_host)
+        sentence += " (an assumption)";
       table.rows.push_back(
           {{std::string{name_of(rule)}, grouped(result_.by_rule[k]), std::move(sentence)}});
     }
-    return {fmt::format("Rules: {} of {} explain something", rules_used(result_), rule_count),
+    const std::size_t all = table.rows.size();
+    return {fmt::format("Rules: {} of {} explain something", rules_used(result_), all),
             "rules",
             {std::move(table)},
             false,

@@ -13,6 +13,7 @@ void describe(V& v, const Bounds& bounds) {
   v("most_lateness_ns", bounds.most_lateness_ns);
   v("most_clock_age_ns", bounds.most_clock_age_ns);
   v("most_same_host_ns", bounds.most_same_host_ns);
+  v("most_queueing_ns", bounds.most_queueing_ns);
   v("clock_error_ns", bounds.clock_error_ns);
   v("may_lose", bounds.may_lose);
 }

@@ -8,6 +8,7 @@
 #include "checker/evidence/conform/report/names.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::conform {
 
@@ -39,6 +40,11 @@ std::string verdict_meaning(const Report& report) {
   const Conformance& result = report.result;
   switch (result.verdict) {
     case Verdict::conforms:
+      if (model::traits_of(report.dds).writer == model::Writer::of_cyclone) {
+        return "Each captured message by itself has a cause within the bounds with which the "
+               "profile sends it. That one course of events explains all of them is not decided, "
+               "and this is about this capture only.";
+      }
       return "Receptions, losses and delays within the bounds exist with which the profile's "
              "machines send exactly what was captured. This is about this capture: it is no proof "
              "that the implementation always behaves so.";

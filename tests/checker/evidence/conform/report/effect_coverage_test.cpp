@@ -29,6 +29,7 @@ using Names = std::set<std::string>;
 std::set<Sender> all_senders() {
   std::set<Sender> all;
   for (std::size_t k = 0; k < rule_count; ++k) {
+    if (!is_rule_of(static_cast<Rule>(k), fastdds())) continue;
     const auto senders = senders_of(static_cast<Rule>(k));
     all.insert(senders.begin(), senders.end());
   }

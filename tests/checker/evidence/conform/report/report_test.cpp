@@ -241,6 +241,7 @@ TEST(Documentation, HasTheDefaultsOfTheBounds) {
   EXPECT_TRUE(has(text, "| `--lateness D` | `" + printed(bounds.most_lateness_ns) + "` |"));
   EXPECT_TRUE(has(text, "| `--clock-age D` | `" + printed(bounds.most_clock_age_ns) + "` |"));
   EXPECT_TRUE(has(text, "| `--same-host D` | `" + printed(bounds.most_same_host_ns) + "` |"));
+  EXPECT_TRUE(has(text, "| `--queueing D` | `" + printed(bounds.most_queueing_ns) + "` |"));
   EXPECT_TRUE(has(text, "| `--clock-error D` | `" + printed(bounds.clock_error_ns) + "` |"));
 }
 

@@ -1,0 +1,60 @@
+// Holds messages against the rules of Cyclone DDS (specs/guide/cyclone.md). Each message is
+// explained by itself: it has a cause in the capture, or a timer that is due, within the bounds.
+// What is asked for is necessary; one assignment for all messages together is not searched. What a
+// machine sends when, the machines of fsm/ say, asked with whatever suits the message best.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checker/evidence/conform/ledger.hpp"
+#include "checker/evidence/conform/sent_heartbeats.hpp"
+#include "fsm/cautious_reader.hpp"
+#include "fsm/heartbeat_pacer.hpp"
+#include "model/dds_profile.hpp"
+
+namespace stormproof::conform::cyclone {
+
+/// Copies of one packet leave one after the other, in less time.
+inline constexpr std::int64_t most_apart_ns = 20'000'000;
+
+struct Context {
+  const Dialogue& dialogue;
+  const model::DdsProfile& dds;
+  const Bounds& bounds;
+
+  /// Whether `cause`, captured at its source, can have arrived elsewhere before `time_ns`.
+  [[nodiscard]] bool can_precede(std::int64_t cause_ns, std::int64_t time_ns) const;
+  /// When a timer that is due at `due_ns` has surely fired, and what it sends has been captured.
+  [[nodiscard]] std::int64_t surely_after(std::int64_t due_ns) const {
+    return due_ns + bounds.most_lateness_ns + bounds.most_send_lag_ns;
+  }
+};
+
+struct Machines {
+  Tally<fsm::HeartbeatPacer> pacer;
+  Tally<fsm::CautiousReader> reader;
+};
+
+/// SPDP: the schedule of announcements, their copies, and replies by name.
+[[nodiscard]] std::optional<Unexplained> explain_announcements(const Context& context,
+                                                               std::size_t participant,
+                                                               Ledger& ledger);
+/// The HEARTBEATs of a writer.
+[[nodiscard]] std::optional<Unexplained> explain_heartbeats(const Context& context,
+                                                            const WriterRelations& writer,
+                                                            Machines& machines, Ledger& ledger);
+/// The DATA of a writer.
+[[nodiscard]] std::optional<Unexplained> explain_data(const Context& context,
+                                                      const WriterRelations& writer,
+                                                      Ledger& ledger);
+/// The ACKNACKs of a reader.
+[[nodiscard]] std::optional<Unexplained> explain_reader(const Context& context,
+                                                        const Relation& relation,
+                                                        Machines& machines, Ledger& ledger);
+
+/// What a verdict by these rules does not say.
+[[nodiscard]] std::vector<std::string> assumptions(const Bounds& bounds);
+
+}  // namespace stormproof::conform::cyclone
