@@ -23,7 +23,11 @@ bool is_by(const Finding& finding, Engine engine) { return finding.engine == nam
 /// What overrules what, and of equals which reaches further.
 std::pair<int, int> rank(const Finding& finding) {
   const auto kind = static_cast<int>(finding.kind);
-  const int width = is_by(finding, Engine::tables) ? 2 : is_by(finding, Engine::exact_run) ? 0 : 1;
+  // The calculus is about one deployment, without a loss.
+  const int width = is_by(finding, Engine::tables)      ? 3
+                    : is_by(finding, Engine::calculus)  ? 1
+                    : is_by(finding, Engine::exact_run) ? 0
+                                                        : 2;
   if (holds(finding.kind)) return {static_cast<int>(VerdictKind::observed) - kind, width};
   if (finding.kind == VerdictKind::inconclusive) return {-1, 0};
   return {kind, 0};  // violated, disputed
