@@ -106,7 +106,21 @@ std::string gain_line(const Gain& gain, Nanoseconds until) {
                      *repairs, time_text(until));
 }
 
-props::Finding decide(const checker::CheckRequest& request) {
+/// The closed loop of a deployment, found once and only where somebody asks for it.
+class LazyLoop {
+ public:
+  explicit LazyLoop(const model::Scenario& scenario) : scenario_{scenario} {}
+  const ClosedLoop& operator()() {
+    if (!found_) found_ = closed_loop(scenario_);
+    return *found_;
+  }
+
+ private:
+  const model::Scenario& scenario_;
+  std::optional<ClosedLoop> found_;
+};
+
+props::Finding decide(const checker::CheckRequest& request, LazyLoop& loop) {
   const Judged judged = judge(request.scenario);
   timeline::Theorem theorem{cannot_start, request};
   prove_lemmas(theorem, judged.threshold.lemma);
@@ -131,7 +145,7 @@ props::Finding decide(const checker::CheckRequest& request) {
   add_load(judged, finding);
   if (judged.is_proved()) return finding;
   if (gain) finding.details.push_back(gain_line(*gain, until));
-  for (std::string& line : closed_loop_lines(closed_loop(request.scenario), request.scenario)) {
+  for (std::string& line : closed_loop_lines(loop(), request.scenario)) {
     finding.details.push_back(std::move(line));
   }
   return finding;
@@ -189,9 +203,9 @@ checker::Findings check(std::span<const std::string_view> properties,
       findings.emplace_back(id, failed(error.what()));
     }
   };
-  answer(cannot_start, [&] { return std::optional{decide(request)}; });
-  answer("live.completion",
-         [&] { return deployment_finding(closed_loop(request.scenario), request); });
+  LazyLoop loop{request.scenario};
+  answer(cannot_start, [&] { return std::optional{decide(request, loop)}; });
+  answer("live.completion", [&] { return deployment_finding(loop(), request); });
   return findings;
 }
 

@@ -90,14 +90,7 @@ class AsksOfFastDds {
 }  // namespace
 
 Repairs add_repairs_of_fastdds(const Lateness& lateness, Flows& flows) {
-  AsksOfFastDds adder{lateness, flows};
-  Repairs all;
-  for (std::uint32_t i = 0; i < flows.topology.participant_count(); ++i) {
-    const Repairs own = adder.add_participant(i);
-    all.copies = std::max(all.copies, own.copies);
-    all.sent = plus(all.sent, own.sent);
-  }
-  return all;
+  return added_by_all(AsksOfFastDds{lateness, flows}, flows);
 }
 
 }  // namespace stormproof::calculus

@@ -116,14 +116,7 @@ class AsksOfThePaper {
 }  // namespace
 
 Repairs add_repairs_of_the_paper(const Lateness& lateness, Flows& flows) {
-  AsksOfThePaper adder{lateness, flows};
-  Repairs all;
-  for (std::uint32_t i = 0; i < flows.topology.participant_count(); ++i) {
-    const Repairs own = adder.add_participant(i);
-    all.copies = std::max(all.copies, own.copies);
-    all.sent = plus(all.sent, own.sent);
-  }
-  return all;
+  return added_by_all(AsksOfThePaper{lateness, flows}, flows);
 }
 
 }  // namespace stormproof::calculus

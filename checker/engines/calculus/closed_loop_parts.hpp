@@ -35,6 +35,18 @@ Exhaustions settled(Next next) {
   return {endless, endless};
 }
 
+/// What `asks` adds for each participant.
+template <class Asks>
+Repairs added_by_all(Asks asks, const Flows& flows) {
+  Repairs all;
+  for (std::uint32_t i = 0; i < flows.topology.participant_count(); ++i) {
+    const Repairs own = asks.add_participant(i);
+    all.copies = std::max(all.copies, own.copies);
+    all.sent = plus(all.sent, own.sent);
+  }
+  return all;
+}
+
 Repairs add_repairs_of_the_paper(const Lateness& lateness, Flows& flows);
 Repairs add_repairs_of_fastdds(const Lateness& lateness, Flows& flows);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "checker/engines/bounds/resting.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/engines/tables/houdini.hpp"
 
@@ -104,6 +105,27 @@ bool prove(Proof& proof, const Certificate& certificate) {
 bool prove_if_kept(Proof& proof, const Certificate& certificate) {
   const Found found = find(proof, certificate);
   return found.lost.empty() && conclude(proof, certificate, found.invariant);
+}
+
+props::Finding of_certificates(const checker::CheckRequest& request, const char* how,
+                               const std::string& why_not, std::vector<std::string> assumptions,
+                               const std::function<std::vector<props::Finding>()>& certificates) {
+  props::Finding finding;
+  finding.engine = props::name_of(props::Engine::tables);
+  finding.how = how;
+  finding.seed = request.claims.options().seed;
+  if (!why_not.empty()) {
+    checker::leave_open(finding, why_not);
+    return finding;
+  }
+  finding.kind = props::VerdictKind::proved;
+  finding.solver = smt::Claims::solver_name();
+  finding.assumptions = std::move(assumptions);
+  for (const props::Finding& part : certificates()) {
+    checker::rest_on(finding, part);
+    if (!part.solver.empty()) finding.solver = part.solver;
+  }
+  return finding;
 }
 
 }  // namespace stormproof::tables

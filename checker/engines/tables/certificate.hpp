@@ -4,9 +4,11 @@
 // export has the whole as SMT-LIB in which every answer must be unsat.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "checker/engines/bounds/check_request.hpp"
 #include "checker/engines/tables/transition_system.hpp"
 
 namespace stormproof::tables {
@@ -45,5 +47,12 @@ bool prove(Proof& proof, const Certificate& certificate);
 [[nodiscard]] std::string certificate_text(const Certificate& certificate,
                                            const std::vector<Clause>& invariant,
                                            std::string_view property);
+
+/// A property that certificates make together, unless there is a reason why they say nothing of the
+/// scenario. Nothing is decided then.
+[[nodiscard]] props::Finding of_certificates(
+    const checker::CheckRequest& request, const char* how, const std::string& why_not,
+    std::vector<std::string> assumptions,
+    const std::function<std::vector<props::Finding>()>& certificates);
 
 }  // namespace stormproof::tables

@@ -120,32 +120,18 @@ Finding recognition_certificate(const CheckRequest& request) {
 }
 
 Finding live_no_stall(const CheckRequest& request) {
-  Finding finding;
-  finding.engine = "tables";
-  finding.how = "certificates from the rules";
-  finding.seed = request.claims.options().seed;
-  if (request.mutant != nullptr) {
-    checker::leave_open(finding, "with mistakes, runs and the explorer say more");
-    return finding;
-  }
-  const std::string why = not_certified(request.scenario.dds);
-  if (!why.empty()) {
-    checker::leave_open(finding, why);
-    return finding;
-  }
-  finding.kind = props::VerdictKind::proved;
-  finding.solver = smt::Claims::solver_name();
-  finding.assumptions = {
-      "Participants that have started go on; with what starts the first announcement is due.",
-      "Δ and σ are any numbers: those of the packets until now, and of those that follow.",
-      "In no instant do infinitely many events happen, so time goes on.",
-      "What opens the writer's side here when the other one is recognised does so there, too: the "
-      "rules are the same for all."};
-  for (const Finding& part : {recognition_certificate(request), completion_certificate(request)}) {
-    checker::rest_on(finding, part);
-    if (!part.solver.empty()) finding.solver = part.solver;
-  }
-  return finding;
+  return of_certificates(
+      request, "certificates from the rules",
+      request.mutant != nullptr ? "with mistakes, runs and the explorer say more"
+                                : not_certified(request.scenario.dds),
+      {"Participants that have started go on; with what starts the first announcement is due.",
+       "Δ and σ are any numbers: those of the packets until now, and of those that follow.",
+       "In no instant do infinitely many events happen, so time goes on.",
+       "What opens the writer's side here when the other one is recognised does so there, too: the "
+       "rules are the same for all."},
+      [&] {
+        return std::vector{recognition_certificate(request), completion_certificate(request)};
+      });
 }
 
 }  // namespace stormproof::tables

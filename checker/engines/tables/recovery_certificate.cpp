@@ -194,30 +194,19 @@ props::Finding tighter_recovery(const checker::CheckRequest& request, Before bef
 }
 
 Finding live_recovery(const CheckRequest& request) {
-  Finding finding;
-  finding.engine = "tables";
-  finding.how = "certificates from the amended rules";
-  finding.seed = request.claims.options().seed;
-  const std::string why = why_not_certified(request);
-  if (!why.empty()) {
-    checker::leave_open(finding, why);
-    return finding;
-  }
-  finding.kind = props::VerdictKind::proved;
-  finding.solver = smt::Claims::solver_name();
-  finding.assumptions = {
-      "Any finite number of packets is lost.",
-      "B counts from the last failure or from when both sides of the relation are open, whichever "
-      "comes last: that participants recognise each other is not part of the proof.",
-      "Of participants that are silent nothing is said."};
-  std::vector<Before> relations{Before::fresh};
-  if (!request.scenario.deployment.life->stale.empty()) relations.push_back(Before::stale);
-  for (const Before before : relations) {
-    const Finding part = recovery_certificate(request, before);
-    checker::rest_on(finding, part);
-    if (!part.solver.empty()) finding.solver = part.solver;
-  }
-  return finding;
+  return of_certificates(
+      request, "certificates from the amended rules", why_not_certified(request),
+      {"Any finite number of packets is lost.",
+       "B counts from the last failure or from when both sides of the relation are open, whichever "
+       "comes last: that participants recognise each other is not part of the proof.",
+       "Of participants that are silent nothing is said."},
+      [&] {
+        std::vector parts{recovery_certificate(request, Before::fresh)};
+        if (!request.scenario.deployment.life->stale.empty()) {
+          parts.push_back(recovery_certificate(request, Before::stale));
+        }
+        return parts;
+      });
 }
 
 }  // namespace stormproof::tables

@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/engines/smt/claims.hpp"
-#include "checker/engines/timeline/theorem.hpp"
 #include "model/implementations.hpp"
 #include "model/simulator.hpp"
 #include "props/generators/dice.hpp"
 #include "props/generators/space.hpp"
+#include "tests/checker/engines/timeline/requests.hpp"
 
 namespace stormproof::calculus {
 namespace gain_test {
@@ -67,16 +66,10 @@ TEST(Gain, OfProfiles) {
 TEST(Gain, TheSeriesIsProvedAndTight) {
   const WriterGain gain{.descriptors = 3, .readers = 2, .bytes = 10, .budget = 101, .pushed = 60};
   for (const std::int64_t more : {0, 200}) {
-    const model::Scenario scenario;
-    smt::Options options;
-    options.second_solver = false;
-    smt::Claims claims{options};
-    const checker::CheckRequest request{scenario, claims, nullptr, 0, 12, {}};
-    timeline::Theorem theorem{"test", request};
     WriterGain claimed = gain;
     claimed.pushed += more;
-    prove_gain(theorem, claimed, 4);
-    EXPECT_TRUE(theorem.proved());
+    EXPECT_TRUE(
+        timeline::is_proved([&](timeline::Theorem& theorem) { prove_gain(theorem, claimed, 4); }));
   }
   EXPECT_EQ(gain.repairs(4), 3 * (4 * 101 + 2 * 60) / (101 - 60));
 }

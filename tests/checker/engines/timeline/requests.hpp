@@ -2,6 +2,7 @@
 #pragma once
 
 #include "checker/engines/smt/claims.hpp"
+#include "checker/engines/timeline/theorem.hpp"
 #include "checker/engines/timeline/timeline.hpp"
 
 namespace stormproof::timeline {
@@ -22,15 +23,38 @@ inline model::Scenario quiet_scenario() {
   return scenario;
 }
 
-/// What the engine says about one property.
-inline props::Finding finding_about(std::string_view property, const model::Scenario& scenario,
-                                    const checker::Mutant* mutant = nullptr,
-                                    smt::Options options = z3_only()) {
+/// What an engine, a function `check`, says about one property.
+template <class Check>
+props::Finding finding_by(Check check, std::string_view property, const model::Scenario& scenario,
+                          const checker::Mutant* mutant = nullptr,
+                          smt::Options options = z3_only()) {
   smt::Claims claims{std::move(options)};
   const checker::CheckRequest request{scenario, claims, mutant, 0, 12, {}};
   const std::string_view ids[] = {property};
   checker::Findings findings = check(ids, request);
   return findings.empty() ? props::Finding{} : std::move(findings.front().second);
+}
+
+inline props::Finding finding_about(std::string_view property, const model::Scenario& scenario,
+                                    const checker::Mutant* mutant = nullptr,
+                                    smt::Options options = z3_only()) {
+  return finding_by(check, property, scenario, mutant, std::move(options));
+}
+
+/// What becomes of a theorem that `prove` states.
+template <class Prove>
+props::Finding finding_of(Prove&& prove, smt::Options options = z3_only()) {
+  smt::Claims claims{std::move(options)};
+  const model::Scenario scenario;
+  const checker::CheckRequest request{scenario, claims, nullptr, 0, 12, {}};
+  Theorem theorem{"test", request};
+  prove(theorem);
+  return theorem.finish("test");
+}
+
+template <class Prove>
+bool is_proved(Prove&& prove) {
+  return finding_of(prove).kind == props::VerdictKind::proved;
 }
 
 }  // namespace stormproof::timeline

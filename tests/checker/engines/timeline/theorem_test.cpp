@@ -14,12 +14,7 @@ class Theorems : public testing::Test {
  protected:
   template <class Prove>
   bool proves(Prove&& prove, smt::Options options = z3_only()) {
-    smt::Claims claims{std::move(options)};
-    const model::Scenario scenario;
-    const checker::CheckRequest request{scenario, claims, nullptr, 0, 12, {}};
-    Theorem theorem{"test", request};
-    prove(theorem);
-    const props::Finding finding = theorem.finish("test");
+    const props::Finding finding = finding_of(prove, std::move(options));
     how_ = finding.how;
     return finding.kind == props::VerdictKind::proved;
   }
