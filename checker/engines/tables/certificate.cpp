@@ -6,6 +6,7 @@
 #include "checker/engines/bounds/resting.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/engines/tables/houdini.hpp"
+#include "props/property.hpp"
 
 namespace stormproof::tables {
 namespace {

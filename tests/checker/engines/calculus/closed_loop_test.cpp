@@ -46,8 +46,10 @@ model::Scenario late_scenario(std::uint64_t seed) {
   if (dice.chance(40)) {
     sedp.initial_acknack_delay = Nanoseconds{delay.count() / dice.among({4, 16, 64})};
     sedp.piggyback = model::Piggyback::linear;
-    const WriterGain gain = gain_of(scenario)->worst;
-    const std::int64_t one_copy = gain.bytes * gain.readers * gain.descriptors;
+    const auto gain = gain_of(scenario);
+    if (!gain) return scenario;  // additive timers
+    const WriterGain& writer = gain->worst;
+    const std::int64_t one_copy = writer.bytes * writer.readers * writer.descriptors;
     sedp.piggyback_threshold_bytes = model::Bytes{one_copy * dice.between(105, 300) / 100};
   }
   return scenario;

@@ -1,6 +1,8 @@
 // Check requests for tests.
 #pragma once
 
+#include <span>
+
 #include "checker/engines/smt/claims.hpp"
 #include "checker/engines/timeline/theorem.hpp"
 #include "checker/engines/timeline/timeline.hpp"
@@ -30,8 +32,7 @@ props::Finding finding_by(Check check, std::string_view property, const model::S
                           smt::Options options = z3_only()) {
   smt::Claims claims{std::move(options)};
   const checker::CheckRequest request{scenario, claims, mutant, 0, 12, {}};
-  const std::string_view ids[] = {property};
-  checker::Findings findings = check(ids, request);
+  checker::Findings findings = check(std::span{&property, 1}, request);
   return findings.empty() ? props::Finding{} : std::move(findings.front().second);
 }
 
