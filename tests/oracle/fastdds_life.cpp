@@ -5,20 +5,13 @@
 #include <algorithm>
 
 #include "tests/oracle/fastdds_world.hpp"
+#include "tests/oracle/oracle_lives.hpp"
 
 namespace stormproof::oracle::fastdds {
 
 namespace {
 
 model::Life life_of(const World& w) { return w.scenario.deployment.life.value_or(model::Life{}); }
-
-Time lease_of(const World& w, Id i) {
-  const model::Life life = life_of(w);
-  for (const model::Lease& lease : life.leases) {
-    if (lease.participant == i) return lease.duration.count();
-  }
-  return life.lease ? life.lease->count() : 0;
-}
 
 bool existed_before(const World& w, Id i) {
   const model::Life life = life_of(w);
@@ -121,26 +114,13 @@ void open_before(World& w, Id i, Id j) {
   }
 }
 
-Time settled(const World& w) {
-  const model::Life life = life_of(w);
-  Time longest = life.lease ? life.lease->count() : 0;
-  Time last = 0;
-  for (const model::Lease& lease : life.leases) longest = std::max(longest, lease.duration.count());
-  for (const Participant& p : w.participants) last = std::max(last, p.start);
-  for (const model::Outage& outage : life.outages) last = std::max(last, outage.end.count());
-  for (const model::Mute& mute : life.mute) last = std::max(last, mute.from.count());
-  for (const model::Restart& back : life.restarts) last = std::max(last, back.start.count());
-  const bool forgets = longest > 0 || !life.restarts.empty();
-  return forgets ? last + longest : 0;
-}
-
 Event lease_event(Id i, Id j) { return make_event(EventKind::lease_check, i, j, 0); }
 
 }  // namespace
 
 void begin_life(World& w) {
   if (!w.scenario.deployment.life) return;
-  if (!w.makes(Mistake::ends_before_settled)) w.settled = settled(w);
+  if (!w.makes(Mistake::ends_before_settled)) w.settled = settled(w.scenario);
   for (const model::StaleRelation& stale : life_of(w).stale) {
     open_before(w, stale.writer, stale.reader);
   }
@@ -164,37 +144,12 @@ bool ends_complete(const World& w) {
          w.scenario.run_until == model::RunUntil::completion;
 }
 
-bool is_away(const World& w, Id i, Time at) {
-  const model::Life life = life_of(w);
-  for (const model::Mute& mute : life.mute) {
-    if (mute.participant == i && at >= mute.from.count()) return true;
-  }
-  for (const model::Restart& back : life.restarts) {
-    if (back.participant != i || at < back.stop.count()) continue;
-    if (back.identity == model::Identity::fresh || at < back.start.count()) return true;
-  }
-  return false;
-}
-
-bool is_replaced(const World& w, Id i) {
-  if (!w.scenario.deployment.life) return false;
-  for (const model::Restart& restart : life_of(w).restarts) {
-    if (restart.participant == i && restart.identity == model::Identity::fresh) return true;
-  }
-  return false;
-}
+bool is_away(const World& w, Id i, Time at) { return is_away(w.scenario, i, at); }
 
 bool is_heard(const World& w, const Packet& packet, Id j) {
   if (!w.scenario.deployment.life) return true;
   if (is_away(w, packet.source, packet.emitted) || is_away(w, j, w.now)) return false;
-  for (const model::Outage& outage : life_of(w).outages) {
-    if (w.makes(Mistake::hears_in_outages)) break;
-    if (outage.from == packet.source && outage.to == j && w.now >= outage.start.count() &&
-        w.now < outage.end.count()) {
-      return false;
-    }
-  }
-  return true;
+  return !is_cut_off(w.scenario, packet.source, j, w.now) || w.makes(Mistake::hears_in_outages);
 }
 
 int epoch_of(World& w, const Event& e) {
@@ -233,7 +188,7 @@ bool is_void(World& w, EventClass event_class, const Event& e) {
 // Something of i has reached j.
 void heard(World& w, Id j, Id i) {
   if (!w.scenario.deployment.life) return;
-  const Time lease = lease_of(w, i);
+  const Time lease = lease_of(w.scenario, i);
   Participant& p = w.participants.at(j);
   if (lease == 0 || !p.known.contains(i)) return;
   const bool is_checked = p.forgets.contains(i);

@@ -448,7 +448,6 @@ void begin_life(World& w);
 void schedule_returns(World& w);
 [[nodiscard]] bool ends_complete(const World& w);
 [[nodiscard]] bool is_away(const World& w, Id i, Time at);
-[[nodiscard]] bool is_replaced(const World& w, Id i);
 [[nodiscard]] bool is_heard(const World& w, const Packet& packet, Id j);
 [[nodiscard]] int epoch_of(World& w, const Event& event);
 [[nodiscard]] bool is_void(World& w, EventClass event_class, const Event& event);

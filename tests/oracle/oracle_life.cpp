@@ -1,8 +1,7 @@
 // Participants that were there before the run, fall silent, are out of reach, are forgotten, or
 // come back: everything that `deployment.life` says. An event is of the epoch in which it was
 // scheduled: who has been forgotten since, or has come back, has nothing to do with it.
-#include <algorithm>
-
+#include "tests/oracle/oracle_lives.hpp"
 #include "tests/oracle/oracle_world.hpp"
 
 namespace stormproof::oracle {
@@ -10,21 +9,6 @@ namespace stormproof::oracle {
 namespace {
 
 model::Life life_of(const World& w) { return w.scenario.deployment.life.value_or(model::Life{}); }
-
-Time lease_of(const World& w, Id i) {
-  const model::Life life = life_of(w);
-  for (const model::Lease& lease : life.leases) {
-    if (lease.participant == i) return lease.duration.count();
-  }
-  return life.lease ? life.lease->count() : 0;
-}
-
-bool is_replaced(const World& w, Id i) {
-  for (const model::Restart& restart : life_of(w).restarts) {
-    if (restart.participant == i && restart.identity == model::Identity::fresh) return true;
-  }
-  return false;
-}
 
 // j forgets i: what it had of i, and what it knew of i as its reader.
 void forget(World& w, Id i, Id j) {
@@ -78,26 +62,6 @@ void open_before(World& w, Id i, Id j) {
   }
 }
 
-Time settled(const World& w) {
-  const model::Life life = life_of(w);
-  bool forgets = !life.restarts.empty();
-  Time longest = 0;
-  Time last = 0;
-  for (Id i = 0; i < w.participants.size(); ++i) {
-    last = std::max(last, w.participants.at(i).start);
-    longest = std::max(longest, lease_of(w, i));
-  }
-  forgets = forgets || longest > 0 || life.lease || !life.leases.empty();
-  for (const model::Outage& outage : life.outages) last = std::max(last, outage.end.count());
-  for (const model::Mute& mute : life.mute) last = std::max(last, mute.from.count());
-  for (const model::Restart& back : life.restarts) last = std::max(last, back.start.count());
-  for (const model::LateEndpoints& late : life.endpoints) {
-    last = std::max(last, late.until.value_or(late.at).count());
-  }
-  if (life.lease) longest = std::max(longest, life.lease->count());
-  return forgets ? last + longest : 0;
-}
-
 }  // namespace
 
 model::Scenario with_those_who_come_back_as_others(model::Scenario scenario) {
@@ -121,7 +85,7 @@ model::Scenario with_those_who_come_back_as_others(model::Scenario scenario) {
 
 void begin_life(World& w) {
   if (!w.scenario.deployment.life) return;
-  if (!w.makes(Mistake::ends_before_settled)) w.settled = settled(w);
+  if (!w.makes(Mistake::ends_before_settled)) w.settled = settled(w.scenario);
   for (const model::StaleRelation& stale : life_of(w).stale) {
     open_before(w, stale.writer, stale.reader);
   }
@@ -131,30 +95,15 @@ void begin_life(World& w) {
   w.ended = completion_ends(w) && w.settled == 0;
 }
 
-bool is_away(const World& w, Id i, Time at) {
-  const model::Life life = life_of(w);
-  for (const model::Mute& mute : life.mute) {
-    if (mute.participant == i && at >= mute.from.count()) return true;
-  }
-  for (const model::Restart& back : life.restarts) {
-    if (back.participant != i || at < back.stop.count()) continue;
-    if (back.identity == model::Identity::fresh || at < back.start.count()) return true;
-  }
-  return false;
-}
+bool is_away(const World& w, Id i, Time at) { return is_away(w.scenario, i, at); }
 
-bool is_asked_for(const World& w, Id i, Id j) { return !is_replaced(w, i) && !is_replaced(w, j); }
+bool is_asked_for(const World& w, Id i, Id j) {
+  return !is_replaced(w.scenario, i) && !is_replaced(w.scenario, j);
+}
 
 bool is_heard(const World& w, const Packet& packet, Id j) {
   if (is_away(w, packet.source, packet.emitted) || is_away(w, j, w.now)) return false;
-  for (const model::Outage& outage : life_of(w).outages) {
-    if (w.makes(Mistake::hears_in_outages)) break;
-    if (outage.from == packet.source && outage.to == j && w.now >= outage.start.count() &&
-        w.now < outage.end.count()) {
-      return false;
-    }
-  }
-  return true;
+  return !is_cut_off(w.scenario, packet.source, j, w.now) || w.makes(Mistake::hears_in_outages);
 }
 
 int epoch_of(World& w, const Event& e) {
@@ -201,7 +150,7 @@ bool is_void(World& w, const Event& e) {
 
 // Something of i has reached j.
 void heard(World& w, Id j, Id i) {
-  const Time lease = lease_of(w, i);
+  const Time lease = lease_of(w.scenario, i);
   Participant& p = w.participants.at(j);
   if (lease == 0 || !p.known.contains(i)) return;
   const bool is_checked = p.forgets.contains(i);
