@@ -144,7 +144,7 @@ bool ends_complete(const World& w) {
          w.scenario.run_until == model::RunUntil::completion;
 }
 
-bool is_away(const World& w, Id i, Time at) { return is_away(w.scenario, i, at); }
+bool is_away(const World& w, Id i, Time at) { return oracle::is_away(w.scenario, i, at); }
 
 bool is_heard(const World& w, const Packet& packet, Id j) {
   if (!w.scenario.deployment.life) return true;

@@ -95,7 +95,7 @@ void begin_life(World& w) {
   w.ended = completion_ends(w) && w.settled == 0;
 }
 
-bool is_away(const World& w, Id i, Time at) { return is_away(w.scenario, i, at); }
+bool is_away(const World& w, Id i, Time at) { return oracle::is_away(w.scenario, i, at); }
 
 bool is_asked_for(const World& w, Id i, Id j) {
   return !is_replaced(w.scenario, i) && !is_replaced(w.scenario, j);
