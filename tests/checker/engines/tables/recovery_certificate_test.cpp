@@ -14,6 +14,7 @@
 #include "props/monitors/recovery_bound.hpp"
 #include "tests/checker/engines/tables/effect_mistake.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
+#include "tests/props/monitored_run.hpp"
 
 namespace stormproof::tables {
 namespace recovery_certificate_test {
@@ -21,23 +22,9 @@ namespace recovery_certificate_test {
 using fsm::composition::EffectMutation;
 using model::Whether;
 
-/// Fast DDS's rules of relations, with the proposed one.
-model::Scenario proposed() {
-  model::Scenario scenario;
-  model::SedpProfile& sedp = scenario.dds.sedp;
-  sedp.relation_opening = model::RelationOpening::each_side;
-  sedp.initial_data = model::InitialData::pull;
-  sedp.unmatched = model::Unmatched::drop;
-  sedp.initial_acknack = model::InitialAckNackReply::heartbeat;
-  sedp.acknowledge = model::Acknowledge::prefix;
-  sedp.heartbeat_recipients = model::HeartbeatRecipients::matched;
-  model::Amendments& rules = scenario.dds.amendments.emplace();
-  rules.initial_acknack_resets = Whether::yes;
-  rules.initial_acknack_arms = Whether::yes;
-  rules.initial_acknack_stop = model::InitialAckNackStop::complete;
-  scenario.deployment.life.emplace().stale.push_back({.writer = 0, .reader = 1});
-  return scenario;
-}
+/// The scenario of the proposed rule.
+model::Scenario proposed() { return props::shipped("rejoin-6401"); }
+
 model::Scenario with(const std::function<void(model::Scenario&)>& change) {
   model::Scenario scenario = proposed();
   change(scenario);

@@ -10,15 +10,12 @@
 #include "model/config/knobs/effective.hpp"
 #include "model/config/scenario_file.hpp"
 #include "tests/model/config/test_files.hpp"
+#include "tests/props/monitored_run.hpp"
 
 namespace stormproof::model::config {
 namespace numeric_knobs_test {
 
-Scenario shipped(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  auto scenario = read_scenario(name, overrides, source_specs());
-  EXPECT_TRUE(scenario) << name;
-  return scenario ? *scenario : Scenario{};
-}
+using props::shipped;
 
 const NumericKnob* find(const std::vector<NumericKnob>& knobs, const std::string& key) {
   const auto found = std::ranges::find(knobs, key, &NumericKnob::key);
