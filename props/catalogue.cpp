@@ -175,7 +175,7 @@ const std::array properties{
              "no DATA, HEARTBEAT or ACKNACK is sent later than T_disc + Q(Δ, τ)",
              "",
              "delays ≤ Δ, no loss after completion",
-             {timelines, explorer, exact_run},
+             {calculus, timelines, explorer, exact_run},
              "specs/guide/bounds.md",
              "if the only HEARTBEAT of a relation is lost and an initial ACKNACK confirms "
              "everything, the reader's initial ACKNACKs go on for ever"},

@@ -1,6 +1,6 @@
 // The engine "network calculus": what a deployment can do to its channel, from arrival curves and
 // the longest busy period (specs/guide/cannot-start.md). It decides storm.cannot-start,
-// and live.completion from the deployment alone.
+// and live.completion and live.quiescence from the deployment alone.
 #pragma once
 
 #include <span>

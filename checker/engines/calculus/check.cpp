@@ -205,7 +205,8 @@ checker::Findings check(std::span<const std::string_view> properties,
   };
   LazyLoop loop{request.scenario};
   answer(cannot_start, [&] { return std::optional{decide(request, loop)}; });
-  answer("live.completion", [&] { return deployment_finding(loop(), request); });
+  answer("live.completion", [&] { return completion_of_deployment(loop(), request); });
+  answer("live.quiescence", [&] { return quiescence_of_deployment(loop(), request); });
   return findings;
 }
 

@@ -9,6 +9,7 @@
 #include "checker/engines/calculus/threshold.hpp"
 #include "model/fastdds/peer_ports.hpp"
 #include "model/implementations.hpp"
+#include "props/monitors/quiescence.hpp"
 
 namespace stormproof::calculus {
 
@@ -168,6 +169,7 @@ ClosedLoop closed_loop(const model::Scenario& scenario, const Omission& omission
   const auto losses = timeline::loss_bound(scenario.dds, circumstances);
   loop.completion =
       recognition(scenario.dds.spdp, *loop.delay) + Nanoseconds{losses.first + losses.exchange};
+  if (!is_stateful(scenario)) loop.silence = props::quiescence_bound(scenario.dds, *loop.delay);
   return loop;
 }
 

@@ -37,6 +37,9 @@ struct ClosedLoop {
   std::int64_t first = 0;  ///< descriptors times readers on other hosts
   /// From the last start, or creation of an endpoint, until everybody has everything.
   model::Nanoseconds completion;
+  /// From there until the last DATA, HEARTBEAT or ACKNACK of SEDP is sent. Absent: no certificate
+  /// says so of its rules.
+  std::optional<model::Nanoseconds> silence;
 
   /// All messages up to `until` from the first start, at most.
   [[nodiscard]] std::int64_t messages(model::Nanoseconds until) const;
@@ -48,8 +51,12 @@ struct ClosedLoop {
 /// The steps of the proof, for all timers and delays, and the numbers of this deployment.
 void prove_closed_loop(timeline::Theorem& theorem, const ClosedLoop& loop);
 
-/// live.completion and what else is true of the deployment alone; nothing if there is no bound.
-[[nodiscard]] std::optional<props::Finding> deployment_finding(
+/// live.completion of the deployment alone, and what else is true of it; nothing if there is no
+/// bound.
+[[nodiscard]] std::optional<props::Finding> completion_of_deployment(
+    const ClosedLoop& loop, const checker::CheckRequest& request);
+/// live.quiescence of it.
+[[nodiscard]] std::optional<props::Finding> quiescence_of_deployment(
     const ClosedLoop& loop, const checker::CheckRequest& request);
 /// The same in lines, or why there is none.
 [[nodiscard]] std::vector<std::string> closed_loop_lines(const ClosedLoop& loop,

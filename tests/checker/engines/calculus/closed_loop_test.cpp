@@ -81,6 +81,10 @@ std::string excess(const Observed& run, const ClosedLoop& loop) {
   text += above("HEARTBEATs", static_cast<std::int64_t>(counts.heartbeat), heartbeats);
   const Nanoseconds complete = run.result.discovery_time.value_or(run.result.end_time);
   text += above("completion", complete.count(), (latest + loop.completion).count());
+  if (loop.silence) {
+    const Nanoseconds silent_from = latest + loop.completion + *loop.silence;
+    text += above("last of SEDP", run.last_sedp.count(), silent_from.count());
+  }
   for (const model::ChannelUse& channel : run.result.channels) {
     std::int64_t busy = 0;
     for (const Nanoseconds part : channel.busy) busy += part.count();
@@ -98,7 +102,7 @@ void for_late_runs(const Use& use) {
     if (!loop.delay) continue;
     for (std::uint64_t k = 0; k < 3; ++k) {
       if (k > 0) draw_starts(scenario, 1'000 * seed + k);
-      use(seed, run_of(scenario, *loop.delay), loop);
+      use(seed, run_of(scenario, *loop.delay, loop.silence.value_or(Nanoseconds{})), loop);
     }
   }
 }
