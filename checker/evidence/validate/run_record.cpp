@@ -72,11 +72,12 @@ model::config::Result<RunRecord> read_run_record(const std::string& path) {
     if (json.is_discarded() || text->size() > most_bytes) {
       return InputError{file, "not JSON; expected one participant of a run, or a list of them"};
     }
-    const Json list = json.is_array() ? json : Json::array({json});
+    const bool is_run = json.is_object() && json.contains("participants");
+    const Json list = json.is_array() ? json : is_run ? json["participants"] : Json::array({json});
     for (std::size_t k = 0; k < list.size(); ++k) {
       Reported one;
       if (const auto error = read(list[k], one)) {
-        return InputError{json.is_array() ? fmt::format("{}, entry {}", file, k) : file, *error};
+        return InputError{list.size() > 1 ? fmt::format("{}, entry {}", file, k) : file, *error};
       }
       record.participants.push_back(std::move(one));
     }

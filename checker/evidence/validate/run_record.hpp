@@ -26,8 +26,8 @@ struct RunRecord {
   std::vector<Reported> participants{};
 };
 
-/// A JSON file with one participant or a list of them, or a folder of such files. Keys other than
-/// those of `Reported` say nothing.
+/// A JSON file with one participant, a list of them, or an object that has one as `participants`;
+/// or a folder of such files. Keys other than those of `Reported` say nothing.
 [[nodiscard]] model::config::Result<RunRecord> read_run_record(const std::string& path);
 
 }  // namespace stormproof::validate
