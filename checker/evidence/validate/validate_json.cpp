@@ -12,7 +12,7 @@ void describe(V& v, const CapturedParticipant& one) {
   v("subscriptions", one.subscriptions);
   v("start_ns", one.start);
   v("announced", one.announced);
-  v("seen", one.is_seen);
+  v("on_link", one.is_seen);
   v("last_creation_ns", std::pair{one.created_earliest, one.created_latest});
   v("unevenness_ns", one.unevenness);
   v("creations_seen", one.creations_seen);
