@@ -8,6 +8,7 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/streams.hpp"
 #include "checker/evidence/capture/events.hpp"
+#include "checker/evidence/conform/conform.hpp"
 #include "checker/evidence/validate/validate.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/config/tree/quantities.hpp"
@@ -19,7 +20,7 @@ namespace {
 struct ValidateArguments {
   std::vector<std::string> files;
   validate::Request request;
-  std::string until, endpoints_done, loss;  ///< as written; empty: not given
+  std::string until, endpoints_done, loss, record;  ///< as written; empty: not given
   OutputFile svg;
   OutputFile scenario;
 };
@@ -59,6 +60,11 @@ Outcome run(ValidateArguments& arguments, Session& session) {
   // What needs no capture is refused before one is read.
   constexpr std::int64_t any_first = 0;
   if (const auto error = complete(request, arguments, any_first)) return Complaint{*error};
+  if (!arguments.record.empty()) {
+    auto record = validate::read_run_record(arguments.record);
+    if (!record) return record.error();
+    request.record = std::move(*record);
+  }
   const auto conversation = capture::read_conversation(arguments.files, session.on_packets());
   if (!conversation) return conversation.error();
   if (Session::interrupted()) {
@@ -74,8 +80,10 @@ Outcome run(ValidateArguments& arguments, Session& session) {
   const validate::Heading heading{arguments.files};
   Answer answer{document_of(*report, heading), to_json(*report, heading)};
   answer.document.exit_code = exit_code(*report);
-  answer.document.next = {{on_captures({"conform"}, arguments.files, {"--dds", request.dds}),
-                           "whether the rules of this profile explain every message"}};
+  if (!conform::refuse_profile(report->scenario.dds)) {
+    answer.document.next = {{on_captures({"conform"}, arguments.files, {"--dds", request.dds}),
+                             "whether the rules of this profile explain every message"}};
+  }
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(*report);
   if (arguments.scenario.wanted()) {
     arguments.scenario.stream() << model::config::effective_yaml(report->scenario);
@@ -96,6 +104,10 @@ void declare(Options& options, ValidateArguments& arguments) {
                "When participants have all endpoints, instead of what the capture proves: "
                "durations after the first announcement",
                "LO..HI");
+  options.text("--record", arguments.record,
+               "When participants on the host of a Discovery Server started, which no capture "
+               "shows: a JSON file, or a folder of them, as the live bed writes",
+               "PATH");
   options.text("--loss", arguments.loss,
                "Each packet is lost with this probability, such as 5% or 0.05 (default 0)",
                "RATIO");

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "model/fastdds/matching.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::model::fastdds {
@@ -15,8 +16,6 @@ namespace {
 constexpr std::int64_t registration_bytes = 324;
 constexpr std::int64_t numbers_in_word = 32;
 constexpr std::int64_t word_bytes = 4;
-
-Stream opposite(Stream s) { return s == Stream::pub ? Stream::sub : Stream::pub; }
 
 }  // namespace
 
@@ -135,9 +134,7 @@ void ServerProtocol::received(const Packet& packet, Number receiver) {
 /// of its topic.
 bool ServerProtocol::is_required(const Pair& pair, Stream s, Number d) const {
   if (pair.source == server_id() || pair.destination == server_id()) return false;
-  const Number topic = topic_of(s, d);
-  return topic != topic::none && descriptor_on(topic, opposite(s)) <
-                                     run_.topology.descriptor_count(pair.destination, opposite(s));
+  return has_other_side(run_.topology, pair.destination, s, d);
 }
 
 std::vector<MissingDescriptor> ServerProtocol::missing(std::size_t limit) {

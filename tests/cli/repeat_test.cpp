@@ -61,6 +61,10 @@ const Case cases[] = {
     {"validate",
      "validate \"$C\" --dds fastdds-2.9.1 --wireless wifi-80211n --samples 2 --loss 5% "
      "--endpoints-done 20ms..80ms"},
+    {"validate_with_server",
+     "validate \"$SPECS/captures/discovery-server/fastdds291_ap150_client_np1_ne2_r0.pcap.xz\" "
+     "--dds fastdds-server-2.6.11 --wireless emulated-ap --samples 2 --record "
+     "\"$SPECS/captures/discovery-server/fastdds291_ap150_client_np1_ne2_r0.json\""},
     {"doctor", "doctor \"$C\" --no-advice --until 4s"},
     {"properties", "properties"},
     {"profile_show", "profile show fastdds-2.6.11 --set 'sedp.heartbeat_period=3s'"},

@@ -15,7 +15,9 @@ namespace {
 class Counter {
  public:
   explicit Counter(const Conversation& conversation, Counting& counting)
-      : conversation_{conversation}, counting_{counting} {}
+      : conversation_{conversation},
+        counting_{counting},
+        has_server_{conversation.topology.has_server()} {}
 
   /// The events first … last − 1 are those of one datagram.
   void add(const DatagramRecord& datagram, std::size_t first, std::size_t last) {
@@ -26,6 +28,7 @@ class Counter {
       add_traffic(event);
       const std::optional<MessageClass> one = classify(event);
       counting_.classes.push_back(event.is_same_host ? std::nullopt : one);
+      if (has_server_) add_of_server(event, k);
       if (!one) continue;
       ++(event.is_same_host ? counting_.same_host : counting_.counts)[*one];
       if (event.is_same_host) continue;
@@ -66,7 +69,9 @@ class Counter {
     if (const DataEvent* data = event.data()) {
       if (data->fragment != 0) return std::nullopt;
       if (traffic == Traffic::spdp) {
-        return event.is_multicast ? MessageClass::spdp_multicast : MessageClass::spdp_unicast;
+        if (event.is_multicast) return MessageClass::spdp_multicast;
+        if (has_server_) return std::nullopt;
+        return MessageClass::spdp_unicast;
       }
       if (traffic != Traffic::sedp) return std::nullopt;
       return classify_data(event, *data);
@@ -77,10 +82,31 @@ class Counter {
     return std::nullopt;
   }
 
+  /// Reliable announcements, and GAPs of all relays.
+  void add_of_server(const Event& event, std::size_t index) {
+    model::Counts& counts = event.is_same_host ? counting_.same_host : counting_.counts;
+    const bool is_announcement = event.traffic() == Traffic::spdp;
+    if (event.gap() != nullptr && (is_announcement || event.traffic() == Traffic::sedp)) {
+      ++counts.gap;
+    }
+    if (!is_announcement || event.gap() != nullptr) return;
+    if (const DataEvent* data = event.data()) {
+      if (data->fragment != 0 || event.is_multicast) return;
+      ++counts.pdp_data;
+    } else {
+      ++(event.heartbeat() != nullptr ? counts.pdp_heartbeat : counts.pdp_acknack);
+    }
+    if (!event.is_same_host) counting_.of_server.push_back(index);
+  }
+
   [[nodiscard]] MessageClass classify_data(const Event& event, const DataEvent& data) {
     if (!event.destination && event.is_multicast) ++counting_.multicast_data;
     const bool is_first =
-        keys_.insert({event.source, event.destination, event.writer, data.sequence_number}).second;
+        is_relayed(event, data)
+            ? relayed_.insert({event.source, event.destination, event.writer, *data.endpoint})
+                  .second
+            : keys_.insert({event.source, event.destination, event.writer, data.sequence_number})
+                  .second;
     return is_first ? MessageClass::initial_data : MessageClass::repair_data;
   }
 
@@ -114,10 +140,14 @@ class Counter {
 
   using Key = std::tuple<GuidPrefix, std::optional<GuidPrefix>, EntityId, std::int64_t>;
 
+  using Relayed = std::tuple<GuidPrefix, std::optional<GuidPrefix>, EntityId, Guid>;
+
   const Conversation& conversation_;
   Counting& counting_;
+  const bool has_server_;
   HeartbeatClassifier classifier_;
   std::set<Key> keys_;
+  std::set<Relayed> relayed_;
 };
 
 }  // namespace

@@ -6,6 +6,10 @@
 //   number); its first occurrence is initial DATA, the others are repairs. Multicast DATA without
 //   INFO_DST has no destination, which is a value of its own.
 // * HEARTBEAT and ACKNACK are those of the reliable SEDP endpoints.
+// * What a Discovery Server passes on has the key (server, destination, writer, described
+// endpoint):
+//   it gets a new sequence number each time. Announcements to and from a server are counted apart,
+//   as pdp_data, with their HEARTBEATs and ACKNACKs; so are the server's GAPs.
 // * What goes to a participant on the sender's own host is left out, and told apart, unless all
 //   participants are on one host.
 // * Everything later than the completion instant is left out.
@@ -110,6 +114,9 @@ struct Counting {
   std::vector<MissingKey> missing{};      ///< the first of them, at most `most_missing_listed`
   /// When the last required key was sent for the first time; nothing while keys are missing.
   std::optional<std::int64_t> last_initial_ns{};
+  /// Announcements, HEARTBEATs and ACKNACKs between a Discovery Server and clients on other hosts,
+  /// by event index, ascending: they are in no class.
+  std::vector<std::size_t> of_server{};
   /// Of each event before the cut; nothing if it is in no count.
   std::vector<std::optional<MessageClass>> classes{};
   /// Kind of each SEDP HEARTBEAT, by event index.

@@ -81,6 +81,12 @@ struct Event {
   [[nodiscard]] const GapEvent* gap() const { return std::get_if<GapEvent>(&content); }
 };
 
+/// Whether a DATA of SEDP describes an endpoint of another participant than its source, as a
+/// Discovery Server does.
+[[nodiscard]] inline bool is_relayed(const Event& event, const DataEvent& data) {
+  return data.endpoint && data.endpoint->prefix != event.source;
+}
+
 /// A datagram with an RTPS message.
 struct DatagramRecord {
   std::int64_t time_ns = 0;

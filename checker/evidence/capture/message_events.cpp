@@ -48,12 +48,16 @@ class Receiver {
       remarks_.add("submessages beyond the most that are looked at", place_);
       return false;
     }
-    if (extraction_.sources.contains(event_.source)) return true;
+    return has_room_for(event_.source);
+  }
+
+  bool has_room_for(const GuidPrefix& participant) {
+    if (extraction_.sources.contains(participant)) return true;
     if (extraction_.sources.size() >= extraction_.limits.participants) {
       remarks_.add("submessages of participants beyond the most that are looked at", place_);
       return false;
     }
-    extraction_.sources.insert(event_.source);
+    extraction_.sources.insert(participant);
     return true;
   }
 
@@ -92,6 +96,8 @@ class Receiver {
   void describe_participant(const DataSubmessage& data) {
     auto participant = participant_data(data);
     if (!participant || !data.inline_qos_is_valid) return unreadable();
+    // A Discovery Server tells of others, who may be in no message of their own.
+    if (participant->prefix && !has_room_for(*participant->prefix)) return;
     describe(data, std::move(*participant));
   }
 

@@ -33,7 +33,7 @@ struct ExtractionLimits {
 /// What was found in datagrams so far. Destinations are only those of INFO_DST.
 struct Extraction {
   ExtractionLimits limits{};
-  std::set<GuidPrefix> sources{};
+  std::set<GuidPrefix> sources{};  ///< and whom they tell of
   std::vector<Event> events{};
   std::vector<Description> descriptions{};
 };

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "checker/evidence/capture/relayed_keys.hpp"
+
 namespace stormproof::capture {
 
 namespace {
@@ -202,6 +204,11 @@ Writers collect(const Conversation& conversation, std::int64_t until_ns) {
 
 void check_keys(const Conversation& conversation, Counting& counting) {
   const Topology& topology = conversation.topology;
+  if (topology.has_server()) {
+    const Participant* server = topology.server();
+    if (server != nullptr) check_relayed_keys(conversation, *server, counting);
+    return;  // before a server says that it is there nobody knows of anybody
+  }
   std::optional<std::int64_t> last_initial_ns;
   for (const auto& [name, writer] : collect(conversation, counting.until_ns)) {
     const Participant* source = topology.find(name.first);

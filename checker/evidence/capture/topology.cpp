@@ -42,6 +42,17 @@ const Participant* Topology::find(const GuidPrefix& prefix) const {
   return found == participants.end() ? nullptr : &*found;
 }
 
+bool Topology::has_server() const {
+  return std::ranges::any_of(participants, [](const Participant& one) {
+    return !one.discovery.empty() && one.discovery != "SIMPLE";
+  });
+}
+
+const Participant* Topology::server() const {
+  const auto found = std::ranges::find_if(participants, &Participant::is_server);
+  return found == participants.end() ? nullptr : &*found;
+}
+
 void TopologyBuilder::saw_message(const GuidPrefix& source, VendorId vendor, const Address& from,
                                   std::int64_t time_ns) {
   const auto [found, is_new] = participants_.try_emplace(source);
@@ -57,9 +68,17 @@ void TopologyBuilder::saw_message(const GuidPrefix& source, VendorId vendor, con
 
 void TopologyBuilder::saw_participant(const GuidPrefix& source, const ParticipantData& data,
                                       std::int64_t time_ns) {
-  const auto found = participants_.find(source);
-  if (found == participants_.end()) return;
+  if (!participants_.contains(source)) return;
+  const GuidPrefix prefix = data.prefix.value_or(source);
+  const auto [found, is_new] = participants_.try_emplace(prefix);
   Participant& participant = found->second;
+  if (is_new) {
+    participant.prefix = prefix;
+    participant.first_ns = time_ns;
+    for (const UdpEnd& locator : data.metatraffic_unicast) {
+      participant.addresses.insert(locator.address);
+    }
+  }
   if (data.vendor) participant.vendor = *data.vendor;
   if (!data.name.empty()) participant.name = data.name;
   if (!data.version.empty()) participant.version = data.version;
@@ -69,23 +88,27 @@ void TopologyBuilder::saw_participant(const GuidPrefix& source, const Participan
     auto& since = announcements_[locator];
     // Repeated announcements tell nothing new.
     auto later = since.upper_bound(time_ns);
-    if (later != since.begin() && std::prev(later)->second == source) continue;
-    since[time_ns] = source;
+    if (later != since.begin() && std::prev(later)->second == prefix) continue;
+    since[time_ns] = prefix;
   }
 }
 
 void TopologyBuilder::saw_endpoint(const GuidPrefix& source, EntityId sedp_writer,
                                    std::int64_t sequence_number, const EndpointData& data,
                                    std::int64_t time_ns) {
-  const auto found = participants_.find(source);
-  if (found == participants_.end() || !data.endpoint) return;
+  if (!data.endpoint) return;
+  // A Discovery Server passes on what others have described, with numbers of its own.
+  const auto owner = participants_.find(data.endpoint->prefix);
+  const bool is_relayed = data.endpoint->prefix != source && owner != participants_.end();
+  const auto found = is_relayed ? owner : participants_.find(source);
+  if (found == participants_.end()) return;
   const auto [entry, is_new] = found->second.endpoints.try_emplace(*data.endpoint);
   Endpoint& endpoint = entry->second;
   endpoint.first_ns = is_new ? time_ns : std::min(endpoint.first_ns, time_ns);
-  if (!is_new && sequence_number <= endpoint.sequence_number) return;
+  if (!is_new && (is_relayed || sequence_number <= endpoint.sequence_number)) return;
   endpoint.entity = data.endpoint->entity;
   endpoint.announced_by = sedp_writer;
-  endpoint.sequence_number = sequence_number;
+  endpoint.sequence_number = is_relayed ? 0 : sequence_number;
   endpoint.is_gone = data.is_gone;
   if (!data.topic.empty()) endpoint.topic = data.topic;
   if (!data.type.empty()) endpoint.type = data.type;

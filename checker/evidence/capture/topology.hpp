@@ -35,10 +35,13 @@ struct Participant {
   std::string version{};    ///< of its library, as far as DATA(p) shows it; may be empty
   std::string name{};
   std::size_t host = 0;
-  std::int64_t first_ns = 0;             ///< when its first message was sent
-  std::set<Address> addresses{};         ///< that its messages came from
+  /// When its first message was sent; if there is none, when a Discovery Server told of it first.
+  std::int64_t first_ns = 0;
+  std::set<Address> addresses{};         ///< that its messages came from; without one, announced
   std::set<UdpEnd> locators{};           ///< metatraffic unicast, as announced
   std::map<Guid, Endpoint> endpoints{};  ///< by GUID, from its SEDP DATA
+  /// Whether it tells clients of each other.
+  [[nodiscard]] bool is_server() const { return discovery == "SERVER" || discovery == "BACKUP"; }
   /// Number of endpoints that one of its SEDP writers announced and that are not gone.
   [[nodiscard]] std::size_t announced(EntityId sedp_writer) const;
 };
@@ -48,6 +51,11 @@ struct Topology {
   std::size_t hosts = 0;
 
   [[nodiscard]] const Participant* find(const GuidPrefix& prefix) const;
+  /// Whether participants discover through a Discovery Server, as PARTICIPANT_TYPE of somebody's
+  /// DATA(p) says: announcements are reliable then.
+  [[nodiscard]] bool has_server() const;
+  /// The server, if the capture shows its DATA(p).
+  [[nodiscard]] const Participant* server() const;
   [[nodiscard]] std::size_t index_of(const Participant& participant) const {
     return static_cast<std::size_t>(&participant - participants.data());
   }
@@ -59,6 +67,7 @@ class TopologyBuilder {
   /// A message of this participant was sent from this address.
   void saw_message(const GuidPrefix& source, VendorId vendor, const Address& from,
                    std::int64_t time_ns);
+  /// What it says of itself, or of another participant, as a Discovery Server does.
   void saw_participant(const GuidPrefix& source, const ParticipantData& data, std::int64_t time_ns);
   void saw_endpoint(const GuidPrefix& source, EntityId sedp_writer, std::int64_t sequence_number,
                     const EndpointData& data, std::int64_t time_ns);

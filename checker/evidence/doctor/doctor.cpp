@@ -52,6 +52,11 @@ model::Counts failure_free(const capture::Topology& topology, const capture::Cou
   counts.heartbeat = counts.acknack = streams * pairs;
   counts.spdp_multicast = all * all;
   counts.spdp_unicast = all * pairs / 2;
+  if (topology.has_server()) {
+    // Whatever is told is told once, each with a HEARTBEAT, and acknowledged.
+    counts.initial_data = counting.counts.initial_data;
+    counts.heartbeat = counts.acknack = counts.initial_data;
+  }
   return counts;
 }
 
@@ -69,12 +74,6 @@ std::uint64_t known_before(const Conversation& conversation, const capture::Coun
         const auto found = base.find({key.source, key.destination, key.writer});
         return found != base.end() && key.sequence_number < found->second;
       }));
-}
-
-bool has_server(const capture::Topology& topology) {
-  return std::ranges::any_of(topology.participants, [](const capture::Participant& one) {
-    return !one.discovery.empty() && one.discovery != "SIMPLE";
-  });
 }
 
 /// Participants of which the capture shows something before their first announcement: they were
@@ -138,10 +137,6 @@ void judge(Report& report) {
         "they knew each other, or they never did";
   } else if (report.messages() > storm_factor * report.failure_free.total()) {
     report.health = Health::storm;
-  } else if (report.has_server && report.missing > 0) {
-    report.why_unknown =
-        "with a Discovery Server participants need only the descriptors of their own topics, and "
-        "which these are the capture does not show";
   } else if (report.there_before > 0 && report.missing + report.known_before > 0) {
     report.why_unknown =
         fmt::format("the capture began when {} had begun, so it does not show what was sent before",
@@ -182,7 +177,7 @@ Report examine(const Conversation& conversation, std::int64_t until_ns) {
   if (counting.last_initial_ns) {
     report.completion_ns = *counting.last_initial_ns - conversation.first_ns;
   }
-  report.has_server = has_server(conversation.topology);
+  report.has_server = conversation.topology.has_server();
   judge(report);
   report.causes = causes(conversation, counting, report.failure_free);
   report.heard = who_heard_whom(conversation);
@@ -200,7 +195,7 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
   } else if (report.health == Health::unknown) {
     report.no_advice = report.why_unknown;
   } else if (report.has_server) {
-    report.no_advice = "captures with a Discovery Server are not predicted yet";
+    report.no_advice = "captures with a Discovery Server are not tuned yet; validate predicts them";
   } else if (request.advise) {
     report.no_advice.clear();
     if (auto error = advise(profiles, request, report)) return *std::move(error);

@@ -94,9 +94,7 @@ struct Report {
   std::uint64_t known_before = 0;
   std::uint64_t missing = 0;     ///< of the others
   std::size_t there_before = 0;  ///< participants that had begun when the capture did
-  /// Participants tell a Discovery Server, which tells others what they need: which descriptors
-  /// that is, a capture does not show.
-  bool has_server = false;
+  bool has_server = false;       ///< participants discover through a Discovery Server
   std::optional<std::int64_t> completion_ns{};  ///< since the first announcement
   std::vector<Cause> causes{};
   std::vector<Heard> heard{};  ///< only of several captures

@@ -35,7 +35,6 @@ std::string amplification(const Report& report) {
 
 /// "discovery took 2.231 s", or what is missing.
 std::string completeness(const Report& report) {
-  if (report.missing > 0 && report.has_server) return "who needs what is not known";
   if (report.missing > 0) {
     return fmt::format("{} of {} descriptors were never sent to somebody who needs them",
                        grouped(report.missing), grouped(report.counting.required));

@@ -46,7 +46,7 @@ void Finder::who_takes_part() {
     if (traits().vendor && participant.vendor != *traits().vendor) {
       ++others[capture::vendor_name(participant.vendor)];
     }
-    if (!one.announced) ++unannounced;
+    if (!one.announced && one.is_seen) ++unannounced;
     if (participant.locators.size() > 1) ++many_locators;
   }
   for (const auto& [vendor, count] : others) {
@@ -62,7 +62,9 @@ void Finder::who_takes_part() {
       fmt::format("{} participants announce more than one unicast locator; the model's have one, "
                   "and one copy goes to each participant",
                   many_locators));
-  const std::uint64_t left_out = conversation_.topology.participants.size() - counted.size();
+  const std::uint64_t servers = traits().has_server ? 1 : 0;
+  const std::uint64_t left_out =
+      conversation_.topology.participants.size() - counted.size() - servers;
   add("strangers", left_out,
       fmt::format("{} senders announce neither themselves nor an endpoint until the cut; the model "
                   "leaves them out",
@@ -93,6 +95,7 @@ void Finder::endpoints() {
     const Event& event = conversation_.events[k];
     const capture::DataEvent* data = event.data();
     if (data == nullptr || !data->endpoint || data->is_gone) continue;
+    if (capture::is_relayed(event, *data)) continue;  // each time with a new number
     descriptions.insert({event.source, *data->endpoint, data->sequence_number});
     described.insert({event.source, *data->endpoint});
   }

@@ -32,7 +32,11 @@ constexpr std::array<Words, figure_count> words{{{"t_disc_ns", "completion"},
                                                  {"payload_bytes", "UDP payload bytes"},
                                                  {"last_open_ns", "last relation"},
                                                  {"last_initial_ns", "last initial DATA"},
-                                                 {"user_control", "user control"}}};
+                                                 {"user_control", "user control"},
+                                                 {"pdp_data", "DATA(p)"},
+                                                 {"pdp_heartbeat", "HEARTBEAT(p)"},
+                                                 {"pdp_acknack", "ACKNACK(p)"},
+                                                 {"gap", "GAP"}}};
 
 }  // namespace
 
@@ -42,6 +46,11 @@ const char* label_of(Figure figure) { return words[index_of(figure)].label; }
 void add(Tally& tally, model::MessageClass one, std::uint64_t messages) {
   tally[index_of(figure_of(one))] += messages;
   tally[index_of(Figure::total)] += messages;
+}
+
+void add_of_server(Tally& tally, Figure one) {
+  ++tally[index_of(one)];
+  ++tally[index_of(Figure::total)];
 }
 
 GrowthPoint growth_point(const Tally& tally) {

@@ -14,7 +14,7 @@ namespace stormproof::validate {
 
 enum class Figure : std::uint8_t {
   completion,  ///< ns from the first announcement to the cut
-  total,       ///< of the six classes
+  total,       ///< of the six classes, and of `pdp_data` to `pdp_acknack`
   initial_data,
   repair_data,
   heartbeat,
@@ -33,9 +33,14 @@ enum class Figure : std::uint8_t {
   payload_bytes,        ///< their UDP payloads
   last_open,            ///< ns from the first announcement to the last `heartbeat_open`
   last_initial,         ///< ns from the first announcement to the last initial DATA
-  user_control          ///< HEARTBEATs and ACKNACKs of liveliness and user topics
+  user_control,         ///< HEARTBEATs and ACKNACKs of liveliness and user topics
+  // Only with a Discovery Server, whose announcements are reliable.
+  pdp_data,  ///< DATA(p)
+  pdp_heartbeat,
+  pdp_acknack,
+  gap  ///< in no total
 };
-inline constexpr std::size_t figure_count = 21;
+inline constexpr std::size_t figure_count = 25;
 inline constexpr std::size_t first_class_figure = 2;
 static_assert(static_cast<std::size_t>(Figure::initial_data) == first_class_figure);
 
@@ -51,6 +56,8 @@ static_assert(static_cast<std::size_t>(Figure::initial_data) == first_class_figu
   return figure == Figure::completion || figure == Figure::last_open ||
          figure == Figure::last_initial;
 }
+/// Whether only runs with a Discovery Server have it.
+[[nodiscard]] constexpr bool is_of_server(Figure figure) { return figure >= Figure::pdp_data; }
 /// "repair_data", the key in JSON.
 [[nodiscard]] const char* name_of(Figure figure);
 /// "repair DATA", for people.
@@ -61,6 +68,9 @@ using Tally = std::array<std::uint64_t, figure_count>;
 
 /// One message of a class more.
 void add(Tally& tally, model::MessageClass one, std::uint64_t messages = 1);
+
+/// One message more between a Discovery Server and a client, other than GAP.
+void add_of_server(Tally& tally, Figure one);
 
 /// The messages of each class, and all of them, that were sent until (k + 1) · step, for each k.
 inline constexpr std::size_t growth_curves = model::message_class_count + 1;

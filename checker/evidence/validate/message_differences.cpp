@@ -50,7 +50,8 @@ void Finder::submessages() {
     gaps += figures.gap;
     fragments += figures.data_frag;
   }
-  add("gap", gaps, fmt::format("{} GAPs; the model never takes descriptors back", grouped(gaps)));
+  add("gap", traits().has_server ? 0 : gaps,
+      fmt::format("{} GAPs; the model never takes descriptors back", grouped(gaps)));
   add("data-frag", fragments,
       fmt::format("{} DATA_FRAG; the model's descriptors fit into DATA", grouped(fragments)));
   const auto data = [&](Traffic traffic, const char* id, const char* what) {
@@ -131,7 +132,7 @@ void Finder::sizes_of_messages() {
 
 void Finder::heartbeat_kinds() {
   using capture::HeartbeatKind;
-  if (mixes_submessages()) return;  // its HEARTBEATs are not told apart
+  if (mixes_submessages() || traits().has_server) return;  // its HEARTBEATs are not told apart
   const auto kind = [&](HeartbeatKind one, const char* id, const char* what) {
     const std::uint64_t count = counting_.heartbeats.of(one);
     add(id, count, fmt::format("{} HEARTBEATs {}", grouped(count), what));

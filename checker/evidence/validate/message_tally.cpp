@@ -63,6 +63,7 @@ void MessageTally::emitted(const model::Packet& packet, std::uint32_t,
     tally_[index_of(Figure::user_control)] += copies;
     return;
   }
+  if (add_of_server(packet)) return;
   tally_[index_of(Figure::datagrams)] += copies;
   tally_[index_of(Figure::payload_bytes)] += copies * packet.payload_bytes;
   switch (packet.kind) {
@@ -99,7 +100,7 @@ void MessageTally::add_data(const model::Packet& packet) {
   const bool is_pulled = event_ == EventKind::async_run || packet.from_repair;
   if (is_pulled) tally_[index_of(Figure::initial_pulled)] += initial;
   if (initial > 0) {
-    emitted_initial_ = true;
+    if (is_needed(packet)) emitted_initial_ = true;
     note_initial();
   }
   const auto note = [&](MessageClass one, std::uint64_t messages) {
@@ -194,12 +195,16 @@ void MessageTally::add_heartbeats(const model::Packet& packet, std::uint64_t cop
 }
 
 void MessageTally::add_acknack(const model::Packet& packet) {
-  add(tally_, MessageClass::acknack);
   // As in a capture, what decides is what it says, not which timer sent it.
   const bool is_initial = packet.initial_acknack || (acknacks_have_bases_ && packet.detail == 0);
-  const Figure kind = !packet.descriptors.empty() ? Figure::acknack_negative
-                      : is_initial                ? Figure::acknack_initial
-                                                  : Figure::acknack_positive;
+  add_acknack(packet, !packet.descriptors.empty(), is_initial);
+}
+
+void MessageTally::add_acknack(const model::Packet& packet, bool asks, bool is_initial) {
+  add(tally_, MessageClass::acknack);
+  const Figure kind = asks         ? Figure::acknack_negative
+                      : is_initial ? Figure::acknack_initial
+                                   : Figure::acknack_positive;
   ++tally_[index_of(kind)];
   ++sizes_[model::index_of(MessageClass::acknack)][packet.payload_bytes];
 }

@@ -22,7 +22,9 @@ class MessageTally final : public model::Probe {
  public:
   /// Growth is kept for `steps` steps of `step_ns`.
   MessageTally(const model::DdsProfile& dds, std::int64_t step_ns, std::size_t steps)
-      : acknacks_have_bases_{model::traits_of(dds).acknacks_have_bases}, steps_{steps} {
+      : acknacks_have_bases_{model::traits_of(dds).acknacks_have_bases},
+        steps_{steps},
+        has_server_{model::traits_of(dds).has_server} {
     growth_.step_ns = step_ns;
   }
 
@@ -48,6 +50,12 @@ class MessageTally final : public model::Probe {
   void add_data(const model::Packet& packet);
   void add_heartbeats(const model::Packet& packet, std::uint64_t copies);
   void add_acknack(const model::Packet& packet);
+  void add_acknack(const model::Packet& packet, bool asks, bool is_initial);
+  /// False if it is nothing that only a server and its clients send.
+  bool add_of_server(const model::Packet& packet);
+  void add_relay(const model::Packet& packet);
+  void add_relayed(const model::Packet& packet);
+  [[nodiscard]] bool is_needed(const model::Packet& packet) const;
   void add_message(const model::Packet& packet);
   [[nodiscard]] std::optional<model::MessageClass> add_submessage(const model::Submessage& m,
                                                                   const model::Packet& packet);
@@ -71,6 +79,7 @@ class MessageTally final : public model::Probe {
   std::set<Key> sent_to_one_;
   std::set<Key> reached_;  ///< by pair: has been sent to it, to it alone or to the group
   std::set<Key> requested_;
+  const bool has_server_;
   const model::Topology* topology_ = nullptr;  ///< of the run
   Growth growth_;
   Sizes sizes_;

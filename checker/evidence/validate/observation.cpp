@@ -69,6 +69,7 @@ std::optional<double> control_messages(const Conversation& conversation, std::in
 Tally tally_of(const Conversation& conversation, const Counting& counting) {
   Tally tally{};
   for (const MessageClass one : model::message_classes) add(tally, one, counting.counts[one]);
+  tally[index_of(Figure::total)] = counting.counts.total();
   const auto kind = [&](HeartbeatKind one) { return counting.heartbeats.of(one); };
   const auto set = [&](Figure figure, std::uint64_t value) { tally[index_of(figure)] = value; };
   set(Figure::heartbeat_open, kind(HeartbeatKind::relation_open));
@@ -80,6 +81,10 @@ Tally tally_of(const Conversation& conversation, const Counting& counting) {
   set(Figure::acknack_negative, counting.acknacks.negative);
   set(Figure::acknack_positive, counting.acknacks.positive);
   set(Figure::initial_pulled, pulled(conversation, counting));
+  set(Figure::pdp_data, counting.counts.pdp_data);
+  set(Figure::pdp_heartbeat, counting.counts.pdp_heartbeat);
+  set(Figure::pdp_acknack, counting.counts.pdp_acknack);
+  set(Figure::gap, counting.counts.gap);
   add_datagrams(conversation, counting, tally);
   return tally;
 }
@@ -106,10 +111,14 @@ Growth growth_of(const Conversation& conversation, const Counting& counting, std
   growth.step_ns = std::max<std::int64_t>((span_ns + steps - 1) / steps, 1);
   Tally so_far{};
   std::size_t next = 0;
+  auto of_server = counting.of_server.begin();
   for (std::int64_t step = 1; step <= steps; ++step) {
     for (; next < counting.classes.size(); ++next) {
       if (conversation.events[next].time_ns - zero_ns > step * growth.step_ns) break;
       if (counting.classes[next]) add(so_far, *counting.classes[next]);
+      if (of_server == counting.of_server.end() || *of_server != next) continue;
+      ++so_far[index_of(Figure::total)];
+      ++of_server;
     }
     growth.points.push_back(growth_point(so_far));
   }
@@ -119,7 +128,8 @@ Growth growth_of(const Conversation& conversation, const Counting& counting, std
 }  // namespace
 
 model::config::Result<Observation> observe(const Conversation& conversation,
-                                           std::optional<std::int64_t> until_ns) {
+                                           std::optional<std::int64_t> until_ns,
+                                           const RunRecord& record) {
   Observation result;
   result.cut = until_ns ? Cut::given : Cut::last_initial;
   result.cut_ns = std::min(until_ns.value_or(conversation.last_ns), conversation.last_ns);
@@ -130,7 +140,7 @@ model::config::Result<Observation> observe(const Conversation& conversation,
     result.cut_ns = *result.counting.last_initial_ns;
     result.counting = capture::count(conversation, result.cut_ns);
   }
-  auto deployment = captured_deployment(conversation, result.cut_ns);
+  auto deployment = captured_deployment(conversation, result.cut_ns, record);
   if (!deployment) return deployment.error();
   result.deployment = std::move(*deployment);
   constexpr std::int64_t longest_ns = 1'000'000'000'000'000;

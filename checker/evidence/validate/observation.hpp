@@ -39,6 +39,7 @@ inline constexpr std::size_t observed_steps = 120;
 /// `until_ns`: the given cut; without it, the last initial DATA, or the last packet if descriptors
 /// are missing. Errors are those of `captured_deployment`, and a cut before the first announcement.
 [[nodiscard]] model::config::Result<Observation> observe(const capture::Conversation& conversation,
-                                                         std::optional<std::int64_t> until_ns);
+                                                         std::optional<std::int64_t> until_ns,
+                                                         const RunRecord& record = {});
 
 }  // namespace stormproof::validate

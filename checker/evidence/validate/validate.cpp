@@ -78,11 +78,15 @@ Result<model::Scenario> scenario_of(const Request& request, const CapturedDeploy
       quoted_scalar(request.dds), quoted_scalar(request.wireless), time_limit_s);
   auto scenario = model::config::parse_scenario(text, "validate", request.overrides, specs);
   if (!scenario) return scenario.error();
-  if (model::traits_of(scenario->dds).has_server) {
-    return InputError{
-        "--dds",
-        "runs with a Discovery Server cannot be counted as captures are yet; expected "
-        "a profile with `discovery: simple` or `static`"};
+  const bool has_server = model::traits_of(scenario->dds).has_server;
+  if (has_server != deployment.server_host.has_value()) {
+    return InputError{"--dds", has_server
+                                   ? "the profile has a Discovery Server, the capture shows "
+                                     "none (PARTICIPANT_TYPE of DATA(p)); expected a "
+                                     "profile with `discovery: simple` or `static`"
+                                   : "the capture shows a Discovery Server "
+                                     "(PARTICIPANT_TYPE of DATA(p)); expected a profile with "
+                                     "`discovery: server` or `super_client`"};
   }
   scenario->deployment.participants = model_participants(deployment, scenario->dds.descriptors);
   if (!model::config::is_valid(*scenario)) {
@@ -120,7 +124,9 @@ bool is_predicted(Figure figure, const model::ImplementationTraits& traits) {
     case Figure::heartbeat_piggyback:
     case Figure::heartbeat_periodic:
     case Figure::last_open:
-      return traits.writer != model::Writer::of_cyclone;
+      return traits.writer != model::Writer::of_cyclone && !traits.has_server;
+    case Figure::initial_pulled:  // a client asks for what a server has announced and not yet sent
+      return !traits.has_server;
     default:
       return true;
   }
@@ -208,8 +214,12 @@ Agreement agreement(const std::vector<Row>& rows, bool observation_is_complete,
   return Agreement::within;
 }
 
+bool is_shown(const Report& report, Figure figure) {
+  return !is_of_server(figure) || report.observation.deployment.server_host.has_value();
+}
+
 Result<Report> validate(const capture::Conversation& conversation, const Request& request) {
-  auto observation = observe(conversation, request.until_ns);
+  auto observation = observe(conversation, request.until_ns, request.record);
   if (!observation) return observation.error();
   if (request.endpoints_done) use_range(observation->deployment, *request.endpoints_done);
   auto scenario =

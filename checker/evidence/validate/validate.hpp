@@ -30,6 +30,8 @@ struct Request {
   /// first announcement of all.
   std::optional<std::pair<model::Nanoseconds, model::Nanoseconds>> endpoints_done{};
   std::optional<double> within{};  ///< a factor > 1
+  /// Of participants that a capture cannot show, as they are on the host of their Discovery Server.
+  RunRecord record{};
   Sampling sampling{};
 };
 
@@ -94,6 +96,9 @@ struct Report {
   [[nodiscard]] bool interrupted() const { return runs < wanted; }
   [[nodiscard]] const Row& of(Figure figure) const { return rows[index_of(figure)]; }
 };
+
+/// Whether reports have the figure.
+[[nodiscard]] bool is_shown(const Report& report, Figure figure);
 
 [[nodiscard]] model::config::Result<Report> validate(const capture::Conversation& conversation,
                                                      const Request& request);

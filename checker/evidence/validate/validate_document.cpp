@@ -92,7 +92,7 @@ report::Section figures(const Report& report) {
   table.columns.push_back({"ratio", to_the_right});
   table.columns.push_back({"observation"});
   for (const Row& row : report.rows) {
-    if (is_part(row.figure)) continue;
+    if (is_part(row.figure) || !is_shown(report, row.figure)) continue;
     table.rows.push_back(figure_row(report, row));
     for (const Figure part : parts_of(row.figure)) {
       table.rows.push_back(figure_row(report, report.of(part)));
@@ -256,6 +256,17 @@ report::Section compared(const Report& report) {
        "messages count when they are sent: at the interface in the capture, at generation in the "
        "model",
        "the model's participants start at their first captured announcement"}};
+  const auto unseen = std::ranges::count(report.observation.deployment.participants, false,
+                                         &CapturedParticipant::is_seen);
+  if (unseen > 0) {
+    list.items.emplace_back(fmt::format(
+        "{} on the host of the Discovery Server, not on the link: {}",
+        plural(static_cast<std::uint64_t>(unseen), "participant"),
+        report.request.record.participants.empty()
+            ? "taken to start with the first that is seen, and to create endpoints as those do; "
+              "--record gives their times"
+            : "start and creation come from " + report.request.record.name));
+  }
   if (model::traits_of(report.scenario.dds).creates_endpoints_over_time) {
     list.items.emplace_back(
         fmt::format("endpoints are created at equal intervals until the last one, {}; packets to "

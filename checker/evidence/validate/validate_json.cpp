@@ -12,6 +12,7 @@ void describe(V& v, const CapturedParticipant& one) {
   v("subscriptions", one.subscriptions);
   v("start_ns", one.start);
   v("announced", one.announced);
+  v("on_link", one.is_seen);
   v("last_creation_ns", std::pair{one.created_earliest, one.created_latest});
   v("unevenness_ns", one.unevenness);
   v("creations_seen", one.creations_seen);
@@ -136,7 +137,9 @@ void describe(V& v, const ReportWithHeading& shown) {
   const Report& report = shown.report;
   const Observation& observation = report.observation;
   nlohmann::ordered_map<std::string, Row> figures;
-  for (const Row& row : report.rows) figures[name_of(row.figure)] = row;
+  for (const Row& row : report.rows) {
+    if (is_shown(report, row.figure)) figures[name_of(row.figure)] = row;
+  }
   v("captures", shown.heading.captures);
   v("cut", observation.cut == Cut::given ? "given" : "last_initial");
   v("first_announcement_ns", observation.deployment.zero_ns);

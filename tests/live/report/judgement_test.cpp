@@ -72,12 +72,14 @@ TEST(Judgement, WithAServerCountsWhatGoesToItAndWhatItTells) {
   RunRecord run = good_run();
   run.discovery = "server";
   run.captured = {{10, 9}};  // the other one is on the server's host
-  run.required_keys = 26;
-  run.missing_keys = 1;
+  run.required_keys = 12;
   EXPECT_EQ(run.expected_initial(), 25);
   expect(run, Outcome::check_failed, "38 initial DATA were sent; expected 25");
   run.counts.initial_data = 25;
   EXPECT_EQ(judge(run).outcome, Outcome::as_expected);
+  run.missing_keys = 1;
+  expect(run, Outcome::check_failed, "1 required descriptor keys were not sent");
+  run.missing_keys = 0;
   run.discovery = "super_client";
   EXPECT_EQ(run.expected_initial(), 38);
   run.participants_per_host = 5;

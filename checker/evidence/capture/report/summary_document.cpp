@@ -121,6 +121,15 @@ Section messages(const Counting& counting) {
         {{words_of(static_cast<MessageClass>(k)), grouped(entries[k].value),
           grouped(counting.sizes[k].submessage_bytes), size_range(counting.sizes[k].single)}});
   }
+  if (counting.counts.of_server() > 0) {
+    const auto of_server = [&](const char* what, std::uint64_t value) {
+      table.rows.push_back({{what, grouped(value), "", ""}});
+    };
+    of_server("DATA(p)", counting.counts.pdp_data);
+    of_server("HEARTBEAT(p)", counting.counts.pdp_heartbeat);
+    of_server("ACKNACK(p)", counting.counts.pdp_acknack);
+    of_server("GAP (in no total)", counting.counts.gap);
+  }
   table.rows.push_back({{"total", grouped(counting.counts.total()), "", ""}});
   report::Bullets notes{{fmt::format("in {} datagrams, {} frames, {} bytes with link headers",
                                      grouped(counting.datagrams), grouped(counting.frames),

@@ -13,6 +13,7 @@
 #include "checker/evidence/capture/write/fan_out.hpp"
 #include "checker/evidence/capture/write/packet_layout.hpp"
 #include "checker/evidence/capture/write/pcap_writer.hpp"
+#include "checker/evidence/capture/write/server_messages.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::capture {
@@ -28,12 +29,6 @@ VendorId vendor_of(const model::Scenario& scenario) {
 
 }  // namespace
 
-std::optional<std::string> why_not_written(const model::DdsProfile& dds) {
-  if (!model::traits_of(dds).has_server) return std::nullopt;
-  return "messages with a Discovery Server are not written as a capture yet; expected --trace or "
-         "--perfetto";
-}
-
 class CaptureProbe::Implementation {
  public:
   Implementation(Sink sink, const model::Scenario& scenario)
@@ -41,8 +36,11 @@ class CaptureProbe::Implementation {
         traits_{model::traits_of(scenario.dds)},
         vendor_{vendor_of(scenario)},
         layout_{scenario.dds},
-        identities_{write::identities(scenario.deployment, vendor_)},
+        identities_{write::identities(
+            scenario.deployment, vendor_,
+            traits_.has_server ? scenario.dds.discovery : model::Discovery::simple)},
         cyclone_{scenario, vendor_, identities_},
+        of_server_{scenario, vendor_, identities_},
         pcap_{std::move(sink)} {}
 
   void start(const model::Topology& topology) {
@@ -74,8 +72,24 @@ class CaptureProbe::Implementation {
       case PacketKind::registration_acknack:
       case PacketKind::relayed:
       case PacketKind::relayed_acknack:
-        return;  // refused before the run (`why_not_written`)
+        return pcap_.datagram(time_of(packet), identities_[source].metatraffic,
+                              identities_[destination].metatraffic,
+                              of_server_.message(packet, source, destination, time_of(packet)));
     }
+  }
+
+  /// An announcement to one of the ports of a host that nobody has, one after the other.
+  void announce_to_nobody(const model::Packet& packet, std::uint32_t source) {
+    const std::uint32_t somebody_there = topology_->pair(packet.pair).destination;
+    UdpEnd to = identities_[somebody_there].metatraffic;
+    const auto is_there = [&](const write::Identity& one) {
+      return one.metatraffic.address == to.address;
+    };
+    const auto there = static_cast<std::uint32_t>(std::ranges::count_if(identities_, is_there));
+    const std::uint32_t round = scenario_.dds.peer_ports - there;
+    const std::uint32_t port = there + unheard_[{source, to.address}]++ % round;
+    to.port = write::metatraffic_port(port);
+    announce(packet, source, to);
   }
 
   /// A message of Cyclone DDS, to the group if there is no destination.
@@ -224,10 +238,13 @@ class CaptureProbe::Implementation {
   const write::PacketLayout layout_;
   const std::vector<write::Identity> identities_;
   const write::CycloneMessages cyclone_;
+  write::ServerMessages of_server_;
   write::PcapWriter pcap_;
   const model::Topology* topology_ = nullptr;
   std::optional<write::ControlTopics> control_;
   write::FanOut fan_out_;
+  /// Announcements to ports that nobody has, by participant and host.
+  std::map<std::pair<std::uint32_t, Address>, std::uint32_t> unheard_;
   /// Of HEARTBEATs by writer, of ACKNACKs by reader: the last one sent.
   std::map<std::pair<std::uint32_t, EntityId>, std::uint32_t> counts_;
 };
@@ -245,6 +262,7 @@ void CaptureProbe::emitted(const model::Packet& packet, std::uint32_t source,
                            std::span<const std::uint32_t> destinations) {
   if (packet.to_group) return implementation_->send_message(packet, source, std::nullopt);
   if (packet.multicast()) implementation_->announce(packet, source);
+  if (packet.to_nobody) implementation_->announce_to_nobody(packet, source);
   for (const std::uint32_t destination : destinations) {
     implementation_->send(packet, source, destination);
   }

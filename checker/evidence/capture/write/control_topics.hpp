@@ -22,20 +22,23 @@ class ControlTopics {
   };
 
   /// Each cross-host pair has liveliness, the two topics of every node, and the user topics that
-  /// its source publishes and its destination subscribes to.
+  /// its source publishes and its destination subscribes to; with a server only liveliness.
   explicit ControlTopics(const model::Topology& topology) {
     std::uint32_t relations = 0;
     for (std::uint32_t number = 0; number < topology.pair_count(); ++number) {
       first_relation_.push_back(relations);
       const model::Pair& pair = topology.pair(number);
       if (!pair.cross_host) continue;
-      const std::uint32_t publications =
-          topology.descriptor_count(pair.source, model::Stream::pub) -
-          model::fastdds::default_publications;
+      const std::uint32_t publications = topology.descriptor_count(pair.source, model::Stream::pub);
       const std::uint32_t subscriptions =
-          topology.descriptor_count(pair.destination, model::Stream::sub) -
-          model::fastdds::default_subscriptions;
-      relations += model::fastdds::topic::first_user + std::min(publications, subscriptions);
+          topology.descriptor_count(pair.destination, model::Stream::sub);
+      if (publications == 0 || subscriptions == 0) {  // one of them is a Discovery Server
+        ++relations;
+        continue;
+      }
+      relations += model::fastdds::topic::first_user +
+                   std::min(publications - model::fastdds::default_publications,
+                            subscriptions - model::fastdds::default_subscriptions);
     }
   }
 

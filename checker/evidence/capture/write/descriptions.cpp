@@ -50,6 +50,10 @@ ParameterWriter participant_parameters(const Identity& participant, VendorId ven
   out.octets(pid::lease_duration, lease.u32(lease_seconds).u32(0).buffer());
   out.number(pid::builtin_endpoint_set, builtin_endpoints);
   out.text(id_of(ParameterId::entity_name), participant.name);
+  if (participant.type.empty()) return out;
+  ByteWriter properties;
+  properties.u32(1).text("PARTICIPANT_TYPE").text(participant.type);
+  out.octets(id_of(ParameterId::property_list), properties.buffer());
   return out;
 }
 

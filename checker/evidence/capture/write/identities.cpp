@@ -37,26 +37,38 @@ UdpEnd at(std::size_t host, std::size_t port) {
 
 }  // namespace
 
-std::vector<Identity> identities(const model::Deployment& deployment, VendorId vendor) {
-  constexpr std::size_t first_port = 7410;
+std::vector<Identity> identities(const model::Deployment& deployment, VendorId vendor,
+                                 model::Discovery discovery) {
+  constexpr std::size_t server_port = 11811;
+  const bool is_super = discovery == model::Discovery::super_client;
+  const bool has_server = is_super || discovery == model::Discovery::server;
   std::map<model::HostId, std::size_t> on_host;  // participants so far
   for (const model::Participant& participant : deployment.participants) {
     on_host[participant.host] = 0;
   }
+  if (has_server) on_host[model::HostId{}] = 0;
   std::vector<Identity> result;
-  for (const model::Participant& participant : deployment.participants) {
-    const auto entry = on_host.find(participant.host);
+  const auto add = [&](model::HostId on) -> std::size_t {
+    const auto entry = on_host.find(on);
     const auto host = static_cast<std::size_t>(std::distance(on_host.begin(), entry));
     const std::size_t p = entry->second++;
     Identity one;
     ByteWriter prefix{ByteOrder::big};
     prefix.u16(vendor).u16(host).u32(result.size() + 1).u32(0);
     std::ranges::copy(prefix.buffer(), one.prefix.bytes.begin());
-    one.metatraffic = at(host, first_port + 2 * p);
-    one.user = at(host, first_port + 2 * p + 1);
-    one.name = fmt::format("simulated_h{}_p{}", participant.host.value, p);
+    one.metatraffic = at(host, metatraffic_port(p));
+    one.user = at(host, metatraffic_port(p) + 1U);
+    one.name = fmt::format("simulated_h{}_p{}", on.value, p);
+    if (has_server) one.type = is_super ? "SUPER_CLIENT" : "CLIENT";
     result.push_back(std::move(one));
-  }
+    return host;
+  };
+  for (const model::Participant& participant : deployment.participants) add(participant.host);
+  if (!has_server) return result;
+  const std::size_t host = add(model::HostId{});
+  result.back().metatraffic = at(host, server_port);
+  result.back().name = "simulated_server";
+  result.back().type = "SERVER";
   return result;
 }
 

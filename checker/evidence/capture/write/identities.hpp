@@ -9,6 +9,7 @@
 
 #include "checker/evidence/capture/address.hpp"
 #include "checker/evidence/capture/identifiers.hpp"
+#include "model/dds_profile.hpp"
 #include "model/deployment.hpp"
 
 namespace stormproof::capture::write {
@@ -25,11 +26,20 @@ struct Identity {
   UdpEnd metatraffic{};  ///< port 7410 + 2p (RTPS 2.5, section 9.6.1, domain 0)
   UdpEnd user{};         ///< port 7411 + 2p
   std::string name{};    ///< simulated_hH_pP, with the host's number in the deployment
+  /// PARTICIPANT_TYPE where there is a Discovery Server; otherwise empty, and not announced.
+  std::string type{};
 };
 
-/// In the order of the deployment.
-[[nodiscard]] std::vector<Identity> identities(const model::Deployment& deployment,
-                                               VendorId vendor);
+/// In the order of the deployment. With a Discovery Server it is the last one, called
+/// simulated_server, with port 11811 of the first host.
+[[nodiscard]] std::vector<Identity> identities(
+    const model::Deployment& deployment, VendorId vendor,
+    model::Discovery discovery = model::Discovery::simple);
+
+/// Of the p-th participant of a host, from 0 on.
+[[nodiscard]] constexpr std::uint16_t metatraffic_port(std::size_t p) {
+  return static_cast<std::uint16_t>(7410 + 2 * p);
+}
 
 /// 239.255.0.1:7400.
 [[nodiscard]] UdpEnd discovery_group();

@@ -16,6 +16,12 @@ constexpr std::uint8_t little_endian = 0x01;
 constexpr std::uint8_t final_flag = 0x02;
 constexpr std::uint8_t data_flag = 0x04;
 
+ByteWriter& add(ByteWriter& body, const SequenceNumberSet& numbers) {
+  body.sequence_number(static_cast<std::uint64_t>(numbers.base)).u32(numbers.num_bits);
+  for (std::uint32_t word = 0; word * 32 < numbers.num_bits; ++word) body.u32(numbers.bits[word]);
+  return body;
+}
+
 }  // namespace
 
 ParameterWriter& ParameterWriter::number(std::uint16_t id, std::uint64_t value) {
@@ -94,19 +100,33 @@ void MessageWriter::data(EntityId reader, EntityId writer, std::uint64_t sequenc
 }
 
 void MessageWriter::heartbeat(EntityId reader, EntityId writer, std::uint64_t last,
-                              std::uint32_t count) {
+                              std::uint32_t count, std::uint64_t first) {
   ByteWriter body;
-  body.entity(reader).entity(writer).sequence_number(1).sequence_number(last).u32(count);
+  body.entity(reader).entity(writer).sequence_number(first).sequence_number(last).u32(count);
   submessage(SubmessageId::heartbeat, 0, body);
+}
+
+void MessageWriter::gap(EntityId reader, EntityId writer, std::span<const std::int64_t> numbers) {
+  SequenceNumberSet rest;
+  rest.base = numbers.front();
+  for (const std::int64_t number : numbers) {
+    if (number == rest.base && rest.num_bits == 0) {
+      ++rest.base;
+    } else {
+      ask(rest, static_cast<std::uint32_t>(number - 1));
+    }
+  }
+  ByteWriter body;
+  body.entity(reader).entity(writer);
+  body.sequence_number(static_cast<std::uint64_t>(numbers.front()));
+  submessage(SubmessageId::gap, 0, add(body, rest));
 }
 
 void MessageWriter::acknack(EntityId reader, EntityId writer, const SequenceNumberSet& missing,
                             std::uint32_t count, bool is_final) {
   ByteWriter body;
   body.entity(reader).entity(writer);
-  body.sequence_number(static_cast<std::uint64_t>(missing.base)).u32(missing.num_bits);
-  for (std::uint32_t word = 0; word * 32 < missing.num_bits; ++word) body.u32(missing.bits[word]);
-  submessage(SubmessageId::acknack, is_final ? final_flag : 0, body.u32(count));
+  submessage(SubmessageId::acknack, is_final ? final_flag : 0, add(body, missing).u32(count));
 }
 
 void MessageWriter::fill(std::size_t size) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "checker/evidence/capture/address.hpp"
 #include "checker/evidence/capture/parameter_list.hpp"
@@ -60,7 +61,11 @@ class MessageWriter {
   void data(EntityId reader, EntityId writer, std::uint64_t sequence_number,
             const ParameterWriter& parameters, std::size_t size);
   /// Not final: the reader has to answer.
-  void heartbeat(EntityId reader, EntityId writer, std::uint64_t last, std::uint32_t count);
+  void heartbeat(EntityId reader, EntityId writer, std::uint64_t last, std::uint32_t count,
+                 std::uint64_t first = 1);
+  /// `numbers` ascend, one at least. A bitmap reaches 256 numbers far behind those at the start
+  /// that follow each other; what is beyond is not in it.
+  void gap(EntityId reader, EntityId writer, std::span<const std::int64_t> numbers);
   void acknack(EntityId reader, EntityId writer, const SequenceNumberSet& missing,
                std::uint32_t count, bool is_final);
   /// Fills the message up to `size` bytes, if it is smaller: with a PAD submessage, or, where that

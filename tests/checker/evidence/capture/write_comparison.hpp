@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/capture/write/simulated_capture.hpp"
 #include "model/engine/packet.hpp"
+#include "model/fastdds/relayed.hpp"
 #include "model/probe.hpp"
 
 namespace stormproof::capture::testing {
@@ -25,6 +27,8 @@ struct Emission {
   std::uint32_t detail = 0;
   std::uint32_t heartbeats = 0;
   bool initial_acknack = false;
+  bool to_nobody = false;
+  std::shared_ptr<const model::Relayed> relayed{};  ///< by a server, or to it
 };
 
 class EmissionRecorder final : public model::Probe {

@@ -4,8 +4,10 @@
 #include <rapidcheck/gtest.h>
 
 #include "checker/evidence/capture/write/simulated_capture.hpp"
+#include "props/generators/on_demand.hpp"
 #include "props/generators/scenarios.hpp"
 #include "tests/checker/evidence/capture/write_comparison.hpp"
+#include "tests/vectors/discovery_vectors.hpp"
 #include "tests/vectors/fastdds_vectors.hpp"
 #include "tests/vectors/paper_vectors.hpp"
 
@@ -43,6 +45,59 @@ TEST_P(WriteFastdds, CaptureAgreesWithTheRun) { expect_agreement(GetParam().scen
 INSTANTIATE_TEST_SUITE_P(Vector, WriteFastdds,
                          ::testing::ValuesIn(short_ones(vectors::fastdds_vectors())),
                          [](const auto& one) { return one.param.name; });
+
+class WriteDiscovery : public ::testing::TestWithParam<vectors::DiscoveryVector> {};
+TEST_P(WriteDiscovery, CaptureAgreesWithTheRun) { expect_agreement(GetParam().scenario); }
+INSTANTIATE_TEST_SUITE_P(Vector, WriteDiscovery,
+                         ::testing::ValuesIn(short_ones(vectors::discovery_vectors())),
+                         [](const auto& one) { return one.param.name; });
+
+/// Clients and super clients, with odd knobs.
+TEST(WriteRandomWithServer, CaptureHasTheCountsAndTheTopologyOfTheRun) {
+  constexpr std::uint64_t seeds = 60;
+  std::size_t completed = 0;
+  for (const model::Discovery discovery :
+       {model::Discovery::server, model::Discovery::super_client}) {
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      model::Scenario scenario = props::draw_scenario(
+          seed, static_cast<int>(seed), {.implementation = model::ImplementationKind::fastdds});
+      props::draw_discovery(seed, discovery, scenario);
+      model::RunOptions options;
+      options.max_events = 20'000;
+      const SimulatedCapture capture = simulated_capture(scenario, options);
+      if (capture.run.counts.total() == 0) continue;
+      completed += capture.run.completed() ? 1U : 0U;
+      ASSERT_EQ(difference(scenario, capture.run, conversation_of(capture)), "") << "seed " << seed;
+    }
+  }
+  EXPECT_GT(completed, seeds / 2);
+}
+
+TEST(WriteRuns, TheComparisonNoticesWhatAServerLeavesOut) {
+  model::Scenario scenario = vectors::discovery_vectors().at(1).scenario;
+  EmissionRecorder recorder;
+  model::RunOptions options;
+  options.probe = &recorder;
+  const SimulatedCapture capture = simulated_capture(scenario, options);
+  const Conversation whole = conversation_of(capture);
+  ASSERT_EQ(difference(scenario, capture.run, whole), "");
+  for (const auto member :
+       {&model::Counts::pdp_data, &model::Counts::pdp_heartbeat, &model::Counts::pdp_acknack,
+        &model::Counts::gap, &model::Counts::initial_data, &model::Counts::repair_data}) {
+    model::RunResult other = capture.run;
+    ++(other.counts.*member);
+    EXPECT_NE(difference(scenario, other, whole), "");
+  }
+  std::vector<Emission> emissions = recorder.emissions();
+  for (Emission& one : emissions) {
+    if (one.kind != model::PacketKind::relayed || !one.relayed->has_data) continue;
+    model::Relayed renumbered = *one.relayed;
+    ++renumbered.number;
+    one.relayed = std::make_shared<const model::Relayed>(renumbered);
+    break;
+  }
+  EXPECT_NE(difference(scenario, emissions, whole), "");
+}
 
 /// Random sizes may be too small for a valid message, so datagrams may be larger than the model's.
 RC_GTEST_PROP(WriteRandom, CaptureHasTheCountsAndTheTopologyOfTheRun, ()) {

@@ -141,9 +141,8 @@ TEST(Doctor, ACaptureThatBeganTooLateIsNoVerdict) {
 }
 
 TEST(Doctor, KnowsClientsOfADiscoveryServer) {
-  const std::string file =
-      std::string{STORMPROOF_SPECS_DIR} +
-      "/../tests/checker/evidence/doctor/captures/fastdds291_ap150_client_np1_ne2_r0.pcap.xz";
+  const std::string file = std::string{STORMPROOF_SPECS_DIR} +
+                           "/captures/discovery-server/fastdds291_ap150_client_np1_ne2_r0.pcap.xz";
   const auto conversation = capture::read_conversation({{file}}, {});
   ASSERT_TRUE(conversation) << to_string(conversation.error());
   const Report report = diagnosed(*conversation, true);
