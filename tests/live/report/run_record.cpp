@@ -64,12 +64,15 @@ ParticipantReport participant_of(const Json& json) {
 
 void read_summary(const Json& json, RunRecord& run) {
   const Json& counts = json.at("counts");
-  run.counts = {.spdp = integer(counts, "spdp_multicast") + integer(counts, "spdp_unicast"),
-                .initial_data = integer(counts, "initial_data"),
-                .repair_data = integer(counts, "repair_data"),
-                .heartbeat = integer(counts, "heartbeat"),
-                .acknack = integer(counts, "acknack"),
-                .total = integer(counts, "total")};
+  // With a server its announcements are counted apart.
+  const std::int64_t of_server = counts.contains("pdp_data") ? integer(counts, "pdp_data") : 0;
+  run.counts = {
+      .spdp = integer(counts, "spdp_multicast") + integer(counts, "spdp_unicast") + of_server,
+      .initial_data = integer(counts, "initial_data"),
+      .repair_data = integer(counts, "repair_data"),
+      .heartbeat = integer(counts, "heartbeat"),
+      .acknack = integer(counts, "acknack"),
+      .total = integer(counts, "total")};
   run.required_keys = integer(json.at("missing"), "required");
   run.missing_keys = integer(json.at("missing"), "count");
   for (const Json& participant : json.at("topology").at("participants")) {

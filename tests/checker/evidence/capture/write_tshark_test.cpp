@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "tests/checker/evidence/capture/write_comparison.hpp"
+#include "tests/vectors/discovery_vectors.hpp"
 #include "tests/vectors/fastdds_vectors.hpp"
 #include "tests/vectors/paper_vectors.hpp"
 
@@ -81,6 +82,10 @@ TEST(WriteTshark, DissectsTheModelOfThePaper) {
 }
 
 TEST(WriteTshark, DissectsFastDds) { expect_dissected(vectors::fastdds_vectors().at(3).scenario); }
+
+TEST(WriteTshark, DissectsADiscoveryServer) {
+  expect_dissected(vectors::discovery_vectors().at(1).scenario);
+}
 
 TEST(WriteTshark, ComplainsAboutADamagedCapture) {
   if (!tshark_is_available()) GTEST_SKIP() << "tshark is not installed";

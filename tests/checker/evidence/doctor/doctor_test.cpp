@@ -2,6 +2,7 @@
 // were made for one symptom.
 #include "checker/evidence/doctor/doctor.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>

@@ -88,7 +88,7 @@ TEST_P(LiveWithServer, ShowsThoseBesideTheServerByWhatItTells) {
   }
 }
 
-/// Completion within 15 %, messages within a half.
+/// Completion within a tenth, messages within 15 %.
 TEST_P(LiveWithServer, IsPredicted) {
   const auto json = sidecar(GetParam());
   const bool is_once = GetParam().starts_with("fastdds2145");
@@ -103,8 +103,8 @@ TEST_P(LiveWithServer, IsPredicted) {
   request.record = std::move(*record);
   const auto report = validate(read(GetParam()), request);
   ASSERT_TRUE(report) << to_string(report.error());
-  EXPECT_NEAR(*report->of(Figure::completion).ratio, 1, 0.15);
-  EXPECT_NEAR(*report->of(Figure::total).ratio, 1, 0.5);
+  EXPECT_NEAR(*report->of(Figure::completion).ratio, 1, 0.1);
+  EXPECT_NEAR(*report->of(Figure::total).ratio, 1, 0.15);
   EXPECT_EQ(*report->of(Figure::initial_data).ratio, 1);
 }
 

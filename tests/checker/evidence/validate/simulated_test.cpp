@@ -64,6 +64,27 @@ TEST(SimulatedCapture, IsPredictedExactly) {
   EXPECT_GT(*report.of(Figure::user_control).observed, 0);
 }
 
+/// Announcements to ports that nobody has are on the link, too.
+TEST(SimulatedCapture, IsPredictedExactlyWithStaticPeers) {
+  model::Scenario with_peers = scenario();
+  with_peers.dds.discovery = model::Discovery::static_peers;
+  with_peers.dds.peer_ports = 5;
+  const auto written = capture::simulated_capture(with_peers);
+  ASSERT_TRUE(written.run.completed());
+  const capture::MemoryCapture file{"simulated", written.pcap, written.pcap.size()};
+  const auto conversation = capture::read_conversation(std::span{&file, 1});
+  ASSERT_TRUE(conversation) << to_string(conversation.error());
+  Request wanted = request("fastdds-2.6.11");
+  wanted.overrides.insert(wanted.overrides.end(), {"dds.discovery=static", "dds.peer_ports=5"});
+  wanted.until_ns = conversation->first_ns + written.run.discovery_time->count();
+  const auto report = validate(*conversation, wanted);
+  ASSERT_TRUE(report) << to_string(report.error());
+  for (const Row& row : report->rows) {
+    EXPECT_EQ(row.observed, row.median) << name_of(row.figure);
+  }
+  EXPECT_EQ(*report->of(Figure::total).observed, written.run.counts.total());
+}
+
 TEST(SimulatedCapture, IsPredictedExactlyUntilItsCompletion) {
   const auto written = capture::simulated_capture(scenario());
   const capture::Conversation conversation = simulated();
