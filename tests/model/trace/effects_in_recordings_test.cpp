@@ -24,7 +24,7 @@ using fsm::composition::RuleInfo;
 class EffectsInRecordings : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    const CompositionInfo& composition = composition_of(GetParam().scenario.dds);
+    const CompositionInfo& composition = composition_of(GetParam().scenario);
     for (const auto* list : {&composition.rules, &composition.procedures}) {
       for (const RuleInfo& rule : *list) {
         for (const EffectInfo& effect : rule.effects) effects[effect.id] = &effect;
@@ -119,6 +119,8 @@ TEST_P(EffectsInRecordings, AreInTheTimelineToo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, EffectsInRecordings, testing::ValuesIn(trace_cases()), CaseName{});
+INSTANTIATE_TEST_SUITE_P(Lives, EffectsInRecordings,
+                         testing::Values(Case{"fastdds", living_scenario()}), CaseName{});
 
 Verdict replayed(const std::string& text) {
   const auto file = std::filesystem::path{testing::TempDir()} / "effects.jsonl";
