@@ -132,10 +132,11 @@ TEST(Fuzz, shrinks_to_a_small_scenario_that_replays) {
 
 /// Lives of Fast DDS are drawn, judged by what the rules say and by recovery, shrunk and replayed.
 TEST(Fuzz, draws_lives_of_fastdds) {
-  const model::Scenario scenario = shipped(
-      "rejoin-fastdds", {"deployment.life={lease: 20s}", "run_until=time_limit", "time_limit=60s",
-                         "limits.completion=1s",
-                         "vary={outages: 2, restarts: 1, late_joiners: 1, failures_within: 5s}"});
+  const model::Scenario scenario =
+      shipped("rejoin-fastdds",
+              {"deployment.life={lease: 20s, outages: [{from: 0, to: 1, start: 1s, end: 2s}]}",
+               "run_until=time_limit", "time_limit=60s", "limits.completion=1s",
+               "vary={outages: 2, restarts: 1, failures_within: 5s}"});
   FuzzOptions options = runs(15);
   options.only = {"composition.followed", "live.recovery", "limit.completion"};
   const FuzzReport report = run(scenario, options);
