@@ -135,8 +135,8 @@ TEST(Fuzz, draws_lives_of_fastdds) {
   const model::Scenario scenario =
       shipped("rejoin-fastdds",
               {"deployment.life={lease: 20s, outages: [{from: 0, to: 1, start: 1s, end: 2s}]}",
-               "run_until=time_limit", "time_limit=60s", "limits.completion=1s",
-               "vary={outages: 2, restarts: 1, failures_within: 5s}"});
+               "run_until=time_limit", "time_limit=60s", "limits.completion=50ms",
+               "vary={outages: 2, restarts: 1, late_joiners: 1, failures_within: 10ms}"});
   FuzzOptions options = runs(15);
   options.only = {"composition.followed", "live.recovery", "limit.completion"};
   const FuzzReport report = run(scenario, options);
