@@ -42,6 +42,10 @@ enum class StaleAckNack : std::uint8_t {
 };
 /// When a reader asks again by itself.
 enum class ReaderRetry : std::uint8_t { off, after_nack, whenever_missing };
+/// How long a writer waits for the next HEARTBEAT: as `heartbeat_policy` of the profile says, or
+/// twice as long as long as a reader that was asked is silent, else 1.1 times what they took to
+/// answer.
+enum class AmendedPolicy : std::uint8_t { of_the_profile, measured_ack };
 /// Who is charged for DATA that piggyback HEARTBEATs are due for: as `piggyback` says, or the
 /// participant, whose counter loses the threshold at each overflow.
 enum class PiggybackAccount : std::uint8_t { of_the_profile, linear_group };
@@ -55,6 +59,7 @@ struct Amendments {
   LateInitial late_initial = LateInitial::reset;
   AckedRequest acked_request = AckedRequest::ignore;
   HeartbeatCondition heartbeat_condition = HeartbeatCondition::not_acknowledged;
+  AmendedPolicy heartbeat_policy = AmendedPolicy::of_the_profile;
   Whether suppression_end_arms = Whether::yes;
   RepairHeartbeat repair_heartbeat = RepairHeartbeat::none;
   AckNackReply acknack_reply = AckNackReply::none;

@@ -32,6 +32,10 @@ constexpr std::array<std::string_view, 4> of_the_papers_rules{
 /// Of these, those that a certificate from the rules proves, amended or not.
 constexpr std::array<std::string_view, 1> certified_of_amended_rules{"live.recovery"};
 
+/// They know that participants of Fast DDS may have a life.
+constexpr std::array<std::string_view, 3> of_living_fastdds{"composition.followed", "live.recovery",
+                                                            "live.isolation"};
+
 /// Their bounds and theorems count from instants at which timers are due.
 constexpr std::array<std::string_view, 7> of_punctual_timers{
     "live.completion",   "live.quiescence",      "live.recovery",     "live.isolation",
@@ -82,10 +86,11 @@ std::string_view why_nobody_to_isolate(const model::Scenario& scenario) {
 
 std::string_view why_not_applicable(std::string_view property, const model::Scenario& scenario) {
   std::string_view why = why_not_applicable(property, model::kind_of(scenario.dds));
-  if (why.empty() && model::is_living_fastdds(scenario) && !is_of_all(property)) {
+  const bool is_living = model::is_living_fastdds(scenario);
+  if (is_living && is_among(of_living_fastdds, property)) why = {};
+  if (why.empty() && is_living && !is_of_all(property) && !is_among(of_living_fastdds, property)) {
     return "it is stated for participants of Fast DDS that nobody forgets; with deployment.life "
-           "only "
-           "machines, network and results are checked";
+           "only machines, network, results, what rules do, recovery and isolation are checked";
   }
   if (why.empty() && property == "live.recovery") why = why_nothing_to_recover_from(scenario);
   if (why.empty() && property == "live.isolation") why = why_nobody_to_isolate(scenario);
@@ -147,7 +152,8 @@ std::string_view why_not_applicable(std::string_view property,
   const bool is_paper = model::traits_of(implementation).writer == model::Writer::of_the_paper;
   if (is_paper && is_among(of_amended_rules, property)) return {};
   if (is_among(of_the_papers_rules, property)) {
-    return "it is stated for the rules of the closed-loop model, amended or not";
+    return "it is stated for the rules of the closed-loop model, amended or not, and live.recovery "
+           "and live.isolation for Fast DDS whose participants have a life (deployment.life)";
   }
   if (model::traits_of(implementation).is_known_to_engines) return {};
   return "it is stated for the writers of the paper and of Fast DDS; of this one only machines, "

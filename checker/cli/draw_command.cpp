@@ -150,8 +150,8 @@ void declare(Options& options, DrawArguments& arguments) {
                "Name of a machine, or `composition`: what happens between them; without it, all "
                "machines",
                "MACHINE");
-  options.texts("profiles", arguments.composition.profiles, "With --compare: two DDS profiles",
-                "PROFILE");
+  options.texts("profiles", arguments.composition.profiles,
+                "With --compare: two DDS profiles or compositions", "PROFILE");
   options
       .choice(
           "--format", arguments.composition.format,
@@ -165,7 +165,8 @@ void declare(Options& options, DrawArguments& arguments) {
           "FORMAT")
       .not_repeated();
   options.text("--dds", arguments.composition.dds,
-               "Composition of this DDS profile's implementation (default: the paper's)",
+               "Composition of this DDS profile's implementation, or the one of this name, as "
+               "fastdds-living (default: the paper's)",
                "PROFILE");
   options.flag("--compare", arguments.composition.compare,
                "What the compositions of two DDS profiles share and where they differ");

@@ -1,11 +1,14 @@
 // Which composition is drawn, and how.
 #include "checker/cli/draw_composition.hpp"
 
+#include <algorithm>
+
 #include "checker/cli/frame.hpp"
 #include "checker/cli/terminal.hpp"
 #include "checker/presentation/composition/composition_comparison.hpp"
 #include "checker/presentation/composition/composition_drawing.hpp"
 #include "checker/presentation/json/dumped.hpp"
+#include "fsm/composition/compositions.hpp"
 #include "model/composition_of.hpp"
 #include "model/config/scenario_file.hpp"
 
@@ -16,12 +19,19 @@ namespace {
 using fsm::composition::CompositionInfo;
 using model::config::Result;
 
-/// The composition of the profile's implementation.
-Result<CompositionInfo> composition_of(const std::string& profile) {
-  const auto dds =
-      model::config::read_dds_profile(profile, {}, model::config::SpecPath::standard());
-  if (!dds) return dds.error();
-  return model::composition_of(*dds);
+/// The composition of this name, for those that no profile alone says (those of lives) and all
+/// others; or that of the profile's implementation.
+Result<CompositionInfo> composition_of(const std::string& name) {
+  const auto& all = fsm::composition::compositions();
+  const auto named = std::ranges::find(all, name, &CompositionInfo::name);
+  if (named != all.end()) return *named;
+  const auto dds = model::config::read_dds_profile(name, {}, model::config::SpecPath::standard());
+  if (dds) return model::composition_of(*dds);
+  std::string names;
+  for (const CompositionInfo& each : all)
+    names += (names.empty() ? "" : ", ") + std::string{each.name};
+  return model::config::InputError{dds.error().where,
+                                   dds.error().message + "; or a composition: " + names};
 }
 
 std::string json_text(nlohmann::ordered_json content, const Session& session) {
@@ -35,7 +45,8 @@ std::string page(const report::Document& document, const CompositionRequest& req
 std::variant<std::string, Complaint> compared(const CompositionRequest& request,
                                               const Session& session) {
   if (!request.dds.empty() || request.profiles.size() != 2) {
-    return Complaint{"--compare takes two DDS profiles: draw composition --compare A B"};
+    return Complaint{
+        "--compare takes two DDS profiles or compositions: draw composition --compare A B"};
   }
   const auto first = composition_of(request.profiles[0]);
   if (!first) return Complaint{first.error()};

@@ -15,9 +15,10 @@ namespace stormproof::cli {
 enum class DrawFormat : std::uint8_t { usual, mermaid, dot, svg, text, json };
 
 struct CompositionRequest {
-  std::string dds;  ///< profile whose implementation is drawn; empty: the paper's
+  /// Profile whose implementation is drawn, or name of a composition; empty: the paper's.
+  std::string dds;
   bool compare = false;
-  std::vector<std::string> profiles;  ///< to compare
+  std::vector<std::string> profiles;  ///< or compositions to compare
   DrawFormat format = DrawFormat::usual;
   bool to_file = false;
 };

@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "fsm/composition/amended_clock.hpp"
 #include "fsm/composition/amended_life.hpp"
 #include "fsm/composition/amended_parts.hpp"
 
@@ -120,7 +121,7 @@ struct Implementation : AnswersEachHeartbeat {
   }
 };
 
-using Clock = ClockRules<Implementation>;
+using Clock = MeasuredClock<Implementation>;
 using SharedReader = ReaderRules<Implementation>;
 using SharedAnnouncements = AnnouncementRules<Implementation>;
 
@@ -292,6 +293,7 @@ struct TakeAckNack : Procedure {
     w.when(w(AnswersEachAckNack{}) || (w(AnswersRequests{}) && requests),
            [&] { Implementation::heartbeat(w); });
     w.when(!requests, [&] { Clock::response(w); });
+    Clock::answered(w);
   }
 };
 

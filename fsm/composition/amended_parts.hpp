@@ -40,6 +40,10 @@ struct LatestOnly : Switch {};
 struct RequiredDrops : Switch {};
 struct RequiredGates : Switch {};
 struct RequiredAtRepair : Switch {};
+// Of the clock of HEARTBEATs.
+struct MeasuresAcks : Switch {};
+struct ShortestMeasured : Delay {};  ///< 10 ms
+struct LongestMeasured : Delay {};   ///< 10 s
 // Of readers.
 struct AcksHighest : Switch {};
 struct AcksMissing : Switch {};

@@ -23,35 +23,6 @@ struct HearReader : Opaque {
   }
 };
 
-/// The reader side of a relation is a new one.
-struct ForgetWriter : Procedure {
-  template <class W>
-  static void body(W& w) {
-    w.renew(Reader{});
-    w.renew(InitialTimer{});
-    w.renew(Reply{});
-    w.set_each(X{}, [](auto& d) { return !everyone(d); });
-    w.set_each(Known{}, [](auto& d) { return !everyone(d); });
-    w.set_each(Notified{}, [](auto& d) { return !everyone(d); });
-    w.set(HeartbeatSeen{}, typename W::Bool(false));
-    w.cancel(InitialAttempt{});
-    w.cancel(AckNackGeneration{});
-  }
-};
-/// The writer side of a relation is a new one. What its writer and its participant have to do goes
-/// on for the others: the HEARTBEAT clock, the nack response, the asynchronous queue.
-struct ForgetReader : Procedure {
-  template <class W>
-  static void body(W& w) {
-    w.set(WriterOpen{}, typename W::Bool(false));
-    w.renew(C{});
-    w.renew(Suppression{});
-    w.set(SomeConfirmed{}, typename W::Bool(false));
-    w.set(Contacted{}, typename W::Bool(false));
-    w.set(Responded{}, typename W::Bool(false));
-    w.cancel(SuppressionEnd{});
-  }
-};
 /// The sides that the pair's source has of control-only relations with its destination are new
 /// ones.
 struct ForgetTopics : Opaque {
@@ -67,46 +38,42 @@ struct ForgetTopics : Opaque {
   }
 };
 
-struct LoseAll;
-/// What it forgets.
+/// What Fast DDS has besides that is forgotten: the nack response and the asynchronous queue go on
+/// for those that are not. Who comes back has no endpoints.
 struct Forgetting {
-  using ForgetWriter = fastdds::ForgetWriter;
-  using ForgetReader = fastdds::ForgetReader;
-  using LoseAll = fastdds::LoseAll;
+  using Descriptor = fastdds::C;
+  using WriterOpen = fastdds::WriterOpen;
+  using SuppressionEnd = fastdds::SuppressionEnd;
+
+  template <class W>
+  static void forget_writer(W& w) {
+    w.renew(Reply{});
+    w.set_each(Known{}, [](auto& d) { return !everyone(d); });
+    w.set_each(Notified{}, [](auto& d) { return !everyone(d); });
+  }
+  template <class W>
+  static void forget_reader(W& w) {
+    w.renew(Suppression{});
+    w.set(SomeConfirmed{}, typename W::Bool(false));
+  }
   template <class W>
   static void forget_peer(W& w) {
     w.perform(ForgetTopics{});
   }
-};
-using Life = LifeRules<Forgetting>;
-
-/// The participant is a new one in all that it has, without endpoints; others remember it as they
-/// did.
-struct LoseAll : Opaque {
   template <class W>
-  static void contract(W& w) {
-    w.renew(AnnouncementTimer{});
-    w.set(AnnouncementsSent{}, typename W::Int(0));
-    w.cancel(Announcement{});
+  static void lose_participant(W& w) {
     w.renew(AsyncRun{});
     w.cancel(AsyncRunDue{});
-    w.for_known_peers([](auto& peer) {
-      peer.reverse([](auto& back) { back.call(Life::Forget{}); });
-      peer.for_streams([](auto& r) {
-        r.set_each(Exists{}, [](auto& d) { return !everyone(d); });
-        r.set_each(Enqueued{}, [](auto& d) { return !everyone(d); });
-        r.renew(HeartbeatClock{});
-        r.renew(NackResponse{});
-        r.cancel(NackResponseDue{});
-        r.cancel(HeartbeatExpiry{});
-        r.cancel(CycleStart{});
-        r.cancel(CycleEnd{});
-        r.cancel(BatchDue{});
-        r.perform(RefillBudget{});
-      });
-    });
+  }
+  template <class W>
+  static void lose_writer(W& w) {
+    w.set_each(Exists{}, [](auto& d) { return !everyone(d); });
+    w.set_each(Enqueued{}, [](auto& d) { return !everyone(d); });
+    w.renew(NackResponse{});
+    w.cancel(NackResponseDue{});
   }
 };
+using Life = LifeRules<Forgetting>;
 
 // What is heard. ----------------------------------------------------------------------------------
 

@@ -116,6 +116,19 @@ struct ClockRules {
 
   using Rules = TypeList<HeartbeatExpires, CycleStarts, CycleEnds, BatchIsDue>;
 
+ protected:
+  /// A cycle starts: it asks every reader that has not acknowledged everything.
+  template <class W>
+  static void contact(W& w) {
+    w.set(CycleBegan{}, w(Now{}));
+    w.set_each(AnnouncedAtStart{}, [](auto& d) { return d(typename C::Exists{}); });
+    w.for_readers([](auto& r) {
+      r.set(Responded{}, typename W::Bool(false));
+      r.set(Contacted{}, r(typename C::Waits{}));
+    });
+    w.for_readers_by_number([](auto& r) { r.when(r(Contacted{}), [&] { C::heartbeat(r); }); });
+  }
+
  private:
   /// What a request to arm needs: it looks neither at the readers nor at the cycle.
   template <class W>
@@ -180,18 +193,6 @@ struct ClockRules {
       w.when(clock.send_batch, [&] { w.perform(SendBatch{}); });
     }
   };
-
-  /// A cycle starts: it asks every reader that has not acknowledged everything.
-  template <class W>
-  static void contact(W& w) {
-    w.set(CycleBegan{}, w(Now{}));
-    w.set_each(AnnouncedAtStart{}, [](auto& d) { return d(typename C::Exists{}); });
-    w.for_readers([](auto& r) {
-      r.set(Responded{}, typename W::Bool(false));
-      r.set(Contacted{}, r(typename C::Waits{}));
-    });
-    w.for_readers_by_number([](auto& r) { r.when(r(Contacted{}), [&] { C::heartbeat(r); }); });
-  }
 };
 
 }  // namespace stormproof::fsm::composition

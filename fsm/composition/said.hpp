@@ -46,6 +46,7 @@ class Said {
   friend Said operator+(const Said& a, const Said& b) { return a.joined("+", b, Binding::loose); }
   friend Said operator-(const Said& a, const Said& b) { return a.joined("-", b, Binding::loose); }
   friend Said operator*(const Said& a, const Said& b) { return a.joined("*", b, Binding::loose); }
+  friend Said operator/(const Said& a, const Said& b) { return a.joined("/", b, Binding::loose); }
   friend Said operator>(const Said& a, const Said& b) { return a.joined(">", b, Binding::loose); }
 
  private:

@@ -196,6 +196,13 @@ inline bool value(comp::amended::ResendsAcknowledged, const DdsProfile& dds) {
 inline bool value(comp::amended::OnlyInUWaits, const DdsProfile& dds) {
   return dds.amendments->heartbeat_condition == HeartbeatCondition::in_u;
 }
+inline bool value(comp::amended::MeasuresAcks, const DdsProfile& dds) {
+  return dds.amendments->heartbeat_policy == AmendedPolicy::measured_ack;
+}
+inline std::int64_t value(comp::amended::ShortestMeasured, const DdsProfile&) { return 10'000'000; }
+inline std::int64_t value(comp::amended::LongestMeasured, const DdsProfile&) {
+  return 10'000'000'000;
+}
 inline bool value(comp::amended::SuppressionEndArms, const DdsProfile& dds) {
   return dds.amendments->suppression_end_arms == Whether::yes;
 }

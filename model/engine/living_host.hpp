@@ -154,6 +154,29 @@ class LivingHost : public Base {
     this->run_.probe->transition({fsm::name_of<Machine>(), kind, n}, renewed,
                                  States::state_names[before], States::state_names[after], 0, 0);
   }
+  /// `Life::LoseAll` of participant i, with what the host has besides: `of_participant()`, and
+  /// `of_writer(w)` for each.
+  template <class Life, class Host, class OfParticipant, class OfWriter>
+  void lose_all(Host& host, std::uint32_t i, OfParticipant&& of_participant, OfWriter&& of_writer) {
+    renew(comp::AnnouncementTimer{}, i);
+    cancel(comp::Announcement{}, i);
+    of_participant();
+    const Topology& topology = this->topology();
+    for (std::uint32_t there = topology.first_pair(i); there < topology.first_pair(i + 1);
+         ++there) {
+      RunningWorld<Host, comp::owner::pair>{host, topology.pair(there).reverse}.call(
+          typename Life::Forget{});
+    }
+    for (const std::uint32_t w : {2 * i, 2 * i + 1}) {
+      renew(comp::HeartbeatClock{}, w);
+      cancel(comp::HeartbeatExpiry{}, w);
+      cancel(comp::CycleStart{}, w);
+      cancel(comp::CycleEnd{}, w);
+      cancel(comp::BatchDue{}, w);
+      this->refill(w);
+      of_writer(w);
+    }
+  }
   /// Returns that are part of the run.
   void schedule_returns() {
     for (const Restart& restart : life_.restarts) {

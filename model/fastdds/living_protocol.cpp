@@ -107,29 +107,19 @@ void LivingProtocol::forget_topics(std::uint32_t there) {
 }
 
 void LivingProtocol::lose_all(std::uint32_t i) {
-  renew(comp::AnnouncementTimer{}, i);
-  cancel(comp::Announcement{}, i);
-  cancel_all(rules::Created{}, i);
-  renew(participants_[i].async_run, MachineRef::Kind::participant, i);
-  cancel(rules::AsyncRunDue{}, i);
-  participants_[i] = {};
-  for (std::uint32_t there = topology().first_pair(i); there < topology().first_pair(i + 1);
-       ++there) {
-    const std::uint32_t back = topology().pair(there).reverse;
-    RunningWorld<LivingProtocol, comp::owner::pair>{*this, back}.call(rules::Life::Forget{});
-  }
-  for (const std::uint32_t w : {2 * i, 2 * i + 1}) {
-    renew(comp::HeartbeatClock{}, w);
+  const auto of_participant = [&] {
+    cancel_all(rules::Created{}, i);
+    renew(participants_[i].async_run, MachineRef::Kind::participant, i);
+    cancel(rules::AsyncRunDue{}, i);
+    participants_[i] = {};
+  };
+  const auto of_writer = [&](std::uint32_t w) {
     renew(writers_[w].nack_response, MachineRef::Kind::writer, w);
     cancel(rules::NackResponseDue{}, w);
-    cancel(comp::HeartbeatExpiry{}, w);
-    cancel(comp::CycleStart{}, w);
-    cancel(comp::CycleEnd{}, w);
-    cancel(comp::BatchDue{}, w);
     writers_[w].created = 0;
     std::ranges::fill(writers_[w].enqueued, 0);
-    refill(w);
-  }
+  };
+  LivingHost::lose_all<rules::Life>(*this, i, of_participant, of_writer);
 }
 
 std::optional<std::uint32_t> LivingProtocol::sender_of(const Event& event) const {

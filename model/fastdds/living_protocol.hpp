@@ -65,7 +65,7 @@ class LivingProtocol final
     forget_topics(w.template number<comp::owner::pair>());
   }
   template <class World>
-  void perform(rules::LoseAll, World& w) {
+  void perform(rules::Life::LoseAll, World& w) {
     lose_all(w.template number<comp::owner::participant>());
   }
 

@@ -87,29 +87,20 @@ void AmendedProtocol::renew(amended::C, std::uint32_t relation) {
 }
 
 void AmendedProtocol::lose_all(std::uint32_t i) {
-  renew(comp::AnnouncementTimer{}, i);
-  cancel(comp::Announcement{}, i);
-  participants_[i].sent_bytes = 0;
-  accounts_[i] = {};
-  for (std::uint32_t there = topology().first_pair(i); there < topology().first_pair(i + 1);
-       ++there) {
-    const std::uint32_t back = topology().pair(there).reverse;
-    RunningWorld<AmendedProtocol, comp::owner::pair>{*this, back}.call(amended::Life::Forget{});
-    for (const std::uint32_t relation : {2 * back, 2 * back + 1}) {
-      if (value(comp::paper::WriterOpen{}, relation)) {
-        assign(amended::OldCounts{}, relation, amendments_.count_filter);
-      }
-    }
-  }
-  for (const std::uint32_t w : {2 * i, 2 * i + 1}) {
-    renew(comp::HeartbeatClock{}, w);
-    cancel(comp::HeartbeatExpiry{}, w);
-    cancel(comp::CycleStart{}, w);
-    cancel(comp::CycleEnd{}, w);
-    cancel(comp::BatchDue{}, w);
-    refill(w);
+  const auto of_participant = [&] {
+    participants_[i].sent_bytes = 0;
+    accounts_[i] = {};
+  };
+  const auto of_writer = [&](std::uint32_t w) {
     answered_[w] = 0;
-  }
+    for (std::uint32_t there = topology().first_pair(i); there < topology().first_pair(i + 1);
+         ++there) {
+      const std::uint32_t relation = 2 * topology().pair(there).reverse + w % 2;
+      if (!value(comp::paper::WriterOpen{}, relation)) continue;
+      assign(amended::OldCounts{}, relation, amendments_.count_filter);
+    }
+  };
+  LivingHost::lose_all<amended::Life>(*this, i, of_participant, of_writer);
 }
 
 /// Readers act in their relations at the destination, writers at the source.

@@ -123,7 +123,7 @@ class AmendedProtocol final
   }
   void renew(amended::C, std::uint32_t relation);
   template <class World>
-  void perform(amended::LoseAll, World& w) {
+  void perform(amended::Life::LoseAll, World& w) {
     lose_all(w.template number<comp::owner::participant>());
   }
 

@@ -21,8 +21,10 @@ namespace {
 std::string_view name_at(std::uint32_t stream) { return stream % 2 == 0 ? "pub" : "sub"; }
 
 /// Whether rules start events of this kind, not the way of a packet.
+/// Endpoints are created by the application, also after a return.
 bool is_of_rules(EventKind kind) {
-  return class_of(kind) == EventClass::protocol && kind != EventKind::source_completion;
+  return class_of(kind) == EventClass::protocol && kind != EventKind::source_completion &&
+         kind != EventKind::endpoint_creation;
 }
 
 }  // namespace

@@ -129,6 +129,7 @@ void draw_rules(Dice& dice, Amendments& rules) {
   rules.late_initial = dice.choice<LateInitial>(2);
   rules.acked_request = dice.choice<AckedRequest>(3);
   rules.heartbeat_condition = dice.choice<HeartbeatCondition>(2);
+  rules.heartbeat_policy = dice.choice<AmendedPolicy>(2);
   rules.suppression_end_arms = whether();
   rules.repair_heartbeat = dice.choice<RepairHeartbeat>(3);
   rules.acknack_reply = dice.choice<AckNackReply>(3);
@@ -210,6 +211,11 @@ void draw_amendments(Dice& dice, Scenario& scenario) {
   // HEARTBEATs in DATA have no number.
   if (dice.chance(50)) scenario.dds.sedp.piggyback = Piggyback::off;
   if (scenario.dds.sedp.piggyback != Piggyback::off) rules.stale_acknack = StaleAckNack::process;
+  const SedpProfile& sedp = scenario.dds.sedp;
+  if (sedp.heartbeat_policy == HeartbeatPolicy::adaptive ||
+      sedp.heartbeat_timer == HeartbeatTimerKind::additive) {
+    rules.heartbeat_policy = AmendedPolicy::of_the_profile;
+  }
   scenario.dds.amendments = rules;
   draw_life(dice, scenario);
   if (dice.chance(15)) scenario.run_until = RunUntil::quiescence;

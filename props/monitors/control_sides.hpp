@@ -30,6 +30,12 @@ class ControlSides {
     first_.push_back(next_);
   }
 
+  /// The pair that the relation is of.
+  [[nodiscard]] std::uint32_t pair_of(std::uint32_t number) const {
+    const auto after = std::ranges::upper_bound(first_, number);
+    return static_cast<std::uint32_t>(after - first_.begin()) - 1;
+  }
+
   /// What a side at participant i needs. `pair` leads from the other end to i.
   struct Needs {
     std::uint32_t pair = 0;

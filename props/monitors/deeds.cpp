@@ -22,6 +22,9 @@ std::string subject_text(const model::Topology& topology, Subject subject, std::
       return writer_text(number);
     case Subject::participant:
       return fmt::format("participant {}", number);
+    case Subject::pair:
+      return fmt::format("participant {} at participant {}", topology.pair(number).source,
+                         topology.pair(number).destination);
     default:
       return fmt::format("control-only relation {}", number);
   }
@@ -69,6 +72,8 @@ std::string message_text(const Message& message, const model::Topology& topology
   if (message.repair) text += ", a repair,";
   if (!message.descriptors.empty()) text += " with " + descriptors_text(message.descriptors);
   if (message.carries_heartbeat) text += " and a HEARTBEAT";
+  const bool announces = message.carries_heartbeat || message.kind == heartbeat;
+  if (announces && message.detail > 0) text += fmt::format(" that announces {}", message.detail);
   return text + " is sent";
 }
 

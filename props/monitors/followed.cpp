@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "model/composition_of.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/follower.hpp"
 #include "props/monitors/monitors.hpp"
@@ -24,8 +25,11 @@ class FollowedRun : public Observer {
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
-    follower_ = model::visit_engine_composition(
-        scenario_.dds, [&](auto composition) { return follow(composition, scenario_, topology); });
+    follower_ = is_living_fastdds(scenario_)
+                    ? follow_life(scenario_, topology)
+                    : model::visit_engine_composition(scenario_.dds, [&](auto composition) {
+                        return follow(composition, scenario_, topology);
+                      });
     if (follower_ != nullptr) trigger_ = Trigger::start;
   }
   void event_started(const model::Event& event) override {
@@ -44,6 +48,7 @@ class FollowedRun : public Observer {
     trigger_ = Trigger::received;
     message_ = message_of(packet);
     receiver_ = receiver;
+    emitted_ = packet.emitted;
   }
   void source_completed(const model::Packet& packet) override {
     follow_rule();
@@ -121,7 +126,7 @@ class FollowedRun : public Observer {
       case Trigger::due:
         return follower_->due(due_);
       case Trigger::received:
-        return follower_->received(message_, receiver_);
+        return follower_->received(message_, receiver_, emitted_);
       case Trigger::left_source:
         return follower_->left_source(message_);
     }
@@ -142,6 +147,7 @@ class FollowedRun : public Observer {
   model::Event due_;            // if it is
   Message message_;             // that is received or has left its source
   std::uint32_t receiver_ = 0;  // of it
+  model::Nanoseconds emitted_;
   std::uint64_t followed_ = 0;
 };
 

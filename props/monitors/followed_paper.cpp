@@ -13,6 +13,7 @@ namespace paper = comp::paper;
 class PaperFollower final : public FollowedRules<PaperFollower, paper::Paper> {
  public:
   static constexpr bool readers_in_order_of_match = false;
+  static constexpr bool cancels_any_timer = false;
 
   PaperFollower(const model::Scenario& scenario, const model::Topology& topology)
       : FollowedRules{scenario, topology} {
@@ -30,7 +31,7 @@ class PaperFollower final : public FollowedRules<PaperFollower, paper::Paper> {
       expect_timer(comp::Announcement{}, i, topology_.start(i), {});
     }
   }
-  void received(const Message& message, std::uint32_t) override {
+  void received(const Message& message, std::uint32_t, model::Nanoseconds) override {
     using enum model::PacketKind;
     if (message.kind == spdp_multicast) {
       for (std::uint32_t pair = topology_.first_pair(message.pair);

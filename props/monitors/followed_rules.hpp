@@ -14,8 +14,10 @@
 
 #include "fsm/adaptive_period.hpp"
 #include "fsm/stepper.hpp"
+#include "model/life.hpp"
 #include "props/monitors/followed_world.hpp"
 #include "props/monitors/follower.hpp"
+#include "props/monitors/received_descriptors.hpp"
 
 namespace stormproof::props {
 
@@ -30,7 +32,8 @@ class FollowedRules : public Follower {
   void due(const model::Event& event) override {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       if (event.kind != model::event_kind_of<T>) return;
-      if (T::counted && std::erase(pending_of(event.kind, event.subject), event.insertion()) == 0) {
+      if (is_followed<T> &&
+          std::erase(pending_of(event.kind, event.subject), event.insertion()) == 0) {
         return;
       }
       run<comp::Due<T>>(place_of(T::owner, event.subject));
@@ -70,8 +73,10 @@ class FollowedRules : public Follower {
   template <class V>
   void assign(const Place& place, std::int64_t to) {
     ValueOf<V>& value = at<V::owner>(std::get<Values<V>>(values_).of, place, 0);
-    if (value == 0 && to != 0) static_cast<Self*>(this)->becomes(V{}, place);
+    const bool was = value != 0;
+    if (!was && to != 0) static_cast<Self*>(this)->becomes(V{}, place);
     value = static_cast<ValueOf<V>>(to);
+    if (was && to == 0) static_cast<Self*>(this)->ceases(V{}, place);
   }
   template <class P>
   fsm::StateId& state(const Place& place) {
@@ -88,10 +93,49 @@ class FollowedRules : public Follower {
   template <class V>
   void becomes(V, const Place& place) {
     if constexpr (std::is_same_v<V, comp::X>) {
-      if (topology_.pair(place.pair).cross_host) --missing_;
+      if (static_cast<Self*>(this)->is_required(place.pair)) --missing_;
     } else if constexpr (std::is_same_v<V, typename Composition::IsOpen>) {
       readers_[place.writer].push_back(place.relation);
       if (!Self::readers_in_order_of_match) std::ranges::sort(readers_[place.writer]);
+    }
+  }
+  /// Something is false or 0 again. A side that closes loses its turn in the cycle of its writer.
+  template <class V>
+  void ceases(V, const Place& place) {
+    if constexpr (std::is_same_v<V, comp::X>) {
+      if (static_cast<Self*>(this)->is_required(place.pair)) ++missing_;
+    } else if constexpr (std::is_same_v<V, typename Composition::IsOpen>) {
+      std::erase(readers_[place.writer], place.relation);
+      for (auto& batch : batches_[place.writer]) std::erase(batch, place.relation);
+    }
+  }
+  /// Whether discovery is complete only if the pair's destination has everything of its source.
+  [[nodiscard]] bool is_required(std::uint32_t pair) const {
+    return topology_.pair(pair).cross_host;
+  }
+  /// The machines of the place are new ones; an observer is told of those that are in another state
+  /// then, and that `Self` tells of.
+  template <class P>
+  void renew(World& w, comp::Site site) {
+    constexpr fsm::StateId initial = fsm::Flyweight<typename P::Machine>::initial;
+    constexpr bool of_descriptor = (P::owner.indices & comp::owner::descriptor_index) != 0;
+    std::vector<Move> moves;
+    const auto renew_one = [&](World& one) {
+      const fsm::StateId before = std::exchange(state<P>(one.place()), initial);
+      if (!Self::is_told(P{}, before != initial)) return;
+      Move move = one.template move_of<P>(ReceivedDescriptors::renewed, before);
+      if (of_descriptor) {
+        move.first_word = one.place().descriptor / 64;
+        move.descriptors = std::uint64_t{1} << one.place().descriptor % 64;
+      }
+      moves.push_back(move);
+    };
+    if constexpr (of_descriptor) {
+      w.for_descriptors(comp::everyone, renew_one);
+      expect_moves(std::move(moves), site);
+    } else {
+      renew_one(w);
+      for (const Move& move : moves) expect(move, site);
     }
   }
   /// The open relations of the writer.
@@ -128,7 +172,7 @@ class FollowedRules : public Follower {
   static bool says(comp::IsInitial, const Message& message) { return message.initial; }
   std::int64_t answer(comp::Now, World&) const { return now_.count(); }
   bool answer(comp::RunEnds, World&) const {
-    return missing_ == 0 && scenario_.run_until == model::RunUntil::completion;
+    return missing_ == 0 && scenario_.run_until == model::RunUntil::completion && now_ >= settled_;
   }
   std::int64_t answer(comp::ContactedCount, World& w) {
     return std::ranges::count_if(readers(w.place().writer), [&](std::uint32_t relation) {
@@ -169,7 +213,7 @@ class FollowedRules : public Follower {
     const Scheduled* actual = next(wanted, [&](const Scheduled& it) {
       return it.kind == wanted.kind && it.subject == owner && it.time == time;
     });
-    if (T::counted && actual != nullptr) {
+    if (is_followed<T> && actual != nullptr) {
       pending_of(wanted.kind, owner).push_back(actual->insertion);
     }
   }
@@ -220,8 +264,11 @@ class FollowedRules : public Follower {
     using Rule = comp::RuleFor<Composition, Trigger>;
     static constexpr std::string_view name = fsm::name_of<Rule>();
     begin(name);
-    World w{static_cast<Self&>(*this), place, heard};
+    World w = world_at(place, heard);
     Rule::run(w);
+  }
+  [[nodiscard]] World world_at(const Place& place, const Message* heard = nullptr) {
+    return {static_cast<Self&>(*this), place, heard};
   }
   [[nodiscard]] Place place_of(comp::Owner owner, std::uint32_t number) const {
     if (owner == comp::owner::participant) return {.participant = number};
@@ -242,6 +289,9 @@ class FollowedRules : public Follower {
       if (r(typename Rules::Waits{})) Rules::heartbeat(r);
     }
   }
+  /// Whether it matters which event of a timer is due: it is counted, or may be cancelled.
+  template <class T>
+  static constexpr bool is_followed = T::counted || Self::cancels_any_timer;
   [[nodiscard]] bool has_started(std::uint32_t participant) const {
     return now_ >= topology_.start(participant);
   }
@@ -312,6 +362,7 @@ class FollowedRules : public Follower {
   AllValues values_;
   AllStates states_;
   const std::size_t stride_ = largest_stream();
+  const model::Nanoseconds settled_ = model::settled_at(scenario_.deployment);
   std::map<std::uint32_t, std::vector<std::uint32_t>> readers_;               // by writer
   std::map<std::uint32_t, std::vector<std::vector<std::uint32_t>>> batches_;  // the last is next
   /// Insertion numbers, by kind and owner.

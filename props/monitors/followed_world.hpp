@@ -72,6 +72,20 @@ class FollowedWorld {
     place.descriptor = place_.descriptor;
     return {*host_, place, heard_};
   }
+  /// What an observer hears of the machine of this place, which was in the state `before`.
+  template <class P>
+  [[nodiscard]] Move move_of(std::string_view event, fsm::StateId before) const {
+    static constexpr std::string_view machine = fsm::name_of<typename P::Machine>();
+    const auto& names = fsm::Reflect<typename P::Machine>::state_names;
+    Move move;
+    move.machine.machine = machine;
+    move.machine.kind = Host::machine_kind(P::owner);
+    move.machine.subject = place_.number(P::owner);
+    move.event = event;
+    move.before = names[before];
+    move.after = names[host_->template state<P>(place_)];
+    return move;
+  }
 
   // Values.
   template <class Tag>
@@ -248,6 +262,10 @@ class FollowedWorld {
     host_->expect_moves(std::move(moves), site);
     return total;
   }
+  template <class P>
+  void renew(P, Site site = Site::here()) {
+    host_->template renew<P>(*this, site);
+  }
   template <class V, class Value>
   void set(V, Value to, Site = Site::here()) {
     host_->template assign<V>(place_, to);
@@ -318,20 +336,11 @@ class FollowedWorld {
       body(r);
     }
   }
-  /// What an observer hears of the step that the machine has just taken.
+  /// Of the step that it has just taken.
   template <class P, class E>
   [[nodiscard]] Move move_of(fsm::StateId before) const {
-    static constexpr std::string_view machine = fsm::name_of<typename P::Machine>();
     static constexpr std::string_view event = fsm::name_of<E>();
-    const auto& names = fsm::Reflect<typename P::Machine>::state_names;
-    Move move;
-    move.machine.machine = machine;
-    move.machine.kind = Host::machine_kind(P::owner);
-    move.machine.subject = place_.number(P::owner);
-    move.event = event;
-    move.before = names[before];
-    move.after = names[host_->template state<P>(place_)];
-    return move;
+    return move_of<P>(event, before);
   }
 
   Host* host_;

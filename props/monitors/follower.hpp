@@ -32,7 +32,8 @@ class Follower {
   virtual void started() = 0;
   virtual void due(const model::Event& event) = 0;
   virtual void rescheduled(const model::Event& event, std::uint64_t insertion) = 0;
-  virtual void received(const Message& message, std::uint32_t receiver) = 0;
+  virtual void received(const Message& message, std::uint32_t receiver,
+                        model::Nanoseconds emitted) = 0;
   virtual void left_source(const Message& message) = 0;
   /// Nothing more follows from what has happened.
   void nothing_more() {
@@ -100,5 +101,8 @@ class Follower {
 [[nodiscard]] std::unique_ptr<Follower> follow(model::Of<fsm::composition::fastdds::FastDds>,
                                                const model::Scenario& scenario,
                                                const model::Topology& topology);
+/// Of Fast DDS whose participants have a life.
+[[nodiscard]] std::unique_ptr<Follower> follow_life(const model::Scenario& scenario,
+                                                    const model::Topology& topology);
 
 }  // namespace stormproof::props

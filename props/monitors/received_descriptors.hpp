@@ -13,6 +13,9 @@ namespace stormproof::props {
 
 class ReceivedDescriptors {
  public:
+  /// The event of a machine that is a new one (model/engine/living_host.hpp).
+  static constexpr std::string_view renewed = "Renewed";
+
   void reset(const model::Topology& topology) {
     words_.reset(topology);
     arriving_ = nullptr;
@@ -33,7 +36,7 @@ class ReceivedDescriptors {
   }
   /// To be called from `transition`: whether the reader is a new one that has nothing.
   [[nodiscard]] static bool is_new(const model::MachineRef& machine, std::string_view event) {
-    return event == "Renewed" && machine.machine == "DiscoveryReader";
+    return event == renewed && machine.machine == "DiscoveryReader";
   }
   void lose(std::uint32_t relation) {
     for (std::uint32_t k = 0; k < word_count(relation); ++k) words_.word(relation, k) = 0;

@@ -1,5 +1,6 @@
-// B = L + I + R + C, with
+// B = L + E + I + R + C, with
 //   L the longest lease: after it no side remembers one that has forgotten it;
+//   E until whoever starts has created its endpoints, where that takes time;
 //   I until the next initial ACKNACK. Where distances double, the next one comes at most as long
 //     after the last failure as that was after the start, and 2 τ_I more;
 //   R until a reader asks again by itself, and may;
@@ -10,6 +11,7 @@
 #include <algorithm>
 
 #include "model/amendments.hpp"
+#include "model/implementations.hpp"
 #include "props/monitors/completion.hpp"
 
 namespace stormproof::props {
@@ -23,6 +25,15 @@ Nanoseconds longest_lease(const model::Deployment& deployment) {
   Nanoseconds longest = deployment.life->lease.value_or(Nanoseconds{});
   for (const model::Lease& lease : deployment.life->leases) {
     longest = std::max(longest, lease.duration);
+  }
+  return longest;
+}
+
+Nanoseconds longest_creation(const model::Scenario& scenario) {
+  Nanoseconds longest;
+  if (!model::traits_of(scenario.dds).creates_endpoints_over_time) return longest;
+  for (const model::Participant& participant : scenario.deployment.participants) {
+    longest = std::max(longest, participant.endpoints_done - participant.start);
   }
   return longest;
 }
@@ -55,8 +66,9 @@ Nanoseconds until_asked_again(const model::Amendments& rules) {
 Nanoseconds recovery_bound(const model::Scenario& scenario, Nanoseconds failed, Nanoseconds delay) {
   const model::DdsProfile& dds = scenario.dds;
   const model::Amendments rules = dds.amendments.value_or(model::Amendments{});
-  return longest_lease(scenario.deployment) + until_initial_acknack(dds.sedp, rules, failed) +
-         until_asked_again(rules) + completion_bound(dds, delay, 1);
+  return longest_lease(scenario.deployment) + longest_creation(scenario) +
+         until_initial_acknack(dds.sedp, rules, failed) + until_asked_again(rules) +
+         completion_bound(dds, delay, 1);
 }
 
 }  // namespace stormproof::props

@@ -76,6 +76,12 @@ enum class Mistake : std::uint8_t {
   heartbeats_announce_start,  ///< HEARTBEATs announce what the participant started with
   acknack_confirms_unknown,   ///< an ACKNACK is about what its reader does not know, too
   numbers_not_forgotten,      ///< who forgets another one still knows how much it has written
+  // A clock that measures its readers' answers (`measured_ack`).
+  measuring_begins_anew,   ///< an arming schedules an expiry although one is pending
+  silence_not_doubled,     ///< the period stays when somebody is silent
+  first_answer_ends,       ///< the first answer ends a cycle, not the last
+  measured_without_bound,  ///< a measured period may be shorter than 10 ms
+  answered_expiry_stays,   ///< the expiry of a cycle that is over happens
 };
 
 /// What the oracle of `implementation: fastdds` does wrong (specs/guide/fastdds.md has the rules).
@@ -249,7 +255,7 @@ enum class CycloneMistake : std::uint8_t {
 };
 
 inline constexpr std::size_t mistake_count =
-    static_cast<std::size_t>(Mistake::numbers_not_forgotten) + 1;
+    static_cast<std::size_t>(Mistake::answered_expiry_stays) + 1;
 /// From this one on they are about the life of participants.
 inline constexpr std::size_t first_mistake_of_life =
     static_cast<std::size_t>(Mistake::lease_not_renewed);

@@ -65,7 +65,7 @@ void process(World& w, const Event& e) {
     case EventKind::suppression_end:
       return suppression_end(w, e.from, e.to, e.stream);
     case EventKind::heartbeat_expiry:
-      return heartbeat_expiry(w, e.from, e.stream);
+      return heartbeat_expiry(w, e);
     case EventKind::cycle_start:
       return cycle_start(w, e.from, e.stream, e.token);
     case EventKind::cycle_end:

@@ -49,7 +49,7 @@ struct Event {
   Id to = 0;
   int stream = 0;
   std::int64_t number = 0;   // announcement number, or delay of an initial ACKNACK
-  std::uint64_t token = 0;   // of an adaptive cycle
+  std::uint64_t token = 0;   // of an adaptive cycle, or of one of measured_ack
   std::uint64_t packet = 0;  // of a service event
   std::size_t stage = 0;
   std::size_t fragment = 0;
@@ -99,7 +99,7 @@ struct Relation {
 struct Writer {
   std::int64_t budget = 0;
   int pending_expiries = 0;
-  bool active = false;  // from here on: adaptive policy
+  bool active = false;  // from here on: adaptive policy, or measured_ack
   Time period = 0;
   Time cycle_start = 0;
   std::uint64_t token = 0;
@@ -192,7 +192,7 @@ void initial_acknack(World& w, Id j, Id i, int s, Time delay);
 void open_writer(World& w, Id i, Id j, int s);
 void write_descriptor(World& w, Id i, int s);
 void arm_heartbeat(World& w, Id i, int s);
-void heartbeat_expiry(World& w, Id i, int s);
+void heartbeat_expiry(World& w, const Event& event);
 void receive_acknack(World& w, const Packet& packet);
 void generate_repair(World& w, Id i, Id j, int s);
 void source_completion(World& w, const Packet& packet);
@@ -220,5 +220,11 @@ void cycle_start(World& w, Id i, int s, std::uint64_t token);
 void cycle_end(World& w, Id i, int s, std::uint64_t token);
 void cycle_batch(World& w, const Event& event);
 void response(World& w, Id i, Id j, int s);
+
+// oracle_measured.cpp
+[[nodiscard]] bool measures(const World& w);
+void begin_measuring(World& w, Id i, int s);
+void measured_expiry(World& w, Id i, int s, std::uint64_t token);
+void answered(World& w, Id i, Id j, int s);
 
 }  // namespace stormproof::oracle

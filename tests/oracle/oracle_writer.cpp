@@ -48,6 +48,8 @@ bool apply_bitmap(World& w, Relation& r, const Packet& packet) {
 void arm_at_opening(World& w, Id i, int s) {
   if (adaptive(w)) {
     activate_cycles(w, i, s);
+  } else if (measures(w)) {
+    begin_measuring(w, i, s);
   } else if (w.writers.at({i, s}).pending_expiries == 0) {
     schedule_expiry(w, i, s);
   }
@@ -110,13 +112,17 @@ void write_descriptor(World& w, Id i, int s) {
 }
 
 void arm_heartbeat(World& w, Id i, int s) {
+  if (measures(w)) return begin_measuring(w, i, s);
   const bool single = w.sedp.heartbeat_timer == model::HeartbeatTimerKind::single;
   if (single && w.makes(Mistake::heartbeat_restarted)) cancel_expiry(w, i, s);
   if (single && w.writers.at({i, s}).pending_expiries > 0) return;
   schedule_expiry(w, i, s);
 }
 
-void heartbeat_expiry(World& w, Id i, int s) {
+void heartbeat_expiry(World& w, const Event& event) {
+  const Id i = event.from;
+  const int s = event.stream;
+  if (measures(w)) return measured_expiry(w, i, s, event.token);
   --w.writers.at({i, s}).pending_expiries;
   std::vector<Id> recipients = lacking_readers(w, i, s);
   if (recipients.empty()) return;
@@ -158,6 +164,7 @@ void receive_acknack(World& w, const Packet& packet) {
   }
   const bool has_all = packet.announces >= w.writers.at({i, s}).cycle_announced;
   if (adaptive(w) && packet.bitmap.empty() && has_all) response(w, i, j, s);
+  if (measures(w)) answered(w, i, j, s);
 }
 
 void generate_repair(World& w, Id i, Id j, int s) {

@@ -121,21 +121,21 @@ bool is_of_the_budget(const EffectMutation& mistake) {
          mistake.what.find("Charge") != std::string::npos;
 }
 
-TEST_P(Followed, MistakesAtEffectsThatChangeARunAreNoticed) {
-  std::vector<Scenario> scenarios;
+/// Of mistakes at effects of rules for which `is_tried` holds: each that changes one of these runs
+/// is noticed, and `percent` of them change one.
+template <class IsTried>
+void expect_noticed(const std::string& name, const std::vector<Scenario>& scenarios,
+                    std::size_t percent, IsTried&& is_tried) {
   std::vector<std::uint64_t> correct;
   model::RunOptions options;
   options.max_events = 3'000;
-  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    scenarios.push_back(oracle::random_scenario(seed, GetParam()));
-    correct.push_back(deeds_of(scenarios.back(), options));
-  }
-  const std::string name = GetParam() == ImplementationKind::paper ? "paper" : "fastdds";
+  for (const Scenario& scenario : scenarios) correct.push_back(deeds_of(scenario, options));
   std::size_t noticed = 0;
   std::size_t tried = 0;
   for (const auto& composition : fsm::composition::compositions()) {
     if (composition.name != name) continue;
     for (const EffectMutation& mistake : fsm::composition::effect_mutations(composition)) {
+      if (!is_tried(mistake.effect.substr(0, mistake.effect.find('.')))) continue;
       model::Mutation mutation;
       mutation.effects.push_back(mistake);
       options.mutation = &mutation;
@@ -151,7 +151,50 @@ TEST_P(Followed, MistakesAtEffectsThatChangeARunAreNoticed) {
           << mistake.effect << " " << word_of(mistake.change) << ": " << mistake.what;
     }
   }
-  EXPECT_GT(5 * noticed, 4 * tried) << noticed << " of " << tried;
+  EXPECT_GT(tried, 0U);
+  EXPECT_GT(100 * noticed, percent * tried) << noticed << " of " << tried;
+}
+
+TEST_P(Followed, MistakesAtEffectsThatChangeARunAreNoticed) {
+  std::vector<Scenario> scenarios;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    scenarios.push_back(oracle::random_scenario(seed, GetParam()));
+  }
+  const std::string name = GetParam() == ImplementationKind::paper ? "paper" : "fastdds";
+  expect_noticed(name, scenarios, 80, [](const std::string&) { return true; });
+}
+
+/// A scenario of Fast DDS with a life. Nobody comes back in the very instant in which an endpoint
+/// of its earlier life was to be created: the host creates that one, without those that its absence
+/// has left out.
+Scenario living(std::uint64_t seed) {
+  Scenario scenario = oracle::random_scenario(seed, ImplementationKind::fastdds);
+  Dice dice{seed};
+  draw_life(dice, scenario);
+  for (model::Restart& restart : scenario.deployment.life->restarts) {
+    restart.start += model::Nanoseconds{1};
+  }
+  return scenario;
+}
+
+TEST(Followed, LivesOfFastDdsAreWhatTheRulesSay) {
+  model::RunOptions options;
+  options.max_events = 20'000;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const auto monitor = follow(living(seed), options);
+    if (!monitor->violation()) continue;
+    ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
+                  << monitor->violation()->reason;
+  }
+}
+
+TEST(Followed, MistakesInLivesOfFastDdsAreNoticed) {
+  std::vector<Scenario> scenarios;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) scenarios.push_back(living(seed));
+  const std::set<std::string> of_lives{"HearFrom",     "LeaseIsChecked", "Forget",
+                                       "ForgetReader", "ForgetWriter",   "Returns"};
+  expect_noticed("fastdds-living", scenarios, 70,
+                 [&](const std::string& rule) { return of_lives.contains(rule); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Followed,

@@ -1,8 +1,13 @@
 // Properties of participants that forget, fail and come back: rules that are repaired recover
 // within the bound in random lives, the paper's rules without a knob do not, and where a property
 // says nothing it says why.
+#include <set>
+#include <string>
+
 #include <gtest/gtest.h>
 
+#include "fsm/composition/effect_mutation.hpp"
+#include "model/composition_of.hpp"
 #include "model/life.hpp"
 #include "props/applicability.hpp"
 #include "props/generators/on_demand.hpp"
@@ -46,9 +51,11 @@ void repair(Scenario& scenario) {
 }
 
 /// What the monitor of the property says of the scenario's run.
-std::unique_ptr<Monitor> watched(const std::string& property, const Scenario& scenario) {
+std::unique_ptr<Monitor> watched(const std::string& property, const Scenario& scenario,
+                                 const model::Mutation* mutation = nullptr) {
   auto monitor = make_monitor(property, scenario);
   model::RunOptions options;
+  options.mutation = mutation;
   options.probe = monitor.get();
   options.max_events = 2'000'000;
   EXPECT_NE(model::simulate(scenario, options).end, model::RunEnd::interrupted);
@@ -140,6 +147,85 @@ TEST(Isolation, IsBrokenByAPeriodThatFollowsTheSlowest) {
   EXPECT_EQ(broken_if_periodic, 0);
 }
 
+/// Three participants of Fast DDS that are 1 ms apart, and what happens to them: who comes back is
+/// somebody new, and nobody is forgotten that lives.
+Scenario living_fastdds(std::uint64_t seed) {
+  Scenario scenario = shipped("rejoin-fastdds", {"deployment.life={}", "run_until=time_limit"});
+  Dice dice{seed};
+  draw_life(dice, scenario);
+  model::Life& life = *scenario.deployment.life;
+  life.stale.clear();
+  life.leases.clear();
+  life.lease = ms(20'000);
+  for (model::Restart& restart : life.restarts) restart.identity = model::Identity::fresh;
+  return scenario;
+}
+
+TEST(FastDdsRecovery, OfWhoIsSomebodyNewIsWithinTheBound) {
+  int decided = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const auto monitor = watched("live.recovery", living_fastdds(seed));
+    EXPECT_FALSE(monitor->violation()) << "seed " << seed << ": " << monitor->violation()->reason;
+    if (!monitor->is_undecided()) ++decided;
+  }
+  EXPECT_GE(decided, 50);
+}
+
+/// Issue 6401: who forgot another one may never be served again.
+TEST(FastDdsRecovery, OfWhoForgotIsNotCertain) {
+  Scenario scenario = shipped("rejoin-fastdds", {"run_until=time_limit"});
+  EXPECT_TRUE(watched("live.recovery", scenario)->violation());
+  scenario.dds.sedp.piggyback = model::Piggyback::off;
+  EXPECT_FALSE(watched("live.recovery", scenario)->violation());
+}
+
+/// Effects without which some run is not complete in time.
+TEST(FastDdsRecovery, MistakesInLivesAreNoticed) {
+  const std::set<std::string> needed{"Forget.1", "ForgetReader.1", "ForgetReader.2",
+                                     "ForgetWriter.3", "Returns.2"};
+  std::set<std::string> noticed;
+  const auto& living = model::composition_of(living_fastdds(1));
+  for (const auto& mistake : fsm::composition::effect_mutations(living)) {
+    using Change = fsm::composition::EffectMutation::Change;
+    if (mistake.change != Change::drop || !needed.contains(mistake.effect)) continue;
+    model::Mutation mutation;
+    mutation.effects.push_back(mistake);
+    for (std::uint64_t seed = 1; seed <= 20 && !noticed.contains(mistake.effect); ++seed) {
+      Scenario scenario = living_fastdds(seed);
+      for (model::Restart& restart : scenario.deployment.life->restarts) {
+        restart.identity = model::Identity::same;
+        restart.start = restart.stop + ms(30'000);
+      }
+      if (watched("live.recovery", scenario)->violation()) continue;
+      if (watched("live.recovery", scenario, &mutation)->violation())
+        noticed.insert(mistake.effect);
+    }
+  }
+  EXPECT_EQ(noticed, needed);
+}
+
+TEST(FastDdsIsolation, IsBrokenByAPeriodThatFollowsTheSlowest) {
+  Scenario scenario =
+      shipped("rejoin-fastdds", {"run_until=time_limit", "time_limit=20s", "dds.sedp.piggyback=off",
+                                 "dds.spdp.period=200ms"});
+  scenario.deployment.life = model::Life{};
+  scenario.deployment.life->mute = {{2, Nanoseconds{2'500'000}}};
+  model::Participant& late = scenario.deployment.participants[1];
+  late.endpoints_done += ms(8'300);
+  late.start += ms(8'300);
+  int broken = 0;
+  int broken_if_periodic = 0;
+  for (std::uint64_t lost = 115; lost < 140; ++lost) {
+    scenario.wireless.lost_packets = {lost};
+    scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
+    if (watched("live.isolation", scenario)->violation()) ++broken;
+    scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
+    if (watched("live.isolation", scenario)->violation()) ++broken_if_periodic;
+  }
+  EXPECT_GT(broken, 0);
+  EXPECT_EQ(broken_if_periodic, 0);
+}
+
 TEST(LifeProperties, SayWhereTheySayNothing) {
   Scenario scenario = trio();
   const auto why = [&](std::string_view property) {
@@ -162,6 +248,14 @@ TEST(LifeProperties, SayWhereTheySayNothing) {
   EXPECT_NE(why("storm.join-cost"), "");
   EXPECT_EQ(why("storm.feedback-gain"), "");
   EXPECT_EQ(why("timer.progress"), "");
+  EXPECT_NE(why("live.recovery"), "");
+  scenario.deployment.life.emplace();
+  EXPECT_NE(why("live.recovery").find("nobody forgets"), std::string::npos);
+  EXPECT_NE(why("live.completion"), "");
+  scenario.deployment.life->mute = {{2, ms(5)}};
+  EXPECT_EQ(why("composition.followed"), "");
+  EXPECT_EQ(why("live.recovery"), "");
+  EXPECT_NE(why("live.isolation").find("constant delays"), std::string::npos);
 }
 
 }  // namespace life_properties_test

@@ -268,6 +268,9 @@ template <>
 inline constexpr std::array<std::string_view, 2> enum_names<HeartbeatCondition>{"not_acknowledged",
                                                                                 "in_u"};
 template <>
+inline constexpr std::array<std::string_view, 2> enum_names<AmendedPolicy>{"of_the_profile",
+                                                                           "measured_ack"};
+template <>
 inline constexpr std::array<std::string_view, 3> enum_names<RepairHeartbeat>{"none", "before",
                                                                              "after"};
 template <>
@@ -309,6 +312,10 @@ void visit_knobs(auto& visit, Is<Amendments> auto& rules) {
              defaulted);
   visit.knob("heartbeat_condition", rules.heartbeat_condition, ChoiceType<HeartbeatCondition>{},
              "which descriptors keep the periodic HEARTBEAT going; not_acknowledged if absent",
+             defaulted);
+  visit.knob("heartbeat_policy", rules.heartbeat_policy, ChoiceType<AmendedPolicy>{},
+             "how long until the next HEARTBEAT; as sedp.heartbeat_policy says if absent, or by "
+             "how long readers take to answer",
              defaulted);
   visit.knob("suppression_end_arms", rules.suppression_end_arms, ChoiceType<Whether>{},
              "whether the end of a suppression arms the HEARTBEAT; true if absent", defaulted);
@@ -408,6 +415,13 @@ void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
                  dds.sedp.piggyback == Piggyback::off,
              "amendments.stale_acknack",
              "process, or piggyback: off; HEARTBEATs in DATA have no number");
+  visit.rule(
+      !dds.amendments || dds.amendments->heartbeat_policy == AmendedPolicy::of_the_profile ||
+          (dds.sedp.heartbeat_policy == HeartbeatPolicy::periodic &&
+           dds.sedp.heartbeat_timer == HeartbeatTimerKind::single),
+      "amendments.heartbeat_policy",
+      "of_the_profile, or sedp.heartbeat_policy: periodic and heartbeat_timer: single, whose "
+      "place it takes");
 
   const Bytes header = dds.sedp.shared_header_bytes;
   const std::string more =

@@ -206,6 +206,60 @@ TEST(Amended, ALostReplyToANewcomerIsSentAgain) {  // E10
   EXPECT_EQ(completion_us(scenario), 3'076'110);
 }
 
+/// 2 is dead when 1 joins.
+Scenario with_a_dead_reader() {
+  Scenario scenario = each_side(base(3));
+  scenario.deployment.life.emplace();
+  scenario.deployment.life->mute.push_back({2, Nanoseconds{ms / 2}});
+  scenario.deployment.participants[1].start = Nanoseconds{20'300 * ms};
+  scenario.run_until = RunUntil::time_limit;
+  scenario.time_limit = Nanoseconds{40 * sec};
+  return scenario;
+}
+/// How long after its start 1 is sent what it lacks if its first request is lost, 10 ms.
+std::int64_t repaired_after(Scenario scenario) {
+  const std::vector<Sent> requests = run_and_log(scenario).of(PacketKind::acknack, 1, 0);
+  if (requests.empty()) return -1;
+  scenario.wireless.lost_packets = {requests[0].number};
+  const std::vector<std::int64_t> data = run_and_log(scenario).times_of(PacketKind::data, 0, 1);
+  return data.empty() ? -1 : (data[0] - 20'300 * ms) / (10 * ms);
+}
+
+TEST(Amended, ADeadReaderSlowsEverybodyDown) {  // E11
+  Scenario scenario = with_a_dead_reader();
+  EXPECT_EQ(repaired_after(scenario), 70);
+  rules(scenario).heartbeat_policy = AmendedPolicy::measured_ack;
+  EXPECT_EQ(repaired_after(scenario), 570);
+  EXPECT_EQ(run_and_log(scenario).times_of(PacketKind::heartbeat, 0, 2),
+            (std::vector{1 * ms, 1'001 * ms, 2'001 * ms, 4'001 * ms, 8'001 * ms, 16'001 * ms,
+                         26'001 * ms, 36'001 * ms}));
+  rules(scenario).heartbeat_policy = AmendedPolicy::of_the_profile;
+  scenario.dds.sedp.heartbeat_policy = HeartbeatPolicy::adaptive;
+  EXPECT_EQ(repaired_after(scenario), 170);
+}
+
+/// Whoever answers ends the wait: with a round trip of 20 ms and one answer after another the
+/// HEARTBEATs follow each other by what was measured.
+TEST(Amended, APeriodIsMeasuredByTheLastAnswer) {
+  Scenario scenario = each_side(base(2, 10 * ms));
+  scenario.dds.sedp.heartbeat_period = Nanoseconds{100 * ms};
+  scenario.dds.sedp.nack_response_delay = Nanoseconds{150 * ms};
+  rules(scenario).heartbeat_policy = AmendedPolicy::measured_ack;
+  const std::int64_t round = 20 * ms + scenario.dds.sedp.heartbeat_response_delay.count();
+  const std::vector<std::int64_t> times =
+      run_and_log(scenario).times_of(PacketKind::heartbeat, 0, 1);
+  ASSERT_GE(times.size(), 4U);
+  EXPECT_EQ(times[0], 10 * ms);
+  EXPECT_EQ(times[1], 110 * ms);  // after the period that the opening has set
+  EXPECT_EQ(times[2], times[1] + round);
+  EXPECT_EQ(times[3], times[2] + round);
+  // The answer to the HEARTBEAT that is lost: the next one is due after 11/10 of the round.
+  scenario.wireless.lost_packets = {
+      run_and_log(scenario).of(PacketKind::heartbeat, 0, 1)[2].number};
+  EXPECT_EQ(run_and_log(scenario).times_of(PacketKind::heartbeat, 0, 1)[3],
+            times[2] + round * 11 / 10);
+}
+
 TEST(Amended, AnAckNackMayAnswerAnOldHeartbeat) {  // E12
   Scenario scenario = each_side(base(2, 60 * ms));
   SedpProfile& sedp = scenario.dds.sedp;

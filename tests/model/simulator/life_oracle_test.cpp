@@ -31,6 +31,7 @@ model::Scenario living(std::uint64_t seed) {
   scenario.dds.amendments->initial_acknack_resets = drawn.initial_acknack_resets;
   scenario.dds.amendments->initial_acknack_arms = drawn.initial_acknack_arms;
   scenario.dds.amendments->count_filter = drawn.count_filter;
+  scenario.dds.amendments->heartbeat_policy = drawn.heartbeat_policy;
   // The oracle does not look whether all is quiet.
   if (scenario.run_until == model::RunUntil::quiescence) {
     scenario.run_until = model::RunUntil::time_limit;

@@ -24,7 +24,7 @@ using fsm::composition::RuleInfo;
 class EffectsInRecordings : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    const CompositionInfo& composition = composition_of(GetParam().scenario.dds);
+    const CompositionInfo& composition = composition_of(GetParam().scenario);
     for (const auto* list : {&composition.rules, &composition.procedures}) {
       for (const RuleInfo& rule : *list) {
         for (const EffectInfo& effect : rule.effects) effects[effect.id] = &effect;
@@ -82,7 +82,8 @@ TEST_P(EffectsInRecordings, PacketsAreSentByWhatCanSend) {
 /// What is due runs the rule of the timer that its starter names.
 TEST_P(EffectsInRecordings, TimersAreStartedByWhatStartsThem) {
   for (const Json& event : record(GetParam().scenario, {}, Effects::named).events) {
-    const bool of_rules = event["class"] == "protocol" && event["event"] != "source_completion";
+    const bool of_rules = event["class"] == "protocol" && event["event"] != "source_completion" &&
+                          event["event"] != "endpoint_creation";
     ASSERT_EQ(event.contains("started_by"), of_rules && !event["cause"].is_null()) << event;
     if (!event.contains("started_by")) continue;
     ASSERT_TRUE(effects.contains(event["started_by"])) << event;
@@ -119,6 +120,8 @@ TEST_P(EffectsInRecordings, AreInTheTimelineToo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, EffectsInRecordings, testing::ValuesIn(trace_cases()), CaseName{});
+INSTANTIATE_TEST_SUITE_P(Lives, EffectsInRecordings,
+                         testing::Values(Case{"fastdds", living_scenario()}), CaseName{});
 
 Verdict replayed(const std::string& text) {
   const auto file = std::filesystem::path{testing::TempDir()} / "effects.jsonl";

@@ -115,6 +115,19 @@ const Scenario& case_named(const std::string& name) {
   throw std::invalid_argument{"no case " + name};
 }
 
+Scenario living_scenario() {
+  Scenario scenario = case_named("fastdds_uneven");
+  Life& life = scenario.deployment.life.emplace();
+  const std::uint32_t last = scenario.deployment.size() - 1;
+  life.stale = {{0, last}};
+  life.outages = {{0, last, Nanoseconds{100'000'000}, Nanoseconds{4'000'000'000}}};
+  life.lease = Nanoseconds{3'500'000'000};
+  life.restarts = {{last, Nanoseconds{5'000'000'000}, Nanoseconds{6'000'000'000}, {}}};
+  scenario.run_until = RunUntil::time_limit;
+  scenario.time_limit = Nanoseconds{8'000'000'000};
+  return scenario;
+}
+
 Scenario long_scenario() {
   Scenario scenario;
   scenario.deployment = Deployment::homogeneous(2, 5, 20);

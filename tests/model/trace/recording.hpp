@@ -46,7 +46,10 @@ struct Case {
 /// One scenario for each thing that changes what a trace contains.
 [[nodiscard]] const std::vector<Case>& trace_cases();
 [[nodiscard]] const Scenario& case_named(const std::string& name);
-/// Not one of them: a run of more events than pass between two calls of `on_progress`.
+/// Not one of them: participants of Fast DDS that were there before, are out of reach, are
+/// forgotten and come back, whose machines are new ones then.
+[[nodiscard]] Scenario living_scenario();
+/// Nor this: a run of more events than pass between two calls of `on_progress`.
 [[nodiscard]] Scenario long_scenario();
 
 /// The name of a case, for the names of parametrised tests.

@@ -1,6 +1,8 @@
 // Replays of traces that are right, changed, or not complete.
 #include "model/trace/replay.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/model/config/test_files.hpp"
@@ -43,6 +45,22 @@ TEST_P(ReplayTest, ATraceHappensAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, ReplayTest, testing::ValuesIn(trace_cases()), CaseName{});
+INSTANTIATE_TEST_SUITE_P(Lives, ReplayTest, testing::Values(Case{"fastdds", living_scenario()}),
+                         CaseName{});
+
+TEST(Replay, AMachineThatIsANewOneIsPartOfTheRun) {
+  Recording trace = record(living_scenario());
+  const auto renewed = std::ranges::find_if(trace.lines, [](const std::string& line) {
+    return line.find(R"("event":"Renewed","before":"Complete")") != std::string::npos;
+  });
+  ASSERT_NE(renewed, trace.lines.end());
+  replace(*renewed, R"("event":"Renewed","before":"Complete")",
+          R"("event":"Renewed","before":"Recognised")");
+  const auto line = static_cast<std::size_t>(renewed - trace.lines.begin()) + 1;
+  const Replay replay = Replaying{}(joined(trace.lines));
+  ASSERT_TRUE(replay.difference);
+  EXPECT_EQ(replay.difference->line, line);
+}
 
 TEST(Replay, AChangedValueIsFoundWithItsLineAndKey) {
   Recording trace = record(case_named("hosts2x1x2"));

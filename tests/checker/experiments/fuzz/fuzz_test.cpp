@@ -130,6 +130,38 @@ TEST(Fuzz, shrinks_to_a_small_scenario_that_replays) {
   EXPECT_EQ(*read_back, found.scenario);
 }
 
+/// Lives of Fast DDS are drawn, judged by what the rules say and by recovery, shrunk and replayed.
+TEST(Fuzz, draws_lives_of_fastdds) {
+  const model::Scenario scenario =
+      shipped("rejoin-fastdds",
+              {"deployment.life={lease: 20s, outages: [{from: 0, to: 1, start: 1s, end: 2s}]}",
+               "run_until=time_limit", "time_limit=60s", "limits.completion=50ms",
+               "vary={outages: 2, restarts: 1, late_joiners: 1, failures_within: 10ms}"});
+  FuzzOptions options = runs(15);
+  options.only = {"composition.followed", "live.recovery", "limit.completion"};
+  const FuzzReport report = run(scenario, options);
+  ASSERT_EQ(report.runs.size(), 15U);
+  EXPECT_EQ(of(report, "composition.followed").verdict, VerdictKind::sampled);
+  EXPECT_EQ(of(report, "composition.followed").runs, 15U);
+  EXPECT_GT(of(report, "live.recovery").runs, 5U);
+  const Judgment& limit = of(report, "limit.completion");
+  EXPECT_GT(limit.broken, 3U);
+  ASSERT_TRUE(limit.shrunk);
+  const props::Counterexample& found = limit.shrunk->counterexample;
+  EXPECT_TRUE(found.scenario.deployment.life);
+  const auto file = std::filesystem::temp_directory_path() / "stormproof-fuzz-life-test.jsonl";
+  {
+    std::ofstream out{file};
+    const auto wrong = counterexample::write_counterexample(found, out);
+    ASSERT_FALSE(wrong) << *wrong;
+  }
+  const auto replay = model::trace::replay(file.string(), model::config::SpecPath::standard(), {},
+                                           counterexample::catalogue_watches());
+  std::filesystem::remove(file);
+  ASSERT_TRUE(replay) << to_string(replay.error());
+  EXPECT_EQ(replay->verdict, model::trace::Verdict::violated);
+}
+
 TEST(Fuzz, does_not_depend_on_the_number_of_threads) {
   const model::Scenario scenario = lossy();
   FuzzOptions one = runs(20);

@@ -59,6 +59,19 @@ TEST(Amendments, AnAckNackCannotAnswerAHeartbeatInData) {
   EXPECT_EQ(refusal({"dds.amendments={stale_acknack: latest_only}", "dds.sedp.piggyback=off"}), "");
 }
 
+TEST(Amendments, OneClockOfHeartbeatsIsMeasured) {
+  const std::string measured = "dds.amendments={heartbeat_policy: measured_ack}";
+  EXPECT_EQ(refusal({measured}), "");
+  for (const char* other :
+       {"dds.sedp.heartbeat_policy=adaptive", "dds.sedp.heartbeat_timer=additive"}) {
+    EXPECT_NE(refusal({measured, other})
+                  .find("'measured_ack'; expected of_the_profile, or sedp.heartbeat_policy: "
+                        "periodic and heartbeat_timer: single"),
+              std::string::npos)
+        << refusal({measured, other});
+  }
+}
+
 TEST(Life, IsReadAndWritten) {
   const auto scenario = with({"dds.amendments={}",
                               "deployment.life={stale: [{writer: 0, reader: 1}], mute: "
