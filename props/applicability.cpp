@@ -32,9 +32,12 @@ constexpr std::array<std::string_view, 4> of_the_papers_rules{
 /// Of these, those that a certificate from the rules proves, amended or not.
 constexpr std::array<std::string_view, 1> certified_of_amended_rules{"live.recovery"};
 
-/// What a certificate from Cyclone DDS's rules proves; no monitor watches it in its runs.
+/// What a certificate from Cyclone DDS's rules proves.
 constexpr std::array<std::string_view, 2> certified_of_cyclone{"safety.ack-implies-received",
                                                                "safety.snapshot"};
+
+/// Of these, what no monitor watches in its runs.
+constexpr std::string_view unwatched_of_cyclone = "safety.snapshot";
 
 /// Their bounds and theorems count from instants at which timers are due.
 constexpr std::array<std::string_view, 7> of_punctual_timers{
@@ -151,8 +154,9 @@ std::string_view why_not_provable(std::string_view property, const model::Scenar
 std::string_view why_not_applicable(std::string_view property,
                                     model::ImplementationKind implementation) {
   if (is_of_all(property)) return {};
-  if (!is_monitored(property, implementation)) return {};
-  const bool is_paper = model::traits_of(implementation).writer == model::Writer::of_the_paper;
+  const model::Writer writer = model::traits_of(implementation).writer;
+  const bool is_paper = writer == model::Writer::of_the_paper;
+  if (writer == model::Writer::of_cyclone && is_certified(property, writer)) return {};
   if (is_paper && is_among(of_amended_rules, property)) return {};
   if (is_among(of_the_papers_rules, property)) {
     return "it is stated for the rules of the closed-loop model, amended or not";
@@ -164,7 +168,7 @@ std::string_view why_not_applicable(std::string_view property,
 
 bool is_monitored(std::string_view property, model::ImplementationKind implementation) {
   const bool is_cyclone = model::traits_of(implementation).writer == model::Writer::of_cyclone;
-  return !is_cyclone || !is_among(certified_of_cyclone, property);
+  return !is_cyclone || property != unwatched_of_cyclone;
 }
 
 }  // namespace stormproof::props
