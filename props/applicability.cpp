@@ -36,6 +36,13 @@ constexpr std::array<std::string_view, 1> certified_of_amended_rules{"live.recov
 constexpr std::array<std::string_view, 3> of_living_fastdds{"composition.followed", "live.recovery",
                                                             "live.isolation"};
 
+/// What a certificate from Cyclone DDS's rules proves.
+constexpr std::array<std::string_view, 2> certified_of_cyclone{"safety.ack-implies-received",
+                                                               "safety.snapshot"};
+
+/// Of these, what no monitor watches in its runs.
+constexpr std::string_view unwatched_of_cyclone = "safety.snapshot";
+
 /// Their bounds and theorems count from instants at which timers are due.
 constexpr std::array<std::string_view, 7> of_punctual_timers{
     "live.completion",   "live.quiescence",      "live.recovery",     "live.isolation",
@@ -50,6 +57,11 @@ bool stalls(const model::Scenario& scenario) {
 
 bool is_among(std::span<const std::string_view> list, std::string_view property) {
   return std::ranges::find(list, property) != list.end();
+}
+
+bool is_certified(std::string_view property, model::Writer writer) {
+  if (writer == model::Writer::of_cyclone) return is_among(certified_of_cyclone, property);
+  return writer == model::Writer::of_the_paper && is_among(certified_of_amended_rules, property);
 }
 
 bool is_of_all(std::string_view property) {
@@ -126,9 +138,7 @@ std::string_view why_not_provable(std::string_view property, const model::Scenar
   }
   if (is_about_rules) return {};
   const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
-  const bool is_certified = traits.writer == model::Writer::of_the_paper &&
-                            is_among(certified_of_amended_rules, property);
-  if (!traits.is_known_to_engines && !is_certified) {
+  if (!traits.is_known_to_engines && !is_certified(property, traits.writer)) {
     return "the engines that prove it know the rules of the paper and of Fast DDS only";
   }
   if (!model::fastdds::announcements_reach_all(scenario)) {
@@ -149,7 +159,9 @@ std::string_view why_not_provable(std::string_view property, const model::Scenar
 std::string_view why_not_applicable(std::string_view property,
                                     model::ImplementationKind implementation) {
   if (is_of_all(property)) return {};
-  const bool is_paper = model::traits_of(implementation).writer == model::Writer::of_the_paper;
+  const model::Writer writer = model::traits_of(implementation).writer;
+  const bool is_paper = writer == model::Writer::of_the_paper;
+  if (writer == model::Writer::of_cyclone && is_certified(property, writer)) return {};
   if (is_paper && is_among(of_amended_rules, property)) return {};
   if (is_among(of_the_papers_rules, property)) {
     return "it is stated for the rules of the closed-loop model, amended or not, and live.recovery "
@@ -158,6 +170,11 @@ std::string_view why_not_applicable(std::string_view property,
   if (model::traits_of(implementation).is_known_to_engines) return {};
   return "it is stated for the writers of the paper and of Fast DDS; of this one only machines, "
          "network and results are checked";
+}
+
+bool is_monitored(std::string_view property, model::ImplementationKind implementation) {
+  const bool is_cyclone = model::traits_of(implementation).writer == model::Writer::of_cyclone;
+  return !is_cyclone || property != unwatched_of_cyclone;
 }
 
 }  // namespace stormproof::props

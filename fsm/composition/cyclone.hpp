@@ -177,6 +177,8 @@ struct Cyclone {
                AckCountsUntil, SomeAccepted, SomeRefused, X, Known, Notified, ByDelay, AskedEnd,
                LastBase, LastHeartbeatCount, HeartbeatCountsUntil, QuietUntil, HushUntil, AgainAt,
                NextAckCount, RepliesSent>;
+  /// What is counted of a stream are always its first samples, up to some number; so are these.
+  using FirstSamples = TypeList<Acked>;
   using Packets = TypeList<Spdp, Data, Heartbeat, AckNack>;
   using Occasions =
       TypeList<Starts, Created, WriterOpens, ReaderOpens, PacketEnds, AckTimerFires,
@@ -185,6 +187,8 @@ struct Cyclone {
   using Exchange = Joined<WriterSideRules, ReaderSideRules, ThreadRules>;
   using Rules = Joined<Announcing, Exchange>;
   using IsOpen = WriterOpen;
+  /// What a request would say now.
+  static auto bitmap() { return says(Says{Listed{}, is_lacking}, Says{BelowBase{}, is_confirmed}); }
   static constexpr std::array<Unused, 0> unused{};
   static constexpr std::array from_outside{
       FromOutside{"Starts", "the application creates a participant"},

@@ -211,7 +211,9 @@ struct Announce : Opaque {
 /// another reader alone.
 struct SendToAllInstead : Opaque {
   template <class W>
-  static void contract(W&) {}
+  static void contract(W& w) {
+    w.when(w.choice("it goes to another reader alone"), [&] { w.perform(DataToAll{}); });
+  }
 };
 /// What is kept joins the queue.
 struct LetAnswerGo : Opaque {

@@ -88,6 +88,9 @@ struct HeartbeatArrives : Rule<Received<Heartbeat>> {
   }
 };
 
+/// What a request asks for.
+inline constexpr auto is_lacking = [](auto& d) { return d(Known{}) && !d(X{}); };
+
 /// An ACKNACK of its own that says what the reader has, and asks for what it lacks if it is a
 /// request.
 struct Reply : Procedure {
@@ -97,8 +100,8 @@ struct Reply : Procedure {
     w.set(LastBase{}, base);
     w.set(NextAckCount{}, w(NextAckCount{}) + 1);
     w.when(reader.request, [&] {
-      w.emit(AckNack{}, says(Says{Listed{}, [](auto& d) { return d(Known{}) && !d(X{}); }},
-                             Says{BelowBase{}, is_confirmed}, Says{Count{}, w(NextAckCount{})}));
+      w.emit(AckNack{}, says(Says{Listed{}, is_lacking}, Says{BelowBase{}, is_confirmed},
+                             Says{Count{}, w(NextAckCount{})}));
       w.set(ByDelay{}, reader.delayed);
       w.set(AskedEnd{}, w.count([](auto& d) { return d(Known{}); }) + 1);
       w.set(HushUntil{}, w(Now{}) + w(NackDelay{}));

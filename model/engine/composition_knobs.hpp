@@ -262,6 +262,11 @@ inline std::int64_t value(comp::amended::CountFilter, const DdsProfile& dds) {
 }
 }  // namespace knobs_of_composition
 
+/// Whether the switch or delay is one of the profile; otherwise it is the deployment's.
+template <class Knob>
+inline constexpr bool is_knob = requires(const DdsProfile& dds) {
+  knobs_of_composition::value(Knob{}, dds);
+};
 /// The value of a switch, or of a delay in ns.
 template <class Knob>
 [[nodiscard]] auto knob_value(Knob knob, const DdsProfile& dds) {

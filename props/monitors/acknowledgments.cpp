@@ -4,6 +4,7 @@
 // have forgotten it there.
 #include <bit>
 
+#include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
@@ -101,7 +102,9 @@ class StabilityOfAcknowledgments : public Acknowledgments {
 
 }  // namespace
 
-MonitorPtr watch_acknowledgments(const model::Scenario&) {
+MonitorPtr watch_acknowledgments(const model::Scenario& scenario) {
+  const bool are_numbers = model::traits_of(scenario.dds).writer == model::Writer::of_cyclone;
+  if (are_numbers) return watch_acknowledged_samples();
   return attentive<TruthOfAcknowledgments>();
 }
 MonitorPtr watch_stable_acknowledgments(const model::Scenario&) {

@@ -13,6 +13,7 @@ using MonitorPtr = std::unique_ptr<Monitor>;
 
 [[nodiscard]] MonitorPtr watch_event_order(const model::Scenario&);
 [[nodiscard]] MonitorPtr watch_acknowledgments(const model::Scenario&);
+[[nodiscard]] MonitorPtr watch_acknowledged_samples();
 [[nodiscard]] MonitorPtr watch_repair_requests(const model::Scenario&);
 [[nodiscard]] MonitorPtr watch_snapshots(const model::Scenario&);
 [[nodiscard]] MonitorPtr watch_conservation(const model::Scenario&);

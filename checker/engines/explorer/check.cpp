@@ -227,6 +227,7 @@ checker::Findings explore(std::span<const std::string_view> properties, const Re
       claims |= bit(entry.claim);
   }
   checker::Findings findings;
+  if (!model::traits_of(request.scenario.dds).is_known_to_engines) return findings;
   if (claims == 0) return findings;
   Exploration exploration{request, claims};
   if (!exploration.adaptive()) exploration.run();

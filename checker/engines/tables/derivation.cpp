@@ -254,6 +254,15 @@ Expr Derivation::unknown_count() {
   return inputs_.back();
 }
 
+void Derivation::number_descriptors() { number_ = context_of_derivation().int_const(its_number); }
+
+Expr Derivation::count_of_first(const Expr& ours_is_one) {
+  const Expr count = unknown_count();
+  require(*number_ >= 1);
+  require((*number_ <= count) == ours_is_one);
+  return count;
+}
+
 TransitionSystem Derivation::system() const {
   Exprs initial;
   for (std::size_t v = 0; v < variables_.size(); ++v) initial.push_back(variables_[v] == start_[v]);

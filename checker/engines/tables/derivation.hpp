@@ -11,6 +11,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ namespace stormproof::tables {
 
 /// Which of the owner's indices are not ours: fsm::composition::Owner::indices.
 using Foreign = std::uint8_t;
+
+/// What the number of our descriptor is called.
+inline constexpr const char* its_number = "its number";
 
 /// A mistake in the derivation, for the test that notices it.
 enum class Unsound : std::uint8_t {
@@ -37,6 +41,10 @@ class Derivation {
   // Variables.
   void declare(const std::string& name, bool start);
   void declare_count(const std::string& name);
+  /// Descriptors have numbers, and what is counted are the first ones: ours is among them if its
+  /// number, an unknown that no step changes, is at most how many these are.
+  void number_descriptors();
+  [[nodiscard]] const std::optional<Expr>& number() const { return number_; }
   /// The system starts with another value of the variable.
   void start_with(const std::string& name, bool value);
   [[nodiscard]] bool has(const std::string& name) const { return index_.contains(name); }
@@ -59,6 +67,8 @@ class Derivation {
   Expr input(const std::string& name);
   Expr unknown();
   Expr unknown_count();
+  /// How many the first descriptors are, of which ours is one or not.
+  Expr count_of_first(const Expr& ours_is_one);
 
   [[nodiscard]] bool is(Unsound mistake) const { return mistake_ == mistake; }
 
@@ -71,6 +81,7 @@ class Derivation {
   Exprs start_;
   std::map<std::string, std::size_t> index_;
   std::vector<SystemStep> steps_;
+  std::optional<Expr> number_;
 
   Exprs now_;
   Exprs inputs_;

@@ -46,6 +46,11 @@ void declare(Derived& derived) {
       derivation.declare(tag_name<V>(), composition::first_value<V>() != 0);
     }
   });
+  if constexpr (requires { typename Composition::FirstSamples; }) {
+    derivation.number_descriptors();
+    composition::for_each_type(typename Composition::FirstSamples{},
+                               [&]<class V>() { derivation.declare_count(tag_name<V>()); });
+  }
   composition::for_each_type(typename Composition::Timers{}, [&]<class T>() {
     if (derived.counts<T>()) {
       derivation.declare_count("pending " + tag_name<T>());

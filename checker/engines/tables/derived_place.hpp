@@ -45,8 +45,11 @@ class DerivedPlace {
   Bool or_others(const Bool& own) {
     return derivation().is(Unsound::others_never_ask) ? own : own || unknown();
   }
-  static Expr number_of(const Expr& condition) {
-    return z3::ite(condition, Int{1}.expr(), Int{0}.expr());
+  /// How many there are with others, of which nothing is known.
+  Int with_others(const Expr& own) {
+    const Expr one = z3::ite(own, Int{1}.expr(), Int{0}.expr());
+    return Int{derivation().is(Unsound::others_never_ask) ? one
+                                                          : one + derivation().unknown_count()};
   }
 
   template <class Value, class Tag>

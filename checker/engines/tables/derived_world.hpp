@@ -31,7 +31,9 @@ class DerivedWorld : public DerivedPlace {
     if constexpr (std::derived_from<Tag, Switch>) {
       return knob<Bool>(tag);
     } else if constexpr (std::derived_from<Tag, Delay>) {
-      return knob<Int>(tag);
+      // That of a deployment is no knob of the profile.
+      if constexpr (model::is_knob<Tag>) return knob<Int>(tag);
+      return Int{derivation().unknown_count()};
     } else if constexpr (std::derived_from<Tag, Fact>) {
       return Tag::of(*this);
     } else if constexpr (requires { typename Tag::IsFlag; }) {
@@ -45,6 +47,8 @@ class DerivedWorld : public DerivedPlace {
       return Int{derivation().unknown_count()};
     } else if constexpr (std::derived_from<Tag, DescriptorField> ||
                          std::derived_from<Tag, PacketField>) {
+      const bool of_descriptor = std::derived_from<Tag, DescriptorField>;
+      if (of_descriptor && is_foreign({composition::owner::descriptor_index})) return unknown();
       const auto said = packet_->find(tag_name<Tag>());  // what it has no field for is not said
       return said == packet_->end() ? Bool{false} : Bool{said->second};
     } else if constexpr (std::derived_from<Tag, Amount>) {
@@ -86,14 +90,19 @@ class DerivedWorld : public DerivedPlace {
   }
   template <class Term>
   Int count(Term&& term) {
-    const Expr own = number_of(set_of(term).expr());
-    if (derivation().is(Unsound::others_never_ask)) return Int{own};
-    return Int{own + derivation().unknown_count()};
+    const Expr own = set_of(term).expr();
+    if (derivation().number()) return Int{derivation().count_of_first(own)};
+    return with_others(own);
   }
   template <class Term>
   Bool some_reader(Term&& term) {
     DerivedWorld r = ours(composition::owner::peer_index);
     return or_others(r(typename Composition::IsOpen{}) && Bool{term(r)});
+  }
+  template <class Term>
+  Int count_readers(Term&& term) {
+    DerivedWorld r = ours(composition::owner::peer_index);
+    return with_others((r(typename Composition::IsOpen{}) && Bool{term(r)}).expr());
   }
   template <class Term>
   Bool some_entry(Term&& term) {
@@ -136,8 +145,12 @@ class DerivedWorld : public DerivedPlace {
   }
   template <class Term, class Body>
   void for_descriptors(Term&& term, Body&& body) {
-    around(composition::owner::descriptor_index,
-           [&](DerivedWorld& d) { d.when(Bool{term(d)}, [&] { body(d); }); });
+    // What is done for one may end the loop for those after it, and differ from what was done
+    // before.
+    constexpr int different_others = 2;
+    around(
+        composition::owner::descriptor_index,
+        [&](DerivedWorld& d) { d.when(Bool{term(d)}, [&] { body(d); }); }, different_others);
   }
   /// The part that has our descriptor, if the set has it, and others before and after it.
   template <class Body>
@@ -272,9 +285,9 @@ class DerivedWorld : public DerivedPlace {
     world.foreign_ = static_cast<Foreign>(foreign_ & ~indices);
     return world;
   }
-  /// The body for others of each index, for us, and for others again.
+  /// The body for others of each index, so many times, for us, and for others again.
   template <class Body>
-  void around(Foreign indices, Body&& body) {
+  void around(Foreign indices, Body&& body, int times = 1) {
     const auto run = [&](Foreign foreign) {
       DerivedWorld world = *this;
       world.foreign_ = foreign;
@@ -293,10 +306,11 @@ class DerivedWorld : public DerivedPlace {
     const unsigned first = derived_->number;
     const auto others = [&] {
       if (derivation().is(Unsound::loops_for_us_only)) return;
-      for (Foreign index = 1; index != 0 && index <= indices;
-           index = static_cast<Foreign>(index << 1)) {
-        if ((indices & index) != 0) again(first, [&] { run(static_cast<Foreign>(us | index)); });
-      }
+      for (int k = 0; k < times; ++k)
+        for (Foreign index = 1; index != 0 && index <= indices;
+             index = static_cast<Foreign>(index << 1)) {
+          if ((indices & index) != 0) again(first, [&] { run(static_cast<Foreign>(us | index)); });
+        }
     };
     others();
     again(first, [&] { run(us); });

@@ -5,6 +5,9 @@
 // holds for any number of them.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "checker/engines/tables/derivation.hpp"
 #include "model/implementations.hpp"
 
@@ -37,6 +40,8 @@ class DescriptorSystem {
   [[nodiscard]] const Expr& operator[](const std::string& name) const {
     return derivation_.variable(name);
   }
+  /// The descriptor's number in its stream, from 1, if the composition has them; see Derivation.
+  [[nodiscard]] const std::optional<Expr>& number() const { return derivation_.number(); }
   /// The whole system; `bad` is left to the property.
   [[nodiscard]] TransitionSystem whole() const { return derivation_.system(); }
   /// As much of it as matters to whether `bad` can be reached.
@@ -50,6 +55,7 @@ class DescriptorSystem {
 void derive_of(model::Of<fsm::composition::paper::Paper>, Derived& derived);
 void derive_of(model::Of<fsm::composition::fastdds::FastDds>, Derived& derived);
 void derive_of(model::Of<fsm::composition::amended::Amended>, Derived& derived);
+void derive_of(model::Of<fsm::composition::cyclone::Cyclone>, Derived& derived);
 
 /// States in the finding what everything assumes that is derived from a composition.
 void assume_for_descriptors(Proof& proof);

@@ -23,6 +23,7 @@ Certificate certificate_of(const DescriptorSystem& descriptor, const SafetyState
   whole.bad = any_of(broken);
   const Moving moving{whole};
   Certificate certificate{.system = what_matters(moving.system)};
+  if (descriptor.number()) certificate.constants.push_back(*descriptor.number());
   for (const Clause& clause : statement.invariant) {
     certificate.invariant.push_back({in_both_languages(clause), moving(clause.holds)});
   }
@@ -57,10 +58,18 @@ std::string prove_never(Proof& proof, const DescriptorSystem& descriptor,
 }
 
 SafetyStatement acknowledged_is_received(const DescriptorSystem& descriptor) {
-  return {{{"what is in A has been received", !descriptor["C=A"] || descriptor["X"]}},
-          {descriptor["X"]},
-          {{descriptor["C=A"] && !descriptor["X"],
-            "a descriptor is in A that the reader has not received"}}};
+  const Expr& received = descriptor["X"];
+  if (descriptor.number()) {
+    // Before its first reply a new reader only counts as having what there was.
+    const Expr taken = descriptor["Peer=Replied"] && descriptor["Acked"] >= *descriptor.number();
+    return {{{"what a reader that has replied acknowledges has been received", !taken || received}},
+            {received},
+            {{taken && !received, "a reader has acknowledged a sample that it has not received"}}};
+  }
+  return {
+      {{"what is in A has been received", !descriptor["C=A"] || received}},
+      {received},
+      {{descriptor["C=A"] && !received, "a descriptor is in A that the reader has not received"}}};
 }
 
 }  // namespace stormproof::tables

@@ -23,7 +23,7 @@ struct SafetyStatement {
 std::string prove_never(Proof& proof, const DescriptorSystem& descriptor,
                         const SafetyStatement& statement);
 
-/// What is in A has been received.
+/// What is in A has been received; with numbers, what a reader that has replied acknowledges.
 [[nodiscard]] SafetyStatement acknowledged_is_received(const DescriptorSystem& descriptor);
 
 }  // namespace stormproof::tables

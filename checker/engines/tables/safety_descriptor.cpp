@@ -12,6 +12,11 @@ namespace stormproof::tables {
 Finding safety_ack_implies_received(const CheckRequest& request) {
   Proof proof{"safety.ack-implies-received", request};
   const DescriptorSystem descriptor = descriptor_system(proof);
+  if (descriptor.number()) {
+    proof.assume(
+        "A reader acknowledges all samples up to a number. A new one counts as having what exists "
+        "when it is matched, and nothing is said of it until it has replied.");
+  }
   return proof.finish(prove_never(proof, descriptor, acknowledged_is_received(descriptor)));
 }
 

@@ -29,6 +29,7 @@ struct Place {
   int stream = 0;
   int peer = 0;
   int descriptor = 0;
+  int participant = 0;  ///< 0, or the other one, of the reverse direction
 
   auto operator<=>(const Place&) const = default;
   [[nodiscard]] Place of(Owner owner) const {
@@ -36,7 +37,7 @@ struct Place {
       return (owner.indices & index) != 0 ? value : 0;
     };
     return {kept(owner::stream_index, stream), kept(owner::peer_index, peer),
-            kept(owner::descriptor_index, descriptor)};
+            kept(owner::descriptor_index, descriptor), participant};
   }
 };
 using Key = std::pair<std::string, Place>;
@@ -107,7 +108,11 @@ class SmallWorld {
   template <class Tag>
   auto operator()(Tag knob) {
     if constexpr (std::derived_from<Tag, Switch> || std::derived_from<Tag, Delay>) {
-      return model::knob_value(knob, *dds_);
+      if constexpr (model::is_knob<Tag>) {
+        return model::knob_value(knob, *dds_);
+      } else {
+        return std::int64_t{draw(4)};  // of a deployment
+      }
     } else if constexpr (std::derived_from<Tag, Fact>) {
       return Tag::of(*this);
     } else if constexpr (requires { typename Tag::IsFlag; }) {
@@ -168,11 +173,17 @@ class SmallWorld {
     return found;
   }
   template <class Term>
+  std::int64_t count_readers(Term&& term) {
+    std::int64_t total = 0;
+    for_readers([&](SmallWorld& r) { total += term(r) ? 1 : 0; });
+    return total;
+  }
+  template <class Term>
   bool some_entry(Term&& term) {
     bool found = false;
     for (int s = 0; s < small_streams; ++s) {
       for (int d = 0; d < small_descriptors; ++d) {
-        SmallWorld entry = at_place({s, place_.peer, d});
+        SmallWorld entry = at_place({s, place_.peer, d, place_.participant});
         found = found || term(entry);
       }
     }
@@ -208,16 +219,16 @@ class SmallWorld {
   void for_queue(Body&& body) {
     for (int s = 0; s < small_streams; ++s) {
       for (int d = 0; d < small_descriptors; ++d) {
-        SmallWorld entry = at_place({s, place_.peer, d});
+        SmallWorld entry = at_place({s, place_.peer, d, place_.participant});
         if (entry(typename Composition::IsQueued{})) body(entry);
       }
     }
   }
   template <class Term, class Body>
   void for_descriptors(Term&& term, Body&& body) {
-    const Set set = set_of(term);
     each([&](SmallWorld& d) {
-      if (d.is_in(set)) body(d);
+      d.subject_ = d.place_.descriptor;
+      if (term(d)) body(d);
     });
   }
   /// Parts of one or more consecutive members.
@@ -236,7 +247,7 @@ class SmallWorld {
   template <class Body>
   void reverse(Body&& body) {
     SmallWorld back = *this;
-    back.place_.peer += small_peers;
+    back.place_.participant = 1 + place_.peer;
     body(back);
   }
 
@@ -374,6 +385,23 @@ class SmallWorld {
   const SentPacket* packet_ = nullptr;
 };
 
+/// Whether what is counted of a stream are always its first samples.
+template <class Composition>
+inline constexpr bool counts_first_samples = requires {
+  typename Composition::FirstSamples;
+};
+/// How many samples of the writer exist.
+inline int created(const SmallState& state, const Place& at) {
+  int count = 0;
+  while (count < small_descriptors) {
+    const auto found =
+        state.values.find({"Exists", Place{at.stream, at.peer, count}.of(owner::entry)});
+    if (found == state.values.end() || found->second == 0) break;
+    ++count;
+  }
+  return count;
+}
+
 /// Takes one step at random, if one that is drawn is possible: `visit(rule name, owner, place)` is
 /// called after it.
 template <class Composition, class Visit>
@@ -400,6 +428,10 @@ void random_step(SmallState& state, const model::DdsProfile& dds, std::mt19937_6
       if (possible.empty()) return;
       packet = possible[dice() % possible.size()];
       at = packet.place;
+    }
+    if constexpr (counts_first_samples<Composition> && Cause::owner == owner::entry) {
+      at.descriptor = created(state, at);  // one after the other
+      if (at.descriptor == small_descriptors) return;
     }
     World world{state, dds, dice, at};
     if constexpr (std::is_same_v<Trigger, Due<Cause>>) {

@@ -36,6 +36,13 @@ Values seen_from(const comp::SmallState& state, const comp::Place& place) {
           found == state.values.end() ? comp::first_value<V>() : found->second;
     }
   });
+  if constexpr (comp::counts_first_samples<Composition>) {
+    values[its_number] = place.descriptor + 1;
+    comp::for_each_type(typename Composition::FirstSamples{}, [&]<class V>() {
+      const auto found = state.values.find(at.template operator()<V>());
+      values[std::string{fsm::name_of<V>()}] = found == state.values.end() ? 0 : found->second;
+    });
+  }
   comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
     const comp::Key key = at.template operator()<T>();
     const std::string name{fsm::name_of<T>()};
@@ -89,6 +96,10 @@ class Bridge {
       if (!value) continue;
       from.push_back(variable);
       to.push_back(*value);
+    }
+    if (before.contains(its_number)) {
+      from.push_back(context().int_const(its_number));
+      to.push_back(context().int_val(before.at(its_number)));
     }
     for (const SystemStep& step : system_.steps) {
       if (step.name != name) continue;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "fsm/composition/amended.hpp"
+#include "fsm/composition/cyclone.hpp"
 
 namespace stormproof::tables {
 namespace bridge_test {
@@ -64,6 +65,12 @@ model::DdsProfile fastdds() {
   return dds;
 }
 
+model::DdsProfile cyclone() {
+  model::DdsProfile dds;
+  dds.implementation = model::ImplementationKind::cyclone;
+  return dds;
+}
+
 TEST(Bridge, EveryStepOfThePapersRulesIsDerived) {
   model::DdsProfile pull = paper();
   pull.sedp.relation_opening = model::RelationOpening::each_side;
@@ -113,11 +120,23 @@ TEST(Bridge, EveryStepOfTheAmendedRulesIsDerived) {
   }
 }
 
+TEST(Bridge, EveryStepOfCycloneDdssRulesIsDerived) {
+  model::DdsProfile each_for_itself = cyclone();
+  each_for_itself.sedp.merge_queued_rexmit = model::MergeQueued::no;
+  for (const model::DdsProfile& dds : {cyclone(), each_for_itself}) {
+    const Crossing crossing = cross<comp::cyclone::Cyclone>(dds, Unsound::none, 16, 1);
+    EXPECT_GT(crossing.distinct, 400U);
+    EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
+  }
+}
+
 TEST(Bridge, RefusesADerivationThatForgetsOthers) {
   for (const Unsound mistake : {Unsound::others_never_ask, Unsound::rules_for_us_only,
                                 Unsound::loops_for_us_only, Unsound::packets_arrive_once}) {
     const Crossing crossing = cross<comp::fastdds::FastDds>(fastdds(), mistake, 2, 1);
     EXPECT_FALSE(crossing.refused.empty()) << static_cast<int>(mistake);
+    const Crossing other = cross<comp::cyclone::Cyclone>(cyclone(), mistake, 4, 1);
+    EXPECT_FALSE(other.refused.empty()) << static_cast<int>(mistake);
   }
   for (const Unsound mistake :
        {Unsound::others_never_ask, Unsound::rules_for_us_only, Unsound::packets_arrive_once}) {

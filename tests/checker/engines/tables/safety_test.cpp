@@ -67,6 +67,31 @@ TEST(AckImpliesReceived, ARequestThatAcknowledgesIsFound) {
                   with_row("ChangeForReader", real, Kind::negate_guard), "C=A");
 }
 
+TEST(Safety, OfCycloneDdsIsProvedWithAnInvariant) {
+  for (const char* const property : {"safety.ack-implies-received", "safety.snapshot"}) {
+    expect_proved(property, cyclone());
+    EXPECT_TRUE(mentions(decide(property, cyclone()), "invariant:")) << property;
+    EXPECT_FALSE(decide(property, cyclone()).assumptions.empty()) << property;
+  }
+  EXPECT_TRUE(mentions(decide("safety.ack-implies-received", cyclone()), "implies X"));
+}
+
+TEST(AckImpliesReceived, AReaderOfCycloneDdsThatRepliesTooEarlyIsFound) {
+  const std::size_t row = row_of("MatchedReader", "Silent", "AckNackReceived", "Replied");
+  for (const Kind kind : {Kind::ignore_guard, Kind::negate_guard}) {
+    expect_violated("safety.ack-implies-received", cyclone(), with_row("MatchedReader", row, kind),
+                    "has acknowledged a sample");
+  }
+}
+
+TEST(AckImpliesReceived, AReaderOfCycloneDdsThatIsMatchedTwiceIsFound) {
+  const std::size_t row = row_of("MatchedReader", "Unmatched", "Opened", "Silent");
+  const std::uint8_t replied = state_of("MatchedReader", "Replied");
+  expect_violated("safety.ack-implies-received", cyclone(),
+                  with_row("MatchedReader", row, Kind::copy_row, replied, replied),
+                  "has acknowledged a sample");
+}
+
 TEST(RepairOnlyIfAsked, ARequestForWhatIsNotListedIsFound) {
   // With bitmaps a negated guard changes nothing here: what is not listed is confirmed first.
   const std::size_t row = row_of("DescriptorRepair", "U", "AckNackReceived", "R");

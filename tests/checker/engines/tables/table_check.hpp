@@ -33,6 +33,12 @@ inline model::Scenario fastdds() {
   return scenario;
 }
 
+inline model::Scenario cyclone() {
+  model::Scenario scenario;
+  scenario.dds.implementation = model::ImplementationKind::cyclone;
+  return scenario;
+}
+
 inline bool mentions(const Finding& finding, std::string_view text) {
   return std::any_of(finding.details.begin(), finding.details.end(),
                      [&](const std::string& line) { return line.find(text) != std::string::npos; });
