@@ -180,6 +180,21 @@ PairResult compare_orders(Proof& proof, const EventGroup& group, std::size_t fir
   return result;
 }
 
+/// Of each kind, whether its event steps a machine whose table has to be looked at. The state is
+/// free, so whatever it can step after another event it can step here.
+std::vector<bool> concerned_kinds(const Proof& proof, const EventGroup& group, Extent extent) {
+  std::vector<bool> concerned;
+  for (const EventKind& kind : group.kinds) {
+    SymbolicRun run{extent, proof.mistakes().tables};
+    if (!run.mistakes().empty()) kind.happen(run, "a.");
+    concerned.push_back(proof.request().mutant == nullptr ||
+                        std::ranges::any_of(run.stepped(), [&](const std::string& machine) {
+                          return proof.concerns(machine);
+                        }));
+  }
+  return concerned;
+}
+
 std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(width > text.size() ? width - text.size() : 0, ' ');
 }
@@ -188,10 +203,12 @@ std::string padded(const std::string& text, std::size_t width) {
 
 std::vector<PairResult> commutation_matrix(Proof& proof, const EventGroup& group, Extent extent,
                                            const std::function<bool(const PairResult&)>& goes_on) {
+  const std::vector<bool> concerned = concerned_kinds(proof, group, extent);
   std::vector<PairResult> results;
   for (std::size_t i = 0; i < group.kinds.size(); ++i) {
     for (std::size_t j = i; j < group.kinds.size(); ++j) {
-      results.push_back(compare_orders(proof, group, i, j, extent));
+      results.push_back(concerned[i] || concerned[j] ? compare_orders(proof, group, i, j, extent)
+                                                     : PairResult{i, j, Verdict::unknown, {}});
       if (goes_on && !goes_on(results.back())) return results;
     }
   }

@@ -44,7 +44,7 @@ enum class Verdict : char {
   commutes = '.',     ///< from every state
   matters = 'X',      ///< in a state that is consistent
   unreachable = 'u',  ///< only in states that no run reaches
-  unknown = '?'
+  unknown = '?'       ///< no answer; of a mutant also: as without it
 };
 
 struct PairResult {
@@ -55,7 +55,8 @@ struct PairResult {
 };
 
 /// All unordered pairs of kinds, in a deployment of this size; none behind the one of which
-/// `goes_on` says no.
+/// `goes_on` says no. With a mutant only those are asked of which an event steps a machine with a
+/// mistake: without such a step both orders lead to what they lead to without the mutant.
 [[nodiscard]] std::vector<PairResult> commutation_matrix(
     Proof& proof, const EventGroup& group, Extent extent,
     const std::function<bool(const PairResult&)>& goes_on = {});

@@ -16,25 +16,28 @@ class Search {
       : proof_{proof},
         system_{system},
         candidates_{candidates},
+        after_(system.steps.size()),
         result_{std::vector<bool>(candidates.size(), true),
                 std::vector<std::string>(candidates.size()),
                 std::vector<std::string>(candidates.size())} {}
 
   Kept run() {
     remove("initially", {system_.initial}, candidates_);
-    for (bool stable = false; !stable && !stopped_;) {
-      stable = true;
-      for (const SystemStep& step : system_.steps) stable = keep(step) && stable;
+    // One round after the other, until every step has kept all that is left since the last loss.
+    const std::size_t steps = system_.steps.size();
+    for (std::size_t k = 0, kept_by = 0; kept_by < steps && !stopped_; ++k) {
+      kept_by = keep(k % steps) ? kept_by + 1 : 1;
     }
     return std::move(result_);
   }
 
  private:
   /// Whether the step breaks none that is kept.
-  bool keep(const SystemStep& step) {
-    Exprs after;
-    for (const Expr& candidate : candidates_) {
-      after.push_back(with(candidate, system_.variables, step.next));
+  bool keep(std::size_t which) {
+    const SystemStep& step = system_.steps[which];
+    Exprs& after = after_[which];
+    for (std::size_t k = after.size(); k < candidates_.size(); ++k) {
+      after.push_back(with(candidates_[k], system_.variables, step.next));
     }
     bool all = true;
     while (!stopped_ && remove(step.name, {holding(candidates_), step.guard}, after)) all = false;
@@ -87,6 +90,7 @@ class Search {
   Proof& proof_;
   const TransitionSystem& system_;
   const Exprs& candidates_;
+  std::vector<Exprs> after_;  ///< by step, the candidates after it; empty until it is asked
   Kept result_;
   bool stopped_ = false;
 };

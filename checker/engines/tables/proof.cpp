@@ -1,6 +1,8 @@
 // Questions, their answers, and the verdict.
 #include "checker/engines/tables/proof.hpp"
 
+#include <algorithm>
+
 namespace stormproof::tables {
 
 Proof::Proof(std::string_view property, const checker::CheckRequest& request)
@@ -12,6 +14,13 @@ Proof::Proof(std::string_view property, const checker::CheckRequest& request)
 const model::Mutation& Proof::mistakes() const {
   static const model::Mutation none;
   return request_.mutant != nullptr ? request_.mutant->rules : none;
+}
+
+bool Proof::concerns(std::string_view machine) const {
+  if (request_.mutant == nullptr) return true;
+  return std::ranges::any_of(mistakes().tables, [&](const fsm::TableMutation& mistake) {
+    return mistake.machine == machine;
+  });
 }
 
 smt::Decision Proof::ask(std::string_view query, const Exprs& conditions) {

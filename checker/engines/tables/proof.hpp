@@ -32,6 +32,9 @@ class Proof {
   [[nodiscard]] const checker::CheckRequest& request() const { return request_; }
   /// The mistakes of the mutant; none without one.
   [[nodiscard]] const model::Mutation& mistakes() const;
+  /// Whether the table of this machine has to be looked at. Of a mutant it is only asked whether it
+  /// is noticed, and tables without a mistake are those that are decided without it.
+  [[nodiscard]] bool concerns(std::string_view machine) const;
   /// The scenario that runs: the mutant may have changed its knobs.
   [[nodiscard]] const model::Scenario& scenario() const { return scenario_; }
 

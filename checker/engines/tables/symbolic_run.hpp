@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,10 @@ class SymbolicRun {
   Expr knob(const Expr& unknown);
   Expr input(const Expr& unknown);
 
+  /// A machine takes a step here; its name.
+  void steps(std::string_view machine) { stepped_.emplace(machine); }
+  [[nodiscard]] const std::set<std::string, std::less<>>& stepped() const { return stepped_; }
+
   void happens(SymbolicEffect effect) { effects_.push_back(std::move(effect)); }
 
   struct Variable {
@@ -78,6 +84,7 @@ class SymbolicRun {
   const std::vector<fsm::TableMutation>& mistakes_;
   std::map<std::string, Variable> variables_;
   std::map<std::string, Exprs> machines_;  ///< by the name of the first state
+  std::set<std::string, std::less<>> stepped_;
   std::map<std::string, Expr> knobs_;
   std::map<std::string, Expr> inputs_;
   std::vector<SymbolicEffect> effects_;

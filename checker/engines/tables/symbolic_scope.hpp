@@ -82,6 +82,7 @@ class SymbolicScope {
   }
   template <class P, class E>
   auto step(const Expr& when, const typename P::Machine::Io::template Input<D>& input) {
+    run_->steps(fsm::name_of<typename P::Machine>());
     const MachineStep<typename P::Machine> table{run_->mistakes()};
     const auto effect = table.template step<E>(machine<P>(), input, when);
     std::size_t k = 0;

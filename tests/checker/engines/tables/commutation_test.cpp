@@ -19,10 +19,12 @@ constexpr model::Of<comp::fastdds::FastDds> fastdds;
 /// The verdicts of all pairs, by the names of the two kinds.
 using Matrix = std::map<std::string, char>;
 
-Matrix matrix_of(const std::vector<EventGroup>& groups, Extent extent) {
+Matrix matrix_of(const std::vector<EventGroup>& groups, Extent extent,
+                 const checker::Mutant* mutant = nullptr) {
   smt::Claims claims{{.second_solver = false}};
   const model::Scenario scenario;
-  const checker::CheckRequest request{.scenario = scenario, .claims = claims, .on_progress = {}};
+  const checker::CheckRequest request{
+      .scenario = scenario, .claims = claims, .mutant = mutant, .on_progress = {}};
   Proof proof{"order.commutation", request};
   Matrix matrix;
   for (const EventGroup& group : groups) {
@@ -115,6 +117,40 @@ TEST(Commutation, MoreDescriptorsReadersAndWritersChangeNoAnswer) {
       EXPECT_EQ(changed(small, matrix_of(groups, larger)), Matrix{});
     }
   }
+}
+
+/// The same mistake, and in all other tables one that changes nothing, so that all have one.
+checker::Mutant with_all_tables(checker::Mutant mutant) {
+  const std::string mistaken = mutant.rules.tables.front().machine;
+  for (const fsm::MachineInfo& info : fsm::machines()) {
+    if (info.name == mistaken) continue;
+    mutant.rules.tables.push_back({std::string{info.name}, 0, fsm::TableMutation::Kind::retarget, 0,
+                                   info.rows.front().target});
+  }
+  return mutant;
+}
+
+TEST(Commutation, PairsThatAreNotAskedOfAMutantAreAsWithoutIt) {
+  std::size_t differences = 0;
+  for (const auto& groups : {events_of(paper), events_of(fastdds)}) {
+    const Matrix correct = matrix_of(groups, {});
+    for (const char* machine : {"DescriptorRepair", "ChangeForReader", "DiscoveryReader",
+                                "HeartbeatTimer", "SingleShot", "Channel"}) {
+      const auto mutant = with_row(machine, 0, fsm::TableMutation::Kind::drop_row);
+      const auto all = with_all_tables(mutant);
+      const Matrix full = matrix_of(groups, {}, &all);
+      for (const auto& [pair, verdict] : matrix_of(groups, {}, &mutant)) {
+        if (full.at(pair) == '?') {  // it steps no machine at all
+          EXPECT_EQ(verdict, '?') << machine << ": " << pair;
+          continue;
+        }
+        if (full.at(pair) != correct.at(pair)) ++differences;
+        EXPECT_EQ(full.at(pair), verdict == '?' ? correct.at(pair) : verdict)
+            << machine << ": " << pair;
+      }
+    }
+  }
+  EXPECT_GT(differences, 0U);  // of the pairs that are asked
 }
 
 TEST(Commutation, OneReaderIsNotEnough) {
