@@ -106,6 +106,14 @@ std::uint64_t required_over_link(const model::Scenario& scenario) {
 
 }  // namespace
 
+RecordedCapture recorded(const model::Scenario& scenario) {
+  EmissionRecorder recorder;
+  model::RunOptions options;
+  options.probe = &recorder;
+  SimulatedCapture capture = simulated_capture(scenario, options);
+  return {std::move(capture), recorder.emissions()};
+}
+
 Conversation conversation_of(const SimulatedCapture& capture) {
   constexpr std::size_t unpack_limit = std::size_t{1} << 30U;
   const std::vector<MemoryCapture> files{{"simulated.pcap", capture.pcap, unpack_limit}};

@@ -41,6 +41,13 @@ class EmissionRecorder final : public model::Probe {
   std::vector<Emission> emissions_;
 };
 
+/// A run that is written as a capture, and what its packets are.
+struct RecordedCapture {
+  SimulatedCapture capture;
+  std::vector<Emission> emissions;
+};
+[[nodiscard]] RecordedCapture recorded(const model::Scenario& scenario);
+
 /// The capture as `capture summarize` reads it; fails the test if it cannot be read.
 [[nodiscard]] Conversation conversation_of(const SimulatedCapture& capture);
 

@@ -156,13 +156,10 @@ TEST(WriteContents, WhatDoesNotFitInADatagramGoesInSeveral) {
     model::Scenario scenario = paper(2, 1, endpoints);
     scenario.dds.descriptors.user_bytes = model::Bytes{40};
     scenario.dds.sedp.piggyback_threshold_bytes = model::Bytes{1};
-    EmissionRecorder recorder;
-    model::RunOptions options;
-    options.probe = &recorder;
-    const SimulatedCapture capture = simulated_capture(scenario, options);
+    const auto [capture, emissions] = recorded(scenario);
     const Conversation conversation = conversation_of(capture);
     EXPECT_EQ(difference(scenario, capture.run, conversation), "");
-    EXPECT_GT(conversation.datagrams.size(), recorder.emissions().size());
+    EXPECT_GT(conversation.datagrams.size(), emissions.size());
     std::uint32_t largest = 0;
     for (const DatagramRecord& one : conversation.datagrams) {
       largest = std::max(largest, one.payload_bytes);

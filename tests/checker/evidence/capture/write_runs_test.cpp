@@ -16,13 +16,10 @@ namespace write_runs_test {
 
 /// Both comparisons, with every size as the model has it.
 void expect_agreement(const model::Scenario& scenario) {
-  EmissionRecorder recorder;
-  model::RunOptions options;
-  options.probe = &recorder;
-  const SimulatedCapture capture = simulated_capture(scenario, options);
+  const auto [capture, emissions] = recorded(scenario);
   const Conversation conversation = conversation_of(capture);
   EXPECT_EQ(difference(scenario, capture.run, conversation), "");
-  EXPECT_EQ(difference(scenario, recorder.emissions(), conversation), "");
+  EXPECT_EQ(difference(scenario, emissions, conversation), "");
 }
 
 /// Those that a test has time for; the others differ in nothing but length.
@@ -75,10 +72,7 @@ TEST(WriteRandomWithServer, CaptureHasTheCountsAndTheTopologyOfTheRun) {
 
 TEST(WriteRuns, TheComparisonNoticesWhatAServerLeavesOut) {
   model::Scenario scenario = vectors::discovery_vectors().at(1).scenario;
-  EmissionRecorder recorder;
-  model::RunOptions options;
-  options.probe = &recorder;
-  const SimulatedCapture capture = simulated_capture(scenario, options);
+  auto [capture, emissions] = recorded(scenario);
   const Conversation whole = conversation_of(capture);
   ASSERT_EQ(difference(scenario, capture.run, whole), "");
   for (const auto member :
@@ -88,7 +82,6 @@ TEST(WriteRuns, TheComparisonNoticesWhatAServerLeavesOut) {
     ++(other.counts.*member);
     EXPECT_NE(difference(scenario, other, whole), "");
   }
-  std::vector<Emission> emissions = recorder.emissions();
   for (Emission& one : emissions) {
     if (one.kind != model::PacketKind::relayed || !one.relayed->has_data) continue;
     model::Relayed renumbered = *one.relayed;
@@ -146,22 +139,19 @@ TEST(WriteRuns, AnInterruptedRunIsACompleteFile) {
 }
 
 TEST(WriteRuns, TheComparisonNoticesWhatIsLeftOut) {
-  EmissionRecorder recorder;
-  model::RunOptions options;
-  options.probe = &recorder;
-  SimulatedCapture capture = simulated_capture(small_fastdds(), options);
-  std::vector<Emission> emissions = recorder.emissions();
+  auto [capture, whole_run] = recorded(small_fastdds());
+  std::vector<Emission> emissions = whole_run;
   const Conversation whole = conversation_of(capture);
   ASSERT_EQ(difference(small_fastdds(), emissions, whole), "");
   emissions.back().payload_bytes += 4;
   EXPECT_NE(difference(small_fastdds(), emissions, whole), "");
-  emissions = recorder.emissions();
+  emissions = whole_run;
   std::swap(emissions[0].source, emissions[1].source);
   EXPECT_NE(difference(small_fastdds(), emissions, whole), "");
   capture.pcap.resize(capture.pcap.size() / 2);
   const Conversation half = conversation_of(capture);
   EXPECT_NE(difference(small_fastdds(), capture.run, half), "");
-  EXPECT_NE(difference(small_fastdds(), recorder.emissions(), half), "");
+  EXPECT_NE(difference(small_fastdds(), whole_run, half), "");
 }
 
 }  // namespace write_runs_test

@@ -65,13 +65,10 @@ Dissection dissect(const std::vector<std::uint8_t>& pcap) {
 
 void expect_dissected(const model::Scenario& scenario) {
   if (!tshark_is_available()) GTEST_SKIP() << "tshark is not installed";
-  EmissionRecorder recorder;
-  model::RunOptions run_options;
-  run_options.probe = &recorder;
-  const SimulatedCapture capture = simulated_capture(scenario, run_options);
+  const auto [capture, emissions] = recorded(scenario);
   const Dissection dissection = dissect(capture.pcap);
   EXPECT_EQ(dissection.experts, std::vector<std::string>{});
-  EXPECT_EQ(dissection.datagrams, recorder.emissions().size());
+  EXPECT_EQ(dissection.datagrams, emissions.size());
   EXPECT_EQ(dissection.checked_headers, conversation_of(capture).captures.front().packets);
   EXPECT_NE(dissection.topics.find(",rr/simulated_h1_p0/get_parametersReply,"), std::string::npos);
   EXPECT_NE(dissection.topics.find(",rt/bench/topic_00,"), std::string::npos);

@@ -10,6 +10,7 @@
 #include "checker/evidence/validate/validate.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/simulator.hpp"
+#include "tests/checker/evidence/capture/write_comparison.hpp"
 #include "tests/checker/evidence/conform/captures.hpp"
 #include "tests/vectors/cyclone_vectors.hpp"
 
@@ -61,10 +62,8 @@ TEST_P(SimulatedCyclone, IsPredictedExactly) {
   ASSERT_TRUE(scenario) << to_string(scenario.error());
   const auto written = capture::simulated_capture(*scenario);
   ASSERT_TRUE(written.run.completed());
-  const capture::MemoryCapture file{"simulated", written.pcap, written.pcap.size()};
-  const auto conversation = capture::read_conversation(std::span{&file, 1});
-  ASSERT_TRUE(conversation) << to_string(conversation.error());
-  EXPECT_TRUE(conversation->remarks.empty());
+  const auto conversation = capture::testing::conversation_of(written);
+  EXPECT_TRUE(conversation.remarks.empty());
   Request request;
   request.dds = GetParam();
   request.wireless = "emulated-ap";
@@ -72,7 +71,7 @@ TEST_P(SimulatedCyclone, IsPredictedExactly) {
   request.endpoints_done = {model::Nanoseconds{20'000'000}, model::Nanoseconds{20'000'000}};
   request.sampling.samples = 2;
   request.sampling.threads = 1;
-  const auto report = validate(*conversation, request);
+  const auto report = validate(conversation, request);
   ASSERT_TRUE(report) << to_string(report.error());
   EXPECT_TRUE(report->observation.complete);
   EXPECT_GT(report->observation.values[index_of(Figure::repair_data)], 0);

@@ -10,6 +10,7 @@
 #include "checker/evidence/validate/validate.hpp"
 #include "checker/presentation/document/render.hpp"
 #include "model/config/scenario_file.hpp"
+#include "tests/checker/evidence/capture/write_comparison.hpp"
 
 namespace stormproof::validate::testing {
 namespace server_test {
@@ -46,10 +47,7 @@ struct Simulated {
 Simulated simulated(const Profile& profile) {
   Simulated run{capture::simulated_capture(scenario(profile)), {}};
   EXPECT_TRUE(run.written.run.completed());
-  const capture::MemoryCapture file{"simulated", run.written.pcap, run.written.pcap.size()};
-  auto conversation = capture::read_conversation(std::span{&file, 1});
-  EXPECT_TRUE(conversation) << to_string(conversation.error());
-  run.conversation = std::move(*conversation);
+  run.conversation = capture::testing::conversation_of(run.written);
   return run;
 }
 
@@ -120,14 +118,12 @@ TEST_P(WithServer, ASimulatedRunIsPredictedExactly) {
   }
   const auto written = capture::simulated_capture(same);
   ASSERT_TRUE(written.run.completed());
-  const capture::MemoryCapture file{"simulated", written.pcap, written.pcap.size()};
-  const auto conversation = capture::read_conversation(std::span{&file, 1});
-  ASSERT_TRUE(conversation);
+  const auto conversation = capture::testing::conversation_of(written);
   Request wanted = request(profile);
-  wanted.record = record(profile, *conversation, epoch_ns);
+  wanted.record = record(profile, conversation, epoch_ns);
   for (const bool is_cut : {false, true}) {
     if (is_cut) wanted.until_ns = epoch_ns + written.run.discovery_time->count();
-    const auto report = validate(*conversation, wanted);
+    const auto report = validate(conversation, wanted);
     ASSERT_TRUE(report) << to_string(report.error());
     EXPECT_TRUE(report->observation.complete);
     std::size_t predicted = 0;

@@ -8,6 +8,7 @@
 #include "checker/evidence/validate/validate.hpp"
 #include "checker/presentation/document/render.hpp"
 #include "model/config/scenario_file.hpp"
+#include "tests/checker/evidence/capture/write_comparison.hpp"
 
 namespace stormproof::validate::testing {
 namespace simulated_test {
@@ -32,10 +33,7 @@ model::Scenario scenario() {
 capture::Conversation simulated() {
   auto written = capture::simulated_capture(scenario());
   EXPECT_TRUE(written.run.completed());
-  const capture::MemoryCapture file{"simulated", written.pcap, written.pcap.size()};
-  auto conversation = capture::read_conversation(std::span{&file, 1});
-  EXPECT_TRUE(conversation) << to_string(conversation.error());
-  return *conversation;
+  return capture::testing::conversation_of(written);
 }
 
 Request request(const std::string& dds) {
@@ -71,13 +69,11 @@ TEST(SimulatedCapture, IsPredictedExactlyWithStaticPeers) {
   with_peers.dds.peer_ports = 5;
   const auto written = capture::simulated_capture(with_peers);
   ASSERT_TRUE(written.run.completed());
-  const capture::MemoryCapture file{"simulated", written.pcap, written.pcap.size()};
-  const auto conversation = capture::read_conversation(std::span{&file, 1});
-  ASSERT_TRUE(conversation) << to_string(conversation.error());
+  const auto conversation = capture::testing::conversation_of(written);
   Request wanted = request("fastdds-2.6.11");
   wanted.overrides.insert(wanted.overrides.end(), {"dds.discovery=static", "dds.peer_ports=5"});
-  wanted.until_ns = conversation->first_ns + written.run.discovery_time->count();
-  const auto report = validate(*conversation, wanted);
+  wanted.until_ns = conversation.first_ns + written.run.discovery_time->count();
+  const auto report = validate(conversation, wanted);
   ASSERT_TRUE(report) << to_string(report.error());
   for (const Row& row : report->rows) {
     EXPECT_EQ(row.observed, row.median) << name_of(row.figure);
