@@ -22,9 +22,8 @@
 #include "props/laws/families.hpp"
 #include "props/laws/run_log.hpp"
 #include "props/monitors/completion.hpp"
-#include "props/monitors/delay_meter.hpp"
+#include "props/monitors/delay_probe.hpp"
 #include "props/monitors/describe.hpp"
-#include "props/monitors/observer.hpp"
 
 namespace stormproof::props {
 
@@ -99,28 +98,9 @@ Broken physical(const Scenario& scenario, const Simulate& simulate) {
                      time_text(*result.discovery_time), time_text(bound));
 }
 
-/// Δ and k of a run.
-class Delays final : public Observer {
- public:
-  explicit Delays(const Scenario& scenario) : Observer{"law.completion-bound"}, meter_{scenario} {}
-
-  void emitted(const model::Packet& packet, std::uint32_t,
-               std::span<const std::uint32_t>) override {
-    meter_.emitted(packet, now());
-  }
-  void arrived(const model::Packet& packet, bool lost) override { meter_.arrived(packet, lost); }
-  void received(const model::Packet& packet, std::uint32_t receiver) override {
-    meter_.received(topology(), packet, receiver, now());
-  }
-  [[nodiscard]] const DelayMeter& meter() const { return meter_; }
-
- private:
-  DelayMeter meter_;
-};
-
 Broken completion(const Scenario& scenario, const Simulate& simulate) {
-  Delays delays{scenario};
-  const model::RunResult result = simulate(scenario, &delays);
+  DelayProbe probe{scenario};
+  const model::RunResult result = simulate(scenario, &probe);
   if (was_cut_off(result)) return std::nullopt;
   Nanoseconds ready;
   for (const model::Participant& p : scenario.deployment.participants) {
@@ -129,14 +109,14 @@ Broken completion(const Scenario& scenario, const Simulate& simulate) {
   }
   const Nanoseconds known =
       result.end == model::RunEnd::completed ? *result.discovery_time : scenario.time_limit;
-  const Nanoseconds largest = delays.meter().largest(known);
-  const Nanoseconds bound = ready + completion_bound(scenario.dds, largest, delays.meter().lost());
+  const Nanoseconds largest = probe.delays().largest(known);
+  const Nanoseconds bound = ready + completion_bound(scenario.dds, largest, probe.delays().lost());
   const Nanoseconds took = result.completed() ? *result.discovery_time : known;
   if (took <= bound) return std::nullopt;
   return fmt::format(
       "With packets that take at most {} and {} lost, discovery {} {}; it has to be "
       "complete at {}.",
-      time_text(largest), delays.meter().lost(),
+      time_text(largest), probe.delays().lost(),
       result.completed() ? "is complete at" : "is not complete at", time_text(took),
       time_text(bound));
 }

@@ -57,4 +57,9 @@ model::Nanoseconds DelayMeter::largest(model::Nanoseconds end) const {
   return std::max(largest_, end - under_way_.front().emitted);
 }
 
+model::Nanoseconds loopback_of(const model::Scenario& scenario) {
+  const bool same_host = model::traits_of(scenario.dds).discovers_same_host;
+  return same_host ? scenario.deployment.loopback_delay : model::Nanoseconds{0};
+}
+
 }  // namespace stormproof::props

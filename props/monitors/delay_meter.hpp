@@ -49,6 +49,9 @@ class DelayMeter {
   std::uint64_t lost_ = 0;
 };
 
+/// How long packets within a host take; 0 where there are none.
+[[nodiscard]] model::Nanoseconds loopback_of(const model::Scenario& scenario);
+
 /// Whether the packet reaches `receiver` (as in `Probe::received`) over the network.
 [[nodiscard]] bool crosses_hosts(const model::Topology& topology, const model::Packet& packet,
                                  std::uint32_t receiver);

@@ -94,9 +94,7 @@ class Quiescence : public QuiescenceMonitor {
       : QuiescenceMonitor{"live.quiescence"},
         dds_{scenario.dds},
         delays_{scenario},
-        loopback_{model::traits_of(scenario.dds).discovers_same_host
-                      ? scenario.deployment.loopback_delay
-                      : model::Nanoseconds{}} {}
+        loopback_{loopback_of(scenario)} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);

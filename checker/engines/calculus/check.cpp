@@ -11,6 +11,7 @@
 #include "checker/engines/calculus/gain.hpp"
 #include "checker/engines/timeline/theorem.hpp"
 #include "model/implementations.hpp"
+#include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/property.hpp"
 
@@ -167,9 +168,7 @@ Judged judge(const model::Scenario& scenario, const Omission& omission) {
   if (gap != nullptr) judged.gap = gap;
   if (channel && gap == nullptr) judged.traffic = open_loop(scenario, omission);
   judged.threshold = threshold_of(scenario, judged.traffic ? &*judged.traffic : nullptr);
-  const model::Nanoseconds loopback = model::traits_of(scenario.dds).discovers_same_host
-                                          ? scenario.deployment.loopback_delay
-                                          : model::Nanoseconds{0};
+  const Nanoseconds loopback = props::loopback_of(scenario);
   if (!channel) {
     judged.delay = std::max(longest_constant(scenario.wireless), loopback);
   } else if (judged.traffic) {

@@ -9,6 +9,7 @@
 #include "checker/engines/calculus/threshold.hpp"
 #include "model/fastdds/peer_ports.hpp"
 #include "model/implementations.hpp"
+#include "props/monitors/delay_meter.hpp"
 #include "props/monitors/quiescence.hpp"
 
 namespace stormproof::calculus {
@@ -156,9 +157,8 @@ ClosedLoop closed_loop(const model::Scenario& scenario, const Omission& omission
   }
   loop.first = iteration.first_copies();
   if (scenario.wireless.kind == model::ServiceKind::shared_channel) {
-    const bool same_host = model::traits_of(scenario.dds).discovers_same_host;
     loop.gain = iteration.gain();
-    iteration.iterate(loop, same_host ? scenario.deployment.loopback_delay : Nanoseconds{0});
+    iteration.iterate(loop, props::loopback_of(scenario));
   } else {
     loop.delay = judge(scenario).delay;
   }
