@@ -183,14 +183,13 @@ PairResult compare_orders(Proof& proof, const EventGroup& group, std::size_t fir
 /// Of each kind, whether its event steps a machine whose table has to be looked at. The state is
 /// free, so whatever it can step after another event it can step here.
 std::vector<bool> concerned_kinds(const Proof& proof, const EventGroup& group, Extent extent) {
-  std::vector<bool> concerned;
-  for (const EventKind& kind : group.kinds) {
+  std::vector<bool> concerned(group.kinds.size(), proof.request().mutant == nullptr);
+  if (proof.mistakes().tables.empty()) return concerned;
+  for (std::size_t k = 0; k < group.kinds.size(); ++k) {
     SymbolicRun run{extent, proof.mistakes().tables};
-    if (!run.mistakes().empty()) kind.happen(run, "a.");
-    concerned.push_back(proof.request().mutant == nullptr ||
-                        std::ranges::any_of(run.stepped(), [&](const std::string& machine) {
-                          return proof.concerns(machine);
-                        }));
+    group.kinds[k].happen(run, "a.");
+    concerned[k] = std::ranges::any_of(
+        run.stepped(), [&](const std::string& machine) { return proof.concerns(machine); });
   }
   return concerned;
 }

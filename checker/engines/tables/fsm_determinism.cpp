@@ -30,8 +30,7 @@ std::vector<Overlap> candidates(const MachineView& machine) {
 Finding fsm_determinism(const CheckRequest& request) {
   Proof proof{"fsm.determinism", request};
   proof.assume("The inputs of a machine range freely; no relation between them is assumed.");
-  for (const MachineView& machine : machine_views(proof.mistakes().tables)) {
-    if (!proof.concerns(machine.info.name)) continue;
+  for (const MachineView& machine : machine_views(proof)) {
     const std::vector<Overlap> pairs = candidates(machine);
     if (pairs.empty()) {
       proof.detail(std::string{machine.info.name} + ": at most one row per state and event");

@@ -61,8 +61,7 @@ Finding fsm_reachability(const CheckRequest& request) {
   proof.assume(
       "The inputs of a machine range freely, so this is about the table: what its surroundings "
       "never ask of it in a run counts as possible here.");
-  for (const MachineView& machine : machine_views(proof.mistakes().tables)) {
-    if (!proof.concerns(machine.info.name)) continue;
+  for (const MachineView& machine : machine_views(proof)) {
     check_machine(proof, machine);
   }
   proof.detail(

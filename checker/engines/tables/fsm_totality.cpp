@@ -46,8 +46,7 @@ void check_pair(Proof& proof, const MachineView& machine, const IgnoredPairs& li
 Finding fsm_totality(const CheckRequest& request) {
   Proof proof{"fsm.totality", request};
   proof.assume("The inputs of a machine range freely; no relation between them is assumed.");
-  for (const MachineView& machine : machine_views(proof.mistakes().tables)) {
-    if (!proof.concerns(machine.info.name)) continue;
+  for (const MachineView& machine : machine_views(proof)) {
     const IgnoredPairs listed = ignored_pairs(machine.info.name);
     Tally tally;
     for (fsm::StateId state = 0; state < machine.info.states.size(); ++state) {

@@ -2,6 +2,7 @@
 #include "checker/engines/tables/machine_view.hpp"
 
 #include "checker/engines/tables/free_input.hpp"
+#include "checker/engines/tables/proof.hpp"
 #include "fsm/reopening_repair.hpp"
 #include "fsm/row_table.hpp"
 
@@ -22,9 +23,7 @@ MachineView view(const std::vector<fsm::TableMutation>& mutations) {
   return machine;
 }
 
-}  // namespace
-
-std::vector<MachineView> machine_views(const std::vector<fsm::TableMutation>& mutations) {
+std::vector<MachineView> all_machines(const std::vector<fsm::TableMutation>& mutations) {
   return {view<fsm::DescriptorRepair>(mutations), view<fsm::DiscoveryReader>(mutations),
           view<fsm::HeartbeatTimer>(mutations),   view<fsm::InitialAckNack>(mutations),
           view<fsm::Announcer>(mutations),        view<fsm::Channel>(mutations),
@@ -33,6 +32,14 @@ std::vector<MachineView> machine_views(const std::vector<fsm::TableMutation>& mu
           view<fsm::CautiousReader>(mutations),   view<fsm::MatchedReader>(mutations),
           view<fsm::HeartbeatPacer>(mutations),   view<fsm::EventThread>(mutations),
           view<fsm::MovableTimer>(mutations),     view<fsm::ReopeningRepair>(mutations)};
+}
+
+}  // namespace
+
+std::vector<MachineView> machine_views(const Proof& proof) {
+  std::vector<MachineView> machines = all_machines(proof.mistakes().tables);
+  std::erase_if(machines, [&](const MachineView& one) { return !proof.concerns(one.info.name); });
+  return machines;
 }
 
 }  // namespace stormproof::tables

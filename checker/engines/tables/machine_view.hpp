@@ -40,8 +40,10 @@ struct MachineView {
   }
 };
 
-/// All ten machines, with the mistakes of a mutant, in the current symbolic context.
-[[nodiscard]] std::vector<MachineView> machine_views(
-    const std::vector<fsm::TableMutation>& mutations);
+class Proof;
+
+/// The machines whose tables have to be looked at, with the mistakes of the mutant: all, or those
+/// with a mistake.
+[[nodiscard]] std::vector<MachineView> machine_views(const Proof& proof);
 
 }  // namespace stormproof::tables
