@@ -1,4 +1,5 @@
-// One pass over the nodes, with the participant of each host that has room for one more.
+// One pass over the nodes, with the participant of each host that has room for one more; and what
+// such a participant says of its nodes.
 #include "model/nodes.hpp"
 
 #include <algorithm>
@@ -42,6 +43,17 @@ Deployment sharing_participants(const Deployment& nodes, std::uint32_t per_parti
     }
   }
   return shared;
+}
+
+Bytes last_graph_info(const Deployment& deployment) {
+  constexpr std::int64_t gid_bytes = 24;
+  constexpr std::int64_t of_the_participant = 2;  // its own writer and reader of the topic
+  std::int64_t most = 0;
+  for (const Participant& p : deployment.participants) {
+    most = std::max(most, of_the_participant + Deployment::endpoints_of_a_node +
+                              std::int64_t{p.publications} + p.subscriptions);
+  }
+  return Bytes{gid_bytes * most};
 }
 
 }  // namespace stormproof::model

@@ -70,6 +70,12 @@ std::string elaboration(const Simulation& s) {
         fmt::format("From the last start or change of endpoints on ({}) {} messages are sent. ",
                     duration(last_start(s.scenario.deployment)), *result.messages_since_last_start);
   }
+  if (const auto graph = s.fragmented_graph_info()) {
+    text += fmt::format(
+        "Not in the model: ros_discovery_info, sent whole again with each new endpoint, has at "
+        "least {} B in the end. ",
+        grouped(static_cast<std::uint64_t>(graph->count())));
+  }
   if (!s.open_loop) {
     if (model::traits_of(s.scenario.dds).has_server) {
       return text + "No open-loop airtime: it is not defined with a Discovery Server.";

@@ -8,6 +8,7 @@
 #include "checker/presentation/json/describe_model.hpp"
 #include "checker/presentation/json/schema.hpp"
 #include "model/config/knobs/effective.hpp"
+#include "model/implementations.hpp"
 #include "model/reference.hpp"
 
 namespace stormproof::model {
@@ -177,6 +178,15 @@ exact::Outlook Simulation::outlook() const {
   return exact::Outlook{std::vector{exact::health_of(scenario, result)}};
 }
 
+std::optional<model::Bytes> Simulation::fragmented_graph_info() const {
+  constexpr model::Bytes frame{1472};  // UDP payload of one unfragmented Ethernet frame
+  const model::Bytes bytes = last_graph_info(scenario.deployment);
+  if (!model::traits_of(scenario.dds).creates_endpoints_over_time || bytes <= frame) {
+    return std::nullopt;
+  }
+  return bytes;
+}
+
 template <class V>
 void describe(V& v, const Simulation& s) {
   const RunResult& result = s.result;
@@ -195,6 +205,7 @@ void describe(V& v, const Simulation& s) {
   v("t_disc_ns", result.discovery_time);
   v.unless_empty("recovery_ns", result.recovery_time);
   v.unless_empty("messages_since_last_start", result.messages_since_last_start);
+  v.unless_empty("ros_discovery_info_bytes", s.fragmented_graph_info());
   v("end_ns", result.end_time);
   v("counts", model::AllCounts{result.counts, result.user_control});
   v("failure_free", s.failure_free);

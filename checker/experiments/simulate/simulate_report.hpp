@@ -12,6 +12,7 @@
 #include "checker/presentation/document/document.hpp"
 #include "checker/presentation/json/schema_form.hpp"
 #include "model/counts.hpp"
+#include "model/nodes.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
 #include "props/limits.hpp"
@@ -30,6 +31,8 @@ struct Simulation {
 
   /// Of all samples, or of the one run.
   [[nodiscard]] exact::Outlook outlook() const;
+  /// The least that the last `ros_discovery_info` has, if it does not fit into one frame.
+  [[nodiscard]] std::optional<model::Bytes> fragmented_graph_info() const;
 };
 
 /// Completes a run with its reference and its baseline.
@@ -39,7 +42,8 @@ struct Simulation {
 /// For a person who knows ROS 2 but not this project.
 [[nodiscard]] Document document_of(const Simulation& simulation);
 
-/// Keys: scenario, outlook, completed, end, t_disc_ns, end_ns, counts, failure_free, amplification,
+/// Keys: scenario, outlook, completed, end, t_disc_ns, ros_discovery_info_bytes (if it is more than
+/// a frame), end_ns, counts, failure_free, amplification,
 /// events, open_loop_ns, closed_to_open_loop, limits (if the scenario has any), missing, channels,
 /// backlog, latency, deliveries, last_delivery, profile. specs/guide/output.md describes them.
 [[nodiscard]] nlohmann::ordered_json to_json(const Simulation& simulation);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "model/config/scenario_file.hpp"
+#include "model/nodes.hpp"
 #include "model/reference.hpp"
 
 namespace stormproof::model::config {
@@ -92,6 +93,13 @@ TEST(NodesPerParticipant, IsRefusedWhereItCannotBe) {
       read({"deployment.nodes_per_participant=5", "deployment.endpoints_per_participant=30000"});
   ASSERT_FALSE(many);
   EXPECT_NE(to_string(many.error()).find("nodes_per_participant"), std::string::npos);
+}
+
+/// A node has 17 endpoints, each further one of the participant 15; and 24 B for each.
+TEST(GraphInfo, GrowsWithWhatSharesAParticipant) {
+  EXPECT_EQ(last_graph_info(Deployment::homogeneous(2, 5, 20)), Bytes{24 * 37});
+  EXPECT_EQ(last_graph_info(Deployment::homogeneous(2, 5, 20, 5)), Bytes{24 * 177});
+  EXPECT_EQ(last_graph_info(Deployment::homogeneous(2, 5, 20, 4)), Bytes{24 * 142});
 }
 
 }  // namespace nodes_per_participant_test
