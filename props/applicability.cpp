@@ -44,7 +44,8 @@ constexpr std::array<std::string_view, 2> certified_of_cyclone{"safety.ack-impli
 constexpr std::string_view unwatched_of_cyclone = "safety.snapshot";
 
 /// What is observed in runs of Cyclone DDS, and not proved.
-constexpr std::array<std::string_view, 1> observed_of_cyclone{"composition.followed"};
+constexpr std::array<std::string_view, 4> observed_of_cyclone{
+    "safety.repair-only-if-asked", "live.no-stall", "storm.feedback-gain", "composition.followed"};
 
 /// Their bounds and theorems count from instants at which timers are due.
 constexpr std::array<std::string_view, 7> of_punctual_timers{
@@ -173,6 +174,10 @@ std::string_view why_not_applicable(std::string_view property,
            "and live.isolation for Fast DDS whose participants have a life (deployment.life)";
   }
   if (model::traits_of(implementation).is_known_to_engines) return {};
+  if (writer == model::Writer::of_cyclone) {
+    return "it has no meaning for Cyclone DDS's writer, or no engine knows how to decide it there "
+           "(specs/guide/cyclone.md, \"What is not\")";
+  }
   return "it is stated for the writers of the paper and of Fast DDS; of this one only machines, "
          "network and results are checked";
 }

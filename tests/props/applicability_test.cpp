@@ -34,7 +34,8 @@ TEST(CycloneDds, IsSpokenOfByWhatItsRulesProve) {
 }
 
 TEST(CycloneDds, IsSpokenOfByWhatItsMonitorsObserve) {
-  for (const char* const property : {"composition.followed"}) {
+  for (const char* const property : {"composition.followed", "safety.repair-only-if-asked",
+                                     "live.no-stall", "storm.feedback-gain"}) {
     EXPECT_EQ(why_not_applicable(property, cyclone()), "") << property;
     EXPECT_TRUE(is_watched(cyclone(), property)) << property;
   }
@@ -42,8 +43,8 @@ TEST(CycloneDds, IsSpokenOfByWhatItsMonitorsObserve) {
 
 TEST(CycloneDds, IsNotSpokenOfByPropertiesOfOtherWriters) {
   for (const char* const property :
-       {"safety.repair-only-if-asked", "timer.single-heartbeat", "live.no-stall", "live.completion",
-        "storm.single-copy", "composition.live"}) {
+       {"timer.single-heartbeat", "timer.suppression-honoured", "live.completion",
+        "live.quiescence", "storm.single-copy", "composition.live"}) {
     EXPECT_NE(why_not_applicable(property, cyclone()), "") << property;
     EXPECT_EQ(why_not_applicable(property, model::Scenario{}), "") << property;
   }
