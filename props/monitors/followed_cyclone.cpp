@@ -115,6 +115,7 @@ class CycloneFollower final : public FollowedRules<CycloneFollower, cyclone::Cyc
   static bool says(cyclone::IsDirected, const Message& heard) { return heard.directed; }
   static std::int64_t says(cyclone::Count, const Message& heard) { return heard.count; }
   using FollowedRules::say;
+  /// DATA carries the sample of its place.
   template <class Term>
   static void say(Message& content, World& w, const comp::Says<comp::Carries, Term>&) {
     content.descriptors = {w.place().descriptor};
@@ -255,6 +256,7 @@ class CycloneFollower final : public FollowedRules<CycloneFollower, cyclone::Cyc
     const std::int64_t bytes = bytes_of(content, known, multicast_);
     return {std::move(content), std::move(to), bytes};
   }
+
   void hear(const Message& content, std::uint32_t sender, std::uint32_t receiver) {
     const bool to_writer = content.kind == model::PacketKind::acknack;
     const std::uint32_t pair = to_writer ? topology_.pair_between(receiver, sender)
