@@ -43,6 +43,10 @@ constexpr std::array<std::string_view, 2> certified_of_cyclone{"safety.ack-impli
 /// Of these, what no monitor watches in its runs.
 constexpr std::string_view unwatched_of_cyclone = "safety.snapshot";
 
+/// What is observed in runs of Cyclone DDS, and not proved.
+constexpr std::array<std::string_view, 4> observed_of_cyclone{
+    "safety.repair-only-if-asked", "live.no-stall", "storm.feedback-gain", "composition.followed"};
+
 /// Their bounds and theorems count from instants at which timers are due.
 constexpr std::array<std::string_view, 7> of_punctual_timers{
     "live.completion",   "live.quiescence",      "live.recovery",     "live.isolation",
@@ -161,13 +165,19 @@ std::string_view why_not_applicable(std::string_view property,
   if (is_of_all(property)) return {};
   const model::Writer writer = model::traits_of(implementation).writer;
   const bool is_paper = writer == model::Writer::of_the_paper;
-  if (writer == model::Writer::of_cyclone && is_certified(property, writer)) return {};
+  const bool is_of_cyclone =
+      is_certified(property, writer) || is_among(observed_of_cyclone, property);
+  if (writer == model::Writer::of_cyclone && is_of_cyclone) return {};
   if (is_paper && is_among(of_amended_rules, property)) return {};
   if (is_among(of_the_papers_rules, property)) {
     return "it is stated for the rules of the closed-loop model, amended or not, and live.recovery "
            "and live.isolation for Fast DDS whose participants have a life (deployment.life)";
   }
   if (model::traits_of(implementation).is_known_to_engines) return {};
+  if (writer == model::Writer::of_cyclone) {
+    return "it has no meaning for Cyclone DDS's writer, or no engine knows how to decide it there "
+           "(specs/guide/cyclone.md, \"What is not\")";
+  }
   return "it is stated for the writers of the paper and of Fast DDS; of this one only machines, "
          "network and results are checked";
 }

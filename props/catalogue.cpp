@@ -1,6 +1,7 @@
 // The property catalogue. Symbols as in specs/guide/model.md: D a descriptor of a relation (i, j,
 // s), X its bit at the reader j, C its state at the writer i, W the size of a source queue, Δ a
 // bound on the delay of a packet from its emission to its reception.
+#include <algorithm>
 #include <array>
 
 #include "model/implementations.hpp"
@@ -270,6 +271,23 @@ const std::array properties{
              "fsm/composition; stormproof draw composition"},
 };
 
+/// What properties that are observed of Cyclone DDS's writer say of it.
+struct Addition {
+  std::string_view id;
+  std::string_view text;
+};
+constexpr std::array for_cyclone{
+    Addition{"safety.repair-only-if-asked",
+             "A sample goes out once when it is created, and otherwise at most once for each "
+             "ACKNACK that listed it, whichever reader sent that."},
+    Addition{"live.no-stall",
+             "It is the writer's HEARTBEAT timer that is under way, or the announcement timer of "
+             "whoever is unknown."},
+    Addition{"storm.feedback-gain",
+             "A HEARTBEAT that is meant for one reader alone answers an ACKNACK of its own, which "
+             "was pre-emptive or asked for something."},
+};
+
 }  // namespace
 
 const char* name_of(Engine engine) {
@@ -307,10 +325,18 @@ std::string_view Property::weakness_of(model::ImplementationKind implementation)
 
 std::span<const Property> catalogue() { return properties; }
 
+std::string_view addition_of(const Property& property, model::ImplementationKind implementation) {
+  const model::Writer writer = model::traits_of(implementation).writer;
+  if (writer == model::Writer::stateful) return property.stateful;
+  if (writer != model::Writer::of_cyclone) return {};
+  const auto* const found = std::ranges::find(for_cyclone, property.id, &Addition::id);
+  return found == for_cyclone.end() ? std::string_view{} : found->text;
+}
+
 std::string statement_of(const Property& property, model::ImplementationKind implementation) {
   std::string text{property.statement};
-  const bool stateful = model::traits_of(implementation).writer == model::Writer::stateful;
-  if (stateful && !property.stateful.empty()) text.append(" ").append(property.stateful);
+  const std::string_view more = addition_of(property, implementation);
+  if (!more.empty()) text.append(" ").append(more);
   return text;
 }
 

@@ -49,6 +49,10 @@ struct Property {
 /// All properties, in the order in which reports show them.
 [[nodiscard]] std::span<const Property> catalogue();
 
+/// What is to be added to the statement for the writer of an implementation; mostly nothing.
+[[nodiscard]] std::string_view addition_of(const Property& property,
+                                           model::ImplementationKind implementation);
+
 /// What the property says about profiles of this implementation.
 [[nodiscard]] std::string statement_of(const Property& property,
                                        model::ImplementationKind implementation);

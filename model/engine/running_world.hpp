@@ -46,6 +46,7 @@
 #include "model/engine/descriptor_set.hpp"
 #include "model/engine/lanes.hpp"
 #include "model/engine/topology.hpp"
+#include "model/engine/writer_layout.hpp"
 
 namespace stormproof::model {
 
@@ -119,14 +120,6 @@ class DescriptorLanes {
 
   World& world_;
   std::uint32_t k_;
-};
-
-/// How writers and relations are numbered: with `stride` writers of each participant, writer c of
-/// participant i has number i·stride + c, and its relation on a pair pair·stride + c. Loops over
-/// streams are about the first `streams` of them.
-struct WriterLayout {
-  std::uint32_t stride = 2;
-  std::uint32_t streams = 2;
 };
 
 template <class Host_, Owner place_>

@@ -125,11 +125,11 @@ constexpr Law bounds_list[] = {
     {"law.physical-bound",
      "T_disc is at least the first start and, on every channel, the airtime of one DATA packet "
      "with all descriptors for each relation.",
-     always, physical},
+     is_sent_to_each, physical},
     {"law.completion-bound",
      "If no packet takes longer than Δ and k are lost, discovery is complete within "
      "completion_bound(Δ, k) after everybody is there.",
-     always, completion},
+     is_of_two_writers, completion},
 };
 
 }  // namespace

@@ -240,10 +240,10 @@ constexpr Law causality_list[] = {
     {"law.delivered",
      "Only a packet that is delivered to a started participant changes a state that depends on "
      "it.",
-     always, receptions},
+     is_of_two_writers, receptions},
     {"law.knowledge",
      "A reader knows only what was sent and received, and an ACKNACK confirms nothing else.",
-     always, knowledge},
+     is_of_two_writers, knowledge},
 };
 
 }  // namespace

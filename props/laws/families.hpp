@@ -27,6 +27,23 @@ quiet_laws();  ///< a network without delays or losses to speak of
 [[nodiscard]] std::span<const Law> bound_laws();       ///< how fast and how slow discovery can be
 [[nodiscard]] std::span<const Law> adaptive_laws();    ///< the response-aware policy
 
+/// Of laws that are about packets, events and timers as the paper and Fast DDS have them.
+[[nodiscard]] inline bool is_of_two_writers(const model::Scenario& scenario) {
+  const model::Writer writer = model::traits_of(scenario.dds).writer;
+  return writer == model::Writer::of_the_paper || writer == model::Writer::stateful;
+}
+/// Of those that know Cyclone DDS's messages, too.
+[[nodiscard]] inline bool is_of_three_writers(const model::Scenario& scenario) {
+  return is_of_two_writers(scenario) ||
+         model::traits_of(scenario.dds).writer == model::Writer::of_cyclone;
+}
+/// Of those that count on packets of their own for each reader.
+[[nodiscard]] inline bool is_sent_to_each(const model::Scenario& scenario) {
+  const bool by_group =
+      !is_of_two_writers(scenario) && scenario.dds.allow_multicast == model::AllowMulticast::always;
+  return is_of_three_writers(scenario) && !by_group;
+}
+
 /// Of laws that say something about every scenario.
 [[nodiscard]] inline bool always(const model::Scenario&) { return true; }
 [[nodiscard]] inline const model::ImplementationTraits& traits_of(const model::Scenario& scenario) {

@@ -284,13 +284,13 @@ constexpr Law obligations_list[] = {
     {"law.answers",
      "A HEARTBEAT at an open reader side is answered by one ACKNACK τ_A later, and no other "
      "ACKNACK is sent (Fast DDS: one answer to all that came meanwhile).",
-     always, observed<AnswerWatch>},
+     is_of_two_writers, observed<AnswerWatch>},
     {"law.initial-attempts",
      "A reader asks by itself τ_I, 3·τ_I, 7·τ_I, … (with a constant interval τ_I, 2·τ_I, 3·τ_I, …) "
      "after it opened, until it has seen a HEARTBEAT.",
-     always, observed<AttemptWatch>},
+     is_of_two_writers, observed<AttemptWatch>},
     {"law.announcements", "Every participant announces itself at the times that the profile says.",
-     always, observed<AnnouncementWatch>},
+     is_of_two_writers, observed<AnnouncementWatch>},
     {"law.work-conserving",
      "No channel idles while a fragment waits for it, and none serves two at a time.", is_shared,
      observed<IdleWatch>},

@@ -70,6 +70,7 @@ Scenario quiet(Scenario scenario) {
 
 /// Timers that leave room for a delay.
 bool can_be_quiet(const Scenario& scenario) {
+  if (!is_of_two_writers(scenario)) return false;
   const Scenario candidate = quiet(scenario);
   return least_timer(candidate) > candidate.time_limit;
 }

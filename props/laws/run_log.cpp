@@ -7,6 +7,8 @@
 
 #include <fmt/core.h>
 
+#include "model/cyclone/endpoints.hpp"
+#include "model/engine/submessage.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::props {
@@ -16,14 +18,17 @@ using model::Nanoseconds;
 
 std::size_t RunLog::first_bitmap() const { return first_bitmap_.value_or(entries_.size()); }
 
-void RunLog::run_started(const model::Topology& topology) { topology_ = &topology; }
+void RunLog::run_started(const model::Topology& topology) {
+  topology_ = &topology;
+  stride_ = model::cyclone::writers_per_participant(topology);
+}
 
 void RunLog::event_started(const model::Event& event) {
   current_ = {Nanoseconds{event.time.count() * reading_.time_factor} + reading_.time_shift,
               event.kind, 0};
   drop_current_ = false;
   note(static_cast<std::uint64_t>(event.event_class()));
-  note_subject(event.kind, event.subject);
+  note_subject(model::trace::subject_of(event.kind), event.subject);
   if (event.kind == EventKind::reception)
     note_participant(event.detail);
   else
@@ -39,31 +44,8 @@ void RunLog::event_finished(const model::Depths& depths) {
 void RunLog::transition(const model::MachineRef& machine, std::string_view event,
                         std::string_view before, std::string_view after, std::uint32_t first_word,
                         std::uint64_t descriptors) {
-  using Kind = model::MachineRef::Kind;
   note(machine.machine);
-  switch (machine.kind) {
-    case Kind::relation:
-      note_pair(machine.subject / 2);
-      note(machine.subject % 2);
-      break;
-    case Kind::writer:
-      note_participant(machine.subject / 2);
-      note(machine.subject % 2);
-      break;
-    case Kind::participant:
-      note_participant(machine.subject);
-      break;
-    case Kind::channel:
-      note(machine.subject);
-      break;
-    case Kind::pair:
-      note_pair(machine.subject);
-      break;
-    case Kind::control_relation:  // numbered by pair; the packets tell which
-    case Kind::endpoint_relation:
-    case Kind::endpoint_writer:
-      break;
-  }
+  note_subject(model::trace::subject_of(machine.kind), machine.subject);
   note(event);
   note(before);
   note(after);
@@ -76,7 +58,7 @@ void RunLog::scheduled(std::uint64_t insertion, Nanoseconds time, EventKind kind
   if (!reading_.schedule) return;
   note(static_cast<std::uint64_t>(kind));
   note_time(time);
-  note_subject(kind, subject);
+  note_subject(model::trace::subject_of(kind), subject);
   if (reading_.insertions) note(insertion);
 }
 
@@ -137,33 +119,37 @@ void RunLog::note_pair(std::uint32_t pair) {
   note_participant(topology_->pair(pair).destination);
 }
 
-void RunLog::note_subject(EventKind kind, std::uint32_t subject) {
-  switch (kind) {
-    case EventKind::announcement_due:
-    case EventKind::endpoint_creation:
-    case EventKind::async_run:
-      note_participant(subject);
+void RunLog::note_subject(model::trace::Subject subject, std::uint32_t number) {
+  using enum model::trace::Subject;
+  switch (subject) {
+    case participant:
+      note_participant(number);
       break;
-    case EventKind::heartbeat_expiry:
-    case EventKind::cycle_start:
-    case EventKind::cycle_end:
-    case EventKind::batch_due:
-    case EventKind::nack_response:
-      note_participant(subject / 2);
-      note(subject % 2);
+    case pair:
+      note_pair(number);
       break;
-    case EventKind::acknack_generation:
-    case EventKind::initial_acknack_due:
-    case EventKind::repair_generation:
-    case EventKind::suppression_end:
-      note_pair(subject / 2);
-      note(subject % 2);
+    case writer:
+      note_participant(number / 2);
+      note(number % 2);
       break;
-    case EventKind::service_finished:
-    case EventKind::dispatch:
-      note(subject);
+    case relation:
+      note_pair(number / 2);
+      note(number % 2);
       break;
-    default:  // places in memory, and control-only relations, which the packets tell
+    case endpoint_writer:
+      note_participant(number / stride_);
+      note(number % stride_);
+      break;
+    case endpoint_relation:
+      note_pair(number / stride_);
+      note(number % stride_);
+      break;
+    case channel:
+      note(number);
+      break;
+    case control_relation:  // numbered by pair; the packets tell which
+    case access_point:
+    case packet:  // places in memory
       break;
   }
 }
@@ -182,6 +168,18 @@ void RunLog::note_packet(const model::Packet& packet) {
   }
   note(packet.heartbeats);
   note(packet.initial_acknack ? 1 : 0);
+  if (packet.submessages == nullptr) return;
+  for (const model::Submessage& each : *packet.submessages) note_submessage(each);
+}
+
+void RunLog::note_submessage(const model::Submessage& submessage) {
+  note(static_cast<std::uint64_t>(submessage.kind));
+  note_participant(submessage.participant);
+  note(submessage.writer);
+  note(submessage.sample);
+  note(static_cast<std::uint64_t>(submessage.count));
+  note((submessage.directed ? 2U : 0U) + (submessage.initial ? 1U : 0U));
+  submessage.bitmap.for_each([&](std::uint32_t d) { note(d); });
 }
 
 std::optional<std::string> first_difference(const RunLog& one, const RunLog& other,

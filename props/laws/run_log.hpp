@@ -12,6 +12,7 @@
 #include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 #include "model/run_result.hpp"
+#include "model/trace/event_subject.hpp"
 #include "props/laws/law.hpp"
 
 namespace stormproof::props {
@@ -62,11 +63,13 @@ class RunLog final : public model::Probe {
   void note_time(model::Nanoseconds time);
   void note_participant(std::uint32_t i);
   void note_pair(std::uint32_t pair);
-  void note_subject(model::EventKind kind, std::uint32_t subject);
+  void note_subject(model::trace::Subject subject, std::uint32_t number);
   void note_packet(const model::Packet& packet);
+  void note_submessage(const model::Submessage& submessage);
 
   Reading reading_;
   const model::Topology* topology_ = nullptr;
+  std::uint32_t stride_ = 1;  // of Cyclone DDS's writers
   std::vector<Entry> entries_;
   Entry current_;
   bool drop_current_ = false;

@@ -32,6 +32,8 @@ Broken translation(const Scenario& scenario, const Simulate& simulate) {
   for (model::Participant& p : later.deployment.participants) {
     p.start += shift;
     p.endpoints_done += shift;
+    if (p.open) *p.open += shift;
+    if (p.ready) *p.ready += shift;
   }
   Reading reading;
   reading.time_shift = shift;
@@ -117,6 +119,7 @@ void for_each_duration(Scenario& scenario, Change&& change) {
 }
 
 bool has_one_unit(const Scenario& scenario) {
+  if (!is_of_two_writers(scenario)) return false;
   return !traits_of(scenario).has_control_relations ||
          scenario.wireless.kind == model::ServiceKind::constant_delay;
 }

@@ -232,11 +232,11 @@ constexpr Law workload_list[] = {
     {"law.workload",
      "Delivered and missing descriptors are F of eq. (1) together, and initial DATA = F at "
      "completion.",
-     always, workload},
+     is_sent_to_each, workload},
     {"law.homogeneous-forms",
      "On homogeneous deployments eq. (1) and (2), the reference and the open-loop airtime agree "
      "with their closed forms.",
-     always, homogeneous_forms},
+     is_of_two_writers, homogeneous_forms},
 };
 
 }  // namespace

@@ -103,8 +103,7 @@ class StabilityOfAcknowledgments : public Acknowledgments {
 }  // namespace
 
 MonitorPtr watch_acknowledgments(const model::Scenario& scenario) {
-  const bool are_numbers = model::traits_of(scenario.dds).writer == model::Writer::of_cyclone;
-  if (are_numbers) return watch_acknowledged_samples();
+  if (has_samples(scenario)) return watch_acknowledged_samples();
   return attentive<TruthOfAcknowledgments>();
 }
 MonitorPtr watch_stable_acknowledgments(const model::Scenario&) {

@@ -132,6 +132,9 @@ MonitorPtr watch_joins(const model::Scenario&) { return attentive<Joins>(); }
 MonitorPtr watch_piggybacks(const model::Scenario& scenario) {
   return attentive<Piggybacks>(scenario);
 }
-MonitorPtr watch_feedback(const model::Scenario&) { return attentive<Feedback>(); }
+MonitorPtr watch_feedback(const model::Scenario& scenario) {
+  if (has_samples(scenario)) return watch_directed_heartbeats();
+  return attentive<Feedback>();
+}
 
 }  // namespace stormproof::props

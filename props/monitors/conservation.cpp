@@ -3,7 +3,7 @@
 // a fragment waits for it, once all events of an instant are processed; no packet is admitted twice
 // or lost between the backlog and its reception; a channel serves one fragment at a time
 // (specs/guide/model.md, "Packets, fragments, queue, channel"). With `constant_delay` there is
-// neither queue nor channel, so nothing can break.
+// neither queue nor channel, so nothing can break. Who listens but is not ready yet receives later.
 //
 // Packets are admitted in the order of their emission, so the length of a backlog tells which ones.
 #include <algorithm>
@@ -25,6 +25,7 @@ class Conservation : public Observer {
  public:
   explicit Conservation(const model::Scenario& scenario)
       : Observer{"safety.conservation"},
+        participants_{scenario.deployment.participants},
         fragmentation_{scenario.wireless},
         capacity_{scenario.wireless.source_queue_bytes.count()},
         stages_{static_cast<std::uint32_t>(scenario.wireless.stages.size())},
@@ -128,7 +129,9 @@ class Conservation : public Observer {
   }
   void arrived(const model::Packet& packet, bool lost) override {
     if (!shared_) return;
-    if (!lost && !packet.to_nobody) to_be_received_.push_back(packet.number);
+    if (!lost && !packet.to_nobody && is_received_now(packet)) {
+      to_be_received_.push_back(packet.number);
+    }
     const Admitted* const found = admitted_.find(packet.number);
     if (found == nullptr || !found->left || found->served != found->fragments * stages_) {
       object_now(fmt::format("At {} packet {} arrives without having had all its services.",
@@ -174,6 +177,23 @@ class Conservation : public Observer {
     std::uint64_t waiting = 0;
   };
 
+  /// Whether it reaches somebody who is not busy starting.
+  [[nodiscard]] bool is_received_now(const model::Packet& packet) const {
+    const auto is_free = [&](std::uint32_t pair) {
+      const std::uint32_t receiver =
+          packet.to_writer() ? topology().pair(pair).source : topology().pair(pair).destination;
+      if (receiver >= participants_.size()) return true;  // a server, which is always ready
+      const model::Participant& p = participants_[receiver];
+      return now() < p.open.value_or(p.start) || now() >= p.ready.value_or(p.start);
+    };
+    if (!packet.multicast()) return is_free(packet.pair);
+    for (std::uint32_t pair = topology().first_pair(packet.pair);
+         pair < topology().first_pair(packet.pair + 1); ++pair) {
+      if (topology().pair(pair).cross_host && is_free(pair)) return true;
+    }
+    return topology().peer_count(packet.pair) == 0;
+  }
+
   void admit(std::uint32_t participant, Source& source) {
     Emitted& head = source.backlog.front();
     const Admitted flight{participant, head.demand, head.fragments, 0, 0, false};
@@ -208,6 +228,7 @@ class Conservation : public Observer {
     }
   }
 
+  const std::vector<model::Participant> participants_;
   model::Fragmentation fragmentation_;
   std::int64_t capacity_;
   std::uint32_t stages_;

@@ -2,9 +2,12 @@
 #include "props/monitors/deeds.hpp"
 
 #include <bit>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "model/cyclone/endpoints.hpp"
+#include "model/engine/submessage.hpp"
 #include "model/trace/event_subject.hpp"
 #include "props/monitors/describe.hpp"
 
@@ -25,6 +28,17 @@ std::string subject_text(const model::Topology& topology, Subject subject, std::
     case Subject::pair:
       return fmt::format("participant {} at participant {}", topology.pair(number).source,
                          topology.pair(number).destination);
+    case Subject::endpoint_writer: {
+      const std::uint32_t stride = model::cyclone::writers_per_participant(topology);
+      return fmt::format("participant {}'s writer of {}", number / stride,
+                         model::cyclone::name_of_writer(number % stride));
+    }
+    case Subject::endpoint_relation: {
+      const std::uint32_t stride = model::cyclone::writers_per_participant(topology);
+      const model::Pair& ends = topology.pair(number / stride);
+      return fmt::format("participant {}'s {} at participant {}", ends.source,
+                         model::cyclone::name_of_writer(number % stride), ends.destination);
+    }
     default:
       return fmt::format("control-only relation {}", number);
   }
@@ -48,7 +62,41 @@ std::string move_text(const Move& move, const model::Topology& topology) {
       move.before, move.after, move.event);
 }
 
+/// "HEARTBEAT 3 of publications, directed, that announces 9"; an ACKNACK is about the receiver's.
+std::string content_text(const Message& content) {
+  using enum model::PacketKind;
+  if (content.kind == spdp_unicast) {
+    return content.directed ? "a directed announcement" : "an announcement";
+  }
+  std::string text = content.kind == data        ? "DATA"
+                     : content.kind == heartbeat ? fmt::format("HEARTBEAT {}", content.count)
+                                                 : fmt::format("ACKNACK {}", content.count);
+  text += " of " + model::cyclone::name_of_writer(content.writer);
+  if (content.initial) text += ", pre-emptive,";
+  if (content.directed) text += ", directed,";
+  if (content.kind == heartbeat) text += fmt::format(" that announces {}", content.detail);
+  if (content.kind == acknack) text += fmt::format(" that confirms {}", content.detail);
+  if (content.descriptors.empty()) return text;
+  return text + (content.kind == acknack ? " and asks for " : " with ") +
+         descriptors_text(content.descriptors);
+}
+
+std::string contents_text(const Message& message, const model::Topology& topology) {
+  std::string text =
+      fmt::format("a message of {} bytes of participant {} to ", message.bytes,
+                  message.to_group ? message.pair : topology.pair(message.pair).source);
+  text += message.to_group ? std::string{"the group"}
+                           : fmt::format("participant {}", topology.pair(message.pair).destination);
+  if (message.loops_to != UINT32_MAX) text += fmt::format(" at participant {}", message.loops_to);
+  const char* separator = " with ";
+  for (const Message& content : message.contents) {
+    text += std::exchange(separator, "; ") + content_text(content);
+  }
+  return text + " is sent";
+}
+
 std::string message_text(const Message& message, const model::Topology& topology) {
+  if (!message.contents.empty()) return contents_text(message, topology);
   using enum model::PacketKind;
   std::string text = name_of(message.kind);
   switch (message.kind) {
@@ -77,6 +125,35 @@ std::string message_text(const Message& message, const model::Topology& topology
   return text + " is sent";
 }
 
+Message content_of(const model::Submessage& submessage) {
+  using Kind = model::Submessage::Kind;
+  Message content;
+  content.pair = submessage.participant;
+  content.writer = submessage.writer;
+  content.count = submessage.count;
+  content.directed = submessage.directed;
+  content.initial = submessage.initial;
+  switch (submessage.kind) {
+    case Kind::spdp:
+      content.kind = model::PacketKind::spdp_unicast;
+      break;
+    case Kind::data:
+      content.kind = model::PacketKind::data;
+      content.descriptors.push_back(submessage.sample);
+      break;
+    case Kind::heartbeat:
+      content.kind = model::PacketKind::heartbeat;
+      content.detail = submessage.sample;
+      break;
+    case Kind::acknack:
+      content.kind = model::PacketKind::acknack;
+      content.detail = submessage.sample;
+      submessage.bitmap.for_each([&](std::uint32_t d) { content.descriptors.push_back(d); });
+      break;
+  }
+  return content;
+}
+
 }  // namespace
 
 Message message_of(const model::Packet& packet) {
@@ -94,6 +171,13 @@ Message message_of(const model::Packet& packet) {
   message.repair = packet.from_repair;
   message.carries_heartbeat = packet.carries_heartbeat;
   message.to_nobody = packet.to_nobody;
+  message.to_group = packet.to_group;
+  if (packet.submessages != nullptr) {
+    message.bytes = packet.payload_bytes;
+    for (const model::Submessage& each : *packet.submessages) {
+      message.contents.push_back(content_of(each));
+    }
+  }
   return message;
 }
 

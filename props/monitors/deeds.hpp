@@ -38,18 +38,26 @@ struct Scheduled {
   std::uint64_t insertion = 0;
 };
 
-/// What a packet says, without its size. A record that stands for several packets is several.
+/// What a packet says, without its size. A record that stands for several packets is several. One
+/// of Cyclone DDS has contents, which are about a writer of a participant each, and its size.
 struct Message {
   model::PacketKind kind{};
-  std::uint32_t pair = 0;  ///< of a multicast: the sending participant; control-only relations: 0
+  std::uint32_t pair = 0;  ///< of a multicast: the sending participant; control-only relations: 0;
+                           ///< of a content: whose writer it is about
   model::Stream stream{};
   std::uint32_t loops_to = UINT32_MAX;  ///< a multicast that goes to a participant of its host
   DescriptorList descriptors;           ///< carried or listed
-  std::uint32_t detail = 0;             ///< as in `Packet`
+  std::uint32_t detail = 0;             ///< as in `Packet`, of contents, too
   bool initial = false;                 ///< ACKNACK marked initial
   bool repair = false;
   bool carries_heartbeat = false;
   bool to_nobody = false;
+  bool to_group = false;  ///< a multicast with contents
+  std::uint32_t bytes = 0;
+  std::vector<Message> contents;
+  std::uint32_t writer = 0;  ///< of a content: which one (model/cyclone/endpoints.hpp)
+  std::int64_t count = 0;    ///< of a content that is a HEARTBEAT or ACKNACK
+  bool directed = false;     ///< of a content: meant for its receiver alone
 
   bool operator==(const Message&) const = default;
   [[nodiscard]] std::uint32_t relation() const {

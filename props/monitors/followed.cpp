@@ -4,6 +4,7 @@
 // that leave their source start them. What they do must be what the run did, in order: every
 // transition, every event that is scheduled, every packet; and what is missing then. What a rule
 // leaves to its host may be whatever its contract allows.
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
@@ -18,6 +19,17 @@ namespace stormproof::props {
 
 namespace {
 
+/// To compositions that nobody follows the property does not apply.
+template <class Of>
+std::unique_ptr<Follower> follower_of(Of composition, const model::Scenario& scenario,
+                                      const model::Topology& topology) {
+  if constexpr (requires { follow(composition, scenario, topology); }) {
+    return follow(composition, scenario, topology);
+  } else {
+    throw std::logic_error{"nobody follows this composition"};
+  }
+}
+
 class FollowedRun : public Observer {
  public:
   explicit FollowedRun(const model::Scenario& scenario)
@@ -27,8 +39,8 @@ class FollowedRun : public Observer {
     Observer::run_started(topology);
     follower_ = is_living_fastdds(scenario_)
                     ? follow_life(scenario_, topology)
-                    : model::visit_engine_composition(scenario_.dds, [&](auto composition) {
-                        return follow(composition, scenario_, topology);
+                    : model::visit_composition(scenario_.dds, [&](auto composition) {
+                        return follower_of(composition, scenario_, topology);
                       });
     if (follower_ != nullptr) trigger_ = Trigger::start;
   }

@@ -85,29 +85,6 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
     return model::PacketKind::user_heartbeat;
   }
   static model::PacketKind kind_of(control::UserAckNack) { return model::PacketKind::user_acknack; }
-  // What a packet says of the first descriptors of a stream is how many these are.
-  template <class Term>
-  static void say(Message& message, World& w, const comp::Says<comp::Announces, Term>& announced) {
-    message.detail = static_cast<std::uint32_t>(w.count(announced.value));
-  }
-  template <class Term>
-  static void say(Message& message, World& w, const comp::Says<comp::BelowBase, Term>& confirmed) {
-    message.detail = static_cast<std::uint32_t>(w.count(confirmed.value));
-  }
-  template <class Term>
-  static void say(Message& message, World& w, const comp::Says<comp::Listed, Term>& listed) {
-    message.descriptors = w.set_of(listed.value).list;
-  }
-  static void say(Message& message, World&, const comp::Says<comp::IsInitial, bool>& initial) {
-    message.initial = initial.value;
-  }
-  using Base::says;
-  static bool says(comp::BelowBase, const Message& message, std::uint32_t d) {
-    return d < message.detail;
-  }
-  static bool says(comp::Announces, const Message& message, std::uint32_t d) {
-    return d < message.detail;
-  }
   using Base::answer;
   bool answer(fastdds::CrossHost, World& w) const {
     return topology_.pair(w.place().pair).cross_host;
@@ -199,11 +176,7 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
 
   /// The endpoints of participant i are created when the deployment says.
   void take_creations(std::uint32_t i) {
-    while (const auto* creation = deeds_.template next<Scheduled>()) {
-      if (creation->kind != model::EventKind::endpoint_creation || creation->subject != i) break;
-      creations_[i].insert(creation->insertion);
-      deeds_.take();
-    }
+    Base::take_creations(i, [&](const Scheduled& it) { creations_[i].insert(it.insertion); });
   }
 
   const ControlSides sides_{topology_};

@@ -57,13 +57,7 @@ class PaperFollower final : public FollowedRules<PaperFollower, paper::Paper> {
   static model::PacketKind kind_of(comp::SpdpUnicast) { return model::PacketKind::spdp_unicast; }
   static model::PacketKind kind_of(paper::Heartbeat) { return model::PacketKind::heartbeat; }
   static model::PacketKind kind_of(paper::AckNack) { return model::PacketKind::acknack; }
-  template <class Term>
-  static void say(Message& message, World& w, const comp::Says<comp::Listed, Term>& listed) {
-    message.descriptors = w.set_of(listed.value).list;
-  }
-  static void say(Message& message, World&, const comp::Says<comp::IsInitial, bool>& initial) {
-    message.initial = initial.value;
-  }
+  using FollowedRules::say;
   /// It follows from the bitmap.
   template <class Term>
   static void say(Message&, World&, const comp::Says<comp::BelowBase, Term>&) {}

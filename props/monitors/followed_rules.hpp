@@ -1,6 +1,6 @@
 // The state of a run as the rules of a composition have it, and what all implementations leave to
-// their hosts: how timers are cancelled, and how the silent readers of a cycle form batches. The
-// paper's and Fast DDS's own steps are in followed_paper.cpp and followed_fastdds.cpp.
+// their hosts: how timers are cancelled, and how the silent readers of a cycle form batches. Their
+// own steps are in followed_paper.cpp, followed_fastdds.hpp and followed_cyclone.cpp.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,8 @@
 
 #include "fsm/adaptive_period.hpp"
 #include "fsm/stepper.hpp"
+#include "model/engine/composition_knobs.hpp"
+#include "model/engine/writer_layout.hpp"
 #include "model/life.hpp"
 #include "props/monitors/followed_world.hpp"
 #include "props/monitors/follower.hpp"
@@ -27,7 +29,10 @@ class FollowedRules : public Follower {
  public:
   using Composition = Composition_;
   using World = FollowedWorld<Self>;
-  using Follower::Follower;
+
+  FollowedRules(const model::Scenario& scenario, const model::Topology& topology,
+                model::WriterLayout writers = {})
+      : Follower{scenario, topology}, writers_{writers} {}
 
   void due(const model::Event& event) override {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
@@ -45,15 +50,21 @@ class FollowedRules : public Follower {
   }
 
   // Places.
+  [[nodiscard]] model::WriterLayout writers() const { return writers_; }
   [[nodiscard]] Place writer_place(std::uint32_t writer) const {
-    return {.participant = writer / 2, .writer = writer};
+    return {.participant = writer / writers_.stride, .writer = writer};
   }
   [[nodiscard]] Place relation_place(std::uint32_t relation) const {
-    const std::uint32_t source = topology_.pair(relation / 2).source;
+    const std::uint32_t pair = relation / writers_.stride;
+    const std::uint32_t source = topology_.pair(pair).source;
     return {.participant = source,
-            .pair = relation / 2,
-            .writer = 2 * source + relation % 2,
+            .pair = pair,
+            .writer = writers_.stride * source + relation % writers_.stride,
             .relation = relation};
+  }
+  /// The first relation of a pair stands for it.
+  [[nodiscard]] Place pair_place(std::uint32_t pair) const {
+    return relation_place(writers_.stride * pair);
   }
   [[nodiscard]] std::uint32_t descriptor_count(std::uint32_t writer) const {
     return topology_.descriptor_count(writer / 2, model::streams[writer % 2]);
@@ -158,22 +169,46 @@ class FollowedRules : public Follower {
   }
   void cancel(model::EventKind kind, std::uint32_t owner) { pending_of(kind, owner).clear(); }
 
-  // What packets say, and what only a host knows.
+  // What packets say, and what only a host knows. What one says of the first descriptors of a
+  // stream is how many these are.
   static bool says(comp::Carries, const Message& message, std::uint32_t d) {
     return std::ranges::binary_search(message.descriptors, d);
   }
   static bool says(comp::Listed, const Message& message, std::uint32_t d) {
     return std::ranges::binary_search(message.descriptors, d);
   }
+  static bool says(comp::BelowBase, const Message& message, std::uint32_t d) {
+    return d < message.detail;
+  }
+  static bool says(comp::Announces, const Message& message, std::uint32_t d) {
+    return d < message.detail;
+  }
   static bool says(comp::CarriesHeartbeat, const Message& message) {
     return message.carries_heartbeat;
   }
   static bool says(comp::IsRepair, const Message& message) { return message.repair; }
   static bool says(comp::IsInitial, const Message& message) { return message.initial; }
-  std::int64_t answer(comp::Now, World&) const { return now_.count(); }
-  bool answer(comp::RunEnds, World&) const {
-    return missing_ == 0 && scenario_.run_until == model::RunUntil::completion && now_ >= settled_;
+  template <class Term>
+  static void say(Message& message, World& w, const comp::Says<comp::Announces, Term>& announced) {
+    message.detail = static_cast<std::uint32_t>(w.count(announced.value));
   }
+  template <class Term>
+  static void say(Message& message, World& w, const comp::Says<comp::BelowBase, Term>& confirmed) {
+    message.detail = static_cast<std::uint32_t>(w.count(confirmed.value));
+  }
+  template <class Term>
+  static void say(Message& message, World& w, const comp::Says<comp::Listed, Term>& listed) {
+    message.descriptors = w.set_of(listed.value).list;
+  }
+  static void say(Message& message, World&, const comp::Says<comp::IsInitial, bool>& initial) {
+    message.initial = initial.value;
+  }
+  template <class Knob>
+  [[nodiscard]] auto knob(Knob knob) const {
+    return model::knob_value(knob, dds());
+  }
+  std::int64_t answer(comp::Now, World&) const { return now_.count(); }
+  bool answer(comp::RunEnds, World&) const { return run_ends(); }
   std::int64_t answer(comp::ContactedCount, World& w) {
     return std::ranges::count_if(readers(w.place().writer), [&](std::uint32_t relation) {
       return value<comp::Contacted>(relation_place(relation)) != 0;
@@ -206,13 +241,17 @@ class FollowedRules : public Follower {
       deeds_.take();
     }
   }
+  /// What is scheduled, or null if the run did something else.
+  const Scheduled* expect(const Scheduled& wanted, comp::Site site) {
+    site_ = site;
+    return next(wanted, [&](const Scheduled& it) {
+      return it.kind == wanted.kind && it.subject == wanted.subject && it.time == wanted.time;
+    });
+  }
   template <class T>
   void expect_timer(T, std::uint32_t owner, model::Nanoseconds time, comp::Site site) {
-    site_ = site;
     const Scheduled wanted{model::event_kind_of<T>, owner, time};
-    const Scheduled* actual = next(wanted, [&](const Scheduled& it) {
-      return it.kind == wanted.kind && it.subject == owner && it.time == time;
-    });
+    const Scheduled* actual = expect(wanted, site);
     if (is_followed<T> && actual != nullptr) {
       pending_of(wanted.kind, owner).push_back(actual->insertion);
     }
@@ -259,6 +298,18 @@ class FollowedRules : public Follower {
   }
 
  protected:
+  [[nodiscard]] bool run_ends() const {
+    return missing_ == 0 && scenario_.run_until == model::RunUntil::completion && now_ >= settled_;
+  }
+  /// The endpoints of participant i are created when the deployment says; `note` is told of each.
+  template <class Note>
+  void take_creations(std::uint32_t i, Note&& note) {
+    while (const auto* creation = deeds_.template next<Scheduled>()) {
+      if (creation->kind != model::EventKind::endpoint_creation || creation->subject != i) break;
+      note(*creation);
+      deeds_.take();
+    }
+  }
   template <class Trigger>
   void run(const Place& place, const Message* heard = nullptr) {
     using Rule = comp::RuleFor<Composition, Trigger>;
@@ -272,7 +323,7 @@ class FollowedRules : public Follower {
   }
   [[nodiscard]] Place place_of(comp::Owner owner, std::uint32_t number) const {
     if (owner == comp::owner::participant) return {.participant = number};
-    if (owner == comp::owner::pair) return relation_place(2 * number);
+    if (owner == comp::owner::pair) return pair_place(number);
     if (owner == comp::owner::writer) return writer_place(number);
     if (owner == comp::owner::control_relation) return {.control = number};
     return relation_place(number);
@@ -351,14 +402,17 @@ class FollowedRules : public Follower {
   }
   [[nodiscard]] std::size_t largest_stream() const {
     std::size_t largest = 1;
-    for (std::uint32_t writer = 0; writer < 2 * topology_.participant_count(); ++writer) {
-      largest = std::max<std::size_t>(largest, descriptor_count(writer));
+    for (std::uint32_t i = 0; i < topology_.participant_count(); ++i) {
+      for (const model::Stream stream : model::streams) {
+        largest = std::max<std::size_t>(largest, topology_.descriptor_count(i, stream));
+      }
     }
     return largest;
   }
 
   using AllValues = decltype(each_of<Values>(typename Composition::State{}));
   using AllStates = decltype(each_of<States>(typename Composition::Parts{}));
+  const model::WriterLayout writers_;
   AllValues values_;
   AllStates states_;
   const std::size_t stride_ = largest_stream();

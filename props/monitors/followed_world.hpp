@@ -6,7 +6,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <tuple>
 #include <type_traits>
@@ -16,6 +15,7 @@
 #include <boost/pfr.hpp>
 
 #include "model/engine/composition_knobs.hpp"
+#include "model/engine/writer_layout.hpp"
 #include "props/monitors/deeds.hpp"
 
 namespace stormproof::props {
@@ -91,7 +91,7 @@ class FollowedWorld {
   template <class Tag>
   auto operator()(Tag tag) {
     if constexpr (std::derived_from<Tag, comp::Switch> || std::derived_from<Tag, comp::Delay>) {
-      return model::knob_value(tag, host_->dds());
+      return host_->knob(tag);
     } else if constexpr (std::derived_from<Tag, comp::Fact>) {
       return Tag::of(*this);
     } else if constexpr (requires { typename Tag::IsFlag; }) {
@@ -102,6 +102,8 @@ class FollowedWorld {
       return static_cast<bool>(host_->says(tag, *heard_, place_.descriptor));
     } else if constexpr (std::derived_from<Tag, comp::PacketField>) {
       return static_cast<bool>(host_->says(tag, *heard_));
+    } else if constexpr (std::derived_from<Tag, comp::PacketNumber>) {
+      return static_cast<Int>(host_->says(tag, *heard_));
     } else if constexpr (std::derived_from<Tag, comp::Answer>) {
       return static_cast<bool>(host_->answer(tag, *this));
     } else {
@@ -165,9 +167,17 @@ class FollowedWorld {
     });
   }
   template <class Term>
+  Int count_readers(Term&& term) {
+    return std::ranges::count_if(host_->readers(place_.writer), [&](std::uint32_t relation) {
+      FollowedWorld r = at_relation(relation);
+      return term(r);
+    });
+  }
+  template <class Term>
   bool some_entry(Term&& term) {
-    for (std::uint32_t stream = 0; stream < 2; ++stream) {
-      FollowedWorld w{*host_, host_->writer_place(2 * place_.participant + stream), heard_};
+    for (std::uint32_t s = 0; s < writers().streams; ++s) {
+      const std::uint32_t writer = writers().stride * place_.participant + s;
+      FollowedWorld w{*host_, host_->writer_place(writer), heard_};
       if (w.some(term)) return true;
     }
     return false;
@@ -203,19 +213,23 @@ class FollowedWorld {
   }
   template <class Body>
   void for_streams(Body&& body) {
-    for_relations(std::array{2 * place_.pair, 2 * place_.pair + 1}, body);
+    for (std::uint32_t s = 0; s < writers().streams; ++s) {
+      FollowedWorld r = at_relation(writers().stride * place_.pair + s);
+      body(r);
+    }
   }
   template <class Body>
   void for_known_peers(Body&& body) {
     for (const std::uint32_t pair : host_->known_peers(place_.participant)) {
-      FollowedWorld peer{*host_, host_->relation_place(2 * pair), heard_};
+      FollowedWorld peer{*host_, host_->pair_place(pair), heard_};
       body(peer);
     }
   }
   template <class Body>
   void reverse(Body&& body) {
+    const std::uint32_t reverse = host_->topology().pair(place_.pair).reverse;
     FollowedWorld back =
-        at_relation(2 * host_->topology().pair(place_.pair).reverse + place_.relation % 2);
+        at_relation(writers().stride * reverse + place_.relation % writers().stride);
     body(back);
   }
 
@@ -313,6 +327,7 @@ class FollowedWorld {
   }
 
  private:
+  [[nodiscard]] model::WriterLayout writers() const { return host_->writers(); }
   /// In the host's own way, or as the contract says.
   template <class Step, class... Args>
   void do_step(Site site, const Args&... args) {

@@ -101,6 +101,12 @@ class Follower {
 [[nodiscard]] std::unique_ptr<Follower> follow(model::Of<fsm::composition::fastdds::FastDds>,
                                                const model::Scenario& scenario,
                                                const model::Topology& topology);
+[[nodiscard]] std::unique_ptr<Follower> follow(model::Of<fsm::composition::cyclone::Cyclone>,
+                                               const model::Scenario& scenario,
+                                               const model::Topology& topology);
+/// Amended rules are not the paper's, and nobody follows them.
+std::unique_ptr<Follower> follow(model::Of<fsm::composition::amended::Amended>,
+                                 const model::Scenario&, const model::Topology&) = delete;
 /// Of Fast DDS whose participants have a life.
 [[nodiscard]] std::unique_ptr<Follower> follow_life(const model::Scenario& scenario,
                                                     const model::Topology& topology);

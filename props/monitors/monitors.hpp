@@ -13,7 +13,14 @@ using MonitorPtr = std::unique_ptr<Monitor>;
 
 [[nodiscard]] MonitorPtr watch_event_order(const model::Scenario&);
 [[nodiscard]] MonitorPtr watch_acknowledgments(const model::Scenario&);
+// Of Cyclone DDS's writer, which samples are numbered for.
 [[nodiscard]] MonitorPtr watch_acknowledged_samples();
+[[nodiscard]] MonitorPtr watch_repeated_samples();
+[[nodiscard]] MonitorPtr watch_directed_heartbeats();
+[[nodiscard]] MonitorPtr watch_stalls_of_cyclone();
+/// Whether the scenario has it.
+[[nodiscard]] bool has_samples(const model::Scenario& scenario);
+
 [[nodiscard]] MonitorPtr watch_repair_requests(const model::Scenario&);
 [[nodiscard]] MonitorPtr watch_snapshots(const model::Scenario&);
 [[nodiscard]] MonitorPtr watch_conservation(const model::Scenario&);

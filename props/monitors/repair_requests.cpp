@@ -71,6 +71,7 @@ class RepairRequests : public Observer {
 }  // namespace
 
 MonitorPtr watch_repair_requests(const model::Scenario& scenario) {
+  if (has_samples(scenario)) return watch_repeated_samples();
   return attentive<RepairRequests>(scenario);
 }
 

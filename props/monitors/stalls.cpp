@@ -84,6 +84,9 @@ class Stalls : public Observer {
 
 }  // namespace
 
-MonitorPtr watch_stalls(const model::Scenario& scenario) { return attentive<Stalls>(scenario); }
+MonitorPtr watch_stalls(const model::Scenario& scenario) {
+  if (has_samples(scenario)) return watch_stalls_of_cyclone();
+  return attentive<Stalls>(scenario);
+}
 
 }  // namespace stormproof::props

@@ -1,4 +1,5 @@
-// Which properties speak of Cyclone DDS: what certificates from its rules prove, and no more.
+// Which properties speak of Cyclone DDS: what certificates from its rules prove, what monitors that
+// know it observe, and no more.
 #include "props/applicability.hpp"
 
 #include <algorithm>
@@ -32,10 +33,18 @@ TEST(CycloneDds, IsSpokenOfByWhatItsRulesProve) {
   EXPECT_FALSE(is_watched(cyclone(), "safety.snapshot"));
 }
 
+TEST(CycloneDds, IsSpokenOfByWhatItsMonitorsObserve) {
+  for (const char* const property : {"composition.followed", "safety.repair-only-if-asked",
+                                     "live.no-stall", "storm.feedback-gain"}) {
+    EXPECT_EQ(why_not_applicable(property, cyclone()), "") << property;
+    EXPECT_TRUE(is_watched(cyclone(), property)) << property;
+  }
+}
+
 TEST(CycloneDds, IsNotSpokenOfByPropertiesOfOtherWriters) {
   for (const char* const property :
-       {"safety.repair-only-if-asked", "timer.single-heartbeat", "live.no-stall", "live.completion",
-        "storm.single-copy", "composition.followed", "composition.live"}) {
+       {"timer.single-heartbeat", "timer.suppression-honoured", "live.completion",
+        "live.quiescence", "storm.single-copy", "composition.live"}) {
     EXPECT_NE(why_not_applicable(property, cyclone()), "") << property;
     EXPECT_EQ(why_not_applicable(property, model::Scenario{}), "") << property;
   }

@@ -9,6 +9,7 @@
 #include "model/airtime.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/fastdds/peer_ports.hpp"
+#include "model/implementations.hpp"
 #include "props/applicability.hpp"
 #include "props/generators/on_demand.hpp"
 #include "props/generators/space.hpp"
@@ -27,7 +28,8 @@ bool is_fastdds(const Scenario& scenario) {
 
 /// A packet may arrive at the very instant of its emission.
 bool has_link_without_delay(const Scenario& scenario) {
-  if (is_fastdds(scenario) && scenario.deployment.loopback_delay.count() == 0) return true;
+  const bool loops_back = model::traits_of(scenario.dds).discovers_same_host;
+  if (loops_back && scenario.deployment.loopback_delay.count() == 0) return true;
   if (scenario.wireless.kind == model::ServiceKind::constant_delay) {
     const auto& delays = scenario.wireless.packet_delays;
     return scenario.wireless.one_way.count() == 0 ||
@@ -144,6 +146,10 @@ TEST_P(RandomRuns, OfFastDdsHaveTrueFindingsOnly) {
     if (seed % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
     return scenario;
   });
+}
+
+TEST_P(RandomRuns, OfCycloneDdsHaveTrueFindingsOnly) {
+  each("cyclone", short_runs(), oracle::varied_cyclone_scenario);
 }
 
 TEST_P(RandomRuns, WithStaticPeersHaveTrueFindingsOnly) {

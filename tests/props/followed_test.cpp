@@ -8,9 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "fsm/composition/compositions.hpp"
+#include "model/composition_of.hpp"
 #include "model/engine/packet.hpp"
+#include "model/engine/submessage.hpp"
+#include "model/implementations.hpp"
 #include "props/generators/on_demand.hpp"
 #include "tests/oracle/random_scenario.hpp"
+#include "tests/oracle/sharp_scenario.hpp"
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
@@ -70,6 +74,17 @@ class Deeds : public model::Probe {
     note(packet.copies);
     note(packet.carries_heartbeat ? 1 : 0);
     packet.descriptors.for_each([&](std::uint32_t d) { note(d); });
+    if (packet.submessages == nullptr) return;
+    note(packet.payload_bytes);
+    for (const model::Submessage& each : *packet.submessages) note_submessage(each);
+  }
+  void note_submessage(const model::Submessage& submessage) {
+    note(static_cast<std::uint64_t>(submessage.kind));
+    note(submessage.writer);
+    note(submessage.sample);
+    note(static_cast<std::uint64_t>(submessage.count));
+    note((submessage.directed ? 2U : 0U) + (submessage.initial ? 1U : 0U));
+    submessage.bitmap.for_each([&](std::uint32_t d) { note(d); });
   }
 };
 std::uint64_t deeds_of(const Scenario& scenario, model::RunOptions options) {
@@ -160,7 +175,7 @@ TEST_P(Followed, MistakesAtEffectsThatChangeARunAreNoticed) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     scenarios.push_back(oracle::random_scenario(seed, GetParam()));
   }
-  const std::string name = GetParam() == ImplementationKind::paper ? "paper" : "fastdds";
+  const std::string name{model::composition_of(GetParam()).name};
   expect_noticed(name, scenarios, 80, [](const std::string&) { return true; });
 }
 
@@ -197,8 +212,69 @@ TEST(Followed, MistakesInLivesOfFastDdsAreNoticed) {
                  [&](const std::string& rule) { return of_lives.contains(rule); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Followed,
-                         testing::Values(ImplementationKind::paper, ImplementationKind::fastdds));
+INSTANTIATE_TEST_SUITE_P(All, Followed, testing::ValuesIn(model::implementations),
+                         [](const auto& tested) {
+                           return std::string{model::traits_of(tested.param).name};
+                         });
+
+/// Small ones that lose many packets, among others; some whose senders stall.
+Scenario of_cyclone(std::uint64_t seed) {
+  Scenario scenario = oracle::varied_cyclone_scenario(seed);
+  if (seed % 3 != 0 || scenario.wireless.kind != model::ServiceKind::shared_channel) {
+    return scenario;
+  }
+  Dice dice{seed};
+  draw_radio(dice, scenario.wireless);
+  return scenario;
+}
+
+TEST(Followed, RunsOfCycloneDdsThatLoseOrStallAreWhatTheRulesSay) {
+  model::RunOptions options;
+  options.max_events = 10'000;
+  int stalling = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const Scenario scenario = of_cyclone(seed);
+    if (scenario.wireless.sender == model::Sender::stalls) ++stalling;
+    const auto monitor = follow(scenario, options);
+    EXPECT_FALSE(monitor->violation()) << "seed " << seed << ": " << monitor->violation()->reason;
+  }
+  EXPECT_GT(stalling, 20);
+}
+
+/// What the rules of Cyclone DDS leave to their host is said exactly: each of these settings makes
+/// another run somewhere.
+TEST(Followed, AnotherEventThreadOfCycloneDdsIsNoticed) {
+  using Change = void (*)(Scenario&);
+  const std::vector<std::pair<const char*, Change>> changes{
+      {"max_message_size", [](Scenario& s) { s.dds.sedp.max_message_size = model::Bytes{600}; }},
+      {"max_rexmit_message_size",
+       [](Scenario& s) { s.dds.sedp.max_rexmit_message_size = model::Bytes{900}; }},
+      {"max_queued", [](Scenario& s) { s.dds.sedp.max_queued_rexmit_messages = 1; }},
+      {"merging",
+       [](Scenario& s) {
+         const bool merges = s.dds.sedp.merge_queued_rexmit == model::MergeQueued::yes;
+         s.dds.sedp.merge_queued_rexmit = merges ? model::MergeQueued::no : model::MergeQueued::yes;
+       }},
+      {"send_time", [](Scenario& s) { s.deployment.send_time = model::Nanoseconds{77}; }},
+      {"open", [](Scenario& s) {
+         for (auto& p : s.deployment.participants) p.open = s.time_limit;
+       }}};
+  for (const auto& [name, change] : changes) {
+    bool noticed = false;
+    for (std::uint64_t seed = 0; seed < 60 && !noticed; ++seed) {
+      const Scenario scenario = of_cyclone(seed);
+      Scenario specification = scenario;
+      change(specification);
+      const auto monitor = make_monitor("composition.followed", specification);
+      model::RunOptions options;
+      options.max_events = 5'000;
+      options.probe = monitor.get();
+      (void)simulate(scenario, options);
+      noticed = monitor->violation().has_value();
+    }
+    EXPECT_TRUE(noticed) << name;
+  }
+}
 
 TEST(Followed, ADifferenceNamesTheRuleAndThePlaceOfTheEffect) {
   const Scenario scenario = shipped("wifi-5x20");
@@ -213,6 +289,23 @@ TEST(Followed, ADifferenceNamesTheRuleAndThePlaceOfTheEffect) {
                         "repair_generation of participant 0's pub stream at participant 5 is "
                         "scheduled for 1.515637595 s."),
             std::string::npos)
+      << reason;
+}
+
+TEST(Followed, ADifferenceNamesTheContentsOfMessages) {
+  const Scenario scenario = shipped("smallest", {"dds=cyclonedds-0.10"});
+  Scenario specification = scenario;
+  specification.dds.sedp.max_rexmit_message_size = model::Bytes{900};
+  const MonitoredRun run = run_monitored(scenario, specification);
+  ASSERT_NE(run.violation("composition.followed"), nullptr);
+  const std::string& reason = run.violation("composition.followed")->reason;
+  EXPECT_EQ(reason.find("At 3.890378 ms, ThreadRuns (cyclone_thread.hpp:"), 0U) << reason;
+  EXPECT_NE(
+      reason.find("by the rules a message of 824 bytes of participant 1 to participant 0 with "
+                  "DATA of publications with descriptor 0; DATA of publications with "
+                  "descriptor 1; DATA of publications with descriptor 2 is sent; in the run "
+                  "a message of 1380 bytes of participant 1 to participant 0 with "),
+      std::string::npos)
       << reason;
 }
 

@@ -66,6 +66,12 @@ Scenario small_fastdds(const std::vector<std::string>& more = {}) {
   return shipped("wifi-5x20-fastdds", overrides);
 }
 
+Scenario small_cyclone(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> overrides{"dds=cyclonedds-0.10"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return small(overrides);
+}
+
 const std::vector<std::string> one_ms{"wireless={kind: constant_delay, one_way: 1ms}"};
 const std::vector<std::string> lossy{"wireless.lost_packets=[2,5,9,12,14,17,21,30]"};
 
@@ -175,10 +181,26 @@ std::vector<Case> fastdds_cases() {
   };
 }
 
+std::vector<Case> cyclone_cases() {
+  return {
+      {"CycloneDecisionAfterDispatch", "order.reception-first", small_cyclone(),
+       events({event(EventKind::thread_run, Change::reclass)})},
+      {"CycloneForgottenReception", "safety.conservation", small_cyclone(),
+       events({event(EventKind::reception, Change::forget)})},
+      {"CycloneAnyAckNackReplies", "safety.ack-implies-received", small_cyclone(lossy),
+       tables({row("MatchedReader", "Silent AckNackReceived Silent", Kind::retarget, "Replied")})},
+      {"CycloneForgottenHeartbeats", "live.no-stall", small_cyclone(),
+       events({event(EventKind::heartbeat_time, Change::forget)})},
+      {"CycloneLateRun", "composition.followed", small_cyclone(),
+       events({event(EventKind::thread_run, Change::shift)})},
+  };
+}
+
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> cases = paper_cases();
     for (Case& one : fastdds_cases()) cases.push_back(std::move(one));
+    for (Case& one : cyclone_cases()) cases.push_back(std::move(one));
     return cases;
   }();
   return all;

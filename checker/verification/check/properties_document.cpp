@@ -23,8 +23,8 @@ report::Table::Row row_of(const props::Property& property) {
     if (!text.empty()) facts.rows.emplace_back(label, text);
   };
   fact("formal", property.formal);
-  for (const model::ImplementationTraits& one : model::implementation_traits) {
-    if (one.writer == model::Writer::stateful) fact(one.whose, property.stateful);
+  for (const model::ImplementationKind kind : model::implementations) {
+    fact(model::traits_of(kind).whose, addition_of(property, kind));
   }
   fact("assuming", property.assumptions);
   fact("decided by", engines_of(property));

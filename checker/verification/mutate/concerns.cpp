@@ -14,9 +14,11 @@ namespace {
 
 namespace comp = fsm::composition;
 
+/// Of those that profiles name, whether or not engines know their writers: `composition.followed`
+/// says something of each.
 Concerns where(auto&& holds) {
   Concerns list;
-  std::ranges::copy_if(everywhere(), std::back_inserter(list), holds);
+  std::ranges::copy_if(model::implementations, std::back_inserter(list), holds);
   return list;
 }
 
@@ -57,7 +59,7 @@ bool has_timer(model::EventKind kind) {
 
 }  // namespace
 
-/// All of those whose mistakes can be noticed.
+/// All whose writers the engines know.
 Concerns everywhere() { return model::known_to_engines(); }
 
 Concerns where_is_fed(std::string_view machine, std::string_view event) {

@@ -67,6 +67,10 @@ void add_events(std::vector<CatalogueEntry>& list) {
              EventKind::service_finished, Change::reclass, {}, EventClass::protocol),
        event("dispatch-first", "the channel picks before the decisions of the instant",
              EventKind::dispatch, Change::reclass, {}, EventClass::service),
+       event("ack-time-forgotten", "the timer of a reader of Cyclone DDS is forgotten",
+             EventKind::ack_time, Change::forget),
+       event("thread-a-nanosecond-late", "its event thread runs 1 ns too late",
+             EventKind::thread_run, Change::shift, Nanoseconds{1}),
        event("acknack-before-reception", "an ACKNACK is generated before receptions of its instant",
              EventKind::acknack_generation, Change::reclass, {}, EventClass::service)});
 }

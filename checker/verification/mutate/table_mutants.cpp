@@ -270,6 +270,43 @@ void add_fastdds(std::vector<CatalogueEntry>& list) {
                "Closed")});
 }
 
+void add_cyclone(std::vector<CatalogueEntry>& list) {
+  const RowName silent{"MatchedReader", "Silent", "AckNackReceived", "Silent"};
+  const RowName takes{"CautiousReader", "Answered", "DataReceived", "Answered"};
+  const RowName addressed{"CautiousReader", "Answered", "HeartbeatReceived", "Addressed"};
+  list.insert(
+      list.end(),
+      {entry("cautious-reader-closed", "a reader of Cyclone DDS never opens",
+             {"CautiousReader", "Closed", "Opened", "Unheard"}, Kind::drop_row),
+       entry("never-pre-empts", "such a reader sends no pre-emptive ACKNACK",
+             {"CautiousReader", "Unheard", "TimerFired", "Unheard"}, Kind::drop_row),
+       lead_to(from(entry("data-before-heartbeat", "it takes DATA before any HEARTBEAT", takes,
+                          Kind::copy_row),
+                    "Unheard"),
+               "Unheard"),
+       lead_to(entry("directed-as-any", "a directed HEARTBEAT counts as any other", addressed,
+                     Kind::retarget),
+               "Heard"),
+       lead_to(entry("any-acknack-replies", "an ACKNACK counts as a reply, whatever it says",
+                     silent, Kind::retarget),
+               "Replied"),
+       entry("replied-not-taken", "of who has replied no ACKNACK is taken",
+             {"MatchedReader", "Replied", "AckNackReceived", "Replied"}, Kind::drop_row),
+       entry("pacer-rests", "a writer at rest hears of no new reader",
+             {"HeartbeatPacer", "Resting", "Matched", "Pacing"}, Kind::drop_row),
+       entry("pacer-not-hastened", "a new or repeated sample does not hasten HEARTBEATs",
+             {"HeartbeatPacer", "Pacing", "Hastened", "Pacing"}, Kind::drop_row),
+       entry("thread-sleeps", "the event thread is not woken",
+             {"EventThread", "Asleep", "Woken", "Expected"}, Kind::drop_row),
+       lead_to(entry("thread-sleeps-after-a-copy", "it sleeps after the first copy of a packet",
+                     {"EventThread", "Working", "CopySent", "Expected"}, Kind::retarget),
+               "Asleep"),
+       entry("timer-fires-early", "a timer of the thread fires whatever it was moved to",
+             {"MovableTimer", "Scheduled", "Came", "Listed"}, Kind::ignore_guard),
+       entry("timer-moves-later", "such a timer can be moved to a later time",
+             {"MovableTimer", "Scheduled", "Moved", "Scheduled"}, Kind::ignore_guard)});
+}
+
 }  // namespace
 
 std::vector<CatalogueEntry> table_mutants() {
@@ -279,6 +316,7 @@ std::vector<CatalogueEntry> table_mutants() {
   add_timers(list);
   add_channel(list);
   add_fastdds(list);
+  add_cyclone(list);
   return list;
 }
 

@@ -8,6 +8,7 @@
 
 #include "model/simulator.hpp"
 #include "props/generators/scenarios.hpp"
+#include "props/generators/space.hpp"
 
 namespace stormproof::props {
 
@@ -17,12 +18,21 @@ model::RunResult correct(const model::Scenario& scenario, model::Probe* probe) {
   return model::simulate(scenario, options);
 }
 
+bool applies_to(const Law& law, model::ImplementationKind implementation) {
+  int applied = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    if (law.applies(draw_scenario(seed, 50, {.implementation = implementation}))) ++applied;
+  }
+  return applied > 5;
+}
+
 std::optional<std::string> broken_on_random_scenarios(const Law& law, const Simulate& simulate,
                                                       const Effort& effort) {
   ScenarioSpace space;
   space.max_participants = 4;
   space.max_endpoints = 4;
   space.max_time_limit = model::Nanoseconds{5'000'000'000};
+  space.implementation = effort.implementation;
   const auto property = [&] {
     const auto scenario = *rc::gen::suchThat(scenarios(space), law.applies);
     const std::optional<std::string> reason = law.broken(scenario, simulate);

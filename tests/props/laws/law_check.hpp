@@ -11,7 +11,11 @@ namespace stormproof::props {
 struct Effort {
   int scenarios = 100;  ///< that the law applies to
   bool shrink = true;
+  std::optional<model::ImplementationKind> implementation = {};  ///< absent: any engines know
 };
+
+/// Whether the law says something about scenarios of the implementation.
+[[nodiscard]] bool applies_to(const Law& law, model::ImplementationKind implementation);
 
 /// What breaks the law with the smallest scenario found, as text, or nothing. The scenarios are the
 /// same on every machine.

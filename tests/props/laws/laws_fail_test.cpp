@@ -30,6 +30,19 @@ TEST(Mistakes, AreNoticed) {
   }
 }
 
+/// Each law that says something about Cyclone DDS notices one of its mistakes there.
+TEST(Mistakes, OfCycloneDdsAreNoticed) {
+  constexpr auto cyclone = model::ImplementationKind::cyclone;
+  for (const Law& law : laws()) {
+    if (!applies_to(law, cyclone)) continue;
+    const std::vector<Mistake> list = mistakes();
+    EXPECT_TRUE(std::ranges::any_of(list, [&](const Mistake& mistake) {
+      const Effort effort{.scenarios = 200, .shrink = false, .implementation = cyclone};
+      return mistake.law == law.id && broken_on_random_scenarios(law, mistake.simulate, effort);
+    })) << law.id;
+  }
+}
+
 /// What RapidCheck shows of a broken law: the reason, and a small scenario file.
 TEST(Mistakes, AreShownWithASmallScenario) {
   const Mistake mistake{"law.counts", "", [](const model::Scenario& scenario, model::Probe* probe) {

@@ -98,12 +98,14 @@ void add_repetition(std::vector<Mistake>& list) {
   const auto calls = std::make_shared<int>(0);
   list.push_back({"law.determinism", "every other run is slower",
                   of_other([calls](Scenario& s) { slow_down(s, Nanoseconds{++*calls % 2}); })});
-  list.push_back({"law.observation", "an observed run forgets its ACKNACKs",
-                  [](const Scenario& scenario, model::Probe* probe) {
-                    if (probe == nullptr) return correct(scenario, nullptr);
-                    return mutated(scenario, probe,
-                                   of_event(EventKind::acknack_generation, Change::forget));
-                  }});
+  list.push_back(
+      {"law.observation", "an observed run forgets its ACKNACKs",
+       [](const Scenario& scenario, model::Probe* probe) {
+         if (probe == nullptr) return correct(scenario, nullptr);
+         model::Mutation forgets = of_event(EventKind::ack_time, Change::forget);
+         forgets.events.push_back({EventKind::acknack_generation, Change::forget, {}, {}});
+         return mutated(scenario, probe, forgets);
+       }});
   const auto by_limit = of_other(
       [](Scenario& s) { slow_down(s, Nanoseconds{1 + s.time_limit.count() / 1'000'000}); });
   list.push_back({"law.later-limit", "packets are slower with a later limit", by_limit});

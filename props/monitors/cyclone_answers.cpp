@@ -1,0 +1,153 @@
+// What Cyclone DDS's writer sends because a reader asked, and no more of it than was asked for:
+// safety.repair-only-if-asked: a sample goes out once when it is created, if somebody is matched
+//   then, and otherwise at most once for each ACKNACK that listed it, whoever sent that: what two
+//   ask for may go to all.
+// storm.feedback-gain: a HEARTBEAT that is meant for one reader alone answers an ACKNACK of its
+// own,
+//   which was pre-emptive or asked for something.
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+#include "props/monitors/received_submessages.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+/// Hears each packet once, however many copies of it are sent, and each ACKNACK that is taken.
+class Answers : public Observer {
+ public:
+  using Observer::Observer;
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    received_.reset(topology);
+    last_.assign(topology.participant_count(), nullptr);
+  }
+  void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+                  std::string_view, std::uint32_t, std::uint64_t) override {
+    const model::Submessage* heard = received_.heard(machine, event);
+    if (machine.machine == "MatchedReader" && event == "Opened") matched(machine.subject);
+    if (heard == nullptr || heard->kind != model::Submessage::Kind::acknack) return;
+    acknack_taken(machine.subject, *heard);
+  }
+  void emitted(const model::Packet& packet, std::uint32_t source,
+               std::span<const std::uint32_t>) override {
+    note(packet, source);
+  }
+  void looped_back(const model::Packet& packet, std::uint32_t) override {
+    note(packet, packet.to_group ? packet.pair : topology().pair(packet.pair).source);
+  }
+
+ protected:
+  virtual void matched(std::uint32_t /*relation*/) {}
+  virtual void acknack_taken(std::uint32_t relation, const model::Submessage& acknack) = 0;
+  virtual void sent(const model::Packet& packet, const model::Submessage& submessage) = 0;
+  [[nodiscard]] const ReceivedSubmessages& numbers() const { return received_; }
+  /// The relation of a submessage that goes to one participant.
+  [[nodiscard]] std::uint32_t relation_of(const model::Packet& packet,
+                                          const model::Submessage& submessage) const {
+    return received_.stride() * packet.pair + submessage.writer;
+  }
+
+ private:
+  void note(const model::Packet& packet, std::uint32_t source) {
+    if (packet.submessages == nullptr || last_[source] == packet.submessages) return;
+    last_[source] = packet.submessages;
+    for (const model::Submessage& each : *packet.submessages) sent(packet, each);
+  }
+
+  ReceivedSubmessages received_;
+  std::vector<std::shared_ptr<const std::vector<model::Submessage>>> last_;  // by source
+};
+
+class RepeatedSamples : public Answers {
+ public:
+  RepeatedSamples() : Answers{"safety.repair-only-if-asked"} {}
+
+  void event_started(const model::Event& event) override {
+    Answers::event_started(event);
+    if (event.kind != model::EventKind::endpoint_creation) return;
+    const std::uint32_t writer = numbers().writer_of_creation(event);
+    const std::uint32_t sample = history_[writer]++;
+    if (readers_[writer] > 0) ++left_[{writer, sample}];
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("{} samples were sent.", sent_)};
+  }
+
+ private:
+  void matched(std::uint32_t relation) override { ++readers_[numbers().writer_of(relation)]; }
+  void acknack_taken(std::uint32_t relation, const model::Submessage& acknack) override {
+    acknack.bitmap.for_each([&](std::uint32_t sample) {
+      ++left_[{numbers().writer_of(relation), sample}];
+    });
+  }
+  void sent(const model::Packet&, const model::Submessage& data) override {
+    if (data.kind != model::Submessage::Kind::data) return;
+    const std::uint32_t writer = numbers().stride() * data.participant + data.writer;
+    std::uint64_t& left = left_[{writer, data.sample}];
+    ++sent_;
+    if (left > 0) {
+      --left;
+      return;
+    }
+    object_now(fmt::format(
+        "At {} the writer of {} of participant {} sends sample {} more often than it was created "
+        "and asked for.",
+        time_text(now()), model::cyclone::name_of_writer(data.writer), data.participant,
+        data.sample + 1));
+  }
+
+  std::map<std::uint32_t, std::uint32_t> history_;  // by writer: how many samples exist
+  std::map<std::uint32_t, std::uint32_t> readers_;  // by writer: how many are matched
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> left_;  // by writer and sample
+  std::uint64_t sent_ = 0;
+};
+
+class DirectedHeartbeats : public Answers {
+ public:
+  DirectedHeartbeats() : Answers{"storm.feedback-gain"} {}
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("{} HEARTBEATs answered an ACKNACK.", answered_)};
+  }
+
+ private:
+  void acknack_taken(std::uint32_t relation, const model::Submessage& acknack) override {
+    if (acknack.initial || !acknack.bitmap.empty()) ++left_[relation];
+  }
+  void sent(const model::Packet& packet, const model::Submessage& heartbeat) override {
+    if (heartbeat.kind != model::Submessage::Kind::heartbeat || !heartbeat.directed) return;
+    std::uint64_t& left = left_[relation_of(packet, heartbeat)];
+    if (left > 0) {
+      --left;
+      ++answered_;
+      return;
+    }
+    const model::Pair& ends = topology().pair(packet.pair);
+    object_now(
+        fmt::format("At {} the writer of {} of participant {} sends participant {} alone a "
+                    "HEARTBEAT that answers no ACKNACK.",
+                    time_text(now()), model::cyclone::name_of_writer(heartbeat.writer), ends.source,
+                    ends.destination));
+  }
+
+  std::map<std::uint32_t, std::uint64_t> left_;  // by relation: ACKNACKs that may be answered
+  std::uint64_t answered_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_repeated_samples() { return attentive<RepeatedSamples>(); }
+MonitorPtr watch_directed_heartbeats() { return attentive<DirectedHeartbeats>(); }
+
+}  // namespace stormproof::props

@@ -1,0 +1,154 @@
+// live.no-stall under Cyclone DDS: while a started receiver lacks a sample that exists, what brings
+// the next step is under way. As long as one of the two does not know the other, that is the
+// announcement timer of the unknown one; from then on the writer's HEARTBEAT timer, since it goes
+// on while a reader has not replied or not acknowledged everything. A timer is under way if it is
+// scheduled and its event is pending, or if it is on the list of a thread that runs. Only
+// cross-host relations of the two streams are looked at, each after the events that concern it.
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/observer.hpp"
+#include "props/monitors/received_submessages.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+using model::EventKind;
+using Kind = model::MachineRef::Kind;
+
+class CycloneStalls : public Observer {
+ public:
+  CycloneStalls() : Observer{"live.no-stall"} {}
+
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    topology_.emplace(topology);
+    received_.reset(*topology_);
+  }
+  void event_started(const model::Event& event) override {
+    Observer::event_started(event);
+    const auto due = pending_.find({event.kind, event.subject});
+    if (due != pending_.end() && --due->second == 0) pending_.erase(due);
+    if (event.kind == EventKind::endpoint_creation) {
+      ++history_[received_.writer_of_creation(event)];
+    }
+    const bool is_own = event.kind == EventKind::endpoint_creation ||
+                        event.kind == EventKind::participant_start ||
+                        event.kind == EventKind::spdp_time || event.kind == EventKind::thread_run;
+    if (is_own) touched_.insert(event.subject);
+    if (event.kind == EventKind::heartbeat_time) {
+      touched_.insert(event.subject / received_.stride());
+    }
+  }
+  void scheduled(std::uint64_t, model::Nanoseconds, EventKind kind,
+                 std::uint32_t subject) override {
+    ++pending_[{kind, subject}];
+  }
+  void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
+                  std::string_view after, std::uint32_t, std::uint64_t) override {
+    const std::uint32_t n = machine.subject;
+    const model::Submessage* heard = received_.heard(machine, event);
+    if (heard != nullptr && event == "DataReceived") have_[n].insert(heard->sample);
+    if (machine.machine == "EventThread") asleep_[n] = after == "Asleep";
+    if (machine.machine == "MovableTimer" && machine.kind == Kind::participant) spdp_[n] = after;
+    if (machine.machine == "MovableTimer" && machine.kind == Kind::endpoint_writer) {
+      heartbeat_[n] = after;
+    }
+    if (event != "Opened") return;
+    (machine.machine == "MatchedReader" ? writer_sides_ : reader_sides_).insert(n);
+    touched_.insert(received_.ends(n).source);
+  }
+  void event_finished(const model::Depths&) override {
+    for (const std::uint32_t i : std::exchange(touched_, {})) judge(i, now());
+  }
+  void finish(model::Nanoseconds end) override {
+    if (!topology_) return;
+    for (std::uint32_t i = 0; i < topology_->participant_count(); ++i) judge(i, end);
+  }
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("{} times a reader that lacks something was looked at.", judged_)};
+  }
+
+ private:
+  /// All that lack something of participant i, or that i does not know.
+  void judge(std::uint32_t i, model::Nanoseconds time) {
+    for (std::uint32_t pair = topology_->first_pair(i); pair < topology_->first_pair(i + 1);
+         ++pair) {
+      const model::Pair& ends = topology_->pair(pair);
+      if (!ends.cross_host || violation()) continue;
+      if (time <= topology_->start(i) || time <= topology_->start(ends.destination)) continue;
+      judge_pair(pair, time);
+      judge_pair(ends.reverse, time);
+    }
+  }
+  void judge_pair(std::uint32_t pair, model::Nanoseconds time) {
+    const model::Pair& ends = topology_->pair(pair);
+    for (std::uint32_t s = 0; s < std::size(model::streams); ++s) {
+      const std::uint32_t relation = received_.stride() * pair + s;
+      const std::uint32_t writer = received_.writer_of(relation);
+      if (have_[relation].size() >= history_[writer]) continue;
+      ++judged_;
+      if (!writer_sides_.contains(relation)) {
+        if (!goes_on(spdp_[ends.destination], EventKind::spdp_time, ends.destination,
+                     ends.destination)) {
+          object_to(relation, time,
+                    "its writer does not know the reader, which announces itself no more");
+        }
+      } else if (!reader_sides_.contains(relation)) {
+        if (!goes_on(spdp_[ends.source], EventKind::spdp_time, ends.source, ends.source)) {
+          object_to(relation, time,
+                    "its reader does not know the writer, which announces itself no more");
+        }
+      } else if (!goes_on(heartbeat_[writer], EventKind::heartbeat_time, writer, ends.source)) {
+        object_to(relation, time, "the HEARTBEAT timer of its writer is not under way");
+      }
+    }
+  }
+  /// A timer of participant i.
+  [[nodiscard]] bool goes_on(const std::string& state, EventKind kind, std::uint32_t owner,
+                             std::uint32_t i) const {
+    if (state == "Scheduled") return pending_.contains({kind, owner});
+    const auto sleeps = asleep_.find(i);
+    const bool runs = sleeps != asleep_.end() && !sleeps->second;
+    return state == "Listed" && runs && pending_.contains({EventKind::thread_run, i});
+  }
+  void object_to(std::uint32_t relation, model::Nanoseconds time, std::string_view why) {
+    const model::Pair& ends = received_.ends(relation);
+    object(event(), time,
+           fmt::format("From {} on nothing can bring participant {} what it lacks of the {} of "
+                       "participant {}: {}.",
+                       time_text(time), ends.destination,
+                       model::cyclone::name_of_writer(relation % received_.stride()), ends.source,
+                       why));
+  }
+
+  std::optional<model::Topology> topology_;
+  ReceivedSubmessages received_;
+  std::map<std::pair<EventKind, std::uint32_t>, std::uint64_t> pending_;  // events, by subject
+  std::map<std::uint32_t, std::uint32_t> history_;         // by writer: how many samples exist
+  std::map<std::uint32_t, std::set<std::uint32_t>> have_;  // by relation
+  std::set<std::uint32_t> writer_sides_;                   // relations
+  std::set<std::uint32_t> reader_sides_;
+  std::map<std::uint32_t, std::string> spdp_;       // by participant: the state of the timer
+  std::map<std::uint32_t, std::string> heartbeat_;  // by writer: the same
+  std::map<std::uint32_t, bool> asleep_;            // by participant
+  std::set<std::uint32_t> touched_;                 // participants
+  std::uint64_t judged_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_stalls_of_cyclone() { return attentive<CycloneStalls>(); }
+
+}  // namespace stormproof::props
