@@ -160,6 +160,8 @@ std::string_view why_not_applicable(std::string_view property,
                                     model::ImplementationKind implementation) {
   if (is_of_all(property)) return {};
   const model::Writer writer = model::traits_of(implementation).writer;
+  const bool has_server = writer == model::Writer::of_server;
+  if (has_server && property == "composition.followed") return {};
   const bool is_paper = writer == model::Writer::of_the_paper;
   if (writer == model::Writer::of_cyclone && is_certified(property, writer)) return {};
   if (is_paper && is_among(of_amended_rules, property)) return {};

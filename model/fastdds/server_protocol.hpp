@@ -118,12 +118,15 @@ class ServerProtocol final : public Protocol {
     lengthen(learner(r).last_delay, delay);
   }
   [[nodiscard]] bool value(server::RelayOpen, Number r) const {
-    return relays_[r % relay::count].about.contains(r);
+    const auto& about = relays_[r % relay::count].about;
+    const auto found = about.find(r);
+    return found != about.end() && found->second.open;
   }
-  void assign(server::RelayOpen, Number r, bool) {
+  void assign(server::RelayOpen, Number r, bool open) {
     RelayWriter& writer = relays_[r % relay::count];
+    if (std::exchange(about(r).open, open)) return;
     writer.readers.push_back(r);
-    writer.about[r].low = writer.first() - 1;
+    about(r).low = writer.first() - 1;
   }
 
   // What only the host knows.
@@ -315,9 +318,7 @@ class ServerProtocol final : public Protocol {
   [[nodiscard]] Learner& learner(Number r) {
     return learners_[relay::count * client_of(r / relay::count) + r % relay::count];
   }
-  [[nodiscard]] RelayWriter::Reader& about(Number r) {
-    return relays_[r % relay::count].about.at(r);
-  }
+  [[nodiscard]] RelayWriter::Reader& about(Number r) { return relays_[r % relay::count].about[r]; }
   template <class World>
   [[nodiscard]] static Number relay_at(const World& w) {
     return w.template number<comp::owner::writer>() % relay::count;
@@ -355,6 +356,7 @@ class ServerProtocol final : public Protocol {
   std::int64_t deliver(SendingQueues::Entry entry);
   bool send_gap_before(Number relation, std::int64_t number);
   void send_data(Number relation);
+  [[nodiscard]] bool is_first_for(Number client, const Relayed& data);
   void send_relayed(Number relation, Relayed relayed);
   template <class Event>
   fsm::Stepper<fsm::ChangeForReader>::Output step(RelayWriter::Entry& entry, Number relation,

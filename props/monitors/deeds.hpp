@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -38,6 +39,13 @@ struct Scheduled {
   std::uint64_t insertion = 0;
 };
 
+/// What a Discovery Server relays, or is asked for; two are the same if they say the same.
+struct RelayedContents {
+  std::shared_ptr<const model::Relayed> of;
+
+  bool operator==(const RelayedContents& other) const;
+};
+
 /// What a packet says, without its size. A record that stands for several packets is several.
 struct Message {
   model::PacketKind kind{};
@@ -50,6 +58,7 @@ struct Message {
   bool repair = false;
   bool carries_heartbeat = false;
   bool to_nobody = false;
+  RelayedContents relayed;
 
   bool operator==(const Message&) const = default;
   [[nodiscard]] std::uint32_t relation() const {

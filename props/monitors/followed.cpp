@@ -27,7 +27,7 @@ class FollowedRun : public Observer {
     Observer::run_started(topology);
     follower_ = is_living_fastdds(scenario_)
                     ? follow_life(scenario_, topology)
-                    : model::visit_engine_composition(scenario_.dds, [&](auto composition) {
+                    : model::visit_composition(scenario_.dds, [&](auto composition) {
                         return follow(composition, scenario_, topology);
                       });
     if (follower_ != nullptr) trigger_ = Trigger::start;

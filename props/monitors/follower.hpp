@@ -101,6 +101,15 @@ class Follower {
 [[nodiscard]] std::unique_ptr<Follower> follow(model::Of<fsm::composition::fastdds::FastDds>,
                                                const model::Scenario& scenario,
                                                const model::Topology& topology);
+[[nodiscard]] std::unique_ptr<Follower> follow(model::Of<fsm::composition::server::FastDdsServer>,
+                                               const model::Scenario& scenario,
+                                               const model::Topology& topology);
+/// Of those without one.
+template <class Composition>
+[[nodiscard]] std::unique_ptr<Follower> follow(model::Of<Composition>, const model::Scenario&,
+                                               const model::Topology&) {
+  return nullptr;
+}
 /// Of Fast DDS whose participants have a life.
 [[nodiscard]] std::unique_ptr<Follower> follow_life(const model::Scenario& scenario,
                                                     const model::Topology& topology);
