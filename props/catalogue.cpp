@@ -4,6 +4,7 @@
 #include <array>
 
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 #include "props/limits.hpp"
 #include "props/property.hpp"
 
@@ -301,7 +302,8 @@ const char* name_of(Reach reach) {
 }
 
 std::string_view Property::weakness_of(model::ImplementationKind implementation) const {
-  const bool stateful = model::traits_of(implementation).writer == model::Writer::stateful;
+  const bool stateful = is_about_clients(id, implementation) ||
+                        model::traits_of(implementation).writer == model::Writer::stateful;
   return stateful ? stateful_weakness : weakness;
 }
 
@@ -309,8 +311,11 @@ std::span<const Property> catalogue() { return properties; }
 
 std::string statement_of(const Property& property, model::ImplementationKind implementation) {
   std::string text{property.statement};
-  const bool stateful = model::traits_of(implementation).writer == model::Writer::stateful;
+  const bool of_clients = is_about_clients(property.id, implementation);
+  const bool stateful =
+      of_clients || model::traits_of(implementation).writer == model::Writer::stateful;
   if (stateful && !property.stateful.empty()) text.append(" ").append(property.stateful);
+  if (of_clients) text.append(" It is about what clients tell the server.");
   return text;
 }
 
