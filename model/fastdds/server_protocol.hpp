@@ -201,8 +201,11 @@ class ServerProtocol final : public Protocol {
   }
   void schedule(server::RoutineAgain, Number n, std::int64_t time) {
     run_.schedule(Nanoseconds{time}, event_kind_of<server::RoutineAgain>, n, routine_token_);
+    routine_may_run_again_ = true;
   }
-  void cancel(server::RoutineAgain, Number) { ++routine_token_; }
+  void cancel(server::RoutineAgain, Number) {
+    if (std::exchange(routine_may_run_again_, false)) ++routine_token_;
+  }
 
   // Packets.
   using Protocol::emit;
@@ -374,6 +377,7 @@ class ServerProtocol final : public Protocol {
   fsm::StateId routine_ = fsm::Stepper<fsm::SingleShot>::initial;
   fsm::StateId thread_ = fsm::Stepper<fsm::EventThread>::initial;
   std::uint32_t routine_token_ = 0;
+  bool routine_may_run_again_ = false;  // what has been scheduled with this token
   // Of what is being done.
   bool some_requested_ = false;
   bool some_irrelevant_ = false;
