@@ -36,6 +36,19 @@ constexpr std::array<std::string_view, 1> certified_of_amended_rules{"live.recov
 constexpr std::array<std::string_view, 3> of_living_fastdds{"composition.followed", "live.recovery",
                                                             "live.isolation"};
 
+/// What clients tell a Discovery Server goes by Fast DDS's rules; of that these hold as they do
+/// without one.
+constexpr std::array<std::string_view, 7> of_clients{
+    "safety.ack-implies-received", "safety.ack-stable",
+    "safety.repair-only-if-asked", "safety.snapshot",
+    "timer.single-heartbeat",      "timer.suppression-honoured",
+    "storm.feedback-gain"};
+
+/// Of these, what certificates prove from those rules.
+constexpr std::array<std::string_view, 4> certified_of_clients{
+    "safety.ack-implies-received", "safety.repair-only-if-asked", "safety.snapshot",
+    "timer.single-heartbeat"};
+
 /// What a certificate from Cyclone DDS's rules proves.
 constexpr std::array<std::string_view, 2> certified_of_cyclone{"safety.ack-implies-received",
                                                                "safety.snapshot"};
@@ -65,6 +78,7 @@ bool is_among(std::span<const std::string_view> list, std::string_view property)
 
 bool is_certified(std::string_view property, model::Writer writer) {
   if (writer == model::Writer::of_cyclone) return is_among(certified_of_cyclone, property);
+  if (writer == model::Writer::of_server) return is_among(certified_of_clients, property);
   return writer == model::Writer::of_the_paper && is_among(certified_of_amended_rules, property);
 }
 
@@ -164,6 +178,10 @@ std::string_view why_not_applicable(std::string_view property,
                                     model::ImplementationKind implementation) {
   if (is_of_all(property)) return {};
   const model::Writer writer = model::traits_of(implementation).writer;
+  const bool has_server = writer == model::Writer::of_server;
+  if (has_server && (property == "composition.followed" || is_among(of_clients, property))) {
+    return {};
+  }
   const bool is_paper = writer == model::Writer::of_the_paper;
   const bool is_of_cyclone =
       is_certified(property, writer) || is_among(observed_of_cyclone, property);
@@ -180,6 +198,11 @@ std::string_view why_not_applicable(std::string_view property,
   }
   return "it is stated for the writers of the paper and of Fast DDS; of this one only machines, "
          "network and results are checked";
+}
+
+bool is_about_clients(std::string_view property, model::ImplementationKind implementation) {
+  const bool has_server = model::traits_of(implementation).writer == model::Writer::of_server;
+  return has_server && is_among(of_clients, property);
 }
 
 bool is_monitored(std::string_view property, model::ImplementationKind implementation) {

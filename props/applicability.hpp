@@ -16,6 +16,10 @@ namespace stormproof::props {
 [[nodiscard]] std::string_view why_not_applicable(std::string_view property,
                                                   const model::Scenario& scenario);
 
+/// Whether it is about what clients tell a Discovery Server, not about what the server relays.
+[[nodiscard]] bool is_about_clients(std::string_view property,
+                                    model::ImplementationKind implementation);
+
 /// Whether a monitor may watch it in runs of the implementation; otherwise only a certificate from
 /// the rules says something of it.
 [[nodiscard]] bool is_monitored(std::string_view property,

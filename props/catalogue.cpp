@@ -5,6 +5,7 @@
 #include <array>
 
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 #include "props/limits.hpp"
 #include "props/property.hpp"
 
@@ -319,7 +320,8 @@ const char* name_of(Reach reach) {
 }
 
 std::string_view Property::weakness_of(model::ImplementationKind implementation) const {
-  const bool stateful = model::traits_of(implementation).writer == model::Writer::stateful;
+  const bool stateful = is_about_clients(id, implementation) ||
+                        model::traits_of(implementation).writer == model::Writer::stateful;
   return stateful ? stateful_weakness : weakness;
 }
 
@@ -327,7 +329,9 @@ std::span<const Property> catalogue() { return properties; }
 
 std::string_view addition_of(const Property& property, model::ImplementationKind implementation) {
   const model::Writer writer = model::traits_of(implementation).writer;
-  if (writer == model::Writer::stateful) return property.stateful;
+  if (writer == model::Writer::stateful || is_about_clients(property.id, implementation)) {
+    return property.stateful;
+  }
   if (writer != model::Writer::of_cyclone) return {};
   const auto* const found = std::ranges::find(for_cyclone, property.id, &Addition::id);
   return found == for_cyclone.end() ? std::string_view{} : found->text;
@@ -337,6 +341,9 @@ std::string statement_of(const Property& property, model::ImplementationKind imp
   std::string text{property.statement};
   const std::string_view more = addition_of(property, implementation);
   if (!more.empty()) text.append(" ").append(more);
+  if (is_about_clients(property.id, implementation)) {
+    text.append(" It is about what clients tell the server.");
+  }
   return text;
 }
 

@@ -15,16 +15,9 @@
 #include "fsm/single_shot.hpp"
 #include "fsm/stepper.hpp"
 #include "model/fastdds/database.hpp"
+#include "model/fastdds/relayed.hpp"
 
 namespace stormproof::model::fastdds {
-
-/// The server's writers, and how its relations are numbered: relation 3·pair + relay.
-namespace relay {
-inline constexpr std::uint32_t announcements = 0;
-inline constexpr std::uint32_t publications = 1;
-inline constexpr std::uint32_t subscriptions = 2;
-inline constexpr std::uint32_t count = 3;
-}  // namespace relay
 
 class RelayWriter {
  public:
@@ -34,6 +27,7 @@ class RelayWriter {
     bool sent = false;
   };
   struct Reader {
+    bool open = false;
     std::int64_t low = 0;
     std::map<std::int64_t, Entry> list;
     fsm::StateId suppression = fsm::Stepper<fsm::SingleShot>::initial;

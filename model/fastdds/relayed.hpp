@@ -21,6 +21,16 @@ struct Relayed {
   std::int64_t first = 0;  ///< what the HEARTBEAT announces
   std::int64_t last = 0;
   std::int64_t base = 0;  ///< of an ACKNACK
+
+  bool operator==(const Relayed&) const = default;
 };
+
+/// The server's writers, and how its relations are numbered: relation 3·pair + relay.
+namespace fastdds::relay {
+inline constexpr std::uint32_t announcements = 0;
+inline constexpr std::uint32_t publications = 1;
+inline constexpr std::uint32_t subscriptions = 2;
+inline constexpr std::uint32_t count = 3;
+}  // namespace fastdds::relay
 
 }  // namespace stormproof::model

@@ -205,6 +205,7 @@ void ServerProtocol::take_relayed(Number relation, const Relayed& relayed) {
 }
 
 void ServerProtocol::learn(Number client, const Relayed& relayed) {
+  if (relayed.participant == client) return;  // only a mistake tells it of itself
   const Number pair = run_.topology.pair_between(relayed.participant, client);
   const Pair& p = run_.topology.pair(pair);
   if (relayed.is_announcement) {

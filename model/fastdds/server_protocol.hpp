@@ -118,12 +118,15 @@ class ServerProtocol final : public Protocol {
     lengthen(learner(r).last_delay, delay);
   }
   [[nodiscard]] bool value(server::RelayOpen, Number r) const {
-    return relays_[r % relay::count].about.contains(r);
+    const auto& about = relays_[r % relay::count].about;
+    const auto found = about.find(r);
+    return found != about.end() && found->second.open;
   }
-  void assign(server::RelayOpen, Number r, bool) {
+  void assign(server::RelayOpen, Number r, bool open) {
     RelayWriter& writer = relays_[r % relay::count];
+    if (std::exchange(about(r).open, open)) return;
     writer.readers.push_back(r);
-    writer.about[r].low = writer.first() - 1;
+    about(r).low = writer.first() - 1;
   }
 
   // What only the host knows.
@@ -198,8 +201,11 @@ class ServerProtocol final : public Protocol {
   }
   void schedule(server::RoutineAgain, Number n, std::int64_t time) {
     run_.schedule(Nanoseconds{time}, event_kind_of<server::RoutineAgain>, n, routine_token_);
+    routine_may_run_again_ = true;
   }
-  void cancel(server::RoutineAgain, Number) { ++routine_token_; }
+  void cancel(server::RoutineAgain, Number) {
+    if (std::exchange(routine_may_run_again_, false)) ++routine_token_;
+  }
 
   // Packets.
   using Protocol::emit;
@@ -315,9 +321,7 @@ class ServerProtocol final : public Protocol {
   [[nodiscard]] Learner& learner(Number r) {
     return learners_[relay::count * client_of(r / relay::count) + r % relay::count];
   }
-  [[nodiscard]] RelayWriter::Reader& about(Number r) {
-    return relays_[r % relay::count].about.at(r);
-  }
+  [[nodiscard]] RelayWriter::Reader& about(Number r) { return relays_[r % relay::count].about[r]; }
   template <class World>
   [[nodiscard]] static Number relay_at(const World& w) {
     return w.template number<comp::owner::writer>() % relay::count;
@@ -355,6 +359,7 @@ class ServerProtocol final : public Protocol {
   std::int64_t deliver(SendingQueues::Entry entry);
   bool send_gap_before(Number relation, std::int64_t number);
   void send_data(Number relation);
+  [[nodiscard]] bool is_first_for(Number client, const Relayed& data);
   void send_relayed(Number relation, Relayed relayed);
   template <class Event>
   fsm::Stepper<fsm::ChangeForReader>::Output step(RelayWriter::Entry& entry, Number relation,
@@ -372,6 +377,7 @@ class ServerProtocol final : public Protocol {
   fsm::StateId routine_ = fsm::Stepper<fsm::SingleShot>::initial;
   fsm::StateId thread_ = fsm::Stepper<fsm::EventThread>::initial;
   std::uint32_t routine_token_ = 0;
+  bool routine_may_run_again_ = false;  // what has been scheduled with this token
   // Of what is being done.
   bool some_requested_ = false;
   bool some_irrelevant_ = false;

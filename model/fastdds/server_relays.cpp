@@ -201,6 +201,14 @@ void ServerProtocol::send_data(Number relation) {
   send_relayed(relation, std::move(data));
 }
 
+/// Whether the client is sent the descriptor for the first time, which it is with this.
+bool ServerProtocol::is_first_for(Number client, const Relayed& data) {
+  if (data.participant == client) return false;  // only a mistake tells it of itself
+  const Number pair = run_.topology.pair_between(data.participant, client);
+  const auto relation = static_cast<Number>(2 * pair + index_of(data.stream));
+  return changes_.mark_generated(relation, data.descriptor);
+}
+
 /// Counts and sends it; the HEARTBEAT, if it has one, announces what there is now.
 void ServerProtocol::send_relayed(Number relation, Relayed relayed) {
   const Number relay = relation % relay::count;
@@ -225,9 +233,7 @@ void ServerProtocol::send_relayed(Number relation, Relayed relayed) {
     if (cross_host) ++counts.pdp_data;
     weigh(relayed.participant == server_id() ? own_announcement_bytes : announcement_bytes);
   } else if (relayed.has_data) {
-    const Number shown = run_.topology.pair_between(relayed.participant, client_of(pair));
-    const bool initial = changes_.mark_generated(
-        static_cast<Number>(2 * shown + index_of(relayed.stream)), relayed.descriptor);
+    const bool initial = is_first_for(client_of(pair), relayed);
     if (cross_host) ++(initial ? counts.initial_data : counts.repair_data);
     packet.carries_initial = initial;
     packet.use = initial ? TrafficClass::initial_data : TrafficClass::repair_data;

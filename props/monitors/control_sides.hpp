@@ -16,16 +16,10 @@ namespace stormproof::props {
 class ControlSides {
  public:
   explicit ControlSides(const model::Topology& topology) : topology_{topology} {
-    namespace fastdds = model::fastdds;
     for (std::uint32_t pair = 0; pair < topology.pair_count(); ++pair) {
       first_.push_back(next_);
       const model::Pair& ends = topology.pair(pair);
-      if (!ends.cross_host) continue;
-      using enum model::Stream;
-      next_ += fastdds::topic::first_user +
-               std::min(topology.descriptor_count(ends.source, pub) - fastdds::default_publications,
-                        topology.descriptor_count(ends.destination, sub) -
-                            fastdds::default_subscriptions);
+      if (ends.cross_host) next_ += count_of(ends);
     }
     first_.push_back(next_);
   }
@@ -69,6 +63,17 @@ class ControlSides {
   }
 
  private:
+  /// Liveliness, and the topics that both ends have; a Discovery Server has none.
+  [[nodiscard]] std::uint32_t count_of(const model::Pair& ends) const {
+    namespace fastdds = model::fastdds;
+    const std::uint32_t publications = topology_.descriptor_count(ends.source, model::Stream::pub);
+    const std::uint32_t subscriptions =
+        topology_.descriptor_count(ends.destination, model::Stream::sub);
+    if (publications == 0 || subscriptions == 0) return 1;
+    return fastdds::topic::first_user + std::min(publications - fastdds::default_publications,
+                                                 subscriptions - fastdds::default_subscriptions);
+  }
+
   const model::Topology& topology_;
   std::vector<std::uint32_t> first_;  // by pair
   std::uint32_t next_ = 0;

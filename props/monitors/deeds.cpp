@@ -1,13 +1,16 @@
 // Deeds in words.
 #include "props/monitors/deeds.hpp"
 
+#include <array>
 #include <bit>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "model/cyclone/endpoints.hpp"
 #include "model/engine/submessage.hpp"
+#include "model/fastdds/relayed.hpp"
 #include "model/trace/event_subject.hpp"
 #include "props/monitors/describe.hpp"
 
@@ -95,6 +98,42 @@ std::string contents_text(const Message& message, const model::Topology& topolog
   return text + " is sent";
 }
 
+/// "publication 3 of participant 2 as number 7, a HEARTBEAT for 4 to 9".
+std::string relayed_text(const model::Relayed& relayed, bool asks) {
+  std::vector<std::string> parts;
+  if (asks) parts.push_back(fmt::format("base {}", relayed.base));
+  if (relayed.has_data && relayed.is_announcement) {
+    parts.push_back(fmt::format("the announcement of participant {} as number {}",
+                                relayed.participant, relayed.number));
+  } else if (relayed.has_data) {
+    parts.push_back(fmt::format("{} descriptor {} of participant {} as number {}",
+                                relayed.stream == model::Stream::pub ? "pub" : "sub",
+                                relayed.descriptor, relayed.participant, relayed.number));
+  }
+  if (!relayed.numbers.empty()) {
+    parts.push_back(fmt::format("{} {}", asks ? "a request for" : "a GAP of",
+                                fmt::join(relayed.numbers, ", ")));
+  }
+  if (relayed.has_heartbeat) {
+    parts.push_back(fmt::format("a HEARTBEAT for {} to {}", relayed.first, relayed.last));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Of a packet between the server and a client.
+std::string server_message_text(const Message& message, const model::Topology& topology) {
+  constexpr std::array relays{"announcements", "publications", "subscriptions"};
+  const model::Pair& ends = topology.pair(message.pair);
+  std::string text = fmt::format("{} between participants {} and {}{}", name_of(message.kind),
+                                 ends.source, ends.destination, message.initial ? ", initial" : "");
+  if (message.relayed.of != nullptr) {
+    const bool asks = message.kind == model::PacketKind::relayed_acknack;
+    text += fmt::format(" ({}: {})", relays.at(message.detail),
+                        relayed_text(*message.relayed.of, asks));
+  }
+  return text + " is sent";
+}
+
 std::string message_text(const Message& message, const model::Topology& topology) {
   if (!message.contents.empty()) return contents_text(message, topology);
   using enum model::PacketKind;
@@ -109,6 +148,12 @@ std::string message_text(const Message& message, const model::Topology& topology
                       message.to_nobody ? "a port that nobody has on the host of " : "",
                       topology.pair(message.pair).destination);
       break;
+    case registration:
+    case registration_heartbeat:
+    case registration_acknack:
+    case relayed:
+    case relayed_acknack:
+      return server_message_text(message, topology);
     case user_heartbeat:
     case user_acknack:
       text += fmt::format(" of control-only relation {}", message.detail);
@@ -156,6 +201,11 @@ Message content_of(const model::Submessage& submessage) {
 
 }  // namespace
 
+bool RelayedContents::operator==(const RelayedContents& other) const {
+  if (of == nullptr || other.of == nullptr) return of == other.of;
+  return *of == *other.of;
+}
+
 Message message_of(const model::Packet& packet) {
   Message message;
   message.kind = packet.kind;
@@ -178,6 +228,7 @@ Message message_of(const model::Packet& packet) {
       message.contents.push_back(content_of(each));
     }
   }
+  message.relayed.of = packet.relayed;
   return message;
 }
 

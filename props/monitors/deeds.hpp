@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -38,6 +39,13 @@ struct Scheduled {
   std::uint64_t insertion = 0;
 };
 
+/// What a Discovery Server relays, or is asked for; two are the same if they say the same.
+struct RelayedContents {
+  std::shared_ptr<const model::Relayed> of;
+
+  bool operator==(const RelayedContents& other) const;
+};
+
 /// What a packet says, without its size. A record that stands for several packets is several. One
 /// of Cyclone DDS has contents, which are about a writer of a participant each, and its size.
 struct Message {
@@ -58,6 +66,7 @@ struct Message {
   std::uint32_t writer = 0;  ///< of a content: which one (model/cyclone/endpoints.hpp)
   std::int64_t count = 0;    ///< of a content that is a HEARTBEAT or ACKNACK
   bool directed = false;     ///< of a content: meant for its receiver alone
+  RelayedContents relayed;
 
   bool operator==(const Message&) const = default;
   [[nodiscard]] std::uint32_t relation() const {

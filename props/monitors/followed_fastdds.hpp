@@ -179,6 +179,26 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
     Base::take_creations(i, [&](const Scheduled& it) { creations_[i].insert(it.insertion); });
   }
 
+  /// Each side at the destination of the pair that has what it needs is open.
+  void open_sides(std::uint32_t pair) {
+    const auto open = [&](std::uint32_t number, const ControlSides::Needs& needs, auto part,
+                          auto occasion) {
+      const Place side{.control = number};
+      using Part = decltype(part);
+      constexpr fsm::StateId closed = fsm::Flyweight<typename Part::Machine>::initial;
+      if (this->template state<Part>(side) != closed || !has(needs)) return;
+      World w = world_at(side);
+      w.raise(occasion);
+    };
+    sides_.for_each(pair, false, [&](std::uint32_t number, const ControlSides::Needs& needs) {
+      open(number, needs, control::ControlReaderSide{}, control::ControlReaderOpens{});
+    });
+    const std::uint32_t back = topology_.pair(pair).reverse;
+    sides_.for_each(back, true, [&](std::uint32_t number, const ControlSides::Needs& needs) {
+      open(number, needs, control::ControlWriterSide{}, control::ControlWriterOpens{});
+    });
+  }
+
   const ControlSides sides_{topology_};
   std::map<std::uint32_t, std::vector<Place>> queues_;  // by participant, first in, first out
   std::map<std::uint32_t, std::set<std::uint64_t>> creations_;  // by participant; insertion numbers
@@ -263,25 +283,6 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
     }
   }
 
-  /// Each side at the destination of the pair that has what it needs is open.
-  void open_sides(std::uint32_t pair) {
-    const auto open = [&](std::uint32_t number, const ControlSides::Needs& needs, auto part,
-                          auto occasion) {
-      const Place side{.control = number};
-      using Part = decltype(part);
-      constexpr fsm::StateId closed = fsm::Flyweight<typename Part::Machine>::initial;
-      if (this->template state<Part>(side) != closed || !has(needs)) return;
-      World w = world_at(side);
-      w.raise(occasion);
-    };
-    sides_.for_each(pair, false, [&](std::uint32_t number, const ControlSides::Needs& needs) {
-      open(number, needs, control::ControlReaderSide{}, control::ControlReaderOpens{});
-    });
-    const std::uint32_t back = topology_.pair(pair).reverse;
-    sides_.for_each(back, true, [&](std::uint32_t number, const ControlSides::Needs& needs) {
-      open(number, needs, control::ControlWriterSide{}, control::ControlWriterOpens{});
-    });
-  }
   bool has(const ControlSides::Needs& needs) {
     if (needs.liveliness) return this->template value<comp::Recognised>({.pair = needs.pair}) != 0;
     const Place own{.writer = needs.writer, .descriptor = needs.created};

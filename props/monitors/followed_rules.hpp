@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <map>
+#include <ranges>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -37,16 +38,17 @@ class FollowedRules : public Follower {
   void due(const model::Event& event) override {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       if (event.kind != model::event_kind_of<T>) return;
-      if (is_followed<T> &&
-          std::erase(pending_of(event.kind, event.subject), event.insertion()) == 0) {
+      const std::uint32_t owner = self().owner_of(event);
+      if (is_followed<T> && std::erase(pending_of(event.kind, owner), event.insertion()) == 0) {
         return;
       }
-      run<comp::Due<T>>(place_of(T::owner, event.subject));
+      run<comp::Due<T>>(place_of(T::owner, owner));
     });
   }
 
   void rescheduled(const model::Event& event, std::uint64_t insertion) override {
-    std::ranges::replace(pending_of(event.kind, event.subject), event.insertion(), insertion);
+    std::ranges::replace(pending_of(event.kind, self().owner_of(event)), event.insertion(),
+                         insertion);
   }
 
   // Places.
@@ -69,11 +71,21 @@ class FollowedRules : public Follower {
   [[nodiscard]] std::uint32_t descriptor_count(std::uint32_t writer) const {
     return topology_.descriptor_count(writer / 2, model::streams[writer % 2]);
   }
-  static constexpr model::MachineRef::Kind machine_kind(comp::Owner owner) {
-    using enum model::MachineRef::Kind;
-    if (owner == comp::owner::participant) return participant;
-    if (owner == comp::owner::writer) return writer;
-    return owner == comp::owner::control_relation ? control_relation : relation;
+  /// The relations of a pair.
+  [[nodiscard]] auto streams_of(std::uint32_t pair) const {
+    const std::uint32_t first = writers_.stride * pair;
+    return std::views::iota(first, first + writers_.streams);
+  }
+  // How observers hear of owners.
+  template <class P>
+  [[nodiscard]] model::MachineRef machine_at(const Place& place) const {
+    static constexpr std::string_view machine = fsm::name_of<typename P::Machine>();
+    return {machine, machine_kind(P::owner), place.number(P::owner)};
+  }
+  [[nodiscard]] static std::uint32_t owner_of(const model::Event& event) { return event.subject; }
+  template <class T>
+  [[nodiscard]] static std::uint32_t subject_of(std::uint32_t owner) {
+    return owner;
   }
 
   // State. What nobody has changed has its first value.
@@ -85,10 +97,13 @@ class FollowedRules : public Follower {
   void assign(const Place& place, std::int64_t to) {
     ValueOf<V>& value = at<V::owner>(std::get<Values<V>>(values_).of, place, 0);
     const bool was = value != 0;
-    if (!was && to != 0) static_cast<Self*>(this)->becomes(V{}, place);
+    if (!was && to != 0) self().becomes(V{}, place);
     value = static_cast<ValueOf<V>>(to);
-    if (was && to == 0) static_cast<Self*>(this)->ceases(V{}, place);
+    if (was && to == 0) self().ceases(V{}, place);
   }
+  /// A flag has been set for all descriptors of the place.
+  template <class V>
+  void all_are_set(V, const Place&) {}
   template <class P>
   fsm::StateId& state(const Place& place) {
     return at<P::owner>(std::get<States<P>>(states_).of, place,
@@ -104,7 +119,7 @@ class FollowedRules : public Follower {
   template <class V>
   void becomes(V, const Place& place) {
     if constexpr (std::is_same_v<V, comp::X>) {
-      if (static_cast<Self*>(this)->is_required(place.pair)) --missing_;
+      if (self().is_required(place.pair)) --missing_;
     } else if constexpr (std::is_same_v<V, typename Composition::IsOpen>) {
       readers_[place.writer].push_back(place.relation);
       if (!Self::readers_in_order_of_match) std::ranges::sort(readers_[place.writer]);
@@ -114,7 +129,7 @@ class FollowedRules : public Follower {
   template <class V>
   void ceases(V, const Place& place) {
     if constexpr (std::is_same_v<V, comp::X>) {
-      if (static_cast<Self*>(this)->is_required(place.pair)) ++missing_;
+      if (self().is_required(place.pair)) ++missing_;
     } else if constexpr (std::is_same_v<V, typename Composition::IsOpen>) {
       std::erase(readers_[place.writer], place.relation);
       for (auto& batch : batches_[place.writer]) std::erase(batch, place.relation);
@@ -250,7 +265,7 @@ class FollowedRules : public Follower {
   }
   template <class T>
   void expect_timer(T, std::uint32_t owner, model::Nanoseconds time, comp::Site site) {
-    const Scheduled wanted{model::event_kind_of<T>, owner, time};
+    const Scheduled wanted{model::event_kind_of<T>, self().template subject_of<T>(owner), time};
     const Scheduled* actual = expect(wanted, site);
     if (is_followed<T> && actual != nullptr) {
       pending_of(wanted.kind, owner).push_back(actual->insertion);
@@ -319,14 +334,14 @@ class FollowedRules : public Follower {
     Rule::run(w);
   }
   [[nodiscard]] World world_at(const Place& place, const Message* heard = nullptr) {
-    return {static_cast<Self&>(*this), place, heard};
+    return {self(), place, heard};
   }
   [[nodiscard]] Place place_of(comp::Owner owner, std::uint32_t number) const {
     if (owner == comp::owner::participant) return {.participant = number};
     if (owner == comp::owner::pair) return pair_place(number);
-    if (owner == comp::owner::writer) return writer_place(number);
+    if (owner == comp::owner::writer) return self().writer_place(number);
     if (owner == comp::owner::control_relation) return {.control = number};
-    return relation_place(number);
+    return self().relation_place(number);
   }
   /// A HEARTBEAT to each reader of the next batch that still waits.
   template <class Rules>
@@ -347,7 +362,16 @@ class FollowedRules : public Follower {
     return now_ >= topology_.start(participant);
   }
 
+  Self& self() { return static_cast<Self&>(*this); }
+  const Self& self() const { return static_cast<const Self&>(*this); }
+
  private:
+  static constexpr model::MachineRef::Kind machine_kind(comp::Owner owner) {
+    using enum model::MachineRef::Kind;
+    if (owner == comp::owner::participant) return participant;
+    if (owner == comp::owner::writer) return writer;
+    return owner == comp::owner::control_relation ? control_relation : relation;
+  }
   /// A truth value or a number.
   template <class V>
   using ValueOf = std::conditional_t < requires {

@@ -67,6 +67,8 @@ class FollowedWorld {
       : host_{&host}, place_{place}, heard_{heard} {}
 
   [[nodiscard]] const Place& place() const { return place_; }
+  /// What is received.
+  [[nodiscard]] const Message& heard() const { return *heard_; }
   [[nodiscard]] FollowedWorld at_relation(std::uint32_t relation) const {
     Place place = host_->relation_place(relation);
     place.descriptor = place_.descriptor;
@@ -75,12 +77,9 @@ class FollowedWorld {
   /// What an observer hears of the machine of this place, which was in the state `before`.
   template <class P>
   [[nodiscard]] Move move_of(std::string_view event, fsm::StateId before) const {
-    static constexpr std::string_view machine = fsm::name_of<typename P::Machine>();
     const auto& names = fsm::Reflect<typename P::Machine>::state_names;
     Move move;
-    move.machine.machine = machine;
-    move.machine.kind = Host::machine_kind(P::owner);
-    move.machine.subject = place_.number(P::owner);
+    move.machine = host_->template machine_at<P>(place_);
     move.event = event;
     move.before = names[before];
     move.after = names[host_->template state<P>(place_)];
@@ -213,10 +212,7 @@ class FollowedWorld {
   }
   template <class Body>
   void for_streams(Body&& body) {
-    for (std::uint32_t s = 0; s < writers().streams; ++s) {
-      FollowedWorld r = at_relation(writers().stride * place_.pair + s);
-      body(r);
-    }
+    for_relations(host_->streams_of(place_.pair), body);
   }
   template <class Body>
   void for_known_peers(Body&& body) {
@@ -288,6 +284,7 @@ class FollowedWorld {
   void set_each(V, Term&& term, Site = Site::here()) {
     const Set set = set_of(term);
     each_descriptor([&](FollowedWorld& d) { host_->template assign<V>(d.place_, d.is_in(set)); });
+    host_->all_are_set(V{}, place_);
   }
   template <class Wait, class T>
   void after(Wait wait, T timer, Site site = Site::here()) {

@@ -104,6 +104,9 @@ class Follower {
 [[nodiscard]] std::unique_ptr<Follower> follow(model::Of<fsm::composition::cyclone::Cyclone>,
                                                const model::Scenario& scenario,
                                                const model::Topology& topology);
+[[nodiscard]] std::unique_ptr<Follower> follow(model::Of<fsm::composition::server::FastDdsServer>,
+                                               const model::Scenario& scenario,
+                                               const model::Topology& topology);
 /// Amended rules are not the paper's, and nobody follows them.
 std::unique_ptr<Follower> follow(model::Of<fsm::composition::amended::Amended>,
                                  const model::Scenario&, const model::Topology&) = delete;

@@ -117,10 +117,9 @@ Observed observe_oracle(const model::Scenario& scenario, Mistake mistake,
   return observed;
 }
 
-Observed observe_oracle(const model::Scenario& scenario, FastddsMistake mistake,
-                        std::uint64_t max_events) {
-  Observed observed;
-  const FastddsOutcome outcome = run_fastdds(scenario, log_into(observed), mistake, max_events);
+namespace {
+/// With what is counted with a Discovery Server only.
+void take_fastdds_outcome(Observed& observed, const FastddsOutcome& outcome) {
   take_outcome(observed, outcome, outcome.user_control);
   for (auto& [name, value] : observed.outcome) {
     const std::string_view key{name};
@@ -129,6 +128,21 @@ Observed observe_oracle(const model::Scenario& scenario, FastddsMistake mistake,
     if (key == "ACKNACK(p)") value = outcome.pdp_acknack;
     if (key == "GAP") value = outcome.gap;
   }
+}
+}  // namespace
+
+Observed observe_oracle(const model::Scenario& scenario, FastddsMistake mistake,
+                        std::uint64_t max_events) {
+  Observed observed;
+  take_fastdds_outcome(observed, run_fastdds(scenario, log_into(observed), mistake, max_events));
+  return observed;
+}
+
+Observed observe_oracle(const model::Scenario& scenario, ServerMistake mistake,
+                        std::uint64_t max_events) {
+  Observed observed;
+  take_fastdds_outcome(observed, run_fastdds(scenario, log_into(observed), FastddsMistake::none,
+                                             max_events, WifiMistake::none, mistake));
   return observed;
 }
 

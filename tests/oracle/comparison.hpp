@@ -50,6 +50,8 @@ struct Observed {
                                       std::uint64_t max_events = 0);
 [[nodiscard]] Observed observe_oracle(const model::Scenario& scenario, WifiMistake mistake,
                                       std::uint64_t max_events = 0);
+[[nodiscard]] Observed observe_oracle(const model::Scenario& scenario, ServerMistake mistake,
+                                      std::uint64_t max_events = 0);
 [[nodiscard]] Observed observe_oracle(const model::Scenario& scenario, CycloneMistake mistake,
                                       std::uint64_t max_events = 0);
 

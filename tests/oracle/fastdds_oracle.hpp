@@ -30,7 +30,8 @@ struct FastddsOutcome : Outcome {
 [[nodiscard]] FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log = {},
                                          FastddsMistake mistake = FastddsMistake::none,
                                          std::uint64_t max_events = 0,
-                                         WifiMistake of_wifi = WifiMistake::none);
+                                         WifiMistake of_wifi = WifiMistake::none,
+                                         ServerMistake of_server = ServerMistake::none);
 
 /// When the packets, given by time, have arrived over a channel of units, or −1.
 [[nodiscard]] std::vector<std::int64_t> feed_units(

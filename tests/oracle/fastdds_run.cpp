@@ -228,9 +228,9 @@ void take_counts(World& w) {
 }
 
 FastddsOutcome run(const model::Scenario& given, const EventLog& log, Mistake mistake,
-                   std::uint64_t max_events, WifiMistake of_wifi) {
+                   std::uint64_t max_events, WifiMistake of_wifi, ServerMistake of_server) {
   const model::Scenario scenario = with_those_who_come_back_as_others(given);
-  World w{scenario, mistake, of_wifi};
+  World w{scenario, mistake, of_wifi, of_server};
   begin_life(w);
   schedule_beginning(w);
   schedule_returns(w);
@@ -266,8 +266,9 @@ FastddsOutcome run(const model::Scenario& given, const EventLog& log, Mistake mi
 namespace stormproof::oracle {
 
 FastddsOutcome run_fastdds(const model::Scenario& scenario, const EventLog& log,
-                           FastddsMistake mistake, std::uint64_t max_events, WifiMistake of_wifi) {
-  return fastdds::run(scenario, log, mistake, max_events, of_wifi);
+                           FastddsMistake mistake, std::uint64_t max_events, WifiMistake of_wifi,
+                           ServerMistake of_server) {
+  return fastdds::run(scenario, log, mistake, max_events, of_wifi, of_server);
 }
 
 }  // namespace stormproof::oracle

@@ -28,8 +28,9 @@ void create_relations(World& w) {
 
 }  // namespace
 
-World::World(const model::Scenario& s, FastddsMistake m, WifiMistake of_wifi)
-    : scenario{s}, sedp{s.dds.sedp}, mistake{m}, wifi_mistake{of_wifi} {
+World::World(const model::Scenario& s, FastddsMistake m, WifiMistake of_wifi,
+             ServerMistake of_server)
+    : scenario{s}, sedp{s.dds.sedp}, mistake{m}, wifi_mistake{of_wifi}, server_mistake{of_server} {
   for (const model::Participant& p : s.deployment.participants) {
     if (p.endpoints_done < p.start) throw std::invalid_argument{"done before the start"};
     Participant participant;

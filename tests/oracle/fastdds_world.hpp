@@ -347,15 +347,18 @@ struct Air {
 
 struct World {
   explicit World(const model::Scenario& s, FastddsMistake m = FastddsMistake::none,
-                 WifiMistake of_wifi = WifiMistake::none);
+                 WifiMistake of_wifi = WifiMistake::none,
+                 ServerMistake of_server = ServerMistake::none);
 
   [[nodiscard]] bool makes(FastddsMistake m) const { return mistake == m; }
   [[nodiscard]] bool makes(WifiMistake m) const { return wifi_mistake == m; }
+  [[nodiscard]] bool makes(ServerMistake m) const { return server_mistake == m; }
 
   const model::Scenario& scenario;
   const model::SedpProfile& sedp;
   const FastddsMistake mistake;
   const WifiMistake wifi_mistake;
+  const ServerMistake server_mistake;
   Time now = 0;
   bool ended = false;  // by the completion of discovery
   std::map<std::tuple<Time, EventClass, std::uint64_t>, Event> queue;

@@ -194,6 +194,46 @@ enum class WifiMistake : std::uint8_t {
   nobody_deaf,                ///< a participant hears from its start on
 };
 
+/// What the oracle of Fast DDS's Discovery Server and its clients does wrong
+/// (specs/guide/discovery-server.md has the rules).
+enum class ServerMistake : std::uint8_t {
+  none,
+  // Clients.
+  matches_at_first_tick,        ///< a client matches its endpoints before it knows the server
+  silent_until_known,           ///< it does not announce itself again until then
+  registers_once,               ///< what is not acknowledged is not followed by a HEARTBEAT(p)
+  initial_acknowledges,         ///< an initial ACKNACK(p) acknowledges
+  gaps_not_received,            ///< what a GAP names is missing still
+  base_stays,                   ///< a HEARTBEAT does not raise the base
+  heartbeats_announce_nothing,  ///< a HEARTBEAT does not raise what is announced
+  // The database.
+  periodic_run_stays,           ///< to wake the routine does not cancel its periodic run
+  participants_need_no_notice,  ///< descriptors go to those who have not acknowledged the
+                                ///< participant
+  all_noted_for_good,           ///< new participants do not reset it
+  waiting_for_all,              ///< with `relay: once` whoever is checked in the run waits
+  announced_without_news,       ///< announcements are sent whether something is new or not
+  topics_looked_at_once,        ///< a topic does not stay dirty
+  everything_is_looked_at,      ///< nor does it ever leave
+  known_topics_stay_clean,      ///< a new super client makes no topic dirty
+  own_announcement_once,        ///< nor is the server's own announcement sent again
+  // Relays.
+  low_is_zero_at_opening,      ///< a new reader has acknowledged nothing
+  old_changes_stay,            ///< a change that is in the history keeps its number
+  repairs_first,               ///< what is sent again does not wait for new changes
+  gaps_cost_nothing,           ///< the thread is not busy for GAPs
+  only_other_hosts_cost,       ///< nor for what goes by loopback
+  gap_from_low,                ///< a GAP begins above the low mark, whatever is listed between
+  gap_each_time,               ///< and comes with a change that is sent again, too
+  deliveries_do_not_arm,       ///< no expiry follows
+  expiries_to_all,             ///< an expiry goes to readers that lack nothing, too
+  empty_history_lacks,         ///< with an empty history whoever is below `first` lacks something
+  low_does_not_lack,           ///< an expiry goes to those only who have something in U
+  acknowledged_is_irrelevant,  ///< a GAP answers requests for what is acknowledged
+  gone_is_irrelevant,          ///< or for what is before the history
+  requests_never_arm,          ///< a request for what is on its way does not arm
+};
+
 /// What the oracle of `implementation: cyclone` does wrong (specs/guide/cyclone.md has the rules).
 enum class CycloneMistake : std::uint8_t {
   none,
@@ -268,6 +308,8 @@ inline constexpr std::size_t wifi_mistake_count =
     static_cast<std::size_t>(WifiMistake::nobody_deaf) + 1;
 /// The last one that scenarios without listed hosts, failing transmissions and processors can show.
 inline constexpr WifiMistake last_of_one_access_point = WifiMistake::counted_at_generation;
+inline constexpr std::size_t server_mistake_count =
+    static_cast<std::size_t>(ServerMistake::requests_never_arm) + 1;
 inline constexpr std::size_t cyclone_mistake_count =
     static_cast<std::size_t>(CycloneMistake::answers_undirected) + 1;
 
@@ -296,6 +338,11 @@ constexpr auto enumerators(std::index_sequence<Ks...>) {
 [[nodiscard]] inline std::string_view name_of(WifiMistake mistake) {
   constexpr auto names =
       detail::enumerators<WifiMistake>(std::make_index_sequence<wifi_mistake_count>{});
+  return names[static_cast<std::size_t>(mistake)];
+}
+[[nodiscard]] inline std::string_view name_of(ServerMistake mistake) {
+  constexpr auto names =
+      detail::enumerators<ServerMistake>(std::make_index_sequence<server_mistake_count>{});
   return names[static_cast<std::size_t>(mistake)];
 }
 [[nodiscard]] inline std::string_view name_of(CycloneMistake mistake) {

@@ -48,6 +48,11 @@ TEST(MutatedOracle, EveryMistakeOfTheFastddsOracleIsNoticed) {
             std::vector<std::string>{});
 }
 
+TEST(MutatedOracle, EveryMistakeOfTheServerOracleIsNoticed) {
+  JudgedRuns runs{varied_server_scenario, correct_product};
+  EXPECT_EQ(unnoticed<ServerMistake>(runs, server_mistake_count), std::vector<std::string>{});
+}
+
 TEST(MutatedOracle, EveryMistakeOfTheCycloneOracleIsNoticed) {
   JudgedRuns runs{varied_cyclone_scenario, correct_product};
   EXPECT_EQ(unnoticed<CycloneMistake>(runs, cyclone_mistake_count), std::vector<std::string>{});
@@ -88,6 +93,7 @@ TEST(MutatedOracle, MistakesHaveNames) {
   EXPECT_EQ(name_of(FastddsMistake::response_with_old_base), "response_with_old_base");
   EXPECT_EQ(name_of(WifiMistake::counted_at_generation), "counted_at_generation");
   EXPECT_EQ(name_of(CycloneMistake::answers_undirected), "answers_undirected");
+  EXPECT_EQ(name_of(ServerMistake::gaps_cost_nothing), "gaps_cost_nothing");
 }
 
 }  // namespace mutated_oracle_test

@@ -109,8 +109,8 @@ void client_announces(World& w, Id i, std::int64_t k) {
 }
 
 void client_tick(World& w, Id i) {
-  if (!w.server->clients[i].knows_server) {
-    announce_to_server(w, i);
+  if (!w.server->clients[i].knows_server && !w.makes(ServerMistake::matches_at_first_tick)) {
+    if (!w.makes(ServerMistake::silent_until_known)) announce_to_server(w, i);
     schedule_after(w, w.scenario.dds.server.client_sync_period,
                    make_event(EventKind::client_tick, i, i, 0));
     return;
@@ -124,7 +124,7 @@ void client_tick(World& w, Id i) {
 void client_expiry(World& w, Id i) {
   Registration& r = w.server->clients[i];
   r.expiry_pending = false;
-  if (r.acknowledged) return;
+  if (r.acknowledged || w.makes(ServerMistake::registers_once)) return;
   heartbeat_to_server(w, i);
   arm_announcements(w, i);
 }
@@ -135,6 +135,7 @@ void receive_registration_acknack(World& w, const Packet& packet) {
     w.server->clients[i].acknowledged = true;
     return;
   }
+  if (w.makes(ServerMistake::initial_acknowledges)) w.server->clients[i].acknowledged = true;
   heartbeat_to_server(w, i);
   arm_announcements(w, i);
 }
@@ -153,11 +154,15 @@ void receive_relayed(World& w, const Packet& packet) {
     }
     if (w.ended) return;
   }
-  l.received.insert(packet.numbers.begin(), packet.numbers.end());
+  if (!w.makes(ServerMistake::gaps_not_received)) {
+    l.received.insert(packet.numbers.begin(), packet.numbers.end());
+  }
   if (!packet.has_heartbeat) return;
   l.heartbeat_seen = true;
-  l.base = std::max(l.base, packet.first);
-  l.announced = std::max(l.announced, packet.last);
+  if (!w.makes(ServerMistake::base_stays)) l.base = std::max(l.base, packet.first);
+  if (!w.makes(ServerMistake::heartbeats_announce_nothing)) {
+    l.announced = std::max(l.announced, packet.last);
+  }
   if (l.acknack_pending) return;
   l.acknack_pending = true;
   const model::Nanoseconds delay = packet.stream == participants_stream

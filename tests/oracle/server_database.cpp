@@ -11,7 +11,8 @@ namespace {
 Item announcement_of(Id i) { return {i, participants_stream, 0}; }
 
 void wake(World& w) {
-  ++w.server->token;  // whatever is scheduled for later does not count any more
+  // Whatever is scheduled for later does not count any more.
+  if (!w.makes(ServerMistake::periodic_run_stays)) ++w.server->token;
   if (w.server->routine_pending) return;
   w.server->routine_pending = true;
   schedule(w, w.now, EventClass::protocol,
@@ -94,7 +95,7 @@ void take_participants(World& w, std::vector<Item>& announcements) {
   const bool super = w.scenario.dds.discovery == model::Discovery::super_client;
   for (const Id i : server.joining) {
     ++server.news;
-    server.all_noted = false;
+    if (!w.makes(ServerMistake::all_noted_for_good)) server.all_noted = false;
     if (!super) continue;
     for (const auto& [key, topic] : server.topics) {
       for (const auto* list : {&topic.publications, &topic.subscriptions}) {
@@ -102,9 +103,10 @@ void take_participants(World& w, std::vector<Item>& announcements) {
           if (item.participant != i) mark(server, item, i);
         }
       }
-      make_dirty(server, key);
+      if (!w.makes(ServerMistake::known_topics_stay_clean)) make_dirty(server, key);
     }
     server.supers.push_back(i);
+    if (w.makes(ServerMistake::own_announcement_once)) continue;
     const Item own = announcement_of(w.server_id());
     if (std::find(announcements.begin(), announcements.end(), own) == announcements.end()) {
       announcements.insert(announcements.begin(), own);
@@ -143,6 +145,7 @@ void join(World& w, std::vector<Item>& list, const Item& item, Id j) {
   Server& server = *w.server;
   const bool once = w.scenario.dds.server.relay == model::Relay::once;
   if (once && server.waiting.contains({item, j})) return;
+  if (once && w.makes(ServerMistake::waiting_for_all)) server.waiting.insert({item, j});
   if (std::find(list.begin(), list.end(), item) != list.end()) return;
   list.push_back(item);
   if (once) server.waiting.insert({item, j});
@@ -155,7 +158,9 @@ bool check(World& w, Lists& lists, const Item& item, Id j) {
   if (item.participant == j || !server.marked.contains({announcement, j})) return false;
   if (!server.noted.contains({announcement, j})) {
     join(w, lists.announcements, announcement, j);
-    return true;
+    if (!w.makes(ServerMistake::participants_need_no_notice)) {
+      return !w.makes(ServerMistake::topics_looked_at_once);
+    }
   }
   if (server.marked.contains({item, j}) && !server.noted.contains({item, j})) {
     join(w, item.stream == pub ? lists.publications : lists.subscriptions, item, j);
@@ -187,7 +192,9 @@ bool is_relevant(const World& w, const Item& item, Id j) {
   if (item.participant == w.server_id()) return true;
   if (!server.marked.contains({item, j}) || server.noted.contains({item, j})) return false;
   if (item.stream == participants_stream) return true;
-  return server.marked.contains({announcement, j}) && server.noted.contains({announcement, j});
+  return server.marked.contains({announcement, j}) &&
+         (server.noted.contains({announcement, j}) ||
+          w.makes(ServerMistake::participants_need_no_notice));
 }
 
 void receive_registration(World& w, const Packet& packet) {
@@ -245,10 +252,11 @@ void routine(World& w, std::uint64_t token) {
   take_endpoints(server);
   std::vector<Server::TopicKey> dirty;
   for (const Server::TopicKey& key : server.dirty) {
-    if (check_topic(w, lists, server.topics[key])) dirty.push_back(key);
+    const bool stays = check_topic(w, lists, server.topics[key]);
+    if (stays || w.makes(ServerMistake::everything_is_looked_at)) dirty.push_back(key);
   }
   server.dirty = dirty;
-  if (server.news > 0) {
+  if (server.news > 0 || w.makes(ServerMistake::announced_without_news)) {
     for (const Item& item : lists.announcements) insert(w, participants_stream, item);
   }
   server.news = 0;

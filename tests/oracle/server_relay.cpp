@@ -98,14 +98,20 @@ void count_data(World& w, const Item& item, Id j) {
 bool gap_before(World& w, int stream, Id j, std::int64_t number) {
   Relay& relay = w.server->relays[stream];
   RelayReader& about = relay.about.at(j);
-  if (!about.sent.insert(number).second) return false;
+  if (!about.sent.insert(number).second && !w.makes(ServerMistake::gap_each_time)) return false;
   const auto place = about.list.find(number);
-  const std::int64_t before = place == about.list.begin() ? about.low : std::prev(place)->first;
+  const bool none_before = place == about.list.begin() || w.makes(ServerMistake::gap_from_low);
+  const std::int64_t before = none_before ? about.low : std::prev(place)->first;
   std::set<std::int64_t> gap;
   for (std::int64_t k = std::max(before + 1, relay.first()); k < number; ++k) gap.insert(k);
   if (gap.empty()) return false;
   gap_to(w, stream, j, gap, true);
   return true;
+}
+
+// Whether the thread is busy for what goes to j.
+bool costs(const World& w, Id j) {
+  return cross_host(w, w.server_id(), j) || !w.makes(ServerMistake::only_other_hosts_cost);
 }
 
 // Returns how many packets it sends.
@@ -123,7 +129,10 @@ std::int64_t deliver(World& w, int stream, const Item& item) {
   }
   if (wanting.empty()) return 0;
   std::int64_t packets = 0;
-  for (const Id j : wanting) packets += gap_before(w, stream, j, number) ? 1 : 0;
+  for (const Id j : wanting) {
+    const bool gap = gap_before(w, stream, j, number);
+    if (gap && costs(w, j) && !w.makes(ServerMistake::gaps_cost_nothing)) ++packets;
+  }
   for (const Id j : wanting) {
     RelayReader& about = relay.about.at(j);
     about.list[number] = DescriptorState::suppressed;
@@ -138,9 +147,9 @@ std::int64_t deliver(World& w, int stream, const Item& item) {
     count_data(w, item, j);
     add_heartbeat(w, packet);
     emit(w, packet);
-    ++packets;
+    if (costs(w, j)) ++packets;
   }
-  arm(w, stream);
+  if (!w.makes(ServerMistake::deliveries_do_not_arm)) arm(w, stream);
   return packets;
 }
 
@@ -154,7 +163,7 @@ void open_relay(World& w, int stream, Id j) {
   Relay& relay = w.server->relays[stream];
   relay.readers.push_back(j);
   RelayReader& about = relay.about[j];
-  about.low = relay.first() - 1;
+  about.low = w.makes(ServerMistake::low_is_zero_at_opening) ? 0 : relay.first() - 1;
   for (const auto& [number, item] : relay.history) {
     if (is_relevant(w, item, j)) about.list[number] = DescriptorState::unsent;
   }
@@ -175,6 +184,10 @@ void remove(World& w, int stream, const Item& item) {
 }
 
 void insert(World& w, int stream, const Item& item) {
+  const auto& history = w.server->relays[stream].history;
+  const bool is_old = std::any_of(history.begin(), history.end(),
+                                  [&](const auto& one) { return one.second == item; });
+  if (is_old && w.makes(ServerMistake::old_changes_stay)) return;
   remove(w, stream, item);
   Relay& relay = w.server->relays[stream];
   const std::int64_t number = relay.next++;
@@ -197,7 +210,8 @@ void send_next(World& w) {
   Server& server = *w.server;
   server.sending = false;
   while (!server.fresh.empty() || !server.stale.empty()) {
-    auto& queue = server.fresh.empty() ? server.stale : server.fresh;
+    const bool old_first = w.makes(ServerMistake::repairs_first) && !server.stale.empty();
+    auto& queue = server.fresh.empty() || old_first ? server.stale : server.fresh;
     const auto [stream, item] = queue.front();
     queue.pop_front();
     const std::int64_t packets = deliver(w, stream, item);
@@ -216,11 +230,13 @@ void relay_expiry(World& w, int stream) {
   bool some = false;
   for (const Id j : relay.readers) {
     const RelayReader& about = relay.about.at(j);
-    const bool unsent = std::any_of(about.list.begin(), about.list.end(), [](const auto& one) {
-      return one.second == DescriptorState::unsent;
-    });
-    const std::int64_t wanted = relay.history.empty() ? relay.next - 1 : relay.first();
-    if (about.low >= wanted && !unsent) continue;
+    bool lacks = std::any_of(about.list.begin(), about.list.end(),
+                             [](const auto& one) { return one.second == DescriptorState::unsent; });
+    const bool like_others = w.makes(ServerMistake::empty_history_lacks);
+    const std::int64_t wanted =
+        relay.history.empty() && !like_others ? relay.next - 1 : relay.first();
+    lacks = lacks || (about.low < wanted && !w.makes(ServerMistake::low_does_not_lack));
+    if (!lacks && !w.makes(ServerMistake::expiries_to_all)) continue;
     heartbeat_to(w, stream, j);
     some = true;
   }
@@ -275,15 +291,16 @@ void receive_learning_acknack(World& w, const Packet& packet) {
     relay.response_pending = true;
     schedule_after(w, response_delay(w, stream),
                    make_event(EventKind::relay_response, w.server_id(), w.server_id(), stream));
-  } else if (!requested && !packet.numbers.empty()) {
+  } else if (!requested && !packet.numbers.empty() && !w.makes(ServerMistake::requests_never_arm)) {
     arm(w, stream);
   }
   std::set<std::int64_t> gap;
   bool some = false;
   for (const std::int64_t number : packet.numbers) {
-    if (number < relay.first() || about.list.contains(number)) continue;
+    const bool gone = number < relay.first() && !w.makes(ServerMistake::gone_is_irrelevant);
+    if (gone || about.list.contains(number)) continue;
     gap.insert(number);
-    some = some || number > about.low;
+    some = some || number > about.low || w.makes(ServerMistake::acknowledged_is_irrelevant);
   }
   if (some) gap_to(w, stream, j, gap, false);
 }

@@ -126,6 +126,13 @@ Scenario varied_fastdds_scenario(std::uint64_t seed) {
   return varied(random_fastdds_scenario(seed), seed);
 }
 
+Scenario varied_server_scenario(std::uint64_t seed) {
+  using enum model::Discovery;
+  Scenario scenario = random_fastdds_scenario(seed);
+  props::draw_discovery(seed, seed % 3 == 0 ? super_client : server, scenario);
+  return varied(std::move(scenario), seed);
+}
+
 // Every other one is small, on a channel with short packets, and loses many: what is asked for
 // again, refused or answered twice happens then.
 Scenario varied_cyclone_scenario(std::uint64_t seed) {

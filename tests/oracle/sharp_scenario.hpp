@@ -18,6 +18,8 @@ namespace stormproof::oracle {
 /// fourth goes on after the completion of discovery.
 [[nodiscard]] model::Scenario varied_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_fastdds_scenario(std::uint64_t seed);
+/// One of clients or super clients of a Discovery Server.
+[[nodiscard]] model::Scenario varied_server_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_cyclone_scenario(std::uint64_t seed);
 /// One of Fast DDS over a channel of units, or with a sender that stalls, or counted at admission.
 [[nodiscard]] model::Scenario varied_wifi_scenario(std::uint64_t seed);

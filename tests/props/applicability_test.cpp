@@ -1,5 +1,6 @@
 // Which properties speak of Cyclone DDS: what certificates from its rules prove, what monitors that
-// know it observe, and no more.
+// know it observe, and no more. And which of a Discovery Server: those that speak of Fast DDS's
+// exchange do so of what clients tell it.
 #include "props/applicability.hpp"
 
 #include <algorithm>
@@ -8,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "model/implementations.hpp"
 #include "props/monitor.hpp"
+#include "props/property.hpp"
 
 namespace stormproof::props {
 namespace applicability_test {
@@ -47,6 +50,37 @@ TEST(CycloneDds, IsNotSpokenOfByPropertiesOfOtherWriters) {
         "live.quiescence", "storm.single-copy", "composition.live"}) {
     EXPECT_NE(why_not_applicable(property, cyclone()), "") << property;
     EXPECT_EQ(why_not_applicable(property, model::Scenario{}), "") << property;
+  }
+}
+
+TEST(Server, IsSpokenOfByWhatItsClientsTellIt) {
+  for (const model::Discovery discovery :
+       {model::Discovery::server, model::Discovery::super_client}) {
+    model::Scenario scenario;
+    scenario.dds.implementation = model::ImplementationKind::fastdds;
+    scenario.dds.discovery = discovery;
+    for (const char* const property : {"safety.ack-implies-received", "safety.repair-only-if-asked",
+                                       "safety.snapshot", "timer.single-heartbeat"}) {
+      EXPECT_EQ(why_not_applicable(property, scenario), "") << property;
+      EXPECT_EQ(why_not_provable(property, scenario), "") << property;
+      EXPECT_TRUE(is_watched(scenario, property)) << property;
+    }
+    for (const char* const property :
+         {"safety.ack-stable", "timer.suppression-honoured", "storm.feedback-gain"}) {
+      EXPECT_TRUE(is_watched(scenario, property)) << property;
+      EXPECT_NE(why_not_provable(property, scenario), "") << property;
+    }
+    EXPECT_TRUE(is_watched(scenario, "composition.followed"));
+    for (const char* const property :
+         {"composition.live", "composition.pending", "order.commutation", "live.no-stall",
+          "live.completion", "live.quiescence", "storm.single-copy", "storm.cannot-start"}) {
+      EXPECT_NE(why_not_applicable(property, scenario), "") << property;
+    }
+    const model::ImplementationKind kind = model::kind_of(scenario.dds);
+    EXPECT_TRUE(is_about_clients("safety.snapshot", kind));
+    EXPECT_FALSE(is_about_clients("composition.followed", kind));
+    EXPECT_NE(statement_of(*find_property("safety.snapshot"), kind).find("tell the server"),
+              std::string::npos);
   }
 }
 

@@ -161,6 +161,16 @@ TEST_P(RandomRuns, WithStaticPeersHaveTrueFindingsOnly) {
   });
 }
 
+TEST_P(RandomRuns, WithAServerHaveTrueFindingsOnly) {
+  each("server", short_runs(), [](std::uint64_t seed) {
+    Scenario scenario = oracle::random_fastdds_scenario(seed);
+    using enum model::Discovery;
+    draw_discovery(seed, seed % 3 == 0 ? super_client : server, scenario);
+    if (seed % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
+    return scenario;
+  });
+}
+
 /// Two hosts; who is at no port that is asked is found if it hears of somebody who then answers.
 Scenario with_one_port(const std::string& participants) {
   return shipped("wifi-5x20-fastdds",

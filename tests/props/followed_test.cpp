@@ -11,6 +11,7 @@
 #include "model/composition_of.hpp"
 #include "model/engine/packet.hpp"
 #include "model/engine/submessage.hpp"
+#include "model/fastdds/relayed.hpp"
 #include "model/implementations.hpp"
 #include "props/generators/on_demand.hpp"
 #include "tests/oracle/random_scenario.hpp"
@@ -74,6 +75,7 @@ class Deeds : public model::Probe {
     note(packet.copies);
     note(packet.carries_heartbeat ? 1 : 0);
     packet.descriptors.for_each([&](std::uint32_t d) { note(d); });
+    if (packet.relayed != nullptr) note_relayed(*packet.relayed);
     if (packet.submessages == nullptr) return;
     note(packet.payload_bytes);
     for (const model::Submessage& each : *packet.submessages) note_submessage(each);
@@ -85,6 +87,14 @@ class Deeds : public model::Probe {
     note(static_cast<std::uint64_t>(submessage.count));
     note((submessage.directed ? 2U : 0U) + (submessage.initial ? 1U : 0U));
     submessage.bitmap.for_each([&](std::uint32_t d) { note(d); });
+  }
+  void note_relayed(const model::Relayed& relayed) {
+    note(relayed.participant);
+    note(relayed.descriptor);
+    for (const std::int64_t number : {relayed.number, relayed.first, relayed.last, relayed.base}) {
+      note(static_cast<std::uint64_t>(number));
+    }
+    for (const std::int64_t number : relayed.numbers) note(static_cast<std::uint64_t>(number));
   }
 };
 std::uint64_t deeds_of(const Scenario& scenario, model::RunOptions options) {
@@ -128,6 +138,55 @@ TEST(Followed, RunsWithStaticPeersAreWhatTheRulesSay) {
     if (reason.find("a port that nobody has") != std::string::npos) ++ports_of_nobody;
   }
   EXPECT_GT(ports_of_nobody, 50);
+}
+
+/// Clients or super clients of a server.
+Scenario with_server(std::uint64_t seed) {
+  Scenario scenario = oracle::random_scenario(seed, ImplementationKind::fastdds);
+  using enum model::Discovery;
+  draw_discovery(seed, seed % 4 < 2 ? server : super_client, scenario);
+  return scenario;
+}
+
+TEST(Followed, RunsWithAServerAreWhatTheRulesSay) {
+  model::RunOptions options;
+  options.max_events = 30'000;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Scenario scenario = with_server(seed);
+    if (seed % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
+    Dice dice{seed};
+    if (seed % 5 == 4) draw_processor(dice, scenario);
+    if (seed % 7 == 6) scenario.wireless.sender = model::Sender::stalls;
+    const auto monitor = follow(scenario, options);
+    if (!monitor->violation()) continue;
+    ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
+                  << monitor->violation()->reason;
+  }
+}
+
+/// What the server's database and relays do is the host's own; the follower has one that knows what
+/// they should.
+TEST(Followed, AServerThatDoesOtherwiseIsNoticed) {
+  using Change = void (*)(Scenario&);
+  const std::map<std::string, Change> others{
+      {"everybody learns everything",
+       [](Scenario& s) { s.dds.discovery = model::Discovery::super_client; }},
+      {"each change is relayed once", [](Scenario& s) { s.dds.server.relay = model::Relay::once; }},
+      {"sending costs nothing",
+       [](Scenario& s) { s.deployment.send_cost = model::Nanoseconds{0}; }},
+      {"the routine runs more often",
+       [](Scenario& s) { s.dds.server.server_routine_period = model::Nanoseconds{1'000'000}; }},
+      {"descriptors are suppressed as announcements are", [](Scenario& s) {
+         s.dds.sedp.nack_suppression_duration = s.dds.server.pdp_nack_suppression_duration;
+       }}};
+  const Scenario scenario =
+      shipped("live-5x20", {"dds=fastdds-server-2.6.11", "deployment.participants_per_host=2"});
+  ASSERT_FALSE(follow(scenario)->violation());
+  for (const auto& [what, change] : others) {
+    Scenario other = scenario;
+    change(other);
+    EXPECT_NE(run_monitored(scenario, other).violation("composition.followed"), nullptr) << what;
+  }
 }
 
 /// When a piggyback budget is used up is the host's: HEARTBEATs may ride or follow, or not.
@@ -177,6 +236,12 @@ TEST_P(Followed, MistakesAtEffectsThatChangeARunAreNoticed) {
   }
   const std::string name{model::composition_of(GetParam()).name};
   expect_noticed(name, scenarios, 80, [](const std::string&) { return true; });
+}
+
+TEST(Followed, MistakesAtEffectsWithAServerAreNoticed) {
+  std::vector<Scenario> scenarios;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) scenarios.push_back(with_server(seed));
+  expect_noticed("fastdds-server", scenarios, 80, [](const std::string&) { return true; });
 }
 
 /// A scenario of Fast DDS with a life. Nobody comes back in the very instant in which an endpoint

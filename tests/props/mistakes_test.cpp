@@ -196,11 +196,57 @@ std::vector<Case> cyclone_cases() {
   };
 }
 
+/// Half of the endpoints exist when clients are matched with the server, after 450 ms.
+std::vector<std::string> created_late(std::vector<std::string> more) {
+  more.emplace_back("deployment.schedule.start=[0s, 1ms]");
+  more.emplace_back("deployment.schedule.endpoints_done=[900ms, 910ms]");
+  return more;
+}
+/// Packets 20, 25, … 400.
+std::string every_fifth() {
+  std::string list = "[20";
+  for (int number = 25; number <= 400; number += 5) list += "," + std::to_string(number);
+  return list + "]";
+}
+
+/// What clients tell a server, and it them.
+std::vector<Case> server_cases() {
+  const char* const change = "ChangeForReader";
+  const auto with_server = [](std::vector<std::string> more = {}) {
+    more.emplace_back("dds=fastdds-server-2.6.11");
+    return small_fastdds(more);
+  };
+  return {
+      {"ServerRepairCountsAsAcknowledged", "safety.ack-implies-received", with_server(lossy),
+       tables({row(change, "S SuppressionEnded U", Kind::retarget, "A")})},
+      {"ServerSerializedForever", "safety.repair-only-if-asked",
+       with_server(created_late({"wireless.lost_packets=" + every_fifth()})),
+       tables({row(change, "Q Serialized S", Kind::retarget, "R")})},
+      {"ServerLiveBitmap", "safety.snapshot",
+       with_server(created_late({"wireless={kind: constant_delay, one_way: 60ms}",
+                                 "dds.sedp.piggyback_threshold_bytes=500"})),
+       Mutation{{}, {}, {}, true}},
+      {"ServerForgottenReception", "safety.conservation", with_server(),
+       events({event(EventKind::reception, Change::forget)})},
+      {"ServerTwoExpiries", "timer.single-heartbeat", with_server(),
+       events({event(EventKind::heartbeat_expiry, Change::duplicate)})},
+      {"ServerLateRoutine", "composition.followed", with_server(),
+       events({event(EventKind::server_routine_again, Change::shift)})},
+      {"ServerForgetsToSend", "composition.followed", with_server(),
+       events({event(EventKind::server_sending, Change::forget)})},
+      {"ServerRelaysAnswerTwice", "composition.followed", with_server(),
+       events({event(EventKind::relay_response, Change::duplicate)})},
+      {"ServerRequestsAreIgnored", "composition.followed", with_server(lossy),
+       tables({row(change, "U AckNackReceived R", Kind::drop_row)})},
+  };
+}
+
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> cases = paper_cases();
     for (Case& one : fastdds_cases()) cases.push_back(std::move(one));
     for (Case& one : cyclone_cases()) cases.push_back(std::move(one));
+    for (Case& one : server_cases()) cases.push_back(std::move(one));
     return cases;
   }();
   return all;

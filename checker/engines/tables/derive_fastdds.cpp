@@ -8,4 +8,10 @@ void derive_of(model::Of<composition::fastdds::FastDds>, Derived& derived) {
   derive<composition::fastdds::FastDds>(derived);
 }
 
+/// What clients tell a Discovery Server: the same exchange, whoever opens its relations. What the
+/// server relays is not derived.
+void derive_of(model::Of<composition::server::FastDdsServer>, Derived& derived) {
+  derive<composition::fastdds::FastDds>(derived);
+}
+
 }  // namespace stormproof::tables

@@ -70,6 +70,11 @@ void assume_for_descriptors(Proof& proof) {
       "The numbers of descriptors and readers are arbitrary: one is looked at, and what the rules "
       "read of the others ranges freely.");
   proof.assume(hosts_keep_contracts);
+  if (model::traits_of(proof.scenario().dds).has_server) {
+    proof.assume(
+        "It is about what clients tell the server, which goes by Fast DDS's rules; either side of "
+        "a relation opens at any time.");
+  }
 }
 
 DescriptorSystem descriptor_system(Proof& proof) {

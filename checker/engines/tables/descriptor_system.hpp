@@ -54,6 +54,7 @@ class DescriptorSystem {
 /// Derive all steps of one composition, each in a source file of its own.
 void derive_of(model::Of<fsm::composition::paper::Paper>, Derived& derived);
 void derive_of(model::Of<fsm::composition::fastdds::FastDds>, Derived& derived);
+void derive_of(model::Of<fsm::composition::server::FastDdsServer>, Derived& derived);
 void derive_of(model::Of<fsm::composition::amended::Amended>, Derived& derived);
 void derive_of(model::Of<fsm::composition::cyclone::Cyclone>, Derived& derived);
 

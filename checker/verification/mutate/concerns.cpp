@@ -7,6 +7,7 @@
 #include "model/composition_of.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::mutate {
 
@@ -92,9 +93,12 @@ Concerns where_rules_are_knobs() {
 }
 
 Concerns where_is_composition(std::string_view name) {
-  return where([&](model::ImplementationKind implementation) {
-    return model::composition_of(implementation).name == name;
-  });
+  for (std::size_t k = 0; k < model::implementation_traits.size(); ++k) {
+    const auto kind = static_cast<model::ImplementationKind>(k);
+    const bool is_followed = props::why_not_applicable("composition.followed", kind).empty();
+    if (is_followed && model::composition_of(kind).name == name) return {kind};
+  }
+  return {};
 }
 
 }  // namespace stormproof::mutate

@@ -10,7 +10,7 @@
 
 namespace stormproof::mutate {
 
-/// At least one implementation, in their order.
+/// Implementations, in their order.
 using Concerns = std::vector<model::ImplementationKind>;
 
 [[nodiscard]] Concerns everywhere();
@@ -20,7 +20,8 @@ using Concerns = std::vector<model::ImplementationKind>;
 [[nodiscard]] Concerns where_happens(model::EventKind kind);
 /// Where the relation rules are knobs of the profile.
 [[nodiscard]] Concerns where_rules_are_knobs();
-/// What executes the composition of this name.
+/// The first that executes the composition of this name, if its runs are followed; otherwise
+/// nobody: nothing could notice a mistake in its effects.
 [[nodiscard]] Concerns where_is_composition(std::string_view name);
 
 }  // namespace stormproof::mutate

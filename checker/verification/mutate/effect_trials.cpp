@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "model/simulator.hpp"
+#include "props/generators/on_demand.hpp"
 #include "props/generators/space.hpp"
 #include "props/monitor.hpp"
 
@@ -23,13 +24,24 @@ void run(const model::Scenario& scenario, const model::Mutation* mutation, model
   (void)model::simulate(scenario, options);
 }
 
+/// A random scenario of the kind.
+model::Scenario draw(std::uint64_t seed, model::ImplementationKind kind) {
+  model::Scenario scenario =
+      props::draw_scenario(seed, size, {.implementation = model::implementation_of(kind)});
+  if (model::traits_of(kind).has_server) {
+    using enum model::Discovery;
+    props::draw_discovery(seed, seed % 2 == 1 ? server : super_client, scenario);
+  }
+  return scenario;
+}
+
 }  // namespace
 
 std::vector<EffectTrials::Correct>& EffectTrials::drawn(model::ImplementationKind implementation) {
   std::vector<Correct>& list = drawn_[model::index_of(implementation)];
   for (std::uint64_t seed = 1; list.size() < runs && !stopped(); ++seed) {
     Correct& correct = list.emplace_back();
-    correct.scenario = props::draw_scenario(seed, size, {.implementation = implementation});
+    correct.scenario = draw(seed, implementation);
     run(correct.scenario, nullptr, correct.log);
   }
   return list;

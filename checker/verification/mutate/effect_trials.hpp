@@ -38,7 +38,7 @@ class EffectTrials {
   [[nodiscard]] bool stopped() const { return goes_on_ && !goes_on_(); }
 
   std::function<bool()> goes_on_;
-  std::array<std::vector<Correct>, model::implementations.size()> drawn_;
+  std::array<std::vector<Correct>, model::implementation_traits.size()> drawn_;
 };
 
 }  // namespace stormproof::mutate

@@ -37,7 +37,7 @@ class LawTrials {
   std::vector<Ground>& grounds(model::ImplementationKind implementation);
 
   std::function<bool()> goes_on_;
-  std::array<std::vector<Ground>, model::implementations.size()> grounds_;
+  std::array<std::vector<Ground>, model::implementation_traits.size()> grounds_;
 };
 
 }  // namespace stormproof::mutate

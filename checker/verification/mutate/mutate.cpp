@@ -234,8 +234,8 @@ class Mutator {
 
   const MutateOptions& options_;
   smt::Claims claims_;
-  std::array<std::vector<Ground>, model::implementations.size()> grounds_;
-  std::array<std::vector<Ground>, model::implementations.size()> shared_grounds_;
+  std::array<std::vector<Ground>, model::implementation_traits.size()> grounds_;
+  std::array<std::vector<Ground>, model::implementation_traits.size()> shared_grounds_;
   LawTrials laws_{goes_on()};
   EffectTrials effects_{goes_on()};
 };

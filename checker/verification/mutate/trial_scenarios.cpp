@@ -186,7 +186,7 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::cyclone::Cyclone>) {
   return list;
 }
 
-/// Its mistakes are not in the catalogue.
+/// What follows random runs notices its mistakes.
 std::vector<Trial> trials_of(model::Of<fsm::composition::server::FastDdsServer>) { return {}; }
 
 }  // namespace

@@ -32,7 +32,8 @@ model::Scenario adaptive() {
 TEST(Safety, IsProvedWithAnInvariant) {
   for (const char* const property : {"safety.ack-implies-received", "safety.repair-only-if-asked",
                                      "safety.snapshot", "timer.single-heartbeat"}) {
-    for (const model::Scenario& scenario : {paper(), fastdds(), prefix(), adaptive()}) {
+    for (const model::Scenario& scenario :
+         {paper(), fastdds(), with_server(), prefix(), adaptive()}) {
       expect_proved(property, scenario);
     }
     EXPECT_TRUE(mentions(decide(property, paper()), "invariant:")) << property;
@@ -65,6 +66,16 @@ TEST(AckImpliesReceived, ARequestThatAcknowledgesIsFound) {
   const std::size_t real = row_of("ChangeForReader", "Q", "AckNackReceived", "A");
   expect_violated("safety.ack-implies-received", fastdds(),
                   with_row("ChangeForReader", real, Kind::negate_guard), "C=A");
+}
+
+TEST(Safety, OfAServersClientsSaysWhomItIsAbout) {
+  const auto& assumptions = decide("safety.snapshot", with_server()).assumptions;
+  EXPECT_TRUE(std::ranges::any_of(assumptions, [](const std::string& assumed) {
+    return assumed.find("what clients tell the server") != std::string::npos;
+  }));
+  const std::size_t row = row_of("ChangeForReader", "Q", "AckNackReceived", "A");
+  expect_violated("safety.ack-implies-received", with_server(),
+                  with_row("ChangeForReader", row, Kind::negate_guard), "C=A");
 }
 
 TEST(Safety, OfCycloneDdsIsProvedWithAnInvariant) {

@@ -33,6 +33,12 @@ inline model::Scenario fastdds() {
   return scenario;
 }
 
+inline model::Scenario with_server() {
+  model::Scenario scenario = fastdds();
+  scenario.dds.discovery = model::Discovery::server;
+  return scenario;
+}
+
 inline model::Scenario cyclone() {
   model::Scenario scenario;
   scenario.dds.implementation = model::ImplementationKind::cyclone;
