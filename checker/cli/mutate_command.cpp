@@ -1,4 +1,4 @@
-// `stormproof mutate`: which property notices which mistake.
+// `stormproof mutate`: is every mistake noticed, and by which property?
 #include <algorithm>
 
 #include <fmt/core.h>
@@ -17,6 +17,7 @@ namespace {
 struct MutateArguments {
   std::vector<std::string> only;   ///< ids of mutants; empty: all
   std::vector<std::string> kinds;  ///< of mutants; empty: all
+  bool everybody = false;          ///< asks all, not only until somebody notices
   std::uint32_t readers = 1;       ///< that the explorer looks at together
   double timeout_seconds = 120;    ///< of each query
 };
@@ -36,6 +37,7 @@ Outcome run(MutateArguments& arguments, Session& session) {
   if (const auto error = unknown_mutant(arguments.only)) return Complaint{*error};
   mutate::MutateOptions options;
   options.only = arguments.only;
+  options.everybody = arguments.everybody;
   options.readers = arguments.readers;
   for (const std::string& kind : arguments.kinds) {
     const auto found = std::ranges::find(mutate::kind_names, kind);
@@ -56,6 +58,9 @@ void declare(Options& options, MutateArguments& arguments) {
   options.texts("--mutant", arguments.only, "Try only this mutant (repeatable)", "ID");
   options.texts("--kind", arguments.kinds, "Try only mutants of this kind (repeatable)", "KIND")
       .one_of({mutate::kind_names.begin(), mutate::kind_names.end()});
+  options.flag("--everybody", arguments.everybody,
+               "Ask all properties and laws of each mutant, not only until one notices (but of\n"
+               "mutants of kind effect)");
   options
       .number("--readers", arguments.readers,
               "Let the explorer look at several readers of one writer for effects that nobody "

@@ -40,6 +40,8 @@ struct Mutant {
   OrderRule order = OrderRule::time_class_insertion;
 };
 
+class FoundOfRules;
+
 struct CheckRequest {
   const model::Scenario& scenario;  ///< the specification that properties are held against
   smt::Claims& claims;              ///< decides and exports queries; knows time-out and seed
@@ -55,6 +57,9 @@ struct CheckRequest {
   /// What engines have found in this check that others can rest on, by name; nobody keeps it if
   /// there is none.
   std::map<std::string, props::Finding>* known = nullptr;
+  /// What is found of the rules alone, for checks of other profiles (bounds/resting.hpp); nobody
+  /// else needs it if there is none.
+  FoundOfRules* of_rules = nullptr;
 };
 /// What `--thorough` makes of the effort of all searches.
 inline constexpr unsigned thorough = 25;

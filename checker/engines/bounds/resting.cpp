@@ -39,4 +39,30 @@ Finding known(const CheckRequest& request, const std::string& name,
   return request.known->emplace(name, decide()).first->second;
 }
 
+Finding FoundOfRules::once(const std::string& question, const std::function<Finding()>& decide) {
+  std::packaged_task<Finding()> task{decide};
+  std::shared_future<Finding> answer;
+  bool is_first = false;
+  {
+    const std::lock_guard lock{mutex_};
+    const auto [entry, fresh] = found_.try_emplace(question);
+    if (fresh) entry->second = task.get_future().share();
+    is_first = fresh;
+    answer = entry->second;
+  }
+  if (is_first) task();
+  return answer.get();
+}
+
+std::size_t FoundOfRules::size() const {
+  const std::lock_guard lock{mutex_};
+  return found_.size();
+}
+
+Finding found_of_rules(const CheckRequest& request, const std::string& question,
+                       const std::function<Finding()>& decide) {
+  if (request.of_rules == nullptr || request.mutant != nullptr) return decide();
+  return request.of_rules->once(question, decide);
+}
+
 }  // namespace stormproof::checker

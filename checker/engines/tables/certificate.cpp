@@ -91,6 +91,23 @@ bool conclude(Proof& proof, const Certificate& certificate, const std::vector<Cl
   return holds;
 }
 
+/// Everything that the answer depends on, and what is said of it.
+std::string question_of(const Proof& proof, const Certificate& certificate,
+                        const std::string& how) {
+  std::vector<Clause> all = certificate.given;
+  all.insert(all.end(), certificate.invariant.begin(), certificate.invariant.end());
+  for (const Expr& candidate : certificate.candidates) all.push_back({"found", candidate});
+  std::string text = certificate_text(certificate, all, proof.property()) + how;
+  for (const StepClause& clause : certificate.on_steps) {
+    text += "\n" + clause.step + ": " + clause.words;
+  }
+  for (const auto* said : {&proof.so_far().assumptions, &proof.so_far().details}) {
+    for (const std::string& sentence : *said) text += "\n" + sentence;
+  }
+  return text + "\n" + std::to_string(certificate.given.size()) + ", " +
+         std::to_string(certificate.invariant.size());
+}
+
 }  // namespace
 
 bool prove(Proof& proof, const Certificate& certificate) {
@@ -101,6 +118,16 @@ bool prove(Proof& proof, const Certificate& certificate) {
     proof.detail("a state in which it is: " + loss.state);
   }
   return conclude(proof, certificate, found.invariant);
+}
+
+props::Finding proved(Proof& proof, const Certificate& certificate, const std::string& how) {
+  const auto decide = [&] {
+    prove(proof, certificate);
+    return proof.finish(how);
+  };
+  // The text is long; nobody needs it if nobody shares.
+  if (proof.request().of_rules == nullptr) return decide();
+  return checker::found_of_rules(proof.request(), question_of(proof, certificate, how), decide);
 }
 
 bool prove_if_kept(Proof& proof, const Certificate& certificate) {

@@ -39,8 +39,12 @@ struct Certificate {
 /// Decides it, and gives up at the first clause that a step does not keep. What is stated goes into
 /// the details. Whether all of it holds.
 bool prove(Proof& proof, const Certificate& certificate);
-/// The same for those who know better than to give up: false, and nothing is said, if a step does
-/// not keep what is stated.
+/// Proves it and ends the proof. Checks that share what they find of rules prove what is the same,
+/// word for word, once.
+[[nodiscard]] props::Finding proved(Proof& proof, const Certificate& certificate,
+                                    const std::string& how);
+/// The same as `prove` for those who know better than to give up: false, and nothing is said, if a
+/// step does not keep what is stated.
 [[nodiscard]] bool prove_if_kept(Proof& proof, const Certificate& certificate);
 
 /// The certificate with this invariant as SMT-LIB, to be read and checked by others.

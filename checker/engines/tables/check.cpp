@@ -4,8 +4,10 @@
 
 #include <z3++.h>
 
+#include "checker/engines/bounds/resting.hpp"
 #include "checker/engines/tables/properties.hpp"
 #include "checker/engines/tables/tables.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 namespace {
@@ -43,6 +45,11 @@ constexpr std::array<Decide, 15> functions{fsm_determinism,
                                            live_no_stall,
                                            live_recovery};
 
+/// Those about the tables and rules of an implementation, whatever the knobs of a profile.
+bool is_of_rules(std::string_view property) {
+  return property.starts_with("fsm.") || property == "order.commutation";
+}
+
 Finding failed(const std::string& why) {
   Finding finding;
   finding.engine = "tables";
@@ -51,9 +58,12 @@ Finding failed(const std::string& why) {
   return finding;
 }
 
-Finding decide(Decide function, const CheckRequest& request) {
+Finding decide(std::string_view property, Decide function, const CheckRequest& request) {
   try {
-    return function(request);
+    if (!is_of_rules(property)) return function(request);
+    const std::string rules{model::traits_of(request.scenario.dds).name};
+    return checker::found_of_rules(request, std::string{property} + " of " + rules,
+                                   [&] { return function(request); });
   } catch (const z3::exception& error) {
     return failed(std::string{"z3: "} + error.msg());
   } catch (const std::exception& error) {
@@ -71,7 +81,7 @@ checker::Findings check(std::span<const std::string_view> properties, const Chec
     for (std::size_t k = 0; k < ids.size(); ++k) {
       if (ids[k] != property) continue;
       if (request.on_progress && !request.on_progress(property)) return findings;
-      findings.emplace_back(ids[k], decide(functions[k], request));
+      findings.emplace_back(ids[k], decide(ids[k], functions[k], request));
     }
   }
   return findings;

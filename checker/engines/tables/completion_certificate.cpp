@@ -132,8 +132,8 @@ props::Finding decided(const checker::CheckRequest& request, const Tighter& tigh
   }
   assume_in_time(proof);
   const TimedDescriptor descriptor{dds, proof.mistakes(), {.tighten = tightened_by(tighter)}};
-  prove(proof, certificate_of(descriptor, Invariant{descriptor, dds}));
-  return proof.finish(how + ", with all timers and delays symbolic");
+  return proved(proof, certificate_of(descriptor, Invariant{descriptor, dds}),
+                how + ", with all timers and delays symbolic");
 }
 
 }  // namespace

@@ -134,8 +134,8 @@ props::Finding decided(const checker::CheckRequest& request, bool exact, int mor
     step.guard = step.guard && (moving(descriptor["Reader=Unknown"] || descriptor["WriterOpen"] ||
                                        descriptor["Reader=EarlyComplete"]));
   }
-  prove(proof, certificate);
-  return proof.finish(
+  return proved(
+      proof, certificate,
       "invariant over the steps that are derived from the rules, with all timers and delays "
       "symbolic");
 }

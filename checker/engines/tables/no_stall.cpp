@@ -109,8 +109,8 @@ Certificate certificate_of(const RecognisingPair& pair, const Statement& stateme
 Finding decided(const CheckRequest& request) {
   Proof proof{"live.no-stall.recognition", request};
   const RecognisingPair pair{proof.scenario().dds, proof.mistakes()};
-  prove(proof, certificate_of(pair, about(pair, proof.scenario().dds)));
-  return proof.finish("invariant over the steps of all rules, any number of them");
+  return proved(proof, certificate_of(pair, about(pair, proof.scenario().dds)),
+                "invariant over the steps of all rules, any number of them");
 }
 
 }  // namespace

@@ -49,6 +49,8 @@ class Proof {
   /// Two answers contradict each other: no verdict counts.
   void dispute(std::string why);
 
+  /// What has been said until now; no verdict yet.
+  [[nodiscard]] const props::Finding& so_far() const { return finding_; }
   void assume(std::string sentence) { finding_.assumptions.push_back(std::move(sentence)); }
   void detail(std::string line) { finding_.details.push_back(std::move(line)); }
   /// The property does not hold; `line` says why.

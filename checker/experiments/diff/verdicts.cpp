@@ -1,5 +1,6 @@
-// Both checks run side by side, each with a solver of its own. One solver is enough here: the
-// theorems are those of `stormproof check`, where a second one is asked.
+// Both checks run side by side, each with a solver of its own; what they find of the rules alone
+// they share. One solver is enough here: the theorems are those of `stormproof check`, where a
+// second one is asked.
 //
 // That a property is violated needs a counterexample; that an answer is inconclusive says how far a
 // search came. So a lost answer is shown, and decides nothing unless the policy is strict. A
@@ -10,6 +11,7 @@
 #include <array>
 #include <mutex>
 
+#include "checker/engines/bounds/resting.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "checker/verification/check/check.hpp"
@@ -23,14 +25,16 @@ namespace {
 using props::VerdictKind;
 
 checker::CheckReport check_one(const VerdictRequest& request, const model::Scenario& scenario,
-                               const std::function<bool(std::string_view)>& on_progress) {
+                               const std::function<bool(std::string_view)>& on_progress,
+                               checker::FoundOfRules& of_rules) {
   smt::Options solver;
   solver.seed = static_cast<unsigned>(request.seed);
   solver.second_solver = false;
   solver.interrupted = request.interrupted;
   smt::Claims claims{solver};
-  const checker::CheckRequest check{
+  checker::CheckRequest check{
       scenario, claims, nullptr, static_cast<unsigned>(request.seed), request.samples, on_progress};
+  check.of_rules = &of_rules;
   return checker::check({}, check);
 }
 
@@ -83,8 +87,10 @@ VerdictAnswer compare_verdicts(const VerdictRequest& request, const Policy& poli
     return !stopped;
   };
   std::array<checker::CheckReport, 2> reports;
+  checker::FoundOfRules of_rules;
   trials::Runner{request.threads}.each(2, [&](std::size_t side) {
-    reports[side] = check_one(request, side == 0 ? request.base : request.candidate, on_progress);
+    const model::Scenario& scenario = side == 0 ? request.base : request.candidate;
+    reports[side] = check_one(request, scenario, on_progress, of_rules);
     return true;
   });
   answer.interrupted = stopped || reports[0].interrupted || reports[1].interrupted;

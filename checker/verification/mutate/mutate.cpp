@@ -1,5 +1,5 @@
-// Tries every mutant on the trial scenarios. Cheap engines go first; the explorer and the timelines
-// are asked only about properties that have not noticed the mutant yet.
+// Tries every mutant on the trial scenarios, cheap engines first, until somebody notices it. If
+// everybody is asked, then each engine only about properties that have not noticed it yet.
 #include "checker/verification/mutate/mutate.hpp"
 
 #include <algorithm>
@@ -63,13 +63,33 @@ bool forgets(const CatalogueEntry& entry) {
   });
 }
 
-/// A scenario with one engine, and the properties that hold there without a mutant.
-struct Ground {
+/// The cheapest first.
+constexpr std::array<EngineFunction, 4> engines{exact::check, tables::check, timeline::check,
+                                                explorer::check};
+
+/// One engine on one scenario, asked about some properties at once.
+struct Question {
   Trial trial;
   EngineFunction engine;
-  Ids hold;
-  unsigned readers = 1;  ///< of one writer, for the explorer
+  Ids properties;
+  unsigned readers = 1;          ///< of one writer, for the explorer
+  std::optional<Ids> hold = {};  ///< of the properties without a mutant, once that was asked
 };
+
+/// Each property of the tables is a question of its own.
+std::vector<Question> questions_of(model::ImplementationKind implementation) {
+  std::vector<Question> list;
+  for (const Trial& trial : trials(implementation)) {
+    list.push_back({trial, exact::check, whole_catalogue()});
+    if (!trial.all_engines) continue;
+    for (const std::string_view id : tables::decidable()) {
+      list.push_back({trial, tables::check, {id}});
+    }
+    list.push_back({trial, timeline::check, whole_catalogue()});
+    list.push_back({trial, explorer::check, whole_catalogue()});
+  }
+  return list;
+}
 
 class Mutator {
  public:
@@ -80,6 +100,7 @@ class Mutator {
     const Clock::time_point started = Clock::now();
     const std::vector<CatalogueEntry> entries = wanted();
     MutationReport report;
+    report.everybody = options_.everybody;
     for (const CatalogueEntry& entry : entries) {
       if (!progress(entry.mutant.id)) {
         report.interrupted = true;
@@ -124,57 +145,64 @@ class Mutator {
     return list;
   }
 
-  CheckRequest request(const Trial& trial, const checker::Mutant* mutant, unsigned readers = 1) {
-    return {trial.scenario, claims_, mutant, 0, 1, options_.on_progress, readers};
+  CheckRequest request(const Question& question, const checker::Mutant* mutant) {
+    return {question.trial.scenario, claims_, mutant, 0, 1, options_.on_progress, question.readers};
   }
 
-  /// The grounds of an implementation; what holds there is found out once.
-  std::vector<Ground>& grounds(model::ImplementationKind implementation) {
-    std::vector<Ground>& list = grounds_[model::index_of(implementation)];
-    if (!list.empty()) return list;
-    const std::vector<Trial> all = trials(implementation);
-    const auto add = [&](const Trial& trial, EngineFunction engine) {
-      const Ids broken = violated(engine, whole_catalogue(), request(trial, nullptr));
-      list.push_back({trial, engine, without(whole_catalogue(), broken)});
-    };
-    for (const Trial& trial : all) add(trial, exact::check);
-    for (const Trial& trial : all) {
-      if (trial.all_engines) add(trial, tables::check);
-    }
-    for (const Trial& trial : all) {
-      if (trial.all_engines) add(trial, timeline::check);
-    }
-    for (const Trial& trial : all) {
-      if (trial.all_engines) add(trial, explorer::check);
-    }
+  std::vector<Question>& questions(model::ImplementationKind implementation) {
+    std::vector<Question>& list = questions_[model::index_of(implementation)];
+    if (list.empty()) list = questions_of(implementation);
     return list;
   }
 
-  /// Those on which the explorer looks at several readers of one writer.
-  std::vector<Ground>& shared_grounds(model::ImplementationKind implementation) {
-    std::vector<Ground>& list = shared_grounds_[model::index_of(implementation)];
+  /// Those in which the explorer looks at several readers of one writer.
+  std::vector<Question>& shared_questions(model::ImplementationKind implementation) {
+    std::vector<Question>& list = shared_questions_[model::index_of(implementation)];
     if (!list.empty()) return list;
     for (const Trial& trial : trials(implementation)) {
       if (!trial.all_engines) continue;
-      const Ids broken =
-          violated(explorer::check, whole_catalogue(), request(trial, nullptr, options_.readers));
-      list.push_back(
-          {trial, explorer::check, without(whole_catalogue(), broken), options_.readers});
+      list.push_back({trial, explorer::check, whole_catalogue(), options_.readers});
     }
     return list;
   }
 
+  /// Which of the properties of the question hold without a mutant.
+  const Ids& hold(Question& question) {
+    if (!question.hold) {
+      const Ids broken = violated(question.engine, question.properties, request(question, nullptr));
+      question.hold = without(question.properties, broken);
+    }
+    return *question.hold;
+  }
+
+  /// Who notices the mutant, of `properties`.
+  Ids ask(Question& question, const Ids& properties, const CatalogueEntry& entry) {
+    Ids asked;
+    std::ranges::set_intersection(question.properties, properties,
+                                  std::inserter(asked, asked.end()));
+    if (asked.empty()) return asked;
+    const Ids& held = hold(question);
+    std::erase_if(asked, [&](std::string_view id) { return !held.contains(id); });
+    return violated(question.engine, asked, request(question, &entry.mutant));
+  }
+
+  /// Asks engine after engine, each on all implementations that are concerned, until somebody
+  /// notices; everybody if that is wanted. Nobody asks the laws of what has been noticed.
   MutantResult try_out(const CatalogueEntry& entry) {
+    Ids properties = whole_catalogue();
+    if (!forgets(entry)) properties = without(properties, {of_causes.begin(), of_causes.end()});
     Ids killers;
-    for (const auto implementation : entry.concerns) {
-      for (const Ground& ground : grounds(implementation)) {
-        Ids asked = without(ground.hold, killers);
-        if (!forgets(entry)) asked = without(asked, {of_causes.begin(), of_causes.end()});
-        killers.merge(violated(ground.engine, asked, request(ground.trial, &entry.mutant)));
+    for (const EngineFunction engine : engines) {
+      for (const auto implementation : entry.concerns) {
+        for (Question& question : questions(implementation)) {
+          if (question.engine != engine || (!options_.everybody && !killers.empty())) continue;
+          killers.merge(ask(question, without(properties, killers), entry));
+        }
       }
     }
     std::optional<std::vector<std::string>> laws;
-    if (shows_in_runs(entry.mutant)) laws = laws_.killers(entry);
+    const bool wanted = options_.everybody || killers.empty();
+    if (wanted && shows_in_runs(entry.mutant)) laws = laws_.killers(entry);
     return result_of(entry, killers, std::move(laws));
   }
 
@@ -182,27 +210,25 @@ class Mutator {
   /// if that was asked for, until somebody notices.
   MutantResult try_effect(const CatalogueEntry& entry) {
     Ids killers;
-    const auto ask_on = [&](std::vector<Ground>& list, EngineFunction engine,
+    const auto ask_on = [&](std::vector<Question>& list, EngineFunction engine,
                             const Ids& properties) {
-      for (const Ground& ground : list) {
-        if (ground.engine != engine || !killers.empty()) continue;
-        Ids asked;
-        std::ranges::set_intersection(ground.hold, properties, std::inserter(asked, asked.end()));
-        killers = violated(engine, asked, request(ground.trial, &entry.mutant, ground.readers));
+      for (Question& question : list) {
+        if (question.engine != engine || !killers.empty()) continue;
+        killers = ask(question, properties, entry);
       }
     };
-    const auto ask = [&](EngineFunction engine, const Ids& properties) {
-      ask_on(grounds(entry.concerns.front()), engine, properties);
+    const auto ask_all = [&](EngineFunction engine, const Ids& properties) {
+      ask_on(questions(entry.concerns.front()), engine, properties);
     };
     const Ids all = whole_catalogue();
-    ask(exact::check, all);
+    ask_all(exact::check, all);
     if (killers.empty() && !effects_.are_followed(entry)) killers.insert("composition.followed");
     std::optional<std::vector<std::string>> laws;
     if (killers.empty()) laws = laws_.killers(entry);
-    if (laws && laws->empty()) ask(tables::check, {"composition.total"});
-    if (laws && laws->empty()) ask(explorer::check, all);
+    if (laws && laws->empty()) ask_all(tables::check, {"composition.total"});
+    if (laws && laws->empty()) ask_all(explorer::check, all);
     if (options_.readers > 1 && laws && laws->empty() && killers.empty()) {
-      ask_on(shared_grounds(entry.concerns.front()), explorer::check, all);
+      ask_on(shared_questions(entry.concerns.front()), explorer::check, all);
     }
     if (laws && laws->empty()) laws.reset();
     MutantResult result = result_of(entry, killers, std::move(laws));
@@ -234,61 +260,13 @@ class Mutator {
 
   const MutateOptions& options_;
   smt::Claims claims_;
-  std::array<std::vector<Ground>, model::implementation_traits.size()> grounds_;
-  std::array<std::vector<Ground>, model::implementation_traits.size()> shared_grounds_;
+  std::array<std::vector<Question>, model::implementation_traits.size()> questions_;
+  std::array<std::vector<Question>, model::implementation_traits.size()> shared_questions_;
   LawTrials laws_{goes_on()};
   EffectTrials effects_{goes_on()};
 };
 
 }  // namespace
-
-bool MutantResult::noticed() const {
-  const bool by_law = kind == Kind::effect && killed_by_laws && !killed_by_laws->empty();
-  return !killed_by.empty() || by_law;
-}
-
-std::size_t MutationReport::killed() const {
-  return static_cast<std::size_t>(std::ranges::count_if(mutants, &MutantResult::noticed));
-}
-
-std::size_t MutationReport::harmless() const {
-  return static_cast<std::size_t>(
-      std::ranges::count(mutants, false, &MutantResult::makes_a_difference));
-}
-
-bool MutationReport::notices_enough() const {
-  constexpr std::size_t required_percent = 95;
-  return 100 * killed() >= required_percent * (mutants.size() - harmless());
-}
-
-std::size_t MutationReport::killed_by(std::string_view property) const {
-  return static_cast<std::size_t>(
-      std::count_if(mutants.begin(), mutants.end(), [&](const MutantResult& mutant) {
-        const auto& list = mutant.killed_by;
-        return std::find(list.begin(), list.end(), property) != list.end();
-      }));
-}
-
-std::size_t MutationReport::killed_by_laws() const {
-  return static_cast<std::size_t>(
-      std::count_if(mutants.begin(), mutants.end(), [](const MutantResult& mutant) {
-        return mutant.killed_by_laws && !mutant.killed_by_laws->empty();
-      }));
-}
-
-std::size_t MutationReport::tried_on_laws() const {
-  return static_cast<std::size_t>(
-      std::count_if(mutants.begin(), mutants.end(),
-                    [](const MutantResult& mutant) { return mutant.killed_by_laws.has_value(); }));
-}
-
-std::size_t MutationReport::killed_by_law(std::string_view law) const {
-  return static_cast<std::size_t>(
-      std::count_if(mutants.begin(), mutants.end(), [&](const MutantResult& mutant) {
-        const auto& list = mutant.killed_by_laws;
-        return list && std::find(list->begin(), list->end(), law) != list->end();
-      }));
-}
 
 MutationReport mutate(const MutateOptions& options) { return Mutator{options}.run(); }
 

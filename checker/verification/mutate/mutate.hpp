@@ -17,10 +17,12 @@ struct MutantResult {
   std::string id;
   Kind kind = Kind::table;
   std::string description;
-  std::vector<std::string> killed_by;  ///< property ids, in the order of the catalogue
-  std::string reason;                  ///< of a survivor: why no property noticed it
-  /// Laws that the mutant breaks; absent if no run can show it, or if a property has noticed a
-  /// mutant of an effect.
+  /// Property ids, in the order of the catalogue; unless everybody was asked, those of the first
+  /// engine on the first scenario that notices anything.
+  std::vector<std::string> killed_by;
+  std::string reason;  ///< of a survivor: why no property noticed it
+  /// Laws that the mutant breaks; absent if no run can show it, or if they were not asked: a
+  /// property has noticed it before.
   std::optional<std::vector<std::string>> killed_by_laws;
   /// Of a surviving mutant of an effect: whether some random run differs from the correct one.
   bool makes_a_difference = true;
@@ -31,6 +33,7 @@ struct MutantResult {
 
 struct MutationReport {
   std::vector<MutantResult> mutants;
+  bool everybody = false;  ///< all properties and laws were asked
   double seconds = 0;
   bool interrupted = false;
 
@@ -51,6 +54,7 @@ struct MutationReport {
 struct MutateOptions {
   std::vector<std::string> only;  ///< ids of mutants; empty: all
   std::vector<Kind> kinds;        ///< where the mistake is; empty: anywhere
+  bool everybody = false;         ///< asks all, not only until somebody notices
   unsigned readers = 1;           ///< of one writer that the explorer looks at together, at most
   smt::Options solver;            ///< the second solver is not asked
   std::function<bool(std::string_view)> on_progress;
@@ -59,7 +63,8 @@ struct MutateOptions {
 /// A property kills a mutant if it is violated with the mutant and not without, on one of a few
 /// small scenarios of each implementation. A law does if it is broken with the mutant and not
 /// without. `composition.live` and `composition.pending` are asked of mutants that forget events
-/// only. Of the many mutants of effects it is only asked whether somebody notices them.
+/// only. It is asked whether somebody notices a mutant, cheap engines first; who else would, only
+/// if everybody is to be asked, and never of the many mutants of effects.
 [[nodiscard]] MutationReport mutate(const MutateOptions& options);
 
 }  // namespace stormproof::mutate

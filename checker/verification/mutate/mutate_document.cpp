@@ -13,14 +13,15 @@ namespace {
 using report::Column;
 using report::Paragraph;
 
-/// What the property tests say about a mutant.
-std::string laws_text(const MutantResult& mutant) {
+/// What the property tests say about a mutant, after what the properties say; nothing if they were
+/// not asked.
+std::string laws_text(const MutantResult& mutant, bool everybody) {
   if (!mutant.killed_by_laws) {
-    return mutant.kind == Kind::effect ? "property tests: – (not asked)"
-                                       : "property tests: – (no run shows it)";
+    const bool asked = everybody && mutant.kind != Kind::effect;
+    return asked ? "; property tests: – (no run shows it)" : "";
   }
-  if (mutant.killed_by_laws->empty()) return "property tests: none";
-  return fmt::format("property tests: {}", fmt::join(*mutant.killed_by_laws, ", "));
+  if (mutant.killed_by_laws->empty()) return "; property tests: none";
+  return fmt::format("; property tests: {}", fmt::join(*mutant.killed_by_laws, ", "));
 }
 
 std::string noticed_by(const MutantResult& mutant) {
@@ -32,11 +33,12 @@ std::string noticed_by(const MutantResult& mutant) {
 
 report::Table mutants_table(const MutationReport& report) {
   report::Table table;
-  table.columns = {{"mutant"},
-                   {"what is wrong", Column::Align::left, true},
-                   {"who notices", Column::Align::left, true}};
+  table.columns = {
+      {"mutant"},
+      {"what is wrong", Column::Align::left, true},
+      {report.everybody ? "who notices" : "who notices first", Column::Align::left, true}};
   for (const MutantResult& mutant : report.mutants) {
-    report::Text who = noticed_by(mutant) + "; " + laws_text(mutant);
+    report::Text who = noticed_by(mutant) + laws_text(mutant, report.everybody);
     table.rows.push_back({{report::code(mutant.id), mutant.description, std::move(who)},
                           !mutant.noticed() && mutant.makes_a_difference});
   }
@@ -55,7 +57,7 @@ report::Table counts_table(const char* what, const All& all, Count count) {
 }
 
 /// A survivor fails; the laws do not count.
-report::Finding finding_of(const MutantResult& mutant) {
+report::Finding finding_of(const MutantResult& mutant, bool everybody) {
   report::Finding finding;
   finding.id = mutant.id;
   finding.group = "stormproof.mutate";
@@ -65,7 +67,7 @@ report::Finding finding_of(const MutantResult& mutant) {
   finding.word = mutant.noticed() ? "noticed" : mutant.makes_a_difference ? "survives" : "harmless";
   finding.message = noticed_by(mutant);
   finding.details =
-      mutant.description + "\n" + noticed_by(mutant) + "\n" + laws_text(mutant) + "\n";
+      mutant.description + "\n" + noticed_by(mutant) + laws_text(mutant, everybody) + "\n";
   finding.shown = report::Finding::Shown::tests;
   return finding;
 }
@@ -100,9 +102,13 @@ report::Document document_of(const MutationReport& report) {
   if (report.harmless() > 0) {
     document.answer += fmt::format("; {} more change nothing in random runs", report.harmless());
   }
-  document.elaboration = fmt::format(
-      "killed by property tests: {} of the {} that a run can show ({})", report.killed_by_laws(),
-      report.tried_on_laws(), share(report.killed_by_laws(), report.tried_on_laws()));
+  document.elaboration =
+      report.everybody
+          ? fmt::format("killed by property tests: {} of the {} that a run can show ({})",
+                        report.killed_by_laws(), report.tried_on_laws(),
+                        share(report.killed_by_laws(), report.tried_on_laws()))
+          : "runs are asked first, then proofs and searches, until somebody notices; "
+            "--everybody asks all properties and laws";
   if (report.interrupted) {
     document.blocks.emplace_back(
         Paragraph{"Interrupted: the other mutants were not tried.", report::Tone::warn});
@@ -111,14 +117,14 @@ report::Document document_of(const MutationReport& report) {
   const auto of_property = [&](auto id) { return report.killed_by(id); };
   const auto of_law = [&](auto id) { return report.killed_by_law(id); };
   document.blocks.emplace_back(
-      report::Section{"Who notices how many",
+      report::Section{report.everybody ? "Who notices how many" : "Who notices how many first",
                       "noticed",
                       {counts_table("property", props::catalogue(), of_property),
                        counts_table("law", props::laws(), of_law)}},
       report::Audience::verbose);
   add_survivors(document, report);
   for (const MutantResult& mutant : report.mutants) {
-    document.findings.push_back(finding_of(mutant));
+    document.findings.push_back(finding_of(mutant, report.everybody));
   }
   document.complete = !report.interrupted;
   document.seconds = report.seconds;

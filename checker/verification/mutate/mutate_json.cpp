@@ -43,6 +43,7 @@ void describe(V& v, const ByLaw& killed) {
 
 template <class V>
 void describe(V& v, const MutationReport& report) {
+  v("everybody", report.everybody);
   v("mutants", report.mutants);
   v("killed", report.killed());
   v("harmless", report.harmless());

@@ -84,6 +84,7 @@ TEST(Mutate, EachKindOfMistakeIsNoticedByTheRightProperty) {
       {"control-writer-silent", "fsm.totality"},
       {"control-writer-closed", "fsm.reachability"}};
   MutateOptions options;
+  options.everybody = true;
   for (const auto& [mutant, property] : cases) options.only.push_back(mutant);
   const MutationReport report = mutate(options);
   ASSERT_EQ(report.mutants.size(), cases.size());
@@ -127,6 +128,7 @@ TEST(LawTrials, MistakesAreNoticedByTheRightLaw) {
 
 TEST(MutateReport, ShowsLawsBesideProperties) {
   MutationReport report;
+  report.everybody = true;
   report.mutants.push_back(
       {"a", Kind::table, "first", {"timer.armed"}, "", {{"law.counts", "law.answers"}}});
   report.mutants.push_back(
@@ -163,10 +165,28 @@ TEST(Mutate, MistakesAtEffectsAreNoticed) {
   }
 }
 
+/// Who notices first is one of those who notice, and there is one exactly if anybody notices.
+void expect_same_noticed(const MutationReport& first, const MutationReport& everybody) {
+  ASSERT_EQ(first.mutants.size(), everybody.mutants.size());
+  for (std::size_t k = 0; k < first.mutants.size(); ++k) {
+    const MutantResult& one = first.mutants[k];
+    const MutantResult& all = everybody.mutants[k];
+    EXPECT_EQ(one.id, all.id);
+    EXPECT_EQ(one.noticed(), all.noticed()) << one.id;
+    for (const std::string& id : one.killed_by) {
+      EXPECT_EQ(std::ranges::count(all.killed_by, id), 1) << one.id << " and " << id;
+    }
+  }
+}
+
 TEST(Mutate, PropertiesNoticeTheMutants) {
   MutateOptions options;
   options.kinds = {Kind::table, Kind::event, Kind::snapshot, Kind::knob, Kind::order};
+  const MutationReport first = mutate(options);
+  EXPECT_FALSE(first.everybody);
+  options.everybody = true;
   const MutationReport report = mutate(options);
+  expect_same_noticed(first, report);
   for (const MutantResult& mutant : report.mutants) {
     EXPECT_TRUE(!mutant.killed_by.empty() || !mutant.reason.empty()) << mutant.id;
   }
