@@ -1,5 +1,6 @@
 // Which monitor decides which property. Limits of a scenario have monitors, too, but are not in the
 // list of monitored properties: they exist only if the scenario sets them.
+#include "model/implementations.hpp"
 #include "props/applicability.hpp"
 #include "props/monitors/monitors.hpp"
 
