@@ -3,15 +3,18 @@
 // runs them through here: the simulator, the explorer, the monitors that follow a run, the replay
 // of captures, and the stateful tests.
 //
-// A machine that reads nothing but truth values has few different steps. Each of them is taken once
-// and remembered: from then on it costs a look into a table of a few hundred bytes, and a correct
-// table costs no more than a mutated one.
+// An event of which a machine reads nothing but truth values has few different steps. Each of them
+// is taken once and remembered: from then on it costs a look into a table of a few hundred bytes,
+// and a correct table costs no more than a mutated one. (A mutated row keeps its event, so what an
+// event reads stays the same.) Where a table has no row for an event, nothing happens, and nobody
+// has to be asked.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -24,19 +27,56 @@
 namespace stormproof::fsm {
 
 namespace detail {
-/// Whether all fields of a struct are truth values.
-template <class Struct, std::size_t... I>
-constexpr bool all_are_bool(std::index_sequence<I...>) {
-  return (std::same_as<boost::pfr::tuple_element_t<I, Struct>, bool> && ...);
+/// Whether a guard or an action reads nothing but truth values.
+template <class T>
+inline constexpr bool reads_truths =
+    std::same_as<T, none> || std::derived_from<T, Holds<T>> || std::derived_from<T, Sets<T>>;
+template <class G>
+inline constexpr bool reads_truths<Not<G>> = reads_truths<G>;
+template <class... Gs>
+inline constexpr bool reads_truths<All<Gs...>> = (reads_truths<Gs> && ...);
+
+/// A machine's input: which of its fields are truth values.
+template <class Input>
+inline constexpr auto truth_fields = []<std::size_t... I>(std::index_sequence<I...>) {
+  return std::array<bool, sizeof...(I)>{
+      std::same_as<boost::pfr::tuple_element_t<I, Input>, bool>...};
 }
+(std::make_index_sequence<boost::pfr::tuple_size_v<Input>>{});
+
+/// How the rows of a machine take an event.
+template <class Machine, class Event>
+struct Taken {
+  using Info = Reflect<Machine>;
+  using Input = typename Machine::Io::template Input<Plain>;
+
+  /// Whether they read nothing but truth values.
+  static constexpr bool by_truths = []<class... Rs>(TypeList<Rs...>) {
+    const bool all = std::ranges::all_of(truth_fields<Input>, std::identity{});
+    return all || ((!std::same_as<typename Rs::Evt, Event> ||
+                    (reads_truths<typename Rs::Guard> && reads_truths<typename Rs::Action>)) &&
+                   ...);
+  }(typename Info::Rows{});
+
+  /// The states that have a row for it.
+  static constexpr auto states = []<class... Rs>(TypeList<Rs...>) {
+    std::array<bool, Info::state_count> some{};
+    ((std::same_as<typename Rs::Evt, Event>
+          ? void(some[Info::template id<typename Rs::Source>] = true)
+          : void()),
+     ...);
+    return some;
+  }(typename Info::Rows{});
+};
 }  // namespace detail
 
-/// A machine with few different steps: every state and event with some truth values.
-template <class Machine>
-concept IsFinite = boost::pfr::tuple_size_v<typename Machine::Io::template Input<Plain>>
-<= 4 && detail::all_are_bool<typename Machine::Io::template Input<Plain>>(
-            std::make_index_sequence<
-                boost::pfr::tuple_size_v<typename Machine::Io::template Input<Plain>>>{});
+/// Whether the machine has few different steps on the event: one for each state and some truth
+/// values.
+template <class Machine, class Event>
+concept IsFinite =
+    (std::ranges::count(detail::truth_fields<typename Machine::Io::template Input<Plain>>, true) <=
+     4) &&
+    detail::Taken<Machine, Event>::by_truths;
 
 template <class Machine>
 class Stepper {
@@ -58,7 +98,7 @@ class Stepper {
   /// that fired: `no_row` if none did.
   template <class Event>
   Output step(StateId& state, const Input& input, RowId& row) {
-    if constexpr (IsFinite<Machine>) {
+    if constexpr (IsFinite<Machine, Event>) {
       Step& step = steps_[place<Event>(state, input)];
       if (!step.known) [[unlikely]] {
         step.after = state;
@@ -69,6 +109,10 @@ class Stepper {
       row = step.row;
       return step.output;
     } else {
+      if (!detail::Taken<Machine, Event>::states[state] && mutated_ == nullptr) {
+        row = no_row;
+        return {};
+      }
       return take<Event>(state, input, row);
     }
   }
@@ -85,20 +129,27 @@ class Stepper {
     RowId row = no_row;
     bool known = false;
   };
-  static constexpr std::size_t fields = boost::pfr::tuple_size_v<Input>;
+  static constexpr auto truths = detail::truth_fields<Input>;
   static constexpr std::size_t step_count() {
-    if constexpr (!IsFinite<Machine>) return 0;
-    return (Reflect<Machine>::Events::size * Reflect<Machine>::state_count) << fields;
+    const auto count = static_cast<std::size_t>(std::ranges::count(truths, true));
+    return count > 4 ? 0
+                     : (Reflect<Machine>::Events::size * Reflect<Machine>::state_count) << count;
   }
 
+  /// The place with a field of the input: only truth values decide.
+  template <class Field>
+  static std::size_t with(std::size_t place, const Field& field) {
+    if constexpr (std::same_as<Field, bool>) place = place << 1 | (field ? 1U : 0U);
+    return place;
+  }
   template <class Event>
   static std::size_t place(StateId state, const Input& input) {
     constexpr std::size_t event = Reflect<Machine>::template event_id<Event>;
     std::size_t place = event * Reflect<Machine>::state_count + state;
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      ((place = place << 1 | (boost::pfr::get<I>(input) ? 1U : 0U)), ...);
+      ((place = with(place, boost::pfr::get<I>(input))), ...);
     }
-    (std::make_index_sequence<fields>{});
+    (std::make_index_sequence<truths.size()>{});
     return place;
   }
 

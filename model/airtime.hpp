@@ -21,7 +21,8 @@ class Fragmentation {
 
   /// Number of IP fragments of a packet with this UDP payload.
   [[nodiscard]] std::int64_t count(std::int64_t payload_bytes) const {
-    return (payload_bytes + udp_header_bytes + mtu_payload_ - 1) / mtu_payload_;
+    const std::int64_t bytes = payload_bytes + udp_header_bytes;
+    return bytes <= mtu_payload_ ? 1 : (bytes + mtu_payload_ - 1) / mtu_payload_;
   }
   /// Bytes on the channel of fragment k (from 0).
   [[nodiscard]] std::int64_t bytes(std::int64_t payload_bytes, std::int64_t k) const {

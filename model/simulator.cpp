@@ -73,8 +73,8 @@ class Simulator {
     const bool until_quiet = run_.scenario.run_until == RunUntil::quiescence;
     std::uint64_t pause = std::min(most, RunOptions::progress_interval);
     while (!run_.queue.empty()) {
-      if (run_.queue.next_time() > run_.scenario.time_limit) return RunEnd::time_limit;
       const Event event = run_.queue.pop();
+      if (event.time > run_.scenario.time_limit) return RunEnd::time_limit;
       run_.now = event.time;
       if (run_.now >= next_start_) note_last_start();
       ++events_;

@@ -9,6 +9,7 @@
 #include "checker/cli/memory_limit.hpp"
 #include "checker/cli/streams.hpp"
 #include "checker/presentation/text/command_line.hpp"
+#include "model/keep_memory.hpp"
 
 namespace {
 
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  stormproof::model::keep_memory();
   cli::prepare_streams();
   stormproof::report::set_program(argc > 0 ? argv[0] : "");
   const int code = run(argc, argv);

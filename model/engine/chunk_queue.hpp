@@ -35,8 +35,11 @@ class ChunkQueue {
 
   void pop_front() {
     assert(!empty());
-    --size_;
-    if (++begin_ == chunk_size) leave_first();
+    if (--size_ == 0) {
+      begin_ = end_ = 0;  // who comes and goes stays in the same memory
+    } else if (++begin_ == chunk_size) {
+      leave_first();
+    }
   }
 
  private:
@@ -58,9 +61,6 @@ class ChunkQueue {
   void leave_first() {
     begin_ = 0;
     spare_ = std::exchange(first_, std::move(first_->next));
-    if (first_) return;
-    last_ = nullptr;
-    end_ = chunk_size;
   }
 
   std::unique_ptr<Chunk> first_;

@@ -23,30 +23,32 @@ class Driver {
   using Output = typename fsm::Stepper<Machine>::Output;
 
   Driver(const RunState& run, MachineRef::Kind kind)
-      : run_{run},
-        machines_{table_mutations(run)},
+      : machines_{table_mutations(run)},
         kind_{kind},
-        report_{kind == MachineRef::Kind::channel ? Report::channel_transition
-                                                  : Report::transition} {}
+        hearer_{run.who_hears(kind == MachineRef::Kind::channel ? Report::channel_transition
+                                                                : Report::transition)} {}
 
   template <class Event>
-  Output step(fsm::StateId& state, const Input& input, std::uint32_t subject) {
-    using Info = fsm::Reflect<Machine>;
+  [[gnu::always_inline]] Output step(fsm::StateId& state, const Input& input,
+                                     std::uint32_t subject) {
     const fsm::StateId before = state;
     fsm::RowId row = fsm::no_row;
     const Output output = machines_.template step<Event>(state, input, row);
-    if (run_.who_hears(report_) != nullptr && row != fsm::no_row) {
-      run_.probe->transition({fsm::name_of<Machine>(), kind_, subject}, fsm::name_of<Event>(),
-                             Info::state_names[before], Info::state_names[state], 0, 0);
-    }
+    if (hearer_ != nullptr && row != fsm::no_row) tell<Event>(before, state, subject);
     return output;
   }
 
  private:
-  const RunState& run_;
+  template <class Event>
+  [[gnu::noinline]] void tell(fsm::StateId before, fsm::StateId after, std::uint32_t subject) {
+    using Info = fsm::Reflect<Machine>;
+    hearer_->transition({fsm::name_of<Machine>(), kind_, subject}, fsm::name_of<Event>(),
+                        Info::state_names[before], Info::state_names[after], 0, 0);
+  }
+
   fsm::Stepper<Machine> machines_;
-  MachineRef::Kind kind_;
-  Report report_;
+  const MachineRef::Kind kind_;
+  Probe* const hearer_;  // of its transitions, or null
 };
 
 }  // namespace stormproof::model

@@ -6,12 +6,15 @@
 // Nearly every kind of event is scheduled at a constant distance from now, so its events arrive in
 // ascending order. Each kind therefore has a lane: its first event stands in a short ranking, the
 // others in a plain queue behind it; what would break the order of its lane goes to a common heap.
-// The next event is the least of the ranking: exact for any schedule, and fast for the usual one,
-// whose cost does not grow with the number of events that are pending.
+// What is scheduled for the very instant that is being processed, as every dispatch is, needs no
+// place: of each class it stands in a line, which is next unless the ranking has something of that
+// instant. The next event is the least of these: exact for any schedule, and fast for the usual
+// one, whose cost does not grow with the number of events that are pending.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +37,14 @@ class EventQueue {
                             std::uint32_t subject, std::uint32_t detail) {
     const std::uint64_t insertion = inserted_++;
     const std::uint64_t order = static_cast<std::uint64_t>(event_class) << 62 | insertion;
+    ++size_;
+    if (is_idle(kind)) ++idle_;
+    if (time == instant_) {
+      const auto line = static_cast<std::size_t>(event_class);
+      lines_ |= 1U << line;
+      fill(at_once_[line].push_back(), order, subject, detail, kind);
+      return insertion;
+    }
     const auto number = static_cast<std::size_t>(kind);
     Lane& lane = lanes_[number];
     if (lane.is_ranked && !is_before(lane.last_time, lane.last_order, time, order)) [[unlikely]] {
@@ -48,7 +59,6 @@ class EventQueue {
         fill(lane.others.push_back(), time, order, subject, detail);
       }
     }
-    ++size_;
     return insertion;
   }
 
@@ -63,30 +73,31 @@ class EventQueue {
 
   [[nodiscard]] bool empty() const { return size_ == 0; }
   /// Whether all that is left are announcements, and looks at whether there were any.
-  [[nodiscard]] bool is_quiet() const {
-    const auto in_lane = [&](EventKind kind) {
-      const Lane& lane = lanes_[static_cast<std::size_t>(kind)];
-      return lane.others.size() + (lane.is_ranked ? 1U : 0U);
-    };
-    const std::size_t others =
-        size_ - in_lane(EventKind::announcement_due) - in_lane(EventKind::lease_check);
-    return others == heap_.size() &&
-           std::ranges::all_of(heap_, [](const Event& event) { return is_idle(event.kind); });
-  }
+  [[nodiscard]] bool is_quiet() const { return size_ == idle_; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
   /// Time of the next event. The queue must not be empty.
-  [[nodiscard]] Nanoseconds next_time() const { return ranking_[ranked_ - 1].time; }
+  [[nodiscard]] Nanoseconds next_time() const {
+    if (ranked_ == 0) return instant_;
+    const Nanoseconds ranked = ranking_[ranked_ - 1].time;
+    return lines_ == 0 ? ranked : std::min(ranked, instant_);
+  }
 
   /// Removes and returns the next event. The queue must not be empty.
   Event pop() {
     --size_;
+    if (lines_ == 0) {
+      instant_ = ranking_[ranked_ - 1].time;
+    } else if (ranked_ == 0 || !is_before_lines(ranking_[ranked_ - 1])) {
+      return pop_at_once();
+    }
     const Ranked& first = ranking_[--ranked_];
     const std::size_t number = first.lane;
     if (number == heap_lane) [[unlikely]]
       return pop_heap();
-    const Event event{first.time, first.order, first.subject, first.detail,
-                      static_cast<EventKind>(number)};
+    const auto kind = static_cast<EventKind>(number);
+    if (is_idle(kind)) --idle_;
+    const Event event{first.time, first.order, first.subject, first.detail, kind};
     Lane& lane = lanes_[number];
     if (lane.others.empty()) {
       lane.is_ranked = false;
@@ -112,6 +123,13 @@ class EventQueue {
   struct Ranked : Waiting {
     std::size_t lane = 0;
   };
+  /// An event of the instant.
+  struct AtOnce {
+    std::uint64_t order = 0;
+    std::uint32_t subject = 0;
+    std::uint32_t detail = 0;
+    EventKind kind{};
+  };
   struct Lane {
     bool is_ranked = false;
     Nanoseconds last_time;  // of its last event, if it is ranked
@@ -132,11 +150,35 @@ class EventQueue {
     fill(one, time, order, subject, detail);
     one.lane = lane;
   }
+  static void fill(AtOnce& one, std::uint64_t order, std::uint32_t subject, std::uint32_t detail,
+                   EventKind kind) {
+    one.order = order;
+    one.subject = subject;
+    one.detail = detail;
+    one.kind = kind;
+  }
 
   static constexpr bool is_idle(EventKind kind) {
     return kind == EventKind::announcement_due || kind == EventKind::lease_check;
   }
   static bool later(const Event& a, const Event& b) { return b.before(a); }
+
+  /// The line of the least class, of those that are not empty.
+  [[nodiscard]] std::size_t next_line() const {
+    return static_cast<std::size_t>(std::countr_zero(lines_));
+  }
+  [[nodiscard]] bool is_before_lines(const Ranked& first) const {
+    return is_before(first.time, first.order, instant_, at_once_[next_line()].front().order);
+  }
+  Event pop_at_once() {
+    ChunkQueue<AtOnce>& line = at_once_[next_line()];
+    const AtOnce& first = line.front();
+    const Event event{instant_, first.order, first.subject, first.detail, first.kind};
+    if (is_idle(event.kind)) --idle_;
+    line.pop_front();
+    if (line.empty()) lines_ &= lines_ - 1;
+    return event;
+  }
 
   /// Makes a place in the ranking. Few others precede it as a rule.
   Ranked& enter(Nanoseconds time, std::uint64_t order) {
@@ -174,6 +216,7 @@ class EventQueue {
     std::pop_heap(heap_.begin(), heap_.end(), later);
     const Event event = heap_.back();
     heap_.pop_back();
+    if (is_idle(event.kind)) --idle_;
     if (!heap_.empty()) rank_heap();
     return event;
   }
@@ -183,7 +226,11 @@ class EventQueue {
   std::array<Ranked, event_kind_count + 1> ranking_;  // the next one is last
   std::size_t ranked_ = 0;
   std::size_t size_ = 0;
+  std::size_t idle_ = 0;  // of these, announcements and looks at whether there were any
   std::uint64_t inserted_ = 0;
+  Nanoseconds instant_;                        // that is being processed
+  unsigned lines_ = 0;                         // which of these are not empty, a bit each
+  std::array<ChunkQueue<AtOnce>, 3> at_once_;  // of the instant, by class
 };
 
 }  // namespace stormproof::model

@@ -107,7 +107,6 @@ void Network::emit(std::uint32_t source, Packet&& packet) {
 
 void Network::admit(std::uint32_t source) {
   SourceQueue& queue = sources_[source];
-  const bool wired = fleet_.is_wired(fleet_.host_of(source));
   const bool at_admission = wireless_.fragment_request == FragmentRequest::at_admission;
   while (queue.head_fits(wireless_.source_queue_bytes)) {
     const auto requested =
@@ -121,7 +120,7 @@ void Network::admit(std::uint32_t source) {
     }
     const std::uint32_t slot = take(source, run_.now);
     if (counts_at_admission_) implementation_->count(flights_[slot].packet);
-    if (wired) {
+    if (fleet_.is_wired(fleet_.host_of(source))) {
       leave_wired_host(slot);
       continue;
     }

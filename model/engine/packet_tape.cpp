@@ -116,20 +116,23 @@ void PacketTape::write(Packet&& packet) {
   const std::size_t words = descriptors.end_word() - descriptors.first_word();
   std::uint8_t* const head = room_for(head_bytes + (field_count + words + 4) * longest_number);
   std::uint8_t* to = head + head_bytes;
-  unsigned bits = form_of(descriptors);
   const std::size_t context = context_of(packet);
   Fields& before = context_.before[context];
   const Fields fields = fields_of(packet);
+  unsigned differing = 0;
   for (std::size_t k = 0; k < field_count; ++k) {
-    if (fields[k] == before[k]) continue;
-    bits |= 1U << k;
-    to = put(to, folded(fields[k] - before[k]));
-    before[k] = fields[k];
+    differing |= (fields[k] != before[k] ? 1U : 0U) << k;
   }
+  for (unsigned left = differing; left != 0; left &= left - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(left));
+    to = put(to, folded(fields[k] - before[k]));
+  }
+  before = fields;
   to = put(to, packet.number - std::exchange(context_.number, packet.number));
   const std::int64_t emitted = packet.emitted.count();
   to = put(to, static_cast<std::uint64_t>(emitted - std::exchange(context_.emitted, emitted)));
   to = put(to, descriptors);
+  unsigned bits = differing | form_of(descriptors);
   if (packet.submessages || packet.relayed) {
     bits |= has_content;
     contents_.emplace_back(std::move(packet.submessages), std::move(packet.relayed));
@@ -142,15 +145,19 @@ void PacketTape::write(Packet&& packet) {
 }
 
 std::uint8_t* PacketTape::room_for(std::size_t bytes) {
-  if (chunks_.empty() || chunks_.back().capacity - chunks_.back().end < bytes) {
-    if (spare_.bytes != nullptr && spare_.capacity >= bytes) {
-      chunks_.push_back(std::exchange(spare_, {}));
-    } else {
-      const std::size_t capacity = std::max(chunk_bytes, bytes);
-      chunks_.push_back({std::make_unique_for_overwrite<std::uint8_t[]>(capacity), capacity, 0});
-    }
+  if (chunks_.empty() || chunks_.back().capacity - chunks_.back().end < bytes) [[unlikely]] {
+    add_chunk(bytes);
   }
   return chunks_.back().bytes.get() + chunks_.back().end;
+}
+
+void PacketTape::add_chunk(std::size_t bytes) {
+  if (spare_.bytes != nullptr && spare_.capacity >= bytes) {
+    chunks_.push_back(std::exchange(spare_, {}));
+  } else {
+    const std::size_t capacity = std::max(chunk_bytes, bytes);
+    chunks_.push_back({std::make_unique_for_overwrite<std::uint8_t[]>(capacity), capacity, 0});
+  }
 }
 
 void PacketTape::forget_before(std::size_t chunk) {

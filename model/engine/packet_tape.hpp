@@ -66,6 +66,7 @@ class PacketTape {
     return 2 * static_cast<std::size_t>(packet.kind) + index_of(packet.stream);
   }
   std::uint8_t* room_for(std::size_t bytes);
+  void add_chunk(std::size_t bytes);
   void forget_before(std::size_t chunk);
 
   Context context_;

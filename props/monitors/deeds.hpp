@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,8 @@ namespace stormproof::props {
 
 /// Descriptors of a stream, ascending; a few need no memory of their own.
 using DescriptorList = boost::container::small_vector<std::uint32_t, 16>;
+/// Of each descriptor of a stream, whether something is true of it.
+using TruthList = boost::container::small_vector<bool, 128>;
 
 /// A row fired; `descriptors` are the bits of word `first_word`, 0 if the machine has none.
 struct Move {
@@ -83,7 +86,10 @@ using Deed = std::variant<Move, Scheduled, Message>;
 /// In the order in which they were done.
 class Deeds {
  public:
-  void add(Deed deed) { list_.push_back(std::move(deed)); }
+  template <class Kind>
+  void add(Kind&& deed) {
+    list_.emplace_back(std::forward<Kind>(deed));
+  }
   void clear() {
     list_.clear();
     next_ = 0;

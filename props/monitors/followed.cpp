@@ -126,8 +126,9 @@ class FollowedRun : public Observer {
     return model::class_of(kind) == model::EventClass::protocol &&
            kind != model::EventKind::source_completion && kind != model::EventKind::thread_free;
   }
-  void add(Deed deed) {
-    if (follower_ != nullptr) follower_->deeds().add(std::move(deed));
+  template <class Kind>
+  void add(Kind&& deed) {
+    if (follower_ != nullptr) follower_->deeds().add(std::forward<Kind>(deed));
   }
   void run_rule(Trigger trigger) {
     switch (trigger) {

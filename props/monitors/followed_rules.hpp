@@ -96,6 +96,7 @@ class FollowedRules : public Follower {
   template <class V>
   void assign(const Place& place, std::int64_t to) {
     ValueOf<V>& value = at<V::owner>(std::get<Values<V>>(values_).of, place, 0);
+    if (std::cmp_equal(value, to)) return;
     const bool was = value != 0;
     if (!was && to != 0) self().becomes(V{}, place);
     value = static_cast<ValueOf<V>>(to);
@@ -119,6 +120,7 @@ class FollowedRules : public Follower {
   template <class V>
   void becomes(V, const Place& place) {
     if constexpr (std::is_same_v<V, comp::X>) {
+      ++received_[place.relation];
       if (self().is_required(place.pair)) --missing_;
     } else if constexpr (std::is_same_v<V, typename Composition::IsOpen>) {
       readers_[place.writer].push_back(place.relation);
@@ -129,6 +131,7 @@ class FollowedRules : public Follower {
   template <class V>
   void ceases(V, const Place& place) {
     if constexpr (std::is_same_v<V, comp::X>) {
+      --received_[place.relation];
       if (self().is_required(place.pair)) ++missing_;
     } else if constexpr (std::is_same_v<V, typename Composition::IsOpen>) {
       std::erase(readers_[place.writer], place.relation);
@@ -176,6 +179,11 @@ class FollowedRules : public Follower {
       if (value<comp::Recognised>(back) != 0) pairs.push_back(pair);
     }
     return pairs;
+  }
+
+  /// What every HEARTBEAT and ACKNACK asks for is counted as descriptors come and go.
+  [[nodiscard]] std::int64_t fact(comp::Missing, const World& w) const {
+    return descriptor_count(w.place().writer) - received_[w.place().relation];
   }
 
   // Timers.
@@ -440,6 +448,8 @@ class FollowedRules : public Follower {
   AllValues values_;
   AllStates states_;
   const std::size_t stride_ = largest_stream();
+  std::vector<std::int64_t> received_ =  // how many descriptors, by relation
+      std::vector<std::int64_t>(std::size_t{writers_.stride} * topology_.pair_count());
   const model::Nanoseconds settled_ = model::settled_at(scenario_.deployment);
   std::map<std::uint32_t, std::vector<std::uint32_t>> readers_;               // by writer
   std::map<std::uint32_t, std::vector<std::vector<std::uint32_t>>> batches_;  // the last is next

@@ -1,8 +1,8 @@
 // The world that follows a run (props/monitors/followed.cpp): plain and scalar, one descriptor
-// after the other; facts are evaluated by their definitions. An effect on the state is
-// done; one that an observer sees must be what the run did next, or the host is told the
-// difference. The host (props/monitors/followed_rules.hpp) keeps the state and knows what the run
-// did.
+// after the other; facts are evaluated by their definitions, except what a host counts. An effect
+// on the state is done; one that an observer sees must be what the run did next, or the host is
+// told the difference. The host (props/monitors/followed_rules.hpp) keeps the state and knows what
+// the run did.
 #pragma once
 
 #include <algorithm>
@@ -91,6 +91,8 @@ class FollowedWorld {
   auto operator()(Tag tag) {
     if constexpr (std::derived_from<Tag, comp::Switch> || std::derived_from<Tag, comp::Delay>) {
       return host_->knob(tag);
+    } else if constexpr (requires { host_->fact(tag, *this); }) {
+      return Int{host_->fact(tag, *this)};
     } else if constexpr (std::derived_from<Tag, comp::Fact>) {
       return Tag::of(*this);
     } else if constexpr (requires { typename Tag::IsFlag; }) {
@@ -282,8 +284,11 @@ class FollowedWorld {
   }
   template <class V, class Term>
   void set_each(V, Term&& term, Site = Site::here()) {
-    const Set set = set_of(term);
-    each_descriptor([&](FollowedWorld& d) { host_->template assign<V>(d.place_, d.is_in(set)); });
+    TruthList truths;  // all before any changes
+    each_descriptor([&](FollowedWorld& d) { truths.push_back(term(d)); });
+    each_descriptor([&](FollowedWorld& d) {
+      host_->template assign<V>(d.place_, truths[d.place_.descriptor]);
+    });
     host_->all_are_set(V{}, place_);
   }
   template <class Wait, class T>

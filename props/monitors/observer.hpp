@@ -3,6 +3,7 @@
 // mutated rules, too; whatever they know of X, C and pending timers they gather from what happened.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -30,6 +31,11 @@ class Observer : public Monitor {
  protected:
   /// Objects to what happens in the current event.
   void object_now(std::string reason) { object(event(), now(), std::move(reason)); }
+  /// The same; only the first objection is put into words.
+  template <std::invocable Reason>
+  void object_now(Reason&& reason) {
+    if (!violation()) object_now(std::string{reason()});
+  }
 
   [[nodiscard]] std::uint64_t event() const { return clock_->event; }
   [[nodiscard]] std::uint64_t events() const { return clock_->events; }

@@ -85,9 +85,11 @@ class SingleCopies : public LossAware {
     data.descriptors.for_each([&](std::uint32_t one) {
       if (received_.words().test(relation, one)) ++copies_;
     });
-    object_now("At " + time_text(now()) + " " + descriptor_text(topology(), relation, d) +
-               " is received again, though nothing was lost; this copy was emitted at " +
-               time_text(data.emitted) + ".");
+    object_now([&] {
+      return "At " + time_text(now()) + " " + descriptor_text(topology(), relation, d) +
+             " is received again, though nothing was lost; this copy was emitted at " +
+             time_text(data.emitted) + ".";
+    });
   }
 
   ReceivedDescriptors received_;
@@ -110,8 +112,10 @@ class NeedlessRepairs : public LossAware {
     const std::uint32_t relation = packet.relation();
     const std::uint32_t d = generated_.first_of(relation, packet.descriptors, true);
     if (d != UINT32_MAX && lossless()) {
-      object_now("At " + time_text(now()) + " " + descriptor_text(topology(), relation, d) +
-                 " is generated again, though nothing was lost.");
+      object_now([&] {
+        return "At " + time_text(now()) + " " + descriptor_text(topology(), relation, d) +
+               " is generated again, though nothing was lost.";
+      });
     }
     generated_.add(relation, packet.descriptors);
   }

@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include "model/engine/event_queue.hpp"
+#include "model/keep_memory.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/probe_list.hpp"
 #include "props/limits.hpp"
@@ -263,6 +264,7 @@ int run_collapse(const char* size) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  model::keep_memory();
   if (argc == 3 && std::strcmp(argv[1], "--collapse") == 0) return run_collapse(argv[2]);
   std::puts(fmt::format("{:<58} {:>12} {:>12} {:>7}", "", "ours", "beside", "ratio").c_str());
   collapses("/proc/self/exe");

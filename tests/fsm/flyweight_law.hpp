@@ -1,6 +1,7 @@
 // The law of the flyweight: one shared MSM object that steps many machines by their stored numbers
 // does for each of them exactly what an MSM object of its own would do, whatever the order of
-// events. Each machine's test file instantiates this for its machine.
+// events; and so does a stepper, whatever it remembers of the steps before. Each machine's test
+// file instantiates this for its machine.
 //
 // GoogleTest must be included before rapidcheck/gtest.h.
 #pragma once
@@ -13,6 +14,7 @@
 #include <rapidcheck.h>
 
 #include "fsm/msm.hpp"
+#include "fsm/stepper.hpp"
 
 namespace stormproof::fsm {
 
@@ -64,14 +66,19 @@ class FlyweightLaw {
     Output shared{};
     Output own{};
     StateId& state = states_[random.machine];
+    StateId stepped = state;
+    const Output of_stepper = stepper_.template step<Event>(stepped, input);
     state = engine_.template step<Event>(state, input, shared);
     own_[random.machine]->process_event(Event{{input, own}});
     RC_ASSERT(static_cast<int>(state) == own_[random.machine]->current_state()[0]);
     RC_ASSERT(boost::pfr::eq_fields(shared, own));
+    RC_ASSERT(stepped == state);
+    RC_ASSERT(boost::pfr::eq_fields(of_stepper, own));
   }
 
   const std::vector<Input>& inputs_;
   Flyweight<Machine> engine_;
+  Stepper<Machine> stepper_;
   std::vector<StateId> states_;
   std::vector<std::unique_ptr<BackEnd<Machine>>> own_;
 };
