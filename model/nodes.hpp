@@ -17,9 +17,9 @@ namespace stormproof::model {
                                               std::uint32_t per_participant);
 
 /// `ros_discovery_info` is user data, which no model sends. A participant sends it whole again when
-/// it has created endpoints (rmw_dds_common, context.cpp), with a gid of 24 B for each that there is
-/// by then (Humble); names of nodes come on top. Returns the UDP payload bytes that the last one of
-/// the participant with the most endpoints has at least.
+/// it has created endpoints (rmw_dds_common, context.cpp), with a gid of 24 B for each that there
+/// is by then (Humble); names of nodes come on top. Returns the UDP payload bytes that the last one
+/// of the participant with the most endpoints has at least.
 [[nodiscard]] Bytes last_graph_info(const Deployment& deployment);
 
 }  // namespace stormproof::model

@@ -205,7 +205,8 @@ void describe(V& v, const Simulation& s) {
   v("t_disc_ns", result.discovery_time);
   v.unless_empty("recovery_ns", result.recovery_time);
   v.unless_empty("messages_since_last_start", result.messages_since_last_start);
-  v.unless_empty("ros_discovery_info_bytes", s.fragmented_graph_info());
+  const std::optional<model::Bytes> graph = s.fragmented_graph_info();
+  v.unless_empty("ros_discovery_info_bytes", graph ? std::optional{graph->count()} : std::nullopt);
   v("end_ns", result.end_time);
   v("counts", model::AllCounts{result.counts, result.user_control});
   v("failure_free", s.failure_free);
