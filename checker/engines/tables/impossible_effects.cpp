@@ -1,9 +1,6 @@
 // Effects whose marks never change under the profile, and why.
 #include "checker/engines/tables/impossible_effects.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 #include "checker/engines/smt/claims.hpp"
 #include "checker/engines/tables/ruled_out.hpp"
 #include "model/composition_of.hpp"
@@ -12,6 +9,13 @@
 namespace stormproof::tables {
 
 std::vector<ImpossibleEffects> impossible_effects(const model::DdsProfile& dds) {
+  if (model::traits_of(dds).has_server) {
+    // Nothing is derived from what a server adds; descriptors on their way to it go by the rules of
+    // Fast DDS.
+    model::DdsProfile simple = dds;
+    simple.discovery = model::Discovery::simple;
+    return impossible_effects(simple);
+  }
   // Engines do not execute the rules of Cyclone DDS.
   if (model::traits_of(dds).writer == model::Writer::of_cyclone) return {};
   model::Scenario scenario;
@@ -31,12 +35,6 @@ std::vector<ImpossibleEffects> impossible_effects(const model::DdsProfile& dds) 
     for (const std::size_t effect : group.effects) named.effects.push_back(effects.effects[effect]);
   }
   if (proof.finish("").kind != props::VerdictKind::proved) return {};
-  if (model::traits_of(dds).has_server) {
-    // Descriptors on their way to a server go by the rules of Fast DDS.
-    model::DdsProfile simple = dds;
-    simple.discovery = model::Discovery::simple;
-    std::ranges::move(impossible_effects(simple), std::back_inserter(all));
-  }
   return all;
 }
 

@@ -74,12 +74,18 @@ const std::vector<Wrong>& mistakes_of_server() {
          drop(c, with(c, find(c, and_also(relayed(c, publications), is_gap))));
        },
        Fault::data_cause},
-      {"GapIsTooShort",
+      {"GapIsTooLong",
        [](Conversation& c) {
          change<GapEvent>(c, find(c, and_also(relayed(c, announcements), is_gap)),
-                          [](GapEvent& gap) { --gap.list.base; });
+                          [](GapEvent& gap) { ++gap.list.base; });
        },
        Fault::data_cause},
+      {"GapOfNothing",
+       [](Conversation& c) {
+         change<GapEvent>(c, find(c, and_also(relayed(c, announcements), is_gap)),
+                          [](GapEvent& gap) { gap.list.base = gap.start; });
+       },
+       Fault::gap_cause},
       {"GapBeginsTooEarly",
        [](Conversation& c) {
          const auto matches = [&c](const Event& event) {
