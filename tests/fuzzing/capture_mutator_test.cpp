@@ -42,10 +42,10 @@ TEST(CaptureMutator, MakesMistakesThatLeaveTheFileReadable) {
   EXPECT_EQ(with_mistakes({1, 2, 3}, 7), (CaptureBytes{1, 2, 3}));
 }
 
-TEST(CaptureMutator, ConformDecidesWhateverANumberClaims) {
-  const CaptureBytes capture = shipped("fastdds291_ap_np1_ne2_r0");
+void expect_decisions(const char* name, const char* dds) {
+  const CaptureBytes capture = shipped(name);
   const auto profile =
-      model::config::read_dds_profile("fastdds-2.9.1", {}, model::config::SpecPath::standard());
+      model::config::read_dds_profile(dds, {}, model::config::SpecPath::standard());
   ASSERT_TRUE(profile);
   std::set<conform::Verdict> verdicts;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
@@ -66,6 +66,12 @@ TEST(CaptureMutator, ConformDecidesWhateverANumberClaims) {
     EXPECT_LE(result->explained, result->checked) << seed;
   }
   EXPECT_GE(verdicts.size(), 2U) << "some mistakes matter, some do not";
+}
+TEST(CaptureMutator, ConformDecidesWhateverANumberClaims) {
+  expect_decisions("fastdds291_ap_np1_ne2_r0", "fastdds-2.9.1");
+}
+TEST(CaptureMutator, ConformDecidesWithAServerWhateverANumberClaims) {
+  expect_decisions("discovery-server/fastdds291_ap150_client_np1_ne2_r0", "fastdds-server-2.6.11");
 }
 
 }  // namespace capture_mutator_test

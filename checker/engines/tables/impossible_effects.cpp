@@ -9,6 +9,13 @@
 namespace stormproof::tables {
 
 std::vector<ImpossibleEffects> impossible_effects(const model::DdsProfile& dds) {
+  if (model::traits_of(dds).has_server) {
+    // Nothing is derived from what a server adds; descriptors on their way to it go by the rules of
+    // Fast DDS.
+    model::DdsProfile simple = dds;
+    simple.discovery = model::Discovery::simple;
+    return impossible_effects(simple);
+  }
   // Engines do not execute the rules of Cyclone DDS.
   if (model::traits_of(dds).writer == model::Writer::of_cyclone) return {};
   model::Scenario scenario;

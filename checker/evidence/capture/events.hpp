@@ -32,6 +32,7 @@ struct DataEvent {
   std::uint32_t fragment = 0;      ///< 0: DATA; otherwise the number of DATA_FRAG's first fragment
   std::optional<Guid> endpoint{};  ///< SEDP: whom it describes
   bool is_gone = false;            ///< the endpoint is disposed of; SPDP: the participant leaves
+  std::optional<GuidPrefix> participant{};  ///< SPDP: whom it announces
 };
 struct HeartbeatEvent {
   std::int64_t first = 0;

@@ -86,16 +86,17 @@ class Receiver {
       }
     } else if (traffic == Traffic::spdp) {
       content.is_gone = data->payload.empty() || data->has_key_only;
-      if (!content.is_gone) describe_participant(*data);
+      if (!content.is_gone) describe_participant(*data, content);
     } else if (traffic == Traffic::sedp) {
       describe_endpoint(*data, submessage.order(), content);
     }
     add(submessage, data->reader, data->writer, content);
   }
 
-  void describe_participant(const DataSubmessage& data) {
+  void describe_participant(const DataSubmessage& data, DataEvent& content) {
     auto participant = participant_data(data);
     if (!participant || !data.inline_qos_is_valid) return unreadable();
+    content.participant = participant->prefix;
     // A Discovery Server tells of others, who may be in no message of their own.
     if (participant->prefix && !has_room_for(*participant->prefix)) return;
     describe(data, std::move(*participant));

@@ -32,6 +32,14 @@ std::optional<std::uint32_t> unlisted(const Answer& answer, const Knowledge& kno
   return std::nullopt;
 }
 
+/// Whether the reader would not miss something any more that it asks for, or its base.
+bool tells_of_missing(const Submessage& one, const Answer& answer) {
+  const auto is_missing = [&](std::uint32_t d) { return d == answer.base || answer.asks_for(d); };
+  if (one.descriptor && is_missing(*one.descriptor)) return true;
+  if (one.heartbeat && one.heartbeat->first > answer.base + std::int64_t{1}) return true;
+  return std::ranges::any_of(one.gap, is_missing);
+}
+
 /// Drops what would tell the reader that `limit` exists; not what is left of a datagram of which
 /// something has arrived.
 bool drop_beyond(Arrivals& arrivals, const Knowledge& before, std::span<const Submessage> sent,
@@ -101,17 +109,23 @@ void judge(Arrivals& arrivals, const Answer& answer) {
 bool Knowledge::take(const Submessage& submessage) {
   datagram = submessage.datagram;
   if (const auto d = submessage.descriptor) {
-    if (*d >= has.size()) has.resize(*d + 1);
-    has[*d] = true;
+    learn(*d);
     announced = std::max(announced, *d + 1);
   }
+  for (const std::uint32_t d : submessage.gap) learn(d);
   if (!submessage.heartbeat || (has_heartbeat && submessage.heartbeat->count <= count)) {
     return false;
   }
   has_heartbeat = true;
   count = submessage.heartbeat->count;
   announced = std::max(announced, submessage.heartbeat->announced);
+  for (std::uint32_t d = 0; d + std::int64_t{1} < submessage.heartbeat->first; ++d) learn(d);
   return true;
+}
+
+void Knowledge::learn(std::uint32_t d) {
+  if (d >= has.size()) has.resize(d + 1);
+  has[d] = true;
 }
 
 std::uint32_t Knowledge::base() const {
@@ -127,8 +141,7 @@ Arrivals arrivals_for(const Answer& answer, const Knowledge& before,
     if (before.missed == sent[k].datagram || (!lost.empty() && lost[k])) {
       arrivals.arrived[k] = false;
     }
-    const auto d = sent[k].descriptor;
-    if (d && (*d == answer.base || answer.asks_for(*d))) arrivals.arrived[k] = false;
+    if (tells_of_missing(sent[k], answer)) arrivals.arrived[k] = false;
   }
   lose_datagrams(arrivals, before, sent);
   take_all(arrivals, before, sent);

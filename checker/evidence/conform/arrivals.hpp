@@ -19,7 +19,7 @@ inline constexpr std::uint32_t bitmap_limit = 256;
 
 /// What the reader knows: X, and what was announced to it.
 struct Knowledge {
-  std::vector<bool> has{};      ///< X, by descriptor
+  std::vector<bool> has{};      ///< X, by descriptor; and what a writer says is not to come
   std::uint32_t announced = 0;  ///< descriptors that it knows to exist
   std::uint32_t count = 0;      ///< of the latest HEARTBEAT; an older one is not accepted
   bool has_heartbeat = false;
@@ -31,6 +31,7 @@ struct Knowledge {
   [[nodiscard]] bool knows(std::uint32_t d) const { return d < has.size() && has[d]; }
   /// Takes a submessage in; returns whether it was a HEARTBEAT and accepted.
   bool take(const Submessage& submessage);
+  void learn(std::uint32_t descriptor);
   /// The first descriptor that has not arrived.
   [[nodiscard]] std::uint32_t base() const;
 };

@@ -11,6 +11,7 @@
 
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/yaml_text.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::conform {
 
@@ -41,6 +42,16 @@ class Changes {
         [&](model::DdsProfile& dds) { dds.sedp.*member = changed; });
   }
 
+  /// A delay of a Discovery Server or of its clients.
+  void timer(const char* symbol, const char* key, model::Nanoseconds model::ServerProfile::*member,
+             std::int64_t numerator, std::int64_t denominator, const std::vector<Rule>& rules) {
+    const model::Nanoseconds changed{(dds_.server.*member).count() * numerator / denominator};
+    add(denominator == 1 ? fmt::format("{} × {}", symbol, numerator)
+                         : fmt::format("{} / {}", symbol, denominator),
+        fmt::format("{}={}", key, model::config::print_duration(changed)), rules,
+        [&](model::DdsProfile& dds) { dds.server.*member = changed; });
+  }
+
   std::vector<Change> take() && { return std::move(all_); }
 
  private:
@@ -50,14 +61,15 @@ class Changes {
 
 void add_timers(Changes& changes) {
   using Sedp = model::SedpProfile;
-  const std::vector<Rule> periodic{Rule::heartbeat_periodic};
-  const std::vector<Rule> initial{Rule::acknack_initial};
+  const std::vector<Rule> periodic{Rule::heartbeat_periodic, Rule::relay_periodic};
+  const std::vector<Rule> initial{Rule::acknack_initial, Rule::relay_initial,
+                                  Rule::registration_initial};
   changes.timer("τ_N", "nack_response_delay", &Sedp::nack_response_delay, 10, 1,
-                {Rule::data_pull, Rule::data_repair});
+                {Rule::data_pull, Rule::data_repair, Rule::relay_repair});
   changes.timer("τ_A", "heartbeat_response_delay", &Sedp::heartbeat_response_delay, 1'000, 1,
-                {Rule::acknack_reply});
+                {Rule::acknack_reply, Rule::relay_acknack});
   changes.timer("τ_S", "nack_suppression_duration", &Sedp::nack_suppression_duration, 10'000, 1,
-                {Rule::data_repair});
+                {Rule::data_repair, Rule::relay_repair});
   changes.timer("τ_H", "heartbeat_period", &Sedp::heartbeat_period, 3, 1, periodic);
   changes.timer("τ_H", "heartbeat_period", &Sedp::heartbeat_period, 1, 2, periodic);
   changes.timer("τ_I", "initial_acknack_delay", &Sedp::initial_acknack_delay, 2, 1, initial);
@@ -105,6 +117,32 @@ void add_choices(Changes& changes) {
       [](model::DdsProfile& dds) { dds.sedp.piggyback_threshold_bytes = model::Bytes{4'000'000}; });
 }
 
+void add_server(Changes& changes) {
+  using Server = model::ServerProfile;
+  const std::vector<Rule> ticks{Rule::registration_tick, Rule::heartbeat_open};
+  changes.timer("τ_T", "client_sync_period", &Server::client_sync_period, 3, 1, ticks);
+  changes.timer("τ_T", "client_sync_period", &Server::client_sync_period, 1, 2, ticks);
+  changes.timer("τ_R", "server_routine_period", &Server::server_routine_period, 3, 1,
+                {Rule::relay_data});
+  const std::vector<Rule> periodic{Rule::registration_open, Rule::relay_open};
+  changes.timer("τ_PH", "pdp_heartbeat_period", &Server::pdp_heartbeat_period, 3, 1, periodic);
+  changes.timer("τ_PH", "pdp_heartbeat_period", &Server::pdp_heartbeat_period, 1, 2, periodic);
+  changes.timer("τ_PN", "pdp_nack_response_delay", &Server::pdp_nack_response_delay, 10, 1,
+                {Rule::relay_repair});
+  changes.timer("τ_PS", "pdp_nack_suppression_duration", &Server::pdp_nack_suppression_duration,
+                100, 1, {Rule::relay_repair});
+  changes.timer("τ_PA", "pdp_heartbeat_response_delay", &Server::pdp_heartbeat_response_delay, 3, 1,
+                {Rule::registration_acknack, Rule::relay_acknack});
+  add_words<model::Relay>(
+      changes, "relay", "relay", {Rule::relay_data},
+      {{"repeat", model::Relay::repeat}, {"once", model::Relay::once}},
+      [](model::DdsProfile& dds, model::Relay value) { dds.server.relay = value; });
+  add_words<model::Discovery>(
+      changes, "discovery", "discovery", {Rule::relay_data},
+      {{"server", model::Discovery::server}, {"super_client", model::Discovery::super_client}},
+      [](model::DdsProfile& dds, model::Discovery value) { dds.discovery = value; });
+}
+
 bool acts(const Change& change, const Conformance& truth) {
   return std::ranges::any_of(
       change.rules, [&](Rule rule) { return truth.by_rule[static_cast<std::size_t>(rule)] > 0; });
@@ -127,6 +165,7 @@ std::vector<Change> changes_of(const model::DdsProfile& dds) {
   Changes changes{dds};
   add_timers(changes);
   add_choices(changes);
+  if (model::traits_of(dds).has_server) add_server(changes);
   return std::move(changes).take();
 }
 

@@ -13,6 +13,7 @@
 #include "checker/evidence/conform/heartbeats.hpp"
 #include "checker/evidence/conform/ledger.hpp"
 #include "checker/evidence/conform/reader_side.hpp"
+#include "checker/evidence/conform/server.hpp"
 #include "checker/evidence/conform/to_everybody.hpp"
 #include "checker/evidence/conform/words.hpp"
 #include "checker/evidence/conform/writer_side.hpp"
@@ -33,9 +34,11 @@ class Check {
   explicit Check(const Request& request)
       : request_{request},
         is_of_cyclone_{is_of_cyclone(request.dds)},
-        dialogue_{sort_out(
-            request.conversation, request.until_ns,
-            is_of_cyclone_ && request.dds.allow_multicast == model::AllowMulticast::always)} {
+        has_server_{model::traits_of(request.dds).has_server},
+        dialogue_{sort_out(request.conversation, request.until_ns,
+                           {.sedp_multicast = is_of_cyclone_ && request.dds.allow_multicast ==
+                                                                    model::AllowMulticast::always,
+                            .has_server = has_server_})} {
     result_.bounds = request.bounds;
     result_.checked = dialogue_.checked;
     result_.not_checked = dialogue_.not_checked;
@@ -82,8 +85,12 @@ class Check {
   }
 
   void announcements(std::size_t i) {
+    if (dialogue_.server == i) return;  // it answers
     at({i, {}, capture::entity::spdp_writer}, [&](Ledger& ledger) {
-      if (is_of_cyclone_) return cyclone::explain_announcements(by_cyclone_, i, ledger);
+      if (is_of_cyclone_) return cyclone::explain_announcements(context_, i, ledger);
+      if (has_server_) {
+        return server::explain_registration(context_, i, {announcer_, timers_}, ledger);
+      }
       return explain_announcements(dialogue_, i, request_.dds, request_.bounds, announcer_, ledger);
     });
   }
@@ -92,29 +99,44 @@ class Check {
     WriterRelations writer;
     for (std::size_t r = first; r < last; ++r) writer.relations.push_back(&dialogue_.relations[r]);
     if (is_of_cyclone_) return writer_of_cyclone(writer);
-    const AnnouncedSince announced = announced_since(writer);
     const Place& place = writer.place();
-    const model::SedpProfile& sedp = request_.dds.sedp;
-    at({place.source, {}, place.writer}, [&](Ledger& ledger) {
-      return explain_heartbeats(dialogue_, writer, sedp, request_.bounds, heartbeat_timer_, ledger);
-    });
-    const std::set<std::size_t> to_everybody = sent_to_everybody(
-        dialogue_, messages_of(dialogue_, place.source, request_.bounds), request_.bounds);
-    const WriterContext context{dialogue_,
-                                request_.dds,
-                                request_.bounds,
-                                announced,
-                                last - first == 1 && !dialogue_.has_neighbour[place.source],
-                                to_everybody,
-                                request_.interrupted};
+    const RelationKind kind = kind_of(dialogue_, place);
+    const model::DdsProfile& dds =
+        place.writer == capture::entity::spdp_writer ? announcing_ : request_.dds;
+    std::set<std::size_t> to_everybody;
+    if (kind == RelationKind::relay) {
+      at({place.source, {}, place.writer}, [&](Ledger& ledger) {
+        return server::explain_relay({dialogue_, dds, request_.bounds}, writer, ledger);
+      });
+    } else if (kind == RelationKind::descriptors) {
+      at({place.source, {}, place.writer}, [&](Ledger& ledger) {
+        return explain_heartbeats(dialogue_, writer, dds.sedp, request_.bounds, heartbeat_timer_,
+                                  ledger);
+      });
+      to_everybody = sent_to_everybody(
+          dialogue_, messages_of(dialogue_, place.source, request_.bounds), request_.bounds);
+    }
+    const AnnouncedSince announced = announced_since(writer);
+    WriterContext context{dialogue_,
+                          dds,
+                          request_.bounds,
+                          announced,
+                          last - first == 1 && !dialogue_.has_neighbour[place.source],
+                          to_everybody,
+                          request_.interrupted};
+    if (kind == RelationKind::relay) {
+      context.knows_readers = !dialogue_.has_neighbour[place.source];
+      context.others = writer.relations;
+    }
     for (std::size_t r = first; r < last; ++r) {
       const Relation& relation = dialogue_.relations[r];
+      if (kind != RelationKind::registration) {  // that is explained by participant
+        at(relation.place, [&](Ledger& ledger) {
+          return explain_data(context, relation, changes_, timers_, ledger);
+        });
+      }
       at(relation.place, [&](Ledger& ledger) {
-        return explain_data(context, relation, changes_, timers_, ledger);
-      });
-      at(relation.place, [&](Ledger& ledger) {
-        return explain_reader(dialogue_, relation, request_.dds, request_.bounds, readers_, timers_,
-                              ledger);
+        return explain_reader(dialogue_, relation, dds, request_.bounds, readers_, timers_, ledger);
       });
     }
   }
@@ -122,12 +144,12 @@ class Check {
   void writer_of_cyclone(const WriterRelations& writer) {
     const Place place{writer.place().source, {}, writer.place().writer};
     at(place, [&](Ledger& ledger) {
-      return cyclone::explain_heartbeats(by_cyclone_, writer, cyclone_, ledger);
+      return cyclone::explain_heartbeats(context_, writer, cyclone_, ledger);
     });
-    at(place, [&](Ledger& ledger) { return cyclone::explain_data(by_cyclone_, writer, ledger); });
+    at(place, [&](Ledger& ledger) { return cyclone::explain_data(context_, writer, ledger); });
     for (const Relation* relation : writer.relations) {
       at(relation->place, [&](Ledger& ledger) {
-        return cyclone::explain_reader(by_cyclone_, *relation, cyclone_, ledger);
+        return cyclone::explain_reader(context_, *relation, cyclone_, ledger);
       });
     }
   }
@@ -137,11 +159,14 @@ class Check {
     const capture::Event& event = request_.conversation.events[k];
     const auto& topology = request_.conversation.topology;
     Place place{topology.index_of(*topology.find(event.source)), {}, event.writer};
-    const char* what = event.is_multicast && event.data() != nullptr ? "SEDP DATA by multicast"
-                       : event.is_multicast                          ? "SEDP by multicast"
-                       : event.gap() != nullptr                      ? "GAP"
-                       : event.data() != nullptr                     ? "DATA_FRAG"
-                                                                     : "SPDP that is not DATA";
+    const bool is_spdp = event.traffic() == capture::Traffic::spdp;
+    const char* what = is_spdp && event.is_multicast                   ? "SPDP by multicast"
+                       : has_server_ && !event.is_multicast            ? "a message past the server"
+                       : event.is_multicast && event.data() != nullptr ? "SEDP DATA by multicast"
+                       : event.is_multicast                            ? "SEDP by multicast"
+                       : event.gap() != nullptr                        ? "GAP"
+                       : event.data() != nullptr                       ? "DATA_FRAG"
+                                                                       : "SPDP that is not DATA";
     const bool known = std::any_of(result_.unexplained.begin(), result_.unexplained.end(),
                                    [&](const Unexplained& one) {
                                      return one.place == place && one.fault == Fault::no_such_rule;
@@ -234,6 +259,7 @@ class Check {
   void assume() {
     auto& all = result_.assumptions;
     if (is_of_cyclone_) all = cyclone::assumptions(request_.bounds);
+    if (has_server_) all = server::assumptions(dialogue_);
     all.emplace_back(
         "the capture holds everything that left the hosts since before the first announcement");
     all.emplace_back("between two participants datagrams arrive in order, or are lost");
@@ -256,7 +282,9 @@ class Check {
 
   const Request& request_;
   bool is_of_cyclone_;
+  bool has_server_;
   Dialogue dialogue_;
+  const model::DdsProfile announcing_{server::of_announcements(request_.dds)};
   Conformance result_;
   std::map<Place, PlaceResult> places_;
   Tally<fsm::Announcer> announcer_;
@@ -264,7 +292,7 @@ class Check {
   Tally<fsm::ChangeForReader> changes_;
   Tally<fsm::SingleShot> timers_;
   ReaderMachines readers_;
-  cyclone::Context by_cyclone_{dialogue_, request_.dds, request_.bounds};
+  const Context context_{dialogue_, request_.dds, request_.bounds};
   cyclone::Machines cyclone_;
 };
 
@@ -272,12 +300,8 @@ class Check {
 
 std::optional<std::string> refuse_profile(const model::DdsProfile& dds) {
   if (is_of_cyclone(dds)) return std::nullopt;
-  if (model::traits_of(dds).has_server) {
-    return "a capture can be held against a profile with `discovery: simple` or `static`; "
-           "conformance "
-           "with a Discovery Server is not supported yet";
-  }
-  if (model::traits_of(dds).writer != model::Writer::stateful) {
+  const model::ImplementationTraits& traits = model::traits_of(dds);
+  if (traits.writer != model::Writer::stateful && !traits.has_server) {
     return "a capture can be held against a profile with `implementation: fastdds` or `cyclone`; "
            "this "
            "one has the writer of the paper's model, which is not message for message that of any "

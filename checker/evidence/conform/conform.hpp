@@ -50,9 +50,28 @@ enum class Rule : std::uint8_t {
   heartbeat_on_write,  ///< rides on DATA
   data_merged,         ///< another reader's request made it one to all
   data_same_host,      ///< a reader on the sender's own host asked, which no capture shows
-  acknack_again        ///< AutoReschedNackDelay is over
+  acknack_again,       ///< AutoReschedNackDelay is over
+  // Of a Discovery Server and its clients only.
+  registration_scheduled,  ///< DATA(p) of a client by the announcement timer
+  registration_tick,       ///< DATA(p) of a client that does not know the server yet
+  registration_open,       ///< HEARTBEAT(p) with the first DATA(p)
+  registration_reply,      ///< HEARTBEAT(p), asked for by an initial ACKNACK(p)
+  registration_periodic,   ///< HEARTBEAT(p), while nothing is acknowledged
+  registration_acknack,    ///< the server answers a HEARTBEAT(p)
+  registration_initial,    ///< or there was none for τ_I
+  relay_open,              ///< HEARTBEAT when the server's writer opens to a client
+  relay_reply,             ///< HEARTBEAT, asked for by an initial ACKNACK
+  relay_periodic,          ///< HEARTBEAT while a client lacks something
+  relay_heartbeat,         ///< rides on DATA, or on the GAP before it
+  relay_data,              ///< a change is sent to a client for the first time
+  relay_repair,            ///< or again, as it asked for it
+  relay_gap,               ///< what a client need not have, before a DATA
+  relay_gap_reply,         ///< or because it asked for it
+  relay_gap_to_everybody,  ///< what no reader need have, before a DATA
+  relay_acknack,           ///< a client answers a HEARTBEAT of the server
+  relay_initial            ///< or there was none for τ_I
 };
-inline constexpr std::size_t rule_count = 20;
+inline constexpr std::size_t rule_count = 38;
 /// "heartbeat.open", as reports write it.
 [[nodiscard]] std::string_view name_of(Rule rule);
 /// One sentence: when this rule sends.
@@ -62,6 +81,8 @@ inline constexpr std::size_t rule_count = 20;
 struct Sender {
   std::string_view scope;   ///< a rule or procedure: "ReaderIsMatched"
   std::string_view packet;  ///< "Heartbeat"
+  /// "ClientAnnounces.5", if several effects there send the packet.
+  std::string_view effect{};
 
   auto operator<=>(const Sender&) const = default;
 };
@@ -84,6 +105,7 @@ enum class Fault : std::uint8_t {
   data_cause,               ///< neither pushed nor asked for
   data_early,               ///< asked for, but less than τ_N (or τ_S after the last copy) ago
   data_acknowledged,        ///< sent after its acknowledgment has arrived
+  gap_cause,                ///< a GAP of what nobody asked for, or need not have before a DATA
   acknack_cause,            ///< no HEARTBEAT can have arrived that it answers
   acknack_early,            ///< less than τ_A after the HEARTBEAT, or after the previous ACKNACK
   acknack_content,          ///< base or bitmap differ from what can have arrived
@@ -92,9 +114,9 @@ enum class Fault : std::uint8_t {
   initial_after_heartbeat,  ///< initial ACKNACK although a HEARTBEAT was answered before
   unanswered,               ///< received, and not answered in time (only without losses)
   number_beyond,            ///< a sequence number beyond all belief; such an event is set aside
-  no_such_rule  ///< the profile has nothing that sends this (GAP, DATA_FRAG, another vendor's)
+  no_such_rule  ///< the profile has nothing that sends this (DATA_FRAG, another vendor's, …)
 };
-inline constexpr std::size_t fault_count = 21;
+inline constexpr std::size_t fault_count = 22;
 [[nodiscard]] std::string_view name_of(Fault fault);
 
 /// A relation, or a participant's own affairs if there is no destination.

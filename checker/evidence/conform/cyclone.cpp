@@ -7,11 +7,6 @@
 
 namespace stormproof::conform::cyclone {
 
-bool Context::can_precede(std::int64_t cause_ns, std::int64_t time_ns) const {
-  return cause_ns + bounds.least_delay_ns <=
-         time_ns + capture_resolution_ns + bounds.clock_error_ns;
-}
-
 std::vector<std::string> assumptions(const Bounds& bounds) {
   return {
       "with Cyclone DDS each message is explained by itself, by a cause that can have arrived and "

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "checker/evidence/conform/context.hpp"
 #include "checker/evidence/conform/ledger.hpp"
 #include "checker/evidence/conform/sent_heartbeats.hpp"
 #include "fsm/cautious_reader.hpp"
@@ -18,19 +19,6 @@ namespace stormproof::conform::cyclone {
 
 /// Copies of one packet leave one after the other, in less time.
 inline constexpr std::int64_t most_apart_ns = 20'000'000;
-
-struct Context {
-  const Dialogue& dialogue;
-  const model::DdsProfile& dds;
-  const Bounds& bounds;
-
-  /// Whether `cause`, captured at its source, can have arrived elsewhere before `time_ns`.
-  [[nodiscard]] bool can_precede(std::int64_t cause_ns, std::int64_t time_ns) const;
-  /// When a timer that is due at `due_ns` has surely fired, and what it sends has been captured.
-  [[nodiscard]] std::int64_t surely_after(std::int64_t due_ns) const {
-    return due_ns + bounds.most_lateness_ns + bounds.most_send_lag_ns;
-  }
-};
 
 struct Machines {
   Tally<fsm::HeartbeatPacer> pacer;

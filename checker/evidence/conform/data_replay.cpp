@@ -3,16 +3,22 @@
 
 #include <algorithm>
 
+#include "checker/evidence/conform/relay_host.hpp"
+#include "checker/evidence/conform/writer_host.hpp"
+
 namespace stormproof::conform {
 
 namespace change = fsm::change_for_reader;
 
 namespace {
-/// What the HEARTBEATs and DATA of the relation's writer tell of, at least.
-std::uint32_t descriptors_of(const WriterContext& context, const Relation& relation) {
-  return context.dialogue
-      .descriptors[2 * relation.place.source + stream_index(relation.place.writer)];
+
+std::unique_ptr<ReplayedWriter> host_of(bool is_relay, const model::DdsProfile& dds,
+                                        std::uint32_t count, Tally<fsm::ChangeForReader>& changes,
+                                        Tally<fsm::SingleShot>& timers) {
+  if (is_relay) return std::make_unique<RelayHost>(dds, count, changes, timers);
+  return std::make_unique<WriterHost>(dds, count, changes, timers);
 }
+
 }  // namespace
 
 DataReplay::DataReplay(const WriterContext& context, const Relation& relation,
@@ -24,8 +30,9 @@ DataReplay::DataReplay(const WriterContext& context, const Relation& relation,
       transmissions_{transmissions},
       existing_{existing},
       ledger_{ledger},
-      count_{std::max(descriptors_of(context, relation), existing)},
-      host_{context.dds, count_, changes, timers} {}
+      count_{std::max(descriptors_of(context.dialogue, relation.place), existing)},
+      is_relay_{kind_of(context.dialogue, relation.place) == RelationKind::relay},
+      host_{host_of(is_relay_, context.dds, count_, changes, timers)} {}
 
 const Answer* DataReplay::run(const Plan& plan, std::int64_t lag) {
   std::vector<Step> steps;
@@ -44,9 +51,9 @@ const Answer* DataReplay::run(const Plan& plan, std::int64_t lag) {
   std::stable_sort(steps.begin(), steps.end(),
                    [](const Step& a, const Step& b) { return a.time_ns < b.time_ns; });
 
-  host_.open(existing_);
+  host_->open(existing_);
   for (const Step& step : steps) {
-    host_.end_suppression(step.time_ns);
+    host_->end_suppression(step.time_ns);
     if (step.is_transmission) {
       transmit(step, plan.to_everybody[step.index]);
     } else if (!arrive(step, plan.arrivals[step.index])) {
@@ -68,14 +75,15 @@ bool DataReplay::arrive(const Step& step, const Arrival& arrival) {
     return true;
   }
   ledger_.hidden(Hidden::Kind::received, step.time_ns, answer.event);
-  host_.receive(answer, step.time_ns);
+  host_->receive(answer, step.time_ns);
   return true;
 }
 
 bool DataReplay::is_unanswered(const Answer& answer, std::int64_t now) const {
+  if (is_relay_) return false;  // a change that gets another number is not sent under the old one
   constexpr fsm::StateId u = fsm::Reflect<fsm::ChangeForReader>::id<change::U>;
   return std::any_of(answer.missing.begin(), answer.missing.end(), [&](std::uint32_t d) {
-    if (d >= count_ || host_.state_of(d) != u) return false;
+    if (d >= count_ || host_->state_of(d) != u) return false;
     return std::none_of(transmissions_.begin(), transmissions_.end(), [&](const Transmission& one) {
       return one.descriptor == d && one.time_ns >= now;
     });
@@ -88,12 +96,16 @@ void DataReplay::transmit(const Step& step, bool to_everybody) {
     return;
   }
   // What was requested joins the queue no later than anything is sent.
-  host_.respond(step.time_ns);
+  host_->respond(step.time_ns);
   const Transmission& one = transmissions_[step.index];
-  const bool is_sent = one.is_pushed ? host_.create(one.descriptor, step.time_ns)
-                                     : host_.serve(one.descriptor, step.time_ns);
+  const bool is_sent = one.is_pushed ? host_->create(one.descriptor, step.time_ns)
+                                     : host_->serve(one.descriptor, step.time_ns);
   if (!is_sent) {
     ledger_.not_replayed();
+    return;
+  }
+  if (is_relay_) {
+    ledger_.explained(one.is_first ? Rule::relay_data : Rule::relay_repair);
     return;
   }
   ledger_.explained(one.is_pushed  ? Rule::data_push

@@ -2,11 +2,12 @@
 // machines (writer_host.hpp), which decide whether each transmission is what they would send.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "checker/evidence/conform/replayed.hpp"
 #include "checker/evidence/conform/requests.hpp"
-#include "checker/evidence/conform/writer_host.hpp"
 #include "checker/evidence/conform/writer_side.hpp"
 
 namespace stormproof::conform {
@@ -49,7 +50,8 @@ class DataReplay {
   std::uint32_t existing_;
   Ledger& ledger_;
   const std::uint32_t count_;  ///< descriptors
-  WriterHost host_;
+  const bool is_relay_;
+  std::unique_ptr<ReplayedWriter> host_;
 };
 
 }  // namespace stormproof::conform

@@ -23,8 +23,19 @@ std::uint32_t descriptor_of(std::int64_t sequence_number) {
 std::int64_t number_in(const Event& event) {
   if (const auto* data = event.data()) return data->sequence_number;
   if (const auto* heartbeat = event.heartbeat()) return std::max(heartbeat->first, heartbeat->last);
-  const auto& missing = event.acknack()->missing;
-  return missing.base > INT64_MAX - 256 ? missing.base : missing.base + missing.num_bits - 1;
+  const auto* gap = event.gap();
+  const auto& set = gap != nullptr ? gap->list : event.acknack()->missing;
+  const std::int64_t last = set.base > INT64_MAX - 256 ? set.base : set.base + set.num_bits - 1;
+  return gap != nullptr ? std::max(gap->start, last) : last;
+}
+
+std::vector<std::uint32_t> numbers_of(const capture::GapEvent& gap) {
+  std::vector<std::uint32_t> numbers;
+  for (std::int64_t n = gap.start; n < gap.list.base; ++n) numbers.push_back(descriptor_of(n));
+  for (std::uint32_t bit = 0; bit < gap.list.num_bits; ++bit) {
+    if (gap.list.has(bit)) numbers.push_back(descriptor_of(gap.list.base + bit));
+  }
+  return numbers;
 }
 
 /// Whether an SEDP event speaks of a number that no writer has: samples are numbered from 1 on, and
@@ -34,23 +45,25 @@ bool has_no_number(const Event& event) {
   if (const auto* heartbeat = event.heartbeat()) {
     return std::min(heartbeat->first, heartbeat->last) < 0;
   }
+  if (const auto* gap = event.gap()) return gap->start < 1 || gap->list.base < gap->start;
   return event.acknack()->missing.base < 0;
 }
 
 class Sorter {
  public:
-  Sorter(Dialogue& dialogue, bool sedp_multicast)
-      : dialogue_{dialogue}, conversation_{dialogue.conversation}, sedp_multicast_{sedp_multicast} {
+  Sorter(Dialogue& dialogue, Sorting sorting)
+      : dialogue_{dialogue}, conversation_{dialogue.conversation}, sorting_{sorting} {
     const auto& participants = conversation_.topology.participants;
     for (std::size_t i = 0; i < participants.size(); ++i) index_[participants[i].prefix] = i;
     dialogue.announcements.resize(participants.size());
-    dialogue.descriptors.resize(2 * participants.size());
+    dialogue.descriptors.resize(participants.size());
+    if (sorting.has_server) dialogue.server = find_server();
     dialogue.has_neighbour.resize(participants.size());
     for (std::size_t i = 0; i < participants.size(); ++i) {
       for (std::size_t k = 0; k < participants.size(); ++k) {
-        if (i != k && participants[i].host == participants[k].host) {
-          dialogue.has_neighbour[i] = true;
-        }
+        if (i == k || participants[i].host != participants[k].host) continue;
+        // Clients do not talk to each other.
+        if (!sorting.has_server || dialogue.server == i) dialogue.has_neighbour[i] = true;
       }
     }
   }
@@ -58,8 +71,7 @@ class Sorter {
   /// Before anything is added: what the capture shows of each writer.
   void look_at(const Event& event) {
     const auto source = index_.find(event.source);
-    if (source == index_.end() || event.traffic() != Traffic::sedp || event.data() == nullptr)
-      return;
+    if (source == index_.end() || !is_reliable(event.traffic()) || event.data() == nullptr) return;
     shown_[{source->second, event.writer}].insert(event.data()->sequence_number);
   }
 
@@ -78,14 +90,16 @@ class Sorter {
       return;
     }
     ++dialogue_.checked;
-    if (traffic == Traffic::spdp && event.data() != nullptr) {
+    if (sorting_.has_server) {
+      add_with_server(k, source->second, destination);
+    } else if (traffic == Traffic::spdp && event.data() != nullptr) {
       dialogue_.announcements[source->second].push_back({event.time_ns, k, destination});
     } else if (traffic != Traffic::sedp || event.gap() != nullptr ||
                (event.data() != nullptr && event.data()->fragment != 0)) {
       dialogue_.strange.push_back(k);
     } else if (destination) {
       add_sedp(k, source->second, *destination);
-    } else if (sedp_multicast_ && event.acknack() == nullptr) {
+    } else if (sorting_.sedp_multicast && event.acknack() == nullptr) {
       add_multicast(k, source->second);
     } else {
       dialogue_.strange.push_back(k);
@@ -93,6 +107,7 @@ class Sorter {
   }
 
   void finish() {
+    if (dialogue_.server) look_for_hidden_clients();
     for (auto& [place, relation] : relations_) dialogue_.relations.push_back(std::move(relation));
     // All relations of a writer in a row.
     std::stable_sort(dialogue_.relations.begin(), dialogue_.relations.end(),
@@ -103,6 +118,37 @@ class Sorter {
   }
 
  private:
+  /// Who says so, or whom somebody announces itself to alone.
+  [[nodiscard]] std::optional<std::size_t> find_server() const {
+    const auto& topology = conversation_.topology;
+    if (const auto* server = topology.server()) return topology.index_of(*server);
+    const auto is_for_server = [](const Event& event) {
+      return event.traffic() == Traffic::spdp && event.data() != nullptr && !event.is_multicast;
+    };
+    const auto event = std::ranges::find_if(conversation_.events, is_for_server);
+    const bool has_clients = topology.has_server();
+    if (!has_clients || event == conversation_.events.end()) return std::nullopt;
+    return destination_of(*event);
+  }
+
+  /// A HEARTBEAT of the server that is in no capture went to a client on its host.
+  void look_for_hidden_clients() {
+    std::map<capture::EntityId, std::set<std::uint32_t>> counts;
+    for (const auto& [place, relation] : relations_) {
+      if (dialogue_.server != place.source) continue;
+      for (const Submessage& one : relation.sent) {
+        if (one.heartbeat) counts[place.writer].insert(one.heartbeat->count);
+      }
+    }
+    for (const auto& [writer, seen] : counts) {
+      if (*seen.rbegin() > seen.size()) dialogue_.has_neighbour[*dialogue_.server] = true;
+    }
+  }
+
+  [[nodiscard]] bool is_reliable(Traffic traffic) const {
+    return traffic == Traffic::sedp || (sorting_.has_server && traffic == Traffic::spdp);
+  }
+
   [[nodiscard]] std::optional<std::size_t> destination_of(const Event& event) const {
     if (!event.destination) return std::nullopt;
     const auto found = index_.find(*event.destination);
@@ -115,6 +161,22 @@ class Sorter {
     Relation& found = relations_[place];
     found.place = place;
     return found;
+  }
+
+  void add_with_server(std::size_t k, std::size_t source, std::optional<std::size_t> destination) {
+    const Event& event = conversation_.events[k];
+    const bool is_fragment = event.data() != nullptr && event.data()->fragment != 0;
+    const bool is_with_server =
+        destination && (source == dialogue_.server) != (*destination == dialogue_.server);
+    if (event.is_multicast || is_fragment || !is_with_server) {
+      dialogue_.strange.push_back(k);
+      return;
+    }
+    // The server passes on those of others.
+    if (event.data() != nullptr && event.data()->participant == event.source) {
+      dialogue_.announcements[source].push_back({event.time_ns, k, destination});
+    }
+    add_sedp(k, source, *destination);
   }
 
   void add_multicast(std::size_t k, std::size_t source) {
@@ -140,11 +202,13 @@ class Sorter {
       add_answer(k, relation(destination, source, event.writer));
       return;
     }
-    std::uint32_t& known = dialogue_.descriptors[2 * source + stream_index(event.writer)];
-    Submessage submessage{event.time_ns, k, event.datagram, {}, {}, event.is_multicast};
+    std::uint32_t& known = dialogue_.descriptors[source][stream_index(event.writer)];
+    Submessage submessage{event.time_ns, k, event.datagram, {}, {}, event.is_multicast, {}};
     if (const auto* data = event.data()) {
       submessage.descriptor = descriptor_of(data->sequence_number);
       known = std::max(known, *submessage.descriptor + 1);
+    } else if (const auto* gap = event.gap()) {
+      submessage.gap = numbers_of(*gap);
     } else {
       const auto* heartbeat = event.heartbeat();
       submessage.heartbeat = {heartbeat->first, descriptor_of(heartbeat->last + 1),
@@ -170,7 +234,7 @@ class Sorter {
 
   Dialogue& dialogue_;
   const Conversation& conversation_;
-  bool sedp_multicast_;
+  Sorting sorting_;
   std::map<capture::GuidPrefix, std::size_t> index_;
   std::map<Place, Relation> relations_;
   /// By participant and writer: the sequence numbers of its DATA.
@@ -201,9 +265,9 @@ std::optional<std::int64_t> known_since(const Dialogue& dialogue, std::size_t i,
              : *announced + bounds.least_delay_ns - bounds.clock_error_ns;
 }
 
-Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns, bool sedp_multicast) {
+Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns, Sorting sorting) {
   Dialogue dialogue{conversation};
-  Sorter sorter{dialogue, sedp_multicast};
+  Sorter sorter{dialogue, sorting};
   for (const Event& event : conversation.events) sorter.look_at(event);
   for (std::size_t k = 0; k < conversation.events.size(); ++k) {
     const Event& event = conversation.events[k];

@@ -3,6 +3,7 @@
 // number 1 is descriptor 0. Only what goes from host to host is here.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -20,7 +21,7 @@ struct Heartbeat {
   bool is_final = false;
 };
 
-/// One DATA or HEARTBEAT from the writer of a relation to its reader.
+/// One DATA, HEARTBEAT or GAP from the writer of a relation to its reader.
 struct Submessage {
   std::int64_t time_ns = 0;
   std::size_t event = 0;
@@ -28,6 +29,8 @@ struct Submessage {
   std::optional<std::uint32_t> descriptor{};  ///< DATA
   std::optional<Heartbeat> heartbeat{};
   bool is_multicast = false;  ///< the same event is in the relations to all other hosts
+  /// GAP: descriptors that the reader need not have, ascending.
+  std::vector<std::uint32_t> gap{};
 };
 
 /// An ACKNACK from the reader of a relation to its writer.
@@ -76,22 +79,41 @@ struct Dialogue {
       relations{};  ///< those in which something was sent; those of one writer in a row
   std::vector<std::vector<Announcement>> announcements{};  ///< by participant, in time order
   std::vector<bool> has_neighbour{};                       ///< another participant on the same host
-  std::vector<std::size_t> strange{};        ///< events that no rule can send, by time
-  std::vector<Beyond> beyond{};              ///< by time
-  std::vector<std::uint32_t> descriptors{};  ///< 2·participant + stream: most that was announced
+  std::vector<std::size_t> strange{};  ///< events that no rule can send, by time
+  std::vector<Beyond> beyond{};        ///< by time
+  /// most that was announced, by participant and stream
+  std::vector<std::array<std::uint32_t, 3>> descriptors{};
   std::uint64_t checked = 0;
   std::uint64_t not_checked = 0;
   std::int64_t end_ns = 0;  ///< of what is looked at
   bool ends_early = false;  ///< a participant or an endpoint leaves, of which there is no rule
+  std::optional<std::size_t> server{};  ///< with `has_server`, if the capture shows it
 
   /// When `from` can have been announced to `to` first: the time of that announcement's capture.
   [[nodiscard]] std::optional<std::int64_t> first_announced(std::size_t from, std::size_t to) const;
   [[nodiscard]] std::size_t participants() const { return announcements.size(); }
 };
 
-/// 0: publications, 1: subscriptions.
+/// 0: publications, 1: subscriptions, 2: announcements, which are reliable with a server.
 [[nodiscard]] inline std::size_t stream_index(capture::EntityId writer) {
+  if (writer == capture::entity::spdp_writer) return 2;
   return writer == capture::entity::publications_writer ? 0 : 1;
+}
+/// How many descriptors the writer has announced, at most.
+[[nodiscard]] inline std::uint32_t descriptors_of(const Dialogue& dialogue, const Place& writer) {
+  return dialogue.descriptors[writer.source][stream_index(writer.writer)];
+}
+
+/// By which rules the two sides of a relation go.
+enum class RelationKind : std::uint8_t {
+  descriptors,   ///< of a participant, to another one or to its Discovery Server
+  registration,  ///< of a client with its server: announcements
+  relay          ///< what the server passes on to a client
+};
+[[nodiscard]] inline RelationKind kind_of(const Dialogue& dialogue, const Place& place) {
+  if (dialogue.server == place.source) return RelationKind::relay;
+  return place.writer == capture::entity::spdp_writer ? RelationKind::registration
+                                                      : RelationKind::descriptors;
 }
 
 /// When participant `i` can know participant `j`: the capture of j's first announcement to it. A
@@ -99,8 +121,14 @@ struct Dialogue {
 [[nodiscard]] std::optional<std::int64_t> known_since(const Dialogue& dialogue, std::size_t i,
                                                       std::size_t j, const Bounds& bounds);
 
-/// `sedp_multicast`: DATA and HEARTBEATs of SEDP may go to the group; otherwise that is strange.
+/// What else than DATA to a reader is not strange.
+struct Sorting {
+  bool sedp_multicast = false;  ///< DATA and HEARTBEATs of SEDP to the group
+  /// Announcements are reliable, there are GAPs, and everything goes to the server or comes from
+  /// it.
+  bool has_server = false;
+};
 [[nodiscard]] Dialogue sort_out(const capture::Conversation& conversation, std::int64_t until_ns,
-                                bool sedp_multicast = false);
+                                Sorting sorting = {});
 
 }  // namespace stormproof::conform

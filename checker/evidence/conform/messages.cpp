@@ -66,7 +66,9 @@ std::vector<Message> messages_of(const Dialogue& dialogue, std::size_t participa
                                  const Bounds& bounds) {
   std::vector<Message> copies;
   for (std::size_t r = 0; r < dialogue.relations.size(); ++r) {
-    if (dialogue.relations[r].place.source == participant) collect(dialogue, r, copies);
+    const Place& place = dialogue.relations[r].place;
+    if (place.source != participant) continue;
+    if (kind_of(dialogue, place) == RelationKind::descriptors) collect(dialogue, r, copies);
   }
   std::ranges::sort(copies, {}, [](const Message& one) { return one.first_event.front(); });
   const std::int64_t same_instant = capture_resolution_ns - 1;

@@ -14,19 +14,13 @@
 
 #include "checker/evidence/conform/reader_side.hpp"
 #include "checker/evidence/conform/relation_host.hpp"
+#include "checker/evidence/conform/replayed.hpp"
 
 namespace stormproof::conform {
 
 namespace comp = fsm::composition;
 
-/// An ACKNACK as the rules have it.
-struct MadeAckNack {
-  bool is_initial = false;
-  std::uint32_t base = 0;
-  model::DescriptorSet listed{};
-};
-
-class ReaderHost : public RelationHost {
+class ReaderHost final : public RelationHost, public ReplayedReader {
  public:
   using Composition = comp::fastdds::FastDds;
   using Packet = Submessage;
@@ -39,24 +33,24 @@ class ReaderHost : public RelationHost {
         x_(model::words_for(count)),
         known_(model::words_for(count)) {}
 
-  /// Runs the rule of what happens at this time; returns what it sends.
-  template <class Trigger>
-  std::optional<MadeAckNack> run(std::int64_t now_ns, const Submessage* packet = nullptr) {
-    now_ns_ = now_ns;
-    said_.reset();
-    model::run_rule<Trigger>(*this, 0, packet);
-    return std::move(said_);
+  void open(std::int64_t now_ns) override { run<comp::Happens<comp::ReaderOpens>>(now_ns); }
+  void receive(const Submessage& message, std::int64_t now_ns) override {
+    if (message.descriptor) run<comp::Received<comp::fastdds::Data>>(now_ns, &message);
+    if (message.heartbeat) run<comp::Received<comp::fastdds::Heartbeat>>(now_ns, &message);
   }
-  /// A HEARTBEAT of which the rule has run asks for its reply only now.
-  void ask_again(std::int64_t now_ns) {
+  std::optional<MadeAckNack> attempt(std::int64_t now_ns) override {
+    return run<comp::Due<comp::InitialAttempt>>(now_ns);
+  }
+  std::optional<MadeAckNack> reply(std::int64_t now_ns) override {
+    return run<comp::Due<comp::AckNackGeneration>>(now_ns);
+  }
+  void ask_again(std::int64_t now_ns) override {
     now_ns_ = now_ns;
     model::RunningWorld<ReaderHost, comp::owner::relation> w{*this, 0};
     Composition::answer_later(w);
   }
-  /// When the timer that was started last is due; it is forgotten with that.
-  std::optional<std::int64_t> take_reply_due() { return std::exchange(reply_due_ns_, {}); }
-  /// How long the next initial ACKNACK waits; nothing: there is none.
-  std::optional<std::int64_t> take_initial_delay() {
+  std::optional<std::int64_t> take_reply_due() override { return std::exchange(reply_due_ns_, {}); }
+  std::optional<std::int64_t> take_initial_delay() override {
     if (!std::exchange(waits_for_initial_, false)) return std::nullopt;
     return initial_delay_ns_;
   }
@@ -127,6 +121,15 @@ class ReaderHost : public RelationHost {
   static void perform(comp::control::OpenTopics, World&) {}
 
  private:
+  /// Runs the rule of what happens at this time; returns what it sends.
+  template <class Trigger>
+  std::optional<MadeAckNack> run(std::int64_t now_ns, const Submessage* packet = nullptr) {
+    now_ns_ = now_ns;
+    said_.reset();
+    model::run_rule<Trigger>(*this, 0, packet);
+    return std::move(said_);
+  }
+
   template <class P>
   struct Machines {
     ReaderHost& host;

@@ -3,7 +3,39 @@
 
 #include <algorithm>
 
+#include "checker/evidence/conform/learner_host.hpp"
+#include "checker/evidence/conform/reader_host.hpp"
+
 namespace stormproof::conform {
+
+namespace {
+
+std::unique_ptr<ReplayedReader> host_of(RelationKind kind, const model::DdsProfile& dds,
+                                        std::uint32_t count, ReaderMachines& machines,
+                                        Tally<fsm::SingleShot>& timers) {
+  switch (kind) {
+    case RelationKind::registration:
+      return std::make_unique<LearnerHost<OfRegistration>>(dds, count, machines, timers);
+    case RelationKind::relay:
+      return std::make_unique<LearnerHost<OfRelay>>(dds, count, machines, timers);
+    case RelationKind::descriptors:
+      break;
+  }
+  return std::make_unique<ReaderHost>(dds, count, machines, timers);
+}
+
+Rule initial_rule(RelationKind kind) {
+  return kind == RelationKind::descriptors    ? Rule::acknack_initial
+         : kind == RelationKind::registration ? Rule::registration_initial
+                                              : Rule::relay_initial;
+}
+Rule reply_rule(RelationKind kind) {
+  return kind == RelationKind::descriptors    ? Rule::acknack_reply
+         : kind == RelationKind::registration ? Rule::registration_acknack
+                                              : Rule::relay_acknack;
+}
+
+}  // namespace
 
 ReaderReplay::ReaderReplay(const Dialogue& dialogue, const Relation& relation,
                            const model::DdsProfile& dds, const Bounds& bounds,
@@ -11,30 +43,29 @@ ReaderReplay::ReaderReplay(const Dialogue& dialogue, const Relation& relation,
     : relation_{relation},
       bounds_{bounds},
       ledger_{ledger},
-      host_{dds,
-            dialogue.descriptors[2 * relation.place.source + stream_index(relation.place.writer)],
-            machines, timers} {}
+      kind_{kind_of(dialogue, relation.place)},
+      host_{host_of(kind_, dds, descriptors_of(dialogue, relation.place), machines, timers)} {}
 
 std::int64_t ReaderReplay::open(std::int64_t now) {
   is_open_ = true;
   opened_ns_ = now;
-  host_.run<comp::Happens<comp::ReaderOpens>>(now);
+  host_->open(now);
   ledger_.hidden(Hidden::Kind::recognised, now, std::nullopt);
-  return host_.take_initial_delay().value_or(0);
+  return host_->take_initial_delay().value_or(0);
 }
 
 std::int64_t ReaderReplay::attempt(const Answer& answer) {
-  const auto said = host_.run<comp::Due<comp::InitialAttempt>>(answer.time_ns);
-  confirm(said && said->is_initial, Rule::acknack_initial);
+  const auto said = host_->attempt(answer.time_ns);
+  confirm(said && said->is_initial, initial_rule(kind_));
   ledger_.hidden(Hidden::Kind::timer, answer.time_ns, answer.event, "InitialAckNack");
-  return host_.take_initial_delay().value_or(0);
+  return host_->take_initial_delay().value_or(0);
 }
 
 void ReaderReplay::reply(const Answer& answer, const Choice& choice) {
   std::int64_t now = last_reception_ns_;
   if (!choice.heartbeat_ns) {
     now = std::max(now, last_reply_ns_);
-    host_.ask_again(now);
+    host_->ask_again(now);
   }
   for (std::size_t k = 0; k < choice.arrivals.arrived.size(); ++k) {
     const Submessage& message = relation_.sent[consumed_ + k];
@@ -52,13 +83,13 @@ void ReaderReplay::reply(const Answer& answer, const Choice& choice) {
   last_reception_ns_ = std::min(now, answer.time_ns);
   last_reply_ns_ = answer.time_ns;
   consumed_ = choice.end;
-  const std::int64_t due = host_.take_reply_due().value_or(answer.time_ns);
-  const auto said = host_.run<comp::Due<comp::AckNackGeneration>>(due);
-  confirm(is_captured(said, answer), Rule::acknack_reply);
+  const std::int64_t due = host_->take_reply_due().value_or(answer.time_ns);
+  const auto said = host_->reply(due);
+  confirm(is_captured(said, answer), reply_rule(kind_));
   ledger_.used_lateness(answer.time_ns - due - bounds_.most_send_lag_ns);
 }
 
-void ReaderReplay::finish() { host_.run<comp::Due<comp::InitialAttempt>>(last_reception_ns_); }
+void ReaderReplay::finish() { host_->attempt(last_reception_ns_); }
 
 void ReaderReplay::confirm(bool replayed, Rule rule) {
   replayed ? ledger_.explained(rule) : ledger_.not_replayed();
@@ -76,10 +107,7 @@ void ReaderReplay::miss(const Submessage& message) {
 /// A submessage arrives at the open reader.
 void ReaderReplay::receive(const Submessage& message, std::int64_t now) {
   const bool accepted = knowledge_.take(message);
-  if (message.descriptor) host_.run<comp::Received<comp::fastdds::Data>>(now, &message);
-  if (message.heartbeat && accepted) {
-    host_.run<comp::Received<comp::fastdds::Heartbeat>>(now, &message);
-  }
+  if (!message.heartbeat || accepted) host_->receive(message, now);
 }
 
 /// Whether the rules send the captured ACKNACK; a packet lists no more than its bitmap can.

@@ -2,7 +2,10 @@
 // (reader_host.hpp), which decide whether they send just these.
 #pragma once
 
-#include "checker/evidence/conform/reader_host.hpp"
+#include <memory>
+
+#include "checker/evidence/conform/reader_side.hpp"
+#include "checker/evidence/conform/replayed.hpp"
 #include "checker/evidence/conform/reply_search.hpp"
 
 namespace stormproof::conform {
@@ -39,7 +42,8 @@ class ReaderReplay {
   const Relation& relation_;
   const Bounds& bounds_;
   Ledger& ledger_;
-  ReaderHost host_;
+  const RelationKind kind_;
+  std::unique_ptr<ReplayedReader> host_;
 
   bool is_open_ = false;
   std::int64_t opened_ns_ = 0;

@@ -3,6 +3,7 @@
 #include "checker/evidence/conform/reader_side.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,26 @@ struct Window {
   std::int64_t to_ns = 0;
 };
 
+/// The announcements of the writer's participant open its readers. A client opens its readers of
+/// announcements with its first own one, and the others when it matches its own writers.
+std::vector<Announcement> openings_of(const Dialogue& dialogue, const Relation& relation) {
+  const std::size_t destination = *relation.place.destination;
+  std::vector<Announcement> found;
+  if (kind_of(dialogue, relation.place) != RelationKind::relay) {
+    std::ranges::copy_if(dialogue.announcements[relation.place.source], std::back_inserter(found),
+                         [&](const Announcement& one) {
+                           return !one.destination || one.destination == destination;
+                         });
+    return found;
+  }
+  for (const Relation& own : dialogue.relations) {
+    if (own.place.source != destination || own.place.writer != relation.place.writer) continue;
+    if (own.sent.empty()) continue;
+    found.push_back({own.sent.front().time_ns, own.sent.front().event, own.place.destination});
+  }
+  return found;
+}
+
 class ReaderSide {
  public:
   ReaderSide(const Dialogue& dialogue, const Relation& relation, const model::DdsProfile& dds,
@@ -30,13 +51,14 @@ class ReaderSide {
         bounds_{bounds},
         ledger_{ledger},
         sent_{relation.sent},
+        opens_itself_{kind_of(dialogue, relation.place) == RelationKind::relay},
+        openings_{openings_of(dialogue, relation)},
         replay_{dialogue, relation, dds, bounds, machines, timers, ledger} {}
 
   std::optional<Unexplained> explain() {
-    const auto announced =
-        dialogue_.first_announced(relation_.place.source, *relation_.place.destination);
-    opens_from_ns_ = announced.value_or(INT64_MAX - bounds_.least_delay_ns) +
-                     bounds_.least_delay_ns - bounds_.clock_error_ns;
+    std::optional<std::int64_t> announced;
+    if (!openings_.empty()) announced = openings_.front().time_ns;
+    opens_from_ns_ = announced ? earliest_at(*announced) : INT64_MAX;
     auto fault = explain_in_time(announced);
     if (auto reply_fault = explain_replies()) return reply_fault;  // it comes earlier
     if (fault) return fault;
@@ -180,7 +202,7 @@ class ReaderSide {
       if (!replay_.is_open()) {
         const bool is_dropped = !bounds_.may_lose && choice.arrivals.lost > 0;
         open(is_dropped
-                 ? opening->time_ns + bounds_.least_delay_ns
+                 ? opening->time_ns + (opens_itself_ ? 0 : bounds_.least_delay_ns)
                  : std::min(opens_from_ns_, choice.heartbeat_ns.value_or(replies_[k]->time_ns)));
       }
       replay_.reply(*replies_[k], choice);
@@ -249,9 +271,9 @@ class ReaderSide {
     const Answer& first = relation_.answers.front();
     const std::int64_t waited = first.is_initial ? sedp_.initial_acknack_delay.count() : 0;
     const Announcement* latest = nullptr;
-    for (const Announcement& one : dialogue_.announcements[relation_.place.source]) {
+    for (const Announcement& one : openings_) {
       if (one.time_ns + waited > first.time_ns + capture_resolution_ns) break;
-      if (!one.destination || one.destination == relation_.place.destination) latest = &one;
+      latest = &one;
     }
     return latest;
   }
@@ -262,14 +284,19 @@ class ReaderSide {
   /// The first announcement of the writer's participant that its reader was there for.
   [[nodiscard]] std::int64_t surely_heard(std::int64_t announced) const {
     const auto& own = dialogue_.announcements[*relation_.place.destination];
-    for (const Announcement& one : dialogue_.announcements[relation_.place.source]) {
-      if (one.destination && one.destination != relation_.place.destination) continue;
-      if (own.empty() || one.event > own.front().event) return one.time_ns;
+    for (const Announcement& one : openings_) {
+      if (opens_itself_ || own.empty() || one.event > own.front().event) return one.time_ns;
     }
     return std::max(announced, dialogue_.end_ns);
   }
 
   // Shared.
+
+  /// When the reader side opens if what opens it was captured then, at the earliest.
+  [[nodiscard]] std::int64_t earliest_at(std::int64_t captured_ns) const {
+    return opens_itself_ ? captured_ns - bounds_.most_send_lag_ns
+                         : captured_ns + bounds_.least_delay_ns - bounds_.clock_error_ns;
+  }
 
   void open(std::int64_t now) {
     at_least_ns_ = opens_from_ns_ - bounds_.most_clock_age_ns;
@@ -289,8 +316,9 @@ class ReaderSide {
     }
     return fault(answer, Fault::not_announced,
                  "ACKNACK to a participant that the reader cannot know yet",
-                 announced ? "the first announcement of the writer's participant comes later"
-                           : "no announcement of the writer's participant is in the capture",
+                 opens_itself_ ? "a client opens its readers when it announces itself, or at a tick"
+                 : announced   ? "the first announcement of the writer's participant comes later"
+                               : "no announcement of the writer's participant is in the capture",
                  std::move(needs));
   }
 
@@ -348,6 +376,8 @@ class ReaderSide {
   const Bounds& bounds_;
   Ledger& ledger_;
   const std::vector<Submessage>& sent_;  ///< by the writer
+  const bool opens_itself_;              ///< not because of what the writer's participant sends
+  const std::vector<Announcement> openings_;  ///< messages that can open it, in time order
   ReaderReplay replay_;
 
   std::int64_t opens_from_ns_ = 0;  ///< the earliest instant at which the reader side can open

@@ -164,7 +164,7 @@ class Search {
   }
 
   /// Which submessages arrived, and when the HEARTBEAT did that `reply` answers. One that is too
-  /// old to be answered now was lost, if anything may be.
+  /// old to be answered now was lost, if anything may be, or dropped.
   bool explain(const Level& level, std::size_t reply, std::vector<bool> lost, Choice& choice) {
     const auto window =
         std::span{relation_.sent}.subspan(level.consumed, choice.end - level.consumed);
@@ -178,7 +178,8 @@ class Search {
       if (!choice.arrivals.heartbeat) return false;
       const std::size_t heartbeat = *choice.arrivals.heartbeat;
       if (place(answer, level.consumed + heartbeat, choice)) return true;
-      if (!tried_misplaced_ || tried_misplaced_->late_ns == 0 || !bounds_.may_lose) return false;
+      const bool can_be_missing = bounds_.may_lose || level.consumed + heartbeat < may_be_dropped_;
+      if (!tried_misplaced_ || tried_misplaced_->late_ns == 0 || !can_be_missing) return false;
       if (lost[heartbeat]) return false;  // a part of its datagram has arrived
       lost[heartbeat] = true;
     }

@@ -65,16 +65,65 @@ constexpr std::array<Text, rule_count> rules{{
      "show"},
     {"acknack.again", "without a HEARTBEAT, the renewal delay after the last request",
      sends::cyclone::reply},
+    {"registration.scheduled", "DATA(p) of a client, when its announcement timer expires",
+     sends::server::announces_first, sends::server::announces},
+    {"registration.tick", "DATA(p) of a client, at a tick at which it does not know the server",
+     sends::server::tick},
+    {"registration.open", "HEARTBEAT(p) of a client, with its first DATA(p)",
+     sends::server::first_heartbeat},
+    {"registration.reply", "HEARTBEAT(p) of a client, in answer to an initial ACKNACK(p)",
+     sends::server::asked_heartbeat},
+    {"registration.periodic", "HEARTBEAT(p) of a client that has not been acknowledged",
+     sends::server::heartbeat_again},
+    {"registration.acknack", "ACKNACK(p) of the server, after a HEARTBEAT(p) arrived",
+     sends::server::registered},
+    {"registration.initial", "ACKNACK(p) of the server, without a HEARTBEAT(p)",
+     sends::server::initial_of_server},
+    {"relay.open", "HEARTBEAT of the server, when a client has announced itself",
+     sends::server::opening},
+    {"relay.reply", "HEARTBEAT of the server, in answer to an initial ACKNACK",
+     sends::server::answer_to_initial},
+    {"relay.periodic",
+     "HEARTBEAT of the server, when its timer expires and a client lacks something",
+     sends::server::expiry},
+    {"relay.heartbeat", "HEARTBEAT of the server, with DATA or with the GAP before it",
+     sends::server::served},
+    {"relay.data", "what the server passes on, for the first time to this client",
+     sends::server::served},
+    {"relay.repair", "again, after an ACKNACK asked for it",
+     sends::server::served},
+    {"relay.gap", "what the client need not have, before the first DATA behind it"},
+    {"relay.gap_reply", "what the client need not have, after an ACKNACK asked for it",
+     sends::server::irrelevant},
+    {"relay.gap_to_everybody", "what no client need have, before a DATA; real servers send it"},
+    {"relay.acknack", "ACKNACK of a client, after a HEARTBEAT of the server arrived",
+     sends::server::reply},
+    {"relay.initial", "ACKNACK of a client, without a HEARTBEAT of the server",
+     sends::server::initial},
 }};
 
-constexpr std::array<std::string_view, fault_count> faults{
-    "not_announced",    "not_opened",      "announcement_extra",
-    "announcement_due", "heartbeat_cause", "heartbeat_range",
-    "heartbeat_copies", "heartbeat_due",   "heartbeat_count",
-    "data_cause",       "data_early",      "data_acknowledged",
-    "acknack_cause",    "acknack_early",   "acknack_content",
-    "initial_early",    "initial_late",    "initial_after_heartbeat",
-    "unanswered",       "number_beyond",   "no_such_rule"};
+constexpr std::array<std::string_view, fault_count> faults{"not_announced",
+                                                           "not_opened",
+                                                           "announcement_extra",
+                                                           "announcement_due",
+                                                           "heartbeat_cause",
+                                                           "heartbeat_range",
+                                                           "heartbeat_copies",
+                                                           "heartbeat_due",
+                                                           "heartbeat_count",
+                                                           "data_cause",
+                                                           "data_early",
+                                                           "data_acknowledged",
+                                                           "gap_cause",
+                                                           "acknack_cause",
+                                                           "acknack_early",
+                                                           "acknack_content",
+                                                           "initial_early",
+                                                           "initial_late",
+                                                           "initial_after_heartbeat",
+                                                           "unanswered",
+                                                           "number_beyond",
+                                                           "no_such_rule"};
 
 constexpr std::array<std::string_view, 6> kinds{"received",        "lost",       "dropped",
                                                 "still_under_way", "recognised", "timer"};
@@ -85,10 +134,17 @@ constexpr std::array<std::string_view, 3> verdicts{"conforms", "does not conform
 std::string_view name_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].name; }
 std::string_view statement_of(Rule rule) { return rules[static_cast<std::size_t>(rule)].statement; }
 bool is_rule_of(Rule rule, const model::DdsProfile& dds) {
-  const bool is_of_cyclone = model::traits_of(dds).writer == model::Writer::of_cyclone;
+  const model::ImplementationTraits& traits = model::traits_of(dds);
+  const bool is_of_cyclone = traits.writer == model::Writer::of_cyclone;
+  if (rule >= Rule::registration_scheduled) return traits.has_server;
   switch (rule) {
     case Rule::announcement_scheduled:
     case Rule::announcement_copy:
+      return !traits.has_server;
+    case Rule::announcement_resent:
+    case Rule::heartbeat_same_host:
+    case Rule::data_to_everybody:
+      return !is_of_cyclone && !traits.has_server;
     case Rule::heartbeat_periodic:
     case Rule::data_push:
     case Rule::data_pull:

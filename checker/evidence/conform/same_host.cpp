@@ -23,6 +23,7 @@ std::int64_t last_creation(const Dialogue& dialogue, std::size_t participant) {
   std::array<std::int64_t, 2> since{INT64_MIN, INT64_MIN};
   for (const Relation& relation : dialogue.relations) {
     if (relation.place.source != participant) continue;
+    if (kind_of(dialogue, relation.place) != RelationKind::descriptors) continue;
     const std::size_t s = stream_index(relation.place.writer);
     for (const Submessage& one : relation.sent) {
       const std::uint32_t exist = one.descriptor  ? *one.descriptor + 1
@@ -46,7 +47,7 @@ SameHost::SameHost(const Dialogue& dialogue, std::size_t participant,
   std::int64_t begins = last_creation(dialogue, participant);
   for (std::size_t j = 0; j < participants.size(); ++j) {
     if (participants[j].host != participants[participant].host) continue;
-    if (j != participant) ++readers_;
+    if (j != participant && dialogue.has_neighbour[participant]) ++readers_;
     if (dialogue.announcements[j].empty())
       begins = INT64_MAX;  // nobody knows when
     else
@@ -56,7 +57,7 @@ SameHost::SameHost(const Dialogue& dialogue, std::size_t participant,
   until_ns_ = begins > INT64_MAX - takes ? INT64_MAX : begins + takes;
   for (std::size_t s = 0; s < streams_.size(); ++s) {
     Stream& stream = streams_[s];
-    stream.descriptors = dialogue.descriptors[2 * participant + s];
+    stream.descriptors = dialogue.descriptors[participant][s];
     stream.asked = stream.descriptors;  // what is pushed
     stream.in_between = most_in_between(0);
   }

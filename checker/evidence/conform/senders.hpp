@@ -34,4 +34,23 @@ inline constexpr Sender preemptive{"AckTimerIsTaken", "AckNack"};
 inline constexpr Sender reply{"Reply", "AckNack"};
 }  // namespace cyclone
 
+/// The same in what a Discovery Server adds (fsm/composition/server.hpp).
+namespace server {
+inline constexpr Sender announces_first{"ClientAnnounces", "Registration", "ClientAnnounces.5"};
+inline constexpr Sender announces{"ClientAnnounces", "Registration", "ClientAnnounces.9"};
+inline constexpr Sender tick{"ClientSyncIsDue", "Registration"};
+inline constexpr Sender first_heartbeat{"ClientAnnounces", "RegistrationHeartbeat"};
+inline constexpr Sender asked_heartbeat{"RegistrationAckNackArrives", "RegistrationHeartbeat"};
+inline constexpr Sender heartbeat_again{"RegistrationExpires", "RegistrationHeartbeat"};
+inline constexpr Sender registered{"RegistrationReplyIsDue", "RegistrationAckNack"};
+inline constexpr Sender initial_of_server{"RegistrationInitialDue", "RegistrationAckNack"};
+inline constexpr Sender opening{"RelayOpened", "RelayHeartbeat"};
+inline constexpr Sender answer_to_initial{"RelayedAckNackArrives", "RelayHeartbeat"};
+inline constexpr Sender expiry{"RelayExpires", "RelayHeartbeat"};
+inline constexpr Sender served{"ChangeIsServed", "RelayedData"};
+inline constexpr Sender irrelevant{"RelayedAckNackArrives", "Gap"};
+inline constexpr Sender reply{"LearnerReplyIsDue", "RelayedAckNack"};
+inline constexpr Sender initial{"LearnerInitialDue", "RelayedAckNack"};
+}  // namespace server
+
 }  // namespace stormproof::conform::sends

@@ -20,12 +20,13 @@
 
 #include "checker/evidence/conform/ledger.hpp"
 #include "checker/evidence/conform/relation_host.hpp"
+#include "checker/evidence/conform/replayed.hpp"
 
 namespace stormproof::conform {
 
 namespace comp = fsm::composition;
 
-class WriterHost : public RelationHost {
+class WriterHost final : public RelationHost, public ReplayedWriter {
  public:
   using Composition = comp::fastdds::FastDds;
   using Packet = Answer;
@@ -40,41 +41,38 @@ class WriterHost : public RelationHost {
         states_(count, Tally<fsm::ChangeForReader>::Fly::initial),
         exists_(model::words_for(count)) {}
 
-  /// The relation opens when the first `existing` descriptors exist.
-  void open(std::uint32_t existing) {
+  void open(std::uint32_t existing) override {
     for (std::uint32_t k = 0; k < exists_.size(); ++k) exists_[k] = model::bits_below(existing, k);
     model::run_rule<comp::Happens<comp::fastdds::WriterOpens>>(*this, 0);
   }
-  void receive(const Answer& answer, std::int64_t now_ns) {
+  void receive(const Answer& answer, std::int64_t now_ns) override {
     now_ns_ = now_ns;
     model::run_rule<comp::Received<comp::fastdds::AckNack>>(*this, 0, &answer);
   }
-  /// The descriptor is created and pushed; whether the reader is sent it.
-  bool create(std::uint32_t descriptor, std::int64_t now_ns) {
+  bool create(std::uint32_t descriptor, std::int64_t now_ns) override {
     now_ns_ = now_ns;
     is_served_ = false;
     model::run_rule<comp::Happens<comp::fastdds::Created>>(*this, 0, nullptr, descriptor);
     return is_served_;
   }
-  /// The descriptor's turn in the queue has come; whether the reader is sent it.
-  bool serve(std::uint32_t descriptor, std::int64_t now_ns) {
+  bool serve(std::uint32_t descriptor, std::int64_t now_ns) override {
     now_ns_ = now_ns;
     is_served_ = false;
     model::RunningWorld<WriterHost, comp::owner::entry> w{*this, 0, nullptr, descriptor};
     w.call(comp::fastdds::Deliver{}, comp::fastdds::ToRequesters{});
     return is_served_;
   }
-  void respond(std::int64_t now_ns) {
+  void respond(std::int64_t now_ns) override {
     now_ns_ = now_ns;
     model::run_rule<comp::Due<comp::fastdds::NackResponseDue>>(*this, 0);
   }
-  void end_suppression(std::int64_t now_ns) {
+  void end_suppression(std::int64_t now_ns) override {
     if (now_ns < suppressed_until_ns_) return;
     now_ns_ = now_ns;
     suppressed_until_ns_ = INT64_MAX;
     model::run_rule<comp::Due<comp::fastdds::SuppressionEnd>>(*this, 0);
   }
-  [[nodiscard]] fsm::StateId state_of(std::uint32_t descriptor) const {
+  [[nodiscard]] fsm::StateId state_of(std::uint32_t descriptor) const override {
     return states_[descriptor];
   }
 

@@ -39,7 +39,9 @@ class WriterSide {
     opened_ns_ = opening.time_ns;
     existing_ = existing_at_opening(relation_);
     transmissions_ = transmissions_of(relation_);
-    if (auto fault = pushed_late()) return fault;
+    if (kind_of(context_.dialogue, relation_.place) == RelationKind::descriptors) {
+      if (auto fault = pushed_late()) return fault;
+    }
     if (auto fault = sent_after_acknowledgment()) return fault;
     if (auto fault = sent_while_suppressed()) return fault;
     std::optional<Demand> failure;
@@ -97,11 +99,15 @@ class WriterSide {
   /// earlier ACKNACK can have armed the response, for something else that it asks for.
   [[nodiscard]] std::int64_t response_ns(const Transmission& one) const {
     const std::int64_t response = context_.response_ns();
-    const bool is_armed = std::ranges::any_of(relation_.answers, [&](const Answer& answer) {
+    const auto arms = [&](const Answer& answer) {
       return !answer.missing.empty() &&
              answer.time_ns + context_.bounds.least_delay_ns + response <=
                  one.time_ns + context_.bounds.clock_error_ns + capture_resolution_ns;
-    });
+    };
+    const bool is_armed = std::ranges::any_of(relation_.answers, arms) ||
+                          std::ranges::any_of(context_.others, [&](const Relation* other) {
+                            return std::ranges::any_of(other->answers, arms);
+                          });
     return is_armed ? 0 : response;
   }
   [[nodiscard]] bool needs_no_request(const Transmission& one) const {

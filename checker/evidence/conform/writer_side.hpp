@@ -6,6 +6,7 @@
 
 #include <map>
 #include <set>
+#include <span>
 
 #include "checker/evidence/conform/ledger.hpp"
 #include "fsm/change_for_reader.hpp"
@@ -23,15 +24,16 @@ struct WriterContext {
   const model::DdsProfile& dds;
   const Bounds& bounds;
   const AnnouncedSince& announced;
-  /// The writer has no reader but this one, not even on its own host, so that no other request can
-  /// have armed its nack response before.
-  bool is_only_reader = false;
+  /// The writer has no reader but this one and `others`, not even on its own host, so that no other
+  /// request can have armed its nack response before.
+  bool knows_readers = false;
   const std::set<std::size_t>& to_everybody;  ///< events that need no request (to_everybody.hpp)
   std::function<bool()> interrupted{};        ///< `Request::interrupted`
+  std::span<const Relation* const> others{};  ///< if `knows_readers`, this one may be among them
 
   /// From the arrival of a request to the transmission, at least, ns.
   [[nodiscard]] std::int64_t response_ns() const {
-    return is_only_reader ? dds.sedp.nack_response_delay.count() : 0;
+    return knows_readers ? dds.sedp.nack_response_delay.count() : 0;
   }
 };
 

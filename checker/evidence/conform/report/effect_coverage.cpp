@@ -6,6 +6,7 @@
 
 #include "checker/presentation/composition/composition_graph.hpp"
 #include "model/composition_of.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::conform {
 
@@ -51,6 +52,49 @@ std::map<std::string, std::string> reasons_of(
   return reasons;
 }
 
+/// Adds what the rules of a composition can send.
+void cover(const CompositionInfo& composition, const std::map<std::string, std::string>& reasons,
+           CompositionCoverage& coverage) {
+  for (const auto* list : {&composition.rules, &composition.procedures}) {
+    for (const RuleInfo& rule : *list) {
+      RuleCoverage covered{rule.id, {}};
+      for (const EffectInfo& effect : rule.effects) {
+        auto packets = packets_sent_by(composition, effect);
+        if (packets.empty()) {
+          coverage.unobservable.emplace_back(effect.id);
+          continue;
+        }
+        const auto reason = reasons.find(effect.id);
+        covered.effects.push_back({&effect, std::move(packets), 0,
+                                   reason == reasons.end() ? std::string{} : reason->second});
+      }
+      if (covered.effects.empty()) {
+        coverage.unobservable_rules.emplace_back(rule.id);
+      } else {
+        coverage.rules.push_back(std::move(covered));
+      }
+    }
+  }
+}
+
+/// With a server nobody announces himself to all.
+std::map<std::string, std::string> reasons_with_server(
+    const CompositionInfo& composition, const std::vector<tables::ImpossibleEffects>& impossible,
+    const std::string& reason) {
+  auto reasons = reasons_of(impossible);
+  for (const auto* list : {&composition.rules, &composition.procedures}) {
+    for (const RuleInfo& rule : *list) {
+      for (const EffectInfo& effect : rule.effects) {
+        const bool announces =
+            std::ranges::any_of(packets_sent_by(composition, effect),
+                                [](std::string_view packet) { return packet.starts_with("Spdp"); });
+        if (announces) reasons[effect.id] = reason;
+      }
+    }
+  }
+  return reasons;
+}
+
 /// Gives the events of each sender to the one effect that can have sent them; how many have one.
 std::uint64_t attribute(const std::map<Sender, std::uint64_t>& by_sender,
                         std::vector<RuleCoverage>& rules) {
@@ -62,6 +106,7 @@ std::uint64_t attribute(const std::map<Sender, std::uint64_t>& by_sender,
       if (rule.rule != sender.scope) continue;
       for (EffectCoverage& effect : rule.effects) {
         if (!effect.ruled_out_by.empty() ||
+            (!sender.effect.empty() && sender.effect != effect.effect->id) ||
             std::ranges::find(effect.packets, sender.packet) == effect.packets.end()) {
           continue;
         }
@@ -115,28 +160,14 @@ std::vector<std::string_view> packets_sent_by(const CompositionInfo& composition
 
 CompositionCoverage effect_coverage(const Conformance& result, const model::DdsProfile& dds,
                                     const std::vector<tables::ImpossibleEffects>& impossible) {
-  const CompositionInfo& composition = model::composition_of(dds);
-  const auto reasons = reasons_of(impossible);
-  CompositionCoverage coverage{composition.name, {}, {}, {}, 0};
-  for (const auto* list : {&composition.rules, &composition.procedures}) {
-    for (const RuleInfo& rule : *list) {
-      RuleCoverage covered{rule.id, {}};
-      for (const EffectInfo& effect : rule.effects) {
-        auto packets = packets_sent_by(composition, effect);
-        if (packets.empty()) {
-          coverage.unobservable.emplace_back(effect.id);
-          continue;
-        }
-        const auto reason = reasons.find(effect.id);
-        covered.effects.push_back({&effect, std::move(packets), 0,
-                                   reason == reasons.end() ? std::string{} : reason->second});
-      }
-      if (covered.effects.empty()) {
-        coverage.unobservable_rules.emplace_back(rule.id);
-      } else {
-        coverage.rules.push_back(std::move(covered));
-      }
-    }
+  CompositionCoverage coverage{model::composition_of(dds).name, {}, {}, {}, 0};
+  cover(model::composition_of(dds), reasons_of(impossible), coverage);
+  if (model::traits_of(dds).has_server) {
+    // Descriptors on their way to the server go by the rules of Fast DDS.
+    const CompositionInfo& of_descriptors = model::composition_of(dds.implementation);
+    const bool is_super = dds.discovery == model::Discovery::super_client;
+    const std::string reason = is_super ? "discovery: super_client" : "discovery: server";
+    cover(of_descriptors, reasons_with_server(of_descriptors, impossible, reason), coverage);
   }
   coverage.unattributed = result.explained - attribute(result.by_sender, coverage.rules);
   return coverage;

@@ -73,6 +73,9 @@ std::string_view rule_broken_by(Fault fault) {
       return "DATA that was asked for waits τ_N, and τ_S after the previous copy";
     case Fault::data_acknowledged:
       return "DATA is not sent after its acknowledgment has arrived";
+    case Fault::gap_cause:
+      return "a GAP names what an ACKNACK asks for and its reader need not have, or what comes "
+             "before a DATA";
     case Fault::acknack_cause:
       return "an ACKNACK answers a HEARTBEAT that can have arrived";
     case Fault::acknack_early:
@@ -152,7 +155,8 @@ std::string numbers_text(const capture::SequenceNumberSet& set) {
 std::string event_text(const capture::Event& event) {
   const std::string_view stream = writer_name(event.writer);
   if (const auto* data = event.data()) {
-    if (event.traffic() != capture::Traffic::spdp) return data_text(*data, stream);
+    const bool is_passed_on = data->participant && *data->participant != event.source;
+    if (event.traffic() != capture::Traffic::spdp || is_passed_on) return data_text(*data, stream);
     return data->is_gone ? "SPDP, leaves" : "SPDP announcement";
   }
   if (const auto* heartbeat = event.heartbeat()) {

@@ -267,10 +267,38 @@ std::vector<Case> other_cases() {
              gap.content = capture::GapEvent{1, {}};
              return add(c, gap, gap.time_ns + 50 * ms);
            },
-           ""}};
+           ""},
+          {Fault::gap_cause,
+           "again",
+           [](Conversation& c) {
+             const Event gap = c.events[find_last(c, [](const Event& event) {
+               return event.gap() != nullptr && event.writer == publications;
+             })];
+             return add(c, gap, gap.time_ns + 50 * ms);
+           },
+           "",
+           3,
+           false,
+           {},
+           true}};
 }
 
 }  // namespace
+
+model::Scenario served(model::Discovery discovery, std::vector<std::uint64_t> lost) {
+  model::Scenario scenario = quiet(3, std::move(lost));
+  std::int64_t start = 0;
+  for (model::Participant& one : scenario.deployment.participants) {
+    ++one.host.value;  // the server is on host 0
+    start += one.host.value == 3 ? 700 * ms : 12 * ms;
+    one.start = model::Nanoseconds{start};
+    one.endpoints_done = model::Nanoseconds{start + 5 * ms};
+  }
+  scenario.dds = profile("fastdds-server-2.6.11");
+  scenario.dds.discovery = discovery;
+  scenario.time_limit = model::Nanoseconds{6'000 * ms};
+  return scenario;
+}
 
 model::Scenario quiet(std::uint32_t participants, std::vector<std::uint64_t> lost) {
   model::Scenario scenario;

@@ -18,6 +18,11 @@ namespace stormproof::conform::testing {
 [[nodiscard]] model::Scenario quiet(std::uint32_t participants,
                                     std::vector<std::uint64_t> lost = {});
 
+/// With a Discovery Server alone on its host, and three clients on hosts of their own, the last of
+/// which comes 0.7 s later; otherwise as `quiet`.
+[[nodiscard]] model::Scenario served(model::Discovery discovery,
+                                     std::vector<std::uint64_t> lost = {});
+
 struct Case {
   Fault fault{};
   std::string name{};
@@ -27,6 +32,7 @@ struct Case {
   std::uint32_t participants = 2;
   bool may_lose = true;
   std::vector<std::uint64_t> lost_packets{};
+  bool has_server = false;
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Case& one) { return out << one.name; }

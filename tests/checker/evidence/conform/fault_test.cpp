@@ -14,7 +14,9 @@ class FoundFault : public ::testing::TestWithParam<Case> {};
 
 TEST_P(FoundFault, IsReportedAtItsEvent) {
   const Case& one = GetParam();
-  const model::Scenario scenario = quiet(one.participants, one.lost_packets);
+  const model::Scenario scenario = one.has_server
+                                       ? served(model::Discovery::server, one.lost_packets)
+                                       : quiet(one.participants, one.lost_packets);
   Simulated run = simulated(scenario);
   Bounds bounds = exact_bounds(scenario, run);
   if (one.lost_packets.empty()) bounds.most_delay_ns = 2'000'000;

@@ -25,7 +25,7 @@ struct Scene {
   Scene() {
     dds.implementation = model::ImplementationKind::fastdds;
     relation.place = {0, 1, capture::entity::publications_writer};
-    dialogue.descriptors = {2, 0, 0, 0};
+    dialogue.descriptors = {{2, 0, 0}, {}};
     dialogue.end_ns = 10'000 * ms;
   }
   [[nodiscard]] std::uint64_t explained(Rule rule) const {
@@ -113,6 +113,75 @@ TEST(ReplayRules, WhatIsSuppressedIsNotSentAgain) {
   const Scene later = sent({first, first + 2 * suppression}, {10 * ms, first + suppression + 1});
   EXPECT_EQ(later.explained(Rule::data_repair), 1U);
   EXPECT_EQ(later.result.not_replayed, 0U);
+}
+
+/// A relay of the server, participant 0: a change that was there is asked for, a new one is sent.
+Scene passed_on(std::vector<std::int64_t> times, const std::vector<std::int64_t>& requests,
+                std::uint32_t existing) {
+  Scene scene;
+  scene.dds.discovery = model::Discovery::server;
+  scene.dialogue.server = 0;
+  std::vector<Transmission> transmissions;
+  Plan plan;
+  for (const std::int64_t time : requests) {
+    scene.relation.answers.push_back({time, 0, 0, {0}, false});
+    plan.arrivals.push_back({time, time, true});
+  }
+  for (const std::int64_t time : times) {
+    transmissions.push_back({0, time, 0, time == times.front(), existing == 0});
+    plan.request.emplace_back();
+    plan.to_everybody.push_back(false);
+  }
+  Tally<fsm::ChangeForReader> changes;
+  const AnnouncedSince announced;
+  const std::set<std::size_t> to_everybody;
+  const WriterContext context{scene.dialogue, scene.dds,    scene.bounds, announced,
+                              true,           to_everybody, {},           {}};
+  DataReplay replay{context, scene.relation, transmissions, existing,
+                    changes, scene.timers,   scene.ledger};
+  EXPECT_EQ(replay.run(plan, 0), nullptr);
+  return scene;
+}
+
+TEST(ReplayRules, OfAServerSayWhatIsSentToAClient) {
+  EXPECT_EQ(passed_on({20 * ms}, {10 * ms}, 1).explained(Rule::relay_data), 1U);
+  EXPECT_EQ(passed_on({20 * ms}, {}, 1).result.not_replayed, 1U);
+  EXPECT_EQ(passed_on({20 * ms}, {}, 0).explained(Rule::relay_data), 1U);
+  const Scene again = passed_on({20 * ms, 40 * ms}, {30 * ms}, 0);
+  EXPECT_EQ(again.explained(Rule::relay_repair), 1U);
+  EXPECT_EQ(again.result.not_replayed, 0U);
+  // Nobody asked, or while it was suppressed.
+  EXPECT_EQ(passed_on({20 * ms, 40 * ms}, {}, 0).result.not_replayed, 1U);
+  EXPECT_EQ(passed_on({20 * ms, 40 * ms}, {20 * ms + 1}, 0).result.not_replayed, 1U);
+}
+
+/// What a client has been told that it need not have it does not ask for.
+TEST(ReplayRules, OfAClientSayWhatItAsksTheServerFor) {
+  const auto asked = [](const std::vector<std::uint32_t>& missing, std::int64_t first,
+                        std::vector<std::uint32_t> gap) {
+    Scene scene;
+    scene.dds.discovery = model::Discovery::server;
+    scene.dialogue.server = 0;
+    Submessage told{2 * ms, 0, 1, {}, {}, false, std::move(gap)};
+    Submessage heartbeat{2 * ms, 1, 1, {}, Heartbeat{first, 4, 1, true, false}, false, {}};
+    scene.relation.sent = {told, heartbeat};
+    const Answer answer{20 * ms, 2, missing.empty() ? 4 : missing.front(), missing, false};
+    ReaderMachines machines;
+    ReaderReplay replay{scene.dialogue, scene.relation, scene.dds,   scene.bounds,
+                        machines,       scene.timers,   scene.ledger};
+    replay.open(ms);
+    Choice choice{2, {}, 3 * ms};
+    choice.arrivals.arrived = {true, true};
+    choice.arrivals.heartbeat = 1;
+    replay.reply(answer, choice);
+    return scene.explained(Rule::relay_acknack);
+  };
+  EXPECT_EQ(asked({0, 1, 2, 3}, 1, {}), 1U);
+  EXPECT_EQ(asked({1, 2, 3}, 1, {0}), 1U);
+  EXPECT_EQ(asked({1, 2, 3}, 2, {}), 1U);
+  EXPECT_EQ(asked({0, 1, 2, 3}, 2, {}), 0U);
+  EXPECT_EQ(asked({0, 1, 3}, 1, {0}), 0U);
+  EXPECT_EQ(asked({}, 5, {}), 1U);
 }
 
 }  // namespace replay_rules_test

@@ -26,10 +26,10 @@ using fsm::composition::EffectInfo;
 using fsm::composition::RuleInfo;
 using Names = std::set<std::string>;
 
-std::set<Sender> all_senders() {
+std::set<Sender> all_senders(const model::DdsProfile& dds = fastdds()) {
   std::set<Sender> all;
   for (std::size_t k = 0; k < rule_count; ++k) {
-    if (!is_rule_of(static_cast<Rule>(k), fastdds())) continue;
+    if (!is_rule_of(static_cast<Rule>(k), dds)) continue;
     const auto senders = senders_of(static_cast<Rule>(k));
     all.insert(senders.begin(), senders.end());
   }
@@ -67,6 +67,25 @@ TEST(EffectCoverage, EverySenderIsOneEffectAndEveryEffectHasASender) {
         effect_coverage(sent_by(senders), dds, tables::impossible_effects(dds));
     EXPECT_EQ(coverage.unattributed, 0U) << static_cast<int>(resend);
     EXPECT_EQ(coverage.seen(), coverage.possible()) << static_cast<int>(resend);
+    EXPECT_EQ(coverage.rules_seen(), coverage.rules_possible());
+    for (const RuleCoverage& rule : coverage.rules) {
+      for (const EffectCoverage& one : rule.effects) {
+        EXPECT_NE(one.times == 0, one.ruled_out_by.empty()) << one.effect->id;
+      }
+    }
+  }
+}
+
+/// Of what a server adds, and of the rules of Fast DDS for descriptors on their way to it.
+TEST(EffectCoverage, TheSameWithAServer) {
+  for (const auto discovery : {model::Discovery::server, model::Discovery::super_client}) {
+    model::DdsProfile dds = fastdds();
+    dds.discovery = discovery;
+    const auto impossible = tables::impossible_effects(dds);
+    const CompositionCoverage coverage =
+        effect_coverage(sent_by(all_senders(dds)), dds, impossible);
+    EXPECT_EQ(coverage.unattributed, 0U);
+    EXPECT_EQ(coverage.seen(), coverage.possible());
     EXPECT_EQ(coverage.rules_seen(), coverage.rules_possible());
     for (const RuleCoverage& rule : coverage.rules) {
       for (const EffectCoverage& one : rule.effects) {
