@@ -139,15 +139,17 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::paper::Paper>) {
   return list;
 }
 
+/// Of Fast DDS, whose participants create one endpoint after the other.
+model::Scenario created_over_time(model::Scenario scenario) {
+  scenario.dds.spdp.payload_bytes = Bytes{252};
+  std::int64_t done = 20;
+  for (model::Participant& participant : scenario.deployment.participants) {
+    participant.endpoints_done = ms(done += 15);
+  }
+  return scenario;
+}
+
 std::vector<Trial> trials_of(model::Of<fsm::composition::fastdds::FastDds>) {
-  const auto created_over_time = [](model::Scenario scenario) {
-    scenario.dds.spdp.payload_bytes = Bytes{252};
-    std::int64_t done = 20;
-    for (model::Participant& participant : scenario.deployment.participants) {
-      participant.endpoints_done = ms(done += 15);
-    }
-    return scenario;
-  };
   std::vector<Trial> list;
   model::Scenario quiet_scenario = quiet({10, 25});
   quiet_scenario.dds.descriptors = {};
@@ -162,8 +164,23 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::fastdds::FastDds>) {
   return list;
 }
 
-/// What follows random runs notices their mistakes.
-std::vector<Trial> trials_of(model::Of<fsm::composition::server::FastDdsServer>) { return {}; }
+/// Clients of a server on the host of two of them, and super clients, with losses.
+std::vector<Trial> trials_of(model::Of<fsm::composition::server::FastDdsServer>) {
+  const auto with_server = [](model::Discovery discovery, model::Scenario scenario) {
+    scenario.deployment.participants[1].start = ms(460);  // the others know the server then
+    scenario = created_over_time(std::move(scenario));
+    scenario.deployment.participants[1].endpoints_done = ms(500);
+    scenario.dds.discovery = discovery;
+    scenario.dds.descriptors = {};
+    scenario.time_limit = ms(4'000);
+    return scenario;
+  };
+  model::Scenario lossy = quiet({12, 25, 40, 41, 60, 80, 100, 101, 130, 160});
+  lossy.deployment = model::Deployment::homogeneous(2, 2, 1);
+  model::Scenario few = quiet({7, 30});
+  return {{"clients", with_server(model::Discovery::server, std::move(lossy)), false},
+          {"super clients", with_server(model::Discovery::super_client, std::move(few)), false}};
+}
 /// Their mistakes are not in the catalogue.
 std::vector<Trial> trials_of(model::Of<fsm::composition::cyclone::Cyclone>) { return {}; }
 
@@ -172,7 +189,9 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::cyclone::Cyclone>) { re
 std::vector<Trial> trials(model::ImplementationKind implementation) {
   std::vector<Trial> list = model::visit_composition(
       implementation, [](auto composition) { return trials_of(composition); });
-  for (Trial& trial : list) trial.scenario.dds.implementation = implementation;
+  for (Trial& trial : list) {
+    trial.scenario.dds.implementation = model::implementation_of(implementation);
+  }
   return list;
 }
 
