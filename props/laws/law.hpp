@@ -32,4 +32,8 @@ struct Law {
 /// All laws.
 [[nodiscard]] std::span<const Law> laws();
 
+/// Whether the law says something about the scenario, whatever writers it has: most laws are about
+/// those of the paper and of Fast DDS, not about a Discovery Server.
+[[nodiscard]] bool speaks_of(const Law& law, const model::Scenario& scenario);
+
 }  // namespace stormproof::props

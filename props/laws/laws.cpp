@@ -1,4 +1,6 @@
-// All laws, family by family.
+// All laws, family by family; and which of them are about runs, time and the network as such.
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "props/laws/families.hpp"
@@ -17,6 +19,22 @@ std::span<const Law> laws() {
     return list;
   }();
   return all;
+}
+
+namespace {
+/// They hold whatever writers do. The others count what the paper and Fast DDS send, or know when
+/// their timers are due.
+constexpr std::array<std::string_view, 18> of_all_writers{
+    "law.determinism",     "law.observation",        "law.later-limit",     "law.earlier-limit",
+    "law.run-until",       "law.unused-values",      "law.route-names",     "law.time-translation",
+    "law.work-conserving", "law.channel-use",        "law.delays",          "law.causality",
+    "law.knowledge",       "law.single-stage-order", "law.unlimited-queue", "law.unsent-losses",
+    "law.lost-is-late",    "law.physical-bound"};
+}  // namespace
+
+bool speaks_of(const Law& law, const model::Scenario& scenario) {
+  const bool of_all = std::ranges::find(of_all_writers, law.id) != of_all_writers.end();
+  return (of_all || !traits_of(scenario).has_server) && law.applies(scenario);
 }
 
 }  // namespace stormproof::props

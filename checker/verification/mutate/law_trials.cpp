@@ -42,7 +42,7 @@ std::vector<LawTrials::Ground>& LawTrials::grounds(model::ImplementationKind imp
     for (const props::Law& law : props::laws()) {
       if (goes_on_ && !goes_on_()) return list;
       const model::Scenario& scenario = ground.trial.scenario;
-      ground.holds.push_back(law.applies(scenario) && !law.broken(scenario, correct));
+      ground.holds.push_back(props::speaks_of(law, scenario) && !law.broken(scenario, correct));
     }
     list.push_back(std::move(ground));
   }

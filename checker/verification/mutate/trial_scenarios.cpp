@@ -186,15 +186,31 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::cyclone::Cyclone>) {
   return list;
 }
 
-/// What follows random runs notices its mistakes.
-std::vector<Trial> trials_of(model::Of<fsm::composition::server::FastDdsServer>) { return {}; }
+/// Clients of a server on the host of two of them, and super clients, with losses.
+std::vector<Trial> trials_of(model::Of<fsm::composition::server::FastDdsServer>) {
+  const auto with_server = [](model::Discovery discovery, model::Scenario scenario) {
+    scenario.deployment.participants[1].start = ms(460);  // the others know the server then
+    scenario = created_over_time(std::move(scenario));
+    scenario.deployment.participants[1].endpoints_done = ms(500);
+    scenario.dds.discovery = discovery;
+    scenario.time_limit = ms(4'000);
+    return scenario;
+  };
+  model::Scenario lossy = quiet({12, 25, 40, 41, 60, 80, 100, 101, 130, 160});
+  lossy.deployment = model::Deployment::homogeneous(2, 2, 1);
+  model::Scenario few = quiet({7, 30});
+  return {{"clients", with_server(model::Discovery::server, std::move(lossy)), false},
+          {"super clients", with_server(model::Discovery::super_client, std::move(few)), false}};
+}
 
 }  // namespace
 
 std::vector<Trial> trials(model::ImplementationKind implementation) {
   std::vector<Trial> list = model::visit_composition(
       implementation, [](auto composition) { return trials_of(composition); });
-  for (Trial& trial : list) trial.scenario.dds.implementation = implementation;
+  for (Trial& trial : list) {
+    trial.scenario.dds.implementation = model::implementation_of(implementation);
+  }
   return list;
 }
 

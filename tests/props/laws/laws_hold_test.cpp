@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "model/implementations.hpp"
+#include "props/generators/on_demand.hpp"
 #include "props/generators/space.hpp"
 #include "tests/props/laws/law_check.hpp"
 
@@ -30,6 +32,36 @@ INSTANTIATE_TEST_SUITE_P(Every, LawTest, testing::ValuesIn(laws().begin(), laws(
 TEST_P(LawTest, Holds) {
   const auto broken = broken_on_random_scenarios(GetParam(), correct);
   EXPECT_FALSE(broken) << *broken;
+}
+
+/// Clients and super clients of a Discovery Server.
+model::Scenario with_server(std::uint64_t seed) {
+  ScenarioSpace space{.implementation = model::implementation_with_discovery};
+  space.max_participants = 4;
+  space.max_endpoints = 4;
+  model::Scenario scenario = draw_scenario(seed, 50, space);
+  using enum model::Discovery;
+  draw_discovery(seed, seed % 2 == 0 ? server : super_client, scenario);
+  return scenario;
+}
+
+TEST_P(LawTest, HoldsWithAServerIfItSpeaksOfIt) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const model::Scenario scenario = with_server(seed);
+    if (!speaks_of(GetParam(), scenario)) continue;
+    const auto broken = GetParam().broken(scenario, correct);
+    EXPECT_FALSE(broken) << "seed " << seed << ": " << *broken;
+  }
+}
+
+TEST(Laws, SomeSpeakOfAServer) {
+  std::set<std::string_view> ids;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    for (const Law& law : laws()) {
+      if (speaks_of(law, with_server(seed))) ids.insert(law.id);
+    }
+  }
+  EXPECT_EQ(ids.size(), 18U);
 }
 
 TEST_P(LawTest, AppliesOften) {

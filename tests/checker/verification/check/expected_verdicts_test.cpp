@@ -1,6 +1,12 @@
 // `check` answers what specs/expected/verdicts.yaml says, on reference scenarios of both
 // implementations, and every counterexample has been confirmed by the simulator.
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -35,11 +41,18 @@ Verdicts expected(const std::string& scenario) {
   return verdicts;
 }
 
+const std::array<std::string, 4> names{"wired-5x20", "wifi-5x20", "wifi-5x20-fastdds",
+                                       "live-5x20 --set dds=fastdds-server-2.6.11"};
+
 class ExpectedVerdicts : public testing::TestWithParam<std::string> {};
 
 TEST_P(ExpectedVerdicts, AreWhatCheckAnswers) {
-  const auto scenario =
-      model::config::read_scenario(GetParam(), {}, model::config::SpecPath::standard());
+  // "NAME --set KEY=VALUE", as `check` takes it.
+  const std::size_t option = GetParam().find(" --set ");
+  std::vector<std::string> overrides;
+  if (option != std::string::npos) overrides.push_back(GetParam().substr(option + 7));
+  const auto scenario = model::config::read_scenario(GetParam().substr(0, option), overrides,
+                                                     model::config::SpecPath::standard());
   ASSERT_TRUE(scenario);
   smt::Claims claims;
   CheckRequest request{*scenario, claims, nullptr, 0, 2, {}};
@@ -59,18 +72,18 @@ TEST_P(ExpectedVerdicts, AreWhatCheckAnswers) {
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
-  std::replace(name.begin(), name.end(), '-', '_');
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, ExpectedVerdicts,
-                         testing::Values("wired-5x20", "wifi-5x20", "wifi-5x20-fastdds"),
+INSTANTIATE_TEST_SUITE_P(Scenarios, ExpectedVerdicts, testing::ValuesIn(names.begin(), names.end()),
                          test_name);
 
 TEST(ExpectedVerdicts, CoverEveryScenarioOfTheFile) {
-  std::set<std::string> names;
-  for (const auto& scenario : expected_file()) names.insert(scenario.first.as<std::string>());
-  EXPECT_EQ(names, (std::set<std::string>{"wired-5x20", "wifi-5x20", "wifi-5x20-fastdds"}));
+  std::set<std::string> found;
+  for (const auto& scenario : expected_file()) found.insert(scenario.first.as<std::string>());
+  EXPECT_EQ(found, (std::set<std::string>{names.begin(), names.end()}));
 }
 
 }  // namespace expected_verdicts_test
