@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "checker/engines/tables/listed_effects.hpp"
+#include "checker/engines/tables/proof.hpp"
 #include "fsm/composition/composition_info.hpp"
 #include "model/composition_of.hpp"
 #include "model/implementations.hpp"
