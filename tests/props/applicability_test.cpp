@@ -47,7 +47,7 @@ TEST(CycloneDds, IsSpokenOfByWhatItsMonitorsObserve) {
 TEST(CycloneDds, IsNotSpokenOfByPropertiesOfOtherWriters) {
   for (const char* const property :
        {"timer.single-heartbeat", "timer.suppression-honoured", "live.completion",
-        "live.quiescence", "storm.single-copy", "composition.live"}) {
+        "live.quiescence", "storm.single-copy", "composition.pending"}) {
     EXPECT_NE(why_not_applicable(property, cyclone()), "") << property;
     EXPECT_EQ(why_not_applicable(property, model::Scenario{}), "") << property;
   }

@@ -1,36 +1,25 @@
 // composition.live: each effect of each rule can happen, or a knob of the profile rules it out.
 // Steps in which it happens are found in the system of one generic descriptor
 // (checker/engines/tables/effect_system.hpp); that it cannot happen is proved, and why. An effect
-// that no knob allows is a rule that somebody wrote down and nobody executes.
+// that no knob allows is a rule that somebody wrote down and nobody executes. For writers that the
+// engines do not know, runs are looked at instead (checker/engines/tables/live_in_runs.hpp).
 #include <algorithm>
 #include <stdexcept>
 
 #include "checker/engines/tables/descriptor_system.hpp"
+#include "checker/engines/tables/listed_effects.hpp"
+#include "checker/engines/tables/live_in_runs.hpp"
 #include "checker/engines/tables/properties.hpp"
 #include "checker/engines/tables/ruled_out.hpp"
 #include "checker/engines/tables/witnesses.hpp"
 #include "model/composition_of.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 namespace {
 
 namespace composition = fsm::composition;
 using composition::CompositionInfo;
-
-/// "AckNackArrives.1-3, Hear.7": ids in their order, numbers that follow each other together.
-std::string listed(const std::vector<std::string>& ids) {
-  std::string text;
-  for (std::size_t k = 0; k < ids.size();) {
-    const std::string rule = ids[k].substr(0, ids[k].rfind('.') + 1);
-    const unsigned long first = std::stoul(ids[k].substr(rule.size()));
-    std::size_t more = 1;
-    while (k + more < ids.size() && ids[k + more] == rule + std::to_string(first + more)) ++more;
-    text += (text.empty() ? "" : ", ") + ids[k];
-    if (more > 1) text += "-" + std::to_string(first + more - 1);
-    k += more;
-  }
-  return text;
-}
 
 const composition::EffectInfo& effect_of(const CompositionInfo& info, const std::string& id) {
   for (const auto* rules : {&info.rules, &info.procedures, &info.steps}) {
@@ -98,7 +87,7 @@ class Liveness {
       if (step.from == 0 && k > 0) line += "in the beginning: ";
       if (step.from != k && step.from > 0) line += "after " + std::to_string(step.from) + ": ";
       line += step.name + (step.inputs.empty() ? "" : " (" + step.inputs + ")");
-      proof_.detail(line + (ids.empty() ? "" : ": " + listed(ids)));
+      proof_.detail(line + (ids.empty() ? "" : ": " + listed_effects(ids)));
     }
   }
   [[nodiscard]] const std::string& id_of(std::size_t effect) const {
@@ -131,7 +120,7 @@ class Liveness {
       }
       if (group.by.empty()) continue;
       ruled_out_ += ids.size();
-      proof_.detail("ruled out by " + group.by + ": " + listed(ids));
+      proof_.detail("ruled out by " + group.by + ": " + listed_effects(ids));
     }
     for (std::size_t e = 0; e < impossible_.size(); ++e) {
       if (!impossible_[e]) continue;
@@ -151,6 +140,7 @@ class Liveness {
 }  // namespace
 
 Finding composition_live(const CheckRequest& request) {
+  if (!model::traits_of(request.scenario.dds).is_known_to_engines) return live_in_runs(request);
   Proof proof{"composition.live", request};
   assume_for_descriptors(proof);
   proof.assume(

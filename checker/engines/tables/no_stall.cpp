@@ -41,13 +41,13 @@ class RecognisingPair {
   Derivation derivation_;
 };
 
-struct Statement {
+struct StallStatement {
   std::vector<Clause> invariant;
   std::vector<StepClause> on_steps;
 };
 
-Statement about(const RecognisingPair& is, const model::DdsProfile& dds) {
-  Statement statement;
+StallStatement about(const RecognisingPair& is, const model::DdsProfile& dds) {
+  StallStatement statement;
   const Expr yes = smt::SymbolicContext::current().bool_val(true);
   const auto always = [&](const char* words, const Expr& condition, const Expr& consequence) {
     statement.invariant.push_back({words, z3::implies(condition, consequence)});
@@ -82,7 +82,7 @@ Statement about(const RecognisingPair& is, const model::DdsProfile& dds) {
   return statement;
 }
 
-Certificate certificate_of(const RecognisingPair& pair, const Statement& statement) {
+Certificate certificate_of(const RecognisingPair& pair, const StallStatement& statement) {
   TransitionSystem whole = pair.whole();
   Exprs seen;
   for (const Clause& clause : statement.invariant) seen.push_back(!clause.holds);

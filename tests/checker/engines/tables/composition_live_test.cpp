@@ -121,5 +121,28 @@ TEST(EffectSystem, HasEveryEffectThatIsRecordedAndNoOther) {
   }
 }
 
+TEST(LiveOfCycloneDds, EachEffectHappensInARun) {
+  const Finding finding = decide("composition.live", cyclone());
+  EXPECT_EQ(finding.kind, VerdictKind::proved) << finding.how;
+  EXPECT_NE(line(finding, "for the first time in run 1: "), "");
+}
+
+TEST(LiveOfCycloneDds, WhatHappensWithOtherKnobsOnlyIsNotProved) {
+  model::Scenario scenario = cyclone();
+  scenario.dds.sedp.merge_queued_rexmit = model::MergeQueued::no;
+  const Finding finding = decide("composition.live", scenario);
+  EXPECT_EQ(finding.kind, VerdictKind::sampled) << finding.how;
+  const std::string other = line(finding, "for the first time in run 2 with other knobs: ");
+  EXPECT_TRUE(other.ends_with(": RepeatListed.3")) << other;
+}
+
+TEST(LiveOfCycloneDds, WhatNoRunShowsIsNamed) {
+  const checker::Mutant mutant = forgets(EventKind::heartbeat_time);
+  const Finding finding = decide("composition.live", cyclone(), &mutant);
+  EXPECT_EQ(finding.kind, VerdictKind::inconclusive) << finding.how;
+  EXPECT_NE(finding.how.find("no run shows HeartbeatTimerIsTaken.1-9"), std::string::npos)
+      << finding.how;
+}
+
 }  // namespace composition_live_test
 }  // namespace stormproof::tables

@@ -1,0 +1,123 @@
+// Random deployments and channels with the knobs of the profile, until each effect has happened in
+// some run, through the machines themselves: a run in which it happens is a proof that it can. What
+// none of them shows is looked for with other knobs. If it happens there, the rule is not dead, and
+// that the knobs of the profile rule the effect out is as much as runs can say: sampled.
+#include "checker/engines/tables/live_in_runs.hpp"
+
+#include <set>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "checker/engines/tables/listed_effects.hpp"
+#include "checker/engines/tables/proof.hpp"
+#include "fsm/composition/composition_info.hpp"
+#include "model/composition_of.hpp"
+#include "model/implementations.hpp"
+#include "model/simulator.hpp"
+#include "props/generators/space.hpp"
+
+namespace stormproof::tables {
+
+namespace {
+
+constexpr std::uint64_t most_runs = 60;
+constexpr std::uint64_t enough_events = 20'000;
+/// So many that their retransmissions fill a queue that takes hundreds, in every fifth deployment.
+constexpr std::uint32_t many_endpoints = 150;
+
+class Happened final : public model::Probe {
+ public:
+  [[nodiscard]] bool wants_effects() const override { return true; }
+  void effect(fsm::composition::EffectKey key) override { keys.insert(key); }
+
+  std::set<fsm::composition::EffectKey> keys;
+};
+
+/// Of the implementation of the profile, with knobs of its own.
+model::Scenario drawn(std::uint64_t seed, const model::DdsProfile& dds) {
+  constexpr int size = 60;
+  constexpr model::Nanoseconds long_enough{20'000'000'000};
+  model::Scenario scenario =
+      props::draw_scenario(seed, size, {.implementation = model::kind_of(dds)});
+  scenario.run_until = model::RunUntil::time_limit;
+  scenario.time_limit = long_enough;
+  if (seed % 5 == 0) {
+    scenario.deployment.participants.front().publications = many_endpoints;
+    scenario.deployment.participants.front().subscriptions = many_endpoints;
+  }
+  return scenario;
+}
+
+/// The effects of a composition that have not happened, in the order of its page.
+class Missing {
+ public:
+  explicit Missing(const fsm::composition::CompositionInfo& composition) {
+    for (const auto* list : {&composition.rules, &composition.procedures}) {
+      for (const fsm::composition::RuleInfo& rule : *list) {
+        for (const fsm::composition::EffectInfo& effect : rule.effects) left_.push_back(&effect);
+      }
+    }
+  }
+  [[nodiscard]] std::size_t count() const { return left_.size(); }
+  [[nodiscard]] std::string listed() const {
+    std::vector<std::string> ids;
+    for (const fsm::composition::EffectInfo* effect : left_) ids.push_back(effect->id);
+    return listed_effects(ids);
+  }
+  /// Without those that have happened, which are returned.
+  std::string remove(const Happened& happened) {
+    std::vector<std::string> ids;
+    std::erase_if(left_, [&](const fsm::composition::EffectInfo* effect) {
+      const bool happens = happened.keys.contains(effect->key);
+      if (happens) ids.push_back(effect->id);
+      return happens;
+    });
+    return listed_effects(ids);
+  }
+
+ private:
+  std::vector<const fsm::composition::EffectInfo*> left_;
+};
+
+/// Runs with the knobs of the profile, or with others, until nothing is missing. How many it took.
+std::uint64_t look_for(Missing& missing, Proof& proof, bool with_own_knobs) {
+  const model::DdsProfile& dds = proof.scenario().dds;
+  const auto& on_progress = proof.request().on_progress;
+  std::uint64_t runs = 0;
+  while (missing.count() > 0 && runs < most_runs && (!on_progress || on_progress("runs"))) {
+    model::Scenario scenario = drawn(++runs, dds);
+    if (with_own_knobs) scenario.dds = dds;
+    Happened happened;
+    model::RunOptions options;
+    options.probe = &happened;
+    options.mutation = &proof.mistakes();
+    options.max_events = enough_events;
+    (void)model::simulate(scenario, options);
+    const std::string first = missing.remove(happened);
+    if (first.empty()) continue;
+    proof.detail(fmt::format("for the first time in run {}{}: {}", runs,
+                             with_own_knobs ? "" : " with other knobs", first));
+  }
+  return runs;
+}
+
+}  // namespace
+
+Finding live_in_runs(const checker::CheckRequest& request) {
+  Proof proof{"composition.live", request};
+  Missing missing{model::composition_of(proof.scenario().dds)};
+  const std::size_t all = missing.count();
+  const std::uint64_t runs = look_for(missing, proof, true);
+  const std::size_t ruled_out = missing.count();
+  if (ruled_out > 0) look_for(missing, proof, false);
+  if (missing.count() > 0) proof.give_up("no run shows " + missing.listed());
+  Finding finding = proof.finish(fmt::format(
+      "{} effects: {} happen in one of {} runs with the knobs of this profile{}", all,
+      all - ruled_out, runs, ruled_out == 0 ? "" : ", the others in runs with other knobs only"));
+  const bool rests_on_silence = ruled_out > 0 && finding.kind == props::VerdictKind::proved;
+  if (rests_on_silence) finding.kind = props::VerdictKind::sampled;
+  return finding;
+}
+
+}  // namespace stormproof::tables
