@@ -123,8 +123,7 @@ TEST(TuneReduce, GoesNoFurtherThanItHelps) {
   EXPECT_EQ(reduce_with(problem, {{90}}).front()[0], 90) << "every step back costs something";
 }
 
-/// How many steps of how many problems were given up, and how many of them wrongly: all their runs
-/// together do not say that they cost clearly more.
+/// How many problems are reduced to the same with early looks and without, and what runs it takes.
 struct EarlyLooks {
   std::size_t same = 0, problems = 0;
   std::size_t runs = 0, all_runs = 0;
