@@ -16,13 +16,15 @@ using reproduce::Report;
 struct ReproduceArguments {
   std::string what;  ///< "paper"
   reproduce::PlanOptions plan;
-  std::string directory;    ///< empty: no files
-  std::size_t threads = 0;  ///< 0: one for each core
+  std::optional<std::size_t> samples;  ///< absent: as many as decide the figures
+  std::string directory;               ///< empty: no files
+  std::size_t threads = 0;             ///< 0: one for each core
 };
 
 reproduce::Results run_plan(const ReproduceArguments& arguments, const reproduce::Plan& plan,
-                            Session& session) {
+                            const reproduce::Published& published, Session& session) {
   reproduce::RunLimits limits;
+  if (!arguments.samples) limits.published = &published;
   limits.threads = arguments.threads;
   limits.on_progress = session.on_runs();
   return reproduce::run(plan, limits);
@@ -57,7 +59,7 @@ std::vector<std::string> times(const reproduce::Plan& plan, const reproduce::Res
                     plan.configurations.size(), results.evaluation_cpu_s));
   }
   lines.push_back(
-      fmt::format("{} runs: {:.1f} s of processor time", plan.run_count(), results.total_cpu_s));
+      fmt::format("{} runs: {:.1f} s of processor time", results.runs, results.total_cpu_s));
   return lines;
 }
 
@@ -65,6 +67,7 @@ Outcome run(ReproduceArguments& arguments, Session& session) {
   const auto specs = model::config::SpecPath::standard();
   const auto published = reproduce::read_published(specs);
   if (!published) return published.error();
+  if (arguments.samples) arguments.plan.samples = *arguments.samples;
   const auto plan = reproduce::make_plan(*published, arguments.plan, specs);
   if (!plan) return plan.error();
   if (!arguments.directory.empty()) {
@@ -73,7 +76,7 @@ Outcome run(ReproduceArguments& arguments, Session& session) {
   Report report;
   report.version = STORMPROOF_VERSION;
   report.published = *published;
-  report.results = run_plan(arguments, *plan, session);
+  report.results = run_plan(arguments, *plan, *published, session);
   report.figures = compare(report.published, report.results);
   Answer answer;
   answer.document = document_of(report);
@@ -95,8 +98,9 @@ void declare(Options& options, ReproduceArguments& arguments) {
              "ID")
       .one_of(reproduce::variant_ids());
   options
-      .number("--samples", arguments.plan.samples,
-              "Runs of each configuration with drawn start times (default 5; the paper has 15)",
+      .number("--samples", arguments.samples,
+              "Runs of each configuration with drawn start times (default: as many as decide the\n"
+              "figures, 2 to 5; the paper has 15)",
               "N")
       .within(1, 10'000);
   options.jobs(arguments.threads);

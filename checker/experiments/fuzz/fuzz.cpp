@@ -1,11 +1,12 @@
 // First the unperturbed scenario, then the variants on all cores, then shrinking. Results count in
 // the order of the variants' numbers, up to the first that is missing, so they do not depend on
-// which thread was faster.
+// which thread was faster. What the rules promise is watched in some runs only.
 #include "checker/experiments/fuzz/fuzz.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <mutex>
 
@@ -77,7 +78,10 @@ class Fuzzer {
       Judgment judgment;
       judgment.id = id;
       if (const props::Property* property = props::find_property(id)) {
-        judgment.statement = statement_of(*property, model::kind_of(base_.dds));
+        const model::ImplementationKind implementation = model::kind_of(base_.dds);
+        judgment.statement = statement_of(*property, implementation);
+        judgment.promised =
+            options_.only.empty() && !is_limit(id) && property->weakness_of(implementation).empty();
       }
       report_.judgments.push_back(std::move(judgment));
     }
@@ -95,12 +99,16 @@ class Fuzzer {
       if (const Breach* breach = run->breach(judgment.id)) judgment.in_base = *breach;
       judgment.sampled = !judgment.in_base || is_limit(judgment.id) ||
                          std::ranges::find(options_.only, judgment.id) != options_.only.end();
-      if (judgment.sampled) sampled_.push_back(judgment.id);
+      if (!judgment.sampled) continue;
+      sampled_.push_back(judgment.id);
+      (judgment.promised ? promised_ : always_).push_back(judgment.id);
     }
   }
 
-  /// The scenario of a variant with its losses, run.
-  std::optional<JudgedRun> run_variant(std::uint64_t number, model::Scenario& scenario) {
+  /// The scenario of a variant with its losses, run and judged by `ids`.
+  std::optional<JudgedRun> run_variant(std::uint64_t number,
+                                       const std::vector<std::string_view>& ids,
+                                       model::Scenario& scenario) {
     auto variant = variants_.draw(options_.seed, number);
     if (!variant) {
       const std::lock_guard lock{mutex_};
@@ -114,7 +122,7 @@ class Fuzzer {
         return variants_.losses(options_.seed, number, packets);
       };
     }
-    auto run = run_and_judge(scenario, sampled_, losses, 2 * report_.base.packets,
+    auto run = run_and_judge(scenario, ids, losses, 2 * report_.base.packets,
                              [this] { return runner_.goes_on(); });
     if (!run) return std::nullopt;
     run->number = number;
@@ -133,8 +141,9 @@ class Fuzzer {
     runner_.each(options_.runs, [&](std::size_t k) {
       if ((k > 0 && !in_time()) || !runner_.goes_on()) return false;
       model::Scenario scenario;
-      auto run = run_variant(options_.first + k, scenario);
+      auto run = run_variant(options_.first + k, is_watched(k) ? sampled_ : always_, scenario);
       if (!run) return false;
+      if (!is_watched(k)) std::ranges::copy(promised_, std::back_inserter(run->undecided));
       if (!run->breaches.empty()) ++violating_;
       const std::lock_guard lock{mutex_};
       finished.emplace(k, *std::move(run));
@@ -185,7 +194,7 @@ class Fuzzer {
     shrinking_ = judgment.id;  // in one thread
     model::Scenario scenario;
     const auto go = [this] { return runner_.goes_on(); };
-    if (!run_variant(judgment.first_broken, scenario)) return;
+    if (!run_variant(judgment.first_broken, sampled_, scenario)) return;
     std::uint64_t events = 0;
     auto found = find_breach(scenario, judgment.id, 0, events, go);
     if (!found) return;
@@ -197,7 +206,8 @@ class Fuzzer {
   const FuzzOptions& options_;
   VariantSource variants_;
   FuzzReport report_;
-  std::vector<std::string_view> sampled_;  ///< ids that variants are judged by
+  std::vector<std::string_view> sampled_;            ///< ids that variants are judged by
+  std::vector<std::string_view> promised_, always_;  ///< of them
   std::mutex mutex_;
   std::atomic<std::size_t> violating_ = 0;
   std::string_view shrinking_;

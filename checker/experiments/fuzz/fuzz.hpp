@@ -44,6 +44,8 @@ struct Judgment {
   /// Whether variants were judged by it. A property that breaks without variation is left out
   /// unless it was asked for by id.
   bool sampled = true;
+  /// Watched in some of the runs only (`is_watched`): the rules promise it, and nobody asked.
+  bool promised = false;
   std::size_t runs = 0;    ///< that say something about it
   std::size_t broken = 0;  ///< of them
   statistics::RateInterval rate;
@@ -51,6 +53,15 @@ struct Judgment {
   std::string first_reason;
   std::optional<Shrunk> shrunk;
 };
+
+/// Whether what the rules promise is watched in the k-th run, from 0. Properties take several times
+/// as long as a run, and those that are promised tell of the program rather than of the scenario.
+/// The choice does not look at any run, so those that are watched are a sample as all runs are.
+inline constexpr std::size_t watched_first = 20;
+inline constexpr std::size_t watched_each = 20;
+[[nodiscard]] constexpr bool is_watched(std::size_t k) {
+  return k < watched_first || k % watched_each == 0;
+}
 
 struct FuzzReport {
   Ranges ranges;

@@ -201,11 +201,19 @@ report::Finding finding_of(const Judgment& judgment, const FuzzContext& context)
   return finding;
 }
 
+/// Whether some runs were not watched for what the rules promise.
+bool has_unwatched(const FuzzReport& report) {
+  return report.runs.size() > watched_first &&
+         std::ranges::any_of(report.judgments, &Judgment::promised);
+}
+
 std::string breaches_text(const FuzzReport& report, const model::Scenario& scenario) {
   const auto broken = std::ranges::count_if(
       report.judgments, [](const Judgment& judgment) { return judgment.broken > 0; });
   if (broken == 0) {
-    return fmt::format("None of {} breaks a property or limit.", plural(report.runs.size(), "run"));
+    return fmt::format("None of {} breaks a property or limit{}.",
+                       plural(report.runs.size(), "run"),
+                       has_unwatched(report) ? " that it was watched for" : "");
   }
   const auto worst = std::ranges::max_element(report.judgments, {}, [](const Judgment& judgment) {
     return static_cast<double>(judgment.broken) /
@@ -246,6 +254,12 @@ void add_reservations(Document& document, const FuzzReport& report) {
         "Interrupted after {} of {}.", grouped(report.runs.size()), plural(report.wanted, "run"))});
   }
   if (report.runs.empty()) return;
+  if (has_unwatched(report)) {
+    blocks.emplace_back(Paragraph{
+        fmt::format("What the rules promise was watched in the first {} runs and in every {}th; "
+                    "--property ID watches it in all of them.",
+                    watched_first, watched_each)});
+  }
   blocks.emplace_back(Paragraph{fmt::format(
       "Rates are those of all scenarios in the ranges, with {:.0f} % confidence (exact "
       "interval of Clopper and Pearson). A sample proves nothing about the runs that it "

@@ -39,7 +39,8 @@ struct JudgedRun {
   std::uint64_t events = 0;
   exact::RunHealth health{};                ///< storm, slow link, fine
   std::vector<Breach> breaches;             ///< in the order of the ids
-  std::vector<std::string_view> undecided;  ///< ids of which the run was too short to say anything
+  std::vector<std::string_view> undecided;  ///< ids of which the run says nothing: it was too
+                                            ///< short, or nobody watched
 
   [[nodiscard]] const Breach* breach(std::string_view id) const;
   [[nodiscard]] bool decides(std::string_view id) const;

@@ -69,7 +69,7 @@ class Figures {
       return one(measures_.largest_wireless_to_wired(variant));
     }
     const Network network = parts[1] == "wired" ? Network::wired : Network::wireless;
-    const Outcome* outcome = results_.find(variant, network, {5, 20});
+    const Outcome* outcome = results_.find(variant, network, counted);
     if (outcome == nullptr) return {};
     for (const Class what : table_classes) {
       if (parts[2] == name_of(what)) return one(outcome->messages(what));

@@ -33,6 +33,9 @@ struct Configuration {
   auto operator<=>(const Configuration&) const = default;
 };
 
+/// The configuration whose messages the paper counts class by class.
+inline constexpr Configuration counted{5, 20};
+
 /// One row of the evaluation.
 struct Case {
   std::size_t variant = 0;

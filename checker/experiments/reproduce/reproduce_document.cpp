@@ -172,17 +172,25 @@ void add_reasons(Blocks& blocks, const Report& report) {
 void add_variants(Blocks& blocks, const Report& report) {
   report::Facts facts;
   const Plan& plan = report.results.plan;
+  bool ends_early = false;
   for (std::size_t v = 0; v < plan.variants.size(); ++v) {
     const Variant& variant = plan.variants[v];
     std::size_t runs = 0;
     std::size_t open = 0;
+    std::size_t fewest = variant.runs;
     for (const auto& [which, outcome] : report.results.outcomes) {
       if (which.variant != v) continue;
+      fewest = std::min(fewest, outcome.runs.size());
       runs += outcome.runs.size();
       open += outcome.runs.size() - outcome.completed();
     }
     std::string text = variant.title;
-    if (variant.runs > 1) text += fmt::format(", mean of {} draws", variant.runs);
+    ends_early = ends_early || fewest < variant.runs;
+    if (fewest < variant.runs) {
+      text += fmt::format(", mean of {} to {} draws", fewest, variant.runs);
+    } else if (variant.runs > 1) {
+      text += fmt::format(", mean of {} draws", variant.runs);
+    }
     if (open > 0) {
       text += fmt::format(
           "; {} of {} runs do not complete within 200 s; a mean with one of them does not exist",
@@ -191,6 +199,10 @@ void add_variants(Blocks& blocks, const Report& report) {
     facts.rows.emplace_back(fmt::format("({}) {}", v + 1, variant.id), std::move(text));
   }
   blocks.emplace_back(std::move(facts));
+  if (!ends_early) return;
+  blocks.emplace_back(Paragraph{
+      "Configurations of one N_P get no more draws once each figure about its means over N_E is "
+      "decided, with 95 % confidence; --samples N draws N times."});
 }
 
 /// How many figures of how many the first variant meets.

@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <ctime>
+#include <iterator>
+#include <utility>
+
+#include "checker/experiments/reproduce/decided.hpp"
 
 namespace stormproof::reproduce {
 
@@ -20,14 +24,6 @@ struct Job {
   std::size_t k = 0;
 };
 
-std::vector<Job> jobs_of(const Plan& plan) {
-  std::vector<Job> jobs;
-  for (const Case& one : plan.cases) {
-    for (std::size_t k = 0; k < plan.variants[one.variant].runs; ++k) jobs.push_back({&one, k});
-  }
-  return jobs;
-}
-
 /// Whether this run belongs to the evaluation whose speed is promised.
 bool is_evaluation(const Plan& plan, const Case& one) {
   return plan.variants[one.variant].id == "paper" && one.network == Network::wireless &&
@@ -40,6 +36,94 @@ std::optional<model::MessageClass> class_of(Class one) {
   if (index >= model::message_class_count) return std::nullopt;
   return model::message_classes[index];
 }
+
+/// The runs of a plan, look by look.
+class Evaluation {
+ public:
+  Evaluation(const Plan& plan, const RunLimits& limits)
+      : limits_{limits}, runner_{limits.threads, limits.on_progress} {
+    results_.plan = plan;
+    for (const Variant& variant : plan.variants) most_ = std::max(most_, variant.runs);
+  }
+
+  Results run() {
+    results_.complete = true;
+    const std::vector<std::size_t> all = limits_.published ? looks(most_) : std::vector{most_};
+    for (const std::size_t draws : all) {
+      decided_.clear();
+      if (!make(jobs_up_to(draws))) break;
+    }
+    return std::move(results_);
+  }
+
+ private:
+  std::vector<Job> jobs_up_to(std::size_t draws) {
+    std::vector<Job> jobs;
+    for (const Case& one : results_.plan.cases) {
+      const Outcome* outcome = results_.find(one);
+      const std::size_t made = outcome == nullptr ? 0 : outcome->runs.size();
+      if (made > 0 && is_enough(one)) continue;
+      const std::size_t most = results_.plan.variants[one.variant].runs;
+      const std::size_t wanted = is_sampled(one) ? std::min(draws, most) : most;
+      for (std::size_t k = made; k < wanted; ++k) jobs.push_back({&one, k});
+    }
+    return jobs;
+  }
+
+  /// Whether it may have fewer draws. Runs without contention cost little, and one configuration
+  /// has figures of its own.
+  [[nodiscard]] static bool is_sampled(const Case& one) {
+    return one.network == Network::wireless && one.configuration != counted;
+  }
+
+  bool is_enough(const Case& one) {
+    if (limits_.published == nullptr || !is_sampled(one)) return false;
+    const std::pair group{one.variant, one.configuration.participants_per_host};
+    const auto [entry, fresh] = decided_.try_emplace(group);
+    if (fresh && results_.plan.variants[one.variant].runs > 1) {
+      entry->second = means_are_decided(*limits_.published, results_, group.first, group.second,
+                                        confidence_of_look(most_));
+    }
+    return entry->second;
+  }
+
+  /// The jobs of one case stand together. False: it was interrupted.
+  bool make(const std::vector<Job>& jobs) {
+    std::vector<double> cpu_s(jobs.size());
+    const auto finished = runner_.run(jobs.size(), [&](std::size_t j) -> std::optional<Run> {
+      const double before = thread_cpu_s();
+      const auto result = runner_.simulate(results_.plan.scenario(*jobs[j].which, jobs[j].k));
+      cpu_s[j] = thread_cpu_s() - before;
+      if (!result) return std::nullopt;
+      return Run{result->end, result->discovery_time, result->counts};
+    });
+    for (std::size_t j = 0; j < jobs.size(); ++j) {
+      const Case& which = *jobs[j].which;
+      results_.total_cpu_s += cpu_s[j];
+      if (is_evaluation(results_.plan, which)) results_.evaluation_cpu_s += cpu_s[j];
+      if (finished[j]) ++results_.runs;
+    }
+    for (std::size_t j = 0; j < jobs.size();) {
+      const Case& which = *jobs[j].which;
+      std::vector<Run> runs;
+      bool all = true;
+      for (; j < jobs.size() && jobs[j].which == &which; ++j) {
+        if (finished[j]) runs.push_back(*finished[j]);
+        all = all && finished[j].has_value();
+      }
+      results_.complete = results_.complete && all;
+      if (all) std::ranges::move(runs, std::back_inserter(results_.outcomes[which].runs));
+    }
+    return results_.complete;
+  }
+
+  const RunLimits& limits_;
+  trials::Runner runner_;
+  Results results_;
+  std::size_t most_ = 1;
+  /// By variant and N_P, at this look.
+  std::map<std::pair<std::size_t, std::uint32_t>, bool> decided_;
+};
 
 template <class Value>
 std::optional<double> mean_of(const std::vector<Run>& runs, Value value) {
@@ -107,34 +191,6 @@ const Outcome* Results::find(std::size_t variant, Network network,
   return find({variant, network, model::HeartbeatPolicy::periodic, orders[0], configuration});
 }
 
-Results run(const Plan& plan, const RunLimits& limits) {
-  Results results;
-  results.plan = plan;
-  const std::vector<Job> jobs = jobs_of(results.plan);
-  std::vector<double> cpu_s(jobs.size());
-  trials::Runner runner{limits.threads, limits.on_progress};
-  const auto finished = runner.run(jobs.size(), [&](std::size_t j) -> std::optional<Run> {
-    const double before = thread_cpu_s();
-    const auto result = runner.simulate(plan.scenario(*jobs[j].which, jobs[j].k));
-    cpu_s[j] = thread_cpu_s() - before;
-    if (!result) return std::nullopt;
-    return Run{result->end, result->discovery_time, result->counts};
-  });
-  results.complete = true;
-  for (std::size_t j = 0; j < jobs.size();) {
-    const Case& which = *jobs[j].which;
-    Outcome outcome;
-    bool all = true;
-    for (; j < jobs.size() && jobs[j].which == &which; ++j) {
-      results.total_cpu_s += cpu_s[j];
-      if (is_evaluation(results.plan, which)) results.evaluation_cpu_s += cpu_s[j];
-      if (finished[j]) outcome.runs.push_back(*finished[j]);
-      all = all && finished[j].has_value();
-    }
-    results.complete = results.complete && all;
-    if (all) results.outcomes.emplace(which, std::move(outcome));
-  }
-  return results;
-}
+Results run(const Plan& plan, const RunLimits& limits) { return Evaluation{plan, limits}.run(); }
 
 }  // namespace stormproof::reproduce

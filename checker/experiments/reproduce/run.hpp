@@ -1,4 +1,5 @@
-// Runs the plan on all cores and keeps what the report needs of each run.
+// Runs the plan on all cores, as many draws as decide the figures, and keeps what the report needs
+// of each run.
 #pragma once
 
 #include <array>
@@ -53,11 +54,12 @@ struct Outcome {
 
 struct Results {
   Plan plan;
-  std::map<Case, Outcome> outcomes;  ///< a case whose runs were interrupted is not in it
+  std::map<Case, Outcome> outcomes;  ///< a case whose first runs were interrupted is not in it
   bool complete = false;             ///< whether every case is there
   /// Processor time of the paper's own evaluation: its profile on Wi-Fi, periodic HEARTBEATs.
   double evaluation_cpu_s = 0;
   double total_cpu_s = 0;
+  std::size_t runs = 0;  ///< that finished
 
   /// Nothing if the plan has no such case, or it was interrupted.
   [[nodiscard]] const Outcome* find(const Case& one) const;
@@ -68,6 +70,9 @@ struct Results {
 
 struct RunLimits {
   std::size_t threads = 0;  ///< 0: one for each core
+  /// With it, configurations with drawn start times get no more draws than decide its figures
+  /// (decided.hpp); without it all of them.
+  const Published* published = nullptr;
   trials::Progress on_progress{};
 };
 

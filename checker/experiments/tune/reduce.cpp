@@ -63,8 +63,13 @@ std::vector<Step> steps_of(const Space& space, const Journey& journey) {
 
 class Reducer {
  public:
-  Reducer(const Problem& problem, Archive& archive, Seeds seeds, double least)
-      : problem_{problem}, archive_{archive}, seeds_{seeds}, least_{least} {}
+  Reducer(const Problem& problem, Archive& archive, Seeds seeds, double least, double early)
+      : problem_{problem}, archive_{archive}, seeds_{seeds}, least_{least}, early_{early} {
+    if (early_ >= 1) return;
+    for (std::size_t runs = statistics::fewest_pairs(early_); runs < seeds_.count; runs *= 2) {
+      looks_.push_back(runs);
+    }
+  }
 
   std::optional<std::vector<Point>> run(const std::vector<Point>& points) {
     std::vector<Journey> journeys;
@@ -77,14 +82,14 @@ class Reducer {
       return journey.stage != Journey::Stage::arrived;
     };
     while (std::ranges::any_of(journeys, is_on_its_way)) {
-      std::vector<Point> candidates;
+      std::vector<Candidate> candidates;
       for (const Journey& journey : journeys) {
         if (!is_on_its_way(journey)) continue;
         for (Step& step : steps_of(problem_.space, journey)) {
-          if (is_valid(step.to)) candidates.push_back(std::move(step.to));
+          if (is_valid(step.to)) candidates.push_back({std::move(step.to), &journey.original});
         }
       }
-      if (!archive_.extend(candidates, seeds_)) return std::nullopt;
+      if (!race(std::move(candidates))) return std::nullopt;
       for (Journey& journey : journeys) {
         if (is_on_its_way(journey) && !go_on(journey)) return std::nullopt;
       }
@@ -95,6 +100,34 @@ class Reducer {
   }
 
  private:
+  struct Candidate {
+    Point point;
+    const Point* original;
+  };
+
+  /// Makes the runs of the candidates, but for those that are given up; they have the first ones.
+  bool race(std::vector<Candidate> candidates) {
+    const auto extend = [&](std::size_t runs) {
+      std::vector<Point> points;
+      for (const Candidate& candidate : candidates) points.push_back(candidate.point);
+      return archive_.extend(points, {seeds_.first, runs});
+    };
+    for (const std::size_t runs : looks_) {
+      if (!extend(runs)) return false;
+      std::erase_if(candidates, [&](const Candidate& candidate) {
+        return is_given_up(candidate, {seeds_.first, runs});
+      });
+    }
+    return extend(seeds_.count);
+  }
+
+  [[nodiscard]] bool is_given_up(const Candidate& candidate, Seeds part) const {
+    const Difference change = difference(archive_.outcomes(candidate.point, part),
+                                         archive_.outcomes(*candidate.original, part), early_);
+    return (change.completion.confidence >= early_ && is_clearly_more(change.completion, least_)) ||
+           (change.messages.confidence >= early_ && is_clearly_more(change.messages, least_));
+  }
+
   [[nodiscard]] bool is_valid(const Point& point) const {
     return !problem_.is_valid || problem_.is_valid(point);
   }
@@ -139,7 +172,9 @@ class Reducer {
     return archive_.keeps(candidate, seeds_) || !archive_.keeps(original, seeds_);
   }
 
+  /// What was given up has not got all runs.
   [[nodiscard]] bool is_as_good(const Point& candidate, const Point& original) const {
+    if (archive_.outcomes(candidate, seeds_).size() < seeds_.count) return false;
     if (!keeps_as(candidate, original)) return false;
     const Difference change =
         difference(archive_.outcomes(candidate, seeds_), archive_.outcomes(original, seeds_));
@@ -150,12 +185,14 @@ class Reducer {
   Archive& archive_;
   Seeds seeds_;
   double least_;
+  double early_;
+  std::vector<std::size_t> looks_;  ///< after how many runs a step can be given up
 };
 
 }  // namespace
 
-Difference difference(const std::vector<Outcome>& candidate,
-                      const std::vector<Outcome>& reference) {
+Difference difference(const std::vector<Outcome>& candidate, const std::vector<Outcome>& reference,
+                      double confidence) {
   statistics::PairedDifferences completion;
   statistics::PairedDifferences messages;
   for (std::size_t k = 0; k < std::min(candidate.size(), reference.size()); ++k) {
@@ -164,7 +201,7 @@ Difference difference(const std::vector<Outcome>& candidate,
     messages.add(logarithm_of_ratio(messages_of(candidate[k]), messages_of(reference[k])));
   }
   if (candidate.size() == 1) return {completion.fact(), messages.fact()};
-  return {completion.shift(), messages.shift()};
+  return {completion.shift(confidence), messages.shift(confidence)};
 }
 
 bool is_clearly_more(const Shift& shift, double least) {
@@ -176,8 +213,9 @@ bool is_clearly_less(const Shift& shift, double least) {
 }
 
 std::optional<std::vector<Point>> reduced(std::vector<Point> points, const Problem& problem,
-                                          Archive& archive, Seeds seeds, double least) {
-  return Reducer{problem, archive, seeds, least}.run(points);
+                                          Archive& archive, Seeds seeds, double least,
+                                          double early) {
+  return Reducer{problem, archive, seeds, least, early}.run(points);
 }
 
 }  // namespace stormproof::tune

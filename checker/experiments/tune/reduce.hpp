@@ -20,7 +20,8 @@ struct Difference {
 
 /// Both must have been run under the same seeds.
 [[nodiscard]] Difference difference(const std::vector<Outcome>& candidate,
-                                    const std::vector<Outcome>& reference);
+                                    const std::vector<Outcome>& reference,
+                                    double confidence = statistics::confidence_level);
 
 /// Whether the candidate costs more: beyond chance, and by more than the share `least`.
 [[nodiscard]] bool is_clearly_more(const Shift& shift, double least);
@@ -28,11 +29,18 @@ struct Difference {
 /// share `least` more.
 [[nodiscard]] bool is_clearly_less(const Shift& shift, double least);
 
+/// A step that costs clearly more than the setting as it came is given up after a part of its runs:
+/// after as few as can say so with this confidence, or after twice as many, and so on. That is so
+/// much that all looks together hardly add to the chance that the last one errs (the rule of
+/// Haybittle and Peto); 1 looks once, after all runs.
+inline constexpr double early_confidence = 0.999;
+
 /// Each of `points` with as few and as small changes as do not make it clearly worse, in completion
 /// or messages, than it was, or break anything. `seeds` should be new to the points, otherwise
 /// chance that the search took for merit counts again. Nothing if interrupted.
 [[nodiscard]] std::optional<std::vector<Point>> reduced(std::vector<Point> points,
                                                         const Problem& problem, Archive& archive,
-                                                        Seeds seeds, double least);
+                                                        Seeds seeds, double least,
+                                                        double early = early_confidence);
 
 }  // namespace stormproof::tune

@@ -278,6 +278,9 @@ class Builder {
         by.push_back(fmt::format("{} {}", id, times));
       text += fmt::format("; {} settings were refused ({})", found.rejected, fmt::join(by, ", "));
     }
+    if (report_.chosen.count > statistics::fewest_pairs(early_confidence)) {
+      text += "; what was clearly worse after a part of its runs was not set back, and had no more";
+    }
     return text + ".";
   }
 

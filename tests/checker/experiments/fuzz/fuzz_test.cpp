@@ -87,7 +87,8 @@ TEST(Fuzz, finds_counts_and_bounds_a_planted_violation) {
   const Judgment& safety = of(report, "safety.snapshot");
   EXPECT_EQ(safety.verdict, VerdictKind::sampled);
   EXPECT_EQ(safety.broken, 0U);
-  EXPECT_NEAR(safety.rate.high, 0.0596, 0.0001);
+  EXPECT_EQ(safety.runs, 22U);  // it is promised
+  EXPECT_NEAR(safety.rate.high, 0.1544, 0.0001);
 }
 
 TEST(Fuzz, shrinks_to_a_small_scenario_that_replays) {
@@ -200,6 +201,38 @@ TEST(Fuzz, what_breaks_without_variation_hides_nothing) {
   EXPECT_TRUE(limit.sampled);
   EXPECT_GT(limit.broken, 0U);
   EXPECT_EQ(of(report, "safety.conservation").runs, 20U);
+}
+
+/// Limits judge every run, also those in which nobody watches what is promised.
+TEST(Fuzz, watches_what_is_promised_in_some_runs) {
+  const FuzzReport report = run(lossy(), runs(45));
+  ASSERT_EQ(report.runs.size(), 45U);
+  std::size_t promised = 0;
+  for (const Judgment& judgment : report.judgments) {
+    if (!judgment.sampled) continue;
+    if (judgment.promised) ++promised;
+    // Runs 0 to 19, 20 and 40.
+    EXPECT_EQ(judgment.runs, judgment.promised ? 22U : 45U) << judgment.id;
+  }
+  EXPECT_GT(promised, 5U);
+  EXPECT_TRUE(of(report, "composition.followed").promised);
+  EXPECT_FALSE(of(report, "limit.completion").promised);
+  FuzzOptions named = runs(45);
+  named.only = {"composition.followed"};
+  EXPECT_EQ(of(run(lossy(), named), "composition.followed").runs, 45U);
+}
+
+/// What a run is like does not depend on who watches it.
+TEST(Fuzz, unwatched_runs_are_the_same) {
+  FuzzOptions tail = runs(5);
+  tail.first = 25;
+  const FuzzReport all = run(lossy(), runs(30));
+  const FuzzReport watched = run(lossy(), tail);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(all.runs[25 + k].events, watched.runs[k].events);
+    EXPECT_EQ(all.runs[25 + k].discovery_time, watched.runs[k].discovery_time);
+    EXPECT_EQ(all.runs[25 + k].lost, watched.runs[k].lost);
+  }
 }
 
 TEST(Fuzz, judges_by_what_was_asked_for) {

@@ -117,5 +117,33 @@ TEST(Interruption, KeepsWhatIsFinished) {
   EXPECT_LT(results.outcomes.size(), plan.cases.size());
 }
 
+/// The first draws are the same, whether or not more follow. The configuration with figures of its
+/// own has all.
+TEST(RunTestDraws, EndWhereFiguresAreDecided) {
+  const Published published = figures_with_grid("[1, 5]", "[2, 20]");
+  Plan plan = plan_of(published, {{"fastdds-2.6.11-true-channel"}, 4});
+  std::erase_if(plan.cases, [](const Case& one) {
+    return one.configuration.participants_per_host == 5 && one.configuration != counted;
+  });
+  RunLimits limits;
+  limits.published = &published;
+  const Results few = run(plan, limits);
+  const Results all = run(plan);
+  ASSERT_TRUE(few.complete);
+  EXPECT_LT(few.runs, all.runs);
+  EXPECT_EQ(all.runs, plan.run_count());
+  const Outcome* counted_ones = few.find(0, Network::wireless, counted);
+  ASSERT_NE(counted_ones, nullptr);
+  EXPECT_EQ(counted_ones->runs.size(), 4U);
+  for (const auto& [which, outcome] : few.outcomes) {
+    const Outcome* whole = all.find(which);
+    ASSERT_NE(whole, nullptr);
+    ASSERT_LE(outcome.runs.size(), whole->runs.size());
+    for (std::size_t k = 0; k < outcome.runs.size(); ++k) {
+      EXPECT_EQ(outcome.runs[k].completion, whole->runs[k].completion);
+    }
+  }
+}
+
 }  // namespace run_test
 }  // namespace stormproof::reproduce

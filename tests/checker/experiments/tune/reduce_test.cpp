@@ -123,6 +123,58 @@ TEST(TuneReduce, GoesNoFurtherThanItHelps) {
   EXPECT_EQ(reduce_with(problem, {{90}}).front()[0], 90) << "every step back costs something";
 }
 
+/// How many problems are reduced to the same with early looks and without, and what runs it takes.
+struct EarlyLooks {
+  std::size_t same = 0, problems = 0;
+  std::size_t runs = 0, all_runs = 0;
+};
+
+EarlyLooks early_looks(double spread) {
+  EarlyLooks looks;
+  for (std::uint64_t first = 0; first < 200; ++first) {
+    const Problem problem = problem_of(space_of_knobs(5, 0), few_matter, spread);
+    const Seeds under{1'000 * first, 40};
+    const std::vector<Point> point{{7, 7, 7, static_cast<std::int64_t>(first + 1), 7}};
+    trials::Runner runner{1};
+    Archive early{problem, stand_in_limit, runner};
+    Archive late{problem, stand_in_limit, runner};
+    const auto one = reduced(point, problem, early, under, 0.02);
+    const auto other = reduced(point, problem, late, under, 0.02, 1);
+    ++looks.problems;
+    if (one == other) ++looks.same;
+    looks.runs += early.runs();
+    looks.all_runs += late.runs();
+  }
+  return looks;
+}
+
+/// What matters much is seen early; what hardly matters is not taken for more by looking often.
+TEST(TuneReduce, LooksEarlyAndDecidesTheSame) {
+  for (const double spread : {0.1, 0.5, 0.9}) {
+    const EarlyLooks looks = early_looks(spread);
+    EXPECT_GE(looks.same, looks.problems - 1) << spread;
+    EXPECT_LE(looks.runs, looks.all_runs) << spread;
+  }
+  const EarlyLooks clear = early_looks(0.1);
+  EXPECT_LT(clear.runs * 10, clear.all_runs * 9);
+}
+
+/// Where nothing matters, giving up is an error. Each look errs one time in a thousand.
+TEST(TuneReduce, GivesUpHardlyAnythingByMistake) {
+  const Formula nothing = [](const Point&) { return Cost{1e8, 1'000}; };
+  const Problem problem = problem_of(space_of_knobs(1, 0), nothing, 0.9);
+  std::size_t given_up = 0;
+  constexpr std::size_t trials = 4'000;
+  for (std::uint64_t k = 0; k < trials; ++k) {
+    const Point original{static_cast<std::int64_t>(k + 1)};
+    trials::Runner runner{1};
+    Archive archive{problem, stand_in_limit, runner};
+    ASSERT_TRUE(reduced({original}, problem, archive, {100 * k, 40}, 0));
+    if (archive.outcomes({0}, {100 * k, 40}).size() < 40) ++given_up;
+  }
+  EXPECT_LE(given_up, trials * 3 / 1'000);
+}
+
 Outcome incomplete(double missing) {
   Outcome outcome;
   outcome.missing = missing;
