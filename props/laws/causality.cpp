@@ -243,7 +243,7 @@ constexpr Law causality_list[] = {
      is_of_two_writers, receptions},
     {"law.knowledge",
      "A reader knows only what was sent and received, and an ACKNACK confirms nothing else.",
-     is_of_two_writers, knowledge},
+     says_one_thing, knowledge},
 };
 
 }  // namespace

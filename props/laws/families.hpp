@@ -37,11 +37,13 @@ quiet_laws();  ///< a network without delays or losses to speak of
   return is_of_two_writers(scenario) ||
          model::traits_of(scenario.dds).writer == model::Writer::of_cyclone;
 }
+/// Of those that are about what a packet says as a whole; messages of Cyclone DDS share packets.
+[[nodiscard]] inline bool says_one_thing(const model::Scenario& scenario) {
+  return model::traits_of(scenario.dds).writer != model::Writer::of_cyclone;
+}
 /// Of those that count on packets of their own for each reader.
 [[nodiscard]] inline bool is_sent_to_each(const model::Scenario& scenario) {
-  const bool by_group =
-      !is_of_two_writers(scenario) && scenario.dds.allow_multicast == model::AllowMulticast::always;
-  return is_of_three_writers(scenario) && !by_group;
+  return says_one_thing(scenario) || scenario.dds.allow_multicast != model::AllowMulticast::always;
 }
 
 /// Of laws that say something about every scenario.
