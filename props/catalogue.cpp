@@ -320,9 +320,9 @@ const char* name_of(Reach reach) {
 }
 
 std::string_view Property::weakness_of(model::ImplementationKind implementation) const {
-  const bool stateful = is_about_clients(id, implementation) ||
-                        model::traits_of(implementation).writer == model::Writer::stateful;
-  return stateful ? stateful_weakness : weakness;
+  const bool is_stateful = is_about_clients(id, implementation) ||
+                           model::traits_of(implementation).writer == model::Writer::stateful;
+  return is_stateful ? stateful_weakness : weakness;
 }
 
 std::span<const Property> catalogue() { return properties; }

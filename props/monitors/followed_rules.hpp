@@ -7,7 +7,7 @@
 #include <array>
 #include <bit>
 #include <map>
-#include <ranges>
+#include <numeric>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -72,9 +72,10 @@ class FollowedRules : public Follower {
     return topology_.descriptor_count(writer / 2, model::streams[writer % 2]);
   }
   /// The relations of a pair.
-  [[nodiscard]] auto streams_of(std::uint32_t pair) const {
-    const std::uint32_t first = writers_.stride * pair;
-    return std::views::iota(first, first + writers_.streams);
+  [[nodiscard]] std::vector<std::uint32_t> streams_of(std::uint32_t pair) const {
+    std::vector<std::uint32_t> relations(writers_.streams);
+    std::iota(relations.begin(), relations.end(), writers_.stride * pair);
+    return relations;
   }
   // How observers hear of owners.
   template <class P>
