@@ -78,10 +78,16 @@ class FollowedRules : public Follower {
     return relations;
   }
   // How observers hear of owners.
+  static constexpr model::MachineRef::Kind machine_kind(comp::Owner owner) {
+    using enum model::MachineRef::Kind;
+    if (owner == comp::owner::participant) return participant;
+    if (owner == comp::owner::writer) return writer;
+    return owner == comp::owner::control_relation ? control_relation : relation;
+  }
   template <class P>
   [[nodiscard]] model::MachineRef machine_at(const Place& place) const {
     static constexpr std::string_view machine = fsm::name_of<typename P::Machine>();
-    return {machine, machine_kind(P::owner), place.number(P::owner)};
+    return {machine, Self::machine_kind(P::owner), place.number(P::owner)};
   }
   [[nodiscard]] static std::uint32_t owner_of(const model::Event& event) { return event.subject; }
   template <class T>
@@ -184,7 +190,7 @@ class FollowedRules : public Follower {
 
   /// What every HEARTBEAT and ACKNACK asks for is counted as descriptors come and go.
   [[nodiscard]] std::int64_t fact(comp::Missing, const World& w) const {
-    return descriptor_count(w.place().writer) - received_[w.place().relation];
+    return self().descriptor_count(w.place().writer) - received_[w.place().relation];
   }
 
   // Timers.
@@ -375,12 +381,6 @@ class FollowedRules : public Follower {
   const Self& self() const { return static_cast<const Self&>(*this); }
 
  private:
-  static constexpr model::MachineRef::Kind machine_kind(comp::Owner owner) {
-    using enum model::MachineRef::Kind;
-    if (owner == comp::owner::participant) return participant;
-    if (owner == comp::owner::writer) return writer;
-    return owner == comp::owner::control_relation ? control_relation : relation;
-  }
   /// A truth value or a number.
   template <class V>
   using ValueOf = std::conditional_t < requires {
