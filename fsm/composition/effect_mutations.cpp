@@ -1,6 +1,7 @@
 // The mistakes that can be made between the machines, from the recorded rules. What changes nothing
 // by construction is left out: setting a value twice; feeding an event twice that has no row in a
-// state that it has led to; and another order of effects that join no queue, for their values are
+// state that it has led to; calling a procedure twice that does nothing else, and what such an
+// event's outbox asks for; and another order of effects that join no queue, for their values are
 // known before.
 #include <algorithm>
 #include <array>
@@ -46,13 +47,42 @@ bool reacts_twice(const MachineInfo& machine, std::string_view event) {
   return false;
 }
 
-bool shows_twice(const EffectInfo& effect, const CompositionInfo& composition) {
+bool is_fed_to_no_avail_again(const EffectInfo& effect, const CompositionInfo& composition) {
   static const std::vector<MachineInfo> all = machines();
-  if (is_any(effect.kind, {"renew", "set", "set each", "cancel"})) return false;
-  if (!is_any(effect.kind, {"feed", "feed each"})) return true;
+  if (!is_any(effect.kind, {"feed", "feed each"})) return false;
   const std::string_view event = std::string_view{effect.detail}.substr(0, effect.detail.find(' '));
   const auto part = std::ranges::find(composition.parts, effect.target, &PartInfo::name);
-  return reacts_twice(*std::ranges::find(all, part->machine, &MachineInfo::name), event);
+  return !reacts_twice(*std::ranges::find(all, part->machine, &MachineInfo::name), event);
+}
+
+/// Whether the effect happens only if the part's outbox says so.
+bool is_asked_for_by(const std::string_view part, const EffectInfo& effect) {
+  const std::string asks = "if " + std::string{part} + ".";
+  return std::ranges::any_of(effect.blocks, [&](const BlockInfo& block) {
+    return block.text.starts_with(asks) && block.text.find(" or ") == std::string::npos;
+  });
+}
+
+bool shows_twice(const EffectInfo& effect, const CompositionInfo& composition);
+
+/// Whether a procedure that is called again at once does something again.
+bool shows_again(const RuleInfo& procedure, const CompositionInfo& composition) {
+  const std::vector<EffectInfo>& effects = procedure.effects;
+  return std::ranges::any_of(effects, [&](const EffectInfo& effect) {
+    const bool never_again = std::ranges::any_of(effects, [&](const EffectInfo& fed) {
+      return is_fed_to_no_avail_again(fed, composition) && is_asked_for_by(fed.target, effect);
+    });
+    return !never_again && shows_twice(effect, composition);
+  });
+}
+
+bool shows_twice(const EffectInfo& effect, const CompositionInfo& composition) {
+  if (is_any(effect.kind, {"renew", "set", "set each", "cancel"})) return false;
+  if (effect.kind == "call") {
+    const auto called = std::ranges::find(composition.procedures, effect.target, &RuleInfo::id);
+    return called == composition.procedures.end() || shows_again(*called, composition);
+  }
+  return !is_fed_to_no_avail_again(effect, composition);
 }
 
 /// What can be wrong at an effect of a rule with this owner, whatever follows it.
