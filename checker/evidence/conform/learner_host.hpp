@@ -95,11 +95,6 @@ class LearnerHost final : public RelationHost, public ReplayedReader {
   std::optional<MadeAckNack> reply(std::int64_t now_ns) override {
     return run<comp::Due<typename Of::ReplyDue>>(now_ns);
   }
-  std::optional<std::int64_t> take_reply_due() override { return std::exchange(reply_due_ns_, {}); }
-  std::optional<std::int64_t> take_initial_delay() override {
-    if (!std::exchange(waits_for_initial_, false)) return std::nullopt;
-    return initial_delay_ns_;
-  }
 
   // What a RunningWorld asks of its host.
   [[nodiscard]] static std::array<std::uint32_t, 1> readers(std::uint32_t) { return {0}; }
@@ -192,9 +187,6 @@ class LearnerHost final : public RelationHost, public ReplayedReader {
   Knowledge knowledge_{};
   bool is_open_ = false;
   bool heartbeat_seen_ = false;
-  bool waits_for_initial_ = false;
-  std::int64_t initial_delay_ns_ = 0;
-  std::optional<std::int64_t> reply_due_ns_;
   std::optional<MadeAckNack> said_;
 };
 

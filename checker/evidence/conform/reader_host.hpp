@@ -49,11 +49,6 @@ class ReaderHost final : public RelationHost, public ReplayedReader {
     model::RunningWorld<ReaderHost, comp::owner::relation> w{*this, 0};
     Composition::answer_later(w);
   }
-  std::optional<std::int64_t> take_reply_due() override { return std::exchange(reply_due_ns_, {}); }
-  std::optional<std::int64_t> take_initial_delay() override {
-    if (!std::exchange(waits_for_initial_, false)) return std::nullopt;
-    return initial_delay_ns_;
-  }
 
   // What a RunningWorld asks of its host.
   /// Of the writer there is this one.
@@ -164,11 +159,8 @@ class ReaderHost final : public RelationHost, public ReplayedReader {
   fsm::StateId initial_ = Tally<fsm::InitialAckNack>::Fly::initial;
   fsm::StateId reply_ = Tally<fsm::SingleShot>::Fly::initial;
   bool heartbeat_seen_ = false;
-  bool waits_for_initial_ = false;
-  std::int64_t initial_delay_ns_ = 0;
   std::vector<std::uint64_t> x_;  ///< words
   std::vector<std::uint64_t> known_;
-  std::optional<std::int64_t> reply_due_ns_;
   std::optional<MadeAckNack> said_;
 };
 

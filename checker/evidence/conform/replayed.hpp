@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "checker/evidence/conform/dialogue.hpp"
 #include "fsm/stepper.hpp"
@@ -31,9 +32,17 @@ class ReplayedReader {
   virtual std::optional<MadeAckNack> attempt(std::int64_t now_ns) = 0;
   virtual std::optional<MadeAckNack> reply(std::int64_t now_ns) = 0;
   /// When the timer that was started last is due; it is forgotten with that.
-  virtual std::optional<std::int64_t> take_reply_due() = 0;
+  std::optional<std::int64_t> take_reply_due() { return std::exchange(reply_due_ns_, {}); }
   /// How long the next initial ACKNACK waits; nothing: there is none.
-  virtual std::optional<std::int64_t> take_initial_delay() = 0;
+  std::optional<std::int64_t> take_initial_delay() {
+    if (!std::exchange(waits_for_initial_, false)) return std::nullopt;
+    return initial_delay_ns_;
+  }
+
+ protected:
+  bool waits_for_initial_ = false;
+  std::int64_t initial_delay_ns_ = 0;
+  std::optional<std::int64_t> reply_due_ns_;
 };
 
 class ReplayedWriter {

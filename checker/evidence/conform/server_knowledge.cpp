@@ -2,6 +2,7 @@
 #include "checker/evidence/conform/server_knowledge.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "model/implementations.hpp"
@@ -12,6 +13,11 @@ namespace {
 
 bool is_publication(capture::EntityId sedp_writer) {
   return sedp_writer == capture::entity::publications_writer;
+}
+
+/// Times in a capture can be as far apart as its numbers claim.
+std::uint64_t between(std::int64_t earlier_ns, std::int64_t later_ns) {
+  return static_cast<std::uint64_t>(later_ns) - static_cast<std::uint64_t>(earlier_ns);
 }
 
 }  // namespace
@@ -95,18 +101,17 @@ void ServerKnowledge::note_wakes() {
   std::vector<Run> wakes;
   for (const Relation& relation : context_.dialogue.relations) {
     if (relation.place.source == server_) continue;
-    std::vector<bool> seen;
+    std::set<std::uint32_t> seen;
     for (const Submessage& one : relation.sent) {
-      if (!one.descriptor) continue;
-      const std::uint32_t d = *one.descriptor;
-      if (d >= seen.size()) seen.resize(d + 1);
-      if (seen[d]) continue;
-      seen[d] = true;
-      wakes.push_back({context_.earliest_arrival(one.time_ns), arrived_by(relation, d)});
+      if (!one.descriptor || !seen.insert(*one.descriptor).second) continue;
+      wakes.push_back(
+          {context_.earliest_arrival(one.time_ns), arrived_by(relation, *one.descriptor)});
     }
   }
-  std::ranges::sort(wakes, {}, &Run::from_ns);
-  go_on_from(std::move(wakes));
+  for (const Run& wake : wakes) {
+    runs_.push_back(wake);
+    runs_.back().again = times_again(wake, wakes);
+  }
 }
 
 /// When the server has surely got it: it says so, or the longest delay is over.
@@ -122,22 +127,19 @@ std::int64_t ServerKnowledge::arrived_by(const Relation& relation, std::uint32_t
                   sent->time_ns + context_.bounds.most_delay_ns + context_.bounds.clock_error_ns);
 }
 
-/// After each wake the routine runs periodically, until the next one has surely come.
-void ServerKnowledge::go_on_from(std::vector<Run> wakes) {
-  const std::int64_t period = context_.dds.server.server_routine_period.count();
-  runs_ = wakes;
-  for (const Run& wake : wakes) {
-    Run run = wake;
-    while (run.to_ns < context_.dialogue.end_ns) {
-      const Run next{run.from_ns + period, run.to_ns + period + context_.bounds.most_lateness_ns};
-      const bool is_cancelled = std::ranges::any_of(wakes, [&](const Run& other) {
-        return other.from_ns > run.to_ns && other.to_ns < next.from_ns;
-      });
-      if (is_cancelled || next.from_ns > context_.dialogue.end_ns) break;
-      runs_.push_back(next);
-      run = next;
-    }
+/// How often the routine runs again by its period, until the next wake has surely come. The k-th
+/// time is at from + k·period at the earliest, and late by at most the bound more each time.
+std::uint64_t ServerKnowledge::times_again(const Run& wake, const std::vector<Run>& wakes) const {
+  const std::int64_t end_ns = context_.dialogue.end_ns;
+  std::uint64_t most = wake.from_ns < end_ns ? between(wake.from_ns, end_ns) / period() : 0;
+  for (const Run& other : wakes) {
+    if (other.to_ns < wake.from_ns || other.from_ns <= wake.to_ns) continue;
+    // The first time that would have to come after the other wake.
+    const std::uint64_t k = between(wake.from_ns, other.to_ns) / period();
+    const bool is_before = k <= between(wake.to_ns, other.from_ns - 1) / longest_period();
+    if (is_before) most = std::min(most, k);
   }
+  return most;
 }
 
 /// The first instant from `time_ns` on at which the routine can run.
@@ -146,9 +148,22 @@ std::int64_t ServerKnowledge::runs_after(std::int64_t time_ns) const {
   if (context_.dialogue.has_neighbour[server_]) return time_ns;
   std::int64_t first = never_ns;
   for (const Run& run : runs_) {
-    if (run.to_ns >= time_ns) first = std::min(first, std::max(run.from_ns, time_ns));
+    const std::uint64_t k =
+        run.to_ns >= time_ns
+            ? 0
+            : (between(run.to_ns, time_ns) + longest_period() - 1) / longest_period();
+    if (k > run.again) continue;
+    const auto later = static_cast<std::int64_t>(k * period());
+    first = std::min(first, std::max(run.from_ns + later, time_ns));
   }
   return first;
+}
+
+std::uint64_t ServerKnowledge::period() const {
+  return static_cast<std::uint64_t>(context_.dds.server.server_routine_period.count());
+}
+std::uint64_t ServerKnowledge::longest_period() const {
+  return period() + static_cast<std::uint64_t>(context_.bounds.most_lateness_ns);
 }
 
 /// When somebody has to be told of the endpoint: the client has one on the other side of its topic.

@@ -46,17 +46,20 @@ class ServerKnowledge {
     bool is_publication = false;
     std::int64_t known_ns = 0;
   };
-  /// When the routine can have run, once.
+  /// When the routine can have run, and how often it can have gone on by its period.
   struct Run {
     std::int64_t from_ns = 0;
     std::int64_t to_ns = 0;
+    std::uint64_t again = 0;
   };
 
   void learn_endpoints(std::size_t participant);
   void note_acknowledgements(const Relation& announcements);
   void note_wakes();
   [[nodiscard]] std::int64_t arrived_by(const Relation& relation, std::uint32_t descriptor) const;
-  void go_on_from(std::vector<Run> wakes);
+  [[nodiscard]] std::uint64_t times_again(const Run& wake, const std::vector<Run>& wakes) const;
+  [[nodiscard]] std::uint64_t period() const;          ///< ns, ≥ 1
+  [[nodiscard]] std::uint64_t longest_period() const;  ///< with what it can be late
   [[nodiscard]] std::int64_t runs_after(std::int64_t time_ns) const;
   [[nodiscard]] std::int64_t needed(const Endpoint& one, std::size_t client) const;
 
