@@ -25,7 +25,8 @@ std::int64_t number_in(const Event& event) {
   if (const auto* heartbeat = event.heartbeat()) return std::max(heartbeat->first, heartbeat->last);
   const auto* gap = event.gap();
   const auto& set = gap != nullptr ? gap->list : event.acknack()->missing;
-  const std::int64_t last = set.base > INT64_MAX - 256 ? set.base : set.base + set.num_bits - 1;
+  const bool can_count = set.base > 0 && set.base <= INT64_MAX - 256;
+  const std::int64_t last = can_count ? set.base + set.num_bits - 1 : set.base;
   return gap != nullptr ? std::max(gap->start, last) : last;
 }
 
