@@ -63,9 +63,8 @@ TEST(ReplayRules, WithoutAHeartbeatThereIsNoReply) {
 }
 
 /// Descriptor 0 is sent at these times; ACKNACKs that ask for it arrive at those.
-Scene sent(const std::vector<std::int64_t>& times, const std::vector<std::int64_t>& requests,
-           std::uint32_t existing = 2) {
-  Scene scene;
+void send(Scene& scene, const std::vector<std::int64_t>& times,
+          const std::vector<std::int64_t>& requests, std::uint32_t existing) {
   std::vector<Transmission> transmissions;
   Plan plan;
   for (const std::int64_t time : requests) {
@@ -85,6 +84,12 @@ Scene sent(const std::vector<std::int64_t>& times, const std::vector<std::int64_
   DataReplay replay{context, scene.relation, transmissions, existing,
                     changes, scene.timers,   scene.ledger};
   EXPECT_EQ(replay.run(plan, 0), nullptr);
+}
+
+Scene sent(const std::vector<std::int64_t>& times, const std::vector<std::int64_t>& requests,
+           std::uint32_t existing = 2) {
+  Scene scene;
+  send(scene, times, requests, existing);
   return scene;
 }
 
@@ -115,31 +120,13 @@ TEST(ReplayRules, WhatIsSuppressedIsNotSentAgain) {
   EXPECT_EQ(later.result.not_replayed, 0U);
 }
 
-/// A relay of the server, participant 0: a change that was there is asked for, a new one is sent.
-Scene passed_on(std::vector<std::int64_t> times, const std::vector<std::int64_t>& requests,
+/// By a relay of the server, participant 0: what was there is asked for, what is new is sent.
+Scene passed_on(const std::vector<std::int64_t>& times, const std::vector<std::int64_t>& requests,
                 std::uint32_t existing) {
   Scene scene;
   scene.dds.discovery = model::Discovery::server;
   scene.dialogue.server = 0;
-  std::vector<Transmission> transmissions;
-  Plan plan;
-  for (const std::int64_t time : requests) {
-    scene.relation.answers.push_back({time, 0, 0, {0}, false});
-    plan.arrivals.push_back({time, time, true});
-  }
-  for (const std::int64_t time : times) {
-    transmissions.push_back({0, time, 0, time == times.front(), existing == 0});
-    plan.request.emplace_back();
-    plan.to_everybody.push_back(false);
-  }
-  Tally<fsm::ChangeForReader> changes;
-  const AnnouncedSince announced;
-  const std::set<std::size_t> to_everybody;
-  const WriterContext context{scene.dialogue, scene.dds,    scene.bounds, announced,
-                              true,           to_everybody, {},           {}};
-  DataReplay replay{context, scene.relation, transmissions, existing,
-                    changes, scene.timers,   scene.ledger};
-  EXPECT_EQ(replay.run(plan, 0), nullptr);
+  send(scene, times, requests, existing);
   return scene;
 }
 
