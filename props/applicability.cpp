@@ -36,6 +36,9 @@ constexpr std::array<std::string_view, 1> certified_of_amended_rules{"live.recov
 constexpr std::array<std::string_view, 3> of_living_fastdds{"composition.followed", "live.recovery",
                                                             "live.isolation"};
 
+/// They know what a Discovery Server adds to the rules.
+constexpr std::array<std::string_view, 2> of_server{"composition.live", "composition.followed"};
+
 /// What clients tell a Discovery Server goes by Fast DDS's rules; of that these hold as they do
 /// without one.
 constexpr std::array<std::string_view, 7> of_clients{
@@ -180,9 +183,7 @@ std::string_view why_not_applicable(std::string_view property,
   if (is_of_all(property)) return {};
   const model::Writer writer = model::traits_of(implementation).writer;
   const bool has_server = writer == model::Writer::of_server;
-  if (has_server && (property == "composition.followed" || is_among(of_clients, property))) {
-    return {};
-  }
+  if (has_server && (is_among(of_server, property) || is_among(of_clients, property))) return {};
   const bool is_paper = writer == model::Writer::of_the_paper;
   const bool is_of_cyclone =
       is_certified(property, writer) || is_among(observed_of_cyclone, property);

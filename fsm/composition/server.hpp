@@ -283,12 +283,6 @@ struct ChangeIsInserted : Rule<Happens<Inserted>> {
     w.call(StartSending{});
   }
 };
-struct ChangeIsOfNoUse : Rule<Happens<InsertedForNobody>> {
-  template <class W>
-  static void run(W& w) {
-    arm(w);
-  }
-};
 
 struct ThreadSends : Rule<Due<SendingDue>> {
   template <class W>
@@ -386,17 +380,16 @@ struct FastDdsServer {
                          LearnerHeartbeatSeen, LearnerLastDelay, RelayOpen>;
   using Packets = TypeList<Registration, RegistrationHeartbeat, RegistrationAckNack, RelayedData,
                            RelayHeartbeat, Gap, RelayedAckNack>;
-  using Occasions =
-      TypeList<RelayOpens, LearnerOpens, Arrives, Inserted, InsertedForNobody, Served, Delivered>;
+  using Occasions = TypeList<RelayOpens, LearnerOpens, Arrives, Inserted, Served, Delivered>;
   using Announcing =
       TypeList<ClientAnnounces, ClientSyncIsDue, RegistrationAckNackArrives, RegistrationExpires,
                RegistrationArrives, RegistrationHeartbeatArrives, RegistrationReplyIsDue,
                RegistrationInitialDue>;
-  using Exchange = TypeList<LearnerOpened, LearnerInitialDue, LearnerReplyIsDue, RelayedDataArrives,
-                            RelayHeartbeatArrives, GapArrives, DescriptorsArrive, RoutineRuns,
-                            RoutineRunsAgain, RelayOpened, ChangeIsInserted, ChangeIsOfNoUse,
-                            ThreadSends, ChangeIsServed, ChangeIsDelivered, RelayedAckNackArrives,
-                            RelayResponds, RelaySuppressionEnds, RelayExpires>;
+  using Exchange =
+      TypeList<LearnerOpened, LearnerInitialDue, LearnerReplyIsDue, RelayedDataArrives,
+               RelayHeartbeatArrives, GapArrives, DescriptorsArrive, RoutineRuns, RoutineRunsAgain,
+               RelayOpened, ChangeIsInserted, ThreadSends, ChangeIsServed, ChangeIsDelivered,
+               RelayedAckNackArrives, RelayResponds, RelaySuppressionEnds, RelayExpires>;
   using Rules = Joined<Announcing, Exchange>;
   using IsOpen = RelayOpen;
   static constexpr std::array unused{
@@ -410,7 +403,6 @@ struct FastDdsServer {
       FromOutside{"ClientAnnouncement", "announcement 0 is due when a participant starts"},
       FromOutside{"Arrives", "a reader of the server receives what is new"},
       FromOutside{"Inserted", "the database has something to send"},
-      FromOutside{"InsertedForNobody", "the database has something to send"},
       FromOutside{"Served", "the sending thread delivers a change"},
       FromOutside{"Delivered", "the sending thread delivers a change"},
   };

@@ -90,9 +90,8 @@ struct RelayOpens : Occasion<owner::relation> {};
 struct LearnerOpens : Occasion<owner::relation> {};
 struct Arrives : Occasion<owner::participant> {};  ///< a descriptor that is new to the server
 struct Inserted : Occasion<owner::writer> {};      ///< a change that somebody needs
-struct InsertedForNobody : Occasion<owner::writer> {};
-struct Served : Occasion<owner::relation> {};   ///< a change is about to be sent to a reader
-struct Delivered : Occasion<owner::writer> {};  ///< a change has been sent to all
+struct Served : Occasion<owner::relation> {};      ///< a change is about to be sent to a reader
+struct Delivered : Occasion<owner::writer> {};     ///< a change has been sent to all
 
 /// The client waits for the routine.
 struct JoinParticipants : Opaque {

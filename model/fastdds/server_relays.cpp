@@ -124,7 +124,8 @@ void ServerProtocol::remove(Number relay, Item item) {
   queues_.remove({relay, item});
 }
 
-/// The item gets a new number, also if it is in the history already.
+/// The item gets a new number, also if it is in the history already. The database lists only what
+/// is relevant for somebody.
 void ServerProtocol::insert(Number relay, Item item) {
   remove(relay, item);
   RelayWriter& writer = relays_[relay];
@@ -135,13 +136,9 @@ void ServerProtocol::insert(Number relay, Item item) {
     step<change::Created>(about(relation).list[number], relation);
     wanted = true;
   }
-  const Number w = relay::count * server_id() + relay;
-  if (wanted) {
-    queues_.add({relay, item});
-    run_rule<comp::Happens<server::Inserted>>(*this, w);
-  } else if (!writer.readers.empty()) {
-    run_rule<comp::Happens<server::InsertedForNobody>>(*this, w);
-  }
+  if (!wanted) return;
+  queues_.add({relay, item});
+  run_rule<comp::Happens<server::Inserted>>(*this, relay::count * server_id() + relay);
 }
 
 void ServerProtocol::deliver_next() {

@@ -10,7 +10,8 @@
 // for f = 1. A stage without overhead is left out: there rounding may make airtimes zero. Nothing
 // is served before the first participant starts, so T_disc is at least that start and the largest
 // of these sums over all channels. With a constant delay: every participant with descriptors has
-// started, and its DATA takes its delay.
+// started, and its DATA takes its delay. A client of a Discovery Server says nothing about its
+// endpoints before its first tick, and what it says goes two ways, to the server and from there.
 #include <algorithm>
 #include <map>
 
@@ -65,6 +66,16 @@ Nanoseconds least_airtime(const Scenario& scenario, const model::Topology& topol
   return Nanoseconds{busiest};
 }
 
+/// `delay`: the least of one way that is not the loopback.
+Nanoseconds floor_with_server(const Scenario& scenario, Nanoseconds delay) {
+  Nanoseconds last_start;
+  for (const model::Participant& p : scenario.deployment.participants) {
+    last_start = std::max(last_start, p.start);
+  }
+  return last_start + scenario.dds.server.client_sync_period +
+         std::min(delay, scenario.deployment.loopback_delay) * 2;
+}
+
 Nanoseconds physical_bound(const Scenario& scenario) {
   const model::Topology topology{scenario.deployment, scenario.dds.descriptors};
   const model::WirelessProfile& wireless = scenario.wireless;
@@ -85,6 +96,9 @@ Nanoseconds physical_bound(const Scenario& scenario) {
                                   ? scenario.deployment.participants[i].endpoints_done
                                   : topology.start(i);
     last_arrival = std::max(last_arrival, ready + delay);
+  }
+  if (traits_of(scenario).has_server) {
+    last_arrival = std::max(last_arrival, floor_with_server(scenario, delay));
   }
   if (wireless.kind == model::ServiceKind::constant_delay) return last_arrival;
   return std::max(last_arrival, first + least_airtime(scenario, topology));
@@ -124,7 +138,7 @@ Broken completion(const Scenario& scenario, const Simulate& simulate) {
 constexpr Law bounds_list[] = {
     {"law.physical-bound",
      "T_disc is at least the first start and, on every channel, the airtime of one DATA packet "
-     "with all descriptors for each relation.",
+     "with all descriptors for each relation; with a Discovery Server, the last start and a tick.",
      is_sent_to_each, physical},
     {"law.completion-bound",
      "If no packet takes longer than Δ and k are lost, discovery is complete within "

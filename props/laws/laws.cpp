@@ -22,14 +22,14 @@ std::span<const Law> laws() {
 }
 
 namespace {
-/// They hold whatever writers do. The others count what the paper and Fast DDS send, or know when
-/// their timers are due.
-constexpr std::array<std::string_view, 18> of_all_writers{
+/// They hold whatever writers do, with a server, too. The others count what the paper and Fast DDS
+/// send, or know when their timers are due.
+constexpr std::array<std::string_view, 19> of_all_writers{
     "law.determinism",     "law.observation",        "law.later-limit",     "law.earlier-limit",
     "law.run-until",       "law.unused-values",      "law.route-names",     "law.time-translation",
     "law.work-conserving", "law.channel-use",        "law.delays",          "law.causality",
     "law.knowledge",       "law.single-stage-order", "law.unlimited-queue", "law.unsent-losses",
-    "law.lost-is-late",    "law.physical-bound"};
+    "law.lost-is-late",    "law.physical-bound",     "law.time-scaling"};
 }  // namespace
 
 bool speaks_of(const Law& law, const model::Scenario& scenario) {

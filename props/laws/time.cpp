@@ -6,8 +6,9 @@
 // whole nanoseconds. With other rates fragments are off by up to c/2 ns, and one nanosecond is
 // enough to turn two events around (specs/findings/time-scaling.md). Three rules have a unit of
 // their own and are left out: the adaptive policy rounds its periods and starts a cycle 1 ns later;
-// Fast DDS's control-only relations answer after 5 ms, so with it packets must not share a channel
-// with them, nor be numbered among them (losses); and its endpoints are created at divided times.
+// Fast DDS's control-only relations answer after 5 ms, so with it, and with its Discovery Server,
+// packets must not share a channel with them, nor be numbered among them (losses); and its
+// endpoints are created at divided times.
 #include <algorithm>
 
 #include "model/engine/topology.hpp"
@@ -72,6 +73,7 @@ void for_each_rate(Scenario& scenario, Change&& change) {
 Scenario with_scalable_times(Scenario scenario) {
   for_each_rate(scenario, [](BitsPerSecond& rate) { rate = whole(rate); });
   scenario.dds.sedp.heartbeat_policy = model::HeartbeatPolicy::periodic;
+  scenario.deployment.send_cost = scenario.deployment.cost_to_send();
   if (traits_of(scenario).has_control_relations) {  // their packets change the numbers of others
     scenario.wireless.lost_packets.clear();
     scenario.wireless.packet_delays.clear();
@@ -114,12 +116,20 @@ void for_each_duration(Scenario& scenario, Change&& change) {
     change(p.start);
     change(p.endpoints_done);
   }
+  model::ServerProfile& server = scenario.dds.server;
+  for (Nanoseconds* timer :
+       {&server.client_sync_period, &server.server_routine_period, &server.pdp_heartbeat_period,
+        &server.pdp_nack_response_delay, &server.pdp_nack_suppression_duration,
+        &server.pdp_heartbeat_response_delay}) {
+    change(*timer);
+  }
+  change(*scenario.deployment.send_cost);
   change(scenario.deployment.loopback_delay);
   change(scenario.time_limit);
 }
 
 bool has_one_unit(const Scenario& scenario) {
-  if (!is_of_two_writers(scenario)) return false;
+  if (!is_of_two_writers(scenario) && !traits_of(scenario).has_server) return false;
   return !traits_of(scenario).has_control_relations ||
          scenario.wireless.kind == model::ServiceKind::constant_delay;
 }

@@ -170,13 +170,9 @@ void ServerFollower::insert(const RelayedItem& item) {
     move_change<change::Created>(place, number);
     is_wanted = true;
   }
-  World w = world_at(writer_place(relay_writer(item.relay)));
-  if (is_wanted) {
-    fresh_.push_back(item);
-    w.raise(server::Inserted{});
-  } else if (!writer.readers.empty()) {
-    w.raise(server::InsertedForNobody{});
-  }
+  if (!is_wanted) return;
+  fresh_.push_back(item);
+  world_at(writer_place(relay_writer(item.relay))).raise(server::Inserted{});
 }
 
 /// Changes that nobody wants any more take no time.

@@ -71,9 +71,11 @@ TEST(Server, IsSpokenOfByWhatItsClientsTellIt) {
       EXPECT_NE(why_not_provable(property, scenario), "") << property;
     }
     EXPECT_TRUE(is_watched(scenario, "composition.followed"));
+    EXPECT_EQ(why_not_applicable("composition.live", scenario), "");
+    EXPECT_FALSE(is_watched(scenario, "composition.live"));
     for (const char* const property :
-         {"composition.live", "composition.pending", "order.commutation", "live.no-stall",
-          "live.completion", "live.quiescence", "storm.single-copy", "storm.cannot-start"}) {
+         {"composition.pending", "order.commutation", "live.no-stall", "live.completion",
+          "live.quiescence", "storm.single-copy", "storm.cannot-start"}) {
       EXPECT_NE(why_not_applicable(property, scenario), "") << property;
     }
     const model::ImplementationKind kind = model::kind_of(scenario.dds);

@@ -4,6 +4,7 @@
 // that the knobs of the profile rule the effect out is as much as runs can say: sampled.
 #include "checker/engines/tables/live_in_runs.hpp"
 
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -15,33 +16,80 @@
 #include "model/composition_of.hpp"
 #include "model/implementations.hpp"
 #include "model/simulator.hpp"
+#include "props/generators/dice.hpp"
+#include "props/generators/on_demand.hpp"
 #include "props/generators/space.hpp"
 
 namespace stormproof::tables {
 
 namespace {
 
-constexpr std::uint64_t most_runs = 60;
+constexpr std::uint64_t most_runs = 400;
+constexpr std::uint64_t most_runs_with_other_knobs = 60;
 constexpr std::uint64_t enough_events = 20'000;
 /// So many that their retransmissions fill a queue that takes hundreds, in every fifth deployment.
 constexpr std::uint32_t many_endpoints = 150;
 
+/// An effect that a mistake leaves out is due, but does not happen.
 class Happened final : public model::Probe {
  public:
+  explicit Happened(const model::Mutation& mistakes) : mistakes_{mistakes} {}
+
   [[nodiscard]] bool wants_effects() const override { return true; }
-  void effect(fsm::composition::EffectKey key) override { keys.insert(key); }
+  void effect(fsm::composition::EffectKey key) override {
+    const bool left_out = std::ranges::any_of(mistakes_.effects, [&](const auto& mistake) {
+      return mistake.key == key && mistake.change == Mistake::Change::drop;
+    });
+    if (!left_out) keys.insert(key);
+  }
 
   std::set<fsm::composition::EffectKey> keys;
+
+ private:
+  using Mistake = fsm::composition::EffectMutation;
+
+  const model::Mutation& mistakes_;
 };
+
+/// Participants start as far apart as timers expire.
+void start_apart(props::Dice& dice, model::Deployment& deployment) {
+  constexpr std::int64_t longest_ns = 2'000'000'000;
+  for (model::Participant& p : deployment.participants) {
+    const model::Nanoseconds later{dice.between(0, longest_ns)};
+    p.start += later;
+    p.endpoints_done += later;
+    if (p.open) *p.open += later;
+    if (p.ready) *p.ready += later;
+  }
+}
+
+/// Some packets arrive long after later ones: timers expire meanwhile.
+void let_packets_overtake(props::Dice& dice, model::WirelessProfile& wireless) {
+  constexpr std::uint64_t packets = 300;
+  wireless.kind = model::ServiceKind::constant_delay;
+  wireless.packet_delays.clear();
+  const std::int64_t longest_ns = dice.among({1'500'000'000, 400'000'000, 40'000'000});
+  for (std::uint64_t packet = 0; packet < packets; ++packet) {
+    if (!dice.chance(25)) continue;
+    const model::Nanoseconds delay{dice.between(0, longest_ns)};
+    wireless.packet_delays.push_back({packet, {}, delay});
+  }
+}
 
 /// Of the implementation of the profile, with knobs of its own.
 model::Scenario drawn(std::uint64_t seed, const model::DdsProfile& dds) {
   constexpr int size = 60;
   constexpr model::Nanoseconds long_enough{20'000'000'000};
   model::Scenario scenario =
-      props::draw_scenario(seed, size, {.implementation = model::kind_of(dds)});
+      props::draw_scenario(seed, size, {.implementation = dds.implementation});
+  if (model::traits_of(dds).has_server) props::draw_discovery(seed, dds.discovery, scenario);
   scenario.run_until = model::RunUntil::time_limit;
   scenario.time_limit = long_enough;
+  if (seed % 2 == 1) {
+    props::Dice dice{seed};
+    start_apart(dice, scenario.deployment);
+    let_packets_overtake(dice, scenario.wireless);
+  }
   if (seed % 5 == 0) {
     scenario.deployment.participants.front().publications = many_endpoints;
     scenario.deployment.participants.front().subscriptions = many_endpoints;
@@ -85,10 +133,11 @@ std::uint64_t look_for(Missing& missing, Proof& proof, bool with_own_knobs) {
   const model::DdsProfile& dds = proof.scenario().dds;
   const auto& on_progress = proof.request().on_progress;
   std::uint64_t runs = 0;
-  while (missing.count() > 0 && runs < most_runs && (!on_progress || on_progress("runs"))) {
+  const std::uint64_t most = with_own_knobs ? most_runs : most_runs_with_other_knobs;
+  while (missing.count() > 0 && runs < most && (!on_progress || on_progress("runs"))) {
     model::Scenario scenario = drawn(++runs, dds);
     if (with_own_knobs) scenario.dds = dds;
-    Happened happened;
+    Happened happened{proof.mistakes()};
     model::RunOptions options;
     options.probe = &happened;
     options.mutation = &proof.mistakes();

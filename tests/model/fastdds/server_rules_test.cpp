@@ -1,11 +1,13 @@
 // The rules of a Discovery Server that large runs hardly show: each is met alone, so that another
 // reading of it fails here (specs/guide/discovery-server.md, "The database", "The server's
 // writers").
+#include <set>
 #include <tuple>
 
 #include <gtest/gtest.h>
 
 #include "model/engine/running_world.hpp"
+#include "props/generators/dice.hpp"
 #include "tests/model/fastdds/server_by_hand.hpp"
 
 namespace stormproof::model::fastdds {
@@ -201,14 +203,41 @@ TEST(ServerRoutine, SendsItsOwnAnnouncementToSuperClientsBeforeAllOthers) {
   EXPECT_EQ(sent[3].what.number, 4);
 }
 
-/// The database cannot ask for it: what is listed is for somebody. But the rule is there.
-TEST(ServerInsertion, ForNobodyArms) {
-  ServerByHand server{2};
-  meet(server, 2).until(ms);
-  (void)server.scheduled_for(EventKind::relay_expiry);
-  run_rule<comp::Happens<server::InsertedForNobody>>(
-      server.protocol(), relay::count * server.server_id() + relay::publications);
-  EXPECT_EQ(server.scheduled_for(EventKind::relay_expiry), Numbers{1'001 * ms});
+/// That is why no rule says what a relay does with a change that nobody needs.
+TEST(Database, ListsOnlyWhatSomebodyNeeds) {
+  static const Deployment deployment = Deployment::homogeneous(2, 2, 4);
+  static const Topology topology{deployment, DescriptorProfile{}, SameHostPairs::with_server};
+  std::size_t listed = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    props::Dice dice{seed};
+    const auto relaying = dice.choice<model::Relay>(2);
+    const auto discovery = dice.chance(50) ? Discovery::server : Discovery::super_client;
+    Database database{topology, discovery, relaying};
+    std::set<Item> arrived;
+    for (const std::uint32_t i : {0U, 1U, 2U, 3U}) database.join(i);
+    for (int k = 0; k < 30; ++k) {
+      const std::uint32_t i = dice.count(0, 3);
+      const auto s = dice.choice<Stream>(2);
+      const std::uint32_t d = dice.count(0, topology.descriptor_count(i, s) - 1);
+      const Item item = database.descriptor(i, s, d);
+      if (dice.chance(50) && arrived.insert(item).second) database.arrive(item);
+      for (const std::uint32_t j : {0U, 1U, 2U, 3U}) {
+        const Item told = dice.chance(50) ? database.announcement(i) : item;
+        if (dice.chance(30) && database.relevant(told, j)) database.note(told, j);
+      }
+      if (!dice.chance(30)) continue;
+      const Database::Lists lists = database.update();
+      for (const auto* list : {&lists.announcements, &lists.publications, &lists.subscriptions}) {
+        for (const Item one : *list) {
+          ++listed;
+          EXPECT_TRUE(database.relevant(one, 0) || database.relevant(one, 1) ||
+                      database.relevant(one, 2) || database.relevant(one, 3))
+              << "seed " << seed << ", item " << one;
+        }
+      }
+    }
+  }
+  EXPECT_GT(listed, 1'000U);
 }
 
 using Items = std::vector<Item>;

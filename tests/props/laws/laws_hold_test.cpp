@@ -61,7 +61,41 @@ TEST(Laws, SomeSpeakOfAServer) {
       if (speaks_of(law, with_server(seed))) ids.insert(law.id);
     }
   }
-  EXPECT_EQ(ids.size(), 18U);
+  EXPECT_EQ(ids.size(), 19U);
+}
+
+/// The reason why the law is broken on one of some scenarios with a server.
+std::optional<std::string> broken_with_server(std::string_view id, const Simulate& simulate) {
+  const Law& law = *std::ranges::find(laws(), id, &Law::id);
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const model::Scenario scenario = with_server(seed);
+    if (!speaks_of(law, scenario)) continue;
+    if (auto broken = law.broken(scenario, simulate)) return broken;
+  }
+  return std::nullopt;
+}
+
+TEST(LawsOfAServer, NoticeMistakes) {
+  const auto late = [](model::EventKind kind) {
+    return [kind](const model::Scenario& scenario, model::Probe* probe) {
+      model::Mutation mutation;
+      mutation.events.push_back(
+          {kind, model::EventMutation::Change::shift, model::Nanoseconds{1}, {}});
+      model::RunOptions options;
+      options.probe = probe;
+      options.mutation = &mutation;
+      options.max_events = 50'000;
+      return model::simulate(scenario, options);
+    };
+  };
+  for (const auto kind : {model::EventKind::client_sync, model::EventKind::server_routine_again}) {
+    EXPECT_TRUE(broken_with_server("law.time-scaling", late(kind))) << static_cast<int>(kind);
+  }
+  EXPECT_TRUE(
+      broken_with_server("law.physical-bound", [](model::Scenario scenario, model::Probe* p) {
+        scenario.dds.server.client_sync_period = model::Nanoseconds{1'000};
+        return correct(scenario, p);
+      }));
 }
 
 TEST_P(LawTest, AppliesOften) {

@@ -3,6 +3,7 @@
 
 #include "checker/engines/tables/effect_system.hpp"
 #include "model/composition_of.hpp"
+#include "tests/checker/engines/tables/effect_mistake.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
 
 namespace stormproof::tables {
@@ -142,6 +143,45 @@ TEST(LiveOfCycloneDds, WhatNoRunShowsIsNamed) {
   EXPECT_EQ(finding.kind, VerdictKind::inconclusive) << finding.how;
   EXPECT_NE(finding.how.find("no run shows HeartbeatTimerIsTaken.1-9"), std::string::npos)
       << finding.how;
+}
+
+TEST(LiveOfADiscoveryServer, EachEffectHappensInARun) {
+  for (const auto discovery : {model::Discovery::server, model::Discovery::super_client}) {
+    for (const auto relay : {model::Relay::repeat, model::Relay::once}) {
+      model::Scenario scenario = with_server();
+      scenario.dds.discovery = discovery;
+      scenario.dds.server.relay = relay;
+      const Finding finding = decide("composition.live", scenario);
+      EXPECT_EQ(finding.kind, VerdictKind::proved) << finding.how;
+      EXPECT_NE(line(finding, "for the first time in run 1: "), "");
+    }
+  }
+}
+
+TEST(LiveOfADiscoveryServer, WhatHappensWithOtherKnobsOnlyIsNotProved) {
+  model::Scenario scenario = with_server();
+  scenario.dds.server.client_sync_period = model::Nanoseconds{100'000'000'000};  // beyond each run
+  const Finding finding = decide("composition.live", scenario);
+  EXPECT_EQ(finding.kind, VerdictKind::sampled) << finding.how;
+  const std::string other = line(finding, "for the first time in run 1 with other knobs: ");
+  EXPECT_NE(other.find("ClientSyncIsDue.1-4"), std::string::npos) << other;
+}
+
+/// An event that never comes, a row whose action is forgotten, an effect that somebody left out.
+TEST(LiveOfADiscoveryServer, WhatNoRunShowsIsNamed) {
+  const std::size_t asked = row_of("SingleShot", "Idle", "Requested", "Pending");
+  const std::vector<std::pair<checker::Mutant, std::string>> dead{
+      {forgets(EventKind::server_routine), "RoutineRuns.1"},
+      {with_row("SingleShot", asked, Kind::drop_action), "RegistrationExpires.1"},
+      {at_effect(with_server(), "ClientSyncIsDue", "raise LearnerOpens",
+                 fsm::composition::EffectMutation::Change::drop),
+       "ClientSyncIsDue.4"}};
+  for (const auto& [mutant, effect] : dead) {
+    const Finding finding = decide("composition.live", with_server(), &mutant);
+    EXPECT_EQ(finding.kind, VerdictKind::inconclusive) << finding.how;
+    EXPECT_NE(finding.how.find("no run shows "), std::string::npos) << finding.how;
+    EXPECT_NE(finding.how.find(effect), std::string::npos) << finding.how;
+  }
 }
 
 }  // namespace composition_live_test
