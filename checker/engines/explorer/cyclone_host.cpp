@@ -201,14 +201,11 @@ bool CycloneHost::next_task(Number i) {
   return true;
 }
 void CycloneHost::send(const model::cyclone::Bundle& bundle) {
-  Members sent = 0;
   for (const model::Submessage& m : bundle.contents) {
-    if (m.kind == model::Submessage::Kind::data) sent |= member(m.sample);
-  }
-  if (sent != 0) {
-    const auto up_to = static_cast<Members>((1U << std::bit_width(unsigned{sent})) - 1);
+    if (m.kind != model::Submessage::Kind::data) continue;
+    const auto up_to = static_cast<Members>(member(m.sample + 1) - 1);
     state_->set<cyclone::Sent>(state_->get<cyclone::Sent>() | up_to);
-    note_generated(*state_, *frame_, 0, sent, !bundle.to.is_set);
+    note_generated(*state_, *frame_, 0, member(m.sample), !bundle.to.is_set);
   }
   const std::vector<Slot> parts = parts_of(bundle.contents);
   for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/engines/explorer/lacking_samples.hpp"
 #include "checker/engines/explorer/plan.hpp"
 #include "checker/engines/explorer/replayed_packets.hpp"
 #include "model/simulator.hpp"
@@ -118,6 +119,21 @@ void assign(const ReplayRequest& request, const ConcretePath& path, const Packet
   std::ranges::sort(lost);
 }
 
+/// At the same instant, another relation of Cyclone DDS can wake the thread of one participant
+/// before that of the other: then the packets of a run are put into the order of the path.
+void take_order_of(const ConcretePath& path, std::vector<PacketList::Entry>& packets) {
+  const std::size_t known = std::min(path.packets.size(), packets.size());
+  for (std::size_t k = 0; k < known; ++k) {
+    const bool by_writer = from_writer(path.packets[k].slot.what);
+    const auto here = packets.begin() + static_cast<std::ptrdiff_t>(k);
+    const auto meant = std::find_if(here, packets.end(), [&](const PacketList::Entry& entry) {
+      return from_writer(entry.slot.what) == by_writer;
+    });
+    if (meant == packets.end() || meant->emitted != here->emitted) continue;
+    std::rotate(here, meant, meant + 1);
+  }
+}
+
 /// Whether the run emitted what the path says.
 std::string difference(const ConcretePath& path, const PacketList& list, Nanoseconds start) {
   for (std::size_t k = 0; k < path.packets.size(); ++k) {
@@ -173,6 +189,7 @@ std::optional<model::Scenario> scenario_of(const ReplayRequest& request, const C
   for (std::size_t round = 0; round < path.packets.size() + 20; ++round) {
     PacketList list{request.scope};
     run(request, scenario, list);
+    if (props::has_samples(request.running)) take_order_of(path, list.of_relations);
     const model::Scenario before = scenario;
     assign(request, path, list, scenario);
     if (scenario == before) {
@@ -194,16 +211,24 @@ ReplayOutcome replay(const ReplayRequest& request, const ConcretePath& path,
   model::Scenario specification = *scenario;
   specification.dds = request.specification.dds;
   specification.dds.descriptors = scenario->dds.descriptors;
-  auto monitor = request.bounds.completion
-                     ? props::watch_completion(specification, request.bounds.completion)
-                     : props::make_monitor(property, specification);
-  if (!monitor) {
+  std::vector<props::MonitorPtr> monitors;
+  monitors.push_back(request.bounds.completion
+                         ? props::watch_completion(specification, request.bounds.completion)
+                         : props::make_monitor(property, specification));
+  if (!monitors.front()) {
     outcome.why_not = "There is no monitor that could confirm the violation.";
     return outcome;
   }
-  const model::RunResult result = run(request, *scenario, *monitor);
-  monitor->finish(model::trace::known_until(result, *scenario));
-  if (!monitor->violation()) {
+  if (props::has_samples(specification) && property == "live.no-stall") {
+    monitors.push_back(watch_lacking_samples(request.scope));
+  }
+  const props::Monitor* monitor = nullptr;
+  for (std::size_t k = 0; k < monitors.size() && monitor == nullptr; ++k) {
+    const model::RunResult result = run(request, *scenario, *monitors[k]);
+    monitors[k]->finish(model::trace::known_until(result, *scenario));
+    if (monitors[k]->violation()) monitor = monitors[k].get();
+  }
+  if (monitor == nullptr) {
     outcome.why_not = "The monitor does not object to the simulator's run of the path.";
     return outcome;
   }
