@@ -76,7 +76,7 @@ TEST(CycloneExplored, IsNotAskedForWhatHasNoMeaningOrMonitor) {
 }
 
 TEST(CycloneExplored, IsOneRelationWhoeverAsksForMore) {
-  const model::Scenario scenario = cyclone();
+  const model::Scenario scenario = punctual(100'000);
   const Request several{scenario, nullptr, {}, 2, 1, {}, 2};
   const Finding finding = find(several, "live.no-stall");
   EXPECT_EQ(finding.kind, VerdictKind::bounded) << finding.how;
