@@ -59,6 +59,10 @@ constexpr std::array<std::string_view, 2> certified_of_cyclone{"safety.ack-impli
 /// Of these, what no monitor watches in its runs.
 constexpr std::string_view unwatched_of_cyclone = "safety.snapshot";
 
+/// What the explorer decides for small scopes, and no certificate proves.
+constexpr std::array<std::string_view, 2> explored_of_cyclone{"safety.repair-only-if-asked",
+                                                              "live.no-stall"};
+
 /// What runs of Cyclone DDS show, and no certificate proves.
 constexpr std::array<std::string_view, 5> observed_of_cyclone{
     "safety.repair-only-if-asked", "live.no-stall", "storm.feedback-gain", "composition.live",
@@ -160,7 +164,8 @@ std::string_view why_not_provable(std::string_view property, const model::Scenar
   }
   if (is_about_rules) return {};
   const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
-  if (!traits.is_known_to_engines && !is_certified(property, traits.writer)) {
+  if (!traits.is_known_to_engines && !is_certified(property, traits.writer) &&
+      !is_only_explored(property, model::kind_of(scenario.dds))) {
     return "the engines that prove it know the rules of the paper and of Fast DDS only";
   }
   if (!model::fastdds::announcements_reach_all(scenario)) {
@@ -200,6 +205,11 @@ std::string_view why_not_applicable(std::string_view property,
   }
   return "it is stated for the writers of the paper and of Fast DDS; of this one only machines, "
          "network and results are checked";
+}
+
+bool is_only_explored(std::string_view property, model::ImplementationKind implementation) {
+  const bool is_cyclone = model::traits_of(implementation).writer == model::Writer::of_cyclone;
+  return is_cyclone && is_among(explored_of_cyclone, property);
 }
 
 bool is_about_clients(std::string_view property, model::ImplementationKind implementation) {

@@ -33,4 +33,9 @@ namespace stormproof::props {
 [[nodiscard]] std::string_view why_not_provable(std::string_view property,
                                                 const model::Scenario& scenario);
 
+/// Whether the explorer is the only engine that says something of the property here, besides runs:
+/// it executes the rules, and no certificate proves it from them.
+[[nodiscard]] bool is_only_explored(std::string_view property,
+                                    model::ImplementationKind implementation);
+
 }  // namespace stormproof::props

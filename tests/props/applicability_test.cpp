@@ -44,6 +44,21 @@ TEST(CycloneDds, IsSpokenOfByWhatItsMonitorsObserve) {
   }
 }
 
+TEST(CycloneDds, IsSpokenOfByTheExplorerWhereNoCertificateIs) {
+  const auto is_explored = [](const char* property, const model::Scenario& scenario) {
+    return is_only_explored(property, model::kind_of(scenario.dds));
+  };
+  for (const char* const property : {"safety.repair-only-if-asked", "live.no-stall"}) {
+    EXPECT_TRUE(is_explored(property, cyclone())) << property;
+    EXPECT_FALSE(is_explored(property, model::Scenario{})) << property;
+    EXPECT_EQ(why_not_provable(property, cyclone()), "") << property;
+  }
+  for (const char* const property : {"safety.ack-implies-received", "storm.feedback-gain"}) {
+    EXPECT_FALSE(is_explored(property, cyclone())) << property;
+  }
+  EXPECT_NE(why_not_provable("storm.feedback-gain", cyclone()), "");
+}
+
 TEST(CycloneDds, IsNotSpokenOfByPropertiesOfOtherWriters) {
   for (const char* const property :
        {"timer.single-heartbeat", "timer.suppression-honoured", "live.completion",

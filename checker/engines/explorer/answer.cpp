@@ -5,6 +5,7 @@
 
 #include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
 
 namespace stormproof::explorer {
 
@@ -51,6 +52,11 @@ std::vector<std::string> assumptions_of(const model::Scenario& running, const Su
                         "participant is theirs alone.",
                         several));
   list.push_back(where.delay.origin);
+  if (props::has_samples(running)) {
+    list.emplace_back("Threads do at once what they are woken for; sending takes no time.");
+    list.emplace_back("A repair of all samples that are explored fits into one packet.");
+    return list;
+  }
   const bool created = creates_over_time(running);
   if (created) list.emplace_back("No HEARTBEATs ride in DATA packets.");
   const model::SedpProfile& sedp = running.dds.sedp;

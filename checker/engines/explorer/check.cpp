@@ -5,12 +5,14 @@
 #include <memory>
 
 #include "checker/engines/explorer/answer.hpp"
+#include "checker/engines/explorer/cyclone_world.hpp"
 #include "checker/engines/explorer/explorer.hpp"
 #include "checker/engines/explorer/fastdds_packing.hpp"
 #include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
 #include "checker/engines/explorer/replay.hpp"
 #include "model/implementations.hpp"
+#include "props/monitors/monitors.hpp"
 #include "props/monitors/quiescence.hpp"
 
 namespace stormproof::explorer {
@@ -36,6 +38,10 @@ constexpr std::array<Entry, claim_count> entries{{
     {"storm.single-copy", Claim::single_copy},
     {"storm.free-threshold", Claim::free_threshold},
 }};
+
+/// Those that have a meaning for Cyclone DDS's writer and a monitor in its runs.
+constexpr Claims claims_of_samples =
+    bit(Claim::ack_implies_received) | bit(Claim::repair_only_if_asked) | bit(Claim::no_stall);
 
 /// Claims that are looked for in one search. Each bound on a time adds a mark to the states, which
 /// are more then, so what refers to one is looked for by itself. Limits count states, so that an
@@ -68,16 +74,17 @@ class Exploration {
   }
 
   void run() {
-    where_.readers = request_.readers;
-    where_.writers = request_.writers;
+    const bool is_alone = props::has_samples(running_);
+    where_.readers = is_alone ? 1 : request_.readers;
+    where_.writers = is_alone ? 1 : request_.writers;
     where_.delay = delay_bound(request_.scenario, [&] { return go_on("measuring packet delays"); });
     where_.assumptions = assumptions_of(running_, where_);
     run(scopes(running_, where_.delay.delay));
-    for (unsigned readers = 2; readers <= request_.readers; ++readers) {
+    for (unsigned readers = 2; readers <= where_.readers; ++readers) {
       run(shared_scopes(running_, where_.delay.delay, readers));
     }
-    if (request_.writers > 1) {
-      run(shared_scopes(running_, where_.delay.delay, 1, request_.writers));
+    if (where_.writers > 1) {
+      run(shared_scopes(running_, where_.delay.delay, 1, where_.writers));
     }
   }
 
@@ -96,8 +103,12 @@ class Exploration {
         // What a scope does not need of its share is left to those after it.
         limit_ = std::min(group.most_states * request_.effort, left / (list.size() - k));
         const Scope& scope = list[k];
-        model::visit_engine_composition(running_.dds,
-                                        [&](auto composition) { explore(composition, scope); });
+        if (props::has_samples(running_)) {
+          explore<CycloneWorld>(scope);
+        } else {
+          model::visit_engine_composition(running_.dds,
+                                          [&](auto composition) { explore(composition, scope); });
+        }
         left -= std::min(left, searched_);
       }
     }
@@ -227,13 +238,17 @@ checker::Findings explore(std::span<const std::string_view> properties, const Re
       claims |= bit(entry.claim);
   }
   checker::Findings findings;
-  if (!model::traits_of(request.scenario.dds).is_known_to_engines) return findings;
+  if (props::has_samples(request.scenario)) {
+    claims &= claims_of_samples;
+  } else if (!model::traits_of(request.scenario.dds).is_known_to_engines) {
+    return findings;
+  }
   if (claims == 0) return findings;
   Exploration exploration{request, claims};
   if (!exploration.adaptive()) exploration.run();
   for (const std::string_view property : properties) {
     const auto entry = std::ranges::find(entries, property, &Entry::property);
-    if (entry == entries.end()) continue;
+    if (entry == entries.end() || (claims & bit(entry->claim)) == 0) continue;
     Finding finding;
     if (exploration.adaptive()) {
       finding.engine = "explorer";

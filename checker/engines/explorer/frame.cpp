@@ -50,7 +50,7 @@ Zone::Limits Frame::limits(unsigned k) const {
 
 bool Frame::can_be_next(unsigned k) const { return zone_.can_be_next(k + 1, limits(k)); }
 
-Slot Frame::advance(unsigned k, unsigned loss_mask) {
+Slot Frame::advance(unsigned k, unsigned loss_mask, unsigned choices) {
   const Slot slot = slots_[k];
   const Zone::Limits order = limits(k);
   if (log_ != nullptr) {
@@ -69,11 +69,25 @@ Slot Frame::advance(unsigned k, unsigned loss_mask) {
     ids_[f] = ids_[f + 1];
   }
   loss_mask_ = loss_mask;
+  choices_ = choices;
+  chosen_ = 0;
   emitted_ = 0;
   generated_ = 0;
   objections_ = 0;
   losses_left_ -= static_cast<unsigned>(std::popcount(loss_mask));
   return slot;
+}
+
+bool Frame::holds(unsigned a, unsigned b, std::int64_t c) {
+  constexpr unsigned most = 8;  // bits of a label
+  if (!zone_.admits(a, b, c)) return false;
+  if (!zone_.admits(b, a, -c - 1)) return true;
+  if (chosen_ == most) overflowed_ = true;
+  const bool holds = chosen_ >= most || (choices_ >> chosen_++ & 1) == 0;
+  const Constraint known = holds ? Constraint{a, b, c} : Constraint{b, a, -c - 1};
+  zone_.constrain(known.a, known.b, known.c);
+  if (log_ != nullptr) log_->constraints.push_back({id_of(known.a), id_of(known.b), known.c});
+  return holds;
 }
 
 unsigned Frame::append(Slot slot, std::int64_t low, std::int64_t high) {
@@ -107,6 +121,16 @@ void Frame::schedule_between(Slot slot, std::int64_t low, std::int64_t high) {
   }
 }
 
+void Frame::schedule_with(Slot slot, unsigned k) {
+  const unsigned before = count();
+  const std::int64_t shift = rules_->of(slot.what).shift;
+  schedule_between(slot, -zone_.bound(0, k + 1), zone_.bound(k + 1, 0));
+  for (unsigned copy = before; copy < count(); ++copy) {
+    relate(copy, k, shift);
+    relate(k, copy, -shift);
+  }
+}
+
 void Frame::emit(Slot packet) {
   const bool lost = (loss_mask_ >> emitted_++ & 1) != 0;
   const unsigned before = count();
@@ -128,10 +152,26 @@ void Frame::emit(Slot packet) {
       if (have_one_source(slots_[k], packet, scope_->writers)) relate(k, arrival, 0);
     }
   }
+  arrival_ = count() > arrival ? arrival : capacity;
   if (log_ == nullptr) return;
   PathLog::Emission emission{packet, now_id_, PathLog::none, PathLog::none};
   if (arrival > before) emission.left_source = ids_[before];
   if (count() > arrival) emission.received = ids_[arrival];
+  log_->emissions.push_back(emission);
+}
+
+void Frame::emit_part(Slot part) {
+  const unsigned before = count();
+  if (arrival_ != capacity) {
+    schedule_between(part, -zone_.bound(0, arrival_ + 1), zone_.bound(arrival_ + 1, 0));
+  }
+  if (count() > before) {
+    relate(before, arrival_, 0);
+    relate(arrival_, before, 0);
+  }
+  if (log_ == nullptr) return;
+  PathLog::Emission emission{part, now_id_, PathLog::none, PathLog::none};
+  if (count() > before) emission.received = ids_[before];
   log_->emissions.push_back(emission);
 }
 
@@ -161,15 +201,19 @@ void Frame::sort() {
   }
 }
 
-void Frame::mark(Slot slot) {
+void Frame::mark(Slot slot, std::int64_t delay) {
   if (count() == capacity) {
     overflowed_ = true;
     return;
   }
   const unsigned k = count();
-  zone_.add(0, 0);
+  zone_.add(delay, delay);
   slots_[k] = slot;
   ids_[k] = now_id_;
+  if (log_ == nullptr || delay == 0) return;
+  ids_[k] = log_->variables++;
+  log_->constraints.push_back({ids_[k], now_id_, delay});
+  log_->constraints.push_back({now_id_, ids_[k], -delay});
 }
 
 void Frame::erase(unsigned k) {

@@ -101,22 +101,37 @@ class Frame {
   /// Whether slot k can be the next event.
   [[nodiscard]] bool can_be_next(unsigned k) const;
   /// Slot k happens now: it is removed, and the present is its time. `loss_mask` says which of the
-  /// packets emitted from now on are lost.
-  Slot advance(unsigned k, unsigned loss_mask);
+  /// packets emitted from now on are lost, `choices` which comparisons of times do not hold.
+  Slot advance(unsigned k, unsigned loss_mask, unsigned choices = 0);
+  /// Whether x_a - x_b <= c (variables of the zone). If both are possible, the choices of the step
+  /// say so, and from now on it is.
+  [[nodiscard]] bool holds(unsigned a, unsigned b, std::int64_t c);
+  /// How many comparisons of this step both were possible in.
+  [[nodiscard]] unsigned choices() const { return chosen_; }
 
   /// Something happens `delay` ns from now.
   void schedule(Slot slot, std::int64_t delay) { schedule_between(slot, delay, delay); }
   void schedule_between(Slot slot, std::int64_t low, std::int64_t high);
   /// The pending event k does not happen after another one.
   void precede(unsigned k, unsigned other) { relate(k, other, 0); }
+  /// Something happens when the mark k is.
+  void schedule_with(Slot slot, unsigned k);
   /// A packet is emitted now; it arrives within the scope's delays, unless it is lost.
   void emit(Slot packet);
+  /// The packet that was emitted last has another part, which arrives right after the others.
+  void emit_part(Slot part);
   /// Puts the slots into an order that says no more than it must: events of one class that may
   /// happen at the same time keep the order of their insertion, and nothing else does.
   void sort();
-  /// The present is remembered.
-  void mark(Slot slot);
+  /// The present is remembered; or when it will be `delay` ns later.
+  void mark(Slot slot, std::int64_t delay = 0);
   void erase_marks(What what, std::uint16_t set, unsigned relation = 0);
+  /// What slot k stands for is of no interest any more.
+  void erase(unsigned k);
+  /// The count that a packet carries; what is said in comparison may be said in another way.
+  void set_count(unsigned k, std::uint16_t count) { slots_[k].count = count; }
+  /// There is more than a state can hold.
+  void overflow() { overflowed_ = true; }
   /// Position of the first such slot, or `count()`.
   [[nodiscard]] unsigned find(What what, std::uint16_t set = 0, unsigned relation = 0) const;
   [[nodiscard]] unsigned pending(What what, unsigned relation) const;
@@ -148,7 +163,6 @@ class Frame {
   [[nodiscard]] Zone::Limits limits(unsigned k) const;
   unsigned append(Slot slot, std::int64_t low, std::int64_t high);
   void relate(unsigned a, unsigned b, std::int64_t c);
-  void erase(unsigned k);
   [[nodiscard]] bool belong_the_other_way(unsigned k) const;
   [[nodiscard]] std::uint32_t id_of(unsigned variable) const {
     return variable == 0 ? now_id_ : ids_[variable - 1];
@@ -162,7 +176,10 @@ class Frame {
   std::uint32_t now_id_ = 0;
   PathLog* log_ = nullptr;
   unsigned loss_mask_ = 0;
+  unsigned choices_ = 0;
+  unsigned chosen_ = 0;
   unsigned emitted_ = 0;
+  unsigned arrival_ = capacity;  ///< of the packet that was emitted last; capacity: none
   unsigned generated_ = 0;
   unsigned losses_left_ = 0;
   Claims objections_ = 0;

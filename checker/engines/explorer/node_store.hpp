@@ -17,11 +17,12 @@
 
 namespace stormproof::explorer {
 
-/// How a state follows from its parent: which pending event happened, and which of the packets that
-/// it emitted are lost.
+/// How a state follows from its parent: which pending event happened, which of the packets that it
+/// emitted are lost, and how comparisons of times came out that the zone had left open.
 struct Label {
   std::uint8_t slot = 0;
   std::uint8_t loss_mask = 0;
+  std::uint8_t choices = 0;
 };
 
 template <class State>
@@ -115,7 +116,7 @@ class NodeStore {
     return hash ^ hash >> 29;
   }
   static std::uint64_t hash_of(const State& state, const Frame& frame) {
-    static_assert(sizeof(State) % 8 == 0 && sizeof(Slot) == 6);
+    static_assert(sizeof(State) % 8 == 0 && sizeof(Slot) == 8);
     std::uint64_t hash = frame.losses_left();
     std::array<std::uint64_t, sizeof(State) / 8> words;
     std::memcpy(words.data(), &state, sizeof(State));

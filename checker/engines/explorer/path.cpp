@@ -91,6 +91,12 @@ std::string what_text(const Slot& slot) {
       return "nack response due";
     case What::async_run:
       return "asynchronous queue runs";
+    case What::heartbeat_time:
+      return "HEARTBEAT timer due";
+    case What::ack_time:
+      return "ACK timer due";
+    case What::thread_run:
+      return slot.number == 0 ? "the writer's thread runs" : "the reader's thread runs";
     case What::creation:
       return fmt::format("descriptor {} created", set_text(slot.set));
     case What::reader_opens:

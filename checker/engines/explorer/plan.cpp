@@ -11,6 +11,7 @@
 #include "model/packet_sizes.hpp"
 #include "model/simulator.hpp"
 #include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
 
 namespace stormproof::explorer {
 
@@ -60,6 +61,12 @@ Scope scope_of(const model::Scenario& scenario, Nanoseconds delay, unsigned desc
   return scope;
 }
 
+/// The first HEARTBEATs follow each other at this distance.
+Nanoseconds heartbeat_distance(const model::Scenario& scenario) {
+  const model::SedpProfile& sedp = scenario.dds.sedp;
+  return props::has_samples(scenario) ? sedp.heartbeat_interval : sedp.heartbeat_period;
+}
+
 }  // namespace
 
 DelayBound delay_bound(const model::Scenario& scenario, const std::function<bool()>& go_on) {
@@ -78,8 +85,7 @@ DelayBound delay_bound(const model::Scenario& scenario, const std::function<bool
         model::TrafficClass::heartbeat, model::TrafficClass::acknack}) {
     measured = std::max(measured, result.latency[static_cast<std::size_t>(traffic)].longest);
   }
-  const Nanoseconds quarter{
-      std::max<std::int64_t>(1, scenario.dds.sedp.heartbeat_period.count() / 4)};
+  const Nanoseconds quarter{std::max<std::int64_t>(1, heartbeat_distance(scenario).count() / 4)};
   if (measured.count() > 0 && measured <= quarter) {
     return {measured, fmt::format("Every packet takes at most {}, the largest delay in the "
                                   "scenario's run.",
@@ -155,6 +161,14 @@ std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
     list.push_back(scope_of(scenario, delay, descriptors, losses));
     list.back().pushed = pushed;
   };
+  if (props::has_samples(scenario)) {
+    for (const unsigned losses : {0U, 1U, 2U}) add(2, losses, 0);
+    add(1, 0, 1);
+    add(1, 1, 1);
+    add(2, 0, 1);
+    for (Scope& scope : list) scope.side_by_side = true;
+    return list;
+  }
   if (creates_over_time(scenario)) {
     add(default_publications, 0, 0);
     add(default_publications, 0, 1);

@@ -6,8 +6,9 @@
 
 #include <fmt/core.h>
 
+#include "checker/engines/explorer/lacking_samples.hpp"
 #include "checker/engines/explorer/plan.hpp"
-#include "model/engine/packet.hpp"
+#include "checker/engines/explorer/replayed_packets.hpp"
 #include "model/simulator.hpp"
 #include "model/trace/replay.hpp"
 #include "props/monitors/monitors.hpp"
@@ -19,63 +20,27 @@ namespace {
 using model::Nanoseconds;
 using model::PacketKind;
 
-/// Notes the packets of the explored relations from participant 0 to the readers, and the
-/// announcements. Reader r is participant r + 1.
-class PacketList final : public model::Probe {
- public:
-  struct Entry {
-    std::uint64_t number = 0;
-    Nanoseconds emitted;
-    PacketKind kind{};
-    std::uint16_t set = 0;
-    std::uint32_t source = 0;
-    std::uint32_t reader = 0;    ///< of an announcement of participant 0: of a copy to one
-    std::uint32_t relation = 0;  ///< of the explored ones
-  };
-  std::vector<Entry> of_relations;
-  std::vector<Entry> announcements;
+/// How long the run goes on from the start of the world: long enough after the path for a monitor
+/// to see that nothing follows.
+Nanoseconds length_of(const ReplayRequest& request, const ConcretePath& path) {
+  const Nanoseconds end = path.steps.empty() ? Nanoseconds{0} : path.steps.back().time;
+  return end + request.running.dds.sedp.heartbeat_period * 3;
+}
 
-  explicit PacketList(const Scope& scope) : scope_{scope} {}
+constexpr Nanoseconds margin{1'000};  // what exists at the match has been created before
 
-  void emitted(const model::Packet& packet, std::uint32_t source,
-               std::span<const std::uint32_t> destinations) override {
-    Entry entry{packet.number, packet.emitted, packet.kind,
-                static_cast<std::uint16_t>(packet.descriptors.word(0)), source};
-    switch (packet.kind) {
-      case PacketKind::spdp_multicast:
-        announcements.push_back(entry);
-        break;
-      case PacketKind::spdp_unicast:
-        for (const std::uint32_t destination : destinations) {
-          entry.reader = destination == 0 ? 0 : destination - 1;
-          announcements.push_back(entry);
-          ++entry.number;
-        }
-        break;
-      case PacketKind::data:
-      case PacketKind::heartbeat:
-      case PacketKind::acknack:
-        // The first pairs go from participant 0 to all others.
-        if (!is_explored(packet, scope_)) break;
-        for (const std::uint32_t destination : destinations) {
-          const std::uint32_t reader = (packet.to_writer() ? source : destination) - 1;
-          entry.relation = explored_relation(packet, reader, scope_);
-          of_relations.push_back(entry);
-          ++entry.number;
-        }
-        break;
-      default:
-        break;
-    }
-  }
-
- private:
-  const Scope& scope_;
-};
+/// Of Cyclone DDS: between two creations of participant 0, so long that none of them is after the
+/// start of the world but those of the path. The first publication is the first endpoint, the
+/// second one the third.
+Nanoseconds endpoint_distance(const ReplayRequest& request, const ConcretePath& path) {
+  return length_of(request, path) + margin * 2;
+}
+std::int64_t last_endpoint(const Scope& scope) { return 2 * scope.descriptors - 1; }
 
 /// When participant 0 has created its last endpoint.
 Nanoseconds endpoints_done(const ReplayRequest& request, const ConcretePath& path,
                            Nanoseconds start) {
+  if (props::has_samples(request.running)) return endpoint_distance(request, path) * 17;
   if (!creates_over_time(request.running) || request.scope.pushed == 0) return Nanoseconds{0};
   if (request.scope.pushed == 1) {
     const std::int64_t creation = (start + *path.time_of(What::creation)).count();
@@ -95,6 +60,7 @@ model::Scenario bare_scenario(const ReplayRequest& request, const ConcretePath& 
     writer.subscriptions = 0;
     writer.endpoints_done = endpoints_done(request, path, start);
     scenario.dds.sedp.piggyback = model::Piggyback::off;
+    scenario.deployment.send_time = Nanoseconds{0};
   } else {
     scenario.dds.descriptors.default_publications = 0;
     scenario.dds.descriptors.default_subscriptions = 0;
@@ -108,12 +74,13 @@ model::Scenario bare_scenario(const ReplayRequest& request, const ConcretePath& 
               : Nanoseconds{0};
     scenario.deployment.participants.push_back({model::HostId{r + 1}, 0, 0, begin, begin});
   }
+  if (props::has_samples(scenario)) {  // the reader has nothing to tell as long as the run lasts
+    scenario.deployment.participants[1].endpoints_done = writer.endpoints_done * 2;
+  }
   scenario.wireless.kind = model::ServiceKind::constant_delay;
   scenario.wireless.one_way = Nanoseconds{0};
   scenario.run_until = model::RunUntil::time_limit;
-  // Long enough for a monitor to see that nothing follows.
-  const Nanoseconds end = path.steps.empty() ? start : start + path.steps.back().time;
-  scenario.time_limit = end + request.running.dds.sedp.heartbeat_period * 3;
+  scenario.time_limit = start + length_of(request, path);
   return scenario;
 }
 
@@ -143,12 +110,28 @@ void assign(const ReplayRequest& request, const ConcretePath& path, const Packet
   for (std::size_t k = 0; k < known; ++k) {
     const ConcretePath::Packet& packet = path.packets[k];
     const std::uint64_t number = list.of_relations[k].number;
+    if (k > 0 && list.of_relations[k - 1].number == number) continue;  // another part of it
     if (!packet.one_way) lost.push_back(number);
     const Nanoseconds one_way = packet.one_way.value_or(packet.leaves_after);
     delays.push_back({number, std::min(packet.leaves_after, one_way), one_way});
   }
   std::ranges::sort(delays, {}, &model::PacketDelay::packet);
   std::ranges::sort(lost);
+}
+
+/// At the same instant, another relation of Cyclone DDS can wake the thread of one participant
+/// before that of the other: then the packets of a run are put into the order of the path.
+void take_order_of(const ConcretePath& path, std::vector<PacketList::Entry>& packets) {
+  const std::size_t known = std::min(path.packets.size(), packets.size());
+  for (std::size_t k = 0; k < known; ++k) {
+    const bool by_writer = from_writer(path.packets[k].slot.what);
+    const auto here = packets.begin() + static_cast<std::ptrdiff_t>(k);
+    const auto meant = std::find_if(here, packets.end(), [&](const PacketList::Entry& entry) {
+      return from_writer(entry.slot.what) == by_writer;
+    });
+    if (meant == packets.end() || meant->emitted != here->emitted) continue;
+    std::rotate(here, meant, meant + 1);
+  }
 }
 
 /// Whether the run emitted what the path says.
@@ -161,14 +144,11 @@ std::string difference(const ConcretePath& path, const PacketList& list, Nanosec
                          path.packets.size());
     }
     const PacketList::Entry& entry = list.of_relations[k];
-    if (entry.kind == kind_of(expected.slot.what) && entry.emitted == time &&
-        entry.set == expected.slot.set && entry.relation == expected.slot.relation) {
-      continue;
-    }
+    if (entry.emitted == time && entry.is(expected.slot)) continue;
     return fmt::format(
         "Packet {} of the relation is a {} at {} ns in the path and a {} at {} ns "
         "in the simulator.",
-        k, name_of(kind_of(expected.slot.what)), time.count(), name_of(entry.kind),
+        k, name_of(kind_of(expected.slot.what)), time.count(), name_of(kind_of(entry.slot.what)),
         entry.emitted.count());
   }
   return {};
@@ -178,12 +158,15 @@ std::string difference(const ConcretePath& path, const PacketList& list, Nanosec
 
 Nanoseconds start_of_world(const ReplayRequest& request, const ConcretePath& path) {
   if (!creates_over_time(request.running)) return Nanoseconds{0};
-  const std::int64_t margin = 1'000;  // what exists at the match has been created before
   const std::int64_t creation = path.time_of(What::creation).value_or(Nanoseconds{0}).count();
-  if (request.scope.pushed == 0) return Nanoseconds{margin};
+  if (props::has_samples(request.running)) {
+    const Nanoseconds last = endpoint_distance(request, path) * last_endpoint(request.scope);
+    return request.scope.pushed == 0 ? last + margin : last - Nanoseconds{creation};
+  }
+  if (request.scope.pushed == 0) return margin;
   // The last publication is the 16th of 17 endpoints that are created at equal distances, the last
   // but one is the 15th. Both must be the only ones after the start of the world.
-  if (request.scope.pushed == 1) return Nanoseconds{16 * creation + margin};
+  if (request.scope.pushed == 1) return Nanoseconds{16 * creation} + margin;
   return Nanoseconds{15 * creation_distance(request.running).count() - creation};
 }
 
@@ -206,6 +189,7 @@ std::optional<model::Scenario> scenario_of(const ReplayRequest& request, const C
   for (std::size_t round = 0; round < path.packets.size() + 20; ++round) {
     PacketList list{request.scope};
     run(request, scenario, list);
+    if (props::has_samples(request.running)) take_order_of(path, list.of_relations);
     const model::Scenario before = scenario;
     assign(request, path, list, scenario);
     if (scenario == before) {
@@ -227,16 +211,24 @@ ReplayOutcome replay(const ReplayRequest& request, const ConcretePath& path,
   model::Scenario specification = *scenario;
   specification.dds = request.specification.dds;
   specification.dds.descriptors = scenario->dds.descriptors;
-  auto monitor = request.bounds.completion
-                     ? props::watch_completion(specification, request.bounds.completion)
-                     : props::make_monitor(property, specification);
-  if (!monitor) {
+  std::vector<props::MonitorPtr> monitors;
+  monitors.push_back(request.bounds.completion
+                         ? props::watch_completion(specification, request.bounds.completion)
+                         : props::make_monitor(property, specification));
+  if (!monitors.front()) {
     outcome.why_not = "There is no monitor that could confirm the violation.";
     return outcome;
   }
-  const model::RunResult result = run(request, *scenario, *monitor);
-  monitor->finish(model::trace::known_until(result, *scenario));
-  if (!monitor->violation()) {
+  if (props::has_samples(specification) && property == "live.no-stall") {
+    monitors.push_back(watch_lacking_samples(request.scope));
+  }
+  const props::Monitor* monitor = nullptr;
+  for (std::size_t k = 0; k < monitors.size() && monitor == nullptr; ++k) {
+    const model::RunResult result = run(request, *scenario, *monitors[k]);
+    monitors[k]->finish(model::trace::known_until(result, *scenario));
+    if (monitors[k]->violation()) monitor = monitors[k].get();
+  }
+  if (monitor == nullptr) {
     outcome.why_not = "The monitor does not object to the simulator's run of the path.";
     return outcome;
   }

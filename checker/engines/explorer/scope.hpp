@@ -18,7 +18,7 @@ inline constexpr unsigned most_descriptors = 8;
 
 struct Scope {
   /// D of each writer, 1 … most_descriptors; with Fast DDS the 9 default publications, and the 8
-  /// default subscriptions.
+  /// default subscriptions; with Cyclone DDS the first publication, or the first two.
   unsigned descriptors = 1;
   unsigned losses = 0;               ///< k, at most this many packets are lost
   model::Nanoseconds least_delay;    ///< of a packet, from generation to reception
@@ -26,7 +26,7 @@ struct Scope {
   model::Nanoseconds
       leaves_within;    ///< Δ_s: repair DATA leave the source at most this long after generation
   bool fifo = false;    ///< packets of one source arrive in the order of their generation
-  unsigned pushed = 0;  ///< Fast DDS: this many descriptors are created after the match
+  unsigned pushed = 0;  ///< not the paper's: this many descriptors are created after the match
   bool side_by_side = false;  ///< the two sides of a relation open apart, at most Δ
   unsigned readers = 1;       ///< of each writer, 1 … most_readers
   unsigned writers = 1;       ///< of the one participant, 1 … most_writers

@@ -18,6 +18,7 @@
 #include <bit>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "checker/engines/explorer/node_store.hpp"
 #include "checker/engines/explorer/state_graph.hpp"
@@ -124,18 +125,36 @@ class Search {
     store_.load(node, frame);
     for (unsigned k = 0; k < frame.count(); ++k) {
       if (is_mark(frame.slot(k).what) || !frame.can_be_next(k)) continue;
-      const unsigned packets = follow(node, frame, {static_cast<std::uint8_t>(k), 0});
-      const unsigned variants = frame.losses_left() > 0 ? 1U << std::min(packets, most_lost) : 1U;
-      if (frame.losses_left() > 0 && packets > most_lost) note_overflow(node);
-      for (unsigned mask = 1; mask < variants; ++mask) {
-        if (static_cast<unsigned>(std::popcount(mask)) > frame.losses_left()) continue;
-        follow(node, frame, {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(mask)});
-      }
+      unsigned choices = 0;
+      do {
+        const Label label{static_cast<std::uint8_t>(k), 0, static_cast<std::uint8_t>(choices)};
+        choices = other_choices(choices, follow_with_losses(node, frame, label));
+      } while (choices != 0);
     }
   }
 
-  /// Takes one step from `node`; returns how many packets it emitted.
-  unsigned follow(std::uint32_t node, const Frame& before, Label label) {
+  /// The last of so many choices that can be made otherwise is, and none after it; 0: all have
+  /// been.
+  static unsigned other_choices(unsigned choices, unsigned count) {
+    while (count > 0 && (choices >> (count - 1) & 1) != 0) choices &= ~(1U << --count);
+    return count == 0 ? 0 : choices | 1U << (count - 1);
+  }
+
+  /// Takes one step from `node`, without and with losses; returns how many choices there were.
+  unsigned follow_with_losses(std::uint32_t node, const Frame& frame, Label label) {
+    const auto [packets, choices] = follow(node, frame, label);
+    const unsigned variants = frame.losses_left() > 0 ? 1U << std::min(packets, most_lost) : 1U;
+    if (frame.losses_left() > 0 && packets > most_lost) note_overflow(node);
+    for (unsigned mask = 1; mask < variants; ++mask) {
+      if (static_cast<unsigned>(std::popcount(mask)) > frame.losses_left()) continue;
+      label.loss_mask = static_cast<std::uint8_t>(mask);
+      follow(node, frame, label);
+    }
+    return choices;
+  }
+
+  /// Takes one step from `node`; returns how many packets it emitted and choices it made.
+  std::pair<unsigned, unsigned> follow(std::uint32_t node, const Frame& before, Label label) {
     ++result_.steps;
     Frame frame = before;
     State state = store_.state(node);
@@ -144,7 +163,7 @@ class Search {
     if (fresh != 0) note(fresh, node, label);
     if (frame.overflowed()) {
       note_overflow(node);
-      return frame.emitted();
+      return {frame.emitted(), frame.choices()};
     }
     if (options_.bounds.completion && world_.complete(state) &&
         !world_.complete(store_.state(node))) {
@@ -157,7 +176,7 @@ class Search {
       graph_.add(
           {node, target, static_cast<std::uint16_t>(frame.generated()), label.loss_mask != 0});
     }
-    return frame.emitted();
+    return {frame.emitted(), frame.choices()};
   }
 
  public:
@@ -165,7 +184,7 @@ class Search {
   /// path again.
   static void step(World& world, State& state, Frame& frame, Label label, const Bounds& bounds) {
     const bool missing = !world.complete(state);
-    const Slot slot = frame.advance(label.slot, label.loss_mask);
+    const Slot slot = frame.advance(label.slot, label.loss_mask, label.choices);
     if (bounds.completion && missing) {
       const unsigned mark = frame.find(What::opened);
       frame.object_if(Claim::completion, mark + 1, 0, -(bounds.completion->count() + 1));

@@ -29,15 +29,25 @@ enum class What : std::uint8_t {
   initial_acknack_due,
   repair_generation,
   suppression_end,
-  nack_response,  ///< Fast DDS
-  async_run,      ///< Fast DDS
-  creation,       ///< Fast DDS: a descriptor comes into being; `set`: which
-  reader_opens,   ///< the reader processes the writer's announcement
-  writer_opens,   ///< the writer processes the reader's announcement
+  nack_response,   ///< Fast DDS
+  async_run,       ///< Fast DDS
+  heartbeat_time,  ///< Cyclone DDS: a time that the HEARTBEAT timer was moved to
+  ack_time,        ///< Cyclone DDS: the same of the ACK timer
+  thread_run,      ///< Cyclone DDS; `number`: of which participant, 0 is the writer's
+  creation,        ///< a descriptor comes into being after the match; `set`: which
+  reader_opens,    ///< the reader processes the writer's announcement
+  writer_opens,    ///< the writer processes the reader's announcement
   // Past.
   repair_left,  ///< the last repair of the descriptor in `set` left the source
   opened,       ///< the relation opened
   completed,    ///< the reader received its last descriptor
+  // Cyclone DDS: past or still to come.
+  last_heartbeat,          ///< when the last periodic HEARTBEAT was made
+  heartbeat_counts_until,  ///< how long the count of the last HEARTBEAT matters
+  acknack_counts_until,
+  quiet_until,  ///< the reader does not say the same again
+  hush_until,   ///< nor asks for the same again
+  again_at,     ///< then it asks again by itself
 };
 
 [[nodiscard]] constexpr bool is_mark(What what) { return what >= What::repair_left; }
@@ -47,13 +57,14 @@ enum class What : std::uint8_t {
 /// It belongs to one reader's relations; otherwise to a writer or its participant.
 [[nodiscard]] constexpr bool is_of_reader(What what) {
   return !is_mark(what) && what != What::heartbeat_expiry && what != What::nack_response &&
-         what != What::async_run && what != What::creation;
+         what != What::async_run && what != What::heartbeat_time && what != What::thread_run &&
+         what != What::creation;
 }
 /// It belongs to one writer's relations or to the writer; otherwise to the participant, whose
 /// announcement opens the relations of all its writers.
 [[nodiscard]] constexpr bool is_of_writer(What what) {
-  return !is_mark(what) && what != What::async_run && what != What::reader_opens &&
-         what != What::writer_opens;
+  return !is_mark(what) && what != What::async_run && what != What::thread_run &&
+         what != What::reader_opens && what != What::writer_opens;
 }
 
 struct Slot {
@@ -66,9 +77,15 @@ struct Slot {
   /// what is the participant's.
   std::uint8_t relation = 0;
 
-  static constexpr std::uint8_t carries_heartbeat = 1;  ///< DATA with a piggybacked HEARTBEAT
+  /// Of a HEARTBEAT or ACKNACK of Cyclone DDS, in comparison with the others that there are.
+  std::uint16_t count = 0;
+
+  static constexpr std::uint8_t carries_heartbeat = 1;  ///< DATA, and a HEARTBEAT behind them
   static constexpr std::uint8_t initial = 2;            ///< ACKNACK marked initial
   static constexpr std::uint8_t from_repair = 4;        ///< DATA made by repair generation
+  static constexpr std::uint8_t directed = 8;           ///< HEARTBEAT meant for its reader alone
+  static constexpr std::uint8_t to_set = 16;            ///< a message to all readers that there are
+  static constexpr std::uint8_t goes_on = 32;           ///< the packet has another part behind it
 
   [[nodiscard]] bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
   bool operator==(const Slot&) const = default;
@@ -101,6 +118,12 @@ static_assert(std::has_unique_object_representations_v<Slot>);
       return model::EventKind::nack_response;
     case What::async_run:
       return model::EventKind::async_run;
+    case What::heartbeat_time:
+      return model::EventKind::heartbeat_time;
+    case What::ack_time:
+      return model::EventKind::ack_time;
+    case What::thread_run:
+      return model::EventKind::thread_run;
     case What::creation:
       return model::EventKind::endpoint_creation;
     default:  // packets, the announcements among them

@@ -20,7 +20,7 @@ namespace comp = fsm::composition;
 template <class Timer>
 [[nodiscard]] constexpr std::optional<What> what_of() {
   for (auto k = static_cast<std::uint8_t>(What::heartbeat_expiry);
-       k <= static_cast<std::uint8_t>(What::async_run); ++k) {
+       k <= static_cast<std::uint8_t>(What::thread_run); ++k) {
     if (kind_of(What{k}, false) == model::event_kind_of<Timer>) return What{k};
   }
   return std::nullopt;
@@ -35,6 +35,7 @@ template <class Timer>
 [[nodiscard]] constexpr std::uint8_t flag_of(comp::CarriesHeartbeat) {
   return Slot::carries_heartbeat;
 }
+[[nodiscard]] constexpr std::uint8_t flag_of(comp::cyclone::IsDirected) { return Slot::directed; }
 
 /// The field holds for the first descriptors, up to some number, and is kept as that number.
 template <class Field>
@@ -54,6 +55,8 @@ void say(Slot& packet, const Saying& saying, World& w) {
   using Field = typename Saying::Field;
   if constexpr (std::derived_from<Field, comp::PacketField>) {
     if (saying.value) packet.flags |= flag_of(Field{});
+  } else if constexpr (std::derived_from<Field, comp::PacketNumber>) {
+    packet.count = static_cast<std::uint16_t>(saying.value);
   } else if constexpr (is_limit<Field>) {
     packet.number = static_cast<std::uint8_t>(std::bit_width(members_of(w.set_of(saying.value))));
   } else {

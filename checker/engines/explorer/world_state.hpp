@@ -9,6 +9,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "fsm/composition/cyclone.hpp"
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/paper.hpp"
 #include "fsm/machine_info.hpp"
@@ -28,11 +29,16 @@ struct Generated : comp::Flag<comp::owner::descriptor> {};
 struct Announced : comp::Flag<comp::owner::descriptor> {};
 
 /// The explored relations are opened from outside, their writer keeps the periodic policy, and they
-/// have no topics.
+/// have no topics. Times are marks of a frame.
 using LeftOut = comp::Joined<
     fsm::TypeList<comp::AnnouncementTimer, comp::AnnouncementsSent, comp::Recognised,
                   comp::CycleStart, comp::CycleEnd, comp::BatchDue, comp::CycleBegan,
                   comp::CyclePeriod, comp::Contacted, comp::Responded, comp::AnnouncedAtStart>,
+    fsm::TypeList<comp::cyclone::SpdpTimer, comp::cyclone::ReplyTimer, comp::cyclone::SpdpDue,
+                  comp::cyclone::ReplyDue, comp::cyclone::RepliesSent, comp::cyclone::AckDue,
+                  comp::cyclone::HeartbeatDue, comp::cyclone::LastHeartbeat,
+                  comp::cyclone::AckCountsUntil, comp::cyclone::HeartbeatCountsUntil,
+                  comp::cyclone::QuietUntil, comp::cyclone::HushUntil, comp::cyclone::AgainAt>,
     comp::control::Parts, comp::control::State>;
 
 namespace detail {

@@ -118,8 +118,10 @@ CheckReport check(const std::vector<std::string_view>& properties, const CheckRe
     std::vector<std::string_view> own = for_engine(engine, ids);
     take_inapplicable(own, request.scenario);
     if (engine != Engine::exact_run) {
+      const model::ImplementationKind kind = model::kind_of(request.scenario.dds);
       std::erase_if(own, [&](std::string_view id) {
-        return !props::why_not_provable(id, request.scenario).empty();
+        return !props::why_not_provable(id, request.scenario).empty() ||
+               (engine != Engine::explorer && props::is_only_explored(id, kind));
       });
     }
     if (own.empty()) continue;

@@ -162,7 +162,8 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::fastdds::FastDds>) {
   return list;
 }
 
-/// No engine knows its writer; runs show its mistakes, and the more the shorter its timers are.
+/// Of the engines only the explorer knows its writer, and it is not asked; runs show its mistakes,
+/// and the more the shorter its timers are.
 std::vector<Trial> trials_of(model::Of<fsm::composition::cyclone::Cyclone>) {
   model::Scenario hasty = quiet({4, 5, 6, 8, 9, 11, 14, 17, 20, 23, 26, 29, 35, 40, 45});
   model::SedpProfile& sedp = hasty.dds.sedp;

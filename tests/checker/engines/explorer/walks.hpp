@@ -19,10 +19,13 @@ struct Walks {
   std::string why;
 };
 
+/// `misread`: what the explored world does wrong, and runs do not.
 template <class World>
-Walks walk(const model::Scenario& scenario, const Scope& scope) {
-  World world{scenario, scenario, scope, {}};
+Walks walk(const model::Scenario& scenario, const Scope& scope,
+           const model::Mutation& misread = {}) {
+  World world{scenario, scenario, scope, misread};
   std::mt19937_64 dice{1};
+  std::mt19937_64 coins{1};
   Walks walks;
   for (unsigned number = 0; number < 20; ++number) {
     Frame frame{scope, world.rules()};
@@ -36,7 +39,8 @@ Walks walk(const model::Scenario& scenario, const Scope& scope) {
       }
       if (next.empty() || frame.overflowed()) break;
       const Label label{static_cast<std::uint8_t>(next[dice() % next.size()]),
-                        std::uint8_t{frame.losses_left() > 0 && dice() % 8 == 0}};
+                        std::uint8_t{frame.losses_left() > 0 && dice() % 8 == 0},
+                        static_cast<std::uint8_t>(coins())};
       Search<World>::step(world, state, frame, label, {});
       path.push_back(label);
     }
