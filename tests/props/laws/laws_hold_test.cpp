@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "model/implementations.hpp"
+#include "model/mutation.hpp"
+#include "model/simulator.hpp"
 #include "props/generators/on_demand.hpp"
 #include "props/generators/space.hpp"
 #include "tests/props/laws/law_check.hpp"
