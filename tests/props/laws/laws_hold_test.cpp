@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "model/implementations.hpp"
+#include "model/mutation.hpp"
+#include "model/simulator.hpp"
 #include "props/generators/on_demand.hpp"
 #include "props/generators/space.hpp"
 #include "tests/props/laws/law_check.hpp"
@@ -104,6 +106,28 @@ TEST_P(LawTest, AppliesOften) {
     if (GetParam().applies(draw_scenario(seed, 50))) ++applied;
   }
   EXPECT_GE(applied, 15);
+}
+
+/// The floor of a server is the tick; the routine's period may pass unused, since whatever arrives
+/// wakes the routine.
+TEST(LawsOfAServer, KnowNoMoreThanATick) {
+  model::Scenario scenario;
+  scenario.dds.implementation = model::implementation_with_discovery;
+  scenario.dds.discovery = model::Discovery::server;
+  scenario.deployment = model::Deployment::homogeneous(2, 1, 20);
+  scenario.wireless.kind = model::ServiceKind::constant_delay;
+  scenario.wireless.one_way = model::Nanoseconds{100'000};
+  const auto took = [&](std::int64_t endpoints_done_ms) {
+    for (model::Participant& p : scenario.deployment.participants) {
+      p.endpoints_done = p.start + model::Nanoseconds{endpoints_done_ms * 1'000'000};
+    }
+    return correct(scenario, nullptr).discovery_time.value_or(scenario.time_limit);
+  };
+  const model::Nanoseconds tick = scenario.dds.server.client_sync_period;
+  const model::Nanoseconds both = tick + scenario.dds.server.server_routine_period;
+  EXPECT_GT(took(40), both);
+  EXPECT_LT(took(520), both);
+  EXPECT_GT(took(520), tick);
 }
 
 std::vector<Law> laws_of_cyclone() {
