@@ -16,6 +16,7 @@
 #include "fsm/matched_reader.hpp"
 #include "fsm/movable_timer.hpp"
 #include "fsm/reflect.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/cyclone/endpoints.hpp"
 #include "tests/checker/engines/explorer/walks.hpp"
 
@@ -171,6 +172,7 @@ TEST_P(CycloneMutants, AreCaught) {
   ASSERT_EQ(finding.kind, VerdictKind::violated) << finding.how;
   ASSERT_TRUE(finding.counterexample);
   EXPECT_EQ(finding.counterexample->scenario.deployment.size(), 2U);
+  EXPECT_TRUE(model::config::is_valid(finding.counterexample->scenario)) << "can be written";
 }
 
 INSTANTIATE_TEST_SUITE_P(Explorer, CycloneMutants, testing::ValuesIn(cases()),
