@@ -41,8 +41,7 @@ Verdicts expected(const std::string& scenario) {
   return verdicts;
 }
 
-const std::array<std::string, 6> names{"wired-5x20", "wifi-5x20", "wifi-5x20-fastdds",
-                                       "wired-5x20 --set dds=cyclonedds-0.10",
+const std::array<std::string, 5> names{"wired-5x20", "wifi-5x20", "wifi-5x20-fastdds",
                                        "live-5x20 --set dds=fastdds-server-2.6.11",
                                        "live-5x20 --set dds=cyclonedds-0.10"};
 
