@@ -119,9 +119,10 @@ CheckReport check(const std::vector<std::string_view>& properties, const CheckRe
     take_inapplicable(own, request.scenario);
     if (engine != Engine::exact_run) {
       const model::ImplementationKind kind = model::kind_of(request.scenario.dds);
+      const bool explores = engine == Engine::explorer;
       std::erase_if(own, [&](std::string_view id) {
         return !props::why_not_provable(id, request.scenario).empty() ||
-               (engine != Engine::explorer && props::is_only_explored(id, kind));
+               (!explores && props::is_only_explored(id, kind));
       });
     }
     if (own.empty()) continue;
