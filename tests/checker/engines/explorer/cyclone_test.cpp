@@ -15,9 +15,9 @@
 #include "fsm/composition/effect_mutation.hpp"
 #include "fsm/matched_reader.hpp"
 #include "fsm/movable_timer.hpp"
-#include "fsm/reflect.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/cyclone/endpoints.hpp"
+#include "tests/checker/engines/explorer/mistakes.hpp"
 #include "tests/checker/engines/explorer/walks.hpp"
 
 namespace stormproof::explorer {
@@ -100,29 +100,8 @@ struct Case {
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-/// Number of the row of `Machine` with these states and event.
-template <class Machine>
-std::size_t row(std::string_view source, std::string_view event, std::string_view target) {
-  const fsm::MachineInfo info = fsm::Reflect<Machine>::info();
-  for (std::size_t k = 0; k < info.rows.size(); ++k) {
-    const fsm::RowInfo& r = info.rows[k];
-    if (info.states[r.source] == source && info.events[r.event] == event &&
-        info.states[r.target] == target) {
-      return k;
-    }
-  }
-  ADD_FAILURE() << "no such row: " << source << " " << event << " " << target;
-  return 0;
-}
-checker::Mutant table(TableMutation mutation) {
-  checker::Mutant mutant;
-  mutant.rules.tables.push_back(std::move(mutation));
-  return mutant;
-}
 checker::Mutant event(EventKind kind, EventMutation::Change change, Nanoseconds by = {}) {
-  checker::Mutant mutant;
-  mutant.rules.events.push_back({kind, change, by, {}});
-  return mutant;
+  return explorer::event({kind, change, by, {}});
 }
 checker::Mutant effect(std::string_view name, EffectMutation::Change change) {
   checker::Mutant mutant;

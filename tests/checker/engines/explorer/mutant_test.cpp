@@ -10,6 +10,7 @@
 #include "fsm/discovery_reader.hpp"
 #include "fsm/heartbeat_timer.hpp"
 #include "fsm/reflect.hpp"
+#include "tests/checker/engines/explorer/mistakes.hpp"
 
 namespace stormproof::explorer {
 namespace mutant_test {
@@ -30,31 +31,6 @@ struct Case {
 /// As a test is named in messages.
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-/// Number of the row of `Machine` with these states and event.
-template <class Machine>
-std::size_t row(std::string_view source, std::string_view event, std::string_view target) {
-  const fsm::MachineInfo info = fsm::Reflect<Machine>::info();
-  for (std::size_t k = 0; k < info.rows.size(); ++k) {
-    const fsm::RowInfo& r = info.rows[k];
-    if (info.states[r.source] == source && info.events[r.event] == event &&
-        info.states[r.target] == target) {
-      return k;
-    }
-  }
-  ADD_FAILURE() << "no such row: " << source << " " << event << " " << target;
-  return 0;
-}
-
-checker::Mutant table(TableMutation mutation) {
-  checker::Mutant mutant;
-  mutant.rules.tables.push_back(std::move(mutation));
-  return mutant;
-}
-checker::Mutant event(EventMutation mutation) {
-  checker::Mutant mutant;
-  mutant.rules.events.push_back(mutation);
-  return mutant;
-}
 checker::Mutant knob(std::function<void(model::SedpProfile&)> change) {
   checker::Mutant mutant;
   mutant.knobs = [change](model::Scenario& scenario) { change(scenario.dds.sedp); };
