@@ -4,10 +4,16 @@
 // on while a reader has not replied or not acknowledged everything. A timer is under way if it is
 // scheduled and its event is pending, or if it is on the list of a thread that runs. Only
 // cross-host relations of the two streams are looked at, each after the events that concern it.
+//
+// HEARTBEATs that go on may bring nothing. Where the scenario says of each packet how long it
+// takes, whatever is missing has to come once all lost and late packets are over and every timer
+// has been due several times.
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -27,7 +33,12 @@ using Kind = model::MachineRef::Kind;
 
 class CycloneStalls : public Observer {
  public:
-  CycloneStalls() : Observer{"live.no-stall"} {}
+  explicit CycloneStalls(const model::Scenario& scenario)
+      : Observer{"live.no-stall"}, wireless_{scenario.wireless} {
+    if (wireless_.kind == model::ServiceKind::constant_delay) {
+      patience_ = patience_with_cyclone(scenario);
+    }
+  }
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -40,6 +51,7 @@ class CycloneStalls : public Observer {
     if (due != pending_.end() && --due->second == 0) pending_.erase(due);
     if (event.kind == EventKind::endpoint_creation) {
       ++history_[received_.writer_of_creation(event)];
+      unrest(now());
     }
     const bool is_own = event.kind == EventKind::endpoint_creation ||
                         event.kind == EventKind::participant_start ||
@@ -52,6 +64,18 @@ class CycloneStalls : public Observer {
   void scheduled(std::uint64_t, model::Nanoseconds, EventKind kind,
                  std::uint32_t subject) override {
     ++pending_[{kind, subject}];
+  }
+  /// A lost packet would have arrived as late as one that is not lost.
+  void emitted(const model::Packet& packet, std::uint32_t,
+               std::span<const std::uint32_t>) override {
+    for (std::uint64_t n = packet.number; n < packet.number + packet.copies; ++n) {
+      const auto late =
+          std::ranges::lower_bound(wireless_.packet_delays, n, {}, &model::PacketDelay::packet);
+      const bool has_delay = late != wireless_.packet_delays.end() && late->packet == n;
+      const model::Nanoseconds one_way = has_delay ? late->one_way : wireless_.one_way;
+      const bool is_lost = std::ranges::binary_search(wireless_.lost_packets, n);
+      if (is_lost || one_way > wireless_.one_way) unrest(now() + one_way);
+    }
   }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
@@ -66,6 +90,7 @@ class CycloneStalls : public Observer {
     }
     if (event != "Opened") return;
     (machine.machine == "MatchedReader" ? writer_sides_ : reader_sides_).insert(n);
+    unrest(now());
     touched_.insert(received_.ends(n).source);
   }
   void event_finished(const model::Depths&) override {
@@ -73,6 +98,7 @@ class CycloneStalls : public Observer {
   }
   void finish(model::Nanoseconds end) override {
     if (!topology_) return;
+    is_long_quiet_ = patience_ && end >= last_unrest_ + *patience_;
     for (std::uint32_t i = 0; i < topology_->participant_count(); ++i) judge(i, end);
   }
 
@@ -112,6 +138,12 @@ class CycloneStalls : public Observer {
         }
       } else if (!goes_on(heartbeat_[writer], EventKind::heartbeat_time, writer, ends.source)) {
         object_to(relation, time, "the HEARTBEAT timer of its writer is not under way");
+      } else if (is_long_quiet_) {
+        object_to(
+            relation, time,
+            fmt::format("no packet has been lost or late since {}, and every timer has been due "
+                        "several times",
+                        time_text(last_unrest_)));
       }
     }
   }
@@ -133,6 +165,12 @@ class CycloneStalls : public Observer {
                        why));
   }
 
+  void unrest(model::Nanoseconds time) { last_unrest_ = std::max(last_unrest_, time); }
+
+  const model::WirelessProfile wireless_;
+  std::optional<model::Nanoseconds> patience_;
+  model::Nanoseconds last_unrest_;  ///< until then packets are lost or late, or something is new
+  bool is_long_quiet_ = false;
   std::optional<model::Topology> topology_;
   ReceivedSubmessages received_;
   std::map<std::pair<EventKind, std::uint32_t>, std::uint64_t> pending_;  // events, by subject
@@ -149,6 +187,16 @@ class CycloneStalls : public Observer {
 
 }  // namespace
 
-MonitorPtr watch_stalls_of_cyclone() { return attentive<CycloneStalls>(); }
+MonitorPtr watch_stalls_of_cyclone(const model::Scenario& scenario) {
+  return attentive<CycloneStalls>(scenario);
+}
+
+model::Nanoseconds patience_with_cyclone(const model::Scenario& scenario) {
+  const model::SedpProfile& sedp = scenario.dds.sedp;
+  constexpr int exchanges = 3;
+  return (sedp.heartbeat_interval_max + sedp.auto_resched_nack_delay + sedp.nack_delay +
+          scenario.wireless.one_way * 3) *
+         exchanges;
+}
 
 }  // namespace stormproof::props

@@ -17,7 +17,11 @@ using MonitorPtr = std::unique_ptr<Monitor>;
 [[nodiscard]] MonitorPtr watch_acknowledged_samples();
 [[nodiscard]] MonitorPtr watch_repeated_samples();
 [[nodiscard]] MonitorPtr watch_directed_heartbeats();
-[[nodiscard]] MonitorPtr watch_stalls_of_cyclone();
+[[nodiscard]] MonitorPtr watch_stalls_of_cyclone(const model::Scenario&);
+/// How long a sample may be missing, > 0, once both sides know each other and no packet is lost or
+/// takes longer than `one_way`: three times an exchange in which every timer takes its longest
+/// time.
+[[nodiscard]] model::Nanoseconds patience_with_cyclone(const model::Scenario&);
 /// Whether the scenario has it.
 [[nodiscard]] bool has_samples(const model::Scenario& scenario);
 

@@ -85,7 +85,7 @@ class Stalls : public Observer {
 }  // namespace
 
 MonitorPtr watch_stalls(const model::Scenario& scenario) {
-  if (has_samples(scenario)) return watch_stalls_of_cyclone();
+  if (has_samples(scenario)) return watch_stalls_of_cyclone(scenario);
   return attentive<Stalls>(scenario);
 }
 

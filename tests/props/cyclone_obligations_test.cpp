@@ -93,5 +93,40 @@ TEST(CycloneObligations, NoticeThatNothingIsUnderWay) {
   }
 }
 
+/// Two participants, some lost and late packets of a constant delay, and a minute.
+model::Scenario troubled(model::Nanoseconds last_delay) {
+  model::Scenario scenario;
+  scenario.deployment = model::Deployment::homogeneous(2, 1, 2);
+  for (model::Participant& participant : scenario.deployment.participants) {
+    participant.endpoints_done = model::Nanoseconds{20'000'000};
+  }
+  scenario.dds.implementation = model::ImplementationKind::cyclone;
+  scenario.wireless.kind = model::ServiceKind::constant_delay;
+  scenario.wireless.one_way = model::Nanoseconds{1'000'000};
+  scenario.wireless.lost_packets = {4, 7, 8, 9, 12};
+  scenario.wireless.packet_delays = {{5, model::Nanoseconds{0}, last_delay}};
+  scenario.run_until = model::RunUntil::time_limit;
+  scenario.time_limit = model::Nanoseconds{60'000'000'000};
+  return scenario;
+}
+bool stalls(const model::Scenario& scenario, const model::Mutation* mistakes) {
+  const auto monitor = make_monitor("live.no-stall", scenario);
+  model::RunOptions options;
+  options.probe = monitor.get();
+  options.mutation = mistakes;
+  static_cast<void>(model::simulate(scenario, options));
+  monitor->finish(scenario.time_limit);
+  return monitor->violation().has_value();
+}
+
+TEST(CycloneObligations, NoticeHeartbeatsThatBringNothing) {
+  const model::Nanoseconds soon{3'000'000};
+  EXPECT_FALSE(stalls(troubled(soon), nullptr));
+  const model::Mutation unheard = at_effect("AckNackArrives.7", Change::drop);
+  EXPECT_TRUE(stalls(troubled(soon), &unheard));
+  const model::Nanoseconds not_long_ago{58'000'000'000};
+  EXPECT_FALSE(stalls(troubled(not_long_ago), &unheard)) << "what is late may still bring it";
+}
+
 }  // namespace cyclone_obligations_test
 }  // namespace stormproof::props

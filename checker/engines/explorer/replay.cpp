@@ -6,7 +6,6 @@
 
 #include <fmt/core.h>
 
-#include "checker/engines/explorer/lacking_samples.hpp"
 #include "checker/engines/explorer/plan.hpp"
 #include "checker/engines/explorer/replayed_packets.hpp"
 #include "model/simulator.hpp"
@@ -24,6 +23,8 @@ using model::PacketKind;
 /// to see that nothing follows.
 Nanoseconds length_of(const ReplayRequest& request, const ConcretePath& path) {
   const Nanoseconds end = path.steps.empty() ? Nanoseconds{0} : path.steps.back().time;
+  if (props::has_samples(request.running))
+    return end + props::patience_with_cyclone(request.specification);
   return end + request.running.dds.sedp.heartbeat_period * 3;
 }
 
@@ -185,11 +186,13 @@ std::optional<model::Scenario> scenario_of(const ReplayRequest& request, const C
                                            std::string& why_not) {
   model::Scenario scenario = bare_scenario(request, path);
   const Nanoseconds start = start_of_world(request, path);
-  // Each round settles at least one more packet, and announcements settle with them.
-  for (std::size_t round = 0; round < path.packets.size() + 20; ++round) {
+  // Each round settles at least one more packet or announcement.
+  std::size_t rounds = path.packets.size() + 20;
+  for (std::size_t round = 0; round < rounds; ++round) {
     PacketList list{request.scope};
     run(request, scenario, list);
     if (props::has_samples(request.running)) take_order_of(path, list.of_relations);
+    rounds = std::max(rounds, path.packets.size() + list.announcements.size() + 20);
     const model::Scenario before = scenario;
     assign(request, path, list, scenario);
     if (scenario == before) {
@@ -211,24 +214,16 @@ ReplayOutcome replay(const ReplayRequest& request, const ConcretePath& path,
   model::Scenario specification = *scenario;
   specification.dds = request.specification.dds;
   specification.dds.descriptors = scenario->dds.descriptors;
-  std::vector<props::MonitorPtr> monitors;
-  monitors.push_back(request.bounds.completion
-                         ? props::watch_completion(specification, request.bounds.completion)
-                         : props::make_monitor(property, specification));
-  if (!monitors.front()) {
+  const props::MonitorPtr monitor =
+      request.bounds.completion ? props::watch_completion(specification, request.bounds.completion)
+                                : props::make_monitor(property, specification);
+  if (!monitor) {
     outcome.why_not = "There is no monitor that could confirm the violation.";
     return outcome;
   }
-  if (props::has_samples(specification) && property == "live.no-stall") {
-    monitors.push_back(watch_lacking_samples(request.scope));
-  }
-  const props::Monitor* monitor = nullptr;
-  for (std::size_t k = 0; k < monitors.size() && monitor == nullptr; ++k) {
-    const model::RunResult result = run(request, *scenario, *monitors[k]);
-    monitors[k]->finish(model::trace::known_until(result, *scenario));
-    if (monitors[k]->violation()) monitor = monitors[k].get();
-  }
-  if (monitor == nullptr) {
+  const model::RunResult result = run(request, *scenario, *monitor);
+  monitor->finish(model::trace::known_until(result, *scenario));
+  if (!monitor->violation()) {
     outcome.why_not = "The monitor does not object to the simulator's run of the path.";
     return outcome;
   }
