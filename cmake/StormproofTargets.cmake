@@ -48,20 +48,35 @@ add_compile_options(
   $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-expand=400>
   $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 
-function(stormproof_batches target)
+# What runs long is optimised; a folder may compile the rest quickly (STORMPROOF_QUICKLY). The
+# precompiled header is made once for each.
+function(stormproof_batches target runs_long)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD_MODE BATCH
     UNITY_BUILD_BATCH_SIZE ${STORMPROOF_BATCH})
-  target_precompile_headers(${target} PRIVATE "${PROJECT_SOURCE_DIR}/cmake/standard_library.hpp")
+  get_directory_property(options COMPILE_OPTIONS)
+  set(headers stormproof_headers)
+  if(runs_long)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
+  elseif(STORMPROOF_QUICKLY IN_LIST options)
+    set(headers stormproof_quick_headers)
+  endif()
+  if(NOT TARGET ${headers})
+    add_library(${headers} OBJECT "${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp")
+    stormproof_target(${headers})
+    target_link_libraries(${headers} PRIVATE fmt::fmt)
+    target_precompile_headers(${headers} PRIVATE "${PROJECT_SOURCE_DIR}/cmake/standard_library.hpp")
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
 
-# stormproof_library(<target> [PUBLIC <name>] [FOLDERS …] [EXCEPT …]): a static library
+# stormproof_library(<target> [PUBLIC <name>] [RUNS_LONG] [FOLDERS …] [EXCEPT …]): a static library
 function(stormproof_library target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PUBLIC" "FOLDERS;EXCEPT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "RUNS_LONG" "PUBLIC" "FOLDERS;EXCEPT")
   stormproof_sources(sources FOLDERS ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})
   add_library(${target} STATIC ${sources})
   stormproof_target(${target} PUBLIC ${arg_PUBLIC})
-  stormproof_batches(${target})
+  stormproof_batches(${target} ${arg_RUNS_LONG})
 endfunction()
 
 # stormproof_program(<target> FOLDERS …)
@@ -69,5 +84,5 @@ function(stormproof_program target)
   stormproof_sources(sources ${ARGN})
   add_executable(${target} ${sources})
   stormproof_target(${target})
-  stormproof_batches(${target})
+  stormproof_batches(${target} FALSE)
 endfunction()

@@ -1,9 +1,13 @@
-// Every check can fail: at least 95 % of the mutants are noticed, every property notices at least
-// one, and survivors say why. Half of the mutants that a run can show are noticed by laws, too.
+// Every check can fail: at least 95 % of the mutants are noticed, every property notices the one
+// that is named here, and survivors say why. Half of the mutants that a run can show are noticed by
+// laws, too.
 #include "checker/verification/mutate/mutate.hpp"
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,6 +23,8 @@
 
 namespace stormproof::mutate {
 namespace mutate_test {
+
+using Pair = std::pair<std::string, std::string>;
 
 TEST(Mutants, HaveUniqueIdsDescriptionsAndMistakes) {
   std::set<std::string> ids;
@@ -60,63 +66,30 @@ TEST(Mutants, CoverEveryMachine) {
   }
 }
 
-/// One mutant of each kind with a property that must notice it.
-TEST(Mutate, EachKindOfMistakeIsNoticedByTheRightProperty) {
-  const std::vector<std::pair<std::string, std::string>> cases{
-      {"acknowledges-everything", "safety.ack-implies-received"},
-      {"requests-unlisted", "safety.repair-only-if-asked"},
-      {"live-bitmap", "safety.snapshot"},
-      {"expiry-doubled", "timer.single-heartbeat"},
-      {"queue-twice-as-large", "safety.conservation"},
-      {"repair-a-nanosecond-late", "composition.followed"},
-      {"order-pairwise", "order.total"},
-      {"attempts-at-once", "storm.cannot-start"},
-      {"base-ignored", "safety.ack-implies-received"},
-      {"attempts-end-early", "live.recovery"},
-      {"attempt-at-the-same-instant", "timer.progress"},
-      {"late-attempt-resets", "safety.ack-stable"},
-      {"acknack-answered-at-once", "storm.feedback-gain"},
-      {"waits-for-the-dead", "live.isolation"},
-      {"announces-to-all", "storm.join-cost"},
-      {"charged-with-everything", "storm.piggyback-rate"},
-      {"any-acknack-replies", "safety.ack-implies-received"},
-      {"timer-moves-later", "composition.followed"},
-      {"control-writer-silent", "fsm.totality"},
-      {"control-writer-closed", "fsm.reachability"}};
-  MutateOptions options;
-  options.everybody = true;
-  for (const auto& [mutant, property] : cases) options.only.push_back(mutant);
-  const MutationReport report = mutate(options);
-  ASSERT_EQ(report.mutants.size(), cases.size());
-  for (const auto& [mutant, property] : cases) {
-    const auto found = std::find_if(report.mutants.begin(), report.mutants.end(),
-                                    [&, id = mutant](const auto& each) { return each.id == id; });
-    ASSERT_NE(found, report.mutants.end()) << mutant;
-    EXPECT_EQ(std::count(found->killed_by.begin(), found->killed_by.end(), property), 1)
-        << mutant << " is not noticed by " << property;
-  }
-}
-
-/// One mutant of each kind with a law that must notice it; and what laws cannot see.
+/// One mutant of each kind with a law that must notice it; and what laws cannot see. Of all that a
+/// run can show they notice half.
 TEST(LawTrials, MistakesAreNoticedByTheRightLaw) {
-  const std::vector<std::pair<std::string, std::string>> cases{
-      {"never-acknowledged", "law.silence"},
-      {"repair-a-nanosecond-late", "law.single-loss"},
-      {"acknack-not-sent", "law.answers"},
-      {"channel-idles", "law.work-conserving"},
-      {"announcements-end", "law.announcements"},
-      {"attempts-mistake-interval", "law.initial-attempts"},
-      {"base-ignored", "law.failure-free"},
-      {"order-pairwise", ""},
-      {"suppression-zero", ""}};
+  const std::vector<Pair> cases{{"never-acknowledged", "law.silence"},
+                                {"repair-a-nanosecond-late", "law.single-loss"},
+                                {"acknack-not-sent", "law.answers"},
+                                {"channel-idles", "law.work-conserving"},
+                                {"announcements-end", "law.announcements"},
+                                {"attempts-mistake-interval", "law.initial-attempts"},
+                                {"base-ignored", "law.failure-free"},
+                                {"order-pairwise", ""},
+                                {"suppression-zero", ""}};
   LawTrials trials;
+  std::size_t tried = 0;
+  std::size_t noticed = 0;
   for (const CatalogueEntry& entry : mutants()) {
-    const auto found = std::find_if(cases.begin(), cases.end(), [&](const auto& each) {
-      return each.first == entry.mutant.id;
-    });
-    if (found == cases.end()) continue;
+    if (entry.kind == Kind::effect) continue;
+    const bool shows = shows_in_runs(entry.mutant);
     const std::vector<std::string> killers =
-        shows_in_runs(entry.mutant) ? trials.killers(entry) : std::vector<std::string>{};
+        shows ? trials.killers(entry) : std::vector<std::string>{};
+    tried += shows ? 1U : 0U;
+    noticed += killers.empty() ? 0U : 1U;
+    const auto found = std::ranges::find(cases, entry.mutant.id, &Pair::first);
+    if (found == cases.end()) continue;
     if (found->second.empty()) {
       EXPECT_TRUE(killers.empty()) << entry.mutant.id << " is noticed by " << killers.front();
     } else {
@@ -124,6 +97,8 @@ TEST(LawTrials, MistakesAreNoticedByTheRightLaw) {
           << entry.mutant.id << " is not noticed by " << found->second;
     }
   }
+  EXPECT_GE(tried, 80U);
+  EXPECT_GE(2 * noticed, tried);
 }
 
 TEST(MutateReport, ShowsLawsBesideProperties) {
@@ -165,35 +140,81 @@ TEST(Mutate, MistakesAtEffectsAreNoticed) {
   }
 }
 
-/// Who notices first is one of those who notice, and there is one exactly if anybody notices.
-void expect_same_noticed(const MutationReport& first, const MutationReport& everybody) {
-  ASSERT_EQ(first.mutants.size(), everybody.mutants.size());
-  for (std::size_t k = 0; k < first.mutants.size(); ++k) {
-    const MutantResult& one = first.mutants[k];
-    const MutantResult& all = everybody.mutants[k];
-    EXPECT_EQ(one.id, all.id);
-    EXPECT_EQ(one.noticed(), all.noticed()) << one.id;
-    for (const std::string& id : one.killed_by) {
-      EXPECT_EQ(std::ranges::count(all.killed_by, id), 1) << one.id << " and " << id;
-    }
+/// For each property a mutant that it must notice, and some more.
+const std::vector<Pair>& pairs() {
+  static const std::vector<Pair> list{{"confirmation-inverted", "fsm.determinism"},
+                                      {"control-writer-silent", "fsm.totality"},
+                                      {"control-writer-closed", "fsm.reachability"},
+                                      {"acknack-forgotten", "composition.total"},
+                                      {"acknack-forgotten", "composition.live"},
+                                      {"acknack-forgotten", "composition.pending"},
+                                      {"repair-a-nanosecond-late", "composition.followed"},
+                                      {"timer-moves-later", "composition.followed"},
+                                      {"order-pairwise", "order.total"},
+                                      {"dispatch-first", "order.reception-first"},
+                                      {"repair-never-requested", "order.commutation"},
+                                      {"acknowledges-everything", "safety.ack-implies-received"},
+                                      {"base-ignored", "safety.ack-implies-received"},
+                                      {"any-acknack-replies", "safety.ack-implies-received"},
+                                      {"late-attempt-resets", "safety.ack-stable"},
+                                      {"requests-unlisted", "safety.repair-only-if-asked"},
+                                      {"live-bitmap", "safety.snapshot"},
+                                      {"queue-twice-as-large", "safety.conservation"},
+                                      {"expiry-doubled", "timer.single-heartbeat"},
+                                      {"attempt-at-the-same-instant", "timer.progress"},
+                                      {"suppression-zero", "timer.suppression-honoured"},
+                                      {"confirmation-inverted", "live.no-stall"},
+                                      {"repair-never-requested", "live.completion"},
+                                      {"acknack-forgotten", "live.quiescence"},
+                                      {"attempts-end-early", "live.recovery"},
+                                      {"waits-for-the-dead", "live.isolation"},
+                                      {"repair-never-requested", "storm.single-copy"},
+                                      {"repair-never-requested", "storm.free-threshold"},
+                                      {"attempts-at-once", "storm.cannot-start"},
+                                      {"announces-to-all", "storm.join-cost"},
+                                      {"charged-with-everything", "storm.piggyback-rate"},
+                                      {"acknack-answered-at-once", "storm.feedback-gain"}};
+  return list;
+}
+
+TEST(Mutate, EachPropertyHasAMutantThatItMustNotice) {
+  for (const props::Property& property : props::catalogue()) {
+    EXPECT_TRUE(std::ranges::any_of(pairs(), [&](const Pair& pair) {
+      return pair.second == property.id;
+    })) << property.id;
   }
 }
 
+const MutantResult& result_of(const MutationReport& report, const std::string& mutant) {
+  const auto found = std::ranges::find(report.mutants, mutant, &MutantResult::id);
+  EXPECT_NE(found, report.mutants.end()) << mutant;
+  static const MutantResult none;
+  return found == report.mutants.end() ? none : *found;
+}
+
+/// All are asked whether anybody notices them; those of the pairs, who does. Who notices first is
+/// one of these.
 TEST(Mutate, PropertiesNoticeTheMutants) {
   MutateOptions options;
   options.kinds = {Kind::table, Kind::event, Kind::snapshot, Kind::knob, Kind::order};
   const MutationReport first = mutate(options);
   EXPECT_FALSE(first.everybody);
-  options.everybody = true;
-  const MutationReport report = mutate(options);
-  expect_same_noticed(first, report);
-  for (const MutantResult& mutant : report.mutants) {
+  for (const MutantResult& mutant : first.mutants) {
     EXPECT_TRUE(!mutant.killed_by.empty() || !mutant.reason.empty()) << mutant.id;
   }
-  EXPECT_GE(100 * report.killed(), 95 * report.mutants.size());
-  EXPECT_GE(2 * report.killed_by_laws(), report.tried_on_laws());
-  for (const props::Property& property : props::catalogue()) {
-    EXPECT_GE(report.killed_by(property.id), 1U) << property.id << " notices no mutant";
+  EXPECT_GE(100 * first.killed(), 95 * first.mutants.size());
+
+  options.everybody = true;
+  for (const auto& [mutant, property] : pairs()) options.only.push_back(mutant);
+  const MutationReport everybody = mutate(options);
+  for (const auto& [mutant, property] : pairs()) {
+    EXPECT_EQ(std::ranges::count(result_of(everybody, mutant).killed_by, property), 1)
+        << mutant << " is not noticed by " << property;
+  }
+  for (const MutantResult& all : everybody.mutants) {
+    for (const std::string& id : result_of(first, all.id).killed_by) {
+      EXPECT_EQ(std::ranges::count(all.killed_by, id), 1) << all.id << " and " << id;
+    }
   }
 }
 
