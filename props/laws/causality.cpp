@@ -9,6 +9,7 @@
 #include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/observer.hpp"
+#include "props/monitors/packet_fates.hpp"
 #include "props/monitors/received_descriptors.hpp"
 
 namespace stormproof::props {
@@ -59,7 +60,8 @@ class PacketWatch final : public Observer {
       object_now(fmt::format("Packet {} is received, but not emitted.", number));
       return;
     }
-    if (is_lost(number)) object_now(fmt::format("Packet {} is received, but lost.", number));
+    if (is_lost(wireless_, number))
+      object_now(fmt::format("Packet {} is received, but lost.", number));
     if (!received_.emplace(number, receiver).second) {
       object_now(fmt::format("Packet {} is received twice.", number));
     }
@@ -70,17 +72,10 @@ class PacketWatch final : public Observer {
   }
 
  private:
-  [[nodiscard]] bool is_lost(std::uint64_t number) const {
-    return std::ranges::binary_search(wireless_.lost_packets, number);
-  }
-
   /// The constant delay; or all fragments in the first stage, and the last one in the others.
   [[nodiscard]] Nanoseconds least_delay(const Packet& packet) const {
     if (wireless_.kind == model::ServiceKind::constant_delay) {
-      const auto place = std::ranges::lower_bound(wireless_.packet_delays, packet.number, {},
-                                                  &model::PacketDelay::packet);
-      const bool own = place != wireless_.packet_delays.end() && place->packet == packet.number;
-      return own ? place->one_way : wireless_.one_way;
+      return one_way_of(wireless_, packet.number);
     }
     const std::int64_t last = fragmentation_.count(packet.payload_bytes) - 1;
     std::int64_t sum = 0;

@@ -22,6 +22,7 @@
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
+#include "props/monitors/packet_fates.hpp"
 #include "props/monitors/received_submessages.hpp"
 
 namespace stormproof::props {
@@ -68,13 +69,10 @@ class CycloneStalls : public Observer {
   /// A lost packet would have arrived as late as one that is not lost.
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {
+    if (!patience_) return;
     for (std::uint64_t n = packet.number; n < packet.number + packet.copies; ++n) {
-      const auto late =
-          std::ranges::lower_bound(wireless_.packet_delays, n, {}, &model::PacketDelay::packet);
-      const bool has_delay = late != wireless_.packet_delays.end() && late->packet == n;
-      const model::Nanoseconds one_way = has_delay ? late->one_way : wireless_.one_way;
-      const bool is_lost = std::ranges::binary_search(wireless_.lost_packets, n);
-      if (is_lost || one_way > wireless_.one_way) unrest(now() + one_way);
+      const model::Nanoseconds one_way = one_way_of(wireless_, n);
+      if (is_lost(wireless_, n) || one_way > wireless_.one_way) unrest(now() + one_way);
     }
   }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }

@@ -11,6 +11,7 @@
 #include "model/simulator.hpp"
 #include "props/monitor.hpp"
 #include "tests/oracle/sharp_scenario.hpp"
+#include "tests/props/monitored_run.hpp"
 
 namespace stormproof::props {
 namespace cyclone_obligations_test {
@@ -110,13 +111,9 @@ model::Scenario troubled(model::Nanoseconds last_delay) {
   return scenario;
 }
 bool stalls(const model::Scenario& scenario, const model::Mutation* mistakes) {
-  const auto monitor = make_monitor("live.no-stall", scenario);
   model::RunOptions options;
-  options.probe = monitor.get();
   options.mutation = mistakes;
-  static_cast<void>(model::simulate(scenario, options));
-  monitor->finish(scenario.time_limit);
-  return monitor->violation().has_value();
+  return run_monitored(scenario, scenario, options).violation("live.no-stall") != nullptr;
 }
 
 TEST(CycloneObligations, NoticeHeartbeatsThatBringNothing) {

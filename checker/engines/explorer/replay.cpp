@@ -23,9 +23,9 @@ using model::PacketKind;
 /// to see that nothing follows.
 Nanoseconds length_of(const ReplayRequest& request, const ConcretePath& path) {
   const Nanoseconds end = path.steps.empty() ? Nanoseconds{0} : path.steps.back().time;
-  if (props::has_samples(request.running))
-    return end + props::patience_with_cyclone(request.specification);
-  return end + request.running.dds.sedp.heartbeat_period * 3;
+  return end + (props::has_samples(request.running)
+                    ? props::patience_with_cyclone(request.specification)
+                    : request.running.dds.sedp.heartbeat_period * 3);
 }
 
 constexpr Nanoseconds margin{1'000};  // what exists at the match has been created before
@@ -187,12 +187,12 @@ std::optional<model::Scenario> scenario_of(const ReplayRequest& request, const C
   model::Scenario scenario = bare_scenario(request, path);
   const Nanoseconds start = start_of_world(request, path);
   // Each round settles at least one more packet or announcement.
-  std::size_t rounds = path.packets.size() + 20;
-  for (std::size_t round = 0; round < rounds; ++round) {
+  std::size_t announcements = 0;
+  for (std::size_t round = 0; round < path.packets.size() + announcements + 20; ++round) {
     PacketList list{request.scope};
     run(request, scenario, list);
     if (props::has_samples(request.running)) take_order_of(path, list.of_relations);
-    rounds = std::max(rounds, path.packets.size() + list.announcements.size() + 20);
+    announcements = list.announcements.size();
     const model::Scenario before = scenario;
     assign(request, path, list, scenario);
     if (scenario == before) {

@@ -192,8 +192,8 @@ const MutantResult& result_of(const MutationReport& report, const std::string& m
   return found == report.mutants.end() ? none : *found;
 }
 
-/// All are asked whether anybody notices them; those of the pairs, who does. Who notices first is
-/// one of these.
+/// All are asked whether anybody notices them; those of the pairs and the survivors, who does. Who
+/// notices first is one of these, and there is one exactly if anybody notices.
 TEST(Mutate, PropertiesNoticeTheMutants) {
   MutateOptions options;
   options.kinds = {Kind::table, Kind::event, Kind::snapshot, Kind::knob, Kind::order};
@@ -206,13 +206,18 @@ TEST(Mutate, PropertiesNoticeTheMutants) {
 
   options.everybody = true;
   for (const auto& [mutant, property] : pairs()) options.only.push_back(mutant);
+  for (const MutantResult& mutant : first.mutants) {
+    if (!mutant.noticed()) options.only.push_back(mutant.id);
+  }
   const MutationReport everybody = mutate(options);
   for (const auto& [mutant, property] : pairs()) {
     EXPECT_EQ(std::ranges::count(result_of(everybody, mutant).killed_by, property), 1)
         << mutant << " is not noticed by " << property;
   }
   for (const MutantResult& all : everybody.mutants) {
-    for (const std::string& id : result_of(first, all.id).killed_by) {
+    const MutantResult& one = result_of(first, all.id);
+    EXPECT_EQ(one.noticed(), all.noticed()) << all.id;
+    for (const std::string& id : one.killed_by) {
       EXPECT_EQ(std::ranges::count(all.killed_by, id), 1) << all.id << " and " << id;
     }
   }
