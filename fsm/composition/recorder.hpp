@@ -280,8 +280,8 @@ class Recorder {
   }
   template <class Body>
   void within(std::string_view kind, const std::string& condition, Site site, Body&& body) {
-    blocks_.push_back({condition, ++last_block_, kind, trail_.at(kind, "", site)});
     const Trail outer = std::exchange(trail_, trail_.inside(site));
+    blocks_.push_back({condition, ++last_block_, kind, trail_.key(kind)});
     body();
     trail_ = outer;
     blocks_.pop_back();
@@ -299,7 +299,7 @@ class Recorder {
     if constexpr (requires { Target::owner; }) owner = label(Target::owner);
     rule_->effects.push_back({rule_->id + "." + std::to_string(rule_->effects.size() + 1), kind,
                               label<Target>(), owner, std::move(detail), blocks_, site.file,
-                              site.line, trail_.at(kind, label<Target>(), site)});
+                              site.line, trail_.inside(site).key(kind, label<Target>())});
   }
   template <class P>
   auto outbox_of() {

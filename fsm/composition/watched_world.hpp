@@ -105,8 +105,8 @@ class WatchedWorld {
   // Conditions and loops.
   template <class Body>
   void when(const Bool& condition, Body&& body, Site site = Site::here()) {
-    const Change change = watcher_->change_of(trail_.at("when", "", site));
     const Trail outer = std::exchange(trail_, trail_.inside(site));
+    const Change change = watcher_->change_of(trail_.key("when"));
     world_.when(change == Change::negated  ? Bool(!condition)
                 : change == Change::always ? Bool(true)
                                            : condition,
@@ -228,7 +228,7 @@ class WatchedWorld {
   /// Does `act` to the world, with the mistake that is to be made at it.
   template <class Target, Patience patience = can_wait, class Act>
   void effect(std::string_view kind, Site site, Act act) {
-    const EffectKey key = trail_.at(kind, name_of<Target>(), site);
+    const EffectKey key = trail_.inside(site).key(kind, name_of<Target>());
     watcher_->happens(key);
     switch (watcher_->change_of(key)) {
       case Change::drop:
@@ -259,7 +259,7 @@ class WatchedWorld {
   void start(std::string_view kind, Site site, Usual usual) {
     using Other =
         std::conditional_t<std::is_same_v<T, HeartbeatExpiry>, ResponseDelay, HeartbeatPeriod>;
-    const Change change = watcher_->change_of(trail_.at(kind, name_of<T>(), site));
+    const Change change = watcher_->change_of(trail_.inside(site).key(kind, name_of<T>()));
     effect<T>(kind, site, [=](auto& w) {
       if (change == Change::at_once) {
         w.at(w(Now{}), T{});
@@ -284,10 +284,11 @@ class WatchedWorld {
   /// `body` for each world of a loop.
   template <class Body>
   auto each(Body& body, Site site) {
-    const bool first_only = watcher_->change_of(trail_.at("for", "", site)) == Change::first_only;
-    return [this, &body, site, first_only, number = 0](auto& w) mutable {
+    const Trail there = trail_.inside(site);
+    const bool first_only = watcher_->change_of(there.key("for")) == Change::first_only;
+    return [this, &body, there, first_only, number = 0](auto& w) mutable {
       if (first_only && number++ > 0) return;
-      auto inside = around(w, trail_.inside(site));
+      auto inside = around(w, there);
       body(inside);
     };
   }

@@ -1,10 +1,15 @@
 // What an execution and a derived system have in common: the state as one descriptor sees it, by
-// the names of the system's variables, and whether the system has the step from one to another.
+// the names of the system's variables, and whether the system has the steps from one to another
+// that an execution takes.
 #pragma once
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "checker/engines/tables/descriptor_system.hpp"
 #include "tests/fsm/composition/small_world.hpp"
@@ -83,11 +88,44 @@ inline std::string step_name(const std::string& rule, comp::Owner owner, const c
   return rule;
 }
 
-/// Asks whether the system has certain steps.
+/// What became of the steps of executions.
+struct Crossing {
+  std::size_t distinct = 0;  ///< steps that change what a descriptor sees
+  std::vector<std::string> refused;
+};
+
+inline std::string first_of(const Crossing& crossing) {
+  return crossing.refused.empty() ? "" : crossing.refused.front();
+}
+
+/// Looks for the steps of executions in the system.
 class Bridge {
  public:
   explicit Bridge(const TransitionSystem& system) : system_{system} {}
 
+  /// An execution begins, which is looked at from these places: `look(place)` says what is seen.
+  template <class Look>
+  void begin(const std::vector<comp::Place>& places, Look&& look) {
+    views_.clear();
+    for (const comp::Place& place : places) views_[place] = look(place);
+  }
+  /// This rule has happened at `where`: every place that sees a change asks for the step.
+  template <class Look>
+  void cross(const std::string& rule, comp::Owner owner, const comp::Place& where, Look&& look) {
+    for (auto& [place, before] : views_) {
+      Values now = look(place);
+      if (now == before) continue;
+      const std::string name = step_name(rule, owner, where, place);
+      if (known_.emplace(name, before, now).second) {
+        ++crossing_.distinct;
+        if (!has(name, before, now)) crossing_.refused.push_back(name);
+      }
+      before = std::move(now);
+    }
+  }
+  [[nodiscard]] const Crossing& crossing() const { return crossing_; }
+
+ private:
   bool has(const std::string& name, const Values& before, const Values& after) {
     Exprs from;
     Exprs to;
@@ -115,7 +153,6 @@ class Bridge {
     return false;
   }
 
- private:
   static z3::context& context() { return smt::SymbolicContext::current(); }
   /// Nothing for what is watched besides.
   static std::optional<Expr> value_of(const Expr& variable, const Values& values) {
@@ -130,6 +167,9 @@ class Bridge {
   }
 
   const TransitionSystem& system_;
+  std::map<comp::Place, Values> views_;
+  std::set<std::tuple<std::string, Values, Values>> known_;
+  Crossing crossing_;
 };
 
 }  // namespace stormproof::tables

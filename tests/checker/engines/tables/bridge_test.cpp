@@ -12,11 +12,6 @@
 namespace stormproof::tables {
 namespace bridge_test {
 
-struct Crossing {
-  std::size_t distinct = 0;  ///< steps that change what a descriptor sees
-  std::vector<std::string> refused;
-};
-
 /// Random walks under this profile; every step is looked for in the system, from every place. A
 /// derivation with a mistake is done with once a step is refused.
 template <class Composition>
@@ -27,35 +22,26 @@ Crossing cross(const model::DdsProfile& dds, Unsound unsound, unsigned walks, un
   const DescriptorSystem derived{dds, correct, unsound};
   const TransitionSystem system = derived.whole();
   Bridge bridge{system};
-  Crossing crossing;
-  std::set<std::tuple<std::string, Values, Values>> seen;
+  std::vector<comp::Place> places;
+  for (int s = 0; s < comp::small_streams; ++s) {
+    for (int d = 0; d < comp::small_descriptors; ++d) places.push_back({s, 0, d});
+  }
   std::mt19937_64 dice{seed};
   for (unsigned walk = 0; walk < walks; ++walk) {
     comp::SmallState state;
+    const auto look = [&](const comp::Place& place) {
+      return seen_from<Composition>(state, place);
+    };
+    bridge.begin(places, look);
     for (unsigned k = 0; k < 400; ++k) {
-      if (unsound != Unsound::none && !crossing.refused.empty()) return crossing;
-      const comp::SmallState before = state;
+      if (unsound != Unsound::none && !bridge.crossing().refused.empty()) break;
       comp::random_step<Composition>(
           state, dds, dice, [&](const std::string& rule, comp::Owner owner, comp::Place where) {
-            for (int s = 0; s < comp::small_streams; ++s) {
-              for (int d = 0; d < comp::small_descriptors; ++d) {
-                const comp::Place place{s, 0, d};
-                const Values from = seen_from<Composition>(before, place);
-                const Values to = seen_from<Composition>(state, place);
-                const std::string name = step_name(rule, owner, where, place);
-                if (from == to || !seen.emplace(name, from, to).second) continue;
-                ++crossing.distinct;
-                if (!bridge.has(name, from, to)) crossing.refused.push_back(name);
-              }
-            }
+            bridge.cross(rule, owner, where, look);
           });
     }
   }
-  return crossing;
-}
-
-std::string first_of(const Crossing& crossing) {
-  return crossing.refused.empty() ? "" : crossing.refused.front();
+  return bridge.crossing();
 }
 
 model::DdsProfile paper() { return {}; }

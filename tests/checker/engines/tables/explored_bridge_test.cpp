@@ -181,31 +181,29 @@ Crossing cross(const model::DdsProfile& dds, explorer::Scope scope, Unsound unso
   scope.side_by_side = true;
   scope.readers = readers;
   explorer::RelationWorld<Packing, readers> world{scenario, scenario, scope, {}};
-  Crossing crossing;
-  std::set<std::tuple<std::string, Values, Values>> known;
+  std::vector<comp::Place> places;
+  for (unsigned it = 0; it < world.deliveries(); ++it) {
+    places.push_back({0, static_cast<int>(it / world.descriptors()),
+                      static_cast<int>(it % world.descriptors())});
+  }
   std::mt19937_64 dice{1};
   for (unsigned walk = 0; walk < 30; ++walk) {
     Walk<Packing, readers> path{world, dice};
-    comp::SmallState before = path.seen();
+    comp::SmallState state = path.seen();
+    const auto look = [&](const comp::Place& place) {
+      return seen_from<typename Packing::Composition>(state, place);
+    };
+    bridge.begin(places, look);
     for (unsigned k = 0; k < 60; ++k) {
       const bool happened =
           path.step([&](const std::string& rule, comp::Owner owner, comp::Place where) {
-            for (unsigned it = 0; it < world.deliveries(); ++it) {
-              const comp::Place place{0, static_cast<int>(it / world.descriptors()),
-                                      static_cast<int>(it % world.descriptors())};
-              const Values from = seen_from<typename Packing::Composition>(before, place);
-              const Values to = seen_from<typename Packing::Composition>(path.seen(), place);
-              const std::string name = step_name(rule, owner, where, place);
-              if (from == to || !known.emplace(name, from, to).second) continue;
-              ++crossing.distinct;
-              if (!bridge.has(name, from, to)) crossing.refused.push_back(name);
-            }
+            state = path.seen();
+            bridge.cross(rule, owner, where, look);
           });
-      if (!happened || (unsound != Unsound::none && !crossing.refused.empty())) break;
-      before = path.seen();
+      if (!happened || (unsound != Unsound::none && !bridge.crossing().refused.empty())) break;
     }
   }
-  return crossing;
+  return bridge.crossing();
 }
 
 explorer::Scope of_descriptors(unsigned count, unsigned pushed) {
@@ -213,10 +211,6 @@ explorer::Scope of_descriptors(unsigned count, unsigned pushed) {
   scope.descriptors = count;
   scope.pushed = pushed;
   return scope;
-}
-
-std::string first_of(const Crossing& crossing) {
-  return crossing.refused.empty() ? "" : crossing.refused.front();
 }
 
 TEST(ExploredBridge, EveryStepOfThePapersWorldIsDerived) {

@@ -11,11 +11,6 @@ using timed_walk::delta;
 using timed_walk::source;
 using timed_walk::Walk;
 
-struct Crossing {
-  std::size_t distinct = 0;
-  std::vector<std::string> refused;
-};
-
 /// By how much a system is told less than what is so, for tests that notice it.
 struct Wrong {
   std::int64_t response = 0;
@@ -58,27 +53,21 @@ Crossing cross(const model::DdsProfile& dds, unsigned walks, const Wrong& wrong 
        .unsound = wrong.unsound}};
   const TransitionSystem system = with_values(descriptor, dds, wrong);
   Bridge bridge{system};
-  Crossing crossing;
-  std::set<std::tuple<std::string, Values, Values>> known;
+  std::vector<comp::Place> places;
+  for (int d = 0; d < comp::small_descriptors; ++d) places.push_back({0, 0, d});
   std::mt19937_64 dice{1};
   for (unsigned walk = 0; walk < walks; ++walk) {
     Walk<Composition> path{dds, dice, exact, stale};
+    const auto look = [&](const comp::Place& place) { return path.seen(place); };
+    bridge.begin(places, look);
     for (unsigned k = 0; k < 300; ++k) {
-      std::map<comp::Place, Values> before;
-      for (int d = 0; d < comp::small_descriptors; ++d) before[{0, 0, d}] = path.seen({0, 0, d});
       path.step([&](const std::string& rule, comp::Owner owner, comp::Place where) {
-        for (const auto& [place, from] : before) {
-          const Values to = path.seen(place);
-          const std::string name = step_name(rule, owner, where, place);
-          if (from == to || !known.emplace(name, from, to).second) continue;
-          ++crossing.distinct;
-          if (!bridge.has(name, from, to)) crossing.refused.push_back(name);
-        }
+        bridge.cross(rule, owner, where, look);
       });
-      if (wrong.is() && !crossing.refused.empty()) return crossing;
+      if (wrong.is() && !bridge.crossing().refused.empty()) return bridge.crossing();
     }
   }
-  return crossing;
+  return bridge.crossing();
 }
 
 model::DdsProfile hasty(model::DdsProfile dds) {
@@ -88,9 +77,6 @@ model::DdsProfile hasty(model::DdsProfile dds) {
   dds.sedp.nack_suppression_duration = model::Nanoseconds{4};
   dds.sedp.initial_acknack_delay = model::Nanoseconds{5};
   return dds;
-}
-std::string first_of(const Crossing& crossing) {
-  return crossing.refused.empty() ? "" : crossing.refused.front();
 }
 
 TEST(TimedBridge, EveryTimedStepOfThePapersRulesIsDerived) {
