@@ -56,9 +56,6 @@ constexpr std::array<std::string_view, 4> certified_of_clients{
 constexpr std::array<std::string_view, 2> certified_of_cyclone{"safety.ack-implies-received",
                                                                "safety.snapshot"};
 
-/// Of these, what no monitor watches in its runs.
-constexpr std::string_view unwatched_of_cyclone = "safety.snapshot";
-
 /// What the explorer decides for small scopes, and no certificate proves.
 constexpr std::array<std::string_view, 2> explored_of_cyclone{"safety.repair-only-if-asked",
                                                               "live.no-stall"};
@@ -215,11 +212,6 @@ bool is_only_explored(std::string_view property, model::ImplementationKind imple
 bool is_about_clients(std::string_view property, model::ImplementationKind implementation) {
   const bool has_server = model::traits_of(implementation).writer == model::Writer::of_server;
   return has_server && is_among(of_clients, property);
-}
-
-bool is_monitored(std::string_view property, model::ImplementationKind implementation) {
-  const bool is_cyclone = model::traits_of(implementation).writer == model::Writer::of_cyclone;
-  return !is_cyclone || property != unwatched_of_cyclone;
 }
 
 }  // namespace stormproof::props

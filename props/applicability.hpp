@@ -20,11 +20,6 @@ namespace stormproof::props {
 [[nodiscard]] bool is_about_clients(std::string_view property,
                                     model::ImplementationKind implementation);
 
-/// Whether a monitor may watch it in runs of the implementation; otherwise only a certificate from
-/// the rules says something of it.
-[[nodiscard]] bool is_monitored(std::string_view property,
-                                model::ImplementationKind implementation);
-
 /// Why what engines prove of the property would say nothing of this scenario, as a sentence; empty
 /// if it would. They know rules that run at once when a timer is due, packets that take one way or
 /// are lost by number: not participants that stall or whose threads are busy, listed hosts, or

@@ -281,6 +281,10 @@ constexpr std::array for_cyclone{
     Addition{"safety.repair-only-if-asked",
              "A sample goes out once when it is created, and otherwise at most once for each "
              "ACKNACK that listed it, whichever reader sent that."},
+    Addition{
+        "safety.snapshot",
+        "It lists nothing, or all that its reader knew of and lacked when its timer fired; its "
+        "base is the first sample that it lacked."},
     Addition{"live.no-stall",
              "It is the writer's HEARTBEAT timer that is under way, or the announcement timer of "
              "whoever is unknown."},

@@ -288,7 +288,7 @@ class WatchedWorld {
     const bool first_only = watcher_->change_of(there.key("for")) == Change::first_only;
     return [this, &body, there, first_only, number = 0](auto& w) mutable {
       if (first_only && number++ > 0) return;
-      auto inside = around(w, there);
+      auto inside = this->around(w, there);
       body(inside);
     };
   }

@@ -6,7 +6,7 @@
 // own,
 //   which was pre-emptive or asked for something.
 #include <map>
-#include <memory>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,67 +14,18 @@
 
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
-#include "props/monitors/received_submessages.hpp"
+#include "props/monitors/submessage_observer.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
-/// Hears each packet once, however many copies of it are sent, and each ACKNACK that is taken.
-class Answers : public Observer {
+class RepeatedSamples : public SubmessageObserver {
  public:
-  using Observer::Observer;
-
-  void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
-    received_.reset(topology);
-    last_.assign(topology.participant_count(), nullptr);
-  }
-  void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    const model::Submessage* heard = received_.heard(machine, event);
-    if (machine.machine == "MatchedReader" && event == "Opened") matched(machine.subject);
-    if (heard == nullptr || heard->kind != model::Submessage::Kind::acknack) return;
-    acknack_taken(machine.subject, *heard);
-  }
-  void emitted(const model::Packet& packet, std::uint32_t source,
-               std::span<const std::uint32_t>) override {
-    note(packet, source);
-  }
-  void looped_back(const model::Packet& packet, std::uint32_t) override {
-    note(packet, packet.to_group ? packet.pair : topology().pair(packet.pair).source);
-  }
-
- protected:
-  virtual void matched(std::uint32_t /*relation*/) {}
-  virtual void acknack_taken(std::uint32_t relation, const model::Submessage& acknack) = 0;
-  virtual void sent(const model::Packet& packet, const model::Submessage& submessage) = 0;
-  [[nodiscard]] const ReceivedSubmessages& numbers() const { return received_; }
-  /// The relation of a submessage that goes to one participant.
-  [[nodiscard]] std::uint32_t relation_of(const model::Packet& packet,
-                                          const model::Submessage& submessage) const {
-    return received_.stride() * packet.pair + submessage.writer;
-  }
-
- private:
-  void note(const model::Packet& packet, std::uint32_t source) {
-    if (packet.submessages == nullptr || last_[source] == packet.submessages) return;
-    last_[source] = packet.submessages;
-    for (const model::Submessage& each : *packet.submessages) sent(packet, each);
-  }
-
-  ReceivedSubmessages received_;
-  std::vector<std::shared_ptr<const std::vector<model::Submessage>>> last_;  // by source
-};
-
-class RepeatedSamples : public Answers {
- public:
-  RepeatedSamples() : Answers{"safety.repair-only-if-asked"} {}
+  RepeatedSamples() : SubmessageObserver{"safety.repair-only-if-asked"} {}
 
   void event_started(const model::Event& event) override {
-    Answers::event_started(event);
+    SubmessageObserver::event_started(event);
     if (event.kind != model::EventKind::endpoint_creation) return;
     const std::uint32_t writer = numbers().writer_of_creation(event);
     const std::uint32_t sample = history_[writer]++;
@@ -86,7 +37,8 @@ class RepeatedSamples : public Answers {
 
  private:
   void matched(std::uint32_t relation) override { ++readers_[numbers().writer_of(relation)]; }
-  void acknack_taken(std::uint32_t relation, const model::Submessage& acknack) override {
+  void heard(std::uint32_t relation, const model::Submessage& acknack, std::string_view) override {
+    if (acknack.kind != model::Submessage::Kind::acknack) return;
     acknack.bitmap.for_each([&](std::uint32_t sample) {
       ++left_[{numbers().writer_of(relation), sample}];
     });
@@ -113,16 +65,17 @@ class RepeatedSamples : public Answers {
   std::uint64_t sent_ = 0;
 };
 
-class DirectedHeartbeats : public Answers {
+class DirectedHeartbeats : public SubmessageObserver {
  public:
-  DirectedHeartbeats() : Answers{"storm.feedback-gain"} {}
+  DirectedHeartbeats() : SubmessageObserver{"storm.feedback-gain"} {}
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {fmt::format("{} HEARTBEATs answered an ACKNACK.", answered_)};
   }
 
  private:
-  void acknack_taken(std::uint32_t relation, const model::Submessage& acknack) override {
+  void heard(std::uint32_t relation, const model::Submessage& acknack, std::string_view) override {
+    if (acknack.kind != model::Submessage::Kind::acknack) return;
     if (acknack.initial || !acknack.bitmap.empty()) ++left_[relation];
   }
   void sent(const model::Packet& packet, const model::Submessage& heartbeat) override {

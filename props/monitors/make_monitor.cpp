@@ -57,8 +57,7 @@ std::vector<std::string_view> monitored_properties() {
 std::vector<std::string_view> monitored_properties(const model::Scenario& scenario) {
   std::vector<std::string_view> properties = monitored_properties();
   std::erase_if(properties, [&](std::string_view property) {
-    return !why_not_applicable(property, scenario).empty() ||
-           !is_monitored(property, model::kind_of(scenario.dds));
+    return !why_not_applicable(property, scenario).empty();
   });
   return properties;
 }

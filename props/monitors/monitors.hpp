@@ -15,6 +15,7 @@ using MonitorPtr = std::unique_ptr<Monitor>;
 [[nodiscard]] MonitorPtr watch_acknowledgments(const model::Scenario&);
 // Of Cyclone DDS's writer, which samples are numbered for.
 [[nodiscard]] MonitorPtr watch_acknowledged_samples();
+[[nodiscard]] MonitorPtr watch_acknack_samples();
 [[nodiscard]] MonitorPtr watch_repeated_samples();
 [[nodiscard]] MonitorPtr watch_directed_heartbeats();
 [[nodiscard]] MonitorPtr watch_stalls_of_cyclone(const model::Scenario&);

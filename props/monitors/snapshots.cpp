@@ -153,6 +153,7 @@ class Snapshots : public Observer {
 }  // namespace
 
 MonitorPtr watch_snapshots(const model::Scenario& scenario) {
+  if (has_samples(scenario)) return watch_acknack_samples();
   return attentive<Snapshots>(scenario);
 }
 

@@ -63,8 +63,17 @@ model::Mutation of_event(model::EventKind kind, EventChange change) {
 
 TEST(CycloneObligations, AreKeptByCorrectRuns) {
   for (const char* const property :
-       {"safety.repair-only-if-asked", "storm.feedback-gain", "live.no-stall"}) {
+       {"safety.snapshot", "safety.repair-only-if-asked", "storm.feedback-gain", "live.no-stall"}) {
     EXPECT_EQ(violated(property, nullptr, 300), 0) << property;
+  }
+}
+
+TEST(CycloneObligations, NoticeAckNacksThatAreNoSnapshots) {
+  const std::vector<model::Mutation> mistakes{at_effect("DataArrives.3", Change::drop),
+                                              at_effect("HeartbeatArrives.2", Change::drop),
+                                              at_effect("AckTimerIsTaken.4:if2", Change::always)};
+  for (const model::Mutation& mistake : mistakes) {
+    EXPECT_GT(violated("safety.snapshot", &mistake), 5) << mistake.effects.front().effect;
   }
 }
 

@@ -44,7 +44,6 @@ MonitoredRun run_monitored(const model::Scenario& scenario, const model::Scenari
   for (const std::string_view property : monitored_properties()) {
     const auto kind = model::kind_of(specification.dds);
     if (!why_not_applicable(property, kind).empty()) continue;  // its monitors know no such writer
-    if (!is_monitored(property, kind)) continue;
     run.monitors.push_back(make_monitor(property, specification));
     probes.add(*run.monitors.back());
   }

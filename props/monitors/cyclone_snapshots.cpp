@@ -1,0 +1,114 @@
+// safety.snapshot of Cyclone DDS's reader: an ACKNACK is made when its timer fires; then its base
+// is the first sample that is missing, and it lists nothing, or all that is known to exist and is
+// missing; a pre-emptive one claims nothing. It leaves later, when the thread gets to it, and
+// arrives as it was made, however much has come in the meantime.
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "props/monitors/describe.hpp"
+#include "props/monitors/monitors.hpp"
+#include "props/monitors/submessage_observer.hpp"
+
+namespace stormproof::props {
+
+namespace {
+
+using Samples = std::vector<std::uint32_t>;  // ascending
+
+class CycloneSnapshots : public SubmessageObserver {
+ public:
+  CycloneSnapshots() : SubmessageObserver{"safety.snapshot"} {}
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("{} ACKNACKs reached their writer as they were made.", compared_)};
+  }
+
+ private:
+  using Kind = model::Submessage::Kind;
+
+  struct View {
+    std::uint32_t base = 0;  ///< samples that lie below the first one that is missing
+    Samples lacking;         ///< known to exist, and missing
+  };
+  struct Relation {
+    std::set<std::uint32_t> received;
+    std::uint32_t known = 0;  ///< how many samples are known to exist
+    std::deque<View> made;    ///< when the timer fired, since the last ACKNACK that has left
+    std::map<std::int64_t, View> sent;  ///< by count
+  };
+
+  static Samples listed(const model::Submessage& acknack) {
+    Samples samples;
+    acknack.bitmap.for_each([&](std::uint32_t sample) { samples.push_back(sample); });
+    return samples;
+  }
+
+  void timer_fired(std::uint32_t relation) override {
+    Relation& reader = relations_[relation];
+    View view;
+    while (reader.received.contains(view.base)) ++view.base;
+    for (std::uint32_t sample = view.base; sample < reader.known; ++sample) {
+      if (!reader.received.contains(sample)) view.lacking.push_back(sample);
+    }
+    reader.made.push_back(std::move(view));
+  }
+  void heard(std::uint32_t relation, const model::Submessage& taken,
+             std::string_view before) override {
+    Relation& reader = relations_[relation];
+    if (taken.kind == Kind::acknack) return compare(relation, reader, taken);
+    if (before == "Closed") return;
+    if (taken.kind == Kind::heartbeat) reader.known = std::max(reader.known, taken.sample);
+    if (taken.kind != Kind::data || before == "Unheard") return;
+    reader.known = std::max(reader.known, taken.sample + 1);
+    reader.received.insert(taken.sample);
+  }
+  void sent(const model::Packet& packet, const model::Submessage& acknack) override {
+    if (acknack.kind != Kind::acknack) return;
+    const std::uint32_t relation = relation_answered(packet, acknack);
+    Relation& reader = relations_[relation];
+    View said{acknack.sample, listed(acknack)};
+    const auto is_said = [&](const View& view) {
+      if (acknack.initial) return said.base == 0 && said.lacking.empty();
+      return view.base == said.base && (said.lacking.empty() || view.lacking == said.lacking);
+    };
+    const auto view = std::ranges::find_if(reader.made, is_said);
+    if (view == reader.made.end()) {
+      object_to(relation, "is not what it knew and lacked when it was made");
+      reader.made.clear();
+    } else {
+      reader.made.erase(reader.made.begin(), view + 1);
+    }
+    reader.sent[acknack.count] = std::move(said);
+  }
+  void compare(std::uint32_t relation, Relation& reader, const model::Submessage& acknack) {
+    const auto sent = reader.sent.find(acknack.count);
+    if (sent == reader.sent.end() || sent->second.base != acknack.sample ||
+        sent->second.lacking != listed(acknack)) {
+      return object_to(relation, "arrives as another one than was sent");
+    }
+    ++compared_;
+  }
+  void object_to(std::uint32_t relation, const char* reason) {
+    const model::Pair& ends = numbers().ends(relation);
+    object_now(fmt::format("At {} an ACKNACK of participant {} to {} of participant {} {}.",
+                           time_text(now()), ends.destination,
+                           model::cyclone::name_of_writer(relation % numbers().stride()),
+                           ends.source, reason));
+  }
+
+  std::map<std::uint32_t, Relation> relations_;
+  std::uint64_t compared_ = 0;
+};
+
+}  // namespace
+
+MonitorPtr watch_acknack_samples() { return attentive<CycloneSnapshots>(); }
+
+}  // namespace stormproof::props
