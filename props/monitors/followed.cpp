@@ -147,6 +147,7 @@ class FollowedRun : public Observer {
   /// Holds what was done since the last trigger against the rule that it started.
   void follow_rule() {
     if (follower_ == nullptr) return;
+    if (trigger_ == Trigger::nothing && follower_->deeds().empty()) return;
     run_rule(std::exchange(trigger_, Trigger::nothing));
     follower_->nothing_more();
     if (!follower_->difference()) return;

@@ -60,14 +60,12 @@ class Follower {
   /// `wanted` is what the rules say that happens next; the run did something else.
   void differ(const std::string& wanted) {
     if (difference_) return;
-    const Deed* actual = deeds_.next();
     std::string place{rule_};
     if (site_.line != 0) {
       place += fmt::format(" ({}:{})", site_.file.substr(site_.file.rfind('/') + 1), site_.line);
     }
-    difference_ =
-        fmt::format("{}: by the rules {}; in the run {}.", place, wanted,
-                    actual == nullptr ? "nothing more happens" : said(*actual, topology_));
+    difference_ = fmt::format("{}: by the rules {}; in the run {}.", place, wanted,
+                              deeds_.next_in_words(topology_));
   }
   /// The next deed if it is `same`; otherwise there is a difference, and null.
   template <class Kind, class Same>
