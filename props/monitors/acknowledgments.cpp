@@ -17,6 +17,9 @@ namespace {
 /// Sees descriptors change their states, and knows who has them.
 class Acknowledgments : public Observer {
  public:
+  static constexpr std::array hears_machines{model::Report::reader_transition,
+                                             model::Report::descriptor_transition};
+
   using Observer::Observer;
 
   void run_started(const model::Topology& topology) override {
