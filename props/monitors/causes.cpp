@@ -95,7 +95,7 @@ class Feedback : public Observer {
   }
   void transition(const model::MachineRef&, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t, std::uint64_t) override {
-    changes_ = changes_ || (before != after && event == "AckNackReceived");
+    if (is_acknack_) changes_ = changes_ || (before != after && event == "AckNackReceived");
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {

@@ -72,7 +72,6 @@ class CycloneFollower final : public FollowedRules<CycloneFollower, cyclone::Cyc
     }
     run<comp::Happens<cyclone::PacketEnds>>({.participant = receiver});
   }
-  void left_source(const Message&) override {}
 
   static constexpr model::MachineRef::Kind machine_kind(comp::Owner owner) {
     using enum model::MachineRef::Kind;

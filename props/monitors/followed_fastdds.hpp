@@ -77,7 +77,6 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
     if (message.kind == acknack)
       this->template run<comp::Received<fastdds::AckNack>>(place, &message);
   }
-  void left_source(const Message&) override {}
 
   static model::PacketKind kind_of(comp::SpdpUnicast) { return model::PacketKind::spdp_unicast; }
   static model::PacketKind kind_of(fastdds::Heartbeat) { return model::PacketKind::heartbeat; }

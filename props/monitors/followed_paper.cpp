@@ -49,8 +49,10 @@ class PaperFollower final : public FollowedRules<PaperFollower, paper::Paper> {
     if (message.kind == heartbeat) run<comp::Received<paper::Heartbeat>>(place, &message);
     if (message.kind == acknack) run<comp::Received<paper::AckNack>>(place, &message);
   }
+  [[nodiscard]] bool follows_leaving(model::PacketKind kind) const override {
+    return kind == model::PacketKind::data;
+  }
   void left_source(const Message& message) override {
-    if (message.kind != model::PacketKind::data) return;
     run<comp::LeftSource<paper::Data>>(relation_place(message.relation()), &message);
   }
 

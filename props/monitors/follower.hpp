@@ -34,7 +34,9 @@ class Follower {
   virtual void rescheduled(const model::Event& event, std::uint64_t insertion) = 0;
   virtual void received(const Message& message, std::uint32_t receiver,
                         model::Nanoseconds emitted) = 0;
-  virtual void left_source(const Message& message) = 0;
+  virtual void left_source(const Message&) {}
+  /// Whether a packet that leaves its source starts one.
+  [[nodiscard]] virtual bool follows_leaving(model::PacketKind) const { return false; }
   /// Nothing more follows from what has happened.
   void nothing_more() {
     site_ = {};
