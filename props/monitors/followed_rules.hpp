@@ -211,7 +211,7 @@ class FollowedRules : public Follower {
           moved.add(one.place().descriptor, before, initial);
         }
       });
-      expect_moves<P>(w.place(), event, std::move(moved), site);
+      expect_moves<P>(w.place(), event, moved, site);
     } else {
       const fsm::StateId before = std::exchange(state<P>(w.place()), initial);
       if (!Self::is_told(P{}, before != initial)) return;
@@ -300,9 +300,10 @@ class FollowedRules : public Follower {
     site_ = site;
     next(wanted, [&](const Move& actual) { return same(actual, wanted); });
   }
-  /// The moves of one event of the place's machines, in any order and in any parts.
+  /// The moves of one event of the place's machines, in any order and in any parts; `moved` has
+  /// none of them afterwards.
   template <class P>
-  void expect_moves(const Place& place, std::string_view event, MovedMachines moved,
+  void expect_moves(const Place& place, std::string_view event, MovedMachines& moved,
                     comp::Site site) {
     site_ = site;
     while (!moved.list.empty() && !difference()) {

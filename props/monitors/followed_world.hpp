@@ -60,7 +60,9 @@ struct MovedMachines {
   }
   void remove(MovedTogether& one, std::uint64_t descriptors) {
     one.descriptors &= ~descriptors;
-    if (one.descriptors == 0) list.erase(list.begin() + (&one - list.data()));
+    if (one.descriptors != 0) return;
+    one = list.back();
+    list.pop_back();
   }
 };
 
@@ -310,7 +312,7 @@ class FollowedWorld {
       }
       (std::make_index_sequence<boost::pfr::tuple_size_v<decltype(total)>>{});
     });
-    host_->template expect_moves<P>(place_, name_of<E>, std::move(moved), site);
+    host_->template expect_moves<P>(place_, name_of<E>, moved, site);
     return total;
   }
   template <class P>
