@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "fsm/composition/effect_mutation.hpp"
 #include "model/event.hpp"
@@ -50,8 +51,10 @@ struct Depths {
 enum class Report : std::uint8_t {
   event_started,
   event_finished,
-  transition,
-  channel_transition,  ///< the same function, of channels
+  transition,             ///< of all other machines than
+  reader_transition,      ///< the same function, of a DiscoveryReader
+  descriptor_transition,  ///< of the machines of descriptors
+  channel_transition,     ///< of channels
   effect,
   scheduled,
   rescheduled,
@@ -90,7 +93,23 @@ struct RunClock {
   std::uint64_t event = 0;   ///< number of the event that is being processed
   std::uint64_t events = 0;  ///< that have begun
   Nanoseconds now;
+  EventKind kind{};  ///< of the event
+
+  void begin(const Event& next) {
+    event = events++;
+    now = next.time;
+    kind = next.kind;
+  }
 };
+
+/// Whose transition it is.
+[[nodiscard]] inline Report report_of(const MachineRef& machine, std::uint64_t descriptors) {
+  if (machine.kind == MachineRef::Kind::channel) return Report::channel_transition;
+  if (descriptors != 0) return Report::descriptor_transition;
+  return machine.machine == "DiscoveryReader" ? Report::reader_transition : Report::transition;
+}
+
+struct Company;
 
 class Probe {
  public:
@@ -98,8 +117,9 @@ class Probe {
 
   /// Which of its functions below do something; the others need not be called.
   [[nodiscard]] virtual Reports reports() const { return Reports::all(); }
-  /// Offers a clock that it may read instead of counting events, before it is asked for `reports`.
-  virtual void follow_clock(const std::shared_ptr<const RunClock>&) {}
+  /// It is one of a list from now on; called before it is asked for `reports`. It may add
+  /// gatherers.
+  virtual void join(Company&) {}
 
   virtual void run_started(const Topology&) {}
   virtual void event_started(const Event&) {}
@@ -139,6 +159,24 @@ class Probe {
                                std::int64_t /*admitted_bytes*/) {}
   /// How many fragments wait for the channel now.
   virtual void waiting_changed(std::uint32_t /*channel*/, std::uint64_t /*fragments*/) {}
+};
+
+/// What the probes of one list have in common.
+struct Company {
+  std::shared_ptr<const RunClock> clock;  ///< may be read instead of counting events
+  /// Probes that gather what several of the others need; they hear of everything before these.
+  std::vector<std::shared_ptr<Probe>> gatherers;
+
+  /// The gatherer that gathers the same as this one, which is added if there is none.
+  template <class Gatherer>
+  [[nodiscard]] std::shared_ptr<Gatherer> gatherer_like(std::shared_ptr<Gatherer> own) {
+    for (const std::shared_ptr<Probe>& one : gatherers) {
+      const auto other = std::dynamic_pointer_cast<Gatherer>(one);
+      if (other != nullptr && other->gathers_as(*own)) return other;
+    }
+    gatherers.push_back(own);
+    return own;
+  }
 };
 
 }  // namespace stormproof::model

@@ -25,8 +25,7 @@ class Driver {
   Driver(const RunState& run, MachineRef::Kind kind)
       : machines_{table_mutations(run)},
         kind_{kind},
-        hearer_{run.who_hears(kind == MachineRef::Kind::channel ? Report::channel_transition
-                                                                : Report::transition)} {}
+        hearer_{run.who_hears(report_of({fsm::name_of<Machine>(), kind}, 0))} {}
 
   template <class Event>
   [[gnu::always_inline]] Output step(fsm::StateId& state, const Input& input,

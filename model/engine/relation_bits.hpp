@@ -229,7 +229,7 @@ void RelationBits<Machine>::step(std::uint32_t relation, std::uint32_t k, std::u
       else
         planes.state[b] &= ~classes[s];
     }
-    if (run_.who_hears(Report::transition) != nullptr && row != fsm::no_row) {
+    if (run_.who_hears(Report::descriptor_transition) != nullptr && row != fsm::no_row) {
       const auto& names = fsm::Reflect<Machine>::state_names;
       run_.probe->transition({fsm::name_of<Machine>(), MachineRef::Kind::relation, relation},
                              fsm::name_of<Event>(), names[before], names[after], k, classes[s]);

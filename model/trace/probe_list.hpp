@@ -1,5 +1,6 @@
 // Several observers of one run, as one. They hear of everything in the order in which they were
-// added; each only of what it wants to hear of, and the clock is the list's.
+// added; each only of what it wants to hear of. The clock is the list's, and so is what gathers
+// facts for several of them.
 #pragma once
 
 #include <algorithm>
@@ -15,14 +16,13 @@ class ProbeList final : public Probe {
  public:
   /// The probe must outlive this list.
   void add(Probe& probe) {
-    probes_.push_back(&probe);
-    probe.follow_clock(clock_);
-    const Reports wanted = probe.reports();
-    for (std::size_t k = 0; k < report_count; ++k) {
-      if (wanted.has(static_cast<Report>(k))) who_hears_[k].push_back(&probe);
+    const std::size_t known = company_.gatherers.size();
+    probe.join(company_);
+    for (std::size_t k = known; k < company_.gatherers.size(); ++k) {
+      company_.gatherers[k]->join(company_);
+      tell(*company_.gatherers[k]);
     }
-    reports_.set(Report::event_started);  // the clock goes
-    reports_.add(wanted);
+    tell(probe);
   }
   [[nodiscard]] bool empty() const { return probes_.empty(); }
 
@@ -31,8 +31,7 @@ class ProbeList final : public Probe {
     for (Probe* probe : probes_) probe->run_started(topology);
   }
   void event_started(const Event& event) override {
-    clock_->event = clock_->events++;
-    clock_->now = event.time;
+    clock_->begin(event);
     for (Probe* probe : who_hears(Report::event_started)) probe->event_started(event);
   }
   void event_finished(const Depths& depths) override {
@@ -41,8 +40,7 @@ class ProbeList final : public Probe {
   void transition(const MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word,
                   std::uint64_t descriptors) override {
-    const bool of_channel = machine.kind == MachineRef::Kind::channel;
-    for (Probe* probe : who_hears(of_channel ? Report::channel_transition : Report::transition)) {
+    for (Probe* probe : who_hears(report_of(machine, descriptors))) {
       probe->transition(machine, event, before, after, first_word, descriptors);
     }
   }
@@ -92,12 +90,22 @@ class ProbeList final : public Probe {
   }
 
  private:
+  void tell(Probe& probe) {
+    probes_.push_back(&probe);
+    const Reports wanted = probe.reports();
+    for (std::size_t k = 0; k < report_count; ++k) {
+      if (wanted.has(static_cast<Report>(k))) who_hears_[k].push_back(&probe);
+    }
+    reports_.set(Report::event_started);  // the clock goes
+    reports_.add(wanted);
+  }
   [[nodiscard]] const std::vector<Probe*>& who_hears(Report report) const {
     return who_hears_[static_cast<std::size_t>(report)];
   }
 
   std::shared_ptr<RunClock> clock_ =
       std::make_shared<RunClock>();  // probes read it at the end, too
+  Company company_{clock_, {}};
   Reports reports_;
   std::vector<Probe*> probes_;
   std::array<std::vector<Probe*>, report_count> who_hears_;

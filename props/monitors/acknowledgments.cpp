@@ -17,6 +17,9 @@ namespace {
 /// Sees descriptors change their states, and knows who has them.
 class Acknowledgments : public Observer {
  public:
+  static constexpr std::array hears_machines{model::Report::reader_transition,
+                                             model::Report::descriptor_transition};
+
   using Observer::Observer;
 
   void run_started(const model::Topology& topology) override {
@@ -27,10 +30,13 @@ class Acknowledgments : public Observer {
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word,
                   std::uint64_t descriptors) override {
-    if (const model::Packet* data = received_.taken(machine, event)) received_.take(*data);
-    if (ReceivedDescriptors::is_new(machine, event)) received_.lose(machine.subject);
-    const bool begins_anew = event == "Renewed";  // a writer that has forgotten believes nothing
-    if (descriptors == 0 || begins_anew || events() == 0 || before == after) return;
+    if (descriptors == 0) {
+      if (const model::Packet* data = received_.taken(machine, event)) received_.take(*data);
+      if (ReceivedDescriptors::is_new(machine, event)) received_.lose(machine.subject);
+      return;
+    }
+    // A writer that has forgotten believes nothing.
+    if (event == ReceivedDescriptors::renewed || events() == 0 || before == after) return;
     moved({machine.subject, first_word, descriptors}, before, after,
           received_.word(machine.subject, first_word));
   }

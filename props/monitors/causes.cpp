@@ -15,17 +15,14 @@ namespace {
 
 class Joins : public Observer {
  public:
+  static constexpr std::array hears_machines{model::Report::reader_transition};
+
   Joins() : Observer{"storm.join-cost"} {}
 
-  void event_started(const model::Event& event) override {
-    Observer::event_started(event);
-    opened_ = sent_ = 0;
-  }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
+  void transition(const model::MachineRef&, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t, std::uint64_t) override {
     // One reader of each stream opens.
-    const bool is_reader = machine.machine == "DiscoveryReader";
-    if (is_reader && event == "AnnouncementReceived" && before != after) ++opened_;
+    if (before != after && event == "AnnouncementReceived") ++opened_;
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {
@@ -34,12 +31,14 @@ class Joins : public Observer {
     if (announces) sent_ += packet.copies;
   }
   void event_finished(const model::Depths&) override {
-    if (opened_ == 0) return;
-    most_ = std::max(most_, sent_);
-    if (2 * sent_ <= opened_) return;
-    const std::uint64_t recognised = opened_ / 2;
+    const std::uint64_t opened = std::exchange(opened_, 0);
+    const std::uint64_t sent = std::exchange(sent_, 0);
+    if (opened == 0) return;
+    most_ = std::max(most_, sent);
+    if (2 * sent <= opened) return;
+    const std::uint64_t recognised = opened / 2;
     object_now(fmt::format("At {} {} announcements are sent because {} participant{} recognised.",
-                           time_text(now()), sent_, recognised, recognised == 1 ? " is" : "s are"));
+                           time_text(now()), sent, recognised, recognised == 1 ? " is" : "s are"));
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {fmt::format("At most {} announcements were sent because of one recognition.", most_)};
@@ -64,10 +63,12 @@ class Piggybacks : public Observer {
     bytes_ += packet.payload_bytes;
     heartbeats_ += packet.heartbeats;
     if (heartbeats_ <= most()) return;
-    object_now(
-        fmt::format("Up to {} {} HEARTBEATs ride in {} bytes of DATA; in proportion to the "
-                    "threshold of {} bytes and {} writers there are at most {}.",
-                    time_text(now()), heartbeats_, bytes_, threshold_, writers_, most()));
+    object_now([&] {
+      return fmt::format(
+          "Up to {} {} HEARTBEATs ride in {} bytes of DATA; in proportion to the "
+          "threshold of {} bytes and {} writers there are at most {}.",
+          time_text(now()), heartbeats_, bytes_, threshold_, writers_, most());
+    });
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {fmt::format("{} HEARTBEATs rode in {} bytes of DATA; at most {} are in proportion.",
@@ -89,31 +90,28 @@ class Feedback : public Observer {
  public:
   Feedback() : Observer{"storm.feedback-gain"} {}
 
-  void event_started(const model::Event& event) override {
-    Observer::event_started(event);
-    is_acknack_ = changes_ = false;
-    heartbeats_ = 0;
-  }
   void received(const model::Packet& packet, std::uint32_t) override {
     is_acknack_ = packet.kind == model::PacketKind::acknack && !packet.initial_acknack;
   }
   void transition(const model::MachineRef&, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t, std::uint64_t) override {
-    changes_ = changes_ || (event == "AckNackReceived" && before != after);
+    if (is_acknack_) changes_ = changes_ || (before != after && event == "AckNackReceived");
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {
     if (packet.kind == model::PacketKind::heartbeat) heartbeats_ += packet.copies;
   }
   void event_finished(const model::Depths&) override {
-    if (!is_acknack_) return;
-    most_ = std::max(most_, heartbeats_);
-    if (heartbeats_ <= (changes_ ? 1U : 0U)) return;
-    object_now(changes_ ? fmt::format("At {} one ACKNACK causes {} HEARTBEATs.", time_text(now()),
-                                      heartbeats_)
-                        : fmt::format("At {} an ACKNACK that changes nothing is answered by a "
-                                      "HEARTBEAT at once, which asks for the next ACKNACK.",
-                                      time_text(now())));
+    const bool changes = std::exchange(changes_, false);
+    const std::uint64_t heartbeats = std::exchange(heartbeats_, 0);
+    if (!std::exchange(is_acknack_, false)) return;
+    most_ = std::max(most_, heartbeats);
+    if (heartbeats <= (changes ? 1U : 0U)) return;
+    object_now(changes ? fmt::format("At {} one ACKNACK causes {} HEARTBEATs.", time_text(now()),
+                                     heartbeats)
+                       : fmt::format("At {} an ACKNACK that changes nothing is answered by a "
+                                     "HEARTBEAT at once, which asks for the next ACKNACK.",
+                                     time_text(now())));
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {fmt::format("The reception of an ACKNACK sent at most {} HEARTBEATs.", most_)};

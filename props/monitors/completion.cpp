@@ -21,7 +21,7 @@
 #include <fmt/core.h>
 
 #include "model/implementations.hpp"
-#include "props/monitors/delay_meter.hpp"
+#include "props/monitors/delay_observer.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
@@ -47,10 +47,12 @@ model::Nanoseconds completion_bound(const model::DdsProfile& dds, model::Nanosec
 
 namespace {
 
-class Completion : public Observer {
+class Completion : public DelayObserver {
  public:
+  static constexpr std::array hears_machines{model::Report::reader_transition};
+
   Completion(const model::Scenario& scenario, std::optional<model::Nanoseconds> bound)
-      : Observer{"live.completion"}, dds_{scenario.dds}, delays_{scenario}, bound_{bound} {
+      : DelayObserver{"live.completion", scenario}, dds_{scenario.dds}, bound_{bound} {
     for (const model::Participant& participant : scenario.deployment.participants) {
       const bool created_later = model::traits_of(dds_).creates_endpoints_over_time;
       ready_.push_back(created_later ? participant.endpoints_done : participant.start);
@@ -69,9 +71,9 @@ class Completion : public Observer {
     }
     missing_ = topology.required_deliveries();
   }
-  void emitted(const model::Packet& packet, std::uint32_t,
+  void emitted(const model::Packet& packet, std::uint32_t sender,
                std::span<const std::uint32_t> destinations) override {
-    delays_.emitted(packet, now());
+    DelayObserver::emitted(packet, sender, destinations);
     const bool by_writer =
         packet.kind == model::PacketKind::data || packet.kind == model::PacketKind::heartbeat;
     if (!by_writer || done_) return;
@@ -84,18 +86,17 @@ class Completion : public Observer {
       note_opening(2 * topology().pair_between(source, destination) + packet.relation() % 2);
     }
   }
-  void arrived(const model::Packet& packet, bool lost) override { delays_.arrived(packet, lost); }
   void received(const model::Packet& packet, std::uint32_t receiver) override {
     received_.arriving(packet);
-    delays_.received(topology(), packet, receiver, now());
+    DelayObserver::received(packet, receiver);
   }
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
                   std::string_view, std::uint32_t, std::uint64_t) override {
     if (const model::Packet* data = received_.taken(machine, event)) take(*data);
   }
   void finish(model::Nanoseconds end) override {
-    largest_delay_ = delays_.largest(end);
-    general_bound_ = completion_bound(dds_, largest_delay_, delays_.lost());
+    largest_delay_ = delays().largest(end);
+    general_bound_ = completion_bound(dds_, largest_delay_, delays().lost());
     if (bound_) judge_open_ends(end);
     judge_general_bound(end);
   }
@@ -103,7 +104,7 @@ class Completion : public Observer {
   [[nodiscard]] std::vector<std::string> remarks() const override {
     std::vector<std::string> lines{
         fmt::format("Largest per-packet delay {}, {} packets lost.", time_text(largest_delay_),
-                    delays_.lost()),
+                    delays().lost()),
         fmt::format("A relation took at most {} from its opening to its last descriptor.",
                     time_text(longest_))};
     lines.push_back(fmt::format("No relation may take longer than {} from the start of both ends.",
@@ -175,7 +176,7 @@ class Completion : public Observer {
              fmt::format("The last descriptor of {} arrives {} after the start of both ends; with "
                          "packets that take at most {} and {} losses it must be there after {}.",
                          latest_.what, time_text(latest_.took), time_text(largest_delay_),
-                         delays_.lost(), time_text(general_bound_)));
+                         delays().lost(), time_text(general_bound_)));
     }
     for (const Relation& relation : relations_) {
       if (!relation.cross_host || relation.missing == 0) continue;
@@ -185,13 +186,12 @@ class Completion : public Observer {
                          "descriptors; with packets that take at most {} and {} losses they must "
                          "be there after {}.",
                          time_text(end), time_text(relation.ready), relation.missing,
-                         time_text(largest_delay_), delays_.lost(), time_text(general_bound_)));
+                         time_text(largest_delay_), delays().lost(), time_text(general_bound_)));
     }
   }
 
   model::DdsProfile dds_;
   std::vector<model::Nanoseconds> ready_;  // by participant
-  DelayMeter delays_;
   std::optional<model::Nanoseconds> bound_;
   ReceivedDescriptors received_;
   std::vector<Relation> relations_;

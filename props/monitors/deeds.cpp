@@ -2,7 +2,6 @@
 #include "props/monitors/deeds.hpp"
 
 #include <array>
-#include <bit>
 #include <utility>
 #include <vector>
 
@@ -47,22 +46,9 @@ std::string subject_text(const model::Topology& topology, Subject subject, std::
   }
 }
 
-std::string descriptors_text(const DescriptorList& descriptors) {
+std::string descriptors_text(const Descriptors& descriptors) {
   return fmt::format("descriptor{} {}", descriptors.size() == 1 ? "" : "s",
-                     fmt::join(descriptors, ", "));
-}
-
-std::string move_text(const Move& move, const model::Topology& topology) {
-  DescriptorList descriptors;
-  for (std::uint64_t left = move.descriptors; left != 0; left &= left - 1) {
-    descriptors.push_back(64 * move.first_word +
-                          static_cast<std::uint32_t>(std::countr_zero(left)));
-  }
-  return fmt::format(
-      "{} of {}{} goes from {} to {} on {}", move.machine.machine,
-      descriptors.empty() ? "" : descriptors_text(descriptors) + " of ",
-      subject_text(topology, model::trace::subject_of(move.machine.kind), move.machine.subject),
-      move.before, move.after, move.event);
+                     fmt::join(descriptors.list(), ", "));
 }
 
 /// "HEARTBEAT 3 of publications, directed, that announces 9"; an ACKNACK is about the receiver's.
@@ -134,7 +120,9 @@ std::string server_message_text(const Message& message, const model::Topology& t
   return text + " is sent";
 }
 
-std::string message_text(const Message& message, const model::Topology& topology) {
+}  // namespace
+
+std::string said(const Message& message, const model::Topology& topology) {
   if (!message.contents.empty()) return contents_text(message, topology);
   using enum model::PacketKind;
   std::string text = name_of(message.kind);
@@ -170,6 +158,8 @@ std::string message_text(const Message& message, const model::Topology& topology
   return text + " is sent";
 }
 
+namespace {
+
 Message content_of(const model::Submessage& submessage) {
   using Kind = model::Submessage::Kind;
   Message content;
@@ -184,7 +174,7 @@ Message content_of(const model::Submessage& submessage) {
       break;
     case Kind::data:
       content.kind = model::PacketKind::data;
-      content.descriptors.push_back(submessage.sample);
+      content.descriptors.add(submessage.sample);
       break;
     case Kind::heartbeat:
       content.kind = model::PacketKind::heartbeat;
@@ -193,7 +183,7 @@ Message content_of(const model::Submessage& submessage) {
     case Kind::acknack:
       content.kind = model::PacketKind::acknack;
       content.detail = submessage.sample;
-      submessage.bitmap.for_each([&](std::uint32_t d) { content.descriptors.push_back(d); });
+      content.descriptors = Descriptors{submessage.bitmap};
       break;
   }
   return content;
@@ -213,9 +203,7 @@ Message message_of(const model::Packet& packet) {
                        packet.kind == model::PacketKind::user_acknack;
   message.pair = control ? 0 : packet.pair;
   message.stream = packet.stream;
-  if (!packet.descriptors.empty()) {
-    packet.descriptors.for_each([&](std::uint32_t d) { message.descriptors.push_back(d); });
-  }
+  message.descriptors = Descriptors{packet.descriptors};
   message.detail = packet.detail;
   message.initial = packet.initial_acknack;
   message.repair = packet.from_repair;
@@ -232,13 +220,27 @@ Message message_of(const model::Packet& packet) {
   return message;
 }
 
-std::string said(const Deed& deed, const model::Topology& topology) {
-  if (const Move* move = std::get_if<Move>(&deed)) return move_text(*move, topology);
-  if (const Message* message = std::get_if<Message>(&deed)) return message_text(*message, topology);
-  const Scheduled& event = std::get<Scheduled>(deed);
+std::string said(const Move& move, const model::Topology& topology) {
+  Descriptors descriptors;
+  descriptors.add(move.first_word, move.descriptors);
+  return fmt::format(
+      "{} of {}{} goes from {} to {} on {}", move.machine.machine,
+      descriptors.empty() ? "" : descriptors_text(descriptors) + " of ",
+      subject_text(topology, model::trace::subject_of(move.machine.kind), move.machine.subject),
+      move.before, move.after, move.event);
+}
+
+std::string said(const Scheduled& event, const model::Topology& topology) {
   return fmt::format("{} of {} is scheduled for {}", name_of(event.kind),
                      subject_text(topology, model::trace::subject_of(event.kind), event.subject),
                      time_text(event.time));
+}
+
+std::string Deeds::next_in_words(const model::Topology& topology) const {
+  if (const Move* move = next<Move>()) return said(*move, topology);
+  if (const Scheduled* event = next<Scheduled>()) return said(*event, topology);
+  const Message* message = next<Message>();
+  return message == nullptr ? "nothing more happens" : said(*message, topology);
 }
 
 }  // namespace stormproof::props

@@ -29,6 +29,11 @@ class DelayMeter {
   /// Packets that will never be received, up to now.
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
 
+  /// Whether the other one measures the same of every run.
+  [[nodiscard]] bool measures_as(const DelayMeter& other) const {
+    return lost_packets_ == other.lost_packets_ && silent_loss_ == other.silent_loss_;
+  }
+
  private:
   void leave(std::uint64_t number);
   [[nodiscard]] bool will_be_lost(std::uint64_t number) const {

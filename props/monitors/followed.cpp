@@ -64,7 +64,7 @@ class FollowedRun : public Observer {
   }
   void source_completed(const model::Packet& packet) override {
     follow_rule();
-    if (follower_ == nullptr) return;
+    if (follower_ == nullptr || !follower_->follows_leaving(packet.kind)) return;
     trigger_ = Trigger::left_source;
     message_ = message_of(packet);
   }
@@ -147,6 +147,9 @@ class FollowedRun : public Observer {
   /// Holds what was done since the last trigger against the rule that it started.
   void follow_rule() {
     if (follower_ == nullptr) return;
+    if (trigger_ != Trigger::nothing || !follower_->deeds().empty()) compare_with_rule();
+  }
+  void compare_with_rule() {
     run_rule(std::exchange(trigger_, Trigger::nothing));
     follower_->nothing_more();
     if (!follower_->difference()) return;

@@ -72,7 +72,6 @@ class CycloneFollower final : public FollowedRules<CycloneFollower, cyclone::Cyc
     }
     run<comp::Happens<cyclone::PacketEnds>>({.participant = receiver});
   }
-  void left_source(const Message&) override {}
 
   static constexpr model::MachineRef::Kind machine_kind(comp::Owner owner) {
     using enum model::MachineRef::Kind;
@@ -118,7 +117,7 @@ class CycloneFollower final : public FollowedRules<CycloneFollower, cyclone::Cyc
   /// DATA carries the sample of its place.
   template <class Term>
   static void say(Message& content, World& w, const comp::Says<comp::Carries, Term>&) {
-    content.descriptors = {w.place().descriptor};
+    content.descriptors.add(w.place().descriptor);
   }
   static void say(Message& content, World&, const comp::Says<cyclone::IsDirected, bool>& directed) {
     content.directed = directed.value;
@@ -233,7 +232,7 @@ class CycloneFollower final : public FollowedRules<CycloneFollower, cyclone::Cyc
   /// A retransmission of the sample of this place.
   [[nodiscard]] bool repeats(const CycloneMessage& queued, const World& w) const {
     return queued.is_repair && queued.content.writer == w.place().writer % stride() &&
-           queued.content.descriptors.front() == w.place().descriptor;
+           queued.content.descriptors.least() == w.place().descriptor;
   }
   [[nodiscard]] bool is_queued(const World& w, bool only_for_it) {
     return std::ranges::any_of(thread(w).queue, [&](const CycloneMessage& queued) {
@@ -318,7 +317,7 @@ class CycloneFollower final : public FollowedRules<CycloneFollower, cyclone::Cyc
   /// It and all samples below it.
   void have_sent(std::uint32_t i, const Message& data) {
     Place place = writer_place(stride() * i + data.writer);
-    for (place.descriptor = 0; place.descriptor <= data.descriptors.front(); ++place.descriptor) {
+    for (place.descriptor = 0; place.descriptor <= data.descriptors.least(); ++place.descriptor) {
       assign<cyclone::Sent>(place, 1);
     }
   }

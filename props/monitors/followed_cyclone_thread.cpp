@@ -41,7 +41,7 @@ std::int64_t bytes_of(const Message& content, std::int64_t known, bool multicast
   constexpr std::int64_t bits_per_word = 32;
   switch (content.kind) {
     case model::PacketKind::data:
-      return sizes::data_bytes(content.writer, content.descriptors.front());
+      return sizes::data_bytes(content.writer, content.descriptors.least());
     case model::PacketKind::heartbeat:
       return sizes::heartbeat_bytes;
     case model::PacketKind::acknack: {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -76,7 +77,6 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
     if (message.kind == acknack)
       this->template run<comp::Received<fastdds::AckNack>>(place, &message);
   }
-  void left_source(const Message&) override {}
 
   static model::PacketKind kind_of(comp::SpdpUnicast) { return model::PacketKind::spdp_unicast; }
   static model::PacketKind kind_of(fastdds::Heartbeat) { return model::PacketKind::heartbeat; }
@@ -116,10 +116,10 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
   }
   std::optional<Place> next_in_queue(std::uint32_t i) {
     if (const auto open = unfinished_.extract(i)) message_ = open.mapped();
-    std::vector<Place>& queue = queues_[i];
+    std::deque<Place>& queue = queues_[i];
     if (queue.empty() || stalls(i)) return std::nullopt;
     const Place first = queue.front();
-    queue.erase(queue.begin());
+    queue.pop_front();
     return first;
   }
 
@@ -135,14 +135,14 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
     });
     const std::uint32_t d = w.place().descriptor;
     const bool joins = message_.writer == w.place().writer && message_.readers == served &&
-                       !std::ranges::binary_search(message_.descriptors, d);
+                       !message_.descriptors.has(d);
     // Whether there was room shows in the run: only a flush sends something now.
     if (!joins || deeds_.template next<Message>() != nullptr) flush();
     if (!joins || message_.descriptors.empty()) {
       message_.writer = w.place().writer;
       message_.readers = std::move(served);
     }
-    message_.descriptors.insert(std::ranges::lower_bound(message_.descriptors, d), d);
+    message_.descriptors.add(d);
   }
   /// Whether the budget is used up shows when the message is flushed.
   template <class To>
@@ -200,7 +200,7 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
   }
 
   const ControlSides sides_{topology_};
-  std::map<std::uint32_t, std::vector<Place>> queues_;  // by participant, first in, first out
+  std::map<std::uint32_t, std::deque<Place>> queues_;  // by participant, first in, first out
   std::map<std::uint32_t, std::set<std::uint64_t>> creations_;  // by participant; insertion numbers
 
  private:
@@ -208,7 +208,7 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
   struct OpenMessage {
     std::uint32_t writer = 0;
     std::vector<std::uint32_t> readers;  ///< relations
-    DescriptorList descriptors;
+    Descriptors descriptors;
     bool heartbeat_may_ride = false;
     bool heartbeats_may_follow = false;  ///< to all readers, of whom it goes to some
   };
@@ -248,20 +248,22 @@ class FollowedFastDds : public FollowedRules<Self, Composition> {
     if (next->kind != model::PacketKind::heartbeat) return;
     send(model::PacketKind::heartbeat, readers(message.writer), {}, false);
   }
+  /// To readers of one writer.
   void send(model::PacketKind kind, const std::vector<std::uint32_t>& relations,
-            const DescriptorList& descriptors, bool carries_heartbeat) {
+            const Descriptors& descriptors, bool carries_heartbeat) {
+    if (relations.empty()) return;
+    Message wanted;
+    wanted.kind = kind;
+    wanted.descriptors = descriptors;
+    wanted.carries_heartbeat = carries_heartbeat;
+    if (carries_heartbeat || kind == model::PacketKind::heartbeat) {
+      World w = world_at(relation_place(relations.front()));
+      wanted.detail =
+          static_cast<std::uint32_t>(w.count([](World& d) { return d(fastdds::Exists{}); }));
+    }
     for (const std::uint32_t relation : relations) {
-      Message wanted;
-      wanted.kind = kind;
       wanted.pair = relation / 2;
       wanted.stream = model::streams[relation % 2];
-      wanted.descriptors = descriptors;
-      wanted.carries_heartbeat = carries_heartbeat;
-      if (carries_heartbeat || kind == model::PacketKind::heartbeat) {
-        World w = world_at(relation_place(relation));
-        wanted.detail =
-            static_cast<std::uint32_t>(w.count([](World& d) { return d(fastdds::Exists{}); }));
-      }
       expect(wanted, site_);
     }
   }

@@ -49,8 +49,10 @@ class PaperFollower final : public FollowedRules<PaperFollower, paper::Paper> {
     if (message.kind == heartbeat) run<comp::Received<paper::Heartbeat>>(place, &message);
     if (message.kind == acknack) run<comp::Received<paper::AckNack>>(place, &message);
   }
+  [[nodiscard]] bool follows_leaving(model::PacketKind kind) const override {
+    return kind == model::PacketKind::data;
+  }
   void left_source(const Message& message) override {
-    if (message.kind != model::PacketKind::data) return;
     run<comp::LeftSource<paper::Data>>(relation_place(message.relation()), &message);
   }
 
@@ -63,7 +65,7 @@ class PaperFollower final : public FollowedRules<PaperFollower, paper::Paper> {
   static void say(Message&, World&, const comp::Says<comp::BelowBase, Term>&) {}
   using FollowedRules::says;
   static bool says(comp::BelowBase, const Message& message, std::uint32_t d) {
-    return message.descriptors.empty() || d < message.descriptors.front();
+    return message.descriptors.empty() || d < message.descriptors.least();
   }
 
   using FollowedRules::emit;
@@ -78,7 +80,7 @@ class PaperFollower final : public FollowedRules<PaperFollower, paper::Paper> {
   void perform(paper::Clock::SendBatch, World& w) { send_batch<paper::Implementation>(w); }
   /// DATA that together carry the set, in order; with several readers a HEARTBEAT to each may
   /// follow one, with a single reader it may ride.
-  void perform(paper::Generate, World& w, const Members& set, bool repair) {
+  void perform(paper::Generate, World& w, Descriptors rest, bool repair) {
     const bool piggyback = dds().sedp.piggyback != model::Piggyback::off;
     const std::size_t readers = this->readers(w.place().writer).size();
     Message wanted;
@@ -86,19 +88,17 @@ class PaperFollower final : public FollowedRules<PaperFollower, paper::Paper> {
     wanted.pair = w.place().pair;
     wanted.stream = model::streams[w.place().relation % 2];
     wanted.repair = repair;
-    for (auto rest = set.list.begin(); rest != set.list.end() && !difference();) {
+    while (!rest.empty() && !difference()) {
       const Message* next = deeds_.next<Message>();
-      const auto size = next == nullptr ? 0 : std::ssize(next->descriptors);
-      const bool possible = size > 0 && size <= set.list.end() - rest;
-      const auto end = possible ? rest + size : set.list.end();
-      wanted.descriptors.assign(rest, end);
+      const std::size_t size = next == nullptr ? 0 : next->descriptors.size();
+      const bool possible = size > 0 && size <= rest.size();
+      wanted.descriptors = rest.take(possible ? size : rest.size());
       wanted.carries_heartbeat =
           piggyback && readers == 1 && next != nullptr && next->carries_heartbeat;
       expect(wanted, site_);
       if (piggyback && readers > 1 && heartbeats_follow(w)) {
         w.for_readers([](World& r) { r.emit(paper::Heartbeat{}, comp::says()); });
       }
-      rest = end;
     }
   }
 

@@ -33,7 +33,17 @@ class FollowedRules : public Follower {
 
   FollowedRules(const model::Scenario& scenario, const model::Topology& topology,
                 model::WriterLayout writers = {})
-      : Follower{scenario, topology}, writers_{writers} {}
+      : Follower{scenario, topology}, writers_{writers} {
+    const std::uint32_t relations = writers_.stride * topology.pair_count();
+    for (std::uint32_t relation = 0; relation < relations; ++relation) {
+      const std::uint32_t pair = relation / writers_.stride;
+      const std::uint32_t source = topology.pair(pair).source;
+      places_.push_back({.participant = source,
+                         .pair = pair,
+                         .writer = writers_.stride * source + relation % writers_.stride,
+                         .relation = relation});
+    }
+  }
 
   void due(const model::Event& event) override {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
@@ -56,13 +66,8 @@ class FollowedRules : public Follower {
   [[nodiscard]] Place writer_place(std::uint32_t writer) const {
     return {.participant = writer / writers_.stride, .writer = writer};
   }
-  [[nodiscard]] Place relation_place(std::uint32_t relation) const {
-    const std::uint32_t pair = relation / writers_.stride;
-    const std::uint32_t source = topology_.pair(pair).source;
-    return {.participant = source,
-            .pair = pair,
-            .writer = writers_.stride * source + relation % writers_.stride,
-            .relation = relation};
+  [[nodiscard]] const Place& relation_place(std::uint32_t relation) const {
+    return places_[relation];
   }
   /// The first relation of a pair stands for it.
   [[nodiscard]] Place pair_place(std::uint32_t pair) const {
@@ -89,33 +94,76 @@ class FollowedRules : public Follower {
     static constexpr std::string_view machine = fsm::name_of<typename P::Machine>();
     return {machine, Self::machine_kind(P::owner), place.number(P::owner)};
   }
+  /// What an observer hears of it.
+  template <class P>
+  [[nodiscard]] Move move_at(const Place& place, std::string_view event,
+                             const MovedTogether& moved) const {
+    const auto& names = fsm::Reflect<typename P::Machine>::state_names;
+    return {self().template machine_at<P>(place),
+            event,
+            names[moved.before],
+            names[moved.after],
+            moved.first_word,
+            moved.descriptors};
+  }
   [[nodiscard]] static std::uint32_t owner_of(const model::Event& event) { return event.subject; }
   template <class T>
   [[nodiscard]] static std::uint32_t subject_of(std::uint32_t owner) {
     return owner;
   }
 
-  // State. What nobody has changed has its first value.
+  // State. What nobody has changed has its first value. The flags of a stream are bits.
   template <class V>
-  std::int64_t value(const Place& place) {
-    return at<V::owner>(std::get<Values<V>>(values_).of, place, 0);
+  [[nodiscard]] std::int64_t value(const Place& place) const {
+    const auto& values = std::get<Values<V>>(values_).of;
+    const std::size_t n = number_of<V>(place);
+    if (n >= values.size()) return 0;
+    if constexpr (is_bit<V>) return (values[n] >> place.descriptor % 64 & 1) != 0 ? 1 : 0;
+    return static_cast<std::int64_t>(values[n]);
   }
   template <class V>
   void assign(const Place& place, std::int64_t to) {
-    ValueOf<V>& value = at<V::owner>(std::get<Values<V>>(values_).of, place, 0);
-    if (std::cmp_equal(value, to)) return;
-    const bool was = value != 0;
+    if (std::cmp_equal(value<V>(place), to)) return;
+    const bool was = value<V>(place) != 0;
     if (!was && to != 0) self().becomes(V{}, place);
-    value = static_cast<ValueOf<V>>(to);
+    auto& changed = at(std::get<Values<V>>(values_).of, number_of<V>(place), 0);
+    if constexpr (is_bit<V>) {
+      changed ^= std::uint64_t{1} << place.descriptor % 64;
+    } else {
+      changed = static_cast<ValueOf<V>>(to);
+    }
     if (was && to == 0) self().ceases(V{}, place);
+  }
+  /// The flags of the place's stream are those of these descriptors.
+  template <class V>
+  void assign_each(Place place, const Descriptors& descriptors) {
+    static_assert(is_bit<V>);
+    const std::uint32_t count = self().descriptor_count(place.writer);
+    for (place.descriptor = 0; place.descriptor < count;) {
+      const std::uint32_t first = place.descriptor;
+      const std::uint64_t wanted = descriptors.word(first / 64);
+      const std::uint64_t now = at(std::get<Values<V>>(values_).of, number_of<V>(place), 0);
+      std::uint64_t left = (now ^ wanted) & model::bits_below(count, first / 64);
+      for (; left != 0; left &= left - 1) {
+        place.descriptor = first + static_cast<std::uint32_t>(std::countr_zero(left));
+        assign<V>(place, static_cast<std::int64_t>(wanted >> place.descriptor % 64 & 1));
+      }
+      place.descriptor = first + 64;
+    }
   }
   /// A flag has been set for all descriptors of the place.
   template <class V>
   void all_are_set(V, const Place&) {}
   template <class P>
   fsm::StateId& state(const Place& place) {
-    return at<P::owner>(std::get<States<P>>(states_).of, place,
-                        fsm::Flyweight<typename P::Machine>::initial);
+    return at(std::get<States<P>>(states_).of, number_of<P>(place),
+              fsm::Flyweight<typename P::Machine>::initial);
+  }
+  template <class P>
+  [[nodiscard]] fsm::StateId state_at(const Place& place) const {
+    const auto& states = std::get<States<P>>(states_).of;
+    const std::size_t n = number_of<P>(place);
+    return n < states.size() ? states[n] : fsm::Flyweight<typename P::Machine>::initial;
   }
   template <class P, class E>
   auto step(const Place& place, const typename P::Machine::Io::template Input<fsm::Plain>& input,
@@ -154,24 +202,20 @@ class FollowedRules : public Follower {
   template <class P>
   void renew(World& w, comp::Site site) {
     constexpr fsm::StateId initial = fsm::Flyweight<typename P::Machine>::initial;
-    constexpr bool of_descriptor = (P::owner.indices & comp::owner::descriptor_index) != 0;
-    std::vector<Move> moves;
-    const auto renew_one = [&](World& one) {
-      const fsm::StateId before = std::exchange(state<P>(one.place()), initial);
-      if (!Self::is_told(P{}, before != initial)) return;
-      Move move = one.template move_of<P>(ReceivedDescriptors::renewed, before);
-      if (of_descriptor) {
-        move.first_word = one.place().descriptor / 64;
-        move.descriptors = std::uint64_t{1} << one.place().descriptor % 64;
-      }
-      moves.push_back(move);
-    };
-    if constexpr (of_descriptor) {
-      w.for_descriptors(comp::everyone, renew_one);
-      expect_moves(std::move(moves), site);
+    constexpr std::string_view event = ReceivedDescriptors::renewed;
+    if constexpr (is_of_descriptor(P::owner)) {
+      MovedMachines moved;
+      w.for_descriptors(comp::everyone, [&](World& one) {
+        const fsm::StateId before = std::exchange(state<P>(one.place()), initial);
+        if (Self::is_told(P{}, before != initial)) {
+          moved.add(one.place().descriptor, before, initial);
+        }
+      });
+      expect_moves<P>(w.place(), event, moved, site);
     } else {
-      renew_one(w);
-      for (const Move& move : moves) expect(move, site);
+      const fsm::StateId before = std::exchange(state<P>(w.place()), initial);
+      if (!Self::is_told(P{}, before != initial)) return;
+      expect(move_at<P>(w.place(), event, {before, initial}), site);
     }
   }
   /// The open relations of the writer.
@@ -202,10 +246,10 @@ class FollowedRules : public Follower {
   // What packets say, and what only a host knows. What one says of the first descriptors of a
   // stream is how many these are.
   static bool says(comp::Carries, const Message& message, std::uint32_t d) {
-    return std::ranges::binary_search(message.descriptors, d);
+    return message.descriptors.has(d);
   }
   static bool says(comp::Listed, const Message& message, std::uint32_t d) {
-    return std::ranges::binary_search(message.descriptors, d);
+    return message.descriptors.has(d);
   }
   static bool says(comp::BelowBase, const Message& message, std::uint32_t d) {
     return d < message.detail;
@@ -224,11 +268,11 @@ class FollowedRules : public Follower {
   }
   template <class Term>
   static void say(Message& message, World& w, const comp::Says<comp::BelowBase, Term>& confirmed) {
-    message.detail = static_cast<std::uint32_t>(w.count(confirmed.value));
+    message.detail = w.count_of_first(confirmed.value);
   }
   template <class Term>
   static void say(Message& message, World& w, const comp::Says<comp::Listed, Term>& listed) {
-    message.descriptors = w.set_of(listed.value).list;
+    message.descriptors = w.set_of(listed.value);
   }
   static void say(Message& message, World&, const comp::Says<comp::IsInitial, bool>& initial) {
     message.initial = initial.value;
@@ -256,18 +300,26 @@ class FollowedRules : public Follower {
     site_ = site;
     next(wanted, [&](const Move& actual) { return same(actual, wanted); });
   }
-  /// The moves of one event of a machine, in any order.
-  void expect_moves(std::vector<Move> wanted, comp::Site site) {
+  /// The moves of one event of the place's machines, in any order and in any parts; `moved` has
+  /// none of them afterwards.
+  template <class P>
+  void expect_moves(const Place& place, std::string_view event, MovedMachines& moved,
+                    comp::Site site) {
     site_ = site;
-    while (!wanted.empty() && !difference()) {
+    while (!moved.list.empty() && !difference()) {
       const Move* actual = deeds_.next<Move>();
-      const std::uint64_t moved = actual == nullptr ? 0 : actual->descriptors;
-      const std::size_t removed = std::erase_if(wanted, [&](const Move& one) {
-        return (one.descriptors & moved) != 0 && one.first_word == actual->first_word &&
-               same_kind(*actual, one);
+      const auto one = std::ranges::find_if(moved.list, [&](const MovedTogether& each) {
+        return actual != nullptr && each.first_word == actual->first_word &&
+               same_kind(*actual, move_at<P>(place, event, each));
       });
-      if (removed == 0 || std::cmp_not_equal(removed, std::popcount(moved)))
-        return differ(said(wanted[0], topology_));
+      const std::uint64_t both =
+          one == moved.list.end() ? 0 : one->descriptors & actual->descriptors;
+      const MovedTogether first = moved.least();
+      if (both != 0) moved.remove(*one, both);
+      if (both == 0 || both != actual->descriptors) {
+        const MovedTogether left = moved.list.empty() ? first : moved.least();
+        return differ(said(move_at<P>(place, event, left), topology_));
+      }
       deeds_.take();
     }
   }
@@ -387,9 +439,16 @@ class FollowedRules : public Follower {
     typename V::IsFlag;
   }
   , std::uint8_t, std::int64_t > ;
+  static constexpr bool is_of_descriptor(comp::Owner owner) {
+    return (owner.indices & comp::owner::descriptor_index) != 0;
+  }
+  /// A truth value of each descriptor of a stream: 64 of them are a word.
+  template <class V>
+  static constexpr bool is_bit =
+      is_of_descriptor(V::owner) && std::is_same_v<ValueOf<V>, std::uint8_t>;
   template <class V>
   struct Values {
-    std::vector<ValueOf<V>> of;
+    std::vector<std::conditional_t<is_bit<V>, std::uint64_t, ValueOf<V>>> of;
   };
   template <class P>
   struct States {
@@ -399,12 +458,20 @@ class FollowedRules : public Follower {
   template <template <class> class Each, class... Ts>
   static std::tuple<Each<Ts>...> each_of(fsm::TypeList<Ts...>);
 
-  /// The value of an owner; of one with a descriptor, `place` says which.
-  template <comp::Owner owner, class T>
-  T& at(std::vector<T>& values, const Place& place, std::type_identity_t<T> first) {
-    constexpr bool of_descriptor = (owner.indices & comp::owner::descriptor_index) != 0;
-    std::size_t n = place.number(owner);
-    if constexpr (of_descriptor) n = n * stride_ + place.descriptor;
+  /// Where the value or the machine of a place is; of descriptors, `place` says which.
+  template <class T>
+  [[nodiscard]] std::size_t number_of(const Place& place) const {
+    const std::size_t n = place.number(T::owner);
+    if constexpr (!is_of_descriptor(T::owner)) {
+      return n;
+    } else if constexpr (is_bit<T>) {
+      return n * words_ + place.descriptor / 64;
+    } else {
+      return n * stride_ + place.descriptor;
+    }
+  }
+  template <class T>
+  static T& at(std::vector<T>& values, std::size_t n, std::type_identity_t<T> first) {
     if (n >= values.size()) [[unlikely]] {
       grow(values, n, first);
     }
@@ -446,13 +513,17 @@ class FollowedRules : public Follower {
   using AllValues = decltype(each_of<Values>(typename Composition::State{}));
   using AllStates = decltype(each_of<States>(typename Composition::Parts{}));
   const model::WriterLayout writers_;
+  std::vector<Place> places_;  // by relation
   AllValues values_;
   AllStates states_;
   const std::size_t stride_ = largest_stream();
+  const std::size_t words_ = (stride_ + 63) / 64;
   std::vector<std::int64_t> received_ =  // how many descriptors, by relation
       std::vector<std::int64_t>(std::size_t{writers_.stride} * topology_.pair_count());
   const model::Nanoseconds settled_ = model::settled_at(scenario_.deployment);
-  std::map<std::uint32_t, std::vector<std::uint32_t>> readers_;               // by writer
+  std::vector<std::vector<std::uint32_t>> readers_ =  // by writer
+      std::vector<std::vector<std::uint32_t>>(std::size_t{writers_.stride} *
+                                              topology_.participant_count());
   std::map<std::uint32_t, std::vector<std::vector<std::uint32_t>>> batches_;  // the last is next
   /// Insertion numbers, by kind and owner.
   std::array<std::vector<std::vector<std::uint64_t>>, model::event_kind_count> pending_;

@@ -6,12 +6,15 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <ranges>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <boost/container/small_vector.hpp>
 #include <boost/pfr.hpp>
 
 #include "model/engine/composition_knobs.hpp"
@@ -22,14 +25,45 @@ namespace stormproof::props {
 
 namespace comp = fsm::composition;
 
-/// The descriptors of a stream that something is true of.
-struct Members {
-  DescriptorList list;
-
-  [[nodiscard]] bool has(std::uint32_t d) const { return std::ranges::binary_search(list, d); }
+/// What machines of many descriptors put out: of which of them each truth value is true.
+struct DescriptorsDomain {
+  using Bool = Descriptors;
 };
-struct MembersDomain {
-  using Bool = Members;
+
+/// Machines of some descriptors have moved, all between the same states.
+struct MovedTogether {
+  fsm::StateId before{};
+  fsm::StateId after{};
+  std::uint32_t first_word = 0;
+  std::uint64_t descriptors = 0;
+};
+/// What one event of a machine moves; few pairs of states are different.
+struct MovedMachines {
+  boost::container::small_vector<MovedTogether, 4> list;
+
+  void add(std::uint32_t d, fsm::StateId before, fsm::StateId after) {
+    const std::uint64_t bit = std::uint64_t{1} << d % 64;
+    for (MovedTogether& one : list) {
+      if (one.before != before || one.after != after || one.first_word != d / 64) continue;
+      one.descriptors |= bit;
+      return;
+    }
+    list.push_back({before, after, d / 64, bit});
+  }
+  /// The first one alone.
+  [[nodiscard]] MovedTogether least() const {
+    MovedTogether first = *std::ranges::min_element(list, {}, [](const MovedTogether& one) {
+      return 64 * one.first_word + static_cast<std::uint32_t>(std::countr_zero(one.descriptors));
+    });
+    first.descriptors &= ~first.descriptors + 1;
+    return first;
+  }
+  void remove(MovedTogether& one, std::uint64_t descriptors) {
+    one.descriptors &= ~descriptors;
+    if (one.descriptors != 0) return;
+    one = list.back();
+    list.pop_back();
+  }
 };
 
 /// The numbers of what a world is about, as far as they are known from there.
@@ -59,7 +93,7 @@ class FollowedWorld {
   using D = fsm::Plain;
   using Bool = bool;
   using Int = std::int64_t;
-  using Set = Members;
+  using Set = Descriptors;
   using Composition = typename Host::Composition;
   using Site = comp::Site;
 
@@ -73,17 +107,6 @@ class FollowedWorld {
     Place place = host_->relation_place(relation);
     place.descriptor = place_.descriptor;
     return {*host_, place, heard_};
-  }
-  /// What an observer hears of the machine of this place, which was in the state `before`.
-  template <class P>
-  [[nodiscard]] Move move_of(std::string_view event, fsm::StateId before) const {
-    const auto& names = fsm::Reflect<typename P::Machine>::state_names;
-    Move move;
-    move.machine = host_->template machine_at<P>(place_);
-    move.event = event;
-    move.before = names[before];
-    move.after = names[host_->template state<P>(place_)];
-    return move;
   }
 
   // Values.
@@ -117,26 +140,31 @@ class FollowedWorld {
   }
   template <class P, class S>
   bool in(P, comp::Is<S>) {
-    return host_->template state<P>(place_) == fsm::Reflect<typename P::Machine>::template id<S>;
+    return host_->template state_at<P>(place_) == fsm::Reflect<typename P::Machine>::template id<S>;
   }
   [[nodiscard]] bool is_in(const Set& set) const { return set.has(place_.descriptor); }
-  static bool any(const Set& set) { return !set.list.empty(); }
+  static bool any(const Set& set) { return !set.empty(); }
   template <class Term>
   Set set_of(Term&& term) {
     Set set;
-    each_descriptor([&](FollowedWorld& d) {
-      if (term(d)) set.list.push_back(d.place_.descriptor);
-    });
+    const std::uint32_t count = host_->descriptor_count(place_.writer);
+    FollowedWorld d = *this;
+    for (d.place_.descriptor = 0; d.place_.descriptor < count;) {
+      const std::uint32_t first = d.place_.descriptor;
+      const std::uint32_t end = std::min(count, first + 64);
+      std::uint64_t members = 0;
+      for (; d.place_.descriptor < end; ++d.place_.descriptor) {
+        members |= std::uint64_t{term(d)} << (d.place_.descriptor - first);
+      }
+      set.add(first / 64, members);
+    }
     return set;
   }
   template <class Term>
   bool some(Term&& term) {
-    const std::uint32_t count = host_->descriptor_count(place_.writer);
-    FollowedWorld d = *this;
-    for (d.place_.descriptor = 0; d.place_.descriptor < count; ++d.place_.descriptor) {
-      if (term(d)) return true;
-    }
-    return false;
+    FollowedWorld first = *this;
+    first.place_.descriptor = 0;
+    return first.some_from_here(term);
   }
   template <class Term>
   bool all(Term&& term) {
@@ -148,6 +176,18 @@ class FollowedWorld {
     each_descriptor([&](FollowedWorld& d) { total += term(d) ? 1 : 0; });
     return total;
   }
+  /// How many descriptors there are before the first of which the term does not hold; it holds of
+  /// none after that one.
+  template <class Term>
+  std::uint32_t count_of_first(Term&& term) {
+    const auto numbers = std::views::iota(0U, host_->descriptor_count(place_.writer));
+    FollowedWorld d = *this;
+    const auto first = std::ranges::partition_point(numbers, [&](std::uint32_t number) {
+      d.place_.descriptor = number;
+      return static_cast<bool>(term(d));
+    });
+    return static_cast<std::uint32_t>(first - numbers.begin());
+  }
   template <class Term>
   bool all_up_to(Term&& term) {
     FollowedWorld d = *this;
@@ -158,7 +198,12 @@ class FollowedWorld {
   }
   template <class Term>
   bool some_from_here(Term&& term) {
-    return some([&](auto& d) { return d.place_.descriptor >= place_.descriptor && term(d); });
+    const std::uint32_t count = host_->descriptor_count(place_.writer);
+    FollowedWorld d = *this;
+    for (; d.place_.descriptor < count; ++d.place_.descriptor) {
+      if (term(d)) return true;
+    }
+    return false;
   }
   template <class Term>
   bool some_reader(Term&& term) {
@@ -239,19 +284,19 @@ class FollowedWorld {
     const fsm::StateId before = host_->template state<P>(place_);
     const auto output = host_->template step<P, E>(place_, input, row);
     if (row == fsm::no_row) return output;
-    Move move = move_of<P, E>(before);
+    MovedTogether moved{before, host_->template state<P>(place_)};
     if constexpr ((P::owner.indices & comp::owner::descriptor_index) != 0) {
-      move.first_word = place_.descriptor / 64;
-      move.descriptors = std::uint64_t{1} << place_.descriptor % 64;
+      moved.first_word = place_.descriptor / 64;
+      moved.descriptors = std::uint64_t{1} << place_.descriptor % 64;
     }
-    host_->expect(std::move(move), site);
+    host_->expect(host_->template move_at<P>(place_, name_of<E>, moved), site);
     return output;
   }
   template <class P, class E, class Input = decltype(comp::no_input),
             class Who = decltype(comp::everyone)>
   auto feed_each(P, comp::On<E>, Input input = {}, Who who = {}, Site site = Site::here()) {
-    typename P::Machine::Io::template Output<MembersDomain> total{};
-    std::vector<Move> moves;
+    typename P::Machine::Io::template Output<DescriptorsDomain> total{};
+    MovedMachines moved;
     each_descriptor([&](FollowedWorld& d) {
       if (!who(d)) return;
       fsm::RowId row = fsm::no_row;
@@ -259,19 +304,15 @@ class FollowedWorld {
       const typename P::Machine::Io::template Input<D> in = input(d);
       const auto output = host_->template step<P, E>(d.place_, in, row);
       if (row != fsm::no_row) {
-        Move move = d.template move_of<P, E>(before);
-        move.first_word = d.place_.descriptor / 64;
-        move.descriptors = std::uint64_t{1} << d.place_.descriptor % 64;
-        moves.push_back(move);
+        moved.add(d.place_.descriptor, before, host_->template state<P>(d.place_));
       }
       [&]<std::size_t... I>(std::index_sequence<I...>) {
-        ((boost::pfr::get<I>(output) ? boost::pfr::get<I>(total).list.push_back(d.place_.descriptor)
-                                     : void()),
+        ((boost::pfr::get<I>(output) ? boost::pfr::get<I>(total).add(d.place_.descriptor) : void()),
          ...);
       }
       (std::make_index_sequence<boost::pfr::tuple_size_v<decltype(total)>>{});
     });
-    host_->expect_moves(std::move(moves), site);
+    host_->template expect_moves<P>(place_, name_of<E>, moved, site);
     return total;
   }
   template <class P>
@@ -284,11 +325,7 @@ class FollowedWorld {
   }
   template <class V, class Term>
   void set_each(V, Term&& term, Site = Site::here()) {
-    TruthList truths;  // all before any changes
-    each_descriptor([&](FollowedWorld& d) { truths.push_back(term(d)); });
-    each_descriptor([&](FollowedWorld& d) {
-      host_->template assign<V>(d.place_, truths[d.place_.descriptor]);
-    });
+    host_->template assign_each<V>(place_, set_of(term));  // known before any changes
     host_->all_are_set(V{}, place_);
   }
   template <class Wait, class T>
@@ -353,12 +390,8 @@ class FollowedWorld {
       body(r);
     }
   }
-  /// Of the step that it has just taken.
-  template <class P, class E>
-  [[nodiscard]] Move move_of(fsm::StateId before) const {
-    static constexpr std::string_view event = fsm::name_of<E>();
-    return move_of<P>(event, before);
-  }
+  template <class E>
+  static constexpr std::string_view name_of = fsm::name_of<E>();
 
   Host* host_;
   Place place_;

@@ -34,7 +34,9 @@ class Follower {
   virtual void rescheduled(const model::Event& event, std::uint64_t insertion) = 0;
   virtual void received(const Message& message, std::uint32_t receiver,
                         model::Nanoseconds emitted) = 0;
-  virtual void left_source(const Message& message) = 0;
+  virtual void left_source(const Message&) {}
+  /// Whether a packet that leaves its source starts one.
+  [[nodiscard]] virtual bool follows_leaving(model::PacketKind) const { return false; }
   /// Nothing more follows from what has happened.
   void nothing_more() {
     site_ = {};
@@ -60,14 +62,12 @@ class Follower {
   /// `wanted` is what the rules say that happens next; the run did something else.
   void differ(const std::string& wanted) {
     if (difference_) return;
-    const Deed* actual = deeds_.next();
     std::string place{rule_};
     if (site_.line != 0) {
       place += fmt::format(" ({}:{})", site_.file.substr(site_.file.rfind('/') + 1), site_.line);
     }
-    difference_ =
-        fmt::format("{}: by the rules {}; in the run {}.", place, wanted,
-                    actual == nullptr ? "nothing more happens" : said(*actual, topology_));
+    difference_ = fmt::format("{}: by the rules {}; in the run {}.", place, wanted,
+                              deeds_.next_in_words(topology_));
   }
   /// The next deed if it is `same`; otherwise there is a difference, and null.
   template <class Kind, class Same>

@@ -14,6 +14,8 @@ namespace {
 
 class HeartbeatTimers : public Observer {
  public:
+  static constexpr std::array hears_machines{model::Report::transition};
+
   HeartbeatTimers() : Observer{"timer.single-heartbeat"} {}
 
   void run_started(const model::Topology& topology) override {

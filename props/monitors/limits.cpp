@@ -102,24 +102,56 @@ std::uint64_t scaled(std::uint64_t value, const model::Ratio& ratio) {
   return value / denominator * numerator + value % denominator * numerator / denominator;
 }
 
-class LimitMonitor : public Observer {
+/// Notes when discovery is complete, for all limits of the run.
+class CompletionNote final : public model::Probe {
  public:
-  using Observer::Observer;
-
+  void join(model::Company& company) override { clock_ = company.clock; }
+  [[nodiscard]] bool gathers_as(const CompletionNote&) const { return true; }
+  [[nodiscard]] model::Reports reports() const override {
+    model::Reports reports;
+    reports.set(model::Report::event_finished);
+    return reports;
+  }
   void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
     if (topology.required_deliveries() == 0) completed_ = model::Nanoseconds{0};
   }
+  void event_finished(const model::Depths& depths) override { note(depths, clock_->now); }
+  void note(const model::Depths& depths, model::Nanoseconds now) {
+    if (depths.missing == 0 && !completed_) completed_ = now;
+  }
+
+  [[nodiscard]] const std::optional<model::Nanoseconds>& completed() const { return completed_; }
+
+ private:
+  std::shared_ptr<const model::RunClock> clock_;
+  std::optional<model::Nanoseconds> completed_;
+};
+
+class LimitMonitor : public Observer {
+ public:
+  using Feeder = LimitMonitor;
+  using Observer::Observer;
+
+  void join(model::Company& company) override {
+    Observer::join(company);
+    note_ = company.gatherer_like(note_);
+  }
+  void run_started(const model::Topology& topology) override {
+    Observer::run_started(topology);
+    if (is_alone()) note_->run_started(topology);
+  }
   void event_finished(const model::Depths& depths) override {
-    if (depths.missing == 0 && !completed_) completed_ = now();
+    if (is_alone()) note_->note(depths, now());
   }
   [[nodiscard]] virtual LimitReading reading() const = 0;
 
  protected:
-  [[nodiscard]] const std::optional<model::Nanoseconds>& completed() const { return completed_; }
+  [[nodiscard]] const std::optional<model::Nanoseconds>& completed() const {
+    return note_->completed();
+  }
 
  private:
-  std::optional<model::Nanoseconds> completed_;
+  std::shared_ptr<CompletionNote> note_ = std::make_shared<CompletionNote>();
 };
 
 class CompletionLimit : public LimitMonitor {

@@ -20,47 +20,40 @@ class NumberMap {
   [[nodiscard]] T* find(std::uint64_t number) {
     if (slots_.empty()) return nullptr;
     const Slot& slot = slots_[place_of(number / page_size)];
-    if (!slot.used) return nullptr;
-    Page& page = pages_[slot.page];
-    return (page.members & bit(number)) != 0 ? &page.values[number % page_size] : nullptr;
+    return (slot.members & bit(number)) != 0 ? &pages_[slot.page][number % page_size] : nullptr;
   }
   /// Whether the number is new; otherwise nothing changes.
   bool add(std::uint64_t number, T value) {
     if (2 * (used_ + 1) > slots_.size()) grow();
     Slot& slot = slots_[place_of(number / page_size)];
-    if (!slot.used) {
-      slot = {number / page_size, pages_.take(), true};
-      pages_[slot.page].members = 0;
+    if (slot.members == 0) {
+      slot = {number / page_size, pages_.take(), 0};
       ++used_;
     }
-    Page& page = pages_[slot.page];
-    if ((page.members & bit(number)) != 0) return false;
-    page.members |= bit(number);
-    page.values[number % page_size] = std::move(value);
+    if ((slot.members & bit(number)) != 0) return false;
+    slot.members |= bit(number);
+    pages_[slot.page][number % page_size] = std::move(value);
     return true;
   }
   void remove(std::uint64_t number) {
     if (slots_.empty()) return;
     const std::size_t place = place_of(number / page_size);
-    if (!slots_[place].used) return;
-    Page& page = pages_[slots_[place].page];
-    page.members &= ~bit(number);
-    if (page.members != 0) return;
-    pages_.give_back(slots_[place].page);
+    Slot& slot = slots_[place];
+    if (slot.members == 0) return;
+    slot.members &= ~bit(number);
+    if (slot.members != 0) return;
+    pages_.give_back(slot.page);
     --used_;
     close(place);
   }
 
  private:
   static constexpr std::uint64_t page_size = 16;
-  struct Page {
-    std::uint32_t members = 0;  // a bit each
-    std::array<T, page_size> values{};
-  };
+  using Page = std::array<T, page_size>;
   struct Slot {
     std::uint64_t number = 0;  // of the page
     std::uint32_t page = 0;
-    bool used = false;
+    std::uint32_t members = 0;  // a bit each; nobody uses a slot without any
   };
 
   static std::uint32_t bit(std::uint64_t number) {
@@ -78,23 +71,23 @@ class NumberMap {
   /// Where the page is, or belongs.
   [[nodiscard]] std::size_t place_of(std::uint64_t number) const {
     std::size_t k = home_of(number);
-    while (slots_[k].used && slots_[k].number != number) k = next(k);
+    while (slots_[k].members != 0 && slots_[k].number != number) k = next(k);
     return k;
   }
   /// The slot is free from now on; those behind it that belong before them move up.
   void close(std::size_t hole) {
-    for (std::size_t k = next(hole); slots_[k].used; k = next(k)) {
+    for (std::size_t k = next(hole); slots_[k].members != 0; k = next(k)) {
       if (distance(home_of(slots_[k].number), k) < distance(hole, k)) continue;
       slots_[hole] = slots_[k];
       hole = k;
     }
-    slots_[hole].used = false;
+    slots_[hole].members = 0;
   }
   void grow() {
     std::vector<Slot> old(slots_.empty() ? 64 : 2 * slots_.size());
     old.swap(slots_);
     for (const Slot& slot : old) {
-      if (slot.used) slots_[place_of(slot.number)] = slot;
+      if (slot.members != 0) slots_[place_of(slot.number)] = slot;
     }
   }
 

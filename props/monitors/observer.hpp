@@ -3,6 +3,7 @@
 // mutated rules, too; whatever they know of X, C and pending timers they gather from what happened.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <memory>
 #include <string>
@@ -22,11 +23,9 @@ class Observer : public Monitor {
 
   [[nodiscard]] std::string_view property() const override { return property_; }
 
+  void join(model::Company&) override { is_alone_ = false; }
   void run_started(const model::Topology& topology) override { topology_ = &topology; }
-  void event_started(const model::Event& event) override {
-    own_->event = own_->events++;
-    own_->now = event.time;
-  }
+  void event_started(const model::Event& event) override { own_->begin(event); }
 
  protected:
   /// Objects to what happens in the current event.
@@ -40,19 +39,39 @@ class Observer : public Monitor {
   [[nodiscard]] std::uint64_t event() const { return clock_->event; }
   [[nodiscard]] std::uint64_t events() const { return clock_->events; }
   [[nodiscard]] model::Nanoseconds now() const { return clock_->now; }
+  /// Of the event.
+  [[nodiscard]] model::EventKind kind() const { return clock_->kind; }
   /// Exists while the run lasts, not in `finish` and `remarks`.
   [[nodiscard]] const model::Topology& topology() const { return *topology_; }
 
   void read(const std::shared_ptr<const model::RunClock>& clock) { clock_ = clock; }
-  /// Alone in a run it counts events itself.
+  /// Alone in a run it gathers itself what a list gathers for all.
+  [[nodiscard]] bool is_alone() const { return is_alone_; }
+  /// Alone, or if it does more when an event begins, it counts events itself.
   [[nodiscard]] bool has_own_clock() const { return clock_ == own_; }
 
  private:
   std::string_view property_;
+  bool is_alone_ = true;
   const model::Topology* topology_ = nullptr;
   const std::shared_ptr<model::RunClock> own_ = std::make_shared<model::RunClock>();
   std::shared_ptr<const model::RunClock> clock_ = own_;
 };
+
+/// Of whose transitions a monitor hears, if not of all but the channels': `M::hears_machines`.
+template <class M>
+concept HearsSomeMachines = requires {
+  M::hears_machines.size();
+};
+
+/// Whether a monitor that is not alone need not hear of something, because its function for that is
+/// the one of `M::Feeder`, which only gathers what the list gathers then.
+template <class M, class Function>
+inline constexpr bool only_feeds = false;
+template <class M, class Result, class Class, class... Args>
+requires requires { typename M::Feeder; }
+inline constexpr bool only_feeds<M, Result (Class::*)(Args...)> =
+    std::is_same_v<Class, typename M::Feeder>;
 
 /// A monitor that hears of nothing but what it has functions for. Channels have no relations, so no
 /// monitor cares how they move.
@@ -61,8 +80,9 @@ class Attentive final : public M {
  public:
   using M::M;
 
-  void follow_clock(const std::shared_ptr<const model::RunClock>& clock) override {
-    if (!counts_events) this->read(clock);
+  void join(model::Company& company) override {
+    M::join(company);
+    if (!counts_events) this->read(company.clock);
   }
   [[nodiscard]] model::Reports reports() const override {
     using enum model::Report;
@@ -71,10 +91,16 @@ class Attentive final : public M {
     reports.set(event_started, counts_events || this->has_own_clock());
     const auto hears = [&]([[maybe_unused]] model::Report report, [[maybe_unused]] auto own,
                            [[maybe_unused]] auto inherited) {
-      reports.set(report, !std::is_same_v<decltype(own), decltype(inherited)>);
+      const bool is_own = !std::is_same_v<decltype(own), decltype(inherited)>;
+      reports.set(report, is_own && (this->is_alone() || !only_feeds<M, decltype(own)>));
     };
     hears(event_finished, &M::event_finished, &Probe::event_finished);
-    hears(transition, &M::transition, &Probe::transition);
+    if constexpr (HearsSomeMachines<M>) {
+      for (const model::Report report : M::hears_machines) reports.set(report);
+    } else {
+      for (const model::Report report : {transition, reader_transition, descriptor_transition})
+        hears(report, &M::transition, &Probe::transition);
+    }
     hears(effect, &M::effect, &Probe::effect);
     hears(scheduled, &M::scheduled, &Probe::scheduled);
     hears(rescheduled, &M::rescheduled, &Probe::rescheduled);

@@ -21,8 +21,8 @@ class Progress : public Observer {
 
   void event_started(const model::Event& event) override {
     if (event.time != now()) {
+      if (count_ > most) fired_.clear();
       count_ = 0;
-      fired_.clear();
     }
     Observer::event_started(event);
     // Most instants have few events: no clock can have fired so often.

@@ -123,17 +123,29 @@ void Prospects::count(EventKind kind, std::uint32_t subject, std::uint32_t chang
   }
 }
 
+Prospects::State Prospects::state_named(std::string_view name) {
+  switch (name.size() == 1 ? name[0] : '?') {
+    case 'U':
+      return u;
+    case 'R':
+      return r;
+    case 'Q':
+      return q;
+    case 'S':
+      return s;
+    case 'A':
+      return a;
+    default:
+      return absent;
+  }
+}
+
 void Prospects::transition(const model::MachineRef& machine, std::string_view event,
                            std::string_view before, std::string_view after,
                            std::uint32_t first_word, std::uint64_t descriptors) {
   if (descriptors != 0) {
-    const auto plane = [this](std::string_view name) -> RelationWords& {
-      constexpr std::string_view letters = "?URQSA";
-      const std::size_t k = name.size() == 1 ? letters.find(name[0]) : 0;
-      return states_[k == std::string_view::npos ? 0 : k];
-    };
-    plane(before).word(machine.subject, first_word) &= ~descriptors;
-    plane(after).word(machine.subject, first_word) |= descriptors;
+    states_[state_named(before)].word(machine.subject, first_word) &= ~descriptors;
+    states_[state_named(after)].word(machine.subject, first_word) |= descriptors;
     return touch(machine.subject);
   }
   if (machine.machine == "HeartbeatTimer") {

@@ -37,6 +37,7 @@ class Prospects {
   void arrived(const model::Packet& packet, bool lost);
   void received(const model::Packet& packet, std::uint32_t receiver);
 
+  [[nodiscard]] bool is_touched() const { return !touched_.empty(); }
   /// Relations of which something may have got lost since the last call; each once. They are there
   /// until the next one.
   [[nodiscard]] const std::vector<std::uint32_t>& take_touched();
@@ -93,6 +94,7 @@ class Prospects {
     std::size_t receptions = 0;
   };
 
+  static State state_named(std::string_view name);
   static Load load_of(const model::Packet& packet);
   void count(model::EventKind kind, std::uint32_t subject, std::uint32_t change);
   void move(const Load& load, std::uint32_t change);

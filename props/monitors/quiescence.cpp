@@ -90,10 +90,11 @@ namespace {
 
 class Quiescence : public QuiescenceMonitor {
  public:
+  static constexpr std::array hears_machines{model::Report::reader_transition};
+
   explicit Quiescence(const model::Scenario& scenario)
-      : QuiescenceMonitor{"live.quiescence"},
+      : QuiescenceMonitor{"live.quiescence", scenario},
         dds_{scenario.dds},
-        delays_{scenario},
         loopback_{loopback_of(scenario)} {}
 
   void run_started(const model::Topology& topology) override {
@@ -108,7 +109,7 @@ class Quiescence : public QuiescenceMonitor {
   }
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
-    delays_.emitted(packet, now());
+    DelayObserver::emitted(packet, source, destinations);
     if (!is_sedp(packet)) return;
     if (!packet.to_writer()) note_openings(packet, source, destinations);
     note_traffic(packet);
@@ -118,10 +119,9 @@ class Quiescence : public QuiescenceMonitor {
     if (!packet.to_writer()) note_opening(packet.relation());
     note_traffic(packet);
   }
-  void arrived(const model::Packet& packet, bool lost) override { delays_.arrived(packet, lost); }
   void received(const model::Packet& packet, std::uint32_t receiver) override {
     received_.arriving(packet);
-    delays_.received(topology(), packet, receiver, now());
+    DelayObserver::received(packet, receiver);
   }
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
                   std::string_view, std::uint32_t, std::uint64_t) override {
@@ -131,9 +131,9 @@ class Quiescence : public QuiescenceMonitor {
   void finish(model::Nanoseconds end) override {
     if (!settled_) return;
     end_ = end;
-    delay_ = std::max(delays_.largest(end), loopback_);
+    delay_ = std::max(delays().largest(end), loopback_);
     bound_ = quiescence_bound(dds_, delay_);
-    lost_later_ = delays_.lost() - lost_before_;
+    lost_later_ = delays().lost() - lost_before_;
     if (lost_later_ > 0) return;
     const auto late = std::ranges::find_if(
         traffic_, [&](const Traffic& t) { return t.time > *settled_ + bound_; });
@@ -148,7 +148,7 @@ class Quiescence : public QuiescenceMonitor {
   [[nodiscard]] std::optional<model::Nanoseconds> silent_from(
       model::Nanoseconds now) const override {
     if (!settled_) return {};
-    return *settled_ + quiescence_bound(dds_, std::max(delays_.largest(now), loopback_));
+    return *settled_ + quiescence_bound(dds_, std::max(delays().largest(now), loopback_));
   }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
@@ -183,7 +183,7 @@ class Quiescence : public QuiescenceMonitor {
   /// Everything is received and open as far as is known.
   void settle() {
     settled_ = now();
-    lost_before_ = delays_.lost();
+    lost_before_ = delays().lost();
     traffic_.clear();
   }
   void note_openings(const model::Packet& packet, std::uint32_t source,
@@ -218,7 +218,6 @@ class Quiescence : public QuiescenceMonitor {
   }
 
   model::DdsProfile dds_;
-  DelayMeter delays_;
   model::Nanoseconds loopback_;
   ReceivedDescriptors received_;
   std::vector<bool> opened_;  // by relation

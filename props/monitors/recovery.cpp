@@ -11,7 +11,7 @@
 
 #include "model/life.hpp"
 #include "model/trace/event_subject.hpp"
-#include "props/monitors/delay_meter.hpp"
+#include "props/monitors/delay_observer.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
@@ -22,14 +22,13 @@ namespace stormproof::props {
 
 namespace {
 
-class Recovery : public Observer {
+class Recovery : public DelayObserver {
  public:
   Recovery(const model::Scenario& scenario, std::optional<model::Nanoseconds> bound)
-      : Observer{"live.recovery"},
+      : DelayObserver{"live.recovery", scenario},
         scenario_{scenario},
         life_{scenario.deployment.life.value_or(model::Life{})},
         given_bound_{bound},
-        delays_{scenario},
         failed_{last_failure(scenario.deployment)} {}
 
   void run_started(const model::Topology& topology) override {
@@ -55,16 +54,12 @@ class Recovery : public Observer {
     if (received_.is_new(machine, event)) lose(machine.subject);
     if (machine.kind == model::MachineRef::Kind::relation) touch(machine.subject);
   }
-  void emitted(const model::Packet& packet, std::uint32_t,
-               std::span<const std::uint32_t>) override {
-    delays_.emitted(packet, now());
-  }
   void received(const model::Packet& packet, std::uint32_t receiver) override {
-    delays_.received(topology(), packet, receiver, now());
+    DelayObserver::received(packet, receiver);
     received_.arriving(packet);
   }
   void arrived(const model::Packet& packet, bool lost) override {
-    delays_.arrived(packet, lost);
+    DelayObserver::arrived(packet, lost);
     const bool is_of_relation = packet.kind == model::PacketKind::data ||
                                 packet.kind == model::PacketKind::heartbeat ||
                                 packet.kind == model::PacketKind::acknack;
@@ -79,7 +74,7 @@ class Recovery : public Observer {
   [[nodiscard]] bool is_undecided() const override { return undecided_; }
   [[nodiscard]] std::vector<std::string> assumptions() const override {
     return {fmt::format("no packet takes longer than Δ (in this run the largest delay is {})",
-                        time_text(delays_.largest(end_)))};
+                        time_text(delays().largest(end_)))};
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {
@@ -95,7 +90,8 @@ class Recovery : public Observer {
 
   /// B; of packets under way at that time their age counts.
   [[nodiscard]] model::Nanoseconds bound(model::Nanoseconds time) const {
-    return given_bound_ ? *given_bound_ : recovery_bound(scenario_, failed_, delays_.largest(time));
+    return given_bound_ ? *given_bound_
+                        : recovery_bound(scenario_, failed_, delays().largest(time));
   }
   [[nodiscard]] model::Nanoseconds due(model::Nanoseconds time) const {
     return failed_ + bound(time);
@@ -171,7 +167,6 @@ class Recovery : public Observer {
   const model::Scenario scenario_;
   const model::Life life_;
   const std::optional<model::Nanoseconds> given_bound_;
-  DelayMeter delays_;
   ReceivedDescriptors received_;
   std::optional<model::Topology> names_;  ///< also after the run
   std::vector<Relation> relations_;

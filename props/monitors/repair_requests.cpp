@@ -25,10 +25,6 @@ class RepairRequests : public Observer {
     Observer::run_started(topology);
     asked_.reset(topology);
   }
-  void event_started(const model::Event& event) override {
-    Observer::event_started(event);
-    creating_ = event.kind == model::EventKind::endpoint_creation;
-  }
   void received(const model::Packet& packet, std::uint32_t) override {
     if (packet.kind != model::PacketKind::acknack) return;
     if (packet.initial_acknack && !initial_asks_) return;
@@ -48,7 +44,8 @@ class RepairRequests : public Observer {
  private:
   void generated(const model::Packet& packet) {
     if (packet.kind != model::PacketKind::data) return;
-    const bool repair = pushes_at_creation_ ? !creating_ : packet.from_repair;
+    const bool creates = kind() == model::EventKind::endpoint_creation;
+    const bool repair = pushes_at_creation_ ? !creates : packet.from_repair;
     if (repair) {
       repairs_ += packet.descriptors.count();
       const std::uint32_t d = asked_.first_of(packet.relation(), packet.descriptors, false);
@@ -63,7 +60,6 @@ class RepairRequests : public Observer {
 
   bool pushes_at_creation_;
   bool initial_asks_;
-  bool creating_ = false;
   RelationWords asked_;
   std::uint64_t repairs_ = 0;
 };

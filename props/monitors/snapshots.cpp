@@ -31,6 +31,8 @@ struct Snapshot {
 
 class Snapshots : public Observer {
  public:
+  static constexpr std::array hears_machines{model::Report::reader_transition};
+
   explicit Snapshots(const model::Scenario& scenario)
       : Observer{"safety.snapshot"}, bases_{model::traits_of(scenario.dds).acknacks_have_bases} {}
 
@@ -44,8 +46,8 @@ class Snapshots : public Observer {
     if (const model::Packet* data = received_.taken(machine, event)) {
       received_.take(*data);
       if (!data->descriptors.empty()) raise(data->relation(), data->descriptors.highest() + 1);
-    } else if (announcing_ != nullptr && event == "HeartbeatReceived" &&
-               machine.machine == "DiscoveryReader" && machine.subject == announcing_->relation()) {
+    } else if (announcing_ != nullptr && announced_in_ == this->event() &&
+               event == "HeartbeatReceived" && machine.subject == announcing_->relation()) {
       raise(machine.subject, announcing_->detail);
     }
   }
@@ -63,9 +65,9 @@ class Snapshots : public Observer {
     received_.arriving(packet);
     const bool announces = packet.kind == model::PacketKind::heartbeat || packet.carries_heartbeat;
     announcing_ = announces ? &packet : nullptr;
+    announced_in_ = event();
     if (packet.kind == model::PacketKind::acknack) compare(packet);
   }
-  void event_finished(const model::Depths&) override { announcing_ = nullptr; }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {std::to_string(compared_) + " ACKNACKs reached their writer as generated."};
@@ -143,7 +145,8 @@ class Snapshots : public Observer {
 
   bool bases_;
   ReceivedDescriptors received_;
-  const model::Packet* announcing_ = nullptr;
+  const model::Packet* announcing_ = nullptr;  // which lives as long as the event
+  std::uint64_t announced_in_ = 0;
   std::vector<std::uint32_t> announced_;  // by relation
   NumberMap<Snapshot> under_way_;
   std::map<LoopKey, std::vector<Snapshot>> looped_;

@@ -26,7 +26,9 @@ class Stalls : public Observer {
     Observer::event_started(event);
     prospects_.event_started(event);
   }
-  void event_finished(const model::Depths&) override { judge(now()); }
+  void event_finished(const model::Depths&) override {
+    if (prospects_.is_touched()) judge(now());
+  }
   void finish(model::Nanoseconds end) override {
     if (!topology_) return;
     prospects_.touch_all();

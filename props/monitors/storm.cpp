@@ -7,7 +7,7 @@
 // From the first loss on, none claims anything. Only cross-host relations count.
 #include <fmt/core.h>
 
-#include "props/monitors/delay_meter.hpp"
+#include "props/monitors/delay_observer.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
@@ -18,41 +18,33 @@ namespace stormproof::props {
 namespace {
 
 /// Knows what has been lost so far, and how long packets take.
-class LossAware : public Observer {
+class LossAware : public DelayObserver {
  public:
-  LossAware(std::string_view property, const model::Scenario& scenario)
-      : Observer{property}, delays_{scenario} {}
+  using DelayObserver::DelayObserver;
 
-  void emitted(const model::Packet& packet, std::uint32_t,
-               std::span<const std::uint32_t>) override {
-    delays_.emitted(packet, now());
-  }
-  void arrived(const model::Packet& packet, bool lost) override { delays_.arrived(packet, lost); }
-  void received(const model::Packet& packet, std::uint32_t receiver) override {
-    delays_.received(topology(), packet, receiver, now());
-  }
-  void finish(model::Nanoseconds end) override { largest_ = delays_.largest(end); }
+  void finish(model::Nanoseconds end) override { largest_ = delays().largest(end); }
 
  protected:
-  [[nodiscard]] bool lossless() const { return delays_.lost() == 0; }
+  [[nodiscard]] bool lossless() const { return delays().lost() == 0; }
   [[nodiscard]] std::vector<std::string> delay_remarks() const {
     std::vector<std::string> lines;
     lines.push_back(fmt::format("Largest per-packet delay {}, of initial DATA {}.",
-                                time_text(largest_), time_text(delays_.largest_initial_data())));
+                                time_text(largest_), time_text(delays().largest_initial_data())));
     if (!lossless()) {
       lines.push_back(fmt::format("{} packets were lost; the claim ends with the first of them.",
-                                  delays_.lost()));
+                                  delays().lost()));
     }
     return lines;
   }
 
  private:
-  DelayMeter delays_;
   model::Nanoseconds largest_;
 };
 
 class SingleCopies : public LossAware {
  public:
+  static constexpr std::array hears_machines{model::Report::reader_transition};
+
   explicit SingleCopies(const model::Scenario& scenario)
       : LossAware{"storm.single-copy", scenario} {}
 

@@ -20,6 +20,8 @@ namespace {
 
 class Suppression : public Observer {
  public:
+  static constexpr std::array hears_machines{model::Report::descriptor_transition};
+
   explicit Suppression(const model::Scenario& scenario)
       : Observer{"timer.suppression-honoured"},
         waits_{model::traits_of(scenario.dds).waits_for_source},
