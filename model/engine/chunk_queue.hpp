@@ -24,6 +24,7 @@ class ChunkQueue {
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const T& front() const { return first_->elements[begin_]; }
+  [[nodiscard]] T& front() { return first_->elements[begin_]; }
 
   /// Adds an element, to be filled in by its members: one that is put together elsewhere and copied
   /// at once makes the processor wait until the parts are written.

@@ -27,14 +27,15 @@ namespace stormproof::model {
 class EventQueue {
  public:
   /// Inserts an event with the next insertion number; returns that number.
-  std::uint64_t schedule(Nanoseconds time, EventKind kind, std::uint32_t subject,
-                         std::uint32_t detail = 0) {
+  [[gnu::always_inline]] std::uint64_t schedule(Nanoseconds time, EventKind kind,
+                                                std::uint32_t subject, std::uint32_t detail = 0) {
     return schedule_as(class_of(kind), time, kind, subject, detail);
   }
 
   /// The same in a class that need not be the one of its kind: a deliberate mistake.
-  std::uint64_t schedule_as(EventClass event_class, Nanoseconds time, EventKind kind,
-                            std::uint32_t subject, std::uint32_t detail) {
+  [[gnu::always_inline]] std::uint64_t schedule_as(EventClass event_class, Nanoseconds time,
+                                                   EventKind kind, std::uint32_t subject,
+                                                   std::uint32_t detail) {
     const std::uint64_t insertion = inserted_++;
     const std::uint64_t order = static_cast<std::uint64_t>(event_class) << 62 | insertion;
     ++size_;
@@ -43,21 +44,8 @@ class EventQueue {
       const auto line = static_cast<std::size_t>(event_class);
       lines_ |= 1U << line;
       fill(at_once_[line].push_back(), order, subject, detail, kind);
-      return insertion;
-    }
-    const auto number = static_cast<std::size_t>(kind);
-    Lane& lane = lanes_[number];
-    if (lane.is_ranked && !is_before(lane.last_time, lane.last_order, time, order)) [[unlikely]] {
-      push_heap({time, order, subject, detail, kind});
     } else {
-      lane.last_time = time;
-      lane.last_order = order;
-      if (!lane.is_ranked) {
-        lane.is_ranked = true;
-        fill(enter(time, order), time, order, subject, detail, number);
-      } else {
-        fill(lane.others.push_back(), time, order, subject, detail);
-      }
+      insert(time, order, kind, subject, detail);
     }
     return insertion;
   }
@@ -178,6 +166,24 @@ class EventQueue {
     line.pop_front();
     if (line.empty()) lines_ &= lines_ - 1;
     return event;
+  }
+
+  /// Inserts what is not of this instant.
+  [[gnu::noinline]] void insert(Nanoseconds time, std::uint64_t order, EventKind kind,
+                                std::uint32_t subject, std::uint32_t detail) {
+    const auto number = static_cast<std::size_t>(kind);
+    Lane& lane = lanes_[number];
+    if (lane.is_ranked && !is_before(lane.last_time, lane.last_order, time, order)) [[unlikely]] {
+      return push_heap({time, order, subject, detail, kind});
+    }
+    lane.last_time = time;
+    lane.last_order = order;
+    if (!lane.is_ranked) {
+      lane.is_ranked = true;
+      fill(enter(time, order), time, order, subject, detail, number);
+    } else {
+      fill(lane.others.push_back(), time, order, subject, detail);
+    }
   }
 
   /// Makes a place in the ranking. Few others precede it as a rule.

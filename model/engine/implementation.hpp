@@ -42,8 +42,7 @@ class Implementation {
   /// Makes an ACKNACK ask for what is missing now. A correct run never does: the bitmap is a
   /// snapshot (`Mutation::live_bitmaps`).
   virtual void renew_bitmap(Packet& acknack) = 0;
-  /// The first pair from `pair` on, among those of one source, that a packet with several copies
-  /// goes to.
+  /// The pair that a packet with several copies goes to after this one.
   [[nodiscard]] virtual std::uint32_t next_recipient(const Packet& packet,
                                                      std::uint32_t pair) const = 0;
   /// Descriptors that have not reached a receiver, at most `limit` of them, in ascending order.

@@ -30,9 +30,15 @@ Network::Network(RunState& run)
       fleet_{run.scenario},
       by_unit_{wireless_.service == ServedBy::unit},
       over_access_points_{by_unit_ || fleet_.is_listed() || wireless_.loss},
+      some_listen_early_{
+          std::ranges::any_of(run.scenario.deployment.participants,
+                              [](const Participant& one) { return one.open || one.ready; })},
       sender_stalls_{wireless_.sender == Sender::stalls},
       counts_at_admission_{wireless_.count_at == CountAt::admission},
       takes_at_admission_{over_access_points_ || counts_at_admission_},
+      admits_together_{wireless_.kind == ServiceKind::shared_channel && !takes_at_admission_ &&
+                       run.mutation == nullptr &&
+                       run.who_hears(Report::waiting_changed) == nullptr},
       leaving_(sources_.size()) {
   if (wireless_.kind == ServiceKind::shared_channel) build_route();
   for (std::size_t radio = 0; by_unit_ && radio < fleet_.radios().size(); ++radio) {
@@ -90,7 +96,7 @@ void Network::emit(std::uint32_t source, Packet&& packet) {
     std::uint32_t pair = packet.pair;
     for (std::uint32_t copy = 0; copy < packet.copies && !packet.multicast() && !packet.to_nobody;
          ++copy) {
-      if (copy > 0) pair = implementation_->next_recipient(packet, pair + 1);
+      if (copy > 0) pair = implementation_->next_recipient(packet, pair);
       const Pair& ends = run_.topology.pair(pair);
       destinations.push_back(packet.to_writer() ? ends.source : ends.destination);
     }
@@ -108,14 +114,15 @@ void Network::emit(std::uint32_t source, Packet&& packet) {
 void Network::admit(std::uint32_t source) {
   SourceQueue& queue = sources_[source];
   const bool at_admission = wireless_.fragment_request == FragmentRequest::at_admission;
-  while (queue.head_fits(wireless_.source_queue_bytes)) {
+  while (const std::uint32_t fitting = queue.fitting(wireless_.source_queue_bytes)) {
     const auto requested =
         at_admission ? static_cast<std::uint32_t>(queue.head_fragments()) : std::uint32_t{1};
-    --backlog_packets_;
-    admitted_bytes_ += queue.head_demand();
-    queue.admit_head(fragmentation_);
+    const std::uint32_t packets = admits_together_ && requested == 1 ? fitting : 1;
+    backlog_packets_ -= packets;
+    admitted_bytes_ += queue.head_demand() * packets;
+    queue.admit_head(fragmentation_, packets);
     if (!takes_at_admission_) {
-      for (std::uint32_t k = 0; k < requested; ++k) request(on_tape, k, 0, source);
+      for (std::uint32_t k = 0; k < requested; ++k) request(on_tape, k, 0, source, packets);
       continue;
     }
     const std::uint32_t slot = take(source, run_.now);
@@ -154,8 +161,10 @@ std::uint32_t Network::allocate(std::uint32_t source) {
   flight.fragments = 1;
   flight.source = source;
   flight.uses = 1;
-  flight.lost_on_the_way_up = false;
-  flight.lost_at.clear();
+  if (over_access_points_) {
+    flight.lost_on_the_way_up = false;
+    flight.lost_at.clear();
+  }
   return slot;
 }
 
@@ -177,10 +186,11 @@ template void Network::step<fsm::channel::ServiceFinished>(std::uint32_t);
 template void Network::step<fsm::channel::EffectsDone>(std::uint32_t);
 
 void Network::request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage,
-                      std::uint32_t source) {
+                      std::uint32_t source, std::uint32_t packets) {
   const StageState& target = stages_[stage];
-  channels_[target.channel].waiting.push(target.position,
-                                         {run_.now, next_request_++, slot, fragment, source});
+  channels_[target.channel].waiting.push(
+      target.position, {run_.now, next_request_, slot, fragment, source, packets});
+  next_request_ += packets;
   if (run_.who_hears(Report::waiting_changed) != nullptr) {
     run_.probe->waiting_changed(target.channel, channels_[target.channel].waiting.size());
   }
@@ -241,11 +251,13 @@ void Network::handle(const Event& event) {
         release(event.subject);
         break;
       }
-      if (const auto later = implementation_->receives_later(event.detail)) {
-        flights_[event.subject].uses +=
-            run_.schedule(*later, EventKind::reception, event.subject, event.detail);
-        release(event.subject);
-        break;
+      if (some_listen_early_) {
+        if (const auto later = implementation_->receives_later(event.detail)) {
+          flights_[event.subject].uses +=
+              run_.schedule(*later, EventKind::reception, event.subject, event.detail);
+          release(event.subject);
+          break;
+        }
       }
       renew_bitmap(flights_[event.subject]);
       note_journey(flights_[event.subject]);
@@ -322,18 +334,34 @@ void Network::arrive(std::uint32_t slot) {
 /// One reception event for each participant that the packet reaches over the network.
 void Network::schedule_receptions(std::uint32_t slot, Nanoseconds time) {
   InFlight& flight = flights_[slot];
+  if (flight.packet.to_nobody) return;
+  if (const std::optional<std::uint32_t> receiver = destination_of(flight.packet)) {
+    flight.uses += run_.schedule(time, EventKind::reception, slot, *receiver);
+    return;
+  }
   for (const std::uint32_t receiver : implementation_->receivers(flight.packet)) {
     flight.uses += run_.schedule(time, EventKind::reception, slot, receiver);
   }
 }
 
 void Network::loop_back(Packet&& packet, std::uint32_t receiver) {
+  const std::uint32_t slot = allocate(receiver);
+  flights_[slot].packet = std::move(packet);
+  loop_back_flight(slot, receiver);
+}
+
+void Network::loop_back(const PacketNumbers& packet, std::uint32_t receiver) {
+  const std::uint32_t slot = allocate(receiver);
+  flights_[slot].packet.become(packet);
+  loop_back_flight(slot, receiver);
+}
+
+void Network::loop_back_flight(std::uint32_t slot, std::uint32_t receiver) {
+  InFlight& flight = flights_[slot];
+  Packet& packet = flight.packet;
   packet.emitted = run_.now;
   if (processors_ != nullptr && !packet.multicast()) processors_->send(packet, 1);
   if (run_.who_hears(Report::looped_back) != nullptr) run_.probe->looped_back(packet, receiver);
-  const std::uint32_t slot = allocate(receiver);
-  InFlight& flight = flights_[slot];
-  flight.packet = std::move(packet);
   flight.admitted = run_.now;
   flight.uses += run_.schedule(run_.now + run_.scenario.deployment.loopback_delay,
                                EventKind::reception, slot, receiver);

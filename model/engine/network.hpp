@@ -38,6 +38,8 @@ class Network {
   /// Delivers the packet to a participant on the same host after the loopback delay: it never sees
   /// the channel.
   void loop_back(Packet&& packet, std::uint32_t receiver);
+  /// The same for a packet without lists.
+  void loop_back(const PacketNumbers& packet, std::uint32_t receiver);
 
   /// A service, reception, source completion or dispatch event is due.
   void handle(const Event& event);
@@ -51,6 +53,13 @@ class Network {
   /// that were held before it.
   void hold(std::uint32_t participant, const Event& event) { held_[participant].push_back(event); }
   [[nodiscard]] bool sender_stalls() const { return sender_stalls_; }
+  /// Whether the packets of a record ask for the channel together, and nobody hears of each: then a
+  /// record is the same as its packets, emitted one after the other.
+  [[nodiscard]] bool takes_records() const {
+    return admits_together_ && run_.who_hears(Report::emitted) == nullptr &&
+           run_.who_hears(Report::looped_back) == nullptr &&
+           run_.who_hears(Report::backlog_changed) == nullptr;
+  }
   /// The threads of the participants, if they take time; otherwise null.
   [[nodiscard]] Processors* processors() const { return processors_.get(); }
 
@@ -59,15 +68,16 @@ class Network {
   void report(RunResult& result) const;
 
  private:
-  /// A packet that has left the backlog.
+  /// A packet that has left the backlog. Thousands of them wait for their next stage: what each
+  /// stage asks of them comes first.
   struct InFlight {
-    Packet packet;
     std::uint32_t source = 0;
     std::uint32_t fragments = 0;
     std::uint32_t uses = 1;  // events that still need it; the slot is free at 0
+    bool lost_on_the_way_up = false;
     std::int64_t demand = 0;
     Nanoseconds admitted;
-    bool lost_on_the_way_up = false;
+    Packet packet;
     std::vector<std::uint32_t> lost_at;  // hosts that a frame did not reach
   };
   struct StageState {
@@ -137,11 +147,12 @@ class Network {
   /// In place of a slot: the packet that `source` sends when the fragment is served.
   static constexpr std::uint32_t on_tape = UINT32_MAX;
   void request(std::uint32_t slot, std::uint32_t fragment, std::uint32_t stage,
-               std::uint32_t source = 0);
+               std::uint32_t source = 0, std::uint32_t packets = 1);
   template <class Event>
   void step(std::uint32_t channel);
   void serve(std::uint32_t channel);
   void service_finished(std::uint32_t channel);
+  void loop_back_flight(std::uint32_t slot, std::uint32_t receiver);
   void leave_source(std::uint32_t slot);
   void arrive(std::uint32_t slot);
   void schedule_receptions(std::uint32_t slot, Nanoseconds time);
@@ -166,6 +177,7 @@ class Network {
   const Fleet fleet_;
   const bool by_unit_;
   const bool over_access_points_;   // each frame goes up to one and down from it, or from several
+  const bool some_listen_early_;    // before they are ready
   std::vector<UnitChannel> units_;  // of `service: unit`, by channel
   std::optional<LinkLosses> losses_;
   std::unique_ptr<Processors> processors_;
@@ -177,6 +189,7 @@ class Network {
   const bool sender_stalls_;
   const bool counts_at_admission_;
   const bool takes_at_admission_;         // packets, not when the channel serves them first
+  const bool admits_together_;            // packets of a record that fit
   std::vector<std::uint32_t> leaving_;    // by participant: what it sends, if it takes packets then
   std::vector<std::vector<Event>> held_;  // by participant, if senders stall
   struct Stall {

@@ -40,34 +40,32 @@ inline constexpr std::size_t packet_kind_count =
 struct Submessage;  // model/engine/submessage.hpp
 struct Relayed;     // model/fastdds/relayed.hpp
 
-struct Packet {
-  std::uint64_t number = 0;   ///< position in emission order, from 0; of the first copy
-  Nanoseconds emitted;        ///< when it entered the backlog
-  DescriptorSet descriptors;  ///< DATA: what it carries; ACKNACK: its bitmap
-  std::uint32_t pair = 0;     ///< cross-host pair (writer side, reader side); of the first copy.
-                              ///< For a multicast packet: the number of the sending participant
+/// What a packet is, but for its lists.
+struct PacketNumbers {
+  std::uint64_t number = 0;  ///< position in emission order, from 0; of the first copy
+  Nanoseconds emitted;       ///< when it entered the backlog
+  std::uint32_t pair = 0;    ///< cross-host pair (writer side, reader side); of the first copy.
+                             ///< For a multicast packet: the number of the sending participant
   std::uint32_t payload_bytes = 0;
   std::uint32_t copies = 1;      ///< how many packets this record stands for
   std::uint32_t rank_limit = 0;  ///< the copies go to the recipients of rank below this one
   std::uint32_t detail = 0;      ///< Fast DDS. HEARTBEAT (also in DATA): how many descriptors it
                              ///< announces; ACKNACK: its base; control-only relations: the relation
+  std::uint32_t initial_data = 0;  ///< how many of its descriptors count as generated for the first
+                                   ///< time, of those that count
+  std::uint32_t repair_data = 0;   ///< and how many of them as repeated
+  std::uint16_t heartbeats = 0;  ///< how many HEARTBEATs ride in it; the receiver sees them as one
   PacketKind kind{};
   Stream stream{};
   bool from_repair =
       false;  ///< DATA made by repair generation: its source completion starts suppression
   bool carries_initial = false;  ///< DATA: at least one descriptor was generated for the first time
   bool carries_heartbeat = false;  ///< DATA with a piggybacked HEARTBEAT
-  std::uint16_t heartbeats = 0;  ///< how many HEARTBEATs ride in it; the receiver sees them as one
-  bool initial_acknack = false;  ///< ACKNACK marked initial
-  bool to_group = false;         ///< a message that goes to the multicast group
-  bool to_nobody = false;        ///< an announcement to a port that nobody has
-  TrafficClass use{};            ///< of a message, or of what a server relays: what it is for
-  std::uint8_t port = 0;         ///< of its flow: 1 for data of applications, 0 for all else
-  std::uint32_t initial_data = 0;  ///< how many of its descriptors count as generated for the first
-                                   ///< time, of those that count
-  std::uint32_t repair_data = 0;   ///< and how many of them as repeated
-  std::shared_ptr<const std::vector<Submessage>> submessages;  ///< of a message
-  std::shared_ptr<const Relayed> relayed;  ///< what a server sends, or is asked for
+  bool initial_acknack = false;    ///< ACKNACK marked initial
+  bool to_group = false;           ///< a message that goes to the multicast group
+  bool to_nobody = false;          ///< an announcement to a port that nobody has
+  TrafficClass use{};              ///< of a message, or of what a server relays: what it is for
+  std::uint8_t port = 0;           ///< of its flow: 1 for data of applications, 0 for all else
 
   [[nodiscard]] bool multicast() const { return to_group || kind == PacketKind::spdp_multicast; }
   /// Whether it goes from the reader side to the writer side of its pair.
@@ -80,8 +78,22 @@ struct Packet {
   }
 };
 
+struct Packet : PacketNumbers {
+  DescriptorSet descriptors;  ///< DATA: what it carries; ACKNACK: its bitmap
+  std::shared_ptr<const std::vector<Submessage>> submessages;  ///< of a message
+  std::shared_ptr<const Relayed> relayed;  ///< what a server sends, or is asked for
+
+  /// Becomes a packet without lists. Memory of packets is used again: nothing is cleared first.
+  void become(const PacketNumbers& numbers) {
+    static_cast<PacketNumbers&>(*this) = numbers;
+    if (!descriptors.empty()) descriptors = {};
+    if (submessages) submessages.reset();
+    if (relayed) relayed.reset();
+  }
+};
+
 /// The class of channel use that a packet belongs to.
-[[nodiscard]] inline TrafficClass traffic_class(const Packet& packet) {
+[[nodiscard]] inline TrafficClass traffic_class(const PacketNumbers& packet) {
   switch (packet.kind) {
     case PacketKind::spdp_multicast:
     case PacketKind::spdp_unicast:

@@ -5,6 +5,7 @@
 // others, until the channel takes it.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <utility>
@@ -24,24 +25,29 @@ class SourceQueue {
     if (packets_of_head_ == 0) measure_head(fragmentation);
   }
 
-  [[nodiscard]] bool head_fits(Bytes capacity) const {
-    return packets_of_head_ > 0 &&
-           (admitted_bytes_ == 0 || head_demand_ <= capacity.count() - admitted_bytes_);
+  /// How many packets of the first record of the backlog fit.
+  [[nodiscard]] std::uint32_t fitting(Bytes capacity) const {
+    if (packets_of_head_ == 0) return 0;
+    const std::int64_t room = capacity.count() - admitted_bytes_;
+    if (room < head_demand_) return admitted_bytes_ == 0 ? 1 : 0;
+    if (packets_of_head_ == 1) return 1;
+    return static_cast<std::uint32_t>(
+        std::min(std::int64_t{packets_of_head_}, room / head_demand_));
   }
 
   [[nodiscard]] std::int64_t head_fragments() const { return head_fragments_; }
   [[nodiscard]] std::int64_t head_demand() const { return head_demand_; }
 
-  /// Admits the first packet of the backlog.
-  void admit_head(const Fragmentation& fragmentation) {
-    admitted_bytes_ += head_demand_;
-    --packets_;
-    --packets_of_head_;
+  /// Admits as many packets of the first record.
+  void admit_head(const Fragmentation& fragmentation, std::uint32_t packets = 1) {
+    admitted_bytes_ += head_demand_ * packets;
+    packets_ -= packets;
+    packets_of_head_ -= packets;
     if (packets_of_head_ == 0 && packets_ > 0) measure_head(fragmentation);
   }
 
-  /// The first packet that is admitted and has not been taken. `next(packet, pair)`: the first
-  /// recipient of a record of several packets, from this pair on.
+  /// The first packet that is admitted and has not been taken. `next(packet, pair)`: the recipient
+  /// of a record of several packets after this one.
   template <class Next>
   void take(Packet& packet, Next&& next) {
     if (taken_.copies == 0) {
@@ -56,15 +62,11 @@ class SourceQueue {
   /// The first of several packets that are one record, which then stands for the others.
   template <class Next>
   static void take_copy(Packet& record, Packet& copy, Next&& next) {
-    copy = {};
-    copy.number = record.number++;
-    copy.emitted = record.emitted;
-    copy.pair = record.pair;
-    copy.payload_bytes = record.payload_bytes;
-    copy.kind = record.kind;
-    copy.stream = record.stream;
+    copy.become(record);
+    copy.copies = 1;
+    ++record.number;
     --record.copies;
-    record.pair = next(record, record.pair + 1);
+    record.pair = next(record, record.pair);
   }
 
   /// To be called when nothing more fits: what is left is the backlog.

@@ -1,7 +1,7 @@
 // The fragments that wait for one channel. Time never goes back, so the requests of one stage
 // arrive in ascending (request time, request number): each stage is a plain queue, and the
 // channel's choice, the least (request time, stage rank, request number), is the least of a few
-// heads.
+// heads. What is requested at once, one after the other, stands in such a queue as one request.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ struct ServiceRequest {
   std::uint64_t number = 0;  ///< one counter for all requests of a run
   std::uint32_t slot = 0;    ///< the packet
   std::uint32_t fragment = 0;
-  std::uint32_t from = 0;  ///< the access point that sends it, on the way down; or the source
+  std::uint32_t from = 0;     ///< the access point that sends it, on the way down; or the source
+  std::uint32_t packets = 1;  ///< it stands for this fragment of as many packets of the source
 };
 
 class WaitingFragments {
@@ -35,7 +36,8 @@ class WaitingFragments {
     last.slot = request.slot;
     last.fragment = request.fragment;
     last.from = request.from;
-    ++size_;
+    last.packets = request.packets;
+    size_ += request.packets;
   }
 
   [[nodiscard]] bool empty() const { return size_ == 0; }
@@ -49,14 +51,15 @@ class WaitingFragments {
       if (stages_[k].requests.empty()) continue;
       if (best == stages_.size() || stages_[k].before(stages_[best])) best = k;
     }
-    const ServiceRequest& first = stages_[best].requests.front();
+    ServiceRequest& first = stages_[best].requests.front();
     chosen.time = first.time;
     chosen.number = first.number;
     chosen.slot = first.slot;
     chosen.fragment = first.fragment;
     chosen.from = first.from;
-    stages_[best].requests.pop_front();
     --size_;
+    ++first.number;
+    if (--first.packets == 0) stages_[best].requests.pop_front();
     return static_cast<std::uint32_t>(best);
   }
 

@@ -17,6 +17,7 @@ Protocol::Protocol(RunState& run, Network& network)
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
       inline_qos_bytes_{traits_of(run.scenario.dds).has_server ? inline_qos_bytes : 0},
+      sends_records_{network.takes_records() && !run.scenario.deployment.life},
       known_(run.topology.pair_count(), false),
       generated_{counts_at_admission(run) ? of_no_interest_ : run.counts} {
   for (std::uint32_t w = 0; w < writers_.size(); ++w) {
@@ -202,11 +203,41 @@ void Protocol::send_heartbeat(std::uint32_t relation, std::uint32_t announced, s
 
 void Protocol::send_heartbeat_to_all(std::uint32_t w) {
   const Writer& writer = writers_[w];
-  const std::int64_t bytes =
-      writer.readers.size() == 1 ? heartbeat_to_one_bytes : heartbeat_to_many_bytes;
-  for (const std::uint32_t relation : writer.readers) {
-    send_heartbeat(relation, writer.created, bytes);
+  PacketNumbers heartbeat;
+  heartbeat.stream = stream_of(w);
+  heartbeat.payload_bytes = static_cast<std::uint32_t>(
+      writer.readers.size() == 1 ? heartbeat_to_one_bytes : heartbeat_to_many_bytes);
+  heartbeat.detail = writer.created;
+  generated_.heartbeat += count_crossing(writer.readers);
+  send_to_readers(heartbeat, writer.readers);
+}
+
+/// A HEARTBEAT of a writer to these, the first ones that it has matched, in their order. Those on
+/// other hosts are one record, in the place of the first of them.
+void Protocol::send_to_readers(PacketNumbers heartbeat, const std::vector<std::uint32_t>& readers) {
+  heartbeat.kind = PacketKind::heartbeat;
+  bool is_recorded = false;
+  for (const std::uint32_t relation : readers) {
+    const Pair& to = ends(relation);
+    heartbeat.pair = relation / 2;
+    if (!to.cross_host) {
+      network_.loop_back(heartbeat, to.destination);
+    } else if (!is_recorded) {
+      Packet packet;
+      packet.become(heartbeat);
+      if (sends_records_) packet.copies = count_crossing(readers);
+      is_recorded = sends_records_;
+      network_.emit(to.source, std::move(packet));
+    }
   }
+}
+
+std::uint32_t Protocol::next_recipient(const Packet& heartbeat, std::uint32_t pair) const {
+  const std::uint32_t relation = 2 * pair + static_cast<std::uint32_t>(heartbeat.stream);
+  const std::vector<std::uint32_t>& readers = writers_[writer_of(relation)].readers;
+  std::uint32_t rank = relations_[relation].rank + 1;
+  while (!crosses(readers[rank])) ++rank;
+  return readers[rank] / 2;
 }
 
 void Protocol::send_acknack(Packet&& packet) {

@@ -6,6 +6,7 @@
 // What the paper's implementation does alike is in model/engine/discovery_base.hpp.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <deque>
@@ -38,9 +39,8 @@ class Protocol : public DiscoveryBase {
   [[nodiscard]] std::vector<std::uint32_t> receivers(const Packet& packet) const override;
   void received(const Packet& packet, std::uint32_t receiver) override;
   void renew_bitmap(Packet& acknack) override;
-  [[nodiscard]] std::uint32_t next_recipient(const Packet&, std::uint32_t pair) const override {
-    return pair;  // every packet stands for itself
-  }
+  [[nodiscard]] std::uint32_t next_recipient(const Packet& heartbeat,
+                                             std::uint32_t pair) const override;
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
 
   // The host of a RunningWorld: machines.
@@ -93,6 +93,7 @@ class Protocol : public DiscoveryBase {
   void assign(rules::WriterOpen, std::uint32_t relation, bool matched) {
     if (std::exchange(relations_[relation].matched, matched) == matched) return;
     std::vector<std::uint32_t>& readers = writers_[writer_of(relation)].readers;
+    relations_[relation].rank = static_cast<std::uint32_t>(readers.size());
     matched ? readers.push_back(relation) : static_cast<void>(std::erase(readers, relation));
   }
   [[nodiscard]] bool value(rules::SomeConfirmed, std::uint32_t relation) const {
@@ -306,6 +307,7 @@ class Protocol : public DiscoveryBase {
     // Writer side.
     bool matched = false;
     bool some_confirmed = false;
+    std::uint32_t rank = 0;  ///< how many the writer had matched before, if it forgets nobody
     fsm::StateId suppression = fsm::Stepper<fsm::SingleShot>::initial;
     // Reader side.
     fsm::StateId reply = fsm::Stepper<fsm::SingleShot>::initial;
@@ -340,6 +342,7 @@ class Protocol : public DiscoveryBase {
   void send_spdp_copy(std::uint32_t pair) override;
   void send_heartbeat(std::uint32_t relation, std::uint32_t announced, std::int64_t bytes);
   void send_heartbeat_to_all(std::uint32_t writer);
+  void send_to_readers(PacketNumbers heartbeat, const std::vector<std::uint32_t>& readers);
   void send_acknack(Packet&& packet);
   void send_spdp_to_ports(std::uint32_t i);
   /// Base and bitmap of an ACKNACK.
@@ -372,9 +375,14 @@ class Protocol : public DiscoveryBase {
     return d < writers_[2 * i + index_of(s)].created;
   }
   [[nodiscard]] bool crosses(std::uint32_t relation) const { return ends(relation).cross_host; }
+  [[nodiscard]] std::uint32_t count_crossing(const std::vector<std::uint32_t>& relations) const {
+    return static_cast<std::uint32_t>(
+        std::ranges::count_if(relations, [this](std::uint32_t r) { return crosses(r); }));
+  }
 
   const std::int64_t inline_qos_bytes_;
-  std::vector<bool> known_;  // by pair (i, j): i has recognised j
+  const bool sends_records_;  // of HEARTBEATs to all readers of a writer
+  std::vector<bool> known_;   // by pair (i, j): i has recognised j
   Message sync_message_;
   Message async_message_;
   std::vector<std::uint32_t> targets_;

@@ -52,9 +52,7 @@ void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
   message.bytes += heartbeat_submessage_bytes;
   ++message.heartbeats;
   message.announced = writer.created;
-  for (const std::uint32_t relation : writer.readers) {
-    if (crosses(relation)) ++generated_.heartbeat;
-  }
+  generated_.heartbeat += count_crossing(writer.readers);
   refill(w);
 }
 
@@ -63,17 +61,21 @@ void Protocol::flush(Message& message, SendMode mode) {
   if (!message.open) return;
   message.open = false;
   if (mode == SendMode::async) participants_[message.writer / 2].sent_bytes += message.bytes;
+  if (!message.has_data) {
+    PacketNumbers heartbeat;
+    heartbeat.stream = stream_of(message.writer);
+    heartbeat.payload_bytes = static_cast<std::uint32_t>(message.bytes);
+    heartbeat.heartbeats = message.heartbeats;
+    heartbeat.detail = message.announced;
+    return send_to_readers(heartbeat, message.readers);
+  }
   for (std::size_t k = 0; k < message.readers.size(); ++k) {
-    Packet packet;
-    packet.kind = message.has_data ? PacketKind::data : PacketKind::heartbeat;
+    Packet packet = packet_on(PacketKind::data, message.readers[k], message.bytes);
     packet.descriptors = DescriptorSet{message.descriptors};
-    packet.pair = message.readers[k] / 2;
-    packet.stream = stream_of(message.writer);
-    packet.payload_bytes = static_cast<std::uint32_t>(message.bytes);
     packet.initial_data = message.initial_data[k];
     packet.repair_data = message.repair_data[k];
     packet.carries_initial = packet.initial_data > 0;
-    packet.carries_heartbeat = message.has_data && message.heartbeats > 0;
+    packet.carries_heartbeat = message.heartbeats > 0;
     packet.heartbeats = message.heartbeats;
     packet.detail = message.announced;
     send(std::move(packet));

@@ -87,6 +87,7 @@ void ProtocolBase::note_acknowledged(std::uint32_t relation, bool acknowledged,
 }
 
 std::uint32_t ProtocolBase::next_recipient(const Packet& packet, std::uint32_t pair) const {
+  ++pair;
   if (packet.kind == PacketKind::spdp_unicast) {
     while (known_rank_[pair] >= packet.rank_limit) ++pair;
     return pair;

@@ -176,6 +176,38 @@ TEST(Network, ALostPacketIsServedButNotReceived) {
   EXPECT_EQ(log.result.counts.repair_data, 8U);
 }
 
+/// Whoever hears of packets hears of each; otherwise HEARTBEATs to many readers are one record.
+TEST(Network, ARunIsTheSameWhetherSomebodyHearsOfItOrNot) {
+  for (const ImplementationKind kind : {ImplementationKind::paper, ImplementationKind::fastdds}) {
+    for (const Bytes queue : {Bytes{3'000}, WirelessProfile::unlimited}) {
+      for (const ServiceOrder order : {ServiceOrder::fifo_uplink, ServiceOrder::fifo_downlink,
+                                       ServiceOrder::fifo, ServiceOrder::datagram_uplink}) {
+        Scenario scenario;
+        scenario.deployment = Deployment::homogeneous(2, 3, 6);
+        scenario.dds.implementation = kind;
+        scenario.wireless.source_queue_bytes = queue;
+        scenario.wireless.order = order;
+        scenario.wireless.lost_packets = {7, 8, 30, 31, 55, 90};
+        const RunResult heard = run_and_log(scenario).result;
+        const RunResult alone = simulate(scenario);
+        EXPECT_EQ(alone.events, heard.events);
+        EXPECT_EQ(alone.end_time, heard.end_time);
+        EXPECT_EQ(alone.counts, heard.counts);
+        EXPECT_EQ(alone.duplicate_deliveries, heard.duplicate_deliveries);
+        for (std::size_t k = 0; k < traffic_class_count; ++k) {
+          EXPECT_EQ(alone.latency[k].packets, heard.latency[k].packets);
+          EXPECT_EQ(alone.latency[k].backlog_sum, heard.latency[k].backlog_sum);
+          EXPECT_EQ(alone.latency[k].service_sum, heard.latency[k].service_sum);
+        }
+        for (std::size_t i = 0; i < heard.backlog.size(); ++i) {
+          EXPECT_EQ(alone.backlog[i].packets, heard.backlog[i].packets);
+          EXPECT_EQ(alone.backlog[i].at, heard.backlog[i].at);
+        }
+      }
+    }
+  }
+}
+
 TEST(Network, PacketNumbersCountCopiesOneByOne) {
   Scenario scenario;
   scenario.deployment = Deployment::homogeneous(3, 2, 3);

@@ -179,7 +179,7 @@ class SourceQueueUnderTest final : public Reactor {
       number_ += packet.copies;
       queue_.push(std::move(packet), fragmentation_);
     } else if (call.event == admitted) {
-      while (queue_.head_fits(Bytes{queue_bytes})) {
+      while (queue_.fitting(Bytes{queue_bytes}) > 0) {
         inside_.push_back(queue_.head_demand());
         queue_.admit_head(fragmentation_);
         Packet packet;
