@@ -77,7 +77,7 @@ Outcome run(ReproduceArguments& arguments, Session& session) {
   report.version = STORMPROOF_VERSION;
   report.published = *published;
   report.results = run_plan(arguments, *plan, *published, session);
-  report.figures = compare(report.published, report.results);
+  report.figures = reproduce::compare(report.published, report.results);
   Answer answer;
   answer.document = document_of(report);
   answer.notes = times(*plan, report.results);

@@ -17,11 +17,6 @@ using model::Submessage;
 constexpr std::uint32_t bits_per_word = 32;
 constexpr std::uint16_t user_group_port = 7401;
 
-struct Ends {
-  EntityId writer = 0;
-  EntityId reader = 0;
-};
-
 /// Of the writers of a participant, in their order.
 Ends ends_of(std::uint32_t writer) {
   // Type lookup: RTPS has no others of these ids.

@@ -14,6 +14,12 @@
 
 namespace stormproof::capture::write {
 
+/// The entities of a relation.
+struct Ends {
+  EntityId writer = 0;
+  EntityId reader = 0;
+};
+
 namespace entity {
 inline constexpr EntityId participant = 0x000001c1;
 inline constexpr EntityId liveliness_reader = 0x000200c7;

@@ -14,11 +14,6 @@ using model::PacketKind;
 using model::Relayed;
 
 /// The entities of one of the server's relays; those of announcements are SPDP's.
-struct Ends {
-  EntityId writer = 0;
-  EntityId reader = 0;
-};
-
 Ends ends_of(const model::Packet& packet) {
   if (packet.detail == model::fastdds::relay::announcements) {
     return {capture::entity::spdp_writer, capture::entity::spdp_reader};
