@@ -161,11 +161,6 @@ class Walk {
   comp::SmallState seen_;
 };
 
-struct Crossing {
-  std::size_t distinct = 0;
-  std::vector<std::string> refused;
-};
-
 template <class Packing, unsigned readers = 1>
 Crossing cross(const model::DdsProfile& dds, explorer::Scope scope, Unsound unsound) {
   z3::context context;
