@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <ranges>
+#include <numeric>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -180,13 +180,17 @@ class FollowedWorld {
   /// none after that one.
   template <class Term>
   std::uint32_t count_of_first(Term&& term) {
-    const auto numbers = std::views::iota(0U, host_->descriptor_count(place_.writer));
     FollowedWorld d = *this;
-    const auto first = std::ranges::partition_point(numbers, [&](std::uint32_t number) {
-      d.place_.descriptor = number;
-      return static_cast<bool>(term(d));
-    });
-    return static_cast<std::uint32_t>(first - numbers.begin());
+    std::uint32_t held = 0;
+    for (std::uint32_t end = host_->descriptor_count(place_.writer); held < end;) {
+      d.place_.descriptor = std::midpoint(held, end);
+      if (term(d)) {
+        held = d.place_.descriptor + 1;
+      } else {
+        end = d.place_.descriptor;
+      }
+    }
+    return held;
   }
   template <class Term>
   bool all_up_to(Term&& term) {
