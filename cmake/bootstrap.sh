@@ -95,10 +95,12 @@ install_missing() {
   fi
 }
 
-# configure <preset> <folder> <options>... : the log is shown by the caller, if it is of interest
+# configure <preset> <folder> <options>... : the log is shown by the caller, if it is of interest.
+# STORMPROOF_WERROR=ON makes warnings errors.
 configure() (
   preset=$1 folder=$2
   shift 2
+  [ -z "${STORMPROOF_WERROR:-}" ] || set -- "$@" "-DSTORMPROOF_WERROR=$STORMPROOF_WERROR"
   cd "$root" || exit 1
   for unpacked in "$root"/.deps/*/usr; do
     [ -d "$unpacked" ] || continue

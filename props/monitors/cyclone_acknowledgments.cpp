@@ -10,41 +10,21 @@
 #include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
-#include "props/monitors/received_submessages.hpp"
+#include "props/monitors/submessage_observer.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
-class CycloneAcknowledgments : public Observer {
+class CycloneAcknowledgments : public SubmessageObserver {
  public:
-  CycloneAcknowledgments() : Observer{"safety.ack-implies-received"} {}
+  CycloneAcknowledgments() : SubmessageObserver{"safety.ack-implies-received"} {}
 
-  void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
-    received_.reset(topology);
-  }
   /// What a participant creates is one sample more of one of its writers.
   void event_started(const model::Event& event) override {
-    Observer::event_started(event);
+    SubmessageObserver::event_started(event);
     if (event.kind != model::EventKind::endpoint_creation) return;
-    ++history_[received_.writer_of_creation(event)];
-  }
-  void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view after, std::uint32_t, std::uint64_t) override {
-    const std::uint32_t relation = machine.subject;
-    const model::Submessage* heard = received_.heard(machine, event);
-    if (machine.machine == "MatchedReader" && event == "Opened") {
-      relations_[relation].acknowledged = history_[received_.writer_of(relation)];
-    }
-    if (heard == nullptr) return;
-    Relation& of = relations_[relation];
-    if (heard->kind == model::Submessage::Kind::data) of.received.insert(heard->sample);
-    if (heard->kind != model::Submessage::Kind::acknack) return;
-    of.acknowledged = std::max(of.acknowledged, heard->sample);
-    if (after == "Replied") judge(relation, of);
+    ++history_[numbers().writer_of_creation(event)];
   }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
@@ -57,21 +37,31 @@ class CycloneAcknowledgments : public Observer {
     std::set<std::uint32_t> received;  ///< what the reader has taken
   };
 
+  void matched(std::uint32_t relation) override {
+    relations_[relation].acknowledged = history_[numbers().writer_of(relation)];
+  }
+  void heard(std::uint32_t relation, const model::Submessage& taken,
+             const States& states) override {
+    Relation& of = relations_[relation];
+    if (taken.kind == model::Submessage::Kind::data) of.received.insert(taken.sample);
+    if (taken.kind != model::Submessage::Kind::acknack) return;
+    of.acknowledged = std::max(of.acknowledged, taken.sample);
+    if (states.after == "Replied") judge(relation, of);
+  }
   void judge(std::uint32_t relation, const Relation& of) {
-    if (!received_.is_of_stream(relation)) return;
+    if (!numbers().is_of_stream(relation)) return;
     ++judged_;
     for (std::uint32_t sample = 0; sample < of.acknowledged; ++sample) {
       if (of.received.contains(sample)) continue;
-      const model::Pair& ends = received_.ends(relation);
+      const model::Pair& ends = numbers().ends(relation);
       return object_now(fmt::format(
           "The writer of {} of participant {} takes sample {} as acknowledged by participant {} at "
           "{}, but it has not been received there.",
-          model::cyclone::name_of_writer(relation % received_.stride()), ends.source, sample + 1,
+          model::cyclone::name_of_writer(relation % numbers().stride()), ends.source, sample + 1,
           ends.destination, time_text(now())));
     }
   }
 
-  ReceivedSubmessages received_;
   std::map<std::uint32_t, std::uint32_t> history_;  // by writer: how many samples exist
   std::map<std::uint32_t, Relation> relations_;
   std::uint64_t judged_ = 0;

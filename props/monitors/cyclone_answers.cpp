@@ -2,9 +2,8 @@
 // safety.repair-only-if-asked: a sample goes out once when it is created, if somebody is matched
 //   then, and otherwise at most once for each ACKNACK that listed it, whoever sent that: what two
 //   ask for may go to all.
-// storm.feedback-gain: a HEARTBEAT that is meant for one reader alone answers an ACKNACK of its
-// own,
-//   which was pre-emptive or asked for something.
+// storm.feedback-gain: a HEARTBEAT for one reader alone answers an ACKNACK of its own, which was
+//   pre-emptive or asked for something.
 #include <map>
 #include <string_view>
 #include <utility>
@@ -37,7 +36,7 @@ class RepeatedSamples : public SubmessageObserver {
 
  private:
   void matched(std::uint32_t relation) override { ++readers_[numbers().writer_of(relation)]; }
-  void heard(std::uint32_t relation, const model::Submessage& acknack, std::string_view) override {
+  void heard(std::uint32_t relation, const model::Submessage& acknack, const States&) override {
     if (acknack.kind != model::Submessage::Kind::acknack) return;
     acknack.bitmap.for_each([&](std::uint32_t sample) {
       ++left_[{numbers().writer_of(relation), sample}];
@@ -74,7 +73,7 @@ class DirectedHeartbeats : public SubmessageObserver {
   }
 
  private:
-  void heard(std::uint32_t relation, const model::Submessage& acknack, std::string_view) override {
+  void heard(std::uint32_t relation, const model::Submessage& acknack, const States&) override {
     if (acknack.kind != model::Submessage::Kind::acknack) return;
     if (acknack.initial || !acknack.bitmap.empty()) ++left_[relation];
   }

@@ -7,20 +7,18 @@
 #include <map>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
+#include "props/monitors/descriptors.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/submessage_observer.hpp"
 
 namespace stormproof::props {
 
 namespace {
-
-using Samples = std::vector<std::uint32_t>;  // ascending
 
 class CycloneSnapshots : public SubmessageObserver {
  public:
@@ -35,7 +33,8 @@ class CycloneSnapshots : public SubmessageObserver {
 
   struct View {
     std::uint32_t base = 0;  ///< samples that lie below the first one that is missing
-    Samples lacking;         ///< known to exist, and missing
+    Descriptors lacking;     ///< samples that are known to exist, and missing
+    bool operator==(const View&) const = default;
   };
   struct Relation {
     std::set<std::uint32_t> received;
@@ -44,10 +43,8 @@ class CycloneSnapshots : public SubmessageObserver {
     std::map<std::int64_t, View> sent;  ///< by count
   };
 
-  static Samples listed(const model::Submessage& acknack) {
-    Samples samples;
-    acknack.bitmap.for_each([&](std::uint32_t sample) { samples.push_back(sample); });
-    return samples;
+  static View said(const model::Submessage& acknack) {
+    return {acknack.sample, Descriptors{acknack.bitmap}};
   }
 
   void timer_fired(std::uint32_t relation) override {
@@ -55,17 +52,17 @@ class CycloneSnapshots : public SubmessageObserver {
     View view;
     while (reader.received.contains(view.base)) ++view.base;
     for (std::uint32_t sample = view.base; sample < reader.known; ++sample) {
-      if (!reader.received.contains(sample)) view.lacking.push_back(sample);
+      if (!reader.received.contains(sample)) view.lacking.add(sample);
     }
     reader.made.push_back(std::move(view));
   }
   void heard(std::uint32_t relation, const model::Submessage& taken,
-             std::string_view before) override {
+             const States& states) override {
     Relation& reader = relations_[relation];
     if (taken.kind == Kind::acknack) return compare(relation, reader, taken);
-    if (before == "Closed") return;
+    if (states.before == "Closed") return;
     if (taken.kind == Kind::heartbeat) reader.known = std::max(reader.known, taken.sample);
-    if (taken.kind != Kind::data || before == "Unheard") return;
+    if (taken.kind != Kind::data || states.before == "Unheard") return;
     reader.known = std::max(reader.known, taken.sample + 1);
     reader.received.insert(taken.sample);
   }
@@ -73,10 +70,10 @@ class CycloneSnapshots : public SubmessageObserver {
     if (acknack.kind != Kind::acknack) return;
     const std::uint32_t relation = relation_answered(packet, acknack);
     Relation& reader = relations_[relation];
-    View said{acknack.sample, listed(acknack)};
+    View leaving = said(acknack);
     const auto is_said = [&](const View& view) {
-      if (acknack.initial) return said.base == 0 && said.lacking.empty();
-      return view.base == said.base && (said.lacking.empty() || view.lacking == said.lacking);
+      if (acknack.initial) return leaving == View{};
+      return view.base == leaving.base && (leaving.lacking.empty() || view == leaving);
     };
     const auto view = std::ranges::find_if(reader.made, is_said);
     if (view == reader.made.end()) {
@@ -85,12 +82,11 @@ class CycloneSnapshots : public SubmessageObserver {
     } else {
       reader.made.erase(reader.made.begin(), view + 1);
     }
-    reader.sent[acknack.count] = std::move(said);
+    reader.sent[acknack.count] = std::move(leaving);
   }
   void compare(std::uint32_t relation, Relation& reader, const model::Submessage& acknack) {
     const auto sent = reader.sent.find(acknack.count);
-    if (sent == reader.sent.end() || sent->second.base != acknack.sample ||
-        sent->second.lacking != listed(acknack)) {
+    if (sent == reader.sent.end() || sent->second != said(acknack)) {
       return object_to(relation, "arrives as another one than was sent");
     }
     ++compared_;

@@ -8,6 +8,7 @@
 
 #include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
+#include "props/monitors/descriptors.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/number_map.hpp"
 #include "props/monitors/observer.hpp"
@@ -18,14 +19,8 @@ namespace stormproof::props {
 namespace {
 
 struct Snapshot {
-  std::uint64_t first = 0;
-  std::vector<std::uint64_t> others;  ///< words, of long streams
+  Descriptors listed;
   std::uint32_t base = 0;
-
-  void put(std::uint32_t k, std::uint64_t word) {
-    if (k == 0) first = word;
-    if (k > 0) others.push_back(word);
-  }
   bool operator==(const Snapshot&) const = default;
 };
 
@@ -83,12 +78,7 @@ class Snapshots : public Observer {
   }
 
   Snapshot content(const model::Packet& packet) const {
-    Snapshot snapshot;
-    for (std::uint32_t k = 0; k < received_.word_count(packet.relation()); ++k) {
-      snapshot.put(k, packet.descriptors.word(k));
-    }
-    if (bases_) snapshot.base = packet.detail;
-    return snapshot;
+    return {Descriptors{packet.descriptors}, bases_ ? packet.detail : 0};
   }
 
   /// What the reader lacks now, as an ACKNACK should say it.
@@ -101,7 +91,7 @@ class Snapshots : public Observer {
     for (std::uint32_t k = 0; k < received_.word_count(relation); ++k) {
       const std::uint64_t lacking = RelationWords::below(count, k) & ~received_.word(relation, k);
       const std::uint32_t limit = bases_ ? announced_[relation] : count;
-      snapshot.put(k, claims ? lacking & RelationWords::below(limit, k) : 0);
+      if (claims) snapshot.listed.add(k, lacking & RelationWords::below(limit, k));
       if (lacking != 0 && first == count) {
         first = 64 * k + static_cast<std::uint32_t>(std::countr_zero(lacking));
       }

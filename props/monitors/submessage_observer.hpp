@@ -24,11 +24,11 @@ class SubmessageObserver : public Observer {
   }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
+                  std::string_view after, std::uint32_t, std::uint64_t) override {
     if (machine.machine == "MatchedReader" && event == "Opened") matched(machine.subject);
     if (machine.machine == "CautiousReader" && event == "TimerFired") timer_fired(machine.subject);
     const model::Submessage* taken = received_.heard(machine, event);
-    if (taken != nullptr) heard(machine.subject, *taken, before);
+    if (taken != nullptr) heard(machine.subject, *taken, {before, after});
   }
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t>) override {
@@ -43,9 +43,14 @@ class SubmessageObserver : public Observer {
   virtual void matched(std::uint32_t /*relation*/) {}
   /// The ACK timer of a reader is about to do what it is for.
   virtual void timer_fired(std::uint32_t /*relation*/) {}
-  /// A machine of the relation, in state `before`, takes DATA, a HEARTBEAT or an ACKNACK.
-  virtual void heard(std::uint32_t relation, const model::Submessage&, std::string_view before) = 0;
-  virtual void sent(const model::Packet& packet, const model::Submessage& submessage) = 0;
+  /// The states of the machine that takes a submessage.
+  struct States {
+    std::string_view before;
+    std::string_view after;
+  };
+  /// A machine of the relation takes DATA, a HEARTBEAT or an ACKNACK.
+  virtual void heard(std::uint32_t relation, const model::Submessage&, const States&) = 0;
+  virtual void sent(const model::Packet& /*packet*/, const model::Submessage&) {}
 
   [[nodiscard]] const ReceivedSubmessages& numbers() const { return received_; }
   /// The relation of what a writer sends to one participant.

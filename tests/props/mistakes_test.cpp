@@ -50,23 +50,28 @@ EventMutation event(EventKind kind, EventMutation::Change change,
   return {kind, change, model::Nanoseconds{1}, event_class};
 }
 
-Scenario small(const std::vector<std::string>& more = {}) {
+/// A shipped scenario with overrides, which is not read before it is asked for: every process that
+/// runs a test lists the cases.
+struct Setting {
+  const char* shipped_name;
+  std::vector<std::string> overrides;
+  [[nodiscard]] Scenario scenario() const { return shipped(shipped_name, overrides); }
+};
+
+Setting small_deployment(const char* name, const std::vector<std::string>& more) {
   std::vector<std::string> overrides{"deployment.participants_per_host=2",
                                      "deployment.endpoints_per_participant=4",
                                      "run_until=time_limit", "time_limit=8s"};
   overrides.insert(overrides.end(), more.begin(), more.end());
-  return shipped("smallest", overrides);
+  return {name, overrides};
 }
-
-Scenario small_fastdds(const std::vector<std::string>& more = {}) {
-  std::vector<std::string> overrides{"deployment.participants_per_host=2",
-                                     "deployment.endpoints_per_participant=4",
-                                     "run_until=time_limit", "time_limit=8s"};
-  overrides.insert(overrides.end(), more.begin(), more.end());
-  return shipped("wifi-5x20-fastdds", overrides);
+Setting small(const std::vector<std::string>& more = {}) {
+  return small_deployment("smallest", more);
 }
-
-Scenario small_cyclone(const std::vector<std::string>& more = {}) {
+Setting small_fastdds(const std::vector<std::string>& more = {}) {
+  return small_deployment("wifi-5x20-fastdds", more);
+}
+Setting small_cyclone(const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides{"dds=cyclonedds-0.10"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return small(overrides);
@@ -78,7 +83,7 @@ const std::vector<std::string> lossy{"wireless.lost_packets=[2,5,9,12,14,17,21,3
 struct Case {
   const char* name;
   const char* property;
-  Scenario scenario;
+  Setting setting;
   Mutation mistake;
 };
 
@@ -256,13 +261,14 @@ class Mistakes : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Mistakes, AreNoticed) {
   const Case& tested = all_cases()[GetParam()];
-  const MonitoredRun correct = run_monitored(tested.scenario);
+  const Scenario scenario = tested.setting.scenario();
+  const MonitoredRun correct = run_monitored(scenario);
   EXPECT_EQ(correct.violation(tested.property), nullptr)
       << tested.name << ": " << correct.violation(tested.property)->reason;
   model::RunOptions options;
   options.mutation = &tested.mistake;
   options.max_events = 150'000;
-  const MonitoredRun run = run_monitored(tested.scenario, tested.scenario, options);
+  const MonitoredRun run = run_monitored(scenario, scenario, options);
   ASSERT_NE(run.violation(tested.property), nullptr)
       << tested.name << " noticed only: " << run.violated();
   EXPECT_LT(run.violation(tested.property)->event, std::max<std::uint64_t>(run.result.events, 1));

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "props/laws/law.hpp"
 
@@ -14,8 +15,8 @@ struct Effort {
   std::optional<model::ImplementationKind> implementation = {};  ///< absent: any engines know
 };
 
-/// Whether the law says something about scenarios of the implementation.
-[[nodiscard]] bool applies_to(const Law& law, model::ImplementationKind implementation);
+/// The laws that say something about scenarios of the implementation: more than 5 of 100.
+[[nodiscard]] std::vector<Law> laws_of(model::ImplementationKind implementation);
 
 /// What breaks the law with the smallest scenario found, as text, or nothing. The scenarios are the
 /// same on every machine.

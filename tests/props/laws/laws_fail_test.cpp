@@ -33,8 +33,7 @@ TEST(Mistakes, AreNoticed) {
 /// Each law that says something about Cyclone DDS notices one of its mistakes there.
 TEST(Mistakes, OfCycloneDdsAreNoticed) {
   constexpr auto cyclone = model::ImplementationKind::cyclone;
-  for (const Law& law : laws()) {
-    if (!applies_to(law, cyclone)) continue;
+  for (const Law& law : laws_of(cyclone)) {
     const std::vector<Mistake> list = mistakes();
     EXPECT_TRUE(std::ranges::any_of(list, [&](const Mistake& mistake) {
       const Effort effort{.scenarios = 200, .shrink = false, .implementation = cyclone};

@@ -114,7 +114,7 @@ RecordedCapture recorded(const model::Scenario& scenario) {
   return {std::move(capture), recorder.emissions()};
 }
 
-Conversation conversation_of(const SimulatedCapture& capture) {
+Conversation conversation_in(const SimulatedCapture& capture) {
   constexpr std::size_t unpack_limit = std::size_t{1} << 30U;
   const std::vector<MemoryCapture> files{{"simulated.pcap", capture.pcap, unpack_limit}};
   auto conversation = read_conversation(files);

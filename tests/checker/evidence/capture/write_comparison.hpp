@@ -49,7 +49,7 @@ struct RecordedCapture {
 [[nodiscard]] RecordedCapture recorded(const model::Scenario& scenario);
 
 /// The capture as `capture summarize` reads it; fails the test if it cannot be read.
-[[nodiscard]] Conversation conversation_of(const SimulatedCapture& capture);
+[[nodiscard]] Conversation conversation_in(const SimulatedCapture& capture);
 
 /// Counts, traffic of control-only relations, topology, required keys. Empty: they agree.
 [[nodiscard]] std::string difference(const model::Scenario& scenario, const model::RunResult& run,

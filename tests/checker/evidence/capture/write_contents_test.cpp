@@ -31,7 +31,7 @@ model::Scenario paper(std::uint32_t hosts, std::uint32_t participants, std::uint
 }
 
 TEST(WriteContents, ParticipantsHaveNamesAddressesAndAVendor) {
-  const Conversation conversation = conversation_of(simulated_capture(fastdds(3, 2, 3)));
+  const Conversation conversation = conversation_in(simulated_capture(fastdds(3, 2, 3)));
   const Topology& topology = conversation.topology;
   ASSERT_EQ(topology.hosts, 3U);
   ASSERT_EQ(topology.participants.size(), 6U);
@@ -42,13 +42,13 @@ TEST(WriteContents, ParticipantsHaveNamesAddressesAndAVendor) {
   ASSERT_EQ(last.locators.size(), 1U);
   EXPECT_EQ(to_string(*last.locators.begin()), "10.0.2.1:7412");
   EXPECT_EQ(conversation.first_ns, simulated_epoch_ns);
-  const Conversation of_paper = conversation_of(simulated_capture(paper(2, 1, 2)));
+  const Conversation of_paper = conversation_in(simulated_capture(paper(2, 1, 2)));
   EXPECT_EQ(of_paper.topology.participants.front().vendor, simulated_vendor);
   EXPECT_EQ(vendor_name(simulated_vendor), "vendor 53.50");
 }
 
 TEST(WriteContents, EndpointsAreThoseOfARosNodeAndTheUsers) {
-  const Conversation conversation = conversation_of(simulated_capture(fastdds(2, 1, 3)));
+  const Conversation conversation = conversation_in(simulated_capture(fastdds(2, 1, 3)));
   std::multiset<std::string> topics;
   const Participant& first = conversation.topology.participants.front();
   for (const auto& [guid, endpoint] : first.endpoints) {
@@ -73,7 +73,7 @@ TEST(WriteContents, EndpointsAreThoseOfARosNodeAndTheUsers) {
 }
 
 TEST(WriteContents, CopiesOfAHeartbeatShareItsCount) {
-  const Conversation conversation = conversation_of(simulated_capture(fastdds(2, 3, 20)));
+  const Conversation conversation = conversation_in(simulated_capture(fastdds(2, 3, 20)));
   std::map<std::pair<GuidPrefix, EntityId>, std::uint32_t> last;
   std::map<std::tuple<GuidPrefix, EntityId, std::uint32_t>, std::set<GuidPrefix>> copies;
   std::size_t with_copies = 0;
@@ -100,7 +100,7 @@ TEST(WriteContents, UserTrafficIsBetweenEndpointsOfOneTopic) {
   deployment.participants[3].publications = 1;
   const model::Scenario scenario =
       scenario_of(deployment, vectors::fastdds_vectors().front().scenario);
-  const Conversation conversation = conversation_of(simulated_capture(scenario));
+  const Conversation conversation = conversation_in(simulated_capture(scenario));
   std::set<std::string> topics;
   const auto topic = [&](const GuidPrefix& prefix, EntityId entity) {
     const auto& endpoints = conversation.topology.find(prefix)->endpoints;
@@ -121,7 +121,7 @@ TEST(WriteContents, UserTrafficIsBetweenEndpointsOfOneTopic) {
 }
 
 TEST(WriteContents, AcknacksOfAReaderAreCountedOneByOne) {
-  const Conversation conversation = conversation_of(simulated_capture(paper(2, 2, 10)));
+  const Conversation conversation = conversation_in(simulated_capture(paper(2, 2, 10)));
   std::map<std::pair<GuidPrefix, EntityId>, std::uint32_t> last;
   std::size_t acknacks = 0;
   for (const Event& event : conversation.events) {
@@ -140,7 +140,7 @@ TEST(WriteContents, ImpossibleSizesBecomeTheSmallestPossibleOnes) {
   scenario.dds.sedp.acknack_bytes = model::Bytes{10};
   scenario.dds.descriptors.default_bytes = {model::Bytes{100}, model::Bytes{101}};
   const SimulatedCapture capture = simulated_capture(scenario);
-  const Conversation conversation = conversation_of(capture);
+  const Conversation conversation = conversation_in(capture);
   EXPECT_EQ(difference(scenario, capture.run, conversation), "");
   for (const Event& event : conversation.events) {
     const std::uint32_t payload = conversation.datagrams[event.datagram].payload_bytes;
@@ -157,7 +157,7 @@ TEST(WriteContents, WhatDoesNotFitInADatagramGoesInSeveral) {
     scenario.dds.descriptors.user_bytes = model::Bytes{40};
     scenario.dds.sedp.piggyback_threshold_bytes = model::Bytes{1};
     const auto [capture, emissions] = recorded(scenario);
-    const Conversation conversation = conversation_of(capture);
+    const Conversation conversation = conversation_in(capture);
     EXPECT_EQ(difference(scenario, capture.run, conversation), "");
     EXPECT_GT(conversation.datagrams.size(), emissions.size());
     std::uint32_t largest = 0;
@@ -176,7 +176,7 @@ TEST(WriteContents, PacketsOfMoreThanADatagramAreCutToOne) {
   scenario.dds.descriptors.user_bytes = model::Bytes{100'000};
   scenario.dds.sedp.heartbeat_bytes = model::Bytes{70'001};
   const SimulatedCapture capture = simulated_capture(scenario);
-  const Conversation conversation = conversation_of(capture);
+  const Conversation conversation = conversation_in(capture);
   EXPECT_EQ(difference(scenario, capture.run, conversation), "");
   EXPECT_EQ(conversation.datagrams.front().payload_bytes, 65'507U);
 }
@@ -185,7 +185,7 @@ TEST(WriteContents, PacketsOfMoreThanADatagramAreCutToOne) {
 TEST(WriteContents, AnAcknackAsksForAtMost256Numbers) {
   const SimulatedCapture capture = simulated_capture(paper(2, 1, 800));
   std::uint32_t most = 0;
-  for (const Event& event : conversation_of(capture).events) {
+  for (const Event& event : conversation_in(capture).events) {
     if (event.acknack() != nullptr) most = std::max(most, event.acknack()->missing.size());
   }
   EXPECT_EQ(most, 256U);

@@ -17,7 +17,7 @@ namespace write_runs_test {
 /// Both comparisons, with every size as the model has it.
 void expect_agreement(const model::Scenario& scenario) {
   const auto [capture, emissions] = recorded(scenario);
-  const Conversation conversation = conversation_of(capture);
+  const Conversation conversation = conversation_in(capture);
   EXPECT_EQ(difference(scenario, capture.run, conversation), "");
   EXPECT_EQ(difference(scenario, emissions, conversation), "");
 }
@@ -64,7 +64,7 @@ TEST(WriteRandomWithServer, CaptureHasTheCountsAndTheTopologyOfTheRun) {
       const SimulatedCapture capture = simulated_capture(scenario, options);
       if (capture.run.counts.total() == 0) continue;
       completed += capture.run.completed() ? 1U : 0U;
-      ASSERT_EQ(difference(scenario, capture.run, conversation_of(capture)), "") << "seed " << seed;
+      ASSERT_EQ(difference(scenario, capture.run, conversation_in(capture)), "") << "seed " << seed;
     }
   }
   EXPECT_GT(completed, seeds / 2);
@@ -73,7 +73,7 @@ TEST(WriteRandomWithServer, CaptureHasTheCountsAndTheTopologyOfTheRun) {
 TEST(WriteRuns, TheComparisonNoticesWhatAServerLeavesOut) {
   model::Scenario scenario = vectors::discovery_vectors().at(1).scenario;
   auto [capture, emissions] = recorded(scenario);
-  const Conversation whole = conversation_of(capture);
+  const Conversation whole = conversation_in(capture);
   ASSERT_EQ(difference(scenario, capture.run, whole), "");
   for (const auto member :
        {&model::Counts::pdp_data, &model::Counts::pdp_heartbeat, &model::Counts::pdp_acknack,
@@ -101,7 +101,7 @@ RC_GTEST_PROP(WriteRandom, CaptureHasTheCountsAndTheTopologyOfTheRun, ()) {
   options.max_events = 20'000;
   const SimulatedCapture capture = simulated_capture(scenario, options);
   if (capture.run.counts.total() == 0) return;  // nobody has started: no message to read
-  RC_ASSERT(difference(scenario, capture.run, conversation_of(capture)) == "");
+  RC_ASSERT(difference(scenario, capture.run, conversation_in(capture)) == "");
 }
 
 const model::Scenario& small_fastdds() { return vectors::fastdds_vectors().at(2).scenario; }
@@ -126,8 +126,8 @@ TEST(WriteRuns, AMistakeInTheRulesShowsInTheCapture) {
   const SimulatedCapture correct = simulated_capture(small_fastdds());
   const SimulatedCapture mutated = simulated_capture(small_fastdds(), options);
   EXPECT_NE(mutated.run.counts, correct.run.counts);
-  EXPECT_EQ(difference(small_fastdds(), mutated.run, conversation_of(mutated)), "");
-  EXPECT_NE(difference(small_fastdds(), correct.run, conversation_of(mutated)), "");
+  EXPECT_EQ(difference(small_fastdds(), mutated.run, conversation_in(mutated)), "");
+  EXPECT_NE(difference(small_fastdds(), correct.run, conversation_in(mutated)), "");
 }
 
 TEST(WriteRuns, AnInterruptedRunIsACompleteFile) {
@@ -135,13 +135,13 @@ TEST(WriteRuns, AnInterruptedRunIsACompleteFile) {
   options.max_events = 100;
   const SimulatedCapture capture = simulated_capture(small_fastdds(), options);
   EXPECT_EQ(capture.run.end, model::RunEnd::interrupted);
-  EXPECT_EQ(difference(small_fastdds(), capture.run, conversation_of(capture)), "");
+  EXPECT_EQ(difference(small_fastdds(), capture.run, conversation_in(capture)), "");
 }
 
 TEST(WriteRuns, TheComparisonNoticesWhatIsLeftOut) {
   auto [capture, whole_run] = recorded(small_fastdds());
   std::vector<Emission> emissions = whole_run;
-  const Conversation whole = conversation_of(capture);
+  const Conversation whole = conversation_in(capture);
   ASSERT_EQ(difference(small_fastdds(), emissions, whole), "");
   emissions.back().payload_bytes += 4;
   EXPECT_NE(difference(small_fastdds(), emissions, whole), "");
@@ -149,7 +149,7 @@ TEST(WriteRuns, TheComparisonNoticesWhatIsLeftOut) {
   std::swap(emissions[0].source, emissions[1].source);
   EXPECT_NE(difference(small_fastdds(), emissions, whole), "");
   capture.pcap.resize(capture.pcap.size() / 2);
-  const Conversation half = conversation_of(capture);
+  const Conversation half = conversation_in(capture);
   EXPECT_NE(difference(small_fastdds(), capture.run, half), "");
   EXPECT_NE(difference(small_fastdds(), whole_run, half), "");
 }

@@ -69,7 +69,7 @@ void expect_dissected(const model::Scenario& scenario) {
   const Dissection dissection = dissect(capture.pcap);
   EXPECT_EQ(dissection.experts, std::vector<std::string>{});
   EXPECT_EQ(dissection.datagrams, emissions.size());
-  EXPECT_EQ(dissection.checked_headers, conversation_of(capture).captures.front().packets);
+  EXPECT_EQ(dissection.checked_headers, conversation_in(capture).captures.front().packets);
   EXPECT_NE(dissection.topics.find(",rr/simulated_h1_p0/get_parametersReply,"), std::string::npos);
   EXPECT_NE(dissection.topics.find(",rt/bench/topic_00,"), std::string::npos);
 }

@@ -122,9 +122,16 @@ model::Nanoseconds times(model::Nanoseconds timer, std::int64_t numerator,
   return model::Nanoseconds{timer.count() * numerator / denominator};
 }
 
+/// What a long run is of.
+struct Setting {
+  std::uint32_t participants;
+  const char* dds;
+  std::vector<std::uint64_t> lost;
+};
+
 struct Knob {
   const char* name;
-  model::Scenario scenario;
+  Setting setting;
   void (*change)(model::DdsProfile&);
   Fault fault;
 };
@@ -136,45 +143,45 @@ const std::vector<Knob>& knobs() {
   const char* const mc = "cyclonedds-0.10-multicast";
   const auto lossy = every(2, 6, 400);
   static const std::vector<Knob> list{
-      {"HeartbeatIntervalThreeTimes", long_run(2, uc, lossy),
+      {"HeartbeatIntervalThreeTimes", Setting{2, uc, lossy},
        [](Dds& dds) { dds.sedp.heartbeat_interval = times(dds.sedp.heartbeat_interval, 3); },
        Fault::heartbeat_cause},
-      {"HeartbeatIntervalHalf", long_run(2, uc, lossy),
+      {"HeartbeatIntervalHalf", Setting{2, uc, lossy},
        [](Dds& dds) { dds.sedp.heartbeat_interval = times(dds.sedp.heartbeat_interval, 1, 2); },
        Fault::heartbeat_due},
-      {"MatchHeartbeatDelay", long_run(1, uc),
+      {"MatchHeartbeatDelay", Setting{1, uc, {}},
        [](Dds& dds) { dds.sedp.match_heartbeat_delay = times(dds.sedp.match_heartbeat_delay, 30); },
        Fault::heartbeat_cause},
-      {"NackDelayThreeTimes", long_run(2, uc, lossy),
+      {"NackDelayThreeTimes", Setting{2, uc, lossy},
        [](Dds& dds) { dds.sedp.nack_delay = times(dds.sedp.nack_delay, 3); }, Fault::acknack_early},
-      {"PreEmptiveAckDelay", long_run(1, uc, lossy),
+      {"PreEmptiveAckDelay", Setting{1, uc, lossy},
        [](Dds& dds) { dds.sedp.preemptive_ack_delay = times(dds.sedp.preemptive_ack_delay, 3); },
        Fault::initial_early},
-      {"StartupPeriodThreeTimes", long_run(1, uc),
+      {"StartupPeriodThreeTimes", Setting{1, uc, {}},
        [](Dds& dds) { dds.spdp.startup_period = times(dds.spdp.startup_period, 3); },
        Fault::announcement_extra},
-      {"PeriodThreeTimes", long_run(1, uc),
+      {"PeriodThreeTimes", Setting{1, uc, {}},
        [](Dds& dds) { dds.spdp.period = times(dds.spdp.period, 3); }, Fault::announcement_extra},
-      {"PeriodHalf", long_run(1, uc),
+      {"PeriodHalf", Setting{1, uc, {}},
        [](Dds& dds) { dds.spdp.period = times(dds.spdp.period, 1, 2); }, Fault::announcement_due},
-      {"FewerReplies", long_run(1, uc), [](Dds& dds) { dds.spdp.directed_replies = 2; },
+      {"FewerReplies", Setting{1, uc, {}}, [](Dds& dds) { dds.spdp.directed_replies = 2; },
        Fault::announcement_extra},
-      {"MoreReplies", long_run(1, uc), [](Dds& dds) { dds.spdp.directed_replies = 6; },
+      {"MoreReplies", Setting{1, uc, {}}, [](Dds& dds) { dds.spdp.directed_replies = 6; },
        Fault::announcement_due},
-      {"ReplyIntervalThreeTimes", long_run(1, uc),
+      {"ReplyIntervalThreeTimes", Setting{1, uc, {}},
        [](Dds& dds) {
          dds.spdp.directed_reply_interval = times(dds.spdp.directed_reply_interval, 3);
        },
        Fault::announcement_extra},
-      {"ReplyIntervalThird", long_run(1, uc),
+      {"ReplyIntervalThird", Setting{1, uc, {}},
        [](Dds& dds) {
          dds.spdp.directed_reply_interval = times(dds.spdp.directed_reply_interval, 1, 3);
        },
        Fault::announcement_due},
-      {"WithMulticast", long_run(2, uc),
+      {"WithMulticast", Setting{2, uc, {}},
        [](Dds& dds) { dds.allow_multicast = model::AllowMulticast::always; },
        Fault::announcement_extra},
-      {"WithoutMulticast", long_run(2, mc),
+      {"WithoutMulticast", Setting{2, mc, {}},
        [](Dds& dds) { dds.allow_multicast = model::AllowMulticast::spdp; }, Fault::no_such_rule}};
   return list;
 }
@@ -182,7 +189,8 @@ const std::vector<Knob>& knobs() {
 class CycloneKnob : public ::testing::TestWithParam<Knob> {};
 
 TEST_P(CycloneKnob, IsNoticedWhenItIsChanged) {
-  const model::Scenario& scenario = GetParam().scenario;
+  const auto& [participants, dds, lost] = GetParam().setting;
+  const model::Scenario scenario = long_run(participants, dds, lost);
   const Simulated run = simulated(scenario);
   const Bounds bounds = bounds_of(scenario, run);
   const Conformance own = conformance(run.conversation, scenario.dds, bounds);

@@ -62,7 +62,7 @@ TEST_P(SimulatedCyclone, IsPredictedExactly) {
   ASSERT_TRUE(scenario) << to_string(scenario.error());
   const auto written = capture::simulated_capture(*scenario);
   ASSERT_TRUE(written.run.completed());
-  const auto conversation = capture::testing::conversation_of(written);
+  const auto conversation = capture::testing::conversation_in(written);
   EXPECT_TRUE(conversation.remarks.empty());
   Request request;
   request.dds = GetParam();

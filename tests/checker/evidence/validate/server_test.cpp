@@ -47,7 +47,7 @@ struct Simulated {
 Simulated simulated(const Profile& profile) {
   Simulated run{capture::simulated_capture(scenario(profile)), {}};
   EXPECT_TRUE(run.written.run.completed());
-  run.conversation = capture::testing::conversation_of(run.written);
+  run.conversation = capture::testing::conversation_in(run.written);
   return run;
 }
 
@@ -118,7 +118,7 @@ TEST_P(WithServer, ASimulatedRunIsPredictedExactly) {
   }
   const auto written = capture::simulated_capture(same);
   ASSERT_TRUE(written.run.completed());
-  const auto conversation = capture::testing::conversation_of(written);
+  const auto conversation = capture::testing::conversation_in(written);
   Request wanted = request(profile);
   wanted.record = record(profile, conversation, epoch_ns);
   for (const bool is_cut : {false, true}) {

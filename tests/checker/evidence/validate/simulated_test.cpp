@@ -33,7 +33,7 @@ model::Scenario scenario() {
 capture::Conversation simulated() {
   auto written = capture::simulated_capture(scenario());
   EXPECT_TRUE(written.run.completed());
-  return capture::testing::conversation_of(written);
+  return capture::testing::conversation_in(written);
 }
 
 Request request(const std::string& dds) {
@@ -69,7 +69,7 @@ TEST(SimulatedCapture, IsPredictedExactlyWithStaticPeers) {
   with_peers.dds.peer_ports = 5;
   const auto written = capture::simulated_capture(with_peers);
   ASSERT_TRUE(written.run.completed());
-  const auto conversation = capture::testing::conversation_of(written);
+  const auto conversation = capture::testing::conversation_in(written);
   Request wanted = request("fastdds-2.6.11");
   wanted.overrides.insert(wanted.overrides.end(), {"dds.discovery=static", "dds.peer_ports=5"});
   wanted.until_ns = conversation.first_ns + written.run.discovery_time->count();

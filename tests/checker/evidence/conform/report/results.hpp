@@ -26,7 +26,7 @@ namespace stormproof::conform::testing {
   file.message(2500, back, Message{prefix(2)}.to(prefix(1)).acknack(pub, 1, 2, 0xc0000000U, true));
   file.message(3000, there, Message{prefix(1)}.to(prefix(2)).descriptor(pub, 1).descriptor(pub, 2));
   file.message(3300, back, Message{prefix(2)}.to(prefix(1)).acknack(pub, 3, 0, 0, true, 2));
-  return conversation_of(std::vector<Buffer>{file.buffer()});
+  return conversation_of({file.buffer()});
 }
 
 inline const Place announcements{0, std::nullopt, capture::entity::spdp_writer};

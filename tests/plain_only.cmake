@@ -1,0 +1,54 @@
+# What is left to the run without sanitizers, where everything runs: the same code on more or larger
+# input than what stays, and comparisons with the oracles. By hand, a test program runs all it has.
+set(plain_only
+  # All laws on random scenarios; seeds and random scenarios behind the first of each kind.
+  Every/*LawTest.Holds*
+  *.HoldsOnRandomScenarios*
+  *.AreTheSameFromRunToRun/*
+  LawsOfAServer.NoticeMistakes
+  Mistakes.*
+  RandomScenario.*
+  RandomScenarios/*
+  Seeds/RandomRuns.OfAmendedRules*
+  Seeds/*/1*
+  Seeds/*/2
+  Seeds/*/3
+  Seeds/*/4
+  Seeds/*/5
+  Shrinking.EveryStep*
+  Variety.*
+  *ShippedScenarios.HaveTrueFindingsOnly*
+  # Oracles.
+  *OracleProperty*
+  ChannelAgainstOracle.*
+  Life.*Oracle*
+  # Mistakes in rules and at effects.
+  *IsMutated
+  *Followed.Mistakes*
+  All/Mistakes.*
+  CycloneObligations.*
+  Variants/AnyMistake*
+  # Runs that are followed, watched or recorded in another way once more.
+  *Followed.*Runs*
+  *Vectors.DeliverEvery*
+  DiscoveryVector.DeliversEvery*
+  */DiscoveryVector.DeliversEvery*
+  *6x30
+  Cases/EffectsInRecordings.*
+  Cases/PerfettoTest.*
+  Cases/ReplayTest.*
+  Cases/TraceMachinesTest.*
+  Cases/TraceWriterTest.*
+  Findings.*
+  Followed.Lives*
+  Implementations/EveryEffect*
+  Life.EveryEffectHappensInFastDds
+  Lives/EffectsInRecordings.*
+  Network.ARunIsTheSameWhetherSomebodyHearsOfItOrNot
+  Parts/StatefulEngine*
+  Perfetto.AnInterruptedRun*
+  ProbeList.*
+  Replay.AnInterruptedTrace*
+  Replay.ATraceOfAnInterruptedRun*
+  Replay.TheCallerCanStopIt)
+list(JOIN plain_only ":" plain_only)
