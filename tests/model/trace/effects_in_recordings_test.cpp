@@ -24,7 +24,7 @@ using fsm::composition::RuleInfo;
 class EffectsInRecordings : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    const CompositionInfo& composition = composition_of(GetParam().scenario);
+    const CompositionInfo& composition = composition_of(GetParam().scenario());
     for (const auto* list : {&composition.rules, &composition.procedures}) {
       for (const RuleInfo& rule : *list) {
         for (const EffectInfo& effect : rule.effects) effects[effect.id] = &effect;
@@ -54,7 +54,7 @@ std::string without_effects(const std::string& line) {
 
 TEST_P(EffectsInRecordings, AddNothingElse) {
   const Recording& plain = recorded(GetParam());
-  const Recording named = record(GetParam().scenario, {}, Effects::named);
+  const Recording named = record(GetParam().scenario(), {}, Effects::named);
   ASSERT_EQ(named.lines.size(), plain.lines.size());
   EXPECT_EQ(named.header["effects"], true);
   for (std::size_t k = 0; k < plain.lines.size(); ++k) {
@@ -63,7 +63,7 @@ TEST_P(EffectsInRecordings, AddNothingElse) {
 }
 
 TEST_P(EffectsInRecordings, PacketsAreSentByWhatCanSend) {
-  for (const Json& event : record(GetParam().scenario, {}, Effects::named).events) {
+  for (const Json& event : record(GetParam().scenario(), {}, Effects::named).events) {
     std::set<std::string> happened;
     for (const Json& id : event.value("effects", Json::array())) happened.insert(id);
     for (const char* key : {"emitted", "looped_back"}) {
@@ -81,7 +81,7 @@ TEST_P(EffectsInRecordings, PacketsAreSentByWhatCanSend) {
 
 /// What is due runs the rule of the timer that its starter names.
 TEST_P(EffectsInRecordings, TimersAreStartedByWhatStartsThem) {
-  for (const Json& event : record(GetParam().scenario, {}, Effects::named).events) {
+  for (const Json& event : record(GetParam().scenario(), {}, Effects::named).events) {
     const bool of_rules = event["class"] == "protocol" && event["event"] != "source_completion" &&
                           event["event"] != "endpoint_creation";
     ASSERT_EQ(event.contains("started_by"), of_rules && !event["cause"].is_null()) << event;
@@ -99,7 +99,7 @@ TEST_P(EffectsInRecordings, TimersAreStartedByWhatStartsThem) {
 
 TEST_P(EffectsInRecordings, AreInTheTimelineToo) {
   const Timeline& plain = recorded_timeline(GetParam());
-  Timeline named = record_timeline(GetParam().scenario, {}, Effects::named);
+  Timeline named = record_timeline(GetParam().scenario(), {}, Effects::named);
   std::size_t names = 0;
   for (Json& event : named.document["traceEvents"]) {
     if (!event.contains("args")) continue;

@@ -25,7 +25,7 @@ std::int64_t time_of(const Json& event) { return std::llround(event["ts"].get<do
 class PerfettoTest : public testing::TestWithParam<Case> {
  protected:
   static bool fastdds() {
-    return GetParam().scenario.dds.implementation == ImplementationKind::fastdds;
+    return GetParam().scenario().dds.implementation == ImplementationKind::fastdds;
   }
 };
 

@@ -33,7 +33,7 @@ TEST(ProbeList, ForwardsEverythingToAll) {
 
 TEST(ProbeList, ObserversDoNotChangeTheRun) {
   for (const Case& c : trace_cases()) {
-    const RunResult alone = simulate(c.scenario);
+    const RunResult alone = simulate(c.scenario());
     const RunResult& observed = recorded(c).result;
     EXPECT_EQ(alone.end_time, observed.end_time) << c.name;
     EXPECT_EQ(alone.counts, observed.counts) << c.name;

@@ -51,20 +51,27 @@ Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress
 const Recording& recorded(const Case& recorded_case) {
   static std::map<std::string, Recording> recordings;
   const auto [entry, is_new] = recordings.try_emplace(recorded_case.name);
-  if (is_new) entry->second = record(recorded_case.scenario);
+  if (is_new) entry->second = record(recorded_case.scenario());
   return entry->second;
 }
 
 const Timeline& recorded_timeline(const Case& recorded_case) {
   static std::map<std::string, Timeline> timelines;
   const auto [entry, is_new] = timelines.try_emplace(recorded_case.name);
-  if (is_new) entry->second = record_timeline(recorded_case.scenario);
+  if (is_new) entry->second = record_timeline(recorded_case.scenario());
   return entry->second;
 }
 
 const std::vector<Case>& trace_cases() {
   static const std::vector<Case> cases = [] {
     std::vector<Case> list;
+    const auto add = [&](const std::string& name, Scenario scenario) {
+      // As a file would say it: all endpoints exist from the start, or later.
+      for (Participant& p : scenario.deployment.participants) {
+        p.endpoints_done = std::max(p.endpoints_done, p.start);
+      }
+      list.emplace_back(name, std::move(scenario));
+    };
     const std::vector<std::string> wanted{"hosts2x1x2",
                                           "hosts3x2x7",
                                           "short_queue",
@@ -82,27 +89,22 @@ const std::vector<Case>& trace_cases() {
                                           "v4"};
     for (const auto& vector : vectors::paper_vectors()) {
       if (std::ranges::find(wanted, vector.name) == wanted.end()) continue;
-      list.push_back({vector.name, vector.scenario});
+      Scenario scenario = vector.scenario;
       // The same rules with less to do.
-      auto& participants = list.back().scenario.deployment;
+      auto& participants = scenario.deployment;
       if (participants.size() > 8) participants = Deployment::homogeneous(2, 2, 10);
+      add(vector.name, scenario);
     }
     for (const auto& vector : vectors::fastdds_vectors()) {
       const bool small = vector.name == "new_only_3x20" || vector.name == "uneven";
-      if (small) list.push_back({"fastdds_" + vector.name, vector.scenario});
+      if (small) add("fastdds_" + vector.name, vector.scenario);
     }
     Scenario many;
     many.deployment = Deployment::homogeneous(2, 1, 150);
-    list.push_back({"many_descriptors", many});
-    Scenario incomplete = list.front().scenario;
+    add("many_descriptors", many);
+    Scenario incomplete = list.front().scenario();
     incomplete.time_limit = Nanoseconds{5'000'000};
-    list.push_back({"incomplete", incomplete});
-    for (Case& c : list) {
-      // As a file would say it: all endpoints exist from the start, or later.
-      for (Participant& p : c.scenario.deployment.participants) {
-        p.endpoints_done = std::max(p.endpoints_done, p.start);
-      }
-    }
+    add("incomplete", incomplete);
     return list;
   }();
   return cases;
@@ -110,7 +112,7 @@ const std::vector<Case>& trace_cases() {
 
 const Scenario& case_named(const std::string& name) {
   for (const Case& c : trace_cases()) {
-    if (c.name == name) return c.scenario;
+    if (c.name == name) return c.scenario();
   }
   throw std::invalid_argument{"no case " + name};
 }

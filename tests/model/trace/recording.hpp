@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -35,10 +37,15 @@ struct Timeline {
 [[nodiscard]] Timeline record_timeline(const Scenario& scenario, const OnProgress& on_progress = {},
                                        Effects effects = Effects::left_out);
 
-/// A scenario and its name, for parametrised tests.
+/// A scenario and its name, for parametrised tests, which copy it often.
 struct Case {
+  Case(std::string its_name, Scenario its_scenario)
+      : name{std::move(its_name)},
+        shared{std::make_shared<const Scenario>(std::move(its_scenario))} {}
+  [[nodiscard]] const Scenario& scenario() const { return *shared; }
+
   std::string name;
-  Scenario scenario;
+  std::shared_ptr<const Scenario> shared;
 };
 /// The trace and the timeline of a case, recorded once in a process.
 [[nodiscard]] const Recording& recorded(const Case& recorded_case);

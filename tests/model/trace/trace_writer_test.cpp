@@ -48,7 +48,7 @@ TEST_P(TraceWriterTest, HeaderGivesTheScenarioBack) {
   const auto scenario =
       config::parse_scenario(trace.header["scenario"].dump(), "header", {}, config::SpecPath{});
   ASSERT_TRUE(scenario) << to_string(scenario.error());
-  EXPECT_EQ(*scenario, GetParam().scenario);
+  EXPECT_EQ(*scenario, GetParam().scenario());
 }
 
 TEST_P(TraceWriterTest, SumsOverTheLinesAreTheCountsOfTheRun) {
@@ -85,7 +85,7 @@ TEST_P(TraceWriterTest, EveryEventHasAnEarlierCauseOrIsFromBeforeTheRun) {
   for (const Json& event : trace.events) {
     before_run += event["event"] == "endpoint_creation" ? 1U : 0U;
   }
-  before_run += GetParam().scenario.deployment.participants.size();
+  before_run += GetParam().scenario().deployment.participants.size();
   for (const Json& event : trace.events) {
     const bool is_from_before = event["insertion"] < before_run;
     EXPECT_EQ(event["cause"].is_null(), is_from_before) << event;
@@ -150,13 +150,13 @@ TEST_P(TraceWriterTest, PacketsLeaveTheirSourceAndArriveOnceAfterTheyWereEmitted
     if (arrived.value("lost", false)) lost.push_back(number);
   }
   for (const std::uint64_t number : lost) {
-    const auto& all = GetParam().scenario.wireless.lost_packets;
+    const auto& all = GetParam().scenario().wireless.lost_packets;
     EXPECT_NE(std::ranges::find(all, number), all.end());
   }
 }
 
 TEST_P(TraceWriterTest, SecondRunGivesTheSameBytes) {
-  EXPECT_EQ(record(GetParam().scenario).text, recorded(GetParam()).text);
+  EXPECT_EQ(record(GetParam().scenario()).text, recorded(GetParam()).text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, TraceWriterTest, testing::ValuesIn(trace_cases()), CaseName{});

@@ -18,6 +18,7 @@ struct Linted {
   std::string document;
   Remarks remarks;
 };
+void PrintTo(const Linted& one, std::ostream* out) { *out << one.name; }
 
 class Lint : public testing::TestWithParam<Linted> {};
 
