@@ -68,6 +68,9 @@ function(stormproof_batches target runs_long)
     target_precompile_headers(${headers} PRIVATE "${PROJECT_SOURCE_DIR}/cmake/standard_library.hpp")
   endif()
   target_precompile_headers(${target} REUSE_FROM ${headers})
+  # GCC takes it only where the same is defined, also in a library that formats nothing.
+  target_compile_definitions(${target} PRIVATE
+    $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
 endfunction()
 
 # stormproof_library(<target> [PUBLIC <name>] [RUNS_LONG] [FOLDERS …] [EXCEPT …]): a static library
