@@ -51,9 +51,6 @@ add_compile_options(
 # What runs long is optimised; a folder may compile the rest quickly (STORMPROOF_QUICKLY). The
 # precompiled header is made once for each.
 function(stormproof_batches target runs_long)
-  set_target_properties(${target} PROPERTIES
-    UNITY_BUILD_MODE BATCH
-    UNITY_BUILD_BATCH_SIZE ${STORMPROOF_BATCH})
   get_directory_property(options COMPILE_OPTIONS)
   set(headers stormproof_headers)
   if(runs_long)

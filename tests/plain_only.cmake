@@ -16,6 +16,9 @@ set(plain_only
   Seeds/*/4
   Seeds/*/5
   Shrinking.EveryStep*
+  Shrinking.KeepsATie
+  Shrinking.NumbersGetRound
+  Shrinking.PlantedFailure*
   Variety.*
   *ShippedScenarios.HaveTrueFindingsOnly*
   # Oracles.
@@ -24,6 +27,12 @@ set(plain_only
   Life.*Oracle*
   # Mistakes in rules and at effects.
   *IsMutated
+  CycloneAcknowledgments.AreTrueInCorrectRuns
+  FastDdsIsolation.IsBroken*
+  FastDdsRecovery.OfWhoIsSomebodyNew*
+  Followed.ADifference*
+  Followed.AnotherEventThread*
+  OtherSpecification.*
   *Followed.Mistakes*
   All/Mistakes.*
   CycloneObligations.*
@@ -34,6 +43,9 @@ set(plain_only
   DiscoveryVector.DeliversEvery*
   */DiscoveryVector.DeliversEvery*
   *6x30
+  AccessPointTie.Units
+  Amended.AreThePapersInRandomScenarios
+  Both/PackingOf.KeepsItsContractInRandomRuns/1
   Cases/EffectsInRecordings.*
   Cases/PerfettoTest.*
   Cases/ReplayTest.*
@@ -42,7 +54,8 @@ set(plain_only
   Findings.*
   Followed.Lives*
   Implementations/EveryEffect*
-  Life.EveryEffectHappensInFastDds
+  Life.EveryEffectHappens*
+  Life.OfNobodyWhoFails*
   Lives/EffectsInRecordings.*
   Network.ARunIsTheSameWhetherSomebodyHearsOfItOrNot
   Parts/StatefulEngine*
@@ -50,5 +63,6 @@ set(plain_only
   ProbeList.*
   Replay.AnInterruptedTrace*
   Replay.ATraceOfAnInterruptedRun*
-  Replay.TheCallerCanStopIt)
+  Replay.TheCallerCanStopIt
+  TraceWriter.InterruptedRun*)
 list(JOIN plain_only ":" plain_only)

@@ -77,8 +77,8 @@ bool PiggybackBudget::can_be_used_up(const SentHeartbeat& one) const {
 }
 
 std::optional<std::int64_t> PiggybackBudget::needed_on_own_host(const SentHeartbeat& one) const {
-  return same_host_.needed(stream_index(writer_), one.time_ns, threshold_ - spent_before(one),
-                           is_cumulative_ ? before_message() : 0);
+  return same_host_.needed(stream_index(writer_), one.heartbeat.count, one.time_ns,
+                           threshold_ - spent_before(one), is_cumulative_ ? before_message() : 0);
 }
 
 }  // namespace stormproof::conform

@@ -86,12 +86,15 @@ std::int64_t SameHost::most_sent_bytes() const {
   return sent * largest_message_bytes;
 }
 
-std::optional<std::int64_t> SameHost::needed(std::size_t stream, std::int64_t time_ns,
-                                             std::int64_t left, std::int64_t before) const {
+std::optional<std::int64_t> SameHost::needed(std::size_t stream, std::uint32_t count,
+                                             std::int64_t time_ns, std::int64_t left,
+                                             std::int64_t before) const {
   if (!is_active(time_ns)) return std::nullopt;
   const Stream& one = streams_[stream];
   const std::int64_t data = std::max<std::int64_t>(left, 0) / (before + largest_message_bytes) + 1;
-  if (one.supposed + data > one.asked) return std::nullopt;
+  // Those before it that were not captured went to the own host, too.
+  const std::int64_t unseen = std::max<std::int64_t>(std::int64_t{count} - 1 - one.count, 0);
+  if (one.supposed + data > one.asked + unseen * readers_ * one.descriptors) return std::nullopt;
   return data;
 }
 

@@ -35,9 +35,11 @@ class SameHost {
 
   /// How much DATA of the stream's writer uses up what is left of a budget, if each is charged
   /// `before` (above 0 only if the rule is cumulative) and its own bytes; nothing: so much cannot
-  /// have been sent until then, beside what is supposed already.
-  [[nodiscard]] std::optional<std::int64_t> needed(std::size_t stream, std::int64_t time_ns,
-                                                   std::int64_t left, std::int64_t before) const;
+  /// have been sent until then, beside what is supposed already. `count`: of the HEARTBEAT that
+  /// comes of it.
+  [[nodiscard]] std::optional<std::int64_t> needed(std::size_t stream, std::uint32_t count,
+                                                   std::int64_t time_ns, std::int64_t left,
+                                                   std::int64_t before) const;
   void suppose(std::size_t stream, std::int64_t data) { streams_[stream].supposed += data; }
 
  private:

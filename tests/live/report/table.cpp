@@ -11,7 +11,7 @@ namespace stormproof::live {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr double seconds_per_ns = 1e-9;
 
@@ -70,7 +70,7 @@ std::string range_of(const std::vector<RunRecord>& runs) {
   return text;
 }
 
-Json counts_of(const Counts& counts) {
+OrderedJson counts_of(const Counts& counts) {
   return {{"spdp", counts.spdp},
           {"initial_data", counts.initial_data},
           {"repair_data", counts.repair_data},
@@ -91,20 +91,20 @@ const char* name_of(Outcome outcome) {
   return "";
 }
 
-Json json_of(const RunRecord& run) {
+OrderedJson json_of(const RunRecord& run) {
   const Judgement judgement = judge(run);
-  Json json = {{"name", run.name},
-               {"link", run.link},
-               {"participants_per_host", run.participants_per_host},
-               {"endpoints_per_participant", run.endpoints_per_participant},
-               {"outcome", name_of(judgement.outcome)},
-               {"app_ns", nullptr},
-               {"strict_ns", nullptr},
-               {"counts", counts_of(run.counts)},
-               {"expected_initial_data", run.expected_initial()},
-               {"missing_keys", run.missing_keys},
-               {"remarks", judgement.remarks},
-               {"notes", judgement.notes}};
+  OrderedJson json = {{"name", run.name},
+                      {"link", run.link},
+                      {"participants_per_host", run.participants_per_host},
+                      {"endpoints_per_participant", run.endpoints_per_participant},
+                      {"outcome", name_of(judgement.outcome)},
+                      {"app_ns", nullptr},
+                      {"strict_ns", nullptr},
+                      {"counts", counts_of(run.counts)},
+                      {"expected_initial_data", run.expected_initial()},
+                      {"missing_keys", run.missing_keys},
+                      {"remarks", judgement.remarks},
+                      {"notes", judgement.notes}};
   if (run.is_complete()) {
     json["app_ns"] = run.app_duration_ns();
     json["strict_ns"] = run.strict_duration_ns();
@@ -134,7 +134,7 @@ std::string to_text(const std::vector<RunRecord>& runs) {
 }
 
 std::string to_json(const std::vector<RunRecord>& runs) {
-  Json json = {{"runs", Json::array()}};
+  OrderedJson json = {{"runs", OrderedJson::array()}};
   for (const RunRecord& run : runs) json["runs"].push_back(json_of(run));
   return json.dump(2) + "\n";
 }

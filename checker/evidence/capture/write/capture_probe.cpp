@@ -78,6 +78,38 @@ class CaptureProbe::Implementation {
     }
   }
 
+  /// What stays on a host is written nowhere, but its HEARTBEATs and ACKNACKs are counted as well.
+  void count(const model::Packet& packet) {
+    const model::Pair& pair = topology_->pair(packet.pair);
+    switch (packet.kind) {
+      case PacketKind::data:
+      case PacketKind::heartbeat:
+        first_count(packet, pair.source, pair.destination, layout_.names_destination(packet),
+                    write::PacketLayout::heartbeats_in(packet));
+        return;
+      case PacketKind::acknack:
+        ++counts_[{pair.source, write::sedp_reader(packet.stream)}];
+        return;
+      case PacketKind::user_heartbeat:
+        ++counts_[{pair.source, control_->ends(packet).writer}];
+        return;
+      case PacketKind::user_acknack:
+        ++counts_[{pair.source, control_->ends(packet).reader}];
+        return;
+      case PacketKind::registration_heartbeat:
+      case PacketKind::registration_acknack:
+      case PacketKind::relayed:
+      case PacketKind::relayed_acknack:
+        of_server_.count(packet, pair.source);
+        return;
+      case PacketKind::spdp_multicast:
+      case PacketKind::spdp_unicast:
+      case PacketKind::registration:
+      case PacketKind::rtps_message:  // which says its counts itself
+        return;
+    }
+  }
+
   /// An announcement to one of the ports of a host that nobody has, one after the other.
   void announce_to_nobody(const model::Packet& packet, std::uint32_t source) {
     const std::uint32_t somebody_there = topology_->pair(packet.pair).destination;
@@ -266,6 +298,10 @@ void CaptureProbe::emitted(const model::Packet& packet, std::uint32_t source,
   for (const std::uint32_t destination : destinations) {
     implementation_->send(packet, source, destination);
   }
+}
+
+void CaptureProbe::looped_back(const model::Packet& packet, std::uint32_t) {
+  implementation_->count(packet);
 }
 
 }  // namespace stormproof::capture

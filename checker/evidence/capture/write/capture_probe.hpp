@@ -1,6 +1,7 @@
 // The observer that turns the emissions of a run into frames: one RTPS message for each packet that
 // leaves a host, with the content that the implementation would have written, at its emission. What
-// stays on a host never reaches the link and is left out.
+// stays on a host never reaches the link and is left out, but for the counts, in which its writers
+// and readers have it.
 //
 // What a packet of the model does not say, because no rule depends on it, is derived here: entity
 // ids, counts of HEARTBEATs and ACKNACKs, and whether a message names its destination (the model
@@ -37,6 +38,7 @@ class CaptureProbe final : public model::Probe {
   void run_started(const model::Topology& topology) override;
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override;
+  void looped_back(const model::Packet& packet, std::uint32_t receiver) override;
 
  private:
   class Implementation;

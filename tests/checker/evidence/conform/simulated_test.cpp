@@ -64,6 +64,25 @@ TEST(SimulatedScenario, MessagesThatSayTheSameAreNotCopies) {
   EXPECT_NE(conformance(run.conversation, alike.dds, bounds).verdict, Verdict::does_not_conform);
 }
 
+/// A neighbour that asks again and again, sooner than an answer can come, uses up the budget of a
+/// writer. The capture shows nothing of that but the count of the HEARTBEAT that follows.
+TEST(SimulatedScenario, CountsWhatStaysOnAHost) {
+  model::Scenario impatient;
+  impatient.deployment = model::Deployment::homogeneous(2, 2, 0);
+  impatient.deployment.participants.pop_back();
+  impatient.deployment.loopback_delay = model::Nanoseconds{2'000'000};
+  impatient.dds = profile("fastdds-2.6.11");
+  model::SedpProfile& sedp = impatient.dds.sedp;
+  sedp.heartbeat_period = model::Nanoseconds{1'000'000'000};
+  sedp.heartbeat_response_delay = sedp.nack_suppression_duration = model::Nanoseconds{10'000};
+  sedp.nack_response_delay = sedp.initial_acknack_delay = model::Nanoseconds{100'000};
+  sedp.initial_acknack_interval = model::InitialAckNackInterval::doubling;
+  sedp.piggyback = model::Piggyback::linear;
+  sedp.piggyback_threshold_bytes = model::Bytes{10'000};
+  impatient.time_limit = model::Nanoseconds{520'000'000};
+  expect_conforming(in_order(impatient));
+}
+
 /// A HEARTBEAT to all readers names its reader while there is only one, though others come later.
 TEST(SimulatedScenario, ALateReaderDoesNotDisturb) {
   model::Scenario late;
