@@ -50,7 +50,7 @@ add_compile_options(
 
 # What runs long is optimised; a folder may compile the rest quickly (STORMPROOF_QUICKLY). The
 # precompiled header is made once for each.
-function(stormproof_batches target runs_long)
+function(stormproof_optimised target runs_long)
   get_directory_property(options COMPILE_OPTIONS)
   set(headers stormproof_headers)
   if(runs_long)
@@ -76,7 +76,7 @@ function(stormproof_library target)
   stormproof_sources(sources FOLDERS ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})
   add_library(${target} STATIC ${sources})
   stormproof_target(${target} PUBLIC ${arg_PUBLIC})
-  stormproof_batches(${target} ${arg_RUNS_LONG})
+  stormproof_optimised(${target} ${arg_RUNS_LONG})
 endfunction()
 
 # stormproof_program(<target> FOLDERS …)
@@ -84,5 +84,5 @@ function(stormproof_program target)
   stormproof_sources(sources ${ARGN})
   add_executable(${target} ${sources})
   stormproof_target(${target})
-  stormproof_batches(${target} FALSE)
+  stormproof_optimised(${target} FALSE)
 endfunction()
