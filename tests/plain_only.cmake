@@ -40,7 +40,6 @@ set(plain_only
   # Runs that are followed, watched or recorded in another way once more.
   *Followed.*Runs*
   *Vectors.DeliverEvery*
-  DiscoveryVector.DeliversEvery*
   */DiscoveryVector.DeliversEvery*
   *6x30
   AccessPointTie.Units

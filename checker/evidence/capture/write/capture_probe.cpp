@@ -72,42 +72,16 @@ class CaptureProbe::Implementation {
       case PacketKind::registration_acknack:
       case PacketKind::relayed:
       case PacketKind::relayed_acknack:
-        return pcap_.datagram(time_of(packet), identities_[source].metatraffic,
-                              identities_[destination].metatraffic,
-                              of_server_.message(packet, source, destination, time_of(packet)));
+        return put(packet, source, identities_[destination].metatraffic,
+                   of_server_.message(packet, source, destination, time_of(packet)));
     }
   }
 
-  /// What stays on a host is written nowhere, but its HEARTBEATs and ACKNACKs are counted as well.
-  void count(const model::Packet& packet) {
-    const model::Pair& pair = topology_->pair(packet.pair);
-    switch (packet.kind) {
-      case PacketKind::data:
-      case PacketKind::heartbeat:
-        first_count(packet, pair.source, pair.destination, layout_.names_destination(packet),
-                    write::PacketLayout::heartbeats_in(packet));
-        return;
-      case PacketKind::acknack:
-        ++counts_[{pair.source, write::sedp_reader(packet.stream)}];
-        return;
-      case PacketKind::user_heartbeat:
-        ++counts_[{pair.source, control_->ends(packet).writer}];
-        return;
-      case PacketKind::user_acknack:
-        ++counts_[{pair.source, control_->ends(packet).reader}];
-        return;
-      case PacketKind::registration_heartbeat:
-      case PacketKind::registration_acknack:
-      case PacketKind::relayed:
-      case PacketKind::relayed_acknack:
-        of_server_.count(packet, pair.source);
-        return;
-      case PacketKind::spdp_multicast:
-      case PacketKind::spdp_unicast:
-      case PacketKind::registration:
-      case PacketKind::rtps_message:  // which says its counts itself
-        return;
-    }
+  /// Announcements to the group count nothing, and Cyclone DDS's messages say their counts
+  /// themselves.
+  void send_on_host(const model::Packet& packet, std::uint32_t receiver) {
+    if (packet.multicast() || packet.kind == PacketKind::rtps_message) return;
+    send(packet, topology_->pair(packet.pair).source, receiver);
   }
 
   /// An announcement to one of the ports of a host that nobody has, one after the other.
@@ -128,7 +102,7 @@ class CaptureProbe::Implementation {
   void send_message(const model::Packet& packet, std::uint32_t source,
                     std::optional<std::uint32_t> destination) {
     const auto datagram = cyclone_.datagram(packet, source, destination, time_of(packet));
-    pcap_.datagram(time_of(packet), identities_[source].metatraffic, datagram.to, datagram.payload);
+    put(packet, source, datagram.to, datagram.payload);
   }
 
  private:
@@ -142,9 +116,15 @@ class CaptureProbe::Implementation {
     emit(out, packet, source, to);
   }
 
+  /// What stays on a host is made, so that it is counted, but not written.
+  void put(const model::Packet& packet, std::uint32_t source, const UdpEnd& to, Bytes payload) {
+    const UdpEnd& from = identities_[source].metatraffic;
+    if (from.address != to.address) pcap_.datagram(time_of(packet), from, to, payload);
+  }
+
   void emit(const write::MessageWriter& out, const model::Packet& packet, std::uint32_t source,
             const UdpEnd& to) {
-    pcap_.datagram(time_of(packet), identities_[source].metatraffic, to, out.buffer());
+    put(packet, source, to, out.buffer());
   }
 
   [[nodiscard]] static std::int64_t time_of(const model::Packet& packet) {
@@ -300,8 +280,8 @@ void CaptureProbe::emitted(const model::Packet& packet, std::uint32_t source,
   }
 }
 
-void CaptureProbe::looped_back(const model::Packet& packet, std::uint32_t) {
-  implementation_->count(packet);
+void CaptureProbe::looped_back(const model::Packet& packet, std::uint32_t receiver) {
+  implementation_->send_on_host(packet, receiver);
 }
 
 }  // namespace stormproof::capture

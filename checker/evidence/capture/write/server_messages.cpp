@@ -42,22 +42,6 @@ Buffer ServerMessages::message(const model::Packet& packet, std::uint32_t source
   return out.buffer();
 }
 
-void ServerMessages::count(const model::Packet& packet, std::uint32_t source) {
-  switch (packet.kind) {
-    case model::PacketKind::registration_heartbeat:
-      next_count(source, capture::entity::spdp_writer);
-      return;
-    case model::PacketKind::registration_acknack:
-      next_count(source, capture::entity::spdp_reader);
-      return;
-    case model::PacketKind::relayed:
-      if (packet.relayed->has_heartbeat) next_count(source, ends_of(packet).writer);
-      return;
-    default:
-      next_count(source, ends_of(packet).reader);
-  }
-}
-
 /// DATA(p) of a client is always number 1; before it, its HEARTBEATs announce nothing.
 void ServerMessages::register_with(MessageWriter& out, const model::Packet& packet,
                                    std::uint32_t source, std::int64_t time_ns) {

@@ -27,8 +27,6 @@ class ServerMessages {
   /// Of a registration, or of what is relayed, and their HEARTBEATs and ACKNACKs.
   [[nodiscard]] Buffer message(const model::Packet& packet, std::uint32_t source,
                                std::uint32_t destination, std::int64_t time_ns);
-  /// One that is written nowhere: the next of its entity has a higher count.
-  void count(const model::Packet& packet, std::uint32_t source);
 
  private:
   void register_with(MessageWriter& out, const model::Packet& packet, std::uint32_t source,
@@ -38,7 +36,7 @@ class ServerMessages {
   void add_data(MessageWriter& out, const model::Relayed& relayed, EntityId reader, EntityId writer,
                 std::size_t end);
   void acknowledge(MessageWriter& out, const model::Packet& packet, std::uint32_t source);
-  std::uint32_t next_count(std::uint32_t source, EntityId entity) {
+  [[nodiscard]] std::uint32_t next_count(std::uint32_t source, EntityId entity) {
     return ++counts_[{source, entity}];
   }
 
