@@ -34,10 +34,13 @@ class RelayWriter {
   };
 
   [[nodiscard]] bool empty() const { return history.empty(); }
+  /// What a HEARTBEAT announces: the numbers of the history, not those of what has left it since.
   [[nodiscard]] std::int64_t first() const {
     return history.empty() ? next : history.begin()->first;
   }
-  [[nodiscard]] std::int64_t last() const { return next - 1; }
+  [[nodiscard]] std::int64_t last() const {
+    return history.empty() ? next - 1 : history.rbegin()->first;
+  }
   /// The number of the item in the history, or 0.
   [[nodiscard]] std::int64_t number_of(Item item) const {
     const auto found = numbers.find(item);

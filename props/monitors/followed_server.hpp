@@ -71,6 +71,9 @@ struct FollowedRelay {
   [[nodiscard]] std::int64_t first() const {
     return history.empty() ? next : history.begin()->first;
   }
+  [[nodiscard]] std::int64_t last() const {
+    return history.empty() ? next - 1 : history.rbegin()->first;
+  }
   [[nodiscard]] std::int64_t number_of(const RelayedItem& item) const {
     for (const auto& [number, one] : history) {
       if (one == item) return number;

@@ -18,7 +18,7 @@ constexpr fsm::StateId id = fsm::Reflect<fsm::ChangeForReader>::id<State>;
 bool ServerFollower::answer(server::LacksSomething, const World& w) const {
   const FollowedRelay& writer = relays_[relay_of(w)];
   const FollowedRelay::Reader& reader = writer.about.at(w.place().relation);
-  const std::int64_t wanted = writer.history.empty() ? writer.next - 1 : writer.first();
+  const std::int64_t wanted = writer.history.empty() ? writer.last() : writer.first();
   return reader.low < wanted || std::ranges::any_of(reader.list, [](const auto& one) {
            return one.second == id<change::U>;
          });
@@ -245,7 +245,7 @@ model::Relayed ServerFollower::with_heartbeat(const World& w, model::Relayed rel
   const FollowedRelay& writer = relays_[relay_of(w)];
   relayed.has_heartbeat = true;
   relayed.first = writer.first();
-  relayed.last = writer.next - 1;
+  relayed.last = writer.last();
   return relayed;
 }
 

@@ -244,7 +244,9 @@ struct Relay {
   [[nodiscard]] std::int64_t first() const {
     return history.empty() ? next : history.begin()->first;
   }
-  [[nodiscard]] std::int64_t last() const { return next - 1; }
+  [[nodiscard]] std::int64_t last() const {
+    return history.empty() ? next - 1 : history.rbegin()->first;
+  }
 };
 
 /// A client's reader of one of the server's streams.

@@ -226,6 +226,7 @@ enum class ServerMistake : std::uint8_t {
   gap_from_low,                ///< a GAP begins above the low mark, whatever is listed between
   gap_each_time,               ///< and comes with a change that is sent again, too
   deliveries_do_not_arm,       ///< no expiry follows
+  what_left_is_announced,      ///< a HEARTBEAT's last number may have left the history
   expiries_to_all,             ///< an expiry goes to readers that lack nothing, too
   empty_history_lacks,         ///< with an empty history whoever is below `first` lacks something
   low_does_not_lack,           ///< an expiry goes to those only who have something in U

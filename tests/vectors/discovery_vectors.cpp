@@ -63,9 +63,13 @@ Scenario with(Scenario scenario, Change change) {
   return scenario;
 }
 
-void short_periods(Scenario& s) {
-  s.dds.server.client_sync_period = Nanoseconds{50 * ms};
+void short_routine_period(Scenario& s) {
   s.dds.server.server_routine_period = Nanoseconds{50 * ms};
+}
+
+void short_periods(Scenario& s) {
+  short_routine_period(s);
+  s.dds.server.client_sync_period = Nanoseconds{50 * ms};
 }
 
 void version_2_14_5(Scenario& s) {
@@ -120,6 +124,9 @@ void add_super_clients(Table& table) {
   table.push_back({"super_3x20_2_14_5",
                    with(grid(super, 2, 3, 20), version_2_14_5),
                    {1297064035, 666, 0, 658, 99, 92, 109, 24, 120, 716}});
+  table.push_back({"super_late_2_14_5",
+                   with(with(late(super), version_2_14_5), short_routine_period),
+                   {2364016950, 928, 1580, 2677, 222, 88, 103, 50, 399, 1602}});
 }
 
 void add_static_peers(Table& table) {
