@@ -1,7 +1,7 @@
-// HEARTBEATs of a relay. Each announces the whole history, so by their counts they never announce
-// less than before. One alone opens the relation, answers an initial ACKNACK, or comes from the
-// timer of the writer, which goes to all readers that lack something: all ways to tell these apart
-// are followed at once.
+// HEARTBEATs of a relay. Each announces the whole history, so by their counts the first number
+// never falls, and the last falls only if what it leaves out has been acknowledged. One alone opens
+// the relation, answers an initial ACKNACK, or comes from the timer of the writer, which goes to
+// all readers that lack something: all ways to tell these apart are followed at once.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -37,7 +37,11 @@ class Heartbeats {
         passed_{passed},
         ledger_{ledger},
         period_ns_{context.dds.sedp.heartbeat_period.count()},
-        is_opened_(relay.relations.size()) {}
+        is_opened_(relay.relations.size()) {
+    for (const Passed& one : passed) {
+      if (one.change) by_change_.emplace(*one.change, &one);
+    }
+  }
 
   std::optional<Unexplained> explain() {
     if (auto fault = check_counts()) return fault;
@@ -70,10 +74,12 @@ class Heartbeats {
 
   std::optional<Unexplained> check_ranges() {
     const Heartbeat* before = nullptr;
+    std::uint32_t given = 0;  // the highest number until now
     for (const auto& [count, one] : by_count_) {
       const Heartbeat& now = *one->heartbeat;
       const bool shrinks =
-          before != nullptr && (now.first < before->first || now.announced < before->announced);
+          before != nullptr && (now.first < before->first ||
+                                (now.announced > before->announced && now.announced <= given));
       const bool is_range = now.first >= 1 && now.first <= now.announced + std::int64_t{1};
       const std::int64_t least = one->change        ? *one->change + std::int64_t{1}
                                  : one->gap.empty() ? now.first
@@ -88,7 +94,31 @@ class Heartbeats {
                 : fmt::format("it announces the whole history, which was {} to {} before",
                               before->first, before->announced));
       }
+      if (before != nullptr && now.announced < before->announced) {
+        if (auto fault = check_left_out(*one, before->announced)) return fault;
+      }
+      given = std::max(given, now.announced);
       before = &now;
+    }
+    return std::nullopt;
+  }
+
+  /// What is announced no more though the one before did has left the history: whoever was sent it
+  /// has acknowledged it.
+  std::optional<Unexplained> check_left_out(const Passed& one, std::uint32_t announced) const {
+    const auto end = by_change_.lower_bound(announced);
+    for (auto at = by_change_.lower_bound(one.heartbeat->announced); at != end; ++at) {
+      const auto& [change, sent] = *at;
+      if (sent->time_ns > one.time_ns) continue;
+      const auto has_it = [&](const Answer& answer) {
+        return answer.base > change && context_.can_precede(answer.time_ns, one.time_ns);
+      };
+      if (std::ranges::any_of(relay_.relations[sent->relation]->answers, has_it)) continue;
+      return fault(
+          one, Fault::heartbeat_range,
+          fmt::format("HEARTBEAT {} announces {} to {}", one.heartbeat->count, one.heartbeat->first,
+                      one.heartbeat->announced),
+          fmt::format("DATA {} stays in the history until its client acknowledges it", change + 1));
     }
     return std::nullopt;
   }
@@ -234,6 +264,7 @@ class Heartbeats {
   const std::int64_t period_ns_;
   std::vector<bool> is_opened_;  ///< by relation
   std::map<std::uint32_t, const Passed*> by_count_;
+  std::multimap<std::uint32_t, const Passed*> by_change_;
 };
 
 }  // namespace

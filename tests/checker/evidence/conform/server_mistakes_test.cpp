@@ -30,12 +30,13 @@ Matches relayed(const Conversation& c, capture::EntityId writer) {
     return is_of_server(c, event) && event.writer == writer && event.acknack() == nullptr;
   };
 }
-Matches and_also(const Matches& one, bool (*other)(const Event&)) {
+Matches and_also(const Matches& one, const Matches& other) {
   return [=](const Event& event) { return one(event) && other(event); };
 }
 bool is_data(const Event& event) { return event.data() != nullptr; }
 bool is_gap(const Event& event) { return event.gap() != nullptr; }
 bool is_heartbeat(const Event& event) { return event.heartbeat() != nullptr; }
+bool is_acknack(const Event& event) { return event.acknack() != nullptr; }
 Matches to_server(const Conversation& c, capture::EntityId writer, bool (*what)(const Event&)) {
   return [&c, writer, what](const Event& event) {
     return !is_of_server(c, event) && event.writer == writer && what(event);
@@ -152,6 +153,36 @@ const std::vector<Wrong>& mistakes_of_server() {
                                 [](HeartbeatEvent& heartbeat) { heartbeat.last = 1; });
        },
        Fault::heartbeat_range},
+      {"HeartbeatThatLeavesOutWhatIsNotAcknowledged",
+       [](Conversation& c) {
+         const std::size_t last = find_last(c, and_also(relayed(c, publications), is_heartbeat));
+         const std::int64_t newest = std::get<HeartbeatEvent>(c.events[last].content).last;
+         const auto is_sent = [newest](const Event& event) {
+           return event.data() != nullptr && event.data()->sequence_number == newest;
+         };
+         const auto is_older = [newest](const Event& event) {
+           return event.data() != nullptr && event.data()->sequence_number < newest;
+         };
+         // What is sent again behind it, as if nobody had acknowledged it; and nothing after that.
+         const auto from = c.events.begin() + static_cast<std::ptrdiff_t>(find(
+                                                  c, and_also(relayed(c, publications), is_sent)));
+         const auto again =
+             std::find_if(from, c.events.end(), and_also(relayed(c, publications), is_older));
+         std::get<HeartbeatEvent>(std::next(again)->content).last = newest - 1;
+         c.events.erase(again + 2, c.events.end());
+         const auto acknowledges = [newest](const Event& event) {
+           return event.acknack() != nullptr && event.acknack()->missing.base > newest;
+         };
+         c.events.erase(std::remove_if(from, c.events.end(), acknowledges), c.events.end());
+       },
+       Fault::heartbeat_range},
+      {"HeartbeatOfWhatHasLeft",  // it is announced again by the next one
+       [](Conversation& c) {
+         const std::size_t third = find(c, and_also(relayed(c, publications), is_data), 2);
+         auto& heartbeat = std::get<HeartbeatEvent>(c.events[third + 1].content);
+         heartbeat.last = c.events[third].data()->sequence_number;
+       },
+       Fault::heartbeat_range},
       {"HeartbeatThatBeginsTooLate",
        [](Conversation& c) {
          const std::size_t data = find_last(c, and_also(relayed(c, publications), is_data));
@@ -186,7 +217,6 @@ const std::vector<Wrong>& mistakes_of_server() {
 const std::vector<Wrong>& mistakes_of_clients() {
   using capture::AcknackEvent;
   using capture::HeartbeatEvent;
-  static const auto is_acknack = [](const Event& event) { return event.acknack() != nullptr; };
   static const auto asks = [](const Event& event) {
     return event.acknack() != nullptr && event.acknack()->missing.size() > 0;
   };
