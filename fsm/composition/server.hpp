@@ -300,6 +300,13 @@ struct ThreadSends : Rule<Due<SendingDue>> {
     });
   }
 };
+/// Before a reader is sent a change for the first time it is told what it does not need before it.
+struct ChangesAreSkipped : Rule<Happens<Skipped>> {
+  template <class W>
+  static void run(W& w) {
+    w.emit(Gap{}, says(Says{CarriesHeartbeat{}, typename W::Bool(true)}));
+  }
+};
 struct ChangeIsServed : Rule<Happens<Served>> {
   template <class W>
   static void run(W& w) {
@@ -380,7 +387,8 @@ struct FastDdsServer {
                          LearnerHeartbeatSeen, LearnerLastDelay, RelayOpen>;
   using Packets = TypeList<Registration, RegistrationHeartbeat, RegistrationAckNack, RelayedData,
                            RelayHeartbeat, Gap, RelayedAckNack>;
-  using Occasions = TypeList<RelayOpens, LearnerOpens, Arrives, Inserted, Served, Delivered>;
+  using Occasions =
+      TypeList<RelayOpens, LearnerOpens, Arrives, Inserted, Skipped, Served, Delivered>;
   using Announcing =
       TypeList<ClientAnnounces, ClientSyncIsDue, RegistrationAckNackArrives, RegistrationExpires,
                RegistrationArrives, RegistrationHeartbeatArrives, RegistrationReplyIsDue,
@@ -388,8 +396,9 @@ struct FastDdsServer {
   using Exchange =
       TypeList<LearnerOpened, LearnerInitialDue, LearnerReplyIsDue, RelayedDataArrives,
                RelayHeartbeatArrives, GapArrives, DescriptorsArrive, RoutineRuns, RoutineRunsAgain,
-               RelayOpened, ChangeIsInserted, ThreadSends, ChangeIsServed, ChangeIsDelivered,
-               RelayedAckNackArrives, RelayResponds, RelaySuppressionEnds, RelayExpires>;
+               RelayOpened, ChangeIsInserted, ThreadSends, ChangesAreSkipped, ChangeIsServed,
+               ChangeIsDelivered, RelayedAckNackArrives, RelayResponds, RelaySuppressionEnds,
+               RelayExpires>;
   using Rules = Joined<Announcing, Exchange>;
   using IsOpen = RelayOpen;
   static constexpr std::array unused{
@@ -403,6 +412,7 @@ struct FastDdsServer {
       FromOutside{"ClientAnnouncement", "announcement 0 is due when a participant starts"},
       FromOutside{"Arrives", "a reader of the server receives what is new"},
       FromOutside{"Inserted", "the database has something to send"},
+      FromOutside{"Skipped", "the sending thread delivers a change"},
       FromOutside{"Served", "the sending thread delivers a change"},
       FromOutside{"Delivered", "the sending thread delivers a change"},
   };

@@ -90,6 +90,7 @@ struct RelayOpens : Occasion<owner::relation> {};
 struct LearnerOpens : Occasion<owner::relation> {};
 struct Arrives : Occasion<owner::participant> {};  ///< a descriptor that is new to the server
 struct Inserted : Occasion<owner::writer> {};      ///< a change that somebody needs
+struct Skipped : Occasion<owner::relation> {};     ///< before that: what the reader need not have
 struct Served : Occasion<owner::relation> {};      ///< a change is about to be sent to a reader
 struct Delivered : Occasion<owner::writer> {};     ///< a change has been sent to all
 
@@ -150,8 +151,8 @@ struct UpdateDatabase : Opaque {
   template <class W>
   static void contract(W&) {}
 };
-/// The next change that somebody wants is sent to everybody who does, after a GAP for what it does
-/// not need.
+/// The next change that somebody wants is sent to everybody who does; who has never been sent it is
+/// told before what it does not need.
 struct DeliverNext : Opaque {
   template <class W>
   static void contract(W&) {}

@@ -233,9 +233,10 @@ class ServerProtocol final : public Protocol {
     heartbeat.has_heartbeat = true;
     send_relayed(w.template number<comp::owner::relation>(), std::move(heartbeat));
   }
-  template <class World, class Sayings>
-  void emit(server::Gap, World& w, const Sayings&) {
+  template <class World, class... Sayings>
+  void emit(server::Gap, World& w, const std::tuple<Sayings...>&) {
     Relayed gap;
+    gap.has_heartbeat = sizeof...(Sayings) > 0;
     gap.numbers = irrelevant_;
     send_relayed(w.template number<comp::owner::relation>(), std::move(gap));
   }

@@ -174,14 +174,13 @@ bool ServerProtocol::send_gap_before(Number relation, std::int64_t number) {
   const auto entry = reader.list.find(number);
   if (std::exchange(entry->second.sent, true)) return false;
   const std::int64_t before = entry == reader.list.begin() ? reader.low : std::prev(entry)->first;
-  Relayed gap;
-  gap.has_heartbeat = true;
+  irrelevant_.clear();
   for (std::int64_t k = std::max(before + 1, relays_[relation % relay::count].first()); k < number;
        ++k) {
-    gap.numbers.push_back(k);
+    irrelevant_.push_back(k);
   }
-  if (gap.numbers.empty()) return false;
-  send_relayed(relation, std::move(gap));
+  if (irrelevant_.empty()) return false;
+  run_rule<comp::Happens<server::Skipped>>(*this, relation);
   return true;
 }
 

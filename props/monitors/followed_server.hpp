@@ -213,6 +213,7 @@ class ServerFollower final : public FollowedFastDds<ServerFollower, ServerAndCli
   void emit(server::Gap, World& w, const std::tuple<Sayings...>&, comp::Site site) {
     model::Relayed gap;
     gap.numbers = irrelevant_;
+    if (sizeof...(Sayings) > 0) gap = with_heartbeat(w, std::move(gap));
     expect_relayed(w, std::move(gap), site);
   }
   template <class... Sayings>

@@ -220,12 +220,11 @@ bool ServerFollower::expect_gap_before(const Place& place, std::int64_t number) 
   for (const auto& [listed, state] : reader.list) {
     if (listed < number) before = listed;
   }
-  model::Relayed gap;
+  irrelevant_.clear();
   const std::int64_t first = relay_at(place).first();
-  for (std::int64_t k = std::max(before + 1, first); k < number; ++k) gap.numbers.push_back(k);
-  if (gap.numbers.empty()) return false;
-  const World w = world_at(place);
-  expect_relayed(w, with_heartbeat(w, std::move(gap)), site_);
+  for (std::int64_t k = std::max(before + 1, first); k < number; ++k) irrelevant_.push_back(k);
+  if (irrelevant_.empty()) return false;
+  world_at(place).raise(server::Skipped{});
   return true;
 }
 

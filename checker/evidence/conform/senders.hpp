@@ -47,6 +47,7 @@ inline constexpr Sender initial_of_server{"RegistrationInitialDue", "Registratio
 inline constexpr Sender opening{"RelayOpened", "RelayHeartbeat"};
 inline constexpr Sender answer_to_initial{"RelayedAckNackArrives", "RelayHeartbeat"};
 inline constexpr Sender expiry{"RelayExpires", "RelayHeartbeat"};
+inline constexpr Sender skipped{"ChangesAreSkipped", "Gap"};
 inline constexpr Sender served{"ChangeIsServed", "RelayedData"};
 inline constexpr Sender irrelevant{"RelayedAckNackArrives", "Gap"};
 inline constexpr Sender reply{"LearnerReplyIsDue", "RelayedAckNack"};

@@ -131,8 +131,8 @@ class Heartbeats {
       if (!one.heartbeat) continue;
       if (!one.is_alone()) {
         is_opened_[one.relation] = true;
-        // A GAP with a HEARTBEAT comes from the step that delivers, which names no packets.
-        ledger_.explained(Rule::relay_heartbeat, one.change ? sends::server::served : Sender{});
+        ledger_.explained(Rule::relay_heartbeat,
+                          one.change ? sends::server::served : sends::server::skipped);
       } else if (!is_opened_[one.relation]) {
         open(ways, one);
       } else if (auto fault = alone(ways, one)) {

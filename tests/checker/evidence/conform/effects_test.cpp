@@ -49,9 +49,7 @@ std::string_view packet_of(model::PacketKind kind) {
 std::string_view packet_of(const model::Packet& packet) {
   if (packet.kind != model::PacketKind::relayed) return packet_of(packet.kind);
   if (packet.relayed->has_data) return "RelayedData";
-  if (packet.relayed->numbers.empty()) return "RelayHeartbeat";
-  // One before a DATA comes from the step that delivers, which names no packets.
-  return packet.relayed->has_heartbeat ? "" : "Gap";
+  return packet.relayed->numbers.empty() ? "RelayHeartbeat" : "Gap";
 }
 
 /// Observes which effect sends each packet that leaves a host: the last one that can send it, since
