@@ -87,7 +87,7 @@ constexpr std::array<Text, rule_count> rules{{
      "HEARTBEAT of the server, when its timer expires and a client lacks something",
      sends::server::expiry},
     {"relay.heartbeat", "HEARTBEAT of the server, with DATA or with the GAP before it",
-     sends::server::served},
+     sends::server::served, sends::server::skipped},
     {"relay.data", "what the server passes on, for the first time to this client",
      sends::server::served},
     {"relay.repair", "again, after an ACKNACK asked for it", sends::server::served},
