@@ -1,6 +1,7 @@
 // How fast the engine is, as a table: whole simulations beside the hold model of
 // std::priority_queue, the event queue beside it and ns-3's schedulers from a thousand to a million
-// pending events, what monitors cost, and what the largest collapse takes as a process of its own.
+// pending events, what monitors cost, what the largest collapse takes as a process of its own, and
+// how fast the explorer steps, beside SPIN (explorer_bench.cpp).
 // Processor time; both sides of a ratio are measured in turns, and the median of the ratios counts.
 // Nothing here is a test.
 #include <algorithm>
@@ -253,6 +254,18 @@ void collapses(const char* self) {
   }
 }
 
+/// A program of its own, which prints its own rows.
+void explorer() {
+  const std::string program = sibling("stormproof_explorer_bench");
+  std::puts("\nThe explorer, fired events (steps)/s, beside SPIN on the exported composition");
+  std::fflush(stdout);
+  if (!std::filesystem::exists(program)) {
+    std::puts("skipped: this was built without the explorer");
+  } else if (std::system(fmt::format("'{}'", program).c_str()) != 0) {
+    std::puts("failed");
+  }
+}
+
 int run_collapse(const char* size) {
   unsigned hosts = 0;
   unsigned participants = 0;
@@ -272,5 +285,6 @@ int main(int argc, char** argv) {
   queues();
   ns3();
   monitors();
+  explorer();
   return 0;
 }

@@ -1,8 +1,9 @@
 // How fast the explorer steps: fired events per second of processor time, through Boost.MSM and
 // with difference-bound matrices, on its own scopes; and beside it, if SPIN is installed, the
 // states per second of SPIN on the exported composition. A state of the explorer is a zone (all
-// times at once), one of SPIN has no times. Started by hand; a time says more about the machine
-// than about the code.
+// times at once), one of SPIN has no times. The ratio is that of the two rates. Started by hand, or
+// by the table of benchmarks (engine_bench.cpp); a time says more about the machine than about the
+// code.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -60,9 +61,10 @@ void measure_spin(unsigned descriptors) {
     std::printf("spin      %s\n", run.error().c_str());
     return;
   }
-  std::printf("spin      D = %u %85llu states %23.2f s %9.0f states/s\n", descriptors,
-              static_cast<unsigned long long>(run->states), run->seconds,
-              static_cast<double>(run->states) / run->seconds);
+  const double rate = static_cast<double>(run->states) / run->seconds;
+  std::printf("spin      D = %u %85llu states %23.2f s %9.0f states/s; ratio %.1f\n", descriptors,
+              static_cast<unsigned long long>(run->states), run->seconds, rate,
+              static_cast<double>(steps) / spent / rate);
 }
 
 }  // namespace
