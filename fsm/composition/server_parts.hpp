@@ -90,7 +90,7 @@ struct RelayOpens : Occasion<owner::relation> {};
 struct LearnerOpens : Occasion<owner::relation> {};
 struct Arrives : Occasion<owner::participant> {};  ///< a descriptor that is new to the server
 struct Inserted : Occasion<owner::writer> {};      ///< a change that somebody needs
-struct Skipped : Occasion<owner::relation> {};     ///< before that: what the reader need not have
+struct Skipped : Occasion<owner::relation> {};     ///< a reader is told what it need not have
 struct Served : Occasion<owner::relation> {};      ///< a change is about to be sent to a reader
 struct Delivered : Occasion<owner::writer> {};     ///< a change has been sent to all
 
