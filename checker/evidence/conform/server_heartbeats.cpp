@@ -86,13 +86,11 @@ class Heartbeats {
                                                     : one->gap.front() + std::int64_t{1};
       const std::int64_t most = one->change ? least : 0;
       if (shrinks || !is_range || now.first > least || now.announced < most) {
-        return fault(
-            *one, Fault::heartbeat_range,
-            fmt::format("HEARTBEAT {} announces {} to {}", count, now.first, now.announced),
-            before == nullptr
-                ? "it announces the whole history, in which what is sent is"
-                : fmt::format("it announces the whole history, which was {} to {} before",
-                              before->first, before->announced));
+        return range_fault(
+            *one, before == nullptr
+                      ? "it announces the whole history, in which what is sent is"
+                      : fmt::format("it announces the whole history, which was {} to {} before",
+                                    before->first, before->announced));
       }
       if (before != nullptr && now.announced < before->announced) {
         if (auto fault = check_left_out(*one, before->announced)) return fault;
@@ -114,10 +112,8 @@ class Heartbeats {
         return answer.base > change && context_.can_precede(answer.time_ns, one.time_ns);
       };
       if (std::ranges::any_of(relay_.relations[sent->relation]->answers, has_it)) continue;
-      return fault(
-          one, Fault::heartbeat_range,
-          fmt::format("HEARTBEAT {} announces {} to {}", one.heartbeat->count, one.heartbeat->first,
-                      one.heartbeat->announced),
+      return range_fault(
+          one,
           fmt::format("DATA {} stays in the history until its client acknowledges it", change + 1));
     }
     return std::nullopt;
@@ -243,6 +239,13 @@ class Heartbeats {
         "no initial ACKNACK of its client that it answers can have arrived, and the timer expires "
         "once in its period",
         {{"send lag", bounds_.most_send_lag_ns + early, bounds_.most_send_lag_ns}});
+  }
+  [[nodiscard]] Unexplained range_fault(const Passed& one, std::string nearest) const {
+    const Heartbeat& said = *one.heartbeat;
+    return fault(
+        one, Fault::heartbeat_range,
+        fmt::format("HEARTBEAT {} announces {} to {}", said.count, said.first, said.announced),
+        std::move(nearest));
   }
   Unexplained fault(const Passed& one, Fault kind, std::string what, std::string nearest) const {
     return unexplained_in(relay_, one, one.heartbeat_event, kind, std::move(what),
