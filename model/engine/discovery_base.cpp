@@ -6,38 +6,18 @@
 namespace stormproof::model {
 
 DiscoveryBase::DiscoveryBase(RunState& run, Network& network)
-    : run_{run},
+    : Stored{run},
       network_{network},
       spdp_{run.scenario.dds.spdp},
       sedp_{run.scenario.dds.sedp},
-      readers_(run.topology.relation_count()),
-      announcers_(run.topology.participant_count()),
-      clocks_(2 * std::size_t{run.topology.participant_count()}),
-      asked_(run.topology.relation_count()) {
-  for (std::uint32_t relation = 0; relation < readers_.size(); ++relation) {
-    readers_[relation].missing = run.topology.descriptor_count(relation);
+      cycles_(2 * std::size_t{run.topology.participant_count()}) {
+  for (std::uint32_t relation = 0; relation < run.topology.relation_count(); ++relation) {
+    at<Lacking>(relation) = run.topology.descriptor_count(relation);
   }
 }
 
-namespace {
-/// Sets a flag; `count` is how many of its kind are set.
-void count_flag(bool& flag, bool value, std::uint32_t& count) {
-  if (flag && !value) --count;
-  if (!flag && value) ++count;
-  flag = value;
-}
-}  // namespace
-
-void DiscoveryBase::assign(comp::Contacted, std::uint32_t relation, bool contacted) {
-  count_flag(asked_[relation].contacted, contacted, clocks_[writer_of(relation)].contacted);
-}
-
-void DiscoveryBase::assign(comp::Responded, std::uint32_t relation, bool responded) {
-  count_flag(asked_[relation].responded, responded, clocks_[writer_of(relation)].responded);
-}
-
 void DiscoveryBase::plan_batches(std::uint32_t w, std::int64_t stretched) {
-  Clock& clock = clocks_[w];
+  Cycle& clock = cycles_[w];
   clock.batches.clear();
   clock.next_batch = 0;
   const fsm::AdaptiveCycle<fsm::Plain> cycle{.contacted = clock.contacted,
@@ -46,11 +26,11 @@ void DiscoveryBase::plan_batches(std::uint32_t w, std::int64_t stretched) {
                                              .epsilon_den = sedp_.adaptive.epsilon_denominator};
   const auto size = static_cast<std::size_t>(fsm::batch_size<fsm::Plain>(cycle));
   for (const std::uint32_t relation : open_relations(w)) {
-    if (!asked_[relation].contacted || asked_[relation].responded) continue;
+    if (!at<comp::Contacted>(relation) || at<comp::Responded>(relation)) continue;
     if (clock.batches.empty() || clock.batches.back().size() == size) clock.batches.emplace_back();
     clock.batches.back().push_back(relation);
   }
-  const std::int64_t rest = stretched - clock.period;
+  const std::int64_t rest = stretched - at<comp::CyclePeriod>(w);
   const auto count = static_cast<std::int64_t>(clock.batches.size());
   for (std::int64_t k = 0; k < count; ++k) {
     schedule(comp::BatchDue{}, w, now() + rest * k / count);
@@ -58,7 +38,7 @@ void DiscoveryBase::plan_batches(std::uint32_t w, std::int64_t stretched) {
 }
 
 std::vector<std::uint32_t> DiscoveryBase::next_batch(std::uint32_t w) {
-  Clock& clock = clocks_[w];
+  Cycle& clock = cycles_[w];
   if (clock.next_batch == clock.batches.size()) return {};  // the event was scheduled twice
   return clock.batches[clock.next_batch++];
 }

@@ -20,15 +20,29 @@
 #include "model/engine/network.hpp"
 #include "model/engine/relation_bits.hpp"
 #include "model/engine/running_world.hpp"
+#include "model/engine/store.hpp"
 
 namespace stormproof::model {
 
-/// A timer of the adaptive policy: what a later event of the cycle replaces is cancelled.
-template <class Timer>
-concept IsCycleTimer = std::is_same_v<Timer, comp::CycleStart> ||
-    std::is_same_v<Timer, comp::CycleEnd> || std::is_same_v<Timer, comp::BatchDue>;
+/// How many descriptors the reader lacks, kept up to date.
+struct Lacking : comp::Number<comp::owner::relation> {};
+/// The rules that all implementations share.
+using SharedThings =
+    fsm::TypeList<comp::AnnouncementTimer, comp::Reader, comp::InitialTimer, comp::HeartbeatClock,
+                  comp::Announcement, comp::AckNackGeneration, comp::InitialAttempt,
+                  comp::HeartbeatExpiry, comp::CycleStart, comp::CycleEnd, comp::BatchDue,
+                  comp::AnnouncementsSent, comp::HeartbeatSeen, comp::LastDelay, comp::CycleBegan,
+                  comp::CyclePeriod, comp::Contacted, comp::Responded, comp::AnnouncedAtStart,
+                  Lacking>;
+struct SharedColumns : PlainColumns {
+  using PlainColumns::column;
+  static way::Narrow column(comp::AnnouncementsSent);
+  static way::Prefix column(comp::AnnouncedAtStart);
+  static way::Narrow column(Lacking);
+  static way::Capped column(comp::LastDelay);
+};
 
-class DiscoveryBase : public Implementation {
+class DiscoveryBase : public Stored<DiscoveryBase, HostBase, SharedThings, SharedColumns> {
  public:
   using Packet = model::Packet;
 
@@ -53,11 +67,11 @@ class DiscoveryBase : public Implementation {
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(comp::ContactedCount, const World& w) const {
-    return clocks_[w.template number<comp::owner::writer>()].contacted;
+    return cycles_[w.template number<comp::owner::writer>()].contacted;
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(comp::RespondedCount, const World& w) const {
-    return clocks_[w.template number<comp::owner::writer>()].responded;
+    return cycles_[w.template number<comp::owner::writer>()].responded;
   }
   [[nodiscard]] bool said(comp::CarriesHeartbeat, const Packet& packet) const {
     return packet.carries_heartbeat;
@@ -66,6 +80,7 @@ class DiscoveryBase : public Implementation {
     return packet.initial_acknack;
   }
   [[nodiscard]] bool said(comp::IsRepair, const Packet& packet) const { return packet.from_repair; }
+  using Stored::word;
   [[nodiscard]] std::uint64_t word(comp::Carries, const Packet& packet, std::uint32_t k) const {
     return packet.descriptors.word(k);
   }
@@ -73,99 +88,20 @@ class DiscoveryBase : public Implementation {
     return packet.descriptors.word(k);
   }
 
-  // Machines.
-  auto& driver(comp::AnnouncementTimer) { return announcer_driver_; }
-  auto& driver(comp::Reader) { return reader_driver_; }
-  auto& driver(comp::InitialTimer) { return initial_driver_; }
-  auto& driver(comp::HeartbeatClock) { return clock_driver_; }
-  auto& state(comp::AnnouncementTimer, std::uint32_t i) { return announcers_[i].state; }
-  auto& state(comp::Reader, std::uint32_t relation) { return readers_[relation].state; }
-  auto& state(comp::InitialTimer, std::uint32_t relation) { return readers_[relation].initial; }
-  auto& state(comp::HeartbeatClock, std::uint32_t w) { return clocks_[w].state; }
-
-  // Flags and numbers.
-  [[nodiscard]] std::int64_t value(comp::AnnouncementsSent, std::uint32_t i) const {
-    return announcers_[i].sent;
+  // What is kept, and is more than a value.
+  void changed(comp::Contacted, std::uint32_t relation, bool contacted) {
+    auto& count = cycles_[writer_of(relation)].contacted;
+    contacted ? ++count : --count;
   }
-  void assign(comp::AnnouncementsSent, std::uint32_t i, std::int64_t sent) {
-    announcers_[i].sent = static_cast<std::uint32_t>(sent);
-  }
-  [[nodiscard]] bool value(comp::HeartbeatSeen, std::uint32_t relation) const {
-    return readers_[relation].heartbeat_seen;
-  }
-  void assign(comp::HeartbeatSeen, std::uint32_t relation, bool seen) {
-    readers_[relation].heartbeat_seen = seen;
-  }
-  [[nodiscard]] std::int64_t value(comp::LastDelay, std::uint32_t relation) const {
-    return readers_[relation].last_delay;
-  }
-  void assign(comp::LastDelay, std::uint32_t relation, std::int64_t delay) {
-    lengthen(readers_[relation].last_delay, delay);
-  }
-  [[nodiscard]] std::int64_t value(comp::CycleBegan, std::uint32_t w) const {
-    return clocks_[w].began;
-  }
-  void assign(comp::CycleBegan, std::uint32_t w, std::int64_t time) { clocks_[w].began = time; }
-  [[nodiscard]] std::int64_t value(comp::CyclePeriod, std::uint32_t w) const {
-    return clocks_[w].period;
-  }
-  void assign(comp::CyclePeriod, std::uint32_t w, std::int64_t period) {
-    clocks_[w].period = period;
-  }
-  [[nodiscard]] bool value(comp::Contacted, std::uint32_t relation) const {
-    return asked_[relation].contacted;
-  }
-  void assign(comp::Contacted, std::uint32_t relation, bool contacted);
-  [[nodiscard]] bool value(comp::Responded, std::uint32_t relation) const {
-    return asked_[relation].responded;
-  }
-  void assign(comp::Responded, std::uint32_t relation, bool responded);
-  [[nodiscard]] std::uint64_t word(comp::AnnouncedAtStart, std::uint32_t w, std::uint32_t k) const {
-    return bits_below(clocks_[w].announced, k);
-  }
-  void assign_each(comp::AnnouncedAtStart, std::uint32_t w, const DescriptorSet& announced) {
-    clocks_[w].announced = announced.empty() ? 0 : announced.highest() + 1;
-  }
-
-  // Timers.
-  template <class Timer>
-  void schedule(Timer, std::uint32_t owner, std::int64_t time) {
-    run_.schedule(Nanoseconds{time}, event_kind_of<Timer>, owner);
-  }
-  void schedule(comp::HeartbeatExpiry, std::uint32_t w, std::int64_t time) {
-    ++clocks_[w].expiries;
-    run_.schedule(Nanoseconds{time}, EventKind::heartbeat_expiry, w);
-  }
-  template <IsCycleTimer Timer>
-  void schedule(Timer, std::uint32_t w, std::int64_t time) {
-    run_.schedule(Nanoseconds{time}, event_kind_of<Timer>, w, token(Timer{}, w));
-  }
-  template <IsCycleTimer Timer>
-  void cancel(Timer, std::uint32_t w) {
-    ++token(Timer{}, w);
-  }
-  [[nodiscard]] std::int64_t pending(comp::HeartbeatExpiry, std::uint32_t w) const {
-    return clocks_[w].expiries;
-  }
-  /// Whether what is due has not been cancelled. It is not pending any more.
-  template <class Timer>
-  [[nodiscard]] bool is_due(Timer, const Event&) {
-    return true;
-  }
-  [[nodiscard]] bool is_due(comp::HeartbeatExpiry, const Event& event) {
-    std::uint32_t& expiries = clocks_[event.subject].expiries;
-    if (expiries > 0) --expiries;  // 0: the event was scheduled twice
-    return true;
-  }
-  template <IsCycleTimer Timer>
-  [[nodiscard]] bool is_due(Timer, const Event& event) {
-    return event.detail == token(Timer{}, event.subject);
+  void changed(comp::Responded, std::uint32_t relation, bool responded) {
+    auto& count = cycles_[writer_of(relation)].responded;
+    responded ? ++count : --count;
   }
 
   /// How many descriptors the reader lacks.
   template <class World>
   [[nodiscard]] std::uint32_t fact(comp::Missing, const World& w) const {
-    return readers_[w.template number<comp::owner::relation>()].missing;
+    return at<Lacking>(w.template number<comp::owner::relation>());
   }
   [[nodiscard]] std::vector<std::uint32_t> readers_by_number(std::uint32_t w) const {
     return open_relations(w);
@@ -209,11 +145,6 @@ class DiscoveryBase : public Implementation {
   /// The open relations of the writer, by number.
   [[nodiscard]] virtual std::vector<std::uint32_t> open_relations(std::uint32_t writer) const = 0;
 
-  /// Only events that are scheduled twice get a delay near the end of the clock.
-  static void lengthen(std::int64_t& last_delay, std::int64_t delay) {
-    constexpr std::int64_t longest = std::int64_t{1} << 60;
-    if (last_delay < longest) last_delay = delay;
-  }
   /// Announcement 0 of participant i.
   void start_announcing(std::uint32_t i) {
     run_.schedule(run_.topology.start(i), EventKind::announcement_due, i);
@@ -231,7 +162,7 @@ class DiscoveryBase : public Implementation {
   template <class Machine>
   void take(RelationBits<Machine>& bits, std::uint32_t relation, const DescriptorSet& received,
             bool required) {
-    std::uint32_t& missing = readers_[relation].missing;
+    std::uint32_t& missing = at<Lacking>(relation);
     const std::uint32_t fresh =
         received.count() - (topology().descriptor_count(relation) - missing);
     if (required) {
@@ -248,7 +179,7 @@ class DiscoveryBase : public Implementation {
   /// The reader has lost all that it had.
   template <class Machine>
   void lose(RelationBits<Machine>& bits, std::uint32_t relation, bool required) {
-    std::uint32_t& missing = readers_[relation].missing;
+    std::uint32_t& missing = at<Lacking>(relation);
     const std::uint32_t all = topology().descriptor_count(relation);
     if (required) run_.missing += all - missing;
     bits.lose(relation);
@@ -278,64 +209,25 @@ class DiscoveryBase : public Implementation {
     return relation_or_writer % 2 == 0 ? Stream::pub : Stream::sub;
   }
 
-  RunState& run_;
   Network& network_;
   const SpdpProfile& spdp_;
   const SedpProfile& sedp_;
 
-  struct ReaderSide {
-    fsm::StateId state = fsm::Stepper<fsm::DiscoveryReader>::initial;
-    fsm::StateId initial = fsm::Stepper<fsm::InitialAckNack>::initial;
-    bool heartbeat_seen = false;
-    std::uint32_t missing = 0;    ///< descriptors with X = 0
-    std::int64_t last_delay = 0;  ///< of the initial ACKNACK, ns
-  };
-  std::vector<ReaderSide> readers_;  // by relation
-
-  struct Announcer {
-    fsm::StateId state = fsm::Stepper<fsm::Announcer>::initial;
-    std::uint32_t sent = 0;
-  };
-  struct Clock {
-    fsm::StateId state = fsm::Stepper<fsm::HeartbeatTimer>::initial;
-    std::uint32_t expiries = 0;  ///< scheduled (periodic policy)
-    // The cycle of the adaptive policy.
-    std::int64_t began = 0;
-    std::int64_t period = 0;
-    std::uint32_t announced = 0;  ///< descriptors announced when the cycle started
+  /// The cycle of the adaptive policy.
+  struct Cycle {
     std::uint32_t contacted = 0;
     std::uint32_t responded = 0;
-    std::array<std::uint32_t, 3> tokens{};  ///< events with an older token are cancelled
     std::vector<std::vector<std::uint32_t>> batches;
     std::size_t next_batch = 0;
   };
-  std::vector<Announcer> announcers_;
-  std::vector<Clock> clocks_;  // by writer
+  std::vector<Cycle> cycles_;  // by writer
 
  private:
-  /// What the cycle of its writer knows of a reader.
-  struct Asked {
-    bool contacted = false;
-    bool responded = false;
-  };
-
-  template <IsCycleTimer Timer>
-  [[nodiscard]] std::uint32_t& token(Timer, std::uint32_t w) {
-    constexpr std::size_t k = std::is_same_v<Timer, comp::CycleStart> ? 0
-                              : std::is_same_v<Timer, comp::CycleEnd> ? 1
-                                                                      : 2;
-    return clocks_[w].tokens[k];
-  }
   void plan_batches(std::uint32_t writer, std::int64_t stretched);
   void note_last_delivery(std::uint32_t relation, std::uint32_t descriptor);
 
   EffectMutator mutator_{run_.mutation, run_.probe};
   const bool watched_ = mutator_.is_needed();
-  std::vector<Asked> asked_;  // by relation
-  Driver<fsm::Announcer> announcer_driver_{run_, MachineRef::Kind::participant};
-  Driver<fsm::DiscoveryReader> reader_driver_{run_, MachineRef::Kind::relation};
-  Driver<fsm::InitialAckNack> initial_driver_{run_, MachineRef::Kind::relation};
-  Driver<fsm::HeartbeatTimer> clock_driver_{run_, MachineRef::Kind::writer};
 };
 
 }  // namespace stormproof::model

@@ -22,41 +22,32 @@ inline constexpr EventKind event_kind_of<comp::LeaseCheck> = EventKind::lease_ch
 template <>
 inline constexpr EventKind event_kind_of<comp::Return> = EventKind::participant_start;
 
-namespace detail {
-/// What is remembered of a number, flag or timer, by owner.
-template <class Of, class Value>
-struct Remembered {
-  std::vector<Value> of;
+/// Flags and numbers that rules with a life remember, and timers of a participant or a side that
+/// may be a new one.
+template <class Columns>
+struct LivingColumns : Columns {
+  using Columns::column;
+  template <class T>
+  static constexpr auto column(T) {
+    return std::conditional_t < requires { T::counted; }
+    , way::Insertions, way::Cell > {};
+  }
 };
-template <class List, class Value>
-struct MemoryOf;
-template <class... Each, class Value>
-struct MemoryOf<fsm::TypeList<Each...>, Value> {
-  using type = std::tuple<Remembered<Each, Value>...>;
-};
-template <class V, class List>
-struct IsOneOf;
-template <class V, class... Vs>
-struct IsOneOf<V, fsm::TypeList<Vs...>> : std::disjunction<std::is_same<V, Vs>...> {};
-}  // namespace detail
 
-/// `Cancellable` are the timers of a participant or a side that may be a new one; what the rules
-/// remember is `Composition::Memory`.
+/// `Cancellable` are these timers; what the rules remember is `Composition::Memory`.
 template <class Base, class Composition_, class Cancellable>
-class LivingHost : public Base {
+class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Base,
+                                 comp::Joined<typename Composition_::Memory, Cancellable>,
+                                 LivingColumns<typename Base::OwnColumns>> {
+  using Below = Stored<LivingHost<Base, Composition_, Cancellable>, Base,
+                       comp::Joined<typename Composition_::Memory, Cancellable>,
+                       LivingColumns<typename Base::OwnColumns>>;
+
  public:
   using Composition = Composition_;
 
-  template <class V>
-  static constexpr bool is_remembered = detail::IsOneOf<V, typename Composition::Memory>::value;
-  template <class Timer>
-  static constexpr bool is_cancellable = detail::IsOneOf<Timer, Cancellable>::value;
-
   LivingHost(RunState& run, Network& network)
-      : Base{run, network}, life_{run.scenario.deployment.life.value_or(Life{})} {
-    const std::uint32_t owners =
-        std::max(run.topology.relation_count(), 2 * run.topology.participant_count());
-    std::apply([&](auto&... each) { (each.of.resize(owners), ...); }, memory_);
+      : Below{run, network}, life_{run.scenario.deployment.life.value_or(Life{})} {
     for (std::uint32_t i = 0; i < run.topology.participant_count(); ++i) {
       leases_.push_back(lease_of(life_, i).value_or(Nanoseconds{}).count());
     }
@@ -67,66 +58,31 @@ class LivingHost : public Base {
     }
   }
 
-  using Base::answer;
-  using Base::assign;
-  using Base::cancel;
-  using Base::is_due;
-  using Base::value;
-
-  template <class V>
-  requires is_remembered<V>
-  [[nodiscard]] std::int64_t value(V, std::uint32_t owner) const {
-    return std::get<detail::Remembered<V, std::int64_t>>(memory_).of[owner];
+  void renew(comp::AnnouncementTimer part, std::uint32_t i) {
+    this->renew_silently(part, i);
+    this->assign(comp::AnnouncementsSent{}, i, 0);
   }
-  template <class V>
-  requires is_remembered<V>
-  void assign(V, std::uint32_t owner, std::int64_t to) {
-    std::get<detail::Remembered<V, std::int64_t>>(memory_).of[owner] = to;
+  void renew(comp::HeartbeatClock part, std::uint32_t w) {
+    this->renew_silently(part, w);
+    this->assign(comp::CycleBegan{}, w, 0);
+    this->assign(comp::CyclePeriod{}, w, 0);
+    this->template set_first<comp::AnnouncedAtStart>(w, 0);
+    this->cycles_[w] = {};
   }
-
-  template <class Timer>
-  void cancel(Timer timer, std::uint32_t owner) {
-    if constexpr (is_cancellable<Timer>) {
-      cancel_all(timer, owner);
-    } else {
-      Base::cancel(timer, owner);
-    }
-  }
-  void cancel(comp::HeartbeatExpiry, std::uint32_t w) {
-    cancel_all(comp::HeartbeatExpiry{}, w);
-    this->clocks_[w].expiries = 0;
-  }
-  template <class Timer>
-  [[nodiscard]] bool is_due(Timer timer, const Event& event) {
-    if constexpr (is_cancellable<Timer>) {
-      return !is_cancelled(timer, event);
-    } else {
-      return Base::is_due(timer, event);
-    }
-  }
-  [[nodiscard]] bool is_due(comp::HeartbeatExpiry expiry, const Event& event) {
-    return !is_cancelled(expiry, event) && Base::is_due(expiry, event);
-  }
-
-  void renew(comp::AnnouncementTimer, std::uint32_t i) { this->announcers_[i] = {}; }
-  void renew(comp::HeartbeatClock, std::uint32_t w) {
-    const auto tokens = this->clocks_[w].tokens;
-    this->clocks_[w] = {};
-    this->clocks_[w].tokens = tokens;
-  }
-  void renew(comp::Reader, std::uint32_t relation) {
+  void renew(comp::Reader part, std::uint32_t relation) {
     using States = fsm::Reflect<fsm::DiscoveryReader>;
-    const fsm::StateId before = this->readers_[relation].state;
+    const fsm::StateId before = this->state(part, relation);
     const fsm::StateId after = this->topology().descriptor_count(relation) > 0
                                    ? States::template id<fsm::discovery_reader::Unknown>
                                    : States::template id<fsm::discovery_reader::EarlyComplete>;
-    this->readers_[relation].state = after;
+    this->state(part, relation) = after;
     note_renewed<fsm::DiscoveryReader>(MachineRef::Kind::relation, relation, before, after);
   }
-  void renew(comp::InitialTimer, std::uint32_t relation) {
-    this->readers_[relation].initial = fsm::Stepper<fsm::InitialAckNack>::initial;
+  void renew(comp::InitialTimer part, std::uint32_t relation) {
+    this->renew_silently(part, relation);
   }
 
+  using Base::answer;
   template <class World>
   [[nodiscard]] std::int64_t answer(comp::LeaseDuration, const World& w) const {
     return leases_[this->topology().pair(w.template number<comp::owner::pair>()).source];
@@ -159,7 +115,7 @@ class LivingHost : public Base {
   template <class Life, class Host, class OfParticipant, class OfWriter>
   void lose_all(Host& host, std::uint32_t i, OfParticipant&& of_participant, OfWriter&& of_writer) {
     renew(comp::AnnouncementTimer{}, i);
-    cancel(comp::Announcement{}, i);
+    this->cancel(comp::Announcement{}, i);
     of_participant();
     const Topology& topology = this->topology();
     for (std::uint32_t there = topology.first_pair(i); there < topology.first_pair(i + 1);
@@ -169,10 +125,10 @@ class LivingHost : public Base {
     }
     for (const std::uint32_t w : {2 * i, 2 * i + 1}) {
       renew(comp::HeartbeatClock{}, w);
-      cancel(comp::HeartbeatExpiry{}, w);
-      cancel(comp::CycleStart{}, w);
-      cancel(comp::CycleEnd{}, w);
-      cancel(comp::BatchDue{}, w);
+      this->cancel(comp::HeartbeatExpiry{}, w);
+      this->cancel(comp::CycleStart{}, w);
+      this->cancel(comp::CycleEnd{}, w);
+      this->cancel(comp::BatchDue{}, w);
       this->refill(w);
       of_writer(w);
     }
@@ -190,25 +146,14 @@ class LivingHost : public Base {
     return pair.cross_host && !is_replaced(life_, pair.source) &&
            !is_replaced(life_, pair.destination);
   }
-  /// What is scheduled of it.
-  template <class Timer>
-  void cancel_all(Timer, std::uint32_t owner) {
-    auto& before = std::get<detail::Remembered<Timer, std::uint64_t>>(cancelled_).of;
-    if (before.size() <= owner) before.resize(owner + 1);
-    before[owner] = this->run_.queue.next_insertion();
-  }
-  template <class Timer>
-  [[nodiscard]] bool is_cancelled(Timer, const Event& event) const {
-    const auto& before = std::get<detail::Remembered<Timer, std::uint64_t>>(cancelled_).of;
-    return event.subject < before.size() && event.insertion() < before[event.subject];
+  template <class P>
+  void renew_silently(P part, std::uint32_t n) {
+    this->state(part, n) = fsm::Stepper<typename P::Machine>::initial;
   }
 
   const Life life_;
 
  private:
-  typename detail::MemoryOf<typename Composition::Memory, std::int64_t>::type memory_;
-  /// By owner: events that were scheduled before this one are cancelled.
-  typename detail::MemoryOf<Cancellable, std::uint64_t>::type cancelled_;
   std::vector<std::int64_t> leases_;  // by participant; 0: never forgotten
 };
 

@@ -490,14 +490,21 @@ void run_rule(Host& host, std::uint32_t subject, const typename Host::Packet* pa
   Rule::run(world);
 }
 
-/// Runs the rule of the timer that the event is, if it is still wanted.
+/// Runs the rule of the timer that the event is, if it is still wanted. Whether it is one.
 template <class Host>
-void run_due(Host& host, const Event& event) {
+bool run_due(Host& host, const Event& event) {
+  bool is_timer = false;
   comp::for_each_type(typename Host::Composition::Timers{}, [&]<class T>() {
-    if (event.kind == event_kind_of<T> && host.is_due(T{}, event)) {
+    if (event.kind != event_kind_of<T>) return;
+    is_timer = true;
+    if (!host.is_due(T{}, event)) return;
+    if constexpr (requires { host.owner_of(T{}, event); }) {
+      run_rule<comp::Due<T>>(host, host.owner_of(T{}, event));
+    } else {
       run_rule<comp::Due<T>>(host, event.subject);
     }
   });
+  return is_timer;
 }
 
 }  // namespace stormproof::model

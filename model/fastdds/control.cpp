@@ -11,30 +11,23 @@ namespace {
 Stream other(Stream s) { return s == Stream::pub ? Stream::sub : Stream::pub; }
 }  // namespace
 
-ControlRelations::ControlRelations(RunState& run)
-    : writer_driver{run, MachineRef::Kind::control_relation},
-      reader_driver{run, MachineRef::Kind::control_relation},
-      initial_driver{run, MachineRef::Kind::control_relation},
-      reply_driver{run, MachineRef::Kind::control_relation} {
+ControlRelations::ControlRelations(const RunState& run) {
+  const std::uint32_t participants = run.scenario.deployment.size();
   for (std::uint32_t pair = 0; pair < run.topology.pair_count(); ++pair) {
-    first_relation_.push_back(static_cast<std::uint32_t>(relations_.size()));
+    first_relation_.push_back(count());
     const Pair& p = run.topology.pair(pair);
     if (!p.cross_host) continue;
-    Relation relation;
-    relation.pair = pair;
-    const std::uint32_t participants = run.scenario.deployment.size();
-    if (p.source == participants || p.destination == participants) {  // a Discovery Server
-      relations_.push_back(relation);                                 // has no topics
-      continue;
+    std::uint32_t relations = 1;  // a Discovery Server has no topics
+    if (p.source != participants && p.destination != participants) {
+      relations =
+          topic::first_user +
+          std::min(
+              run.topology.descriptor_count(p.source, Stream::pub) - default_publications,
+              run.topology.descriptor_count(p.destination, Stream::sub) - default_subscriptions);
     }
-    const std::uint32_t publications =
-        run.topology.descriptor_count(p.source, Stream::pub) - default_publications;
-    const std::uint32_t subscriptions =
-        run.topology.descriptor_count(p.destination, Stream::sub) - default_subscriptions;
-    relations_.resize(relations_.size() + topic::first_user + std::min(publications, subscriptions),
-                      relation);
+    pairs_.resize(pairs_.size() + relations, pair);
   }
-  first_relation_.push_back(static_cast<std::uint32_t>(relations_.size()));
+  first_relation_.push_back(count());
 }
 
 std::uint32_t ControlRelations::find(std::uint32_t pair, std::uint32_t t) const {
@@ -46,7 +39,7 @@ Packet ControlRelations::packet_of(PacketKind kind, std::uint32_t relation,
                                    std::int64_t bytes) const {
   Packet packet;
   packet.kind = kind;
-  packet.pair = relations_[relation].pair;
+  packet.pair = pairs_[relation];
   packet.detail = relation;
   packet.payload_bytes = static_cast<std::uint32_t>(bytes);
   return packet;

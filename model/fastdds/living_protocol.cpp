@@ -15,7 +15,7 @@ void LivingProtocol::start() {
   Protocol::start();
   for (std::uint32_t i = 0; i < topology().participant_count(); ++i) {
     // Its endpoints exist already.
-    if (was_there_before(i)) cancel_all(rules::Created{}, i);
+    if (was_there_before(i)) cancel(Creations{}, i);
   }
   schedule_returns();
 }
@@ -28,7 +28,7 @@ void LivingProtocol::open_before(std::uint32_t i, std::uint32_t j) {
   for (std::uint32_t s = 0; s < 2; ++s) {
     // The writer side of (i, j, s).
     const std::uint32_t outward = 2 * there + s;
-    writers_[2 * i + s].created = topology().descriptor_count(outward);
+    set_first<rules::Exists>(2 * i + s, topology().descriptor_count(outward));
     RunningWorld<LivingProtocol, comp::owner::relation> w{*this, outward};
     w.feed_each(rules::C{}, comp::on<fsm::change_for_reader::ReaderMatched>);
     w.feed_each(rules::C{}, comp::on<fsm::change_for_reader::AckNackReceived>, [](auto&) {
@@ -41,12 +41,12 @@ void LivingProtocol::open_before(std::uint32_t i, std::uint32_t j) {
     const std::uint32_t inward = 2 * back + s;
     RunningWorld<LivingProtocol, comp::owner::relation> r{*this, inward};
     const DescriptorSet all = r.set_of(comp::everyone);
-    take(changes_, inward, all, is_required(inward));
-    relations_[inward].known = topology().descriptor_count(inward);
-    relations_[inward].notified = topology().descriptor_count(inward);
-    readers_[inward].state =
+    take(changes(), inward, all, is_required(inward));
+    set_first<rules::Known>(inward, topology().descriptor_count(inward));
+    set_first<rules::Notified>(inward, topology().descriptor_count(inward));
+    at<comp::Reader>(inward) =
         fsm::Reflect<fsm::DiscoveryReader>::id<fsm::discovery_reader::Complete>;
-    readers_[inward].heartbeat_seen = true;
+    at<comp::HeartbeatSeen>(inward) = true;
   }
   open_topics_before(there, back);
 }
@@ -55,33 +55,29 @@ void LivingProtocol::open_before(std::uint32_t i, std::uint32_t j) {
 /// other's writers.
 void LivingProtocol::open_topics_before(std::uint32_t there, std::uint32_t back) {
   for (std::uint32_t t = 0; control_.find(there, t) != topic::none; ++t) {
-    control_.of(control_.find(there, t)).writer =
+    at<control::ControlWriterSide>(control_.find(there, t)) =
         fsm::Reflect<fsm::ControlWriter>::id<fsm::control_relation::Open>;
   }
   for (std::uint32_t t = 0; control_.find(back, t) != topic::none; ++t) {
-    ControlRelations::Relation& relation = control_.of(control_.find(back, t));
-    relation.reader = fsm::Reflect<fsm::ControlReader>::id<fsm::control_relation::Open>;
-    relation.heartbeat_seen = true;
+    const std::uint32_t relation = control_.find(back, t);
+    at<control::ControlReaderSide>(relation) =
+        fsm::Reflect<fsm::ControlReader>::id<fsm::control_relation::Open>;
+    at<control::ControlHeartbeatSeen>(relation) = true;
   }
 }
 
 void LivingProtocol::take_descriptors(std::uint32_t relation, const DescriptorSet& received) {
   if (received.empty()) {
-    lose(changes_, relation, is_required(relation));
+    lose(changes(), relation, is_required(relation));
   } else {
-    take(changes_, relation, received, is_required(relation));
+    take(changes(), relation, received, is_required(relation));
   }
 }
 
-void LivingProtocol::renew(fsm::StateId& shot, MachineRef::Kind kind, std::uint32_t n) {
-  const fsm::StateId before = std::exchange(shot, fsm::Stepper<fsm::SingleShot>::initial);
-  if (before != shot) note_renewed<fsm::SingleShot>(kind, n, before, shot);
-}
-
 void LivingProtocol::assign(rules::WriterOpen open, std::uint32_t relation, bool matched) {
-  Protocol::assign(open, relation, matched);
+  LivingHost::assign(open, relation, matched);
   if (matched) return;
-  for (std::vector<std::uint32_t>& batch : clocks_[writer_of(relation)].batches) {
+  for (std::vector<std::uint32_t>& batch : cycles_[writer_of(relation)].batches) {
     std::erase(batch, relation);
   }
 }
@@ -92,15 +88,17 @@ void LivingProtocol::hear_from(std::uint32_t pair) {
 
 void LivingProtocol::forget_topics(std::uint32_t there) {
   for (std::uint32_t t = 0; control_.find(there, t) != topic::none; ++t) {
-    control_.of(control_.find(there, t)).writer = fsm::Stepper<fsm::ControlWriter>::initial;
+    at<control::ControlWriterSide>(control_.find(there, t)) =
+        fsm::Stepper<fsm::ControlWriter>::initial;
   }
   const std::uint32_t back = topology().pair(there).reverse;
   for (std::uint32_t t = 0; control_.find(back, t) != topic::none; ++t) {
     const std::uint32_t relation = control_.find(back, t);
-    ControlRelations::Relation fresh;
-    fresh.pair = back;
-    fresh.writer = control_.of(relation).writer;
-    control_.of(relation) = fresh;
+    at<control::ControlReaderSide>(relation) = fsm::Stepper<fsm::ControlReader>::initial;
+    at<control::ControlInitialTimer>(relation) = fsm::Stepper<fsm::InitialAckNack>::initial;
+    at<control::ControlReply>(relation) = fsm::Stepper<fsm::SingleShot>::initial;
+    at<control::ControlHeartbeatSeen>(relation) = false;
+    at<control::ControlLastDelay>(relation) = 0;
     cancel(control::ControlInitialAttempt{}, relation);
     cancel(control::ControlReplyDue{}, relation);
   }
@@ -108,16 +106,16 @@ void LivingProtocol::forget_topics(std::uint32_t there) {
 
 void LivingProtocol::lose_all(std::uint32_t i) {
   const auto of_participant = [&] {
-    cancel_all(rules::Created{}, i);
-    renew(participants_[i].async_run, MachineRef::Kind::participant, i);
+    cancel(Creations{}, i);
+    renew(rules::AsyncRun{}, i);
     cancel(rules::AsyncRunDue{}, i);
     participants_[i] = {};
   };
   const auto of_writer = [&](std::uint32_t w) {
-    renew(writers_[w].nack_response, MachineRef::Kind::writer, w);
+    renew(rules::NackResponse{}, w);
     cancel(rules::NackResponseDue{}, w);
-    writers_[w].created = 0;
-    std::ranges::fill(writers_[w].enqueued, 0);
+    set_first<rules::Exists>(w, 0);
+    set_first<rules::Enqueued>(w, 0);
   };
   LivingHost::lose_all<rules::Life>(*this, i, of_participant, of_writer);
 }
@@ -132,7 +130,7 @@ void LivingProtocol::handle(const Event& event) {
   const std::optional<std::uint32_t> actor = sender_of(event);
   if (actor && is_away(life_, *actor, run_.now)) return;
   if (event.kind == EventKind::endpoint_creation) {
-    if (!is_cancelled(rules::Created{}, event)) create(*this, event);
+    if (is_due(Creations{}, event)) create(*this, event);
     return;
   }
   run_due(*this, event);

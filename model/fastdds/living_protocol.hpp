@@ -11,11 +11,14 @@
 
 namespace stormproof::model::fastdds {
 
+/// The endpoints of a participant are created.
+struct Creations : comp::Timer<comp::owner::participant> {};
+
 namespace detail {
 using Cancellable = fsm::TypeList<comp::Announcement, comp::AckNackGeneration, comp::InitialAttempt,
                                   rules::SuppressionEnd, rules::NackResponseDue, rules::AsyncRunDue,
-                                  comp::HeartbeatExpiry, control::ControlInitialAttempt,
-                                  control::ControlReplyDue, rules::Created, comp::LeaseCheck>;
+                                  control::ControlInitialAttempt, control::ControlReplyDue,
+                                  Creations, comp::LeaseCheck>;
 }  // namespace detail
 
 class LivingProtocol final
@@ -29,35 +32,22 @@ class LivingProtocol final
   void received(const Packet& packet, std::uint32_t receiver) override;
 
   // The host of a RunningWorld.
-  using LivingHost::answer;
-  using LivingHost::assign;
-  using LivingHost::cancel;
-  using LivingHost::is_due;
   using LivingHost::renew;
-  using LivingHost::value;
-  using Protocol::assign_each;
   using Protocol::perform;
 
   /// A side that closes loses its turn in the cycle of its writer.
+  using LivingHost::assign;
   void assign(rules::WriterOpen open, std::uint32_t relation, bool matched);
-  void renew(rules::C, std::uint32_t relation) { changes_.renew(relation, renewed); }
-  void renew(rules::Reply, std::uint32_t relation) {
-    renew(relations_[relation].reply, MachineRef::Kind::relation, relation);
-  }
-  void renew(rules::Suppression, std::uint32_t relation) {
-    renew(relations_[relation].suppression, MachineRef::Kind::relation, relation);
-  }
-  /// Only who forgets says it of all at once.
-  void assign_each(rules::Notified, std::uint32_t relation, const DescriptorSet& notified) {
-    relations_[relation].notified = notified.empty() ? 0 : notified.highest() + 1;
-  }
+  void renew(rules::C, std::uint32_t relation) { changes().renew(relation, renewed); }
+  template <class P>
+  void renew(P part, std::uint32_t n);
   template <class World>
   void perform(rules::HearWriter, World& w) {
-    hear_from(control_.of(w.template number<comp::owner::control_relation>()).pair);
+    hear_from(control_.pair_of(w.template number<comp::owner::control_relation>()));
   }
   template <class World>
   void perform(rules::HearReader, World& w) {
-    const std::uint32_t pair = control_.of(w.template number<comp::owner::control_relation>()).pair;
+    const std::uint32_t pair = control_.pair_of(w.template number<comp::owner::control_relation>());
     hear_from(topology().pair(pair).reverse);
   }
   template <class World>
@@ -71,7 +61,6 @@ class LivingProtocol final
 
  private:
   void take_descriptors(std::uint32_t relation, const DescriptorSet& received) override;
-  void renew(fsm::StateId& shot, MachineRef::Kind kind, std::uint32_t n);
   void hear_from(std::uint32_t pair);
   void forget_topics(std::uint32_t pair);
   /// Before the run all endpoints of i exist, its writers believe that j has everything, and i has
@@ -82,5 +71,12 @@ class LivingProtocol final
   /// The participant is a new one.
   void lose_all(std::uint32_t participant);
 };
+
+template <class P>
+void LivingProtocol::renew(P part, std::uint32_t n) {
+  const fsm::StateId before = std::exchange(state(part, n), fsm::Stepper<fsm::SingleShot>::initial);
+  if (before == state(part, n)) return;
+  note_renewed<typename P::Machine>(Columns::kind(P::owner), n, before, state(part, n));
+}
 
 }  // namespace stormproof::model::fastdds

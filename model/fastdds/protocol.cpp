@@ -10,20 +10,14 @@
 namespace stormproof::model::fastdds {
 
 Protocol::Protocol(RunState& run, Network& network)
-    : DiscoveryBase{run, network},
-      changes_{run},
+    : Stored{run, network},
       control_{run},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
-      relations_(run.topology.relation_count()),
       inline_qos_bytes_{traits_of(run.scenario.dds).has_server ? inline_qos_bytes : 0},
       sends_records_{network.takes_records() && !run.scenario.deployment.life},
-      known_(run.topology.pair_count(), false),
       generated_{counts_at_admission(run) ? of_no_interest_ : run.counts} {
-  for (std::uint32_t w = 0; w < writers_.size(); ++w) {
-    refill(w);
-    writers_[w].enqueued.resize(words_for(run.topology.descriptor_count(w / 2, stream_of(w))));
-  }
+  for (std::uint32_t w = 0; w < writers_.size(); ++w) refill(w);
 }
 
 std::optional<std::uint32_t> Protocol::sender_of(const Event& event) const {
@@ -45,7 +39,7 @@ std::optional<std::uint32_t> Protocol::sender_of(const Event& event) const {
       return ends(event.subject).destination;
     case EventKind::control_initial_due:
     case EventKind::control_reply_due:
-      return run_.topology.pair(control_.of(event.subject).pair).destination;
+      return run_.topology.pair(control_.pair_of(event.subject)).destination;
     default:
       return {};
   }
@@ -142,11 +136,9 @@ std::vector<std::uint32_t> Protocol::open_relations(std::uint32_t w) const {
 }
 
 void Protocol::enqueue(std::uint32_t w, const DescriptorSet& requested) {
-  Writer& writer = writers_[w];
   requested.for_each([&](std::uint32_t d) {
-    const std::uint64_t bit = std::uint64_t{1} << d % 64;
-    if ((writer.enqueued[d / 64] & bit) != 0) return;
-    writer.enqueued[d / 64] |= bit;
+    if (has(rules::Enqueued{}, w, d)) return;
+    assign(rules::Enqueued{}, w, d, true);
     participants_[w / 2].queue.push_back({stream_of(w), d});
   });
 }
@@ -154,7 +146,7 @@ void Protocol::enqueue(std::uint32_t w, const DescriptorSet& requested) {
 void Protocol::send_spdp_to_known(std::uint32_t i) {
   for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
        ++pair) {
-    if (known_[pair]) send_spdp_copy(pair);
+    if (at<comp::Recognised>(run_.topology.pair(pair).reverse)) send_spdp_copy(pair);
   }
 }
 
@@ -207,7 +199,7 @@ void Protocol::send_heartbeat_to_all(std::uint32_t w) {
   heartbeat.stream = stream_of(w);
   heartbeat.payload_bytes = static_cast<std::uint32_t>(
       writer.readers.size() == 1 ? heartbeat_to_one_bytes : heartbeat_to_many_bytes);
-  heartbeat.detail = writer.created;
+  heartbeat.detail = first<rules::Exists>(w);
   generated_.heartbeat += count_crossing(writer.readers);
   send_to_readers(heartbeat, writer.readers);
 }
@@ -235,7 +227,7 @@ void Protocol::send_to_readers(PacketNumbers heartbeat, const std::vector<std::u
 std::uint32_t Protocol::next_recipient(const Packet& heartbeat, std::uint32_t pair) const {
   const std::uint32_t relation = 2 * pair + static_cast<std::uint32_t>(heartbeat.stream);
   const std::vector<std::uint32_t>& readers = writers_[writer_of(relation)].readers;
-  std::uint32_t rank = relations_[relation].rank + 1;
+  std::uint32_t rank = at<Rank>(relation) + 1;
   while (!crosses(readers[rank])) ++rank;
   return readers[rank] / 2;
 }
@@ -265,7 +257,7 @@ void Protocol::send(Packet&& packet) {
 }
 
 std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {
-  return changes_.list_missing(limit);
+  return changes().list_missing(limit);
 }
 
 }  // namespace stormproof::model::fastdds

@@ -24,7 +24,26 @@ namespace stormproof::model::fastdds {
 namespace rules = fsm::composition::fastdds;
 namespace control = fsm::composition::control;
 
-class Protocol : public DiscoveryBase {
+/// How many readers the writer had matched before, if it forgets nobody.
+struct Rank : comp::Number<comp::owner::relation> {};
+
+struct Columns : PlainColumns {
+  using PlainColumns::column;
+  // These hold for the first descriptors of a stream.
+  static way::Prefix column(rules::Exists);
+  static way::Prefix column(rules::Known);
+  static way::Prefix column(rules::Notified);
+  static way::Capped column(control::ControlLastDelay);
+  static way::Narrow column(Rank);
+
+  static std::uint32_t rows(Owner owner, const RunState& run) {
+    if (owner == comp::owner::control_relation) return ControlRelations{run}.count();
+    return PlainColumns::rows(owner, run);
+  }
+};
+using Things = comp::Joined<Without<ThingsOf<rules::FastDds>, SharedThings>, fsm::TypeList<Rank>>;
+
+class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns> {
  public:
   using Composition = rules::FastDds;
 
@@ -43,97 +62,27 @@ class Protocol : public DiscoveryBase {
                                              std::uint32_t pair) const override;
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
 
-  // The host of a RunningWorld: machines.
-  using DiscoveryBase::driver;
-  using DiscoveryBase::state;
-  auto& driver(rules::Reply) { return relation_shots_; }
-  auto& driver(rules::Suppression) { return relation_shots_; }
-  auto& driver(rules::NackResponse) { return writer_shots_; }
-  auto& driver(rules::AsyncRun) { return participant_shots_; }
-  auto& driver(control::ControlWriterSide) { return control_.writer_driver; }
-  auto& driver(control::ControlReaderSide) { return control_.reader_driver; }
-  auto& driver(control::ControlInitialTimer) { return control_.initial_driver; }
-  auto& driver(control::ControlReply) { return control_.reply_driver; }
-  auto& state(rules::Reply, std::uint32_t relation) { return relations_[relation].reply; }
-  auto& state(rules::Suppression, std::uint32_t relation) {
-    return relations_[relation].suppression;
-  }
-  auto& state(rules::NackResponse, std::uint32_t w) { return writers_[w].nack_response; }
-  auto& state(rules::AsyncRun, std::uint32_t i) { return participants_[i].async_run; }
-  auto& state(control::ControlWriterSide, std::uint32_t r) { return control_.of(r).writer; }
-  auto& state(control::ControlReaderSide, std::uint32_t r) { return control_.of(r).reader; }
-  auto& state(control::ControlInitialTimer, std::uint32_t r) { return control_.of(r).initial; }
-  auto& state(control::ControlReply, std::uint32_t r) { return control_.of(r).reply; }
-  auto& bits(rules::C) { return changes_; }
+  // The host of a RunningWorld.
   /// Of an ACKNACK: what is below its base, then what is listed.
   static constexpr auto lane_order(rules::C) { return std::array{false, true}; }
-  void moved(rules::C, std::uint32_t, fsm::StateId, fsm::StateId, std::uint64_t) {}
 
-  // Flags.
   using DiscoveryBase::answer;
-  using DiscoveryBase::assign;
-  using DiscoveryBase::assign_each;
   using DiscoveryBase::emit;
   using DiscoveryBase::fact;
-  using DiscoveryBase::value;
-  using DiscoveryBase::word;
+  using DiscoveryBase::perform;
+  using Stored::word;
   template <class World>
   [[nodiscard]] bool answer(rules::CrossHost, const World& w) const {
     return run_.topology.pair(w.template number<comp::owner::pair>()).cross_host;
   }
-  [[nodiscard]] bool value(comp::Recognised, std::uint32_t pair) const {
-    return known_[run_.topology.pair(pair).reverse];
+  /// The relation's reader has these now. Another way to discover does it in its own way.
+  virtual void take_descriptors(std::uint32_t relation, const DescriptorSet& received) {
+    take(planes(), relation, received, ends(relation).cross_host);
   }
-  void assign(comp::Recognised, std::uint32_t pair, bool recognised) {
-    known_[run_.topology.pair(pair).reverse] = recognised;
-  }
-  [[nodiscard]] bool value(rules::WriterOpen, std::uint32_t relation) const {
-    return relations_[relation].matched;
-  }
-  void assign(rules::WriterOpen, std::uint32_t relation, bool matched) {
-    if (std::exchange(relations_[relation].matched, matched) == matched) return;
+  void changed(rules::WriterOpen, std::uint32_t relation, bool matched) {
     std::vector<std::uint32_t>& readers = writers_[writer_of(relation)].readers;
-    relations_[relation].rank = static_cast<std::uint32_t>(readers.size());
+    at<Rank>(relation) = static_cast<std::uint32_t>(readers.size());
     matched ? readers.push_back(relation) : static_cast<void>(std::erase(readers, relation));
-  }
-  [[nodiscard]] bool value(rules::SomeConfirmed, std::uint32_t relation) const {
-    return relations_[relation].some_confirmed;
-  }
-  void assign(rules::SomeConfirmed, std::uint32_t relation, bool confirmed) {
-    relations_[relation].some_confirmed = confirmed;
-  }
-  [[nodiscard]] std::uint64_t word(comp::X, std::uint32_t relation, std::uint32_t k) const {
-    return changes_.received(relation, k);
-  }
-  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-    take_descriptors(relation, received);
-  }
-  // The others hold for the first descriptors of a stream, up to some number.
-  [[nodiscard]] std::uint64_t word(rules::Exists, std::uint32_t w, std::uint32_t k) const {
-    return bits_below(writers_[w].created, k);
-  }
-  void assign(rules::Exists, std::uint32_t w, std::uint32_t d, bool) {
-    writers_[w].created = d + 1;
-  }
-  [[nodiscard]] std::uint64_t word(rules::Known, std::uint32_t relation, std::uint32_t k) const {
-    return bits_below(relations_[relation].known, k);
-  }
-  void assign_word(rules::Known, std::uint32_t relation, std::uint32_t k, std::uint64_t known) {
-    std::uint32_t& end = relations_[relation].known;
-    if (known != 0) {
-      end = 64 * k + 64 - static_cast<std::uint32_t>(std::countl_zero(known));
-    } else if (k == 0) {
-      end = 0;
-    }
-  }
-  [[nodiscard]] std::uint64_t word(rules::Notified, std::uint32_t relation, std::uint32_t k) const {
-    return bits_below(relations_[relation].notified, k);
-  }
-  void assign(rules::Notified, std::uint32_t relation, std::uint32_t d, bool) {
-    relations_[relation].notified = d + 1;
-  }
-  void assign(rules::Enqueued, std::uint32_t w, std::uint32_t d, bool) {
-    writers_[w].enqueued[d / 64] &= ~(std::uint64_t{1} << d % 64);
   }
   template <class World>
   [[nodiscard]] bool fact(rules::QueueNotEmpty, const World& w) const {
@@ -141,25 +90,12 @@ class Protocol : public DiscoveryBase {
   }
   template <class World>
   [[nodiscard]] bool fact(rules::HasDescriptors, const World& w) const {
-    return writers_[w.template number<comp::owner::writer>()].created > 0;
+    return first<rules::Exists>(w.template number<comp::owner::writer>()) > 0;
   }
   template <class World>
   [[nodiscard]] bool fact(rules::HasReaders, const World& w) const {
     return !writers_[w.template number<comp::owner::writer>()].readers.empty();
   }
-  [[nodiscard]] bool value(control::ControlHeartbeatSeen, std::uint32_t r) const {
-    return control_.of(r).heartbeat_seen;
-  }
-  void assign(control::ControlHeartbeatSeen, std::uint32_t r, bool seen) {
-    control_.of(r).heartbeat_seen = seen;
-  }
-  [[nodiscard]] std::int64_t value(control::ControlLastDelay, std::uint32_t r) const {
-    return control_.of(r).last_delay;
-  }
-  void assign(control::ControlLastDelay, std::uint32_t r, std::int64_t delay) {
-    lengthen(control_.of(r).last_delay, delay);
-  }
-
   // Packets.
   [[nodiscard]] std::uint64_t word(comp::Announces, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.detail, k);
@@ -207,7 +143,6 @@ class Protocol : public DiscoveryBase {
       if (!queue.empty() && network_.stalls(i)) return suspend(i);
     }
   }
-  using DiscoveryBase::perform;
   template <class World>
   void perform(rules::HeartbeatToAll, World& w) {
     send_heartbeat_to_all(w.template number<comp::owner::writer>());
@@ -269,18 +204,16 @@ class Protocol : public DiscoveryBase {
   }
 
  protected:
+  [[nodiscard]] auto& changes() { return planes(); }
+  [[nodiscard]] const auto& changes() const { return planes(); }
   /// Where messages count that are generated.
   [[nodiscard]] Counts& generated() { return generated_; }
 
   // What another way to discover does in its own way.
   /// Announcement 0 of participant i.
   virtual void begin_announcing(std::uint32_t i) { start_announcing(i); }
-  /// The relation's reader has these now.
-  virtual void take_descriptors(std::uint32_t relation, const DescriptorSet& received) {
-    take(changes_, relation, received, ends(relation).cross_host);
-  }
   [[nodiscard]] virtual bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const {
-    return d < relations_[2 * pair + index_of(s)].notified;
+    return d < first<rules::Notified>(static_cast<std::uint32_t>(2 * pair + index_of(s)));
   }
   [[nodiscard]] std::int64_t bytes_of(Stream s, std::uint32_t d) const {
     return inline_qos_bytes_ + submessage_bytes(s, d);
@@ -301,28 +234,11 @@ class Protocol : public DiscoveryBase {
   template <class Host>
   static void take_in(Host& host, const Packet& packet, std::uint32_t receiver);
 
-  RelationBits<fsm::ChangeForReader> changes_;
-
-  struct Relation {
-    // Writer side.
-    bool matched = false;
-    bool some_confirmed = false;
-    std::uint32_t rank = 0;  ///< how many the writer had matched before, if it forgets nobody
-    fsm::StateId suppression = fsm::Stepper<fsm::SingleShot>::initial;
-    // Reader side.
-    fsm::StateId reply = fsm::Stepper<fsm::SingleShot>::initial;
-    std::uint32_t known = 0;     ///< descriptors that the reader knows to exist
-    std::uint32_t notified = 0;  ///< descriptors received without a gap
-  };
   struct Writer {
-    std::uint32_t created = 0;           ///< H: descriptors created so far
     std::int64_t budget = 0;             ///< piggyback budget, bytes
     std::vector<std::uint32_t> readers;  ///< M: relations in match order
-    fsm::StateId nack_response = fsm::Stepper<fsm::SingleShot>::initial;
-    std::vector<std::uint64_t> enqueued;  ///< bit per descriptor: in the participant's async queue
   };
   struct Participant {
-    fsm::StateId async_run = fsm::Stepper<fsm::SingleShot>::initial;
     std::deque<Endpoint> queue;   ///< what the async run will send
     std::int64_t sent_bytes = 0;  ///< all bytes that the async sender has ever sent
     Message unfinished;           ///< that of an async run which stalls, if it is open
@@ -331,7 +247,6 @@ class Protocol : public DiscoveryBase {
   ControlRelations control_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
-  std::vector<Relation> relations_;
 
  private:
   // protocol.cpp
@@ -372,7 +287,7 @@ class Protocol : public DiscoveryBase {
   void send_control(PacketKind kind, std::uint32_t relation, bool initial);
 
   [[nodiscard]] bool is_created(std::uint32_t i, Stream s, std::uint32_t d) const {
-    return d < writers_[2 * i + index_of(s)].created;
+    return d < first<rules::Exists>(static_cast<std::uint32_t>(2 * i + index_of(s)));
   }
   [[nodiscard]] bool crosses(std::uint32_t relation) const { return ends(relation).cross_host; }
   [[nodiscard]] std::uint32_t count_crossing(const std::vector<std::uint32_t>& relations) const {
@@ -382,17 +297,11 @@ class Protocol : public DiscoveryBase {
 
   const std::int64_t inline_qos_bytes_;
   const bool sends_records_;  // of HEARTBEATs to all readers of a writer
-  std::vector<bool> known_;   // by pair (i, j): i has recognised j
   Message sync_message_;
   Message async_message_;
   std::vector<std::uint32_t> targets_;
   Counts of_no_interest_;
   Counts& generated_;
-
-  using SingleShots = Driver<fsm::SingleShot>;
-  SingleShots participant_shots_{run_, MachineRef::Kind::participant};
-  SingleShots writer_shots_{run_, MachineRef::Kind::writer};
-  SingleShots relation_shots_{run_, MachineRef::Kind::relation};
 };
 
 template <class Host>
@@ -416,7 +325,7 @@ void Protocol::take_in(Host& host, const Packet& packet, std::uint32_t receiver)
       run_rule<comp::Received<comp::SpdpUnicast>>(host, packet.pair);
       break;
     case PacketKind::data:
-      host.count_copies(host.changes_, packet);
+      host.count_copies(host.bits(rules::C{}), packet);
       run_rule<comp::Received<rules::Data>>(host, relation, &packet);
       break;
     case PacketKind::heartbeat:

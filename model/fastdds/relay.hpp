@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "fsm/change_for_reader.hpp"
-#include "fsm/single_shot.hpp"
 #include "fsm/stepper.hpp"
 #include "model/fastdds/database.hpp"
 #include "model/fastdds/relayed.hpp"
@@ -27,10 +26,8 @@ class RelayWriter {
     bool sent = false;
   };
   struct Reader {
-    bool open = false;
     std::int64_t low = 0;
     std::map<std::int64_t, Entry> list;
-    fsm::StateId suppression = fsm::Stepper<fsm::SingleShot>::initial;
   };
 
   [[nodiscard]] bool empty() const { return history.empty(); }
@@ -66,8 +63,6 @@ class RelayWriter {
   std::int64_t next = 1;
   std::vector<std::uint32_t> readers;     ///< relations, in match order
   std::map<std::uint32_t, Reader> about;  ///< by relation
-  fsm::StateId expiry = fsm::Stepper<fsm::SingleShot>::initial;
-  fsm::StateId response = fsm::Stepper<fsm::SingleShot>::initial;
 };
 
 /// What the sending thread has to do: new changes first, then those to be sent again.

@@ -25,7 +25,7 @@ void Protocol::pack(Message& message, std::uint32_t w, std::uint32_t d,
   for (std::size_t k = 0; k < readers.size(); ++k) {
     const std::uint32_t relation = readers[k];
     if (!crosses(relation)) continue;
-    const bool initial = changes_.mark_generated(relation, d);
+    const bool initial = changes().mark_generated(relation, d);
     ++(initial ? generated_.initial_data : generated_.repair_data);
     ++(initial ? message.initial_data : message.repair_data)[k];
   }
@@ -51,7 +51,7 @@ void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
   }
   message.bytes += heartbeat_submessage_bytes;
   ++message.heartbeats;
-  message.announced = writer.created;
+  message.announced = first<rules::Exists>(w);
   generated_.heartbeat += count_crossing(writer.readers);
   refill(w);
 }
@@ -88,7 +88,7 @@ void Protocol::suspend(std::uint32_t i) {
   Participant& participant = participants_[i];
   std::swap(participant.unfinished, async_message_);
   async_message_.open = false;
-  participant_shots_.step<fsm::single_shot::Requested>(participant.async_run, {}, i);
+  driver(rules::AsyncRun{}).step<fsm::single_shot::Requested>(at<rules::AsyncRun>(i), {}, i);
   network_.hold(i, run_.scheduled_aside(EventKind::async_run, i));
 }
 

@@ -20,10 +20,9 @@ constexpr std::int64_t word_bytes = 4;
 }  // namespace
 
 ServerProtocol::ServerProtocol(RunState& run, Network& network)
-    : Protocol{run, network},
+    : Stored{run, network},
       server_{run.scenario.dds.server},
       database_{run.topology, run.scenario.dds.discovery, run.scenario.dds.server.relay},
-      clients_(run.scenario.deployment.size()),
       learners_(std::size_t{relay::count} * run.scenario.deployment.size()) {
   relays_[relay::announcements].append(database_.announcement(server_id()));
 }
@@ -34,16 +33,7 @@ void ServerProtocol::begin_announcing(Number i) {
 }
 
 void ServerProtocol::handle(const Event& event) {
-  bool is_ours = false;
-  comp::for_each_type(Composition::Timers{}, [&]<class T>() {
-    if (event.kind != event_kind_of<T>) return;
-    is_ours = true;
-    if (std::is_same_v<T, server::RoutineAgain> && event.detail != routine_token_) return;
-    constexpr bool relayed = (T::owner.indices & comp::owner::stream_index) != 0;
-    const Number n = relayed ? relay::count * event.subject + event.detail : event.subject;
-    run_rule<comp::Due<T>>(*this, n);
-  });
-  if (!is_ours) Protocol::handle(event);
+  if (!run_due(*this, event)) Protocol::handle(event);
 }
 
 std::optional<std::uint32_t> ServerProtocol::sender_of(const Event& event) const {
@@ -154,12 +144,12 @@ std::vector<MissingDescriptor> ServerProtocol::missing(std::size_t limit) {
 
 /// A reader of the server has received a client's descriptors.
 void ServerProtocol::take_descriptors(Number relation, const DescriptorSet& received) {
-  const DescriptorSet missing = changes_.missing(relation);
-  changes_.receive(relation, received);
+  const DescriptorSet missing = changes().missing(relation);
+  changes().receive(relation, received);
   bool some = false;
   missing.for_each([&](std::uint32_t d) {
-    if ((changes_.received(relation, d / 64) >> d % 64 & 1) == 0) return;
-    --readers_[relation].missing;
+    if ((changes().received(relation, d / 64) >> d % 64 & 1) == 0) return;
+    --at<Lacking>(relation);
     database_.arrive(database_.descriptor(ends(relation).source, stream_of(relation), d));
     some = true;
   });
@@ -169,7 +159,7 @@ void ServerProtocol::take_descriptors(Number relation, const DescriptorSet& rece
 /// Clients are told one descriptor after the other, in no order.
 bool ServerProtocol::is_notified(Number pair, Stream s, Number d) const {
   const auto relation = static_cast<Number>(2 * pair + index_of(s));
-  return (changes_.received(relation, d / 64) >> d % 64 & 1) != 0;
+  return (changes().received(relation, d / 64) >> d % 64 & 1) != 0;
 }
 
 void ServerProtocol::open_readers(Number pair) {
@@ -223,7 +213,7 @@ void ServerProtocol::learn(Number client, const Relayed& relayed) {
   const auto relation = static_cast<Number>(2 * pair + index_of(relayed.stream));
   DescriptorSet one;
   one.add(d / 64, std::uint64_t{1} << d % 64);
-  changes_.receive(relation, one);
+  changes().receive(relation, one);
   if (required) {
     ++run_.useful_deliveries;
     if (--run_.missing == 0) {

@@ -21,24 +21,51 @@ namespace stormproof::model::fastdds {
 
 namespace server = fsm::composition::server;
 
-/// Machines of a pair, or of a relay's relation or writer. Observers hear of the pair, or of the
-/// server.
-template <class Machine>
-class RelayDriver {
- public:
-  RelayDriver(const RunState& run, MachineRef::Kind kind, std::uint32_t stride)
-      : driver_{run, kind}, stride_{stride} {}
-  template <class Event>
-  auto step(fsm::StateId& state, const typename Driver<Machine>::Input& input, std::uint32_t n) {
-    return driver_.template step<Event>(state, input, n / stride_);
+/// Only the server and its pairs with clients have any of these, so there are rows for the clients
+/// and for the relays. Observers and the queue hear of the pair, or of the server, and of the
+/// relay.
+struct ServerColumns : PlainColumns {
+  using PlainColumns::column;
+  static way::Elsewhere column(server::Change);  // in lists
+  static way::Tokens column(server::RoutineAgain);
+  static way::Capped column(server::RegistrationLastDelay);
+  static way::Capped column(server::LearnerLastDelay);
+
+  static constexpr bool is_relayed(Owner owner) {
+    return (owner.indices & comp::owner::stream_index) != 0;
   }
-
- private:
-  Driver<Machine> driver_;
-  std::uint32_t stride_;
+  static std::uint32_t rows(Owner owner, const RunState& run) {
+    const std::uint32_t relays = is_relayed(owner) ? relay::count : 1;
+    const bool by_client = (owner.indices & comp::owner::peer_index) != 0;
+    return relays * (by_client ? run.scenario.deployment.size() : 1);
+  }
+  static std::uint32_t row(Owner owner, std::uint32_t n, const RunState& run) {
+    const std::uint32_t relays = is_relayed(owner) ? relay::count : 1;
+    if ((owner.indices & comp::owner::peer_index) == 0) return n % relays;
+    return relays * client_of(n / relays, run) + n % relays;
+  }
+  static constexpr MachineRef::Kind kind(Owner owner) {
+    const bool of_pair = (owner.indices & comp::owner::peer_index) != 0;
+    return of_pair ? MachineRef::Kind::pair : MachineRef::Kind::participant;
+  }
+  static constexpr std::uint32_t subject(Owner owner, std::uint32_t n) {
+    return is_relayed(owner) ? n / relay::count : n;
+  }
+  static constexpr std::uint32_t detail(Owner owner, std::uint32_t n) {
+    return is_relayed(owner) ? n % relay::count : 0;
+  }
+  static constexpr std::uint32_t number(Owner owner, const Event& event) {
+    return is_relayed(owner) ? relay::count * event.subject + event.detail : event.subject;
+  }
+  /// The client of a pair with the server.
+  static std::uint32_t client_of(std::uint32_t pair, const RunState& run) {
+    const Pair& p = run.topology.pair(pair);
+    return p.source == run.scenario.deployment.size() ? p.destination : p.source;
+  }
 };
+using ServerThings = Without<ThingsOf<server::FastDdsServer>, comp::Joined<SharedThings, Things>>;
 
-class ServerProtocol final : public Protocol {
+class ServerProtocol final : public Stored<ServerProtocol, Protocol, ServerThings, ServerColumns> {
   using Number = std::uint32_t;
 
  public:
@@ -59,72 +86,9 @@ class ServerProtocol final : public Protocol {
     return relays_[w % relay::count].readers;
   }
 
-  using Protocol::driver;
-  using Protocol::state;
-  auto& driver(server::RegistrationExpiry) { return pair_shots_; }
-  auto& driver(server::RegistrationReply) { return pair_shots_; }
-  auto& driver(server::RegistrationTimer) { return pair_initials_; }
-  auto& driver(server::LearnerReply) { return relation_shots_; }
-  auto& driver(server::LearnerTimer) { return relation_initials_; }
-  auto& driver(server::RelayExpiry) { return writer_shots_; }
-  auto& driver(server::RelayResponse) { return writer_shots_; }
-  auto& driver(server::RelaySuppression) { return relation_shots_; }
-  auto& driver(server::Routine) { return routine_driver_; }
-  auto& driver(server::SendingThread) { return thread_driver_; }
-  auto& state(server::RegistrationExpiry, Number p) { return clients_[client_of(p)].expiry; }
-  auto& state(server::RegistrationReply, Number p) { return clients_[client_of(p)].reply; }
-  auto& state(server::RegistrationTimer, Number p) { return clients_[client_of(p)].initial; }
-  auto& state(server::LearnerReply, Number r) { return learner(r).reply; }
-  auto& state(server::LearnerTimer, Number r) { return learner(r).initial; }
-  auto& state(server::RelayExpiry, Number w) { return relays_[w % relay::count].expiry; }
-  auto& state(server::RelayResponse, Number w) { return relays_[w % relay::count].response; }
-  auto& state(server::RelaySuppression, Number r) { return about(r).suppression; }
-  auto& state(server::Routine, Number) { return routine_; }
-  auto& state(server::SendingThread, Number) { return thread_; }
-
-  // Flags and numbers.
-  using Protocol::assign;
-  using Protocol::value;
-  [[nodiscard]] bool value(server::RegistrationAcknowledged, Number p) const {
-    return clients_[client_of(p)].acknowledged;
-  }
-  void assign(server::RegistrationAcknowledged, Number p, bool acknowledged) {
-    clients_[client_of(p)].acknowledged = acknowledged;
-  }
-  [[nodiscard]] bool value(server::RegistrationHeartbeatSeen, Number p) const {
-    return clients_[client_of(p)].heartbeat_seen;
-  }
-  void assign(server::RegistrationHeartbeatSeen, Number p, bool seen) {
-    clients_[client_of(p)].heartbeat_seen = seen;
-  }
-  [[nodiscard]] std::int64_t value(server::RegistrationLastDelay, Number p) const {
-    return clients_[client_of(p)].last_delay;
-  }
-  void assign(server::RegistrationLastDelay, Number p, std::int64_t delay) {
-    lengthen(clients_[client_of(p)].last_delay, delay);
-  }
-  [[nodiscard]] bool value(server::LearnerOpen, Number r) { return learner(r).open; }
-  void assign(server::LearnerOpen, Number r, bool open) { learner(r).open = open; }
-  [[nodiscard]] bool value(server::LearnerHeartbeatSeen, Number r) {
-    return learner(r).heartbeat_seen;
-  }
-  void assign(server::LearnerHeartbeatSeen, Number r, bool seen) {
-    learner(r).heartbeat_seen = seen;
-  }
-  [[nodiscard]] std::int64_t value(server::LearnerLastDelay, Number r) {
-    return learner(r).last_delay;
-  }
-  void assign(server::LearnerLastDelay, Number r, std::int64_t delay) {
-    lengthen(learner(r).last_delay, delay);
-  }
-  [[nodiscard]] bool value(server::RelayOpen, Number r) const {
-    const auto& about = relays_[r % relay::count].about;
-    const auto found = about.find(r);
-    return found != about.end() && found->second.open;
-  }
-  void assign(server::RelayOpen, Number r, bool open) {
+  // What is kept, and is more than a value.
+  void changed(server::RelayOpen, Number r, bool) {
     RelayWriter& writer = relays_[r % relay::count];
-    if (std::exchange(about(r).open, open)) return;
     writer.readers.push_back(r);
     about(r).low = writer.first() - 1;
   }
@@ -190,21 +154,6 @@ class ServerProtocol final : public Protocol {
   template <class World>
   [[nodiscard]] std::int64_t answer(server::LearnerResponseDelay, const World& w) const {
     return of_relay(w, server_.pdp_heartbeat_response_delay, sedp_.heartbeat_response_delay);
-  }
-
-  // Timers: an event names the pair, or the server, and the relay.
-  template <class Timer>
-  void schedule(Timer, Number n, std::int64_t time) {
-    constexpr bool relayed = (Timer::owner.indices & comp::owner::stream_index) != 0;
-    const Number stride = relayed ? relay::count : 1;
-    run_.schedule(Nanoseconds{time}, event_kind_of<Timer>, n / stride, n % stride);
-  }
-  void schedule(server::RoutineAgain, Number n, std::int64_t time) {
-    run_.schedule(Nanoseconds{time}, event_kind_of<server::RoutineAgain>, n, routine_token_);
-    routine_may_run_again_ = true;
-  }
-  void cancel(server::RoutineAgain, Number) {
-    if (std::exchange(routine_may_run_again_, false)) ++routine_token_;
   }
 
   // Packets.
@@ -293,21 +242,8 @@ class ServerProtocol final : public Protocol {
   }
 
  private:
-  struct Client {
-    fsm::StateId expiry = fsm::Stepper<fsm::SingleShot>::initial;
-    fsm::StateId reply = fsm::Stepper<fsm::SingleShot>::initial;
-    fsm::StateId initial = fsm::Stepper<fsm::InitialAckNack>::initial;
-    bool acknowledged = false;
-    bool heartbeat_seen = false;
-    std::int64_t last_delay = 0;
-  };
   /// A client's reader of one relay.
   struct Learner {
-    fsm::StateId reply = fsm::Stepper<fsm::SingleShot>::initial;
-    fsm::StateId initial = fsm::Stepper<fsm::InitialAckNack>::initial;
-    bool open = false;
-    bool heartbeat_seen = false;
-    std::int64_t last_delay = 0;
     std::int64_t base = 1;
     std::int64_t announced = 0;
     std::vector<bool> received;  ///< by number
@@ -315,10 +251,7 @@ class ServerProtocol final : public Protocol {
 
   [[nodiscard]] Number server_id() const { return run_.scenario.deployment.size(); }
   /// The client of a pair with the server.
-  [[nodiscard]] Number client_of(Number pair) const {
-    const Pair& p = run_.topology.pair(pair);
-    return p.source == server_id() ? p.destination : p.source;
-  }
+  [[nodiscard]] Number client_of(Number pair) const { return ServerColumns::client_of(pair, run_); }
   [[nodiscard]] Learner& learner(Number r) {
     return learners_[relay::count * client_of(r / relay::count) + r % relay::count];
   }
@@ -366,19 +299,14 @@ class ServerProtocol final : public Protocol {
   fsm::Stepper<fsm::ChangeForReader>::Output step(RelayWriter::Entry& entry, Number relation,
                                                   bool listed = false, bool below_base = false) {
     return change_driver_.template step<Event>(
-        entry.state, {.listed = listed, .below_base = below_base}, relation);
+        entry.state, {.listed = listed, .below_base = below_base}, relation / relay::count);
   }
 
   const ServerProfile& server_;
   Database database_;
   std::array<RelayWriter, relay::count> relays_;
   SendingQueues queues_;
-  std::vector<Client> clients_;
   std::vector<Learner> learners_;  // relay::count · client + relay
-  fsm::StateId routine_ = fsm::Stepper<fsm::SingleShot>::initial;
-  fsm::StateId thread_ = fsm::Stepper<fsm::EventThread>::initial;
-  std::uint32_t routine_token_ = 0;
-  bool routine_may_run_again_ = false;  // what has been scheduled with this token
   // Of what is being done.
   bool some_requested_ = false;
   bool some_irrelevant_ = false;
@@ -386,15 +314,7 @@ class ServerProtocol final : public Protocol {
   std::int64_t packets_sent_ = 0;
   SendingQueues::Entry served_;
 
-  using Kind = MachineRef::Kind;
-  RelayDriver<fsm::SingleShot> pair_shots_{run_, Kind::pair, 1};
-  RelayDriver<fsm::InitialAckNack> pair_initials_{run_, Kind::pair, 1};
-  RelayDriver<fsm::SingleShot> relation_shots_{run_, Kind::pair, relay::count};
-  RelayDriver<fsm::InitialAckNack> relation_initials_{run_, Kind::pair, relay::count};
-  RelayDriver<fsm::SingleShot> writer_shots_{run_, Kind::participant, relay::count};
-  RelayDriver<fsm::ChangeForReader> change_driver_{run_, Kind::pair, relay::count};
-  Driver<fsm::SingleShot> routine_driver_{run_, Kind::participant};
-  Driver<fsm::EventThread> thread_driver_{run_, Kind::participant};
+  Driver<fsm::ChangeForReader> change_driver_{run_, MachineRef::Kind::pair};
 };
 
 }  // namespace stormproof::model::fastdds

@@ -202,7 +202,7 @@ bool ServerProtocol::is_first_for(Number client, const Relayed& data) {
   if (data.participant == client) return false;  // only a mistake tells it of itself
   const Number pair = run_.topology.pair_between(data.participant, client);
   const auto relation = static_cast<Number>(2 * pair + index_of(data.stream));
-  return changes_.mark_generated(relation, data.descriptor);
+  return changes().mark_generated(relation, data.descriptor);
 }
 
 /// Counts and sends it; the HEARTBEAT, if it has one, announces what there is now.

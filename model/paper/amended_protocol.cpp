@@ -65,9 +65,9 @@ void AmendedProtocol::open_before(std::uint32_t i, std::uint32_t j) {
     RunningWorld<AmendedProtocol, comp::owner::relation> r{*this, inward};
     assign_each(comp::X{}, inward, r.set_of(exists));
     using States = fsm::Reflect<fsm::DiscoveryReader>;
-    readers_[inward].state = readers_[inward].missing == 0 ? States::id<reader::Complete>
-                                                           : States::id<reader::Recognised>;
-    readers_[inward].heartbeat_seen = true;
+    at<comp::Reader>(inward) =
+        at<Lacking>(inward) == 0 ? States::id<reader::Complete> : States::id<reader::Recognised>;
+    at<comp::HeartbeatSeen>(inward) = true;
   }
 }
 
@@ -82,7 +82,7 @@ void AmendedProtocol::write(const LateEndpoints& endpoints) {
 }
 
 void AmendedProtocol::renew(amended::C, std::uint32_t relation) {
-  descriptors_.renew(relation, renewed);
+  planes().renew(relation, renewed);
   relations_[relation].unacknowledged = topology().descriptor_count(relation);
 }
 

@@ -29,7 +29,7 @@ namespace amended = fsm::composition::amended;
 namespace detail {
 using Cancellable = fsm::TypeList<comp::Announcement, comp::AckNackGeneration, comp::InitialAttempt,
                                   comp::paper::RepairGeneration, comp::paper::SuppressionEnd,
-                                  comp::HeartbeatExpiry, comp::amended::CopyDue, comp::LeaseCheck>;
+                                  comp::amended::CopyDue, comp::LeaseCheck>;
 }  // namespace detail
 
 class AmendedProtocol final
@@ -49,13 +49,13 @@ class AmendedProtocol final
   using LivingHost::cancel;
   using LivingHost::is_due;
   using LivingHost::renew;
+  using LivingHost::schedule;
   using LivingHost::value;
+  using LivingHost::word;
   using ProtocolOf::assign_each;
   using ProtocolOf::emit;
   using ProtocolOf::perform;
   using ProtocolOf::said;
-  using ProtocolOf::schedule;
-  using ProtocolOf::word;
 
   [[nodiscard]] std::uint64_t word(amended::Resent, std::uint32_t relation, std::uint32_t k) const {
     return resent_[relation].word(k);
@@ -116,9 +116,9 @@ class AmendedProtocol final
   }
   void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
     if (received.empty()) {
-      lose(descriptors_, relation, is_required(relation));
+      lose(planes(), relation, is_required(relation));
     } else {
-      take(descriptors_, relation, received, is_required(relation));
+      take(planes(), relation, received, is_required(relation));
     }
   }
   void renew(amended::C, std::uint32_t relation);

@@ -9,7 +9,7 @@ namespace stormproof::model::paper {
 namespace reader = fsm::discovery_reader;
 
 ProtocolBase::ProtocolBase(RunState& run, Network& network)
-    : DiscoveryBase{run, network},
+    : Stored{run, network},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
@@ -19,7 +19,7 @@ ProtocolBase::ProtocolBase(RunState& run, Network& network)
   for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) {
     const std::uint32_t count = run.topology.descriptor_count(relation);
     relations_[relation].unacknowledged = count;
-    readers_[relation].state =
+    at<comp::Reader>(relation) =
         count > 0 ? ReaderStates::id<reader::Unknown> : ReaderStates::id<reader::EarlyComplete>;
   }
   for (std::uint32_t w = 0; w < writers_.size(); ++w) {
@@ -36,9 +36,8 @@ bool ProtocolBase::has_started(std::uint32_t participant) const {
   return run_.now >= run_.topology.start(participant);
 }
 
-void ProtocolBase::assign(comp::Recognised, std::uint32_t pair, bool recognised) {
+void ProtocolBase::changed(comp::Recognised, std::uint32_t pair, bool recognised) {
   const std::uint32_t reverse = run_.topology.pair(pair).reverse;
-  if ((known_rank_[reverse] != no_rank) == recognised) return;
   Participant& participant = participants_[run_.topology.pair(pair).destination];
   if (!recognised) {
     known_rank_[reverse] = no_rank;
@@ -49,8 +48,7 @@ void ProtocolBase::assign(comp::Recognised, std::uint32_t pair, bool recognised)
   participant.first_known_pair = std::min(participant.first_known_pair, reverse);
 }
 
-void ProtocolBase::assign(rules::WriterOpen, std::uint32_t relation, bool open) {
-  if ((relations_[relation].open_rank != no_rank) == open) return;
+void ProtocolBase::changed(rules::WriterOpen, std::uint32_t relation, bool open) {
   Writer& writer = writers_[writer_of(relation)];
   if (!open) {
     if (relations_[relation].unacknowledged > 0) {

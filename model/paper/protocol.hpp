@@ -24,7 +24,11 @@ namespace rules = fsm::composition::paper;
 /// A rank that no recipient has: the relation is not open, the participant is not known.
 inline constexpr std::uint32_t no_rank = UINT32_MAX;
 
-class ProtocolBase : public DiscoveryBase {
+/// The writer's view of a descriptor, and X beside it, are those of `ProtocolOf`.
+using Things =
+    Without<ThingsOf<rules::Paper>, comp::Joined<SharedThings, fsm::TypeList<rules::C, comp::X>>>;
+
+class ProtocolBase : public Stored<ProtocolBase, DiscoveryBase, Things> {
  public:
   ProtocolBase(RunState& run, Network& network);
 
@@ -35,22 +39,14 @@ class ProtocolBase : public DiscoveryBase {
                                              std::uint32_t pair) const override;
 
   // The host of a RunningWorld.
-  using DiscoveryBase::assign;
-  using DiscoveryBase::assign_each;
   using DiscoveryBase::emit;
   using DiscoveryBase::fact;
   using DiscoveryBase::perform;
-  using DiscoveryBase::value;
-  using DiscoveryBase::word;
+  using Stored::word;
+  // Who is known and open, in which order.
+  void changed(comp::Recognised, std::uint32_t pair, bool recognised);
+  void changed(rules::WriterOpen, std::uint32_t relation, bool open);
 
-  [[nodiscard]] bool value(comp::Recognised, std::uint32_t pair) const {
-    return known_rank_[topology().pair(pair).reverse] != no_rank;
-  }
-  void assign(comp::Recognised, std::uint32_t pair, bool recognised);
-  [[nodiscard]] bool value(rules::WriterOpen, std::uint32_t relation) const {
-    return relations_[relation].open_rank != no_rank;
-  }
-  void assign(rules::WriterOpen, std::uint32_t relation, bool open);
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.descriptors.lowest(), k);
   }
@@ -136,20 +132,17 @@ class ProtocolBase : public DiscoveryBase {
 
 /// `C_` is the part that is the writer's view of a descriptor.
 template <class C_>
-class ProtocolOf : public ProtocolBase {
+class ProtocolOf : public Stored<ProtocolOf<C_>, ProtocolBase, fsm::TypeList<C_, comp::X>> {
+  using Below = Stored<ProtocolOf<C_>, ProtocolBase, fsm::TypeList<C_, comp::X>>;
+
  public:
-  ProtocolOf(RunState& run, Network& network) : ProtocolBase{run, network}, descriptors_{run} {}
+  using Below::Below;
 
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override {
-    return descriptors_.list_missing(limit);
+    return this->planes().list_missing(limit);
   }
 
   // The host of a RunningWorld.
-  using ProtocolBase::assign;
-  using ProtocolBase::assign_each;
-  using ProtocolBase::word;
-
-  auto& bits(C_) { return descriptors_; }
   /// Of an ACKNACK: what is listed, then what is confirmed only without a prefix, then the prefix.
   static constexpr auto lane_order(C_) { return std::array{true, false, false}; }
   void moved(C_, std::uint32_t relation, fsm::StateId before, fsm::StateId after,
@@ -157,18 +150,12 @@ class ProtocolOf : public ProtocolBase {
     constexpr fsm::StateId acknowledged =
         fsm::Reflect<typename C_::Machine>::template id<fsm::descriptor_repair::A>;
     if ((before == acknowledged) == (after == acknowledged)) return;
-    note_acknowledged(relation, after == acknowledged, members);
-  }
-  [[nodiscard]] std::uint64_t word(comp::X, std::uint32_t relation, std::uint32_t k) const {
-    return descriptors_.received(relation, k);
-  }
-  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-    take(descriptors_, relation, received, ends(relation).cross_host);
+    this->note_acknowledged(relation, after == acknowledged, members);
   }
 
  protected:
   bool mark_generated(std::uint32_t relation, std::uint32_t d) override {
-    return descriptors_.mark_generated(relation, d);
+    return this->planes().mark_generated(relation, d);
   }
   /// The way of a packet to the rule of `host` for it; `hears(i, j)`: whether j takes what i sends.
   template <class Host, class Hears>
@@ -196,7 +183,7 @@ class ProtocolOf : public ProtocolBase {
         run_rule<comp::Received<comp::SpdpUnicast>>(host, packet.pair);
         break;
       case PacketKind::data:
-        host.count_copies(host.descriptors_, packet);
+        host.count_copies(host.bits(C_{}), packet);
         run_rule<comp::Received<typename Rules::Data>>(host, relation, &packet);
         break;
       case PacketKind::heartbeat:
@@ -209,8 +196,6 @@ class ProtocolOf : public ProtocolBase {
         break;
     }
   }
-
-  RelationBits<typename C_::Machine> descriptors_;
 };
 
 class Protocol final : public ProtocolOf<rules::C> {

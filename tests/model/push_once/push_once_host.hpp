@@ -11,7 +11,9 @@ namespace stormproof::model {
 
 namespace rules_of_push_once = fsm::composition::push_once;
 
-class PushOnceHost final : public DiscoveryBase {
+class PushOnceHost final
+    : public Stored<PushOnceHost, DiscoveryBase,
+                    Without<ThingsOf<rules_of_push_once::PushOnce>, SharedThings>> {
   using C = rules_of_push_once::C;
   using Data = rules_of_push_once::Data;
   using Heartbeat = rules_of_push_once::Heartbeat;
@@ -21,11 +23,7 @@ class PushOnceHost final : public DiscoveryBase {
  public:
   using Composition = rules_of_push_once::PushOnce;
 
-  PushOnceHost(RunState& run, Network& network)
-      : DiscoveryBase{run, network},
-        changes_{run},
-        open_(run.topology.relation_count(), false),
-        recognised_(run.topology.pair_count(), false) {}
+  using Stored::Stored;
 
   void start() override {
     for (std::uint32_t i = 0; i < topology().participant_count(); ++i) start_announcing(i);
@@ -56,28 +54,12 @@ class PushOnceHost final : public DiscoveryBase {
     return pair;
   }
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override {
-    return changes_.list_missing(limit);
+    return planes().list_missing(limit);
   }
 
-  using DiscoveryBase::assign;
-  using DiscoveryBase::assign_each;
   using DiscoveryBase::emit;
   using DiscoveryBase::perform;
-  using DiscoveryBase::value;
-  using DiscoveryBase::word;
-  auto& bits(C) { return changes_; }
-  static constexpr auto lane_order(C) { return std::array{true, true, true}; }
-  static void moved(C, std::uint32_t, fsm::StateId, fsm::StateId, std::uint64_t) {}
-  [[nodiscard]] bool value(comp::Recognised, std::uint32_t pair) const { return recognised_[pair]; }
-  void assign(comp::Recognised, std::uint32_t pair, bool yes) { recognised_[pair] = yes; }
-  [[nodiscard]] bool value(WriterOpen, std::uint32_t relation) const { return open_[relation]; }
-  void assign(WriterOpen, std::uint32_t relation, bool yes) { open_[relation] = yes; }
-  [[nodiscard]] std::uint64_t word(comp::X, std::uint32_t relation, std::uint32_t k) const {
-    return changes_.received(relation, k);
-  }
-  void assign_each(comp::X, std::uint32_t relation, const DescriptorSet& received) {
-    take(changes_, relation, received, ends(relation).cross_host);
-  }
+  using Stored::word;
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.descriptors.lowest(), k);
   }
@@ -121,21 +103,17 @@ class PushOnceHost final : public DiscoveryBase {
   void send_spdp_to_known(std::uint32_t i) override {
     for (std::uint32_t pair = topology().first_pair(i); pair < topology().first_pair(i + 1);
          ++pair) {
-      if (recognised_[topology().pair(pair).reverse]) send_spdp_copy(pair);
+      if (at<comp::Recognised>(topology().pair(pair).reverse)) send_spdp_copy(pair);
     }
   }
   void refill(std::uint32_t) override {}  // nothing is charged
   [[nodiscard]] std::vector<std::uint32_t> open_relations(std::uint32_t w) const override {
     std::vector<std::uint32_t> relations;
-    for (std::uint32_t relation = 0; relation < open_.size(); ++relation) {
-      if (open_[relation] && writer_of(relation) == w) relations.push_back(relation);
+    for (std::uint32_t relation = 0; relation < topology().relation_count(); ++relation) {
+      if (at<WriterOpen>(relation) && writer_of(relation) == w) relations.push_back(relation);
     }
     return relations;
   }
-
-  RelationBits<fsm::DescriptorRepair> changes_;
-  std::vector<bool> open_;        // by relation
-  std::vector<bool> recognised_;  // by pair: the destination has recognised the source
 };
 
 }  // namespace stormproof::model
