@@ -5,7 +5,25 @@
 # Lists of packages are split into words on purpose; `root` comes from the caller.
 # shellcheck shell=sh disable=SC2046,SC2154
 
-jobs=${STORMPROOF_JOBS:-$(nproc 2>/dev/null || echo 2)}
+# Megabytes of memory that are free: of the machine, or of the control group if it grants less.
+free_megabytes() {
+  {
+    sed -n 's/^MemAvailable: *\([0-9]*\) kB$/\1/p' /proc/meminfo 2>/dev/null
+    for limit in /sys/fs/cgroup/memory.max /sys/fs/cgroup/memory/memory.limit_in_bytes; do
+      sed -n 's/^\([0-9]\{7,18\}\)$/\1/p' "$limit" 2>/dev/null
+    done | awk '{ print int($1 / 1024) }'
+  } | sort -n | head -n 1 | awk '{ print int($1 / 1024) }'
+}
+
+# As many at once as there are cores, but no more than fit: one compilation takes up to 1.2 GB.
+fitting_jobs() {
+  cores=$(nproc 2>/dev/null || echo 2) free=$(free_megabytes)
+  fit=$((${free:-0} / 1200))
+  [ -n "$free" ] && [ "$fit" -lt "$cores" ] || fit=$cores
+  [ "$fit" -ge 1 ] || fit=1
+  echo "$fit"
+}
+jobs=${STORMPROOF_JOBS:-$(fitting_jobs)}
 
 say() { printf 'stormproof: %s\n' "$*" >&2; }
 have() { command -v "$1" >/dev/null 2>&1; }
@@ -111,7 +129,8 @@ configure() (
 )
 
 # configured <folder> <line>... : whether the folder holds a complete build system of this very tree,
-# with these lines in its cache, made after the list of packages changed for the last time
+# with these lines in its cache, made after the list of packages changed for the last time, and no
+# configuration that failed has left its cache behind since
 configured() {
   folder=$1
   shift
@@ -119,7 +138,11 @@ configured() {
     grep -qxF "$line" "$root/$folder/CMakeCache.txt" 2>/dev/null || return 1
   done
   set -- "$folder"
-  { [ -f "$root/$1/build.ninja" ] || [ -f "$root/$1/Makefile" ]; } &&
+  for made in "$root/$1/build.ninja" "$root/$1/Makefile"; do
+    [ -z "$(find "$made" -newer "$root/$1/CMakeCache.txt" 2>/dev/null)" ] || break
+    made=
+  done
+  [ -n "$made" ] &&
     [ -z "$(find "$root/cmake/debian-packages.txt" -newer "$root/$1/configure.log" 2>/dev/null)" ]
 }
 
@@ -130,9 +153,29 @@ build() {
     status=0
     cmake --build "$root/$1" --target "$2" -j "$jobs" 2>&1 </dev/null || status=$?
     echo "$status" >"$build_status"
-  } | sed -e '/^ninja: no work to do\.$/d' -e '/Re-checking globbed directories/d' \
+  } | tee "$root/$1/build.log" | sed -e '/^ninja: no work to do\.$/d' -e '/Re-checking globbed directories/d' \
     -e '/^ninja: Entering directory/d' -e '/Built target /d' -e '/^Consolidate compiler/d' >&2
   [ "$(cat "$build_status")" -eq 0 ]
+}
+
+# outdated <folder> : whether the last build failed because of its configuration, not of a source: a
+# library has moved, or CMake itself fails now
+outdated() {
+  grep -qE 'no known rule to make it|No rule to make target|FAILED: build\.ninja' "$root/$1/build.log"
+}
+
+# prepare <preset> <folder> <groups> <options>... : configures, and installs what is missing for it;
+# exits if that fails
+prepare() {
+  preset=$1 into=$2 groups=$3
+  shift 3
+  # Try first: the libraries may be there without their packages. Install only if that fails.
+  if have cmake && configure "$preset" "$into" "$@"; then return 0; fi
+  # shellcheck disable=SC2086  # the groups are words
+  if install_missing $groups && configure "$preset" "$into" "$@"; then return 0; fi
+  [ ! -s "$root/$into/configure.log" ] || cat "$root/$into/configure.log" >&2
+  say "cannot configure the build"
+  exit 2
 }
 
 # bootstrap <preset> <folder> <target> <package groups> [with_tests] : the whole way to an up-to-date
@@ -151,19 +194,16 @@ bootstrap() {
   exec 9>"$root/$2/.lock"
   ! have flock || flock 9
 
+  prepared=
   if ! configured "$2" ${tests_line:+"$tests_line"}; then
     say "preparing $2 (once)"
-    # Try first: the libraries may be there without their packages. Install only if that fails.
-    if ! have cmake || ! configure "$1" "$2" $tests_option; then
-      # shellcheck disable=SC2086  # the groups are words
-      if ! install_missing $4 || ! configure "$1" "$2" $tests_option; then
-        [ ! -s "$root/$2/configure.log" ] || cat "$root/$2/configure.log" >&2
-        say "cannot configure the build"
-        exit 2
-      fi
-    fi
+    prepare "$1" "$2" "$4" $tests_option
+    prepared=yes
   fi
-  if ! build "$2" "$3"; then
+  if ! build "$2" "$3" && ! {
+    [ -z "$prepared" ] && outdated "$2" && say "preparing $2 anew" &&
+      prepare "$1" "$2" "$4" $tests_option && build "$2" "$3"
+  }; then
     say "the build in $2 failed"
     exit 70
   fi
