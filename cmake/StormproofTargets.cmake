@@ -20,6 +20,13 @@ function(stormproof_target target)
   endif()
 endfunction()
 
+# stormproof_batches(<target> [<sources>]): at most so many of its sources are compiled as one
+function(stormproof_batches target)
+  if(ARGC GREATER 1 AND ARGV1 LESS STORMPROOF_BATCH)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${ARGV1})
+  endif()
+endfunction()
+
 # stormproof_sources(<variable> [FOLDERS <folders>] [EXCEPT <paths>]): the sources in and below the
 # folders, without those files and folders; "." is the current folder without those below it. Without
 # FOLDERS: all of the current one.
@@ -42,11 +49,11 @@ function(stormproof_sources variable)
   set(${variable} ${sources} PARENT_SCOPE)
 endfunction()
 
-# GCC collects garbage while it compiles, early and often after a precompiled header; a heap of 1 GB
-# before it does makes it a sixth faster.
+# GCC collects garbage while it compiles, early and often after a precompiled header; with a heap of
+# 400 MB before it does, and again when that has doubled, it is quicker.
 add_compile_options(
-  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-expand=400>
-  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
+  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-expand=100>
+  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=400000>)
 
 # What runs long is optimised; a folder may compile the rest quickly (STORMPROOF_QUICKLY). The
 # precompiled header is made once for each.
@@ -70,13 +77,15 @@ function(stormproof_optimised target runs_long)
     $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
 endfunction()
 
-# stormproof_library(<target> [PUBLIC <name>] [RUNS_LONG] [FOLDERS …] [EXCEPT …]): a static library
+# stormproof_library(<target> [PUBLIC <name>] [BATCH <sources>] [RUNS_LONG] [FOLDERS …] [EXCEPT …]): a
+# static library; BATCH where sources are so large that fewer than STORMPROOF_BATCH are compiled as one
 function(stormproof_library target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "RUNS_LONG" "PUBLIC" "FOLDERS;EXCEPT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "RUNS_LONG" "PUBLIC;BATCH" "FOLDERS;EXCEPT")
   stormproof_sources(sources FOLDERS ${arg_FOLDERS} EXCEPT ${arg_EXCEPT})
   add_library(${target} STATIC ${sources})
   stormproof_target(${target} PUBLIC ${arg_PUBLIC})
   stormproof_optimised(${target} ${arg_RUNS_LONG})
+  stormproof_batches(${target} ${arg_BATCH})
 endfunction()
 
 # stormproof_program(<target> FOLDERS …)

@@ -146,12 +146,13 @@ configured() {
     [ -z "$(find "$root/cmake/debian-packages.txt" -newer "$root/$1/configure.log" 2>/dev/null)" ]
 }
 
-# build <folder> <target> : says nothing when everything is up to date
+# build <folder> <targets> : says nothing when everything is up to date
 build() {
   build_status=$root/$1/build.status
   {
     status=0
-    cmake --build "$root/$1" --target "$2" -j "$jobs" 2>&1 </dev/null || status=$?
+    # shellcheck disable=SC2086  # the targets are words
+    cmake --build "$root/$1" --target $2 -j "$jobs" 2>&1 </dev/null || status=$?
     echo "$status" >"$build_status"
   } | tee "$root/$1/build.log" | sed -e '/^ninja: no work to do\.$/d' -e '/Re-checking globbed directories/d' \
     -e '/^ninja: Entering directory/d' -e '/Built target /d' -e '/^Consolidate compiler/d' >&2
@@ -178,7 +179,7 @@ prepare() {
   exit 2
 }
 
-# bootstrap <preset> <folder> <target> <package groups> [with_tests] : the whole way to an up-to-date
+# bootstrap <preset> <folder> <targets> <package groups> [with_tests] : the whole way to an up-to-date
 # build; exits if it fails
 bootstrap() {
   tests_option= tests_line=

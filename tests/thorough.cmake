@@ -1,6 +1,8 @@
-# What is left to the run without sanitizers, where everything runs: the same code on more or larger
-# input than what stays, and comparisons with the oracles. By hand, a test program runs all it has.
-set(plain_only
+# What the first gate leaves to the slices of tests/run, and sanitized tests to plain ones: the same
+# code on more or larger input than what stays, comparisons with the oracles on random scenarios,
+# mistakes in rules. Cases of GoogleTest; files whose cases are all of this kind are named in
+# CMakeLists.txt, behind THOROUGH. By hand, a test program runs all it has.
+set(thorough
   # All laws on random scenarios; seeds and random scenarios behind the first of each kind.
   Every/*LawTest.Holds*
   *.HoldsOnRandomScenarios*
@@ -63,5 +65,27 @@ set(plain_only
   Replay.AnInterruptedTrace*
   Replay.ATraceOfAnInterruptedRun*
   Replay.TheCallerCanStopIt
-  TraceWriter.InterruptedRun*)
-list(JOIN plain_only ":" plain_only)
+  TraceWriter.InterruptedRun*
+  # The oracles themselves, mutated, and random scenarios in both.
+  MutatedOracle.*
+  MutatedProduct.*
+  RandomCycloneScenario.*
+  RandomFastddsScenario.*
+  Ways/RandomDiscovery.*
+  # Mutants of all properties; examples of the help, all verbs in all ways.
+  Mutate.*
+  Mutants.*
+  Rules/MutatedRule.*
+  # Captures of random runs, and captures with mistakes.
+  CycloneRandom.*
+  ServerRandom.*
+  SimulatedRandom.*
+  WriteRandom.*
+  WriteRandomWithServer.*
+  Damage/Formats.*
+  DamagedCapture.*
+  Changed/*
+  Edited/*
+  OfClients/ServerMistake.*
+  OfServer/ServerMistake.*)
+list(JOIN thorough ":" thorough)
