@@ -20,9 +20,10 @@ function(stormproof_target target)
   endif()
 endfunction()
 
-# stormproof_batches(<target> [<sources>]): at most so many of its sources are compiled as one
+# stormproof_batches(<target> [<sources>]): at most so many of its sources are compiled as one, unless
+# nothing is optimised, which takes less memory
 function(stormproof_batches target)
-  if(ARGC GREATER 1 AND ARGV1 LESS STORMPROOF_BATCH)
+  if(ARGC GREATER 1 AND ARGV1 LESS STORMPROOF_BATCH AND NOT STORMPROOF_SANITIZE)
     set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${ARGV1})
   endif()
 endfunction()
