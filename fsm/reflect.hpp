@@ -79,10 +79,14 @@ constexpr std::size_t position(TypeList<Ts...>) {
 
 namespace detail {
 template <class T>
-constexpr std::string_view find_name() {
+constexpr std::string_view find_full_name() {
   const std::string_view text = __PRETTY_FUNCTION__;
   const auto begin = text.find("T = ") + 4;
-  const std::string_view qualified = text.substr(begin, text.find_first_of(";]", begin) - begin);
+  return text.substr(begin, text.find_first_of(";]", begin) - begin);
+}
+template <class T>
+constexpr std::string_view find_name() {
+  const std::string_view qualified = find_full_name<T>();
   const auto last = qualified.rfind("::");
   return last == std::string_view::npos ? qualified : qualified.substr(last + 2);
 }
@@ -95,6 +99,11 @@ inline constexpr std::string_view found_name = find_name<T>();
 template <class T>
 constexpr std::string_view name_of() {
   return detail::found_name<T>;
+}
+/// With its namespaces.
+template <class T>
+constexpr std::string_view full_name_of() {
+  return detail::find_full_name<T>();
 }
 
 namespace detail {

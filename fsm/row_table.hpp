@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fsm/reflect.hpp"
-#include "fsm/table_mutation.hpp"
+#include "fsm/row_mutation.hpp"
 
 namespace stormproof::fsm {
 
@@ -33,23 +33,19 @@ class RowTable {
       if (guard == nullptr) return Bool(!negated);
       return negated ? Bool(!guard(input)) : guard(input);
     }
+    void ignore_guard() { guard = nullptr; }
+    void drop_action() { action = nullptr; }
   };
 
   /// The table with the mutations that concern this machine.
   explicit RowTable(std::span<const TableMutation> mutations = {}) {
     add_rows(typename Reflect<Machine>::Rows{});
-    // Rows are numbered as written: removals come last.
-    for (const TableMutation& mutation : mutations) {
-      if (mutation.machine == name_of<Machine>()) mutate(mutation);
-    }
-    std::erase_if(rows_, [](const Row& row) { return row.source == dropped; });
+    fsm::mutate(rows_, name_of<Machine>(), mutations);
   }
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
  private:
-  static constexpr StateId dropped = UINT8_MAX;
-
   template <class... Rs>
   void add_rows(TypeList<Rs...>) {
     (add_row<Rs>(), ...);
@@ -70,34 +66,6 @@ class RowTable {
       row.action = [](const Input& in, Output& out) { R::Action::template act<D>(in, out); };
     }
     rows_.push_back(row);
-  }
-
-  void mutate(const TableMutation& mutation) {
-    Row& row = rows_.at(mutation.row);
-    switch (mutation.kind) {
-      case TableMutation::Kind::drop_row:
-        row.source = dropped;
-        break;
-      case TableMutation::Kind::retarget:
-        row.target = mutation.target;
-        break;
-      case TableMutation::Kind::negate_guard:
-        row.negated = !row.negated;
-        break;
-      case TableMutation::Kind::ignore_guard:
-        row.guard = nullptr;
-        break;
-      case TableMutation::Kind::drop_action:
-        row.action = nullptr;
-        break;
-      case TableMutation::Kind::copy_row: {
-        Row copy = row;
-        copy.source = mutation.source;
-        copy.target = mutation.target;
-        rows_.push_back(copy);
-        break;
-      }
-    }
   }
 
   std::vector<Row> rows_;

@@ -1,6 +1,6 @@
 // A composition as plain data: what there is, and every effect of every rule. Diagrams, pages and
-// checks of completeness read this, and need nothing of Boost.MSM for it;
-// fsm/composition/recorder.hpp makes it by running each rule once.
+// checks of completeness read this, and need nothing of Boost.MSM for it; it is what the recorded
+// program (fsm/program) says in words.
 #pragma once
 
 #include <cstddef>

@@ -1,33 +1,17 @@
-// Records every composition once.
+// The recorded programs in words.
 #include "fsm/composition/compositions.hpp"
 
-#include <algorithm>
-
-#include "fsm/composition/amended.hpp"
-#include "fsm/composition/cyclone.hpp"
-#include "fsm/composition/fastdds.hpp"
-#include "fsm/composition/fastdds_life.hpp"
-#include "fsm/composition/paper.hpp"
-#include "fsm/composition/recorder.hpp"
-#include "fsm/composition/server.hpp"
+#include "fsm/program/programs.hpp"
+#include "fsm/program/words.hpp"
 
 namespace stormproof::fsm::composition {
 
-std::string_view label(Owner owner) {
-  if (owner == owner::participant) return "participant";
-  if (owner == owner::pair) return "pair";
-  if (owner == owner::writer) return "writer";
-  if (owner == owner::relation) return "relation";
-  if (owner == owner::entry) return "entry";
-  if (owner == owner::descriptor) return "descriptor";
-  return "control relation";
-}
-
 const std::vector<CompositionInfo>& compositions() {
-  static const std::vector<CompositionInfo> all{
-      recorded<paper::Paper>(),     recorded<fastdds::FastDds>(),
-      recorded<cyclone::Cyclone>(), recorded<server::FastDdsServer>(),
-      recorded<amended::Amended>(), recorded<fastdds::FastDdsLiving>()};
+  static const std::vector<CompositionInfo> all = [] {
+    std::vector<CompositionInfo> words;
+    for (const program::Program& one : program::programs()) words.push_back(words_of(one));
+    return words;
+  }();
   return all;
 }
 

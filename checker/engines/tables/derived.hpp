@@ -43,7 +43,7 @@ struct Derived {
   /// Timers of which it matters how many are pending, though no rule asks for that.
   std::set<std::string> counted{};
 
-  /// Effects are counted as the recorder does (fsm/composition/recorder.hpp): within a rule,
+  /// Effects are counted as the recorder does (fsm/program/words.cpp): within a rule,
   /// procedure or step, each once, however often it runs.
   std::string within{};
   unsigned number = 0;

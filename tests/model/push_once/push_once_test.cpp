@@ -2,7 +2,8 @@
 // not a line elsewhere.
 #include <gtest/gtest.h>
 
-#include "fsm/composition/recorder.hpp"
+#include "fsm/program/record.hpp"
+#include "fsm/program/words.hpp"
 #include "model/engine/implementation_maker.hpp"
 #include "model/simulator.hpp"
 #include "tests/model/push_once/push_once_host.hpp"
@@ -14,7 +15,9 @@ namespace push_once_test {
 using fsm::composition::CompositionInfo;
 using fsm::composition::EffectMutation;
 
-CompositionInfo composition() { return fsm::composition::recorded<rules_of_push_once::PushOnce>(); }
+CompositionInfo composition() {
+  return words_of(fsm::program::recorded<rules_of_push_once::PushOnce>());
+}
 
 RunResult run(const Scenario& scenario, const Mutation* mutation = nullptr) {
   RunOptions options;

@@ -1,0 +1,22 @@
+// Records every composition once.
+#include "fsm/program/programs.hpp"
+
+#include "fsm/composition/amended.hpp"
+#include "fsm/composition/cyclone.hpp"
+#include "fsm/composition/fastdds.hpp"
+#include "fsm/composition/fastdds_life.hpp"
+#include "fsm/composition/paper.hpp"
+#include "fsm/composition/server.hpp"
+#include "fsm/program/record.hpp"
+
+namespace stormproof::fsm::program {
+
+const std::vector<Program>& programs() {
+  static const std::vector<Program> all{
+      recorded<composition::paper::Paper>(),     recorded<composition::fastdds::FastDds>(),
+      recorded<composition::cyclone::Cyclone>(), recorded<composition::server::FastDdsServer>(),
+      recorded<composition::amended::Amended>(), recorded<composition::fastdds::FastDdsLiving>()};
+  return all;
+}
+
+}  // namespace stormproof::fsm::program
