@@ -2,6 +2,7 @@
 #include "model/composition_of.hpp"
 
 #include "fsm/composition/compositions.hpp"
+#include "fsm/program/programs.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::model {
@@ -12,6 +13,10 @@ const fsm::composition::CompositionInfo& composition_of(ImplementationKind kind)
 
 const fsm::composition::CompositionInfo& composition_of(const DdsProfile& dds) {
   return composition_of(kind_of(dds));
+}
+
+const fsm::program::Program& program_of(const DdsProfile& dds) {
+  return fsm::program::programs()[composition_index(kind_of(dds))];
 }
 
 bool is_living_fastdds(const Scenario& scenario) {

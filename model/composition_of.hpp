@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fsm/composition/composition_info.hpp"
+#include "fsm/program/program.hpp"
 #include "model/dds_profile.hpp"
 #include "model/scenario.hpp"
 
@@ -9,6 +10,8 @@ namespace stormproof::model {
 
 [[nodiscard]] const fsm::composition::CompositionInfo& composition_of(const DdsProfile& dds);
 [[nodiscard]] const fsm::composition::CompositionInfo& composition_of(ImplementationKind kind);
+/// The same as a recorded program.
+[[nodiscard]] const fsm::program::Program& program_of(const DdsProfile& dds);
 
 /// Whether participants have a life under Fast DDS's rules: they are those of a composition of
 /// their own (fsm/composition/fastdds_life.hpp), which no engine knows.

@@ -55,7 +55,7 @@ void measure_spin(unsigned descriptors) {
   std::error_code error;
   const auto folder = std::filesystem::temp_directory_path(error) / "stormproof-explorer-bench";
   std::filesystem::create_directories(folder, error);
-  const auto run = promela::run_spin(promela::promela_of_paper(descriptors, {}), folder.string());
+  const auto run = promela::run_spin(promela::promela_of(descriptors, {}), folder.string());
   std::filesystem::remove_all(folder, error);
   if (!run) {
     std::printf("spin      %s\n", run.error().c_str());

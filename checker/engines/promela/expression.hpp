@@ -63,7 +63,9 @@ class Number {
   friend Number operator*(const Number& a, const Number& b);
   friend Number operator/(const Number& a, const Number& b);
   friend Truth operator==(const Number& a, const Number& b);
+  friend Truth operator!=(const Number& a, const Number& b) { return !(a == b); }
   friend Truth operator<(const Number& a, const Number& b);
+  friend Truth operator<=(const Number& a, const Number& b) { return !(b < a); }
   friend Truth operator>(const Number& a, const Number& b) { return b < a; }
   friend Truth operator>=(const Number& a, const Number& b) { return !(a < b); }
 

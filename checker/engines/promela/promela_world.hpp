@@ -1,5 +1,5 @@
-// The world that writes Promela: it runs a rule once, for one relation, and every effect becomes a
-// statement. See fsm/composition/vocabulary.hpp for what a world is. Loops over descriptors are
+// The reader of a program that writes Promela: it executes a rule once, for one relation, and every
+// effect becomes a statement. Loops over descriptors are
 // unrolled; the only reader of the writer is ours, if it is open, and its queue has only our
 // entries. Steps that are stated by their contracts happen by their contracts, with one packet for
 // each descriptor.
@@ -17,82 +17,62 @@
 // it.
 #pragma once
 
+#include <memory>
 #include <string>
-#include <tuple>
-#include <type_traits>
+#include <vector>
 
-#include <boost/pfr.hpp>
-
-#include "checker/engines/promela/promela_place.hpp"
-#include "model/engine/composition_knobs.hpp"
+#include "checker/engines/promela/script.hpp"
+#include "checker/engines/promela/table_macros.hpp"
+#include "fsm/program/interpreter.hpp"
+#include "model/dds_profile.hpp"
 #include "model/mutation.hpp"
 
 namespace stormproof::promela {
 
-/// Whether DATA and the like are at their source for a while, because a rule waits for them to
-/// leave it.
-template <class Composition, class P>
-inline constexpr bool leaves_later = []<class... Rs>(fsm::TypeList<Rs...>) {
-  return (std::is_same_v<typename Rs::Trigger, composition::LeftSource<P>> || ...);
-}(typename Composition::Exchange{});
+/// The name of a thing as a variable. A single letter is written small, because X and U are
+/// operators of the claims.
+[[nodiscard]] std::string variable_name(const fsm::program::Thing& thing);
 
-template <class Composition_>
-class PromelaWorld : public PromelaPlace {
+/// Whether a descriptor has one, so that it is a bit or an element of something.
+[[nodiscard]] bool is_of_descriptors(const fsm::program::Thing& thing);
+
+/// Whether a rule waits for packets of the kind to leave their source, where they are for a while.
+[[nodiscard]] bool leaves_later(const fsm::program::Program& program, fsm::program::Tag packet);
+
+class PromelaWorld : public fsm::program::Interpreter<PromelaWorld, Written, Lanes> {
  public:
-  using Composition = Composition_;
-  using D = Written;
-  using Bool = Truth;
-  using Int = Number;
-  using Set = Lanes;
-  static constexpr composition::Owner place = composition::owner::relation;
+  using Tag = fsm::program::Tag;
+  using Step = fsm::program::Step;
+  using Execution = fsm::program::Execution<Value>;
 
-  PromelaWorld(Script& script, const model::DdsProfile& dds, const model::Mutation& mistakes,
-               int descriptor = 0)
-      : PromelaPlace{script, mistakes.tables, descriptor}, dds_{&dds} {}
+  PromelaWorld(Execution& execution, Script& script, const model::DdsProfile& dds,
+               const model::Mutation& mistakes, int descriptor = 0)
+      : Interpreter{execution},
+        script_{&script},
+        dds_{&dds},
+        mistakes_{&mistakes.tables},
+        descriptor_{descriptor},
+        subject_{descriptor} {}
+
+  /// The part is in the model, in its initial state.
+  void declare(Tag part);
+  /// The rule is about this packet.
+  void look_at(Tag packet) { packet_ = variable(packet); }
 
   // Values.
-  template <class Tag>
-  auto operator()(Tag tag) {
-    using namespace composition;
-    if constexpr (std::derived_from<Tag, Switch>) {
-      return Truth{model::knob_value(tag, *dds_)};
-    } else if constexpr (std::derived_from<Tag, Delay>) {
-      return Number{model::knob_value(tag, *dds_)};
-    } else if constexpr (std::derived_from<Tag, Fact>) {
-      return Tag::of(*this);
-    } else if constexpr (requires { typename Tag::IsFlag; }) {
-      return flag<Tag>();
-    } else if constexpr (std::derived_from<Tag, DescriptorField>) {
-      return field(name<Tag>(), true);
-    } else if constexpr (std::derived_from<Tag, PacketField>) {
-      return field(name<Tag>(), false);
-    } else if constexpr (std::derived_from<Tag, Answer>) {
-      return Truth{false};
-    } else {
-      return Number::unknown();
-    }
-  }
-  template <class T>
-  Number operator()(composition::Pending<T>) {
-    return script_->is_found("due " + name<T>()) ? script_->number(name<T>()) : Number{0};
-  }
-  template <class P, class S>
-  Truth in(P, composition::Is<S>) {
-    declare<P>();
-    return script_->equals(state<P>(), TableMacros<typename P::Machine>::state(fsm::name_of<S>()));
-  }
-  [[nodiscard]] Truth is_in(const Set& set) const {
-    return set.of.empty() ? Truth{false} : set.of[static_cast<std::size_t>(descriptor_)];
-  }
+  Value read(Tag tag);
+  Number pending(Tag timer);
+  Truth in(Tag part, fsm::StateId state);
+  [[nodiscard]] Truth is_in(const Lanes& set) const;
   [[nodiscard]] Truth is_subject() const { return descriptor_ == subject_; }
-  static Truth choice(const char*) { return false; }
+  static Truth choice(std::string_view) { return false; }
 
   // Quantifiers.
-  static Truth any(const Set& set) { return set.any(); }
+  static Truth any(const Lanes& set) { return set.any(); }
   template <class Term>
-  Set set_of(Term&& term) {
-    Set set;
-    each([&](PromelaWorld& d) { set.of.push_back(Truth{term(d)}); });
+  Lanes set_of(Term&& term) {
+    Lanes set;
+    each([&](PromelaWorld& d) { set.of.push_back(term(d)); });
     return set;
   }
   template <class Term>
@@ -101,7 +81,7 @@ class PromelaWorld : public PromelaPlace {
   }
   template <class Term>
   Truth all(Term&& term) {
-    return !some([&](auto& d) { return !Truth{term(d)}; });
+    return !some([&](PromelaWorld& d) { return !term(d); });
   }
   template <class Term>
   Number count(Term&& term) {
@@ -111,7 +91,11 @@ class PromelaWorld : public PromelaPlace {
   }
   template <class Term>
   Truth some_reader(Term&& term) {
-    return (*this)(typename Composition::IsOpen{}) && Truth{term(*this)};
+    return is_open() && term(*this);
+  }
+  template <class Term>
+  Number count_readers(Term&& term) {
+    return Number::of(some_reader(term));
   }
   template <class Term>
   Truth some_entry(Term&& term) {
@@ -120,13 +104,13 @@ class PromelaWorld : public PromelaPlace {
   template <class Term>
   Truth all_up_to(Term&& term) {
     Truth all = true;
-    each([&](PromelaWorld& d) { all = all && (d.descriptor_ > descriptor_ || Truth{term(d)}); });
+    each([&](PromelaWorld& d) { all = all && (d.descriptor_ > descriptor_ || term(d)); });
     return all;
   }
   template <class Term>
   Truth some_from_here(Term&& term) {
     Truth some;
-    each([&](PromelaWorld& d) { some = some || (d.descriptor_ >= descriptor_ && Truth{term(d)}); });
+    each([&](PromelaWorld& d) { some = some || (d.descriptor_ >= descriptor_ && term(d)); });
     return some;
   }
 
@@ -141,19 +125,22 @@ class PromelaWorld : public PromelaPlace {
   }
   template <class Body>
   void for_readers(Body&& body) {
-    when((*this)(typename Composition::IsOpen{}), [&] { body(*this); });
+    when(is_open(), [&] { body(*this); });
   }
   template <class Body>
   void for_streams(Body&& body) {
     body(*this);
   }
+  /// Announcements are no part of the model.
+  template <class Body>
+  void for_known_peers(Body&&) {}
   /// What happens in the other direction of the pair is no part of the model; what happens in its
   /// other direction is.
   template <class Body>
   void reverse(Body&& body) {
     PromelaWorld back = *this;
-    Script discarded = *script_;
-    back.script_ = ours_ != nullptr ? ours_ : &discarded;
+    back.discarded_ = std::make_shared<Script>(*script_);
+    back.script_ = ours_ != nullptr ? ours_ : back.discarded_.get();
     back.ours_ = ours_ != nullptr ? nullptr : script_;
     body(back);
   }
@@ -161,100 +148,40 @@ class PromelaWorld : public PromelaPlace {
   void for_queue(Body&& body) {
     each([&](PromelaWorld& entry) {
       entry.subject_ = entry.descriptor_;
-      entry.when(entry(typename Composition::IsQueued{}), [&] { body(entry); });
+      entry.when(entry.flag(program().is_queued), [&] { body(entry); });
     });
   }
   template <class Term, class Body>
   void for_descriptors(Term&& term, Body&& body) {
-    each([&](PromelaWorld& d) { d.when(Truth{term(d)}, [&] { body(d); }); });
+    each([&](PromelaWorld& d) { d.when(term(d), [&] { body(d); }); });
   }
   template <class Body>
-  void partition(const Set& set, Body&& body) {
+  void partition(const Lanes& set, Body&& body) {
     each([&](PromelaWorld& d) {
-      Set part{std::vector<Truth>(script_->descriptors())};
+      Lanes part{std::vector<Truth>(script_->descriptors())};
       part.of[static_cast<std::size_t>(d.descriptor_)] = true;
       when(d.is_in(set), [&] { body(part); });
     });
   }
 
   // Effects.
-  template <class P, class E>
-  auto feed(P, composition::On<E>, const typename P::Machine::Io::template Input<D>& input = {}) {
-    Table<P> table = cleared<P, E>();
-    typename P::Machine::Io::template Output<D> output;
-    step<P, E>(table, input);
-    for_each_asked<E>(table, output, [&](Truth& field, const std::string& outbox) {
-      field = of_descriptors<P> ? script_->bit(outbox, descriptor_) : script_->truth(outbox);
-    });
-    return output;
+  Values feed(const Step& step);
+  Values feed_each(const Step& step);
+  void renew(Tag part);
+  void set(Tag variable, const Value& value);
+  template <class Term>
+  void set_each(Tag flag, Term&& term) {
+    const Lanes set = set_of(term);
+    assign(flag, set.any(), set.bitmap().expression());
   }
-  template <class P, class E, class Input = decltype(composition::no_input),
-            class Who = decltype(composition::everyone)>
-  auto feed_each(P, composition::On<E>, Input input = {}, Who who = {}) {
-    Table<P> table = cleared<P, E>();
-    typename P::Machine::Io::template Output<LaneDomain> output;
-    each([&](PromelaWorld& d) {
-      const typename P::Machine::Io::template Input<D> in = input(d);
-      d.when(Truth{who(d)}, [&] { d.template step<P, E>(table, in); });
-    });
-    for_each_asked<E>(table, output, [&](Lanes& field, const std::string& outbox) {
-      each([&](PromelaWorld& d) { field.of.push_back(script_->bit(outbox, d.descriptor_)); });
-    });
-    return output;
-  }
-  template <class V, class Value>
-  void set(V, const Value& value) {
-    if constexpr (requires { typename V::IsFlag; }) {
-      const Truth to{value};
-      if (of_descriptors<V>) {
-        Set all = set_of([](auto& d) { return d(V{}); });
-        all.of[static_cast<std::size_t>(descriptor_)] = to;
-        assign<V>(to, all.bitmap().expression());
-      } else {
-        assign<V>(to, to.expression());
-      }
-    }
-  }
-  template <class V, class Term>
-  void set_each(V, Term&& term) {
-    const Set set = set_of(term);
-    assign<V>(set.any(), set.bitmap().expression());
-  }
-  template <class Wait, class T>
-  void after(Wait, T) {
-    start<T>();
-  }
-  template <class T>
-  void at(const Number&, T) {
-    start<T>();
-  }
-  template <class T>
-  void cancel(T) {
-    if (script_->is_found("due " + name<T>())) script_->assign(name<T>(), Number{0}.expression());
-  }
-  template <class P, class... Sayings>
-  void emit(P, const std::tuple<Sayings...>& sayings) {
-    script_->find("sent " + name<P>());
-    composition::for_each_type(typename P::Fields{}, [&]<class F>() {
-      Number value;
-      std::apply([&](const auto&... each) { ((say<F>(value, each)), ...); }, sayings);
-      const std::string field = variable_of(name<P>(), name<F>());
-      script_->find_said(field, value);
-      if (script_->is_kept(field)) script_->assign(field, value.expression());
-    });
-    script_->send(Store{name<P>(), leaves_later<Composition, P>}.name());
-  }
-  template <class O>
-  void raise(O) {
-    composition::RuleFor<Composition, composition::Happens<O>>::run(*this);
-  }
-  template <class P, class... Args>
-  void call(P, const Args&... args) {
-    P::body(*this, args...);
-  }
-  template <class Step, class... Args>
-  void perform(Step, const Args&... args) {
-    Step::contract(*this, args...);
+  void after(Tag, Tag timer) { start(timer); }
+  void at(const Number&, Tag timer) { start(timer); }
+  void cancel(Tag timer);
+  void emit(const Step& step);
+  void raise(Tag occasion);
+  template <class Body>
+  void within(const Step&, const fsm::program::Procedure&, Body&& body) {
+    body();
   }
 
  private:
@@ -266,22 +193,33 @@ class PromelaWorld : public PromelaPlace {
       body(world);
     }
   }
-
-  template <class F, class G, class Value>
-  void say(Number& said, const composition::Says<G, Value>& saying) {
-    if constexpr (!std::is_same_v<F, G>) {
-      return;
-    } else if constexpr (std::derived_from<F, composition::PacketField>) {
-      said = Number::of(Truth{saying.value});
-    } else if constexpr (std::is_same_v<Value, Truth>) {
-      said = set_of([&](auto&) { return saying.value; }).bitmap();
-    } else {
-      said = set_of(saying.value).bitmap();
-    }
+  [[nodiscard]] std::string variable(Tag tag) const { return variable_name(thing(tag)); }
+  [[nodiscard]] bool is_of_descriptors(Tag tag) const {
+    return promela::is_of_descriptors(thing(tag));
   }
+  Truth is_open() { return flag(program().is_open); }
+  Truth flag(Tag tag);
+  [[nodiscard]] Truth field(Tag tag, bool bitmap) const;
+  void assign(Tag flag, const Truth& may_hold, const Expression& value);
+  void start(Tag timer);
+  /// What a packet says of one of its fields; what it does not say is 0.
+  Number said(const Step& step, Tag field);
 
+  // Machines.
+  [[nodiscard]] TableMacros table(Tag part) const { return {program(), part, *mistakes_}; }
+  [[nodiscard]] std::string state(Tag part) const;
+  /// The part's table, its outbox empty.
+  TableMacros cleared(const Step& step);
+  void take(const TableMacros& table, const Step& step, const Values& input);
+
+  Script* script_;
   const model::DdsProfile* dds_;
+  const std::vector<fsm::TableMutation>* mistakes_;
+  int descriptor_;
+  int subject_;  ///< the descriptor that the rule is about
+  std::string packet_{};
   Script* ours_ = nullptr;  ///< in the other direction: the model
+  std::shared_ptr<Script> discarded_{};
 };
 
 }  // namespace stormproof::promela

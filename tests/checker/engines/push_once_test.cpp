@@ -6,10 +6,11 @@
 
 #include "checker/engines/explorer/relation_world.hpp"
 #include "checker/engines/explorer/search.hpp"
-#include "checker/engines/promela/promela_of.hpp"
+#include "checker/engines/promela/promela.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/engines/tables/derive.hpp"
 #include "checker/engines/tables/descriptor_system.hpp"
+#include "fsm/program/record.hpp"
 #include "model/engine/implementation_maker.hpp"
 #include "tests/checker/engines/explorer/enumeration.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
@@ -112,7 +113,8 @@ class PushOncePromela : public promela::SpinTest {};
 
 /// What is lost is not sent again: everything stands still with something unacknowledged.
 TEST_F(PushOncePromela, IsSafeAndStandsStill) {
-  const std::string model = promela::promela_of<push_once::PushOnce>(2, {});
+  const std::string model =
+      promela::promela_of(fsm::program::recorded<push_once::PushOnce>(), 2, {});
   expect_error(model, "progress: pan:1: acceptance cycle");
   expect_error(model.substr(0, model.find("ltl progress")),
                "no deadlock: pan:1: invalid end state");

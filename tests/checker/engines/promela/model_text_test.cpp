@@ -39,7 +39,7 @@ model::DdsProfile fastdds() {
   return dds;
 }
 std::string paper_with(const std::vector<fsm::TableMutation>& tables) {
-  return promela_of_paper(2, {}, in_tables(tables));
+  return promela_of(2, {}, in_tables(tables));
 }
 
 TEST(ModelText, HasEveryRowOfTheTable) {
@@ -52,10 +52,10 @@ TEST(ModelText, HasEveryRowOfTheTable) {
     const auto rows = static_cast<std::ptrdiff_t>(machine.rows.size());
     const std::string name{machine.name};
     if (name == "DescriptorRepair" || name == "DiscoveryReader" || name == "InitialAckNack") {
-      EXPECT_EQ(count_options(promela_of_paper(1, {}), name), rows) << name;
+      EXPECT_EQ(count_options(promela_of(1, {}), name), rows) << name;
     }
     if (name == "ChangeForReader" || name == "SingleShot") {
-      EXPECT_EQ(count_options(promela_of_fastdds(1, fastdds()), name), rows) << name;
+      EXPECT_EQ(count_options(promela_of(1, fastdds()), name), rows) << name;
     }
   }
 }
@@ -63,7 +63,7 @@ TEST(ModelText, HasEveryRowOfTheTable) {
 /// Rules that announce, and those of the adaptive policy, are no processes.
 TEST(ModelText, HasAProcessForEveryRuleThatHappens) {
   Lines processes;
-  for (const std::string& line : lines(promela_of_paper(2, {}))) {
+  for (const std::string& line : lines(promela_of(2, {}))) {
     if (line.starts_with("active proctype "))
       processes.push_back(line.substr(16, line.find('(') - 16));
   }
@@ -90,7 +90,7 @@ TEST(ModelText, EvaluatesGuardsOnWhatARuleFeeds) {
   EXPECT_NE(paper_with({}).find(feed + "!(AckNack_Listed >> 0 & 1));"), std::string::npos);
   model::DdsProfile prefix;
   prefix.sedp.acknowledge = model::Acknowledge::prefix;
-  EXPECT_NE(promela_of_paper(2, prefix).find(
+  EXPECT_NE(promela_of(2, prefix).find(
                 feed + "(!(AckNack_Listed >> 0 & 1) && (AckNack_BelowBase >> 0 & 1)));"),
             std::string::npos);
 }
@@ -103,21 +103,20 @@ TEST(ModelText, OfTwoEnabledRowsTheLaterOneWins) {
 }
 
 TEST(ModelText, LeavesOutWhatADroppedActionAskedFor) {
-  const std::string right = promela_of_fastdds(1, fastdds());
-  const std::string wrong = promela_of_fastdds(
-      1, fastdds(), in_tables({{"ChangeForReader", 5, Kind::drop_action, 0, 0}}));
+  const std::string right = promela_of(1, fastdds());
+  const std::string wrong =
+      promela_of(1, fastdds(), in_tables({{"ChangeForReader", 5, Kind::drop_action, 0, 0}}));
   EXPECT_EQ(wrong, right);  // the end of a suppression asks for nothing
-  const std::string silent = promela_of_fastdds(
-      1, fastdds(), in_tables({{"ChangeForReader", 2, Kind::drop_action, 0, 0}}));
+  const std::string silent =
+      promela_of(1, fastdds(), in_tables({{"ChangeForReader", 2, Kind::drop_action, 0, 0}}));
   EXPECT_EQ(silent.find("ChangeForReader_requested"), std::string::npos);
   EXPECT_EQ(silent.find("NackResponds"), std::string::npos);  // nothing ever makes it due
 }
 
 /// And with it what only it makes happen.
 TEST(ModelText, DropsAnEffect) {
-  const std::string right = promela_of_paper(1, {});
-  const std::string wrong =
-      promela_of_paper(1, {}, at_effect("paper", "RepairHasLeft.2", Change::drop));
+  const std::string right = promela_of(1, {});
+  const std::string wrong = promela_of(1, {}, at_effect("paper", "RepairHasLeft.2", Change::drop));
   const Lines dropped = only_in(right, wrong);
   for (const char* const line :
        {"              SuppressionEnd = true;", "active proctype SuppressionEnds() {"}) {
@@ -130,7 +129,7 @@ TEST(ModelText, DropsAnEffect) {
 TEST(ModelText, RefusesAPolicyThatDecidesByTheTime) {
   model::DdsProfile adaptive;
   adaptive.sedp.heartbeat_policy = model::HeartbeatPolicy::adaptive;
-  EXPECT_THROW((void)promela_of_paper(1, adaptive), std::logic_error);
+  EXPECT_THROW((void)promela_of(1, adaptive), std::logic_error);
 }
 
 }  // namespace model_text_test

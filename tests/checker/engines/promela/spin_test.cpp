@@ -27,31 +27,31 @@ model::DdsProfile fastdds() {
   return dds;
 }
 std::string repair_mutant(const std::vector<fsm::TableMutation>& tables) {
-  return promela_of_paper(1, heartbeats_only(), in_tables(tables));
+  return promela_of(1, heartbeats_only(), in_tables(tables));
 }
 std::string change_mutant(std::size_t row, Kind kind) {
-  return promela_of_fastdds(1, fastdds(), in_tables({{"ChangeForReader", row, kind, 0, 0}}));
+  return promela_of(1, fastdds(), in_tables({{"ChangeForReader", row, kind, 0, 0}}));
 }
 
 TEST_F(Spin, VerifiesThePapersWriterWithOneDescriptor) {
-  expect_correct(promela_of_paper(1, {}), 15'000);
+  expect_correct(promela_of(1, {}), 15'000);
 }
 TEST_F(Spin, VerifiesThePapersWriterWithTwoDescriptors) {
-  expect_correct(promela_of_paper(2, heartbeats_only()), 500'000);
+  expect_correct(promela_of(2, heartbeats_only()), 500'000);
 }
 TEST_F(Spin, VerifiesThePapersWriterThatAcknowledgesAPrefix) {
   model::DdsProfile dds = heartbeats_only();
   dds.sedp.acknowledge = model::Acknowledge::prefix;
   dds.sedp.initial_data = model::InitialData::pull;
-  expect_correct(promela_of_paper(2, dds), 50'000);
+  expect_correct(promela_of(2, dds), 50'000);
 }
 TEST_F(Spin, VerifiesThePapersWriterWithThreeDescriptors) {
   model::DdsProfile dds;
   dds.sedp.initial_data = model::InitialData::pull;
-  expect_correct(promela_of_paper(3, dds), 1'000'000);
+  expect_correct(promela_of(3, dds), 1'000'000);
 }
 TEST_F(Spin, VerifiesTheWriterOfFastddsWithOneDescriptor) {
-  expect_correct(promela_of_fastdds(1, fastdds()), 30'000);
+  expect_correct(promela_of(1, fastdds()), 30'000);
 }
 
 TEST_F(Spin, FindsADescriptorThatIsAcknowledgedWithoutConfirmation) {
@@ -82,20 +82,19 @@ TEST_F(Spin, FindsMistakesInTheWriterOfFastdds) {
 TEST_F(Spin, FindsMistakesBetweenTheMachines) {
   const char* const wrong = "progress: pan:1: acceptance cycle";
   const auto paper = [](std::string_view effect, Change change) {
-    return promela_of_paper(1, heartbeats_only(), at_effect("paper", effect, change));
+    return promela_of(1, heartbeats_only(), at_effect("paper", effect, change));
   };
   expect_error(paper("AckNackArrives.4", Change::drop), wrong);
   expect_error(paper("HeartbeatExpires.2", Change::drop), wrong);
-  expect_error(
-      promela_of_fastdds(1, fastdds(), at_effect("fastdds", "NackResponds.3", Change::drop)),
-      wrong);
+  expect_error(promela_of(1, fastdds(), at_effect("fastdds", "NackResponds.3", Change::drop)),
+               wrong);
 }
 
 /// A model with three descriptors has no claim of progress.
 TEST_F(Spin, FindsARepairThatIsForgottenAsADeadlock) {
   model::DdsProfile dds = heartbeats_only();
   dds.sedp.initial_data = model::InitialData::pull;
-  expect_error(promela_of_paper(3, dds, at_effect("paper", "ClockGoesOn.2", Change::drop)),
+  expect_error(promela_of(3, dds, at_effect("paper", "ClockGoesOn.2", Change::drop)),
                "no deadlock: pan:1: invalid end state");
 }
 
