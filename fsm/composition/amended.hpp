@@ -426,13 +426,11 @@ struct Amended : Implementation {
   using Timers = TypeList<Announcement, AckNackGeneration, InitialAttempt, paper::RepairGeneration,
                           paper::SuppressionEnd, HeartbeatExpiry, CycleStart, CycleEnd, BatchDue,
                           ReaderRetryDue, CopyDue, LeaseCheck, Return>;
-  /// What has a place of its own in a host.
-  using Memory = TypeList<LastHeartbeat, Required, OldCounts, HasAnswered, LastHeard, LastNack,
-                          HasAsked, MatchedAt, CopiesLeft, WasKnown, ForgottenAt, LeaseRuns>;
-  using State = Joined<TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay,
-                                WriterOpen, CycleBegan, CyclePeriod, Contacted, Responded,
-                                AnnouncedAtStart, Resent, Known, Exists, WrittenLater>,
-                       Memory>;
+  using State =
+      TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay, WriterOpen, CycleBegan,
+               CyclePeriod, Contacted, Responded, AnnouncedAtStart, Resent, Known, Exists,
+               WrittenLater, LastHeartbeat, Required, OldCounts, HasAnswered, LastHeard, LastNack,
+               HasAsked, MatchedAt, CopiesLeft, WasKnown, ForgottenAt, LeaseRuns>;
   using Packets = TypeList<SpdpMulticast, SpdpUnicast, Data, Heartbeat, AckNack>;
   using Occasions = TypeList<ReaderOpens, WriterOpens, AnnouncedAgain, Written>;
   using Reading = TypeList<AnswerAnnouncement, ReaderOpened, InitialAckNackDue, DataArrives,

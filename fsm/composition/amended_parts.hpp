@@ -13,7 +13,7 @@ namespace stormproof::fsm::composition::amended {
 struct C : Part<ReopeningRepair, owner::descriptor> {};
 
 /// A reader asks by itself; it can be cancelled.
-struct ReaderRetryDue : Timer<owner::relation> {};
+struct ReaderRetryDue : TimerAtDestination<owner::relation> {};
 /// Another copy of an announcement to a participant that was recognised.
 struct CopyDue : Timer<owner::pair> {};
 

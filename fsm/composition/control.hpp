@@ -14,8 +14,8 @@ struct ControlReaderSide : Part<ControlReader, owner::control_relation> {};
 struct ControlInitialTimer : Part<InitialAckNack, owner::control_relation> {};
 struct ControlReply : Part<SingleShot, owner::control_relation> {};
 
-struct ControlInitialAttempt : Timer<owner::control_relation> {};
-struct ControlReplyDue : Timer<owner::control_relation> {};
+struct ControlInitialAttempt : TimerAtDestination<owner::control_relation> {};
+struct ControlReplyDue : TimerAtDestination<owner::control_relation> {};
 
 struct ControlHeartbeatSeen : Flag<owner::control_relation> {};
 struct ControlLastDelay : Number<owner::control_relation> {};

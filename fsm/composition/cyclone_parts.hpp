@@ -29,7 +29,7 @@ struct HeartbeatTimer : Part<MovableTimer, owner::writer> {};
 struct SpdpTimer : Part<MovableTimer, owner::participant> {};
 struct ReplyTimer : Part<MovableTimer, owner::pair> {};
 
-struct AckTime : Timer<owner::relation> {};
+struct AckTime : TimerAtDestination<owner::relation> {};
 struct HeartbeatTime : Timer<owner::writer> {};
 struct SpdpTime : Timer<owner::participant> {};
 struct ReplyTime : Timer<owner::pair> {};

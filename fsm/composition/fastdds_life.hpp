@@ -136,9 +136,7 @@ struct FastDdsLiving : Implementation {
   using AckNack = fastdds::AckNack;
   using Parts = FastDds::Parts;
   using Timers = Joined<FastDds::Timers, TypeList<LeaseCheck, Return>>;
-  /// What it has besides.
-  using Memory = TypeList<ForgottenAt, LeaseRuns>;
-  using State = Joined<FastDds::State, Memory>;
+  using State = Joined<FastDds::State, TypeList<ForgottenAt, LeaseRuns>>;
   using Packets = FastDds::Packets;
   using Occasions = FastDds::Occasions;
   using Rules = Joined<

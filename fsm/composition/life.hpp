@@ -19,7 +19,7 @@
 namespace stormproof::fsm::composition {
 
 /// Whether the pair's destination has heard of its source within the lease.
-struct LeaseCheck : Timer<owner::pair> {};
+struct LeaseCheck : TimerAtDestination<owner::pair> {};
 /// The participant is there again.
 struct Return : Timer<owner::participant> {};
 

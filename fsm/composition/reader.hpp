@@ -18,8 +18,8 @@ namespace stormproof::fsm::composition {
 struct Reader : Part<DiscoveryReader, owner::relation> {};
 struct InitialTimer : Part<InitialAckNack, owner::relation> {};
 
-struct InitialAttempt : Timer<owner::relation> {};
-struct AckNackGeneration : Timer<owner::relation> {};
+struct InitialAttempt : TimerAtDestination<owner::relation> {};
+struct AckNackGeneration : TimerAtDestination<owner::relation> {};
 
 struct X : Flag<owner::descriptor> {};  ///< the reader has the descriptor
 struct HeartbeatSeen : Flag<owner::relation> {};

@@ -67,6 +67,11 @@ struct Timer {
   static constexpr Owner owner = owner_;
   static constexpr bool counted = counted_;
 };
+/// One of a pair or relation that runs at its destination; others do so at the source.
+template <Owner owner_>
+struct TimerAtDestination : Timer<owner_> {
+  using AtDestination = void;
+};
 
 /// How often a counted timer of the writer is scheduled, without the time that is happening now.
 template <class T>

@@ -2,6 +2,7 @@
 #include "model/cyclone/protocol.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace stormproof::model::cyclone {
 
@@ -16,26 +17,23 @@ std::uint32_t slot_of(Stream s) {
 }  // namespace
 
 Protocol::Protocol(RunState& run, Network& network)
-    : run_{run},
+    : Stored{run},
       network_{network},
       sedp_{run.scenario.dds.sedp},
       multicast_{run.scenario.dds.allow_multicast == AllowMulticast::always},
       stride_{writers_per_participant(run.topology)},
-      pairs_(run.topology.pair_count()),
       writers_(std::size_t{stride_} * run.topology.participant_count()),
-      relations_(std::size_t{stride_} * run.topology.pair_count()) {
+      delivered_(std::size_t{stride_} * run.topology.pair_count()) {
   for (Number i = 0; i < run.topology.participant_count(); ++i) {
     participants_.emplace_back(sedp_);
-    Writer& liveliness = writers_[stride_ * i + writer::liveliness];
-    liveliness.exist = liveliness.sent = 1;
+    const Number liveliness = stride_ * i + writer::liveliness;
+    set_first<rules::Exists>(liveliness, 1);
+    set_first<rules::Sent>(liveliness, 1);
   }
   for (Number w = 0; w < writers_.size(); ++w)
     writers_[w].delivered.resize(words_for(samples_of(w)));
-  for (Number r = 0; r < relations_.size(); ++r) {
-    const std::size_t words = words_for(samples_of(writer_of(r)));
-    relations_[r].received.resize(words);
-    relations_[r].delivered.resize(words);
-  }
+  for (Number r = 0; r < delivered_.size(); ++r)
+    delivered_[r].resize(words_for(samples_of(writer_of(r))));
 }
 
 Protocol::Number Protocol::samples_of(Number w) const {
@@ -132,14 +130,9 @@ void Protocol::match(Number r) {
 
 /// The reader has these of word k now, and perhaps they complete the run.
 void Protocol::take(Number r, Number k, std::uint64_t received) {
-  Relation& relation = relations_[r];
-  const std::uint64_t fresh = received & ~relation.received[k];
-  relation.received[k] |= fresh;
-  const Number samples = samples_of(writer_of(r));
-  while (relation.have < samples &&
-         (relation.received[relation.have / 64] >> relation.have % 64 & 1) != 0) {
-    ++relation.have;
-  }
+  const std::uint64_t before = word(comp::X{}, r, k);
+  const std::uint64_t fresh = received & ~before;
+  Stored::assign_word(comp::X{}, r, k, before | fresh);
   if (fresh == 0 || r % stride_ > writer::subscriptions || !ends(r).cross_host) return;
   const auto count = static_cast<std::uint64_t>(std::popcount(fresh));
   run_.useful_deliveries += count;
@@ -159,8 +152,8 @@ void Protocol::open_created(Number w, Number sample) {
   const Number i = w / stride_;
   for (Number pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1); ++pair) {
     const Number reverse = run_.topology.pair(pair).reverse;
-    const Relation& told = relations_[stride_ * reverse + slot_of(other(s))];
-    if (descriptor_of(topic, other(s)) >= told.notified) continue;
+    const Number told = stride_ * reverse + slot_of(other(s));
+    if (!has(rules::Notified{}, told, descriptor_of(topic, other(s)))) continue;
     if (s == Stream::pub) {
       run_rule<comp::Happens<rules::WriterOpens>>(*this, stride_ * pair + topic);
     } else {
@@ -175,8 +168,8 @@ void Protocol::open_notified(Number r, Number sample) {
   const Stream s = stream_of(r % stride_);
   const Number topic = topic_writer(s, sample);
   if (topic == writer::none) return;
-  const Writer& own = writers_[stride_ * ends(r).destination + slot_of(other(s))];
-  if (descriptor_of(topic, other(s)) >= own.exist) return;
+  const Number own = stride_ * ends(r).destination + slot_of(other(s));
+  if (!has(rules::Exists{}, own, descriptor_of(topic, other(s)))) return;
   if (s == Stream::pub) {
     run_rule<comp::Happens<comp::ReaderOpens>>(*this, stride_ * (r / stride_) + topic);
   } else {
@@ -186,14 +179,13 @@ void Protocol::open_notified(Number r, Number sample) {
 
 std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {
   std::vector<MissingDescriptor> list;
-  for (Number pair = 0; pair < pairs_.size(); ++pair) {
+  for (Number pair = 0; pair < run_.topology.pair_count(); ++pair) {
     const Pair& p = run_.topology.pair(pair);
     if (!p.cross_host) continue;
     for (const Stream s : streams) {
-      const Relation& relation = relations_[stride_ * pair + slot_of(s)];
       for (Number d = 0; d < run_.topology.descriptor_count(p.source, s); ++d) {
         if (list.size() == limit) return list;
-        if ((relation.received[d / 64] >> d % 64 & 1) != 0) continue;
+        if (has(comp::X{}, stride_ * pair + slot_of(s), d)) continue;
         list.push_back({ParticipantId{p.source}, ParticipantId{p.destination}, s, DescriptorId{d}});
       }
     }

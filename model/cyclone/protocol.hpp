@@ -5,31 +5,58 @@
 //   packer.cpp    which messages share a packet
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "fsm/composition/cyclone.hpp"
 #include "model/cyclone/endpoints.hpp"
 #include "model/cyclone/packer.hpp"
-#include "model/engine/composition_knobs.hpp"
-#include "model/engine/driver.hpp"
 #include "model/engine/effect_mutator.hpp"
-#include "model/engine/implementation.hpp"
 #include "model/engine/network.hpp"
 #include "model/engine/running_world.hpp"
+#include "model/engine/stored.hpp"
 #include "model/engine/submessage.hpp"
 
 namespace stormproof::model::cyclone {
 
 namespace rules = fsm::composition::cyclone;
 
-class Protocol final : public Implementation {
+/// How many writers a participant has, the deployment says; observers hear of them as endpoints.
+struct Columns : PlainColumns {
+  using PlainColumns::column;
+  // These hold for the first samples of a writer.
+  static way::Prefix column(rules::Exists);
+  static way::Prefix column(rules::Sent);
+  static way::Prefix column(rules::Known);
+  static way::Prefix column(rules::Notified);
+  static way::Bits column(comp::X);
+
+  template <Owner owner>
+  static std::uint32_t rows(const RunState& run) {
+    namespace own = comp::owner;
+    if constexpr (owner == own::writer) {
+      return writers_per_participant(run.topology) * run.topology.participant_count();
+    } else if constexpr (owner == own::relation) {
+      return writers_per_participant(run.topology) * run.topology.pair_count();
+    } else {
+      return PlainColumns::rows<owner>(run);
+    }
+  }
+  static constexpr MachineRef::Kind kind(Owner owner) {
+    if (owner == comp::owner::writer) return MachineRef::Kind::endpoint_writer;
+    if (owner == comp::owner::relation) return MachineRef::Kind::endpoint_relation;
+    return PlainColumns::kind(owner);
+  }
+};
+
+class Protocol final : public Stored<Protocol, HostBase, ThingsOf<rules::Cyclone>, Columns,
+                                     fsm::TypeList<rules::WriterOpen>> {
   using Number = std::uint32_t;
 
  public:
@@ -71,74 +98,25 @@ class Protocol final : public Implementation {
     return run_.scenario.deployment.time_to_send().count();
   }
 
-  // Machines.
-  auto& driver(rules::Judge) { return judge_driver_; }
-  auto& driver(rules::Peer) { return peer_driver_; }
-  auto& driver(rules::Pacer) { return pacer_driver_; }
-  auto& driver(rules::Thread) { return thread_driver_; }
-  auto& driver(rules::AckTimer) { return relation_timers_; }
-  auto& driver(rules::HeartbeatTimer) { return writer_timers_; }
-  auto& driver(rules::SpdpTimer) { return participant_timers_; }
-  auto& driver(rules::ReplyTimer) { return pair_timers_; }
-  auto& state(rules::Judge, Number r) { return relations_[r].judge; }
-  auto& state(rules::Peer, Number r) { return relations_[r].peer; }
-  auto& state(rules::Pacer, Number w) { return writers_[w].pacer; }
-  auto& state(rules::Thread, Number i) { return participants_[i].thread; }
-  auto& state(rules::AckTimer, Number r) { return relations_[r].timer; }
-  auto& state(rules::HeartbeatTimer, Number w) { return writers_[w].timer; }
-  auto& state(rules::SpdpTimer, Number i) { return participants_[i].timer; }
-  auto& state(rules::ReplyTimer, Number p) { return pairs_[p].timer; }
-
-  // Flags and numbers: each is a member of what it belongs to.
-  template <class Tag>
-  [[nodiscard]] auto value(Tag tag, Number n) const {
-    return const_cast<Protocol&>(*this).place_of(tag, n);
+  // What is kept, and is more than a value.
+  void changed(rules::WriterOpen, Number r, bool matched) {
+    if (matched) match(r);
   }
-  template <class Tag, class Value>
-  void assign(Tag tag, Number n, Value to) {
-    place_of(tag, n) = to;
-  }
-  [[nodiscard]] bool value(rules::WriterOpen, Number r) const { return relations_[r].matched; }
-  void assign(rules::WriterOpen, Number r, bool matched) {
-    if (!std::exchange(relations_[r].matched, matched)) match(r);
-  }
-
-  // Those of descriptors hold for the first ones of a stream, except X.
-  [[nodiscard]] std::uint64_t word(rules::Exists, Number w, Number k) const {
-    return bits_below(writers_[w].exist, k);
-  }
-  [[nodiscard]] std::uint64_t word(rules::Sent, Number r, Number k) const {
-    return bits_below(writers_[r].sent, k);
-  }
-  [[nodiscard]] std::uint64_t word(rules::Known, Number r, Number k) const {
-    return bits_below(relations_[r].known, k);
-  }
-  [[nodiscard]] std::uint64_t word(rules::Notified, Number r, Number k) const {
-    return bits_below(relations_[r].notified, k);
-  }
-  [[nodiscard]] std::uint64_t word(comp::X, Number r, Number k) const {
-    return relations_[r].received[k];
-  }
-  void assign(rules::Exists, Number w, Number d, bool) { writers_[w].exist = d + 1; }
-  void assign(rules::Sent, Number w, Number d, bool) { writers_[w].sent = d + 1; }
-  void assign(rules::Notified, Number r, Number d, bool) { relations_[r].notified = d + 1; }
-  void assign_word(rules::Known, Number r, Number k, std::uint64_t known) {
-    if (known == 0) return;
-    relations_[r].known = 64 * k + 64 - static_cast<Number>(std::countl_zero(known));
-  }
+  using Stored::assign_word;
   void assign_word(comp::X, Number r, Number k, std::uint64_t received) { take(r, k, received); }
 
   // Facts that are kept up to date.
   template <class World>
   [[nodiscard]] Number fact(rules::History, const World& w) const {
-    return writers_[w.template number<comp::owner::writer>()].exist;
+    return first<rules::Exists>(w.template number<comp::owner::writer>());
   }
   template <class World>
   [[nodiscard]] Number fact(rules::FirstMissing, const World& w) const {
-    return relations_[w.template number<comp::owner::relation>()].have + 1;
+    return first<comp::X>(w.template number<comp::owner::relation>()) + 1;
   }
 
   // What submessages say.
+  using Stored::word;
   [[nodiscard]] bool said(comp::IsInitial, const Submessage& m) const { return m.initial; }
   [[nodiscard]] bool said(rules::IsDirected, const Submessage& m) const { return m.directed; }
   [[nodiscard]] std::int64_t said(rules::Count, const Submessage& m) const { return m.count; }
@@ -188,16 +166,6 @@ class Protocol final : public Implementation {
     return participants_[w.template number<comp::owner::participant>()].kept.has_value();
   }
 
-  // Timers.
-  template <class Timer>
-  void schedule(Timer, Number owner, std::int64_t time) {
-    run_.schedule(Nanoseconds{time}, event_kind_of<Timer>, owner);
-  }
-  template <class Timer>
-  [[nodiscard]] bool is_due(Timer, const Event&) const {
-    return true;
-  }
-  void cancel(auto, Number) {}
   [[nodiscard]] const std::vector<Number>& readers(Number w) const { return writers_[w].readers; }
 
   // Packets: messages for the thread.
@@ -285,53 +253,10 @@ class Protocol final : public Implementation {
   }
 
  private:
-  struct Relation {
-    // Writer side.
-    fsm::StateId peer = fsm::Stepper<fsm::MatchedReader>::initial;
-    bool matched = false;
-    bool accepted = false;
-    bool refused = false;
-    std::int64_t acked = 0;
-    std::int64_t last_ack_count = 0;
-    std::int64_t ack_counts_until = 0;
-    std::vector<std::uint64_t> delivered;  ///< samples that have been sent to it by unicast
-    // Reader side.
-    fsm::StateId judge = fsm::Stepper<fsm::CautiousReader>::initial;
-    fsm::StateId timer = fsm::Stepper<fsm::MovableTimer>::initial;
-    bool by_delay = false;
-    Number known = 0;     ///< the first samples, which the reader knows to exist
-    Number have = 0;      ///< the first samples, which it has without a gap
-    Number notified = 0;  ///< those of them that the application knows
-    std::int64_t due = 0;
-    std::int64_t asked_end = 0;
-    std::int64_t last_base = 0;
-    std::int64_t last_heartbeat_count = 0;
-    std::int64_t heartbeat_counts_until = 0;
-    std::int64_t quiet_until = 0;
-    std::int64_t hush_until = 0;
-    std::int64_t again_at = 0;
-    std::int64_t ack_count = 0;
-    std::vector<std::uint64_t> received;
-  };
   struct Writer {
-    fsm::StateId pacer = fsm::Stepper<fsm::HeartbeatPacer>::initial;
-    fsm::StateId timer = fsm::Stepper<fsm::MovableTimer>::initial;
-    bool heartbeat_sent = false;
-    Number exist = 0;
-    Number sent = 0;
-    std::int64_t due = 0;
-    std::int64_t heartbeat_count = 0;
-    std::int64_t heartbeats_since = 0;
-    std::int64_t last_heartbeat = 0;
     std::vector<Number> readers;           ///< relations, ascending
     std::uint64_t version = 0;             ///< how many matches there have been
     std::vector<std::uint64_t> delivered;  ///< samples that have been sent to the group
-  };
-  struct PairState {
-    fsm::StateId timer = fsm::Stepper<fsm::MovableTimer>::initial;
-    bool recognised = false;
-    std::int64_t due = 0;
-    std::int64_t replies = 0;
   };
   enum class TimerKind : std::uint8_t { acknack, heartbeat, announcement, reply };
   struct DueTimer {
@@ -345,9 +270,6 @@ class Protocol final : public Implementation {
   struct Participant {
     explicit Participant(const SedpProfile& sedp) : packer{sedp} {}
 
-    fsm::StateId thread = fsm::Stepper<fsm::EventThread>::initial;
-    fsm::StateId timer = fsm::Stepper<fsm::MovableTimer>::initial;
-    std::int64_t due = 0;
     std::deque<DueTimer> list;
     std::deque<Message> given;  ///< what the timer that fires gives
     std::deque<Message> queue;
@@ -359,33 +281,6 @@ class Protocol final : public Implementation {
     std::int64_t bytes = 0;
     std::optional<KeptAnswer> kept;
   };
-
-  auto& place_of(comp::Recognised, Number p) { return pairs_[p].recognised; }
-  auto& place_of(rules::AckDue, Number r) { return relations_[r].due; }
-  auto& place_of(rules::HeartbeatDue, Number w) { return writers_[w].due; }
-  auto& place_of(rules::SpdpDue, Number i) { return participants_[i].due; }
-  auto& place_of(rules::ReplyDue, Number p) { return pairs_[p].due; }
-  auto& place_of(rules::HeartbeatCount, Number w) { return writers_[w].heartbeat_count; }
-  auto& place_of(rules::HeartbeatsSince, Number w) { return writers_[w].heartbeats_since; }
-  auto& place_of(rules::LastHeartbeat, Number w) { return writers_[w].last_heartbeat; }
-  auto& place_of(rules::HeartbeatSent, Number w) { return writers_[w].heartbeat_sent; }
-  auto& place_of(rules::Acked, Number r) { return relations_[r].acked; }
-  auto& place_of(rules::LastAckCount, Number r) { return relations_[r].last_ack_count; }
-  auto& place_of(rules::AckCountsUntil, Number r) { return relations_[r].ack_counts_until; }
-  auto& place_of(rules::SomeAccepted, Number r) { return relations_[r].accepted; }
-  auto& place_of(rules::SomeRefused, Number r) { return relations_[r].refused; }
-  auto& place_of(rules::ByDelay, Number r) { return relations_[r].by_delay; }
-  auto& place_of(rules::AskedEnd, Number r) { return relations_[r].asked_end; }
-  auto& place_of(rules::LastBase, Number r) { return relations_[r].last_base; }
-  auto& place_of(rules::LastHeartbeatCount, Number r) { return relations_[r].last_heartbeat_count; }
-  auto& place_of(rules::HeartbeatCountsUntil, Number r) {
-    return relations_[r].heartbeat_counts_until;
-  }
-  auto& place_of(rules::QuietUntil, Number r) { return relations_[r].quiet_until; }
-  auto& place_of(rules::HushUntil, Number r) { return relations_[r].hush_until; }
-  auto& place_of(rules::AgainAt, Number r) { return relations_[r].again_at; }
-  auto& place_of(rules::NextAckCount, Number r) { return relations_[r].ack_count; }
-  auto& place_of(rules::RepliesSent, Number p) { return pairs_[p].replies; }
 
   // protocol.cpp
   void match(Number relation);
@@ -432,7 +327,6 @@ class Protocol final : public Implementation {
     return set.empty() ? 0 : set.highest() + 1;
   }
 
-  RunState& run_;
   Network& network_;
   const SedpProfile& sedp_;
   const bool multicast_;
@@ -440,19 +334,9 @@ class Protocol final : public Implementation {
   EffectMutator mutator_{run_.mutation, run_.probe};
   const bool watched_ = mutator_.is_needed();
   std::vector<Participant> participants_;
-  std::vector<PairState> pairs_;
-  std::vector<Writer> writers_;      // stride · participant + writer
-  std::vector<Relation> relations_;  // stride · pair + writer
-
-  Driver<fsm::CautiousReader> judge_driver_{run_, MachineRef::Kind::endpoint_relation};
-  Driver<fsm::MatchedReader> peer_driver_{run_, MachineRef::Kind::endpoint_relation};
-  Driver<fsm::HeartbeatPacer> pacer_driver_{run_, MachineRef::Kind::endpoint_writer};
-  Driver<fsm::EventThread> thread_driver_{run_, MachineRef::Kind::participant};
-  using Timers = Driver<fsm::MovableTimer>;
-  Timers relation_timers_{run_, MachineRef::Kind::endpoint_relation};
-  Timers writer_timers_{run_, MachineRef::Kind::endpoint_writer};
-  Timers participant_timers_{run_, MachineRef::Kind::participant};
-  Timers pair_timers_{run_, MachineRef::Kind::pair};
+  std::vector<Writer> writers_;                        // stride · participant + writer
+  std::vector<std::vector<std::uint64_t>> delivered_;  // by relation, stride · pair + writer:
+                                                       // samples that have been sent by unicast
 };
 
 }  // namespace stormproof::model::cyclone

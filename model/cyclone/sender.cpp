@@ -82,7 +82,7 @@ void Protocol::begin_to_send(Number i) {
   Bundle bundle = p.packer.take_open();
   for (const Submessage& m : bundle.contents) {
     if (m.kind != Submessage::Kind::data) continue;
-    Number& sent = writers_[stride_ * m.participant + m.writer].sent;
+    Number& sent = at<rules::Sent>(stride_ * m.participant + m.writer);
     sent = std::max(sent, m.sample + 1);
   }
   p.left.assign(bundle.to.addresses.begin(), bundle.to.addresses.end());
@@ -157,7 +157,7 @@ TrafficClass Protocol::count(const Submessage& m, Number pair, bool to_group) {
     return count_control(m, counts, later ? control_of_no_interest : run_.user_control);
   }
   auto& delivered = to_group ? writers_[stride_ * m.participant + m.writer].delivered
-                             : relations_[stride_ * pair + m.writer].delivered;
+                             : delivered_[stride_ * pair + m.writer];
   const bool again = mark(delivered, m.sample);
   ++(again ? counts.repair_data : counts.initial_data);
   return again ? TrafficClass::repair_data : TrafficClass::initial_data;
@@ -202,8 +202,8 @@ Message Protocol::heartbeat(Number w, bool directed) const {
   Submessage content;
   content.kind = Submessage::Kind::heartbeat;
   content.directed = directed;
-  content.sample = writers_[w].exist;
-  content.count = writers_[w].heartbeat_count;
+  content.sample = first<rules::Exists>(w);
+  content.count = at<rules::HeartbeatCount>(w);
   return message(std::move(content), w / stride_, w % stride_, heartbeat_bytes);
 }
 
@@ -233,8 +233,7 @@ void Protocol::let_answer_go(Number i) {
 
 /// The bitmap ends at the last sample that is known to exist.
 void Protocol::acknowledge(Number r, Submessage&& acknack) {
-  const Relation& relation = relations_[r];
-  const Number bits = acknack.bitmap.empty() ? 0 : relation.known - acknack.sample;
+  const Number bits = acknack.bitmap.empty() ? 0 : first<rules::Known>(r) - acknack.sample;
   const Number words = (bits + bits_per_word - 1) / bits_per_word;
   Message m = message(std::move(acknack), ends(r).source, r % stride_,
                       acknack_bytes + bitmap_word_bytes * words);
@@ -300,7 +299,7 @@ void Protocol::announce(Number i) {
   for (Number pair = run_.topology.first_pair(i);
        pair < run_.topology.first_pair(i + 1) && !multicast_; ++pair) {
     const Pair& ends = run_.topology.pair(pair);
-    if (pairs_[ends.reverse].recognised) m.to.addresses.push_back(ends.destination);
+    if (at<comp::Recognised>(ends.reverse)) m.to.addresses.push_back(ends.destination);
   }
   enqueue(i, std::move(m));
 }

@@ -1,5 +1,5 @@
-// What the knobs of a composition (fsm/composition) are in a profile, and what its timers are in
-// the event queue. Every world that runs scenarios reads them here.
+// What the knobs of a composition (fsm/composition) are in a profile. Every world that runs
+// scenarios reads them here.
 #pragma once
 
 #include "fsm/composition/amended_parts.hpp"
@@ -8,7 +8,6 @@
 #include "fsm/composition/paper.hpp"
 #include "fsm/composition/server.hpp"
 #include "model/dds_profile.hpp"
-#include "model/event.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::model {
@@ -272,86 +271,5 @@ template <class Knob>
 [[nodiscard]] auto knob_value(Knob knob, const DdsProfile& dds) {
   return knobs_of_composition::value(knob, dds);
 }
-
-/// The kind of the events that a timer is.
-template <class Timer>
-inline constexpr EventKind event_kind_of = EventKind::dispatch;
-template <>
-inline constexpr EventKind event_kind_of<comp::Announcement> = EventKind::announcement_due;
-template <>
-inline constexpr EventKind event_kind_of<comp::AckNackGeneration> = EventKind::acknack_generation;
-template <>
-inline constexpr EventKind event_kind_of<comp::InitialAttempt> = EventKind::initial_acknack_due;
-template <>
-inline constexpr EventKind event_kind_of<comp::HeartbeatExpiry> = EventKind::heartbeat_expiry;
-template <>
-inline constexpr EventKind event_kind_of<comp::CycleStart> = EventKind::cycle_start;
-template <>
-inline constexpr EventKind event_kind_of<comp::CycleEnd> = EventKind::cycle_end;
-template <>
-inline constexpr EventKind event_kind_of<comp::BatchDue> = EventKind::batch_due;
-template <>
-inline constexpr EventKind event_kind_of<comp::paper::RepairGeneration> =
-    EventKind::repair_generation;
-template <>
-inline constexpr EventKind event_kind_of<comp::paper::SuppressionEnd> = EventKind::suppression_end;
-template <>
-inline constexpr EventKind event_kind_of<comp::fastdds::SuppressionEnd> =
-    EventKind::suppression_end;
-template <>
-inline constexpr EventKind event_kind_of<comp::fastdds::NackResponseDue> = EventKind::nack_response;
-template <>
-inline constexpr EventKind event_kind_of<comp::fastdds::AsyncRunDue> = EventKind::async_run;
-template <>
-inline constexpr EventKind event_kind_of<comp::control::ControlInitialAttempt> =
-    EventKind::control_initial_due;
-template <>
-inline constexpr EventKind event_kind_of<comp::control::ControlReplyDue> =
-    EventKind::control_reply_due;
-
-template <>
-inline constexpr EventKind event_kind_of<comp::cyclone::AckTime> = EventKind::ack_time;
-template <>
-inline constexpr EventKind event_kind_of<comp::cyclone::HeartbeatTime> = EventKind::heartbeat_time;
-template <>
-inline constexpr EventKind event_kind_of<comp::cyclone::SpdpTime> = EventKind::spdp_time;
-template <>
-inline constexpr EventKind event_kind_of<comp::cyclone::ReplyTime> = EventKind::reply_time;
-template <>
-inline constexpr EventKind event_kind_of<comp::cyclone::ThreadRun> = EventKind::thread_run;
-
-template <>
-inline constexpr EventKind event_kind_of<comp::server::ClientAnnouncement> =
-    EventKind::client_announcement;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::ClientSync> = EventKind::client_sync;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::RegistrationExpiryDue> =
-    EventKind::registration_expiry;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::RegistrationReplyDue> =
-    EventKind::registration_reply;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::RegistrationAttempt> =
-    EventKind::registration_initial;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::LearnerReplyDue> = EventKind::learner_reply;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::LearnerAttempt> = EventKind::learner_initial;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::RelayExpiryDue> = EventKind::relay_expiry;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::RelayResponseDue> =
-    EventKind::relay_response;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::RelaySuppressionEnd> =
-    EventKind::relay_suppression_end;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::RoutineDue> = EventKind::server_routine;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::RoutineAgain> =
-    EventKind::server_routine_again;
-template <>
-inline constexpr EventKind event_kind_of<comp::server::SendingDue> = EventKind::server_sending;
 
 }  // namespace stormproof::model

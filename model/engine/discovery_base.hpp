@@ -5,22 +5,18 @@
 // filled and what a writer keeps of its readers is the implementation's own business.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 #include "fsm/composition/announcements.hpp"
 #include "fsm/composition/heartbeat_clock.hpp"
 #include "fsm/composition/reader.hpp"
 #include "model/engine/composition_knobs.hpp"
-#include "model/engine/driver.hpp"
 #include "model/engine/effect_mutator.hpp"
-#include "model/engine/implementation.hpp"
 #include "model/engine/network.hpp"
 #include "model/engine/relation_bits.hpp"
 #include "model/engine/running_world.hpp"
-#include "model/engine/store.hpp"
+#include "model/engine/stored.hpp"
 
 namespace stormproof::model {
 
@@ -42,7 +38,8 @@ struct SharedColumns : PlainColumns {
   static way::Capped column(comp::LastDelay);
 };
 
-class DiscoveryBase : public Stored<DiscoveryBase, HostBase, SharedThings, SharedColumns> {
+class DiscoveryBase : public Stored<DiscoveryBase, HostBase, SharedThings, SharedColumns,
+                                    fsm::TypeList<comp::Contacted, comp::Responded>> {
  public:
   using Packet = model::Packet;
 

@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
-#include <tuple>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "fsm/composition/life.hpp"
@@ -17,31 +14,29 @@
 
 namespace stormproof::model {
 
-template <>
-inline constexpr EventKind event_kind_of<comp::LeaseCheck> = EventKind::lease_check;
-template <>
-inline constexpr EventKind event_kind_of<comp::Return> = EventKind::participant_start;
-
-/// Flags and numbers that rules with a life remember, and timers of a participant or a side that
-/// may be a new one.
+/// What rules with a life have besides, whatever they are the rules of.
+using LivingThings =
+    fsm::TypeList<comp::ForgottenAt, comp::LeaseRuns, comp::LeaseCheck, comp::Return>;
+/// What is due for a participant or a side that may be a new one can be cancelled.
 template <class Columns>
 struct LivingColumns : Columns {
   using Columns::column;
   template <class T>
-  static constexpr auto column(T) {
-    return std::conditional_t < requires { T::counted; }
-    , way::Insertions, way::Cell > {};
+  static constexpr auto column(T tag) {
+    if constexpr (IsTimer<T>) {
+      return way::Insertions{};
+    } else {
+      return decltype(Columns::column(tag)){};
+    }
   }
 };
 
-/// `Cancellable` are these timers; what the rules remember is `Composition::Memory`.
+/// `Cancellable` are such timers.
 template <class Base, class Composition_, class Cancellable>
 class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Base,
-                                 comp::Joined<typename Composition_::Memory, Cancellable>,
+                                 comp::Joined<LivingThings, Cancellable>,
                                  LivingColumns<typename Base::OwnColumns>> {
-  using Below = Stored<LivingHost<Base, Composition_, Cancellable>, Base,
-                       comp::Joined<typename Composition_::Memory, Cancellable>,
-                       LivingColumns<typename Base::OwnColumns>>;
+  using Below = typename LivingHost::Stored;
 
  public:
   using Composition = Composition_;

@@ -16,6 +16,7 @@
 //                                        meet different inputs come first; moved(part, …) tells
 //                                        of each class that has taken a step
 //   schedule(timer, n, time), pending(timer, n), cancel(timer, n)
+//   is_due(timer, event), owner_of(timer, event)     if its timers are events of a queue
 //   emit(packet, world, sayings)         sends it
 //   perform(step, world, …)              an opaque step
 //   watcher()                            who watches the effects, or nobody
@@ -24,8 +25,10 @@
 //                                        stream: how they are numbered, how much each has
 //   for_queue(i, visit)                  visit(writer, descriptor) until the queue is empty
 //
-// The simulator's hosts are model/paper and model/fastdds, the explorer's is
-// checker/engines/explorer/rule_host.hpp.
+// What follows of this from what a composition declares, a host has from its store: `Kept`
+// (model/engine/kept.hpp) and, in the simulator, `Stored` (model/engine/stored.hpp). The
+// simulator's hosts are in model/paper, model/fastdds and model/cyclone, the explorer's in
+// checker/engines/explorer, those of a captured relation in checker/evidence/conform.
 #pragma once
 
 #include <algorithm>
@@ -33,6 +36,7 @@
 #include <bit>
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -45,6 +49,7 @@
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/descriptor_set.hpp"
 #include "model/engine/lanes.hpp"
+#include "model/engine/timer_kinds.hpp"
 #include "model/engine/topology.hpp"
 #include "model/engine/writer_layout.hpp"
 
@@ -121,6 +126,16 @@ class DescriptorLanes {
   World& world_;
   std::uint32_t k_;
 };
+
+/// Constant where writers are those of the two streams.
+template <class Host>
+[[nodiscard]] constexpr WriterLayout layout_of(const Host& host) {
+  if constexpr (requires { host.writer_layout(); }) {
+    return host.writer_layout();
+  } else {
+    return {};
+  }
+}
 
 template <class Host_, Owner place_>
 class RunningWorld {
@@ -412,14 +427,7 @@ class RunningWorld {
   static constexpr bool has_descriptor() {
     return (Tag::owner.indices & comp::owner::descriptor_index) != 0;
   }
-  /// Constant where writers are those of the two streams.
-  [[nodiscard]] constexpr WriterLayout layout() const {
-    if constexpr (requires { host_.writer_layout(); }) {
-      return host_.writer_layout();
-    } else {
-      return {};
-    }
-  }
+  [[nodiscard]] constexpr WriterLayout layout() const { return layout_of(host_); }
   [[nodiscard, gnu::always_inline]] std::uint32_t descriptor_count() const {
     const std::uint32_t writer = number<comp::owner::writer>();
     if constexpr (requires { host_.samples_of(writer); }) {
@@ -497,14 +505,37 @@ bool run_due(Host& host, const Event& event) {
   comp::for_each_type(typename Host::Composition::Timers{}, [&]<class T>() {
     if (event.kind != event_kind_of<T>) return;
     is_timer = true;
-    if (!host.is_due(T{}, event)) return;
-    if constexpr (requires { host.owner_of(T{}, event); }) {
-      run_rule<comp::Due<T>>(host, host.owner_of(T{}, event));
-    } else {
-      run_rule<comp::Due<T>>(host, event.subject);
-    }
+    if (host.is_due(T{}, event)) run_rule<comp::Due<T>>(host, host.owner_of(T{}, event));
   });
   return is_timer;
+}
+
+/// The participant that has the timer of number n: which one follows from the timer's owner.
+template <class T, class Host>
+std::uint32_t actor_of(const Host& host, std::uint32_t n) {
+  namespace own = comp::owner;
+  const std::uint32_t stride = layout_of(host).stride;
+  if constexpr (T::owner == own::participant) {
+    return n;
+  } else if constexpr (T::owner == own::writer) {
+    return n / stride;
+  } else {
+    std::uint32_t pair = n;
+    if constexpr (T::owner == own::relation) pair = n / stride;
+    if constexpr (T::owner == own::control_relation) pair = host.pair_of_control(n);
+    const Pair& ends = host.topology().pair(pair);
+    constexpr bool at_destination = requires { typename T::AtDestination; };
+    return at_destination ? ends.destination : ends.source;
+  }
+}
+/// The participant that acts in the event, if this is a timer.
+template <class Host>
+std::optional<std::uint32_t> actor_of_timer(const Host& host, const Event& event) {
+  std::optional<std::uint32_t> actor;
+  comp::for_each_type(typename Host::Composition::Timers{}, [&]<class T>() {
+    if (event.kind == event_kind_of<T>) actor = actor_of<T>(host, host.owner_of(T{}, event));
+  });
+  return actor;
 }
 
 }  // namespace stormproof::model

@@ -121,9 +121,8 @@ void LivingProtocol::lose_all(std::uint32_t i) {
 }
 
 std::optional<std::uint32_t> LivingProtocol::sender_of(const Event& event) const {
-  if (event.kind == EventKind::participant_start) return event.subject;
-  if (event.kind == EventKind::lease_check) return topology().pair(event.subject).destination;
-  return Protocol::sender_of(event);
+  const std::optional<std::uint32_t> actor = actor_of_timer(*this, event);
+  return actor ? actor : Protocol::sender_of(event);
 }
 
 void LivingProtocol::handle(const Event& event) {

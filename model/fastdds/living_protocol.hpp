@@ -15,10 +15,10 @@ namespace stormproof::model::fastdds {
 struct Creations : comp::Timer<comp::owner::participant> {};
 
 namespace detail {
-using Cancellable = fsm::TypeList<comp::Announcement, comp::AckNackGeneration, comp::InitialAttempt,
-                                  rules::SuppressionEnd, rules::NackResponseDue, rules::AsyncRunDue,
-                                  control::ControlInitialAttempt, control::ControlReplyDue,
-                                  Creations, comp::LeaseCheck>;
+using Cancellable =
+    fsm::TypeList<comp::Announcement, comp::AckNackGeneration, comp::InitialAttempt,
+                  rules::SuppressionEnd, rules::NackResponseDue, rules::AsyncRunDue,
+                  control::ControlInitialAttempt, control::ControlReplyDue, Creations>;
 }  // namespace detail
 
 class LivingProtocol final

@@ -21,28 +21,8 @@ Protocol::Protocol(RunState& run, Network& network)
 }
 
 std::optional<std::uint32_t> Protocol::sender_of(const Event& event) const {
-  switch (event.kind) {
-    case EventKind::announcement_due:
-    case EventKind::endpoint_creation:
-    case EventKind::async_run:
-      return event.subject;
-    case EventKind::heartbeat_expiry:
-    case EventKind::nack_response:
-    case EventKind::cycle_start:
-    case EventKind::cycle_end:
-    case EventKind::batch_due:
-      return event.subject / 2;
-    case EventKind::suppression_end:
-      return ends(event.subject).source;
-    case EventKind::acknack_generation:
-    case EventKind::initial_acknack_due:
-      return ends(event.subject).destination;
-    case EventKind::control_initial_due:
-    case EventKind::control_reply_due:
-      return run_.topology.pair(control_.pair_of(event.subject)).destination;
-    default:
-      return {};
-  }
+  if (event.kind == EventKind::endpoint_creation) return event.subject;
+  return actor_of_timer(*this, event);
 }
 
 void Protocol::count(const Packet& packet) {

@@ -36,14 +36,19 @@ struct Columns : PlainColumns {
   static way::Capped column(control::ControlLastDelay);
   static way::Narrow column(Rank);
 
-  static std::uint32_t rows(Owner owner, const RunState& run) {
-    if (owner == comp::owner::control_relation) return ControlRelations{run}.count();
-    return PlainColumns::rows(owner, run);
+  template <Owner owner>
+  static std::uint32_t rows(const RunState& run) {
+    if constexpr (owner == comp::owner::control_relation) {
+      return ControlRelations{run}.count();
+    } else {
+      return PlainColumns::rows<owner>(run);
+    }
   }
 };
-using Things = comp::Joined<Without<ThingsOf<rules::FastDds>, SharedThings>, fsm::TypeList<Rank>>;
+using Things = comp::Joined<ThingsBeside<rules::FastDds, DiscoveryBase>, fsm::TypeList<Rank>>;
 
-class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns> {
+class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
+                               fsm::TypeList<rules::WriterOpen, comp::X>> {
  public:
   using Composition = rules::FastDds;
 
@@ -66,6 +71,9 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns> {
   /// Of an ACKNACK: what is below its base, then what is listed.
   static constexpr auto lane_order(rules::C) { return std::array{false, true}; }
 
+  [[nodiscard]] std::uint32_t pair_of_control(std::uint32_t relation) const {
+    return control_.pair_of(relation);
+  }
   using DiscoveryBase::answer;
   using DiscoveryBase::emit;
   using DiscoveryBase::fact;

@@ -37,25 +37,8 @@ void ServerProtocol::handle(const Event& event) {
 }
 
 std::optional<std::uint32_t> ServerProtocol::sender_of(const Event& event) const {
-  switch (event.kind) {
-    case EventKind::client_announcement:
-    case EventKind::client_sync:
-    case EventKind::registration_expiry:
-    case EventKind::learner_reply:
-    case EventKind::learner_initial:
-      return client_of(event.subject);
-    case EventKind::registration_reply:
-    case EventKind::registration_initial:
-    case EventKind::relay_expiry:
-    case EventKind::relay_response:
-    case EventKind::relay_suppression_end:
-    case EventKind::server_routine:
-    case EventKind::server_routine_again:
-    case EventKind::server_sending:
-      return server_id();
-    default:
-      return Protocol::sender_of(event);
-  }
+  const std::optional<std::uint32_t> actor = actor_of_timer(*this, event);
+  return actor ? actor : Protocol::sender_of(event);
 }
 
 void ServerProtocol::count(const Packet& packet) {

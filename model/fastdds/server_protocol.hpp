@@ -34,7 +34,8 @@ struct ServerColumns : PlainColumns {
   static constexpr bool is_relayed(Owner owner) {
     return (owner.indices & comp::owner::stream_index) != 0;
   }
-  static std::uint32_t rows(Owner owner, const RunState& run) {
+  template <Owner owner>
+  static std::uint32_t rows(const RunState& run) {
     const std::uint32_t relays = is_relayed(owner) ? relay::count : 1;
     const bool by_client = (owner.indices & comp::owner::peer_index) != 0;
     return relays * (by_client ? run.scenario.deployment.size() : 1);
@@ -63,9 +64,10 @@ struct ServerColumns : PlainColumns {
     return p.source == run.scenario.deployment.size() ? p.destination : p.source;
   }
 };
-using ServerThings = Without<ThingsOf<server::FastDdsServer>, comp::Joined<SharedThings, Things>>;
+using ServerThings = ThingsBeside<server::FastDdsServer, Protocol>;
 
-class ServerProtocol final : public Stored<ServerProtocol, Protocol, ServerThings, ServerColumns> {
+class ServerProtocol final : public Stored<ServerProtocol, Protocol, ServerThings, ServerColumns,
+                                           fsm::TypeList<server::RelayOpen>> {
   using Number = std::uint32_t;
 
  public:

@@ -2,26 +2,26 @@
 #include "model/paper/amended_protocol.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace stormproof::model::paper {
 
 namespace reader = fsm::discovery_reader;
 
 AmendedProtocol::AmendedProtocol(RunState& run, Network& network)
-    : LivingHost{run, network},
+    : Stored{run, network},
       amendments_{run.scenario.dds.amendments.value()},
-      resent_(run.topology.relation_count()),
-      retries_(run.topology.relation_count()),
       accounts_(run.topology.participant_count()),
       answered_(2 * std::size_t{run.topology.participant_count()}) {
   forgets_ = forgets(life_);
   for (std::uint32_t w = 0; w < writers_.size(); ++w) {
     const std::uint32_t all = run.topology.descriptor_count(w / 2, stream_of(w));
     const std::uint32_t at_start = all - late_descriptors(life_, w / 2, stream_of(w));
-    written_.push_back({at_start, at_start});
+    at_start_.push_back(at_start);
+    set_first<amended::Exists>(w, at_start);
   }
   for (std::uint32_t relation = 0; relation < run.topology.relation_count(); ++relation) {
-    known_.push_back(written_[writer_of(relation)].at_start);
+    set_first<amended::Known>(relation, at_start_[writer_of(relation)]);
   }
 }
 
@@ -76,7 +76,7 @@ void AmendedProtocol::write(const LateEndpoints& endpoints) {
     const std::uint32_t w = 2 * endpoints.participant + static_cast<std::uint32_t>(s);
     const std::uint32_t count = s == Stream::pub ? endpoints.publications : endpoints.subscriptions;
     for (std::uint32_t k = 0; k < count; ++k) {
-      run_rule<comp::Happens<amended::Written>>(*this, w, nullptr, written_[w].now);
+      run_rule<comp::Happens<amended::Written>>(*this, w, nullptr, first<amended::Exists>(w));
     }
   }
 }
@@ -103,31 +103,11 @@ void AmendedProtocol::lose_all(std::uint32_t i) {
   LivingHost::lose_all<amended::Life>(*this, i, of_participant, of_writer);
 }
 
-/// Readers act in their relations at the destination, writers at the source.
-std::uint32_t AmendedProtocol::actor_of(const Event& event) const {
-  switch (event.kind) {
-    case EventKind::announcement_due:
-    case EventKind::participant_start:
-    case EventKind::endpoint_creation:
-      return event.subject;
-    case EventKind::acknack_generation:
-    case EventKind::initial_acknack_due:
-      return ends(event.subject).destination;
-    case EventKind::repair_generation:
-    case EventKind::suppression_end:
-      return ends(event.subject).source;
-    case EventKind::reply_time:
-      return topology().pair(event.subject).source;
-    case EventKind::lease_check:
-      return topology().pair(event.subject).destination;
-    default:
-      return event.subject / 2;  // of a writer
-  }
-}
-
 void AmendedProtocol::handle(const Event& event) {
-  if (is_away(life_, actor_of(event), run_.now)) return;
-  if (event.kind == EventKind::endpoint_creation) return write(life_.endpoints[event.detail]);
+  const bool changes_endpoints = event.kind == EventKind::endpoint_creation;
+  const auto actor = changes_endpoints ? event.subject : actor_of_timer(*this, event);
+  if (actor && is_away(life_, *actor, run_.now)) return;
+  if (changes_endpoints) return write(life_.endpoints[event.detail]);
   run_due(*this, event);
 }
 

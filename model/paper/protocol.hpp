@@ -25,10 +25,10 @@ namespace rules = fsm::composition::paper;
 inline constexpr std::uint32_t no_rank = UINT32_MAX;
 
 /// The writer's view of a descriptor, and X beside it, are those of `ProtocolOf`.
-using Things =
-    Without<ThingsOf<rules::Paper>, comp::Joined<SharedThings, fsm::TypeList<rules::C, comp::X>>>;
+using Things = Without<ThingsBeside<rules::Paper, DiscoveryBase>, fsm::TypeList<rules::C, comp::X>>;
 
-class ProtocolBase : public Stored<ProtocolBase, DiscoveryBase, Things> {
+class ProtocolBase : public Stored<ProtocolBase, DiscoveryBase, Things, PlainColumns,
+                                   fsm::TypeList<comp::Recognised, rules::WriterOpen>> {
  public:
   ProtocolBase(RunState& run, Network& network);
 

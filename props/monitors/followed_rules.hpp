@@ -16,6 +16,7 @@
 #include "fsm/adaptive_period.hpp"
 #include "fsm/stepper.hpp"
 #include "model/engine/composition_knobs.hpp"
+#include "model/engine/timer_kinds.hpp"
 #include "model/engine/writer_layout.hpp"
 #include "model/life.hpp"
 #include "props/monitors/followed_world.hpp"

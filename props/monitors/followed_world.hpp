@@ -17,7 +17,7 @@
 #include <boost/container/small_vector.hpp>
 #include <boost/pfr.hpp>
 
-#include "model/engine/composition_knobs.hpp"
+#include "model/engine/timer_kinds.hpp"
 #include "model/engine/writer_layout.hpp"
 #include "props/monitors/deeds.hpp"
 

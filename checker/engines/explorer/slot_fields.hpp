@@ -9,8 +9,8 @@
 
 #include "checker/engines/explorer/slot.hpp"
 #include "fsm/composition/packets.hpp"
-#include "model/engine/composition_knobs.hpp"
 #include "model/engine/descriptor_set.hpp"
+#include "model/engine/timer_kinds.hpp"
 
 namespace stormproof::explorer {
 

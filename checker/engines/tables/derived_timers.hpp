@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "checker/engines/tables/derived.hpp"
-#include "model/engine/composition_knobs.hpp"
+#include "model/engine/timer_kinds.hpp"
 
 namespace stormproof::tables {
 

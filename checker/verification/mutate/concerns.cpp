@@ -5,7 +5,7 @@
 
 #include "fsm/composition/amended.hpp"
 #include "model/composition_of.hpp"
-#include "model/engine/composition_knobs.hpp"
+#include "model/engine/timer_kinds.hpp"
 #include "model/implementations.hpp"
 #include "props/applicability.hpp"
 

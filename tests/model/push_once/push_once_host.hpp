@@ -13,7 +13,7 @@ namespace rules_of_push_once = fsm::composition::push_once;
 
 class PushOnceHost final
     : public Stored<PushOnceHost, DiscoveryBase,
-                    Without<ThingsOf<rules_of_push_once::PushOnce>, SharedThings>> {
+                    ThingsBeside<rules_of_push_once::PushOnce, DiscoveryBase>> {
   using C = rules_of_push_once::C;
   using Data = rules_of_push_once::Data;
   using Heartbeat = rules_of_push_once::Heartbeat;
