@@ -1,6 +1,8 @@
 // Compositions are listed in the order of implementations; the last one is that of lives.
 #include "model/composition_of.hpp"
 
+#include <algorithm>
+
 #include "fsm/composition/compositions.hpp"
 #include "fsm/program/programs.hpp"
 #include "model/implementations.hpp"
@@ -17,6 +19,12 @@ const fsm::composition::CompositionInfo& composition_of(const DdsProfile& dds) {
 
 const fsm::program::Program& program_of(const DdsProfile& dds) {
   return fsm::program::programs()[composition_index(kind_of(dds))];
+}
+
+const fsm::program::Program& program_of_exchange(const DdsProfile& dds) {
+  if (!traits_of(dds).has_server) return program_of(dds);
+  const auto& all = fsm::program::programs();
+  return *std::ranges::find(all, "fastdds", &fsm::program::Program::name);
 }
 
 bool is_living_fastdds(const Scenario& scenario) {

@@ -12,6 +12,9 @@ namespace stormproof::model {
 [[nodiscard]] const fsm::composition::CompositionInfo& composition_of(ImplementationKind kind);
 /// The same as a recorded program.
 [[nodiscard]] const fsm::program::Program& program_of(const DdsProfile& dds);
+/// The program by which descriptors are exchanged: what clients tell a Discovery Server is Fast
+/// DDS's exchange, whoever opens its relations.
+[[nodiscard]] const fsm::program::Program& program_of_exchange(const DdsProfile& dds);
 
 /// Whether participants have a life under Fast DDS's rules: they are those of a composition of
 /// their own (fsm/composition/fastdds_life.hpp), which no engine knows.

@@ -12,7 +12,8 @@
 //   feed(step), feed_each(step) -> the values of an outbox, with inputs(step) at the place
 //   renew, cancel, raise(tag), set(tag, Value), set_each(tag, term), after(delay, timer),
 //   at(Int, timer), emit(step)
-//   within(step, procedure, body)             the effects of a procedure or contract
+//   note(step)                                the effect is about to happen
+//   within(scope, body)                       the effects of another rule, procedure or contract
 // Facts are evaluated by their definitions; a reader that keeps one does not ask for it.
 #pragma once
 
@@ -314,6 +315,7 @@ class Interpreter {
     if (execution_->deferred) std::exchange(execution_->deferred, nullptr)();
   }
   void act(const Step& step, Change change) {
+    self().note(step);
     switch (step.what) {
       case Do::feed:
         registers()[step.reg] = self().feed(step);
@@ -337,7 +339,8 @@ class Interpreter {
       case Do::raise: {
         // Who makes mistakes follows what is raised; otherwise that is the reader's.
         const Rule* const rule = program().rule_for(Trigger::happens, step.target);
-        return makes_mistakes_ && rule != nullptr ? run(rule->body) : self().raise(step.target);
+        if (!makes_mistakes_ || rule == nullptr) return self().raise(step.target);
+        return self().within(rule->name, [&] { run(rule->body); });
       }
       default:
         return enter(step);
@@ -367,7 +370,7 @@ class Interpreter {
     }
     const bool outer = makes_mistakes_;
     makes_mistakes_ = outer && !procedure.is_contract;
-    self().within(step, procedure, [&] { run(procedure.body); });
+    self().within(procedure.name, [&] { run(procedure.body); });
     makes_mistakes_ = outer;
   }
 

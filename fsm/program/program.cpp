@@ -98,6 +98,10 @@ std::string_view word_of(Trigger trigger) {
   return words_of_triggers[static_cast<std::size_t>(trigger)];
 }
 
+std::string effect_id(std::string_view scope, const Step& effect) {
+  return std::string{scope} + "." + std::to_string(effect.number);
+}
+
 std::vector<Machine::Row> rows_of(const Machine& machine,
                                   const std::vector<TableMutation>& mistakes) {
   std::vector<Machine::Row> rows = machine.rows;

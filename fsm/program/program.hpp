@@ -175,6 +175,7 @@ struct Step {
   std::size_t procedure = 0;
   std::string_view argument{};  ///< a tag that a procedure or step is given: its name
   std::vector<Step> body{};
+  unsigned number = 0;  ///< of an effect: within its rule or procedure, from 1
   // What names an effect, condition or loop, and where it is written; not of `let`.
   EffectKey key{};
   std::string_view file{};
@@ -292,6 +293,8 @@ struct Program {
 };
 
 [[nodiscard]] std::string_view word_of(Do what);
+/// "AckNackArrives.3", the id of an effect of the rule, procedure or contract `scope`.
+[[nodiscard]] std::string effect_id(std::string_view scope, const Step& effect);
 [[nodiscard]] std::string_view word_of(Trigger trigger);
 
 /// The rows of a machine with the mistakes that concern it.

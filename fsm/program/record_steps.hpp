@@ -22,7 +22,9 @@ class StepRecorder {
     Steps steps;
     Steps* const list = std::exchange(into_, &steps);
     const composition::Trail trail = std::exchange(trail_, composition::Trail{scope});
+    const unsigned effects = std::exchange(effects_, 0);
     body();
+    effects_ = effects;
     trail_ = trail;
     into_ = list;
     return steps;
@@ -56,7 +58,10 @@ class StepRecorder {
     return result;
   }
 
-  void add(Step step) { into_->push_back(std::move(step)); }
+  void add(Step step) {
+    if (step.what >= Do::feed) step.number = ++effects_;
+    into_->push_back(std::move(step));
+  }
   template <class Body>
   void block(Step step, Site site, Body&& body) {
     const composition::Trail outer = std::exchange(trail_, trail_.inside(site));
@@ -90,6 +95,7 @@ class StepRecorder {
   Program& program_;
   Steps* into_ = nullptr;
   composition::Trail trail_{""};
+  unsigned effects_ = 0;        ///< of the rule or procedure so far
   bool reads_here_ = true;      ///< what is read is a step of the rule
   std::size_t inner_from_ = 0;  ///< the first term that is made in the term of another place
 };

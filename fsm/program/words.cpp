@@ -214,9 +214,9 @@ class Printer {
   void effect(const Step& step) {
     const Thing& target = thing(step.target);
     std::string detail = detail_of(step);
-    rule_->effects.push_back({rule_->id + "." + std::to_string(rule_->effects.size() + 1),
-                              word_of(step.what), target.name, label(target.owner),
-                              std::move(detail), blocks_, step.file, step.line, step.key});
+    rule_->effects.push_back({effect_id(rule_->id, step), word_of(step.what), target.name,
+                              label(target.owner), std::move(detail), blocks_, step.file, step.line,
+                              step.key});
     if (step.what == Do::call) aside(into_.procedures, step);
     if (step.what == Do::perform) aside(into_.steps, step);
   }

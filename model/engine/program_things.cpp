@@ -2,11 +2,12 @@
 #include "model/engine/program_things.hpp"
 
 #include <map>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
+#include "fsm/composition/amended.hpp"
+#include "fsm/composition/fastdds_life.hpp"
 #include "model/engine/composition_knobs.hpp"
+#include "model/engine/timer_kinds.hpp"
 
 namespace stormproof::model {
 namespace {
@@ -68,6 +69,8 @@ std::map<std::string_view, EventKind> event_kinds() {
   comp::for_each_type(comp::fastdds::FastDds::Timers{}, add);
   comp::for_each_type(comp::cyclone::Cyclone::Timers{}, add);
   comp::for_each_type(comp::server::FastDdsServer::Timers{}, add);
+  comp::for_each_type(comp::amended::Amended::Timers{}, add);
+  comp::for_each_type(comp::fastdds::FastDdsLiving::Timers{}, add);
   return all;
 }
 

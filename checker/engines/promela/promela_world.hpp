@@ -179,8 +179,9 @@ class PromelaWorld : public fsm::program::Interpreter<PromelaWorld, Written, Lan
   void cancel(Tag timer);
   void emit(const Step& step);
   void raise(Tag occasion);
+  void note(const Step&) {}
   template <class Body>
-  void within(const Step&, const fsm::program::Procedure&, Body&& body) {
+  void within(std::string_view, Body&& body) {
     body();
   }
 

@@ -2,23 +2,19 @@
 // that all places of checker/engines/tables/derived_world.hpp share.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "checker/engines/tables/derivation.hpp"
 #include "checker/engines/tables/derived_time.hpp"
 #include "checker/engines/tables/effect_system.hpp"
-#include "fsm/composition/vocabulary.hpp"
+#include "fsm/program/program.hpp"
 #include "model/mutation.hpp"
 
 namespace stormproof::tables {
-
-namespace composition = fsm::composition;
 
 /// What is derived: rules with the mistakes of a mutant, under the knobs of a profile.
 struct Derived {
@@ -43,47 +39,16 @@ struct Derived {
   /// Timers of which it matters how many are pending, though no rule asks for that.
   std::set<std::string> counted{};
 
-  /// Effects are counted as the recorder does (fsm/program/words.cpp): within a rule,
-  /// procedure or step, each once, however often it runs.
-  std::string within{};
-  unsigned number = 0;
-
-  template <class T>
-  [[nodiscard]] bool counts() const {
-    return T::counted || counted.contains(std::string{fsm::name_of<T>()});
-  }
-
-  /// The next effect happens `when`, here or at a place that is not ours.
-  void effect(const Expr& when, bool is_ours) {
-    if (!happens) return;
-    const std::string id = within + "." + std::to_string(++number);
-    if (is_ours) happens(id, when);
-  }
-  /// The effects of a procedure or step of this name.
-  template <class Body>
-  void aside(std::string name, Body&& body) {
-    std::swap(within, name);
-    const unsigned outer = std::exchange(number, 0);
-    body();
-    within = std::move(name);
-    number = outer;
+  [[nodiscard]] bool counts(const fsm::program::Thing& timer) const {
+    return timer.counted || counted.contains(std::string{timer.name});
   }
 };
-
-template <class T>
-std::string tag_name() {
-  return std::string{fsm::name_of<T>()};
-}
 
 /// The variable, for those who declare it, that becomes true when the reverse of our pair raises
 /// it: by symmetry, what happens to ours when the other one does what is ours to do here.
 inline std::string raised_back(const std::string& occasion) { return "raised back " + occasion; }
 
-/// Whether something else than the rules causes it, at least for the first time.
-template <class T, class Composition>
-bool comes_from_outside() {
-  return std::ranges::any_of(Composition::from_outside,
-                             [](const auto& cause) { return cause.name == fsm::name_of<T>(); });
-}
+/// Derives the steps of a composition: of the rules about relations and writers, or of all.
+void derive(const fsm::program::Program& program, Derived& derived);
 
 }  // namespace stormproof::tables

@@ -2,15 +2,21 @@
 #include "checker/engines/tables/descriptor_system.hpp"
 
 #include <map>
-#include <stdexcept>
 
-#include "checker/engines/tables/derived_world.hpp"
-#include "checker/engines/tables/machine_step.hpp"
+#include "checker/engines/tables/derived.hpp"
+#include "checker/engines/tables/proof.hpp"
+#include "model/composition_of.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 
 DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mutation& mistakes,
-                                   Unsound unsound, void (*derive)(Derived&))
+                                   Unsound unsound)
+    : DescriptorSystem{model::program_of_exchange(dds), dds, mistakes, unsound} {}
+
+DescriptorSystem::DescriptorSystem(const fsm::program::Program& program,
+                                   const model::DdsProfile& dds, const model::Mutation& mistakes,
+                                   Unsound unsound)
     : derivation_{unsound} {
   Derivation& system = derivation_;
   for (const char* bit : {watched::asked, watched::unasked_repair, watched::wrong_list,
@@ -43,17 +49,7 @@ DescriptorSystem::DescriptorSystem(const model::DdsProfile& dds, const model::Mu
       system.assign(watched::lists, system.now(watched::generated), listed_now);
     };
   }
-  derive(derived);
-}
-
-void derive_composition(Derived& derived) {
-  model::visit_composition(derived.dds, [&](auto composition) {
-    if constexpr (requires { derive_of(composition, derived); }) {
-      derive_of(composition, derived);
-    } else {
-      throw std::logic_error{"nobody derives this composition"};
-    }
-  });
+  derive(program, derived);
 }
 
 TransitionSystem DescriptorSystem::with_bad(const Expr& bad) const {

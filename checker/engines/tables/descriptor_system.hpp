@@ -9,7 +9,9 @@
 #include <string>
 
 #include "checker/engines/tables/derivation.hpp"
-#include "model/implementations.hpp"
+#include "checker/engines/tables/proof.hpp"
+#include "fsm/program/program.hpp"
+#include "model/mutation.hpp"
 
 namespace stormproof::tables {
 
@@ -26,15 +28,13 @@ inline constexpr const char* lists = "it lists the descriptor";
 inline constexpr const char* listed_at_first = "it listed the descriptor at its generation";
 }  // namespace watched
 
-struct Derived;
-/// That of the profile's implementation; of one that is not derived: std::logic_error.
-void derive_composition(Derived& derived);
-
 class DescriptorSystem {
  public:
-  /// `derive`: all steps of one composition.
+  DescriptorSystem(const fsm::program::Program& program, const model::DdsProfile& dds,
+                   const model::Mutation& mistakes, Unsound unsound = Unsound::none);
+  /// That of the profile's implementation.
   DescriptorSystem(const model::DdsProfile& dds, const model::Mutation& mistakes,
-                   Unsound unsound = Unsound::none, void (*derive)(Derived&) = derive_composition);
+                   Unsound unsound = Unsound::none);
 
   /// A variable: "C=A" (the writer's state of the descriptor), "X", "pending HeartbeatExpiry", …
   [[nodiscard]] const Expr& operator[](const std::string& name) const {
@@ -50,13 +50,6 @@ class DescriptorSystem {
  private:
   Derivation derivation_;
 };
-
-/// Derive all steps of one composition, each in a source file of its own.
-void derive_of(model::Of<fsm::composition::paper::Paper>, Derived& derived);
-void derive_of(model::Of<fsm::composition::fastdds::FastDds>, Derived& derived);
-void derive_of(model::Of<fsm::composition::server::FastDdsServer>, Derived& derived);
-void derive_of(model::Of<fsm::composition::amended::Amended>, Derived& derived);
-void derive_of(model::Of<fsm::composition::cyclone::Cyclone>, Derived& derived);
 
 /// States in the finding what everything assumes that is derived from a composition.
 void assume_for_descriptors(Proof& proof);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "checker/engines/tables/derived_world.hpp"
-#include "checker/engines/tables/descriptor_system.hpp"
+#include "checker/engines/tables/derived.hpp"
+#include "model/composition_of.hpp"
 
 namespace stormproof::tables {
 
@@ -40,7 +40,7 @@ EffectSystem effect_system(const model::DdsProfile& dds, const model::Mutation& 
     result.knobs.push_back(knob);
     return result.unknowns.back();
   };
-  derive_composition(derived);
+  derive(model::program_of_exchange(dds), derived);
   result.system = derivation.system();
   return result;
 }

@@ -11,6 +11,7 @@
 #include <boost/pfr.hpp>
 
 #include "checker/engines/tables/proof.hpp"
+#include "fsm/program/program.hpp"
 #include "fsm/row_table.hpp"
 
 namespace stormproof::tables {
@@ -20,6 +21,72 @@ using OneHot = Exprs;
 
 /// Exactly one of the values holds.
 [[nodiscard]] Expr exactly_one(const OneHot& state);
+
+/// The states after an event. Of its rows, the last one of the table first, `enabled(row)` says
+/// when the guard holds, and `fire(row, when)` hears when the row fires.
+template <class Row, class Enabled, class Fire>
+OneHot states_after(const std::vector<Row>& rows, std::uint8_t event, const OneHot& state,
+                    const Expr& when, Enabled&& enabled, Fire&& fire) {
+  std::vector<Exprs> entered(state.size());
+  std::vector<Exprs> left(state.size());
+  std::vector<Exprs> later(state.size());  // rows that come later in the table and so win
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+    if (row->event != event) continue;
+    const Expr can = when && state[row->source] && enabled(*row);
+    const Expr fires = (can && !any_of(later[row->source])).simplify();
+    later[row->source].push_back(can);
+    left[row->source].push_back(fires);
+    entered[row->target].push_back(fires);
+    fire(*row, fires);
+  }
+  OneHot next;
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    next.push_back((any_of(entered[k]) || (state[k] && !any_of(left[k]))).simplify());
+  }
+  return next;
+}
+
+/// What several rows ask for of one field: the first value is that of an empty outbox.
+inline Expr merged(const Expr& total, const Expr& one, const Expr& fires) {
+  if (total.is_bool()) return (total || (fires && one)).simplify();
+  return z3::ite(fires, one, total).simplify();
+}
+
+/// One step of a recorded machine. `value_of` evaluates a term over the input.
+struct RecordedStep {
+  OneHot next;
+  Exprs outbox;  ///< by field
+
+  template <class ValueOf>
+  RecordedStep(const fsm::program::Machine& machine,
+               const std::vector<fsm::program::Machine::Row>& rows, std::uint8_t event,
+               const OneHot& state, const Expr& when, ValueOf&& value_of) {
+    using fsm::program::no_term;
+    for (const fsm::program::Machine::Field& field : machine.outputs) {
+      const bool is_truth = field.sort == fsm::program::Sort::truth;
+      outbox.push_back(is_truth ? smt::SymbolicBool{}.expr() : smt::SymbolicInt{}.expr());
+    }
+    const Exprs nothing = outbox;
+    const auto enabled = [&](const auto& row) {
+      const Expr holds =
+          row.guard == no_term ? smt::SymbolicBool{true}.expr() : value_of(row.guard);
+      return row.negated ? !holds : holds;
+    };
+    std::vector<std::pair<Expr, Exprs>> fired;
+    next = states_after(rows, event, state, when, enabled, [&](const auto& row, const Expr& fires) {
+      Exprs asked = nothing;
+      for (std::size_t k = 0; k < asked.size(); ++k) {
+        if (row.out[k] != no_term) asked[k] = value_of(row.out[k]);
+      }
+      fired.emplace_back(fires, std::move(asked));
+    });
+    for (const auto& [fires, asked] : fired) {
+      for (std::size_t k = 0; k < asked.size(); ++k) {
+        outbox[k] = merged(outbox[k], asked[k], fires);
+      }
+    }
+  }
+};
 
 template <class Machine>
 class MachineStep {
@@ -58,11 +125,9 @@ class MachineStep {
     }
 
    private:
-    static void merge(smt::SymbolicBool& total, const smt::SymbolicBool& one, const Expr& fires) {
-      total = smt::SymbolicBool{(total.expr() || (fires && one.expr())).simplify()};
-    }
-    static void merge(smt::SymbolicInt& total, const smt::SymbolicInt& one, const Expr& fires) {
-      total = smt::SymbolicInt{z3::ite(fires, one.expr(), total.expr()).simplify()};
+    template <class Value>
+    static void merge(Value& total, const Value& one, const Expr& fires) {
+      total = Value{merged(total.expr(), one.expr(), fires)};
     }
   };
 
@@ -94,24 +159,14 @@ class MachineStep {
   [[nodiscard]] Effect step(const OneHot& state, const Input& input, const Expr& when) const {
     const auto event = fsm::Reflect<Machine>::template event_id<Event>;
     const auto& rows = table_.rows();
+    const auto enabled = [&](const auto& row) { return row.enabled(input).expr(); };
     Effect effect;
-    std::vector<Exprs> entered(state.size());
-    std::vector<Exprs> left(state.size());
-    std::vector<Exprs> later(state.size());  // rows that come later in the table and so win
-    for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-      if (row->event != event) continue;
-      const Expr enabled = when && state[row->source] && row->enabled(input).expr();
-      const Expr fires = (enabled && !any_of(later[row->source])).simplify();
-      later[row->source].push_back(enabled);
-      left[row->source].push_back(fires);
-      entered[row->target].push_back(fires);
-      Output output;
-      if (row->action != nullptr) row->action(input, output);
-      effect.fired.emplace_back(fires, output);
-    }
-    for (std::size_t k = 0; k < state.size(); ++k) {
-      effect.next.push_back((any_of(entered[k]) || (state[k] && !any_of(left[k]))).simplify());
-    }
+    effect.next =
+        states_after(rows, event, state, when, enabled, [&](const auto& row, const Expr& fires) {
+          Output output;
+          if (row.action != nullptr) row.action(input, output);
+          effect.fired.emplace_back(fires, output);
+        });
     return effect;
   }
 

@@ -4,10 +4,11 @@
 #include "checker/engines/bounds/resting.hpp"
 #include "checker/engines/tables/certificate.hpp"
 #include "checker/engines/tables/completion_certificate.hpp"
-#include "checker/engines/tables/derived_world.hpp"
+#include "checker/engines/tables/derived.hpp"
 #include "checker/engines/tables/descriptor_system.hpp"
 #include "checker/engines/tables/houdini.hpp"
 #include "checker/engines/tables/properties.hpp"
+#include "model/composition_of.hpp"
 
 namespace stormproof::tables {
 namespace {
@@ -28,7 +29,7 @@ class RecognisingPair {
     derived.emitted = [this, yes](std::string_view packet, const Expr& when, const auto&) {
       if (packet == "SpdpMulticast") derivation_.assign(announced, when, yes);
     };
-    derive_composition(derived);
+    derive(model::program_of_exchange(dds), derived);
   }
 
   [[nodiscard]] const Expr& operator[](const std::string& name) const {

@@ -1,7 +1,11 @@
 // The unknowns, which packets are looked at, and when the limit starts to count.
 #include "checker/engines/tables/timed_descriptor.hpp"
 
-#include "checker/engines/tables/derived_world.hpp"
+#include <stdexcept>
+
+#include "checker/engines/tables/derived.hpp"
+#include "model/composition_of.hpp"
+#include "model/engine/composition_knobs.hpp"
 
 namespace stormproof::tables {
 namespace {
@@ -150,7 +154,7 @@ TimedDescriptor::TimedDescriptor(const model::DdsProfile& dds, const model::Muta
     }
     system.assign(watched::counting, starts, smt::SymbolicContext::current().bool_val(true));
   };
-  derive_composition(derived);
+  derive(model::program_of_exchange(dds), derived);
   if (options.stale) start_stale();
 }
 

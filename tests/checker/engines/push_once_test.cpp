@@ -8,7 +8,6 @@
 #include "checker/engines/explorer/search.hpp"
 #include "checker/engines/promela/promela.hpp"
 #include "checker/engines/smt/claims.hpp"
-#include "checker/engines/tables/derive.hpp"
 #include "checker/engines/tables/descriptor_system.hpp"
 #include "fsm/program/record.hpp"
 #include "model/engine/implementation_maker.hpp"
@@ -22,8 +21,6 @@ namespace push_once_test {
 
 namespace push_once = fsm::composition::push_once;
 
-void derive_push_once(tables::Derived& derived) { tables::derive<push_once::PushOnce>(derived); }
-
 /// Whether it is proved that `bad` cannot be reached, for any number of descriptors and readers.
 props::VerdictKind decide(const char* name, bool negated_x) {
   smt::Claims claims{{.second_solver = false}};
@@ -31,8 +28,8 @@ props::VerdictKind decide(const char* name, bool negated_x) {
   const checker::CheckRequest request{
       .scenario = scenario, .claims = claims, .mutant = nullptr, .on_progress = {}};
   tables::Proof proof{"safety.ack-implies-received", request};
-  const tables::DescriptorSystem system{scenario.dds, model::Mutation{}, tables::Unsound::none,
-                                        derive_push_once};
+  const auto program = fsm::program::recorded<push_once::PushOnce>();
+  const tables::DescriptorSystem system{program, scenario.dds, model::Mutation{}};
   const tables::Expr bad = negated_x ? system[name] && !system["X"] : system[name];
   return proof.finish(tables::prove_unreachable(proof, system.with_bad(bad), name)).kind;
 }

@@ -8,10 +8,15 @@
 // What is compared is what the derived system knows: states of machines, flags, how often timers
 // are pending, what was started and what was sent. The small deployment packs each descriptor
 // alone; what packets announce is left open (checker/engines/tables/symbolic_world.hpp).
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include "checker/engines/tables/derive.hpp"
+#include "checker/engines/tables/derived_packets.hpp"
 #include "checker/engines/tables/symbolic_world.hpp"
+#include "fsm/composition/fastdds.hpp"
+#include "fsm/composition/paper.hpp"
+#include "fsm/program/programs.hpp"
 
 namespace stormproof::tables {
 namespace projection_test {
@@ -21,6 +26,23 @@ using smt::SymbolicBool;
 using smt::SymbolicInt;
 
 Expr yes() { return SymbolicBool{true}.expr(); }
+
+template <class T>
+std::string tag_name() {
+  return std::string{fsm::name_of<T>()};
+}
+
+template <class Composition>
+const fsm::program::Program& program_of() {
+  return *std::ranges::find(fsm::program::programs(), Composition::name,
+                            &fsm::program::Program::name);
+}
+/// What a packet can say.
+template <class Composition, class P>
+auto contents_of() {
+  const auto& program = program_of<Composition>();
+  return all_contents(program, program.find(fsm::name_of<P>()));
+}
 
 /// The derived system with an unknown for each knob, but the periodic policy.
 template <class Composition>
@@ -33,7 +55,7 @@ TransitionSystem derived_system(const model::DdsProfile& dds, Unsound mistake) {
     if (knob.value(dds).is_bool()) return SymbolicBool::named(knob.name).expr();
     return SymbolicInt::named(knob.name).expr();
   };
-  derive<Composition>(derived);
+  derive(program_of<Composition>(), derived);
   return derivation.system();
 }
 
@@ -81,7 +103,7 @@ class Happening {
       }
     });
     comp::for_each_type(typename Composition::Packets{}, [&]<class P>() {
-      for (const auto& [sent, content] : DerivedPacket<P>::all_contents()) {
+      for (const auto& [sent, content] : contents_of<Composition, P>()) {
         if (sent == name) now = variable || happened(tag_name<P>(), content);
       }
     });
@@ -90,12 +112,12 @@ class Happening {
 
  private:
   using Cause = typename R::Trigger::Cause;
-  using Content = typename DerivedPacket<typename Composition::AckNack>::Content;
+  using Content = PacketContent;
 
   /// The packet that arrives here has been sent, with some announcement if it has any.
   void was_sent(SymbolicWorld<Composition>& world) {
     Exprs cases;
-    for (const auto& packet : DerivedPacket<Cause>::all_contents()) {
+    for (const auto& packet : contents_of<Composition, Cause>()) {
       Exprs said{SymbolicBool::named(packet.first).expr()};
       comp::for_each_type(typename Cause::Fields{}, [&]<class F>() {
         for (const auto& [field, value] : packet.second) {
