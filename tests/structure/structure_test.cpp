@@ -2,6 +2,7 @@
 // which invented trees show.
 #include <gtest/gtest.h>
 
+#include "tests/structure/host_functions.hpp"
 #include "tests/structure/includes.hpp"
 #include "tests/structure/rules.hpp"
 
@@ -59,6 +60,15 @@ TEST(Structure, WordsStayWhereTheyBelong) {
     ASSERT_TRUE(rules.contains(word)) << word;
   }
   for (const auto& [word, rule] : rules) EXPECT_EQ(lines(check_word(texts(), rule)), "");
+}
+
+TEST(Structure, HostsDoNotGrowAccessors) {
+  HostFunctions most;
+  for (const std::vector<std::string>& words : read_words(data_file("host_functions.txt"))) {
+    ASSERT_EQ(words.size(), 2U) << "expected: file number # reason";
+    most[words[0]] = std::stoul(words[1]);
+  }
+  EXPECT_EQ(lines(check_hosts(texts(), most)), "");
 }
 
 TEST(Structure, ReadsIncludes) {
@@ -140,6 +150,32 @@ TEST(ReservedWords, AreFoundWithBlanksInThem) {
 TEST(ReservedWords, PermissionsThatNobodyNeedsAreNoticed) {
   EXPECT_EQ(check_word({{"a.cpp", "no"}, {"b.cpp", "yes"}}, {"yes", {"a.cpp", "b.cpp"}}),
             Complaints{"a.cpp does not say yes, and need not be allowed to"});
+}
+
+TEST(HostFunctions, AreDeclarations) {
+  const auto count = [](const char* text) { return count_host_functions(text); };
+  EXPECT_EQ(count("[[nodiscard]] bool value(Open, int r) const { return open_[r]; }"), 1U);
+  EXPECT_EQ(
+      count("auto& state(Reader, int r);\nT* driver(Reader);\nvoid assign(Open, int, bool) {}"),
+      3U);
+  EXPECT_EQ(count("std::vector<int> word(Known);\nstatic constexpr auto\n    lane_order(C);"), 2U);
+  EXPECT_EQ(count("return value(Open{}, r);\nx = value(a);\nif (value(b)) host.assign(c);"), 0U);
+  EXPECT_EQ(count("a && value(b);\na & word(b);\na * value(c);\np->emit(d);\nBase::emit(e);"), 0U);
+  EXPECT_EQ(count("// auto& state(Reader);\nvoid has_value(int);\nusing Stored::word;"), 0U);
+}
+
+TEST(HostFunctions, MoreThanTheListSaysAreRefused) {
+  const Texts tree{{"a.hpp", "class A : public Stored<A> { bool said(X); int word(Y); };"},
+                   {"b.hpp", "class B : public model::Kept<B> { void emit(X); };"},
+                   {"c.hpp", "class C : public Stored<C> {};"},
+                   {"d.hpp", "class D { bool said(X); };"}};
+  EXPECT_EQ(check_hosts(tree, {{"a.hpp", 2}, {"b.hpp", 1}}), Complaints{});
+  EXPECT_EQ(check_hosts(tree, {{"a.hpp", 1}, {"b.hpp", 3}, {"c.hpp", 1}}),
+            (Complaints{"a.hpp has 2 functions that a world asks for, and had 1",
+                        "c.hpp has none, and need not be in the list"}));
+  EXPECT_EQ(check_hosts(tree, {{"a.hpp", 2}, {"e.hpp", 1}}),
+            (Complaints{"e.hpp has none, and need not be in the list",
+                        "b.hpp has a store, and is not in the list"}));
 }
 
 }  // namespace structure_test
