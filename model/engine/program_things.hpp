@@ -1,6 +1,6 @@
 // What knobs of a recorded program (fsm/program) are in a profile, and what its timers are in the
-// event queue: for those who read programs what model/engine/composition_knobs.hpp is for those who
-// execute rules.
+// event queue: for those who read programs what composition_knobs.hpp and timer_kinds.hpp are for
+// those who execute rules.
 #pragma once
 
 #include <cstdint>
