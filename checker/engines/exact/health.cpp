@@ -47,10 +47,8 @@ bool is_late(const RunHealth& run, const std::optional<model::Limits>& limits) {
 }
 
 Health judged(const RunHealth& run, const std::optional<model::Limits>& limits) {
-  const bool storm =
-      run.airtime.value_or(0) >= storm_factor && run.stretch.value_or(0) >= storm_factor;
   const bool too_late = !run.completion || is_late(run, limits);
-  if (storm || (run.messages.value_or(0) >= storm_factor && too_late)) return Health::storm;
+  if (is_storm({run.airtime, run.stretch, run.messages, too_late})) return Health::storm;
   if (!run.completion) return Health::incomplete;
   if (!is_late(run, limits)) return Health::fine;
   return run.busy >= 0.5 ? Health::slow_link : Health::waiting;

@@ -1,6 +1,6 @@
 // What kind of discovery a run was, in one word that an engineer acts on. A storm is told from a
-// slow link by what feedback costs: on a slow link everything is sent about once and that takes its
-// time; in a storm repeats and the control messages about them take the channel.
+// slow link by what feedback costs (storm.hpp): on a slow link everything is sent about once and
+// that takes its time; in a storm repeats and the control messages about them take the channel.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "checker/engines/exact/storm.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
 
@@ -17,22 +18,13 @@ enum class Health : std::uint8_t {
   fine,
   slow_link,  ///< late, and the channel was busy: everything sent once already takes long
   waiting,  ///< late, and the channel was mostly idle: a timer had to expire, or a process started
-  storm,    ///< late, because the feedback takes `storm_factor` times what is sent once
+  storm,    ///< `is_storm`: feedback decides
   incomplete  ///< not complete when the run ended, and no storm either
 };
 /// "fine", "slow_link", "waiting", "storm", "incomplete".
 [[nodiscard]] const char* name_of(Health health);
 /// "FINE", "SLOW LINK", "SLOW", "STORM", "INCOMPLETE".
 [[nodiscard]] const char* headline_of(Health health);
-
-/// A storm takes at least so many times the airtime of everything sent once, and so many times as
-/// long: with less, repeats are there and do not yet decide when discovery is complete. With a
-/// Discovery Server, and with Cyclone DDS, it is late and takes so many times the messages of a run
-/// without failures.
-inline constexpr double storm_factor = 3;
-/// Discovery that takes longer than this, counted from the last start, is late, unless the
-/// scenario's limits.completion says otherwise.
-inline constexpr model::Nanoseconds late{1'000'000'000};
 
 struct RunHealth {
   Health health{};

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/engines/exact/storm.hpp"
 #include "checker/evidence/doctor/advise.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
@@ -19,9 +20,6 @@ using capture::Conversation;
 using capture::Event;
 using capture::GuidPrefix;
 using model::config::Result;
-
-/// A storm sends more than so many times what a discovery without failures needs.
-constexpr std::uint64_t storm_factor = 2;
 
 std::vector<Product> products_of(const capture::Topology& topology) {
   std::map<std::pair<std::string, std::string>, std::size_t> count;
@@ -125,9 +123,30 @@ std::vector<Heard> who_heard_whom(const Conversation& conversation) {
   return heard;
 }
 
+/// What the capture shows of it: messages, and when the last descriptor was sent first.
+exact::Expense expense_of(const Report& report, bool is_incomplete) {
+  std::int64_t last_start_ns = report.conversation.first_ns;
+  for (const capture::Participant& one : report.conversation.topology.participants) {
+    last_start_ns = std::max(last_start_ns, one.first_ns);
+  }
+  const std::int64_t end_ns = report.counting.last_initial_ns.value_or(last_start_ns);
+  exact::Expense took;
+  took.is_late = is_incomplete || end_ns - last_start_ns > exact::late.count();
+  took.messages = static_cast<double>(report.messages()) /
+                  static_cast<double>(std::max<std::uint64_t>(report.failure_free.total(), 1));
+  return took;
+}
+
 void judge(Report& report) {
   const capture::Topology& topology = report.conversation.topology;
   const bool has_keys = report.counting.required > 0;
+  const bool began_late = report.there_before > 0 && report.missing + report.known_before > 0;
+  const bool is_incomplete = report.missing > 0 && !began_late;
+  if (has_keys) {
+    const exact::Expense took = expense_of(report, is_incomplete);
+    report.storm = exact::is_storm(took);
+    report.amplified = exact::is_amplified(took);
+  }
   if (topology.participants.size() < 2) {
     report.why_unknown = fmt::format("the capture shows {}; discovery takes two",
                                      report::plural(topology.participants.size(), "participant"));
@@ -135,14 +154,14 @@ void judge(Report& report) {
     report.why_unknown =
         "the capture shows participants and none of their endpoints: it began when "
         "they knew each other, or they never did";
-  } else if (report.messages() > storm_factor * report.failure_free.total()) {
+  } else if (is_incomplete) {
+    report.health = Health::incomplete;
+  } else if (report.storm) {
     report.health = Health::storm;
-  } else if (report.there_before > 0 && report.missing + report.known_before > 0) {
+  } else if (began_late) {
     report.why_unknown =
         fmt::format("the capture began when {} had begun, so it does not show what was sent before",
                     report::plural(report.there_before, "participant"));
-  } else if (report.missing > 0) {
-    report.health = Health::incomplete;
   } else {
     report.health = Health::healthy;
   }
@@ -190,7 +209,7 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
   if (report.products.empty()) return report;
   const std::vector<std::string> profiles = profiles_of(report.products.front());
   find_presets(profiles, request, report);
-  if (report.health == Health::healthy) {
+  if (report.health == Health::healthy && !report.amplified) {
     report.no_advice = "nothing has to change";
   } else if (report.health == Health::unknown) {
     report.no_advice = report.why_unknown;

@@ -33,7 +33,7 @@ struct Request {
 
 enum class Health : std::uint8_t {
   healthy,
-  storm,       ///< more than twice the messages of a discovery without failures
+  storm,       ///< `exact::is_storm`, and nobody lacks a descriptor
   incomplete,  ///< somebody lacks a descriptor
   unknown
 };
@@ -83,6 +83,8 @@ struct Report {
   const capture::Conversation& conversation;
   capture::Counting counting{};
   Health health = Health::unknown;
+  bool storm = false;      ///< `exact::is_storm`, whether it is complete or not
+  bool amplified = false;  ///< `exact::is_amplified`: settings would help
   std::string why_unknown{};
   std::vector<Product> products{};     ///< that of the most participants first
   std::vector<std::string> presets{};  ///< that explain every message; may be empty

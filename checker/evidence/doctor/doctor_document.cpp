@@ -53,7 +53,8 @@ std::string answer(const Report& report) {
     case Health::storm:
       return fmt::format("STORM: {}; {}.", sent, completeness(report));
     case Health::incomplete:
-      return fmt::format("INCOMPLETE: {}; {}.", completeness(report), sent);
+      return fmt::format("INCOMPLETE{}: {}; {}.", report.storm ? ", and a storm" : "",
+                         completeness(report), sent);
     case Health::unknown:
       break;
   }
@@ -234,7 +235,7 @@ report::Document document_of(const Report& report, const Request& request) {
   for (const std::string& name : request.files) document.title += " " + name;
   document.tone = tone_of(report.health);
   document.answer = answer(report);
-  if (!report.causes.empty() && report.health == Health::storm) {
+  if (!report.causes.empty() && (report.storm || report.amplified)) {
     document.elaboration = report.causes.front().sentence;
   }
   const capture::Summary summary{report.conversation, report.counting};

@@ -87,7 +87,7 @@ void describe(V& v, const Report& report) {
   v("missing", Missing{report});
   v("known_before", report.known_before);
   v("completion_ns", report.completion_ns);
-  v("storm", report.health == Health::storm);
+  v("storm", report.storm);
   v("counts", report.counting.counts);
   v("failure_free", report.failure_free);
   v("later_announcements", report.later_announcements);

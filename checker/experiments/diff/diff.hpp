@@ -125,7 +125,8 @@ struct Configuration {
   /// Every pair of runs had the same result, in every number that a run has: times, counts, number
   /// of events, delays.
   bool identical_runs = false;
-  bool storm_before = false, storm_after = false;  ///< by the policy's definition
+  /// At least half of the runs are a storm (checker/engines/exact/storm.hpp), or not complete.
+  bool storm_before = false, storm_after = false;
 
   [[nodiscard]] const MeasuredChange& operator[](Measure measure) const {
     return measures[static_cast<std::size_t>(measure)];
@@ -219,8 +220,6 @@ struct Policy {
   bool verdicts = true;          ///< a property that newly is violated is a regression
   bool strict_verdicts = false;  ///< and one whose answer is lost (inconclusive) is unclear
   bool margin = true;            ///< a smaller storm-free margin is a regression
-  double storm_repairs = 0.5;    ///< a configuration storms if its median repair DATA exceed this
-                                 ///< share of its initial DATA, or if it does not complete
   double confidence = 0.95;
   std::size_t samples = 12;       ///< of each configuration whose schedule is drawn
   std::size_t most_samples = 48;  ///< of one that fewer leave unclear

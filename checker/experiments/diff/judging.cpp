@@ -28,14 +28,12 @@ bool none_finite(const std::vector<double>& values) {
   return std::ranges::none_of(values, [](double value) { return std::isfinite(value); });
 }
 
-/// By the policy's definition.
-bool storms(const Policy& policy, const Configuration& configuration, bool after) {
-  const auto median = [&](Measure measure) {
-    const MeasuredChange& change = configuration[measure];
-    return after ? change.after.median : change.before.median;
-  };
-  if (!median(Measure::completion)) return true;
-  return *median(Measure::repair_data) > policy.storm_repairs * *median(Measure::initial_data);
+/// Half of the runs are a storm, or not complete.
+bool storms(const std::vector<exact::Health>& runs) {
+  const auto bad = std::ranges::count_if(runs, [](exact::Health run) {
+    return run == exact::Health::storm || run == exact::Health::incomplete;
+  });
+  return !runs.empty() && 2 * static_cast<std::size_t>(bad) >= runs.size();
 }
 
 std::size_t limits_of(const Policy& policy, const ReviewedPoint& point) {
@@ -138,8 +136,8 @@ Configuration CostJudge::judge(const ReviewedPoint& point, const PairedRuns& run
     configuration.measures[k] = change(static_cast<Measure>(k), runs, exact);
   }
   configuration.crossings = crossings(point, runs, exact);
-  configuration.storm_before = storms(policy_, configuration, false);
-  configuration.storm_after = storms(policy_, configuration, true);
+  configuration.storm_before = storms(runs.health_before);
+  configuration.storm_after = storms(runs.health_after);
   return configuration;
 }
 

@@ -76,6 +76,7 @@ bool same_results(const RunResult& a, const RunResult& b) {
 
 struct Pair {
   RunValues before{}, after{};
+  exact::Health health_before{}, health_after{};
   bool identical = false;
 };
 
@@ -120,7 +121,8 @@ bool add_runs(const std::vector<ReviewedPoint>& points, const std::vector<RunsWa
     const auto after = before ? runner.simulate(candidate) : std::nullopt;
     if (!after) return std::nullopt;
     return Pair{values_of(*before, references[point].first),
-                values_of(*after, references[point].second), same_results(*before, *after)};
+                values_of(*after, references[point].second), exact::health_of(base, *before).health,
+                exact::health_of(candidate, *after).health, same_results(*before, *after)};
   });
   std::vector<bool> whole(points.size(), true);
   for (std::size_t k = 0; k < jobs.size(); ++k) {
@@ -131,6 +133,8 @@ bool add_runs(const std::vector<ReviewedPoint>& points, const std::vector<RunsWa
     PairedRuns& of_point = runs[jobs[k].point];
     of_point.before.push_back(pairs[k]->before);
     of_point.after.push_back(pairs[k]->after);
+    of_point.health_before.push_back(pairs[k]->health_before);
+    of_point.health_after.push_back(pairs[k]->health_after);
     of_point.identical = of_point.identical && pairs[k]->identical;
   }
   return !runner.stopped();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "checker/engines/exact/health.hpp"
 #include "checker/experiments/diff/diff.hpp"
 #include "checker/experiments/diff/reviewed_grid.hpp"
 #include "checker/experiments/trials/runner.hpp"
@@ -18,6 +19,7 @@ using RunValues = std::array<double, measure_count>;
 /// Pairs of runs of one deployment: run k of both sides has the k-th schedule.
 struct PairedRuns {
   std::vector<RunValues> before, after;
+  std::vector<exact::Health> health_before, health_after;
   bool identical = true;  ///< so far, every pair had the same result in every number
 
   [[nodiscard]] std::size_t size() const { return before.size(); }

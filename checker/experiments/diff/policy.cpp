@@ -43,8 +43,7 @@ class PolicyReader {
     share("limit_share", policy_.limit_share, 0, 1, "a share from 0 to 1, such as 5 % or 0.05");
     read_verdicts();
     flag("margin", policy_.margin);
-    share("storm_repairs", policy_.storm_repairs, 0, largest_increase,
-          "a share from 0 to 1000, such as 50 % or 0.5");
+    refuse_given_up();
     share("confidence", policy_.confidence, 0.5, 0.9999,
           "a share from 0.5 to 0.9999, such as 95 % or 0.95");
     read_samples();
@@ -134,6 +133,15 @@ class PolicyReader {
     const Node* node = find("limits");
     if (node == nullptr) return;
     config::read_knobs(*node, "limits", policy_.limits.emplace(), failure_);
+  }
+
+  /// A policy had a definition of storms of its own.
+  void refuse_given_up() {
+    const Node* node = find("storm_repairs");
+    if (node == nullptr) return;
+    failure_ = error_at(node->place,
+                        "storm_repairs is given up: a storm is one by the definition of simulate "
+                        "and doctor; tolerances.repair_data judges how many repairs there are");
   }
 
   void count(std::string_view key, std::size_t& value) {

@@ -49,6 +49,7 @@ PairedRuns runs(std::size_t count, double before, double after) {
     pairs.before.push_back(run(before * here));
     pairs.after.push_back(run(after * there));
   }
+  pairs.health_before = pairs.health_after = std::vector(count, exact::Health::fine);
   return pairs;
 }
 
@@ -87,15 +88,28 @@ TEST(CostJudge, OneTrajectoryIsAFact) {
 TEST(CostJudge, RunsThatDoNotComplete) {
   PairedRuns pairs = runs(12, 1e9, 1e9);
   for (RunValues& values : pairs.after) values[0] = never;
+  pairs.health_after.assign(12, exact::Health::incomplete);
   EXPECT_EQ(completion(pairs), Judgment::regression);
   EXPECT_FALSE(judged(pairs)[Measure::completion].shift);
   std::swap(pairs.before, pairs.after);
   EXPECT_EQ(completion(pairs), Judgment::better);
   pairs.after = pairs.before;  // with neither
+  pairs.health_before = pairs.health_after;
   const Configuration neither = judged(pairs);
   EXPECT_EQ(neither[Measure::completion].judgment, Judgment::same);
   EXPECT_FALSE(neither[Measure::completion].reason.empty());
   EXPECT_TRUE(neither.storm_before);
+}
+
+TEST(CostJudge, AStormIsOneByTheDefinitionOfRuns) {
+  PairedRuns pairs = runs(12, 1e9, 1e9);
+  for (std::size_t k = 0; k < 5; ++k) pairs.health_after[k] = exact::Health::storm;
+  EXPECT_FALSE(judged(pairs).storm_after);
+  pairs.health_after[7] = exact::Health::incomplete;  // half of them
+  EXPECT_TRUE(judged(pairs).storm_after);
+  EXPECT_FALSE(judged(pairs).storm_before);
+  pairs.health_before.assign(12, exact::Health::slow_link);
+  EXPECT_FALSE(judged(pairs).storm_before);
 }
 
 TEST(CostJudge, MeasuresWithoutToleranceAreOnlyShown) {
@@ -107,8 +121,6 @@ TEST(CostJudge, MeasuresWithoutToleranceAreOnlyShown) {
   EXPECT_EQ(configuration[Measure::repair_data].judgment, Judgment::worse);
   EXPECT_FALSE(configuration[Measure::repair_data].relative);  // the median before is 0
   EXPECT_EQ(judgment_of(configuration, policy()), Judgment::same);
-  EXPECT_FALSE(configuration.storm_before);
-  EXPECT_TRUE(configuration.storm_after);
   Policy strict = policy();
   strict.tolerances.push_back({Measure::repair_data, 0.25});
   EXPECT_EQ(judged(pairs, strict)[Measure::repair_data].judgment, Judgment::regression);

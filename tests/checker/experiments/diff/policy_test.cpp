@@ -47,7 +47,6 @@ TEST(Policy, DefaultFileSaysWhatAnEmptyOneMeans) {
   EXPECT_EQ(shipped->verdicts, empty->verdicts);
   EXPECT_EQ(shipped->strict_verdicts, empty->strict_verdicts);
   EXPECT_EQ(shipped->margin, empty->margin);
-  EXPECT_EQ(shipped->storm_repairs, empty->storm_repairs);
   EXPECT_EQ(shipped->confidence, empty->confidence);
   EXPECT_EQ(shipped->samples, empty->samples);
   EXPECT_EQ(shipped->most_samples, empty->most_samples);
@@ -65,7 +64,7 @@ TEST(Policy, StrictIsStricter) {
 TEST(Policy, EveryKeyIsRead) {
   const auto policy = read_policy(
       written("tolerances: {repair_data: 1/4, backlog: 0}\nlimits: {completion: 5s, backlog: 9}\n"
-              "limit_share: 10%\nverdicts: false\nmargin: false\nstorm_repairs: 0.2\n"
+              "limit_share: 10%\nverdicts: false\nmargin: false\n"
               "confidence: 0.9\nsamples: 5\nmost_samples: 7\n"),
       specs);
   ASSERT_TRUE(policy) << to_string(policy.error());
@@ -77,13 +76,16 @@ TEST(Policy, EveryKeyIsRead) {
   EXPECT_NEAR(policy->limit_share, 0.1, 1e-12);
   EXPECT_FALSE(policy->verdicts);
   EXPECT_FALSE(policy->margin);
-  EXPECT_EQ(policy->storm_repairs, 0.2);
   EXPECT_EQ(policy->confidence, 0.9);
   EXPECT_EQ(policy->samples, 5U);
   EXPECT_EQ(policy->most_samples, 7U);
 }
 
 TEST(Policy, MistakesAreRefusedWithTheirPlace) {
+  EXPECT_NE(
+      error_of("margin: true\nstorm_repairs: 0.2\n").find("yaml:2:16: storm_repairs is given up"),
+      std::string::npos)
+      << error_of("margin: true\nstorm_repairs: 0.2\n");
   EXPECT_EQ(error_of("tolerance: {}\n"),
             "yaml:1:1: unknown key 'tolerance'; did you mean 'tolerances'?");
   EXPECT_NE(error_of("tolerances: {completions: 5 %}\n").find("did you mean 'completion'"),
