@@ -33,13 +33,6 @@ struct CycloneDestination {
   [[nodiscard]] bool is_only(std::uint32_t participant) const {
     return !is_set && addresses.front() == participant;
   }
-  /// Whether what goes to the other one may travel with what goes here.
-  [[nodiscard]] bool is_alike(const CycloneDestination& other) const {
-    if (is_set != other.is_set) return false;
-    const bool same_readers = is_set && writer != UINT32_MAX && writer == other.writer;
-    return (same_readers && version == other.version) ||
-           (addresses.size() == 1 && addresses == other.addresses);
-  }
 };
 
 struct CycloneMessage {

@@ -2,9 +2,11 @@
 // which invented trees show.
 #include <gtest/gtest.h>
 
+#include "tests/structure/callers.hpp"
 #include "tests/structure/host_functions.hpp"
 #include "tests/structure/includes.hpp"
 #include "tests/structure/rules.hpp"
+#include "tests/structure/words.hpp"
 
 namespace stormproof::structure {
 namespace structure_test {
@@ -69,6 +71,15 @@ TEST(Structure, HostsDoNotGrowAccessors) {
     most[words[0]] = std::stoul(words[1]);
   }
   EXPECT_EQ(lines(check_hosts(texts(), most)), "");
+}
+
+TEST(Structure, FunctionsHaveCallersBesideTests) {
+  std::vector<std::string> allowed;
+  for (const std::vector<std::string>& words : read_words(data_file("callers.txt"))) {
+    ASSERT_EQ(words.size(), 1U) << "expected: function # reason";
+    allowed.push_back(words[0]);
+  }
+  EXPECT_EQ(lines(check_callers(texts(), allowed)), "");
 }
 
 TEST(Structure, ReadsIncludes) {
@@ -145,6 +156,35 @@ TEST(ReservedWords, AreFoundWithBlanksInThem) {
   EXPECT_EQ(check_word(tree, {"Kind::", {"home.hpp", "a.cpp"}}), Complaints{});
   EXPECT_EQ(check_word(tree, {"usingenumKind", {}}),
             Complaints{"c.cpp is not to say usingenumKind"});
+}
+
+TEST(Callers, OfFunctionsOnlyDeclaredAndDefinedAreMissed) {
+  const Texts tree{
+      {"a/x.hpp",
+       "int used(int);\nstd::string& lone(int a);\n/// dead(1) is mine\nint dead(int);\n"
+       "struct S {\n  [[nodiscard]] bool inside() const { return used(1) > 0; }\n};\n"},
+      {"a/x.cpp",
+       "int used(int a) { return a; }\nstd::string& lone(int a) {\n  return f(\"dead(\");\n}\n"}};
+  EXPECT_EQ(check_callers(tree, {}), (Complaints{"dead of a/x.hpp is called by no source",
+                                                 "inside of a/x.hpp is called by no source",
+                                                 "lone of a/x.hpp is called by no source"}));
+  EXPECT_EQ(check_callers(tree, {"a/"}), Complaints{});
+  EXPECT_EQ(check_callers(tree, {"a/", "used"}),
+            Complaints{"used need not be allowed to have no caller"});
+}
+
+TEST(Callers, ACallIsOneWhereverItStands) {
+  EXPECT_EQ(check_callers({{"a.hpp", "int f(int);\n"}, {"b.cpp", "int g = f(2);\n"}}, {}),
+            Complaints{});
+  EXPECT_EQ(check_callers({{"a.hpp", "int f(int);\n"}, {"b.cpp", "  f(2);\n"}}, {}), Complaints{});
+  EXPECT_EQ(check_callers({{"a.hpp", "int f(int);\n"}, {"b.cpp", "auto all = {&f};\n"}}, {}),
+            Complaints{});
+  EXPECT_EQ(check_callers({{"a.hpp", "int f(int);\nint f(long);\n"}}, {}), Complaints{})
+      << "two of them";
+}
+
+TEST(Callers, CommentsAndQuotesAreNoCode) {
+  EXPECT_EQ(code_of("a // b\nc \"d\\\" e\" f R\"(g \" h)\" i"), "a \nc \"\" f R\"\" i");
 }
 
 TEST(ReservedWords, PermissionsThatNobodyNeedsAreNoticed) {

@@ -14,10 +14,9 @@ namespace stormproof::tables {
 /// Why the certificates do not say anything about a profile; empty: they do.
 [[nodiscard]] std::string not_certified(const model::DdsProfile& dds);
 
-/// With the mutant's mistakes. A check decides it once.
-[[nodiscard]] props::Finding completion_certificate(const checker::CheckRequest& request);
-/// The same for a bound that may be smaller.
-[[nodiscard]] props::Finding tighter_certificate(const checker::CheckRequest& request,
-                                                 const Tighter& tighter);
+/// With the mutant's mistakes, and that of a bound which is too small. A check decides the bound
+/// that is claimed once.
+[[nodiscard]] props::Finding completion_certificate(const checker::CheckRequest& request,
+                                                    const Tighter& mistake = {});
 
 }  // namespace stormproof::tables

@@ -160,14 +160,11 @@ std::optional<model::Nanoseconds> certified_free(const model::DdsProfile& dds,
   return threshold;
 }
 
-props::Finding free_certificate(const checker::CheckRequest& request, bool constant_delay) {
+props::Finding free_certificate(const checker::CheckRequest& request, bool constant_delay,
+                                int beyond) {
+  if (beyond != 0) return decided(request, constant_delay, beyond);
   return checker::known(request, free_certificate_name,
                         [&] { return decided(request, constant_delay, 0); });
-}
-
-props::Finding free_certificate_beyond(const checker::CheckRequest& request, bool constant_delay,
-                                       int more) {
-  return decided(request, constant_delay, more);
 }
 
 }  // namespace stormproof::tables

@@ -16,11 +16,9 @@ namespace stormproof::tables {
 [[nodiscard]] std::optional<model::Nanoseconds> certified_free(const model::DdsProfile& dds,
                                                                bool constant_delay);
 
-/// With the mutant's mistakes. A check decides it once.
+/// With the mutant's mistakes, and that of packets which take `beyond` ns more than the threshold.
+/// A check decides it once.
 [[nodiscard]] props::Finding free_certificate(const checker::CheckRequest& request,
-                                              bool constant_delay);
-/// The same for packets that take `more` ns more than that, to show that it is a threshold.
-[[nodiscard]] props::Finding free_certificate_beyond(const checker::CheckRequest& request,
-                                                     bool constant_delay, int more);
+                                              bool constant_delay, int beyond = 0);
 
 }  // namespace stormproof::tables

@@ -184,13 +184,10 @@ std::string why_not_certified(const CheckRequest& request) {
 
 }  // namespace
 
-props::Finding recovery_certificate(const checker::CheckRequest& request, Before before) {
+props::Finding recovery_certificate(const checker::CheckRequest& request, Before before,
+                                    const Tighter& mistake) {
+  if (mistake != Tighter{}) return decided(request, before, mistake);
   return checker::known(request, name_of(before), [&] { return decided(request, before, {}); });
-}
-
-props::Finding tighter_recovery(const checker::CheckRequest& request, Before before,
-                                const Tighter& tighter) {
-  return decided(request, before, tighter);
 }
 
 Finding live_recovery(const CheckRequest& request) {

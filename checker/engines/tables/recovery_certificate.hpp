@@ -28,11 +28,9 @@ template <class D>
   return doubles ? since + first + first + completion : first + completion;
 }
 
-/// With the mutant's mistakes. A check decides it once.
+/// With the mutant's mistakes, and that of a bound which is too small. A check decides the bound
+/// that is claimed once.
 [[nodiscard]] props::Finding recovery_certificate(const checker::CheckRequest& request,
-                                                  Before before);
-/// The same for a bound that may be smaller.
-[[nodiscard]] props::Finding tighter_recovery(const checker::CheckRequest& request, Before before,
-                                              const Tighter& tighter);
+                                                  Before before, const Tighter& mistake = {});
 
 }  // namespace stormproof::tables

@@ -18,6 +18,8 @@ struct Tighter {
   int first = 0;
   int loss = 0;
   int exchange = 0;
+
+  bool operator==(const Tighter&) const = default;
 };
 [[nodiscard]] std::function<void(TimedDescriptor::Bound&)> tightened_by(const Tighter& tighter);
 

@@ -101,12 +101,6 @@ std::uint32_t Plan::loopback_participants(const Configuration& one) const {
   return (hosts - 1) * one.participants_per_host + 1;
 }
 
-std::size_t Plan::run_count() const {
-  std::size_t count = 0;
-  for (const Case& one : cases) count += variants[one.variant].runs;
-  return count;
-}
-
 model::Scenario Plan::scenario(const Case& one, std::uint64_t k) const {
   const Variant& variant = variants[one.variant];
   const Configuration& size = one.configuration;

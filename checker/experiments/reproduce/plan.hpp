@@ -69,8 +69,6 @@ struct Plan {
   /// Participants of the loopback run whose peers are as many as those of a participant of the
   /// configuration: l_P = (N_H − 1)·N_P + 1.
   [[nodiscard]] std::uint32_t loopback_participants(const Configuration& one) const;
-  /// Number of simulator runs of all cases.
-  [[nodiscard]] std::size_t run_count() const;
 };
 
 struct PlanOptions {

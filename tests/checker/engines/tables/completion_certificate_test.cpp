@@ -28,7 +28,7 @@ Finding certified(const model::Scenario& scenario, const checker::Mutant* mutant
   smt::Claims claims{std::move(options)};
   const checker::CheckRequest request{
       .scenario = scenario, .claims = claims, .mutant = mutant, .on_progress = {}};
-  return tighter_certificate(request, tighter);
+  return completion_certificate(request, tighter);
 }
 
 std::vector<model::Scenario> scenarios() {

@@ -20,7 +20,7 @@ Finding certified(const model::Scenario& scenario, const How& how) {
   smt::Claims claims{{.second_solver = how.second}};
   const checker::CheckRequest request{
       .scenario = scenario, .claims = claims, .mutant = how.mutant, .on_progress = {}};
-  return free_certificate_beyond(request, how.constant, how.more);
+  return free_certificate(request, how.constant, how.more);
 }
 
 model::Scenario with_initial(model::InitialAckNackReply reply, model::Nanoseconds delay) {

@@ -37,7 +37,7 @@ Finding certified(const model::Scenario& scenario, Before before,
   smt::Claims claims{std::move(options)};
   const checker::CheckRequest request{
       .scenario = scenario, .claims = claims, .mutant = mutant, .on_progress = {}};
-  return tighter_recovery(request, before, tighter);
+  return recovery_certificate(request, before, tighter);
 }
 
 TEST(RecoveryCertificate, HoldsForTheProposedRule) {
