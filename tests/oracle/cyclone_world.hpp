@@ -14,12 +14,11 @@
 
 #include "model/scenario.hpp"
 #include "tests/oracle/cyclone_oracle.hpp"
+#include "tests/oracle/staged_channel.hpp"
 
 namespace stormproof::oracle::cyclone {
 
 using Mistake = CycloneMistake;
-using Id = std::uint32_t;  // a participant
-using Time = std::int64_t;
 using Sample = std::int64_t;  // from 1
 
 constexpr Time never = INT64_MAX;
@@ -31,8 +30,6 @@ constexpr int publications = 0;
 constexpr int subscriptions = 1;
 constexpr int liveliness = 2;
 constexpr int builtins = 5;
-
-enum class EventClass { service = 0, protocol = 1, dispatch = 2 };
 
 enum class EventKind { service_finished, reception, start, creation, timer, run, dispatch };
 
@@ -158,17 +155,6 @@ struct Participant {
   std::int64_t queued_bytes = 0;
 };
 
-struct Request {
-  std::uint64_t packet = 0;
-  std::size_t stage = 0;
-  std::size_t fragment = 0;
-};
-struct Channel {
-  bool busy = false;
-  bool dispatch_pending = false;
-  std::map<std::tuple<Time, int, std::uint64_t>, Request> waiting;  // (time, stage rank, number)
-};
-
 struct World {
   World(const model::Scenario& s, Mistake m);
 
@@ -218,6 +204,9 @@ void run_thread(World& w, Id i);
 
 // cyclone_channel.cpp
 void emit(World& w, Packet packet);
+void request(World& w, std::uint64_t packet, std::size_t fragment, std::size_t stage);
+void leave_source(World& w, const Packet& packet);
+void arrive(World& w, const Packet& packet);
 void dispatch(World& w, const std::string& name);
 void service_finished(World& w, const Event& event);
 

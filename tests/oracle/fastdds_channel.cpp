@@ -1,6 +1,7 @@
 // The way of a packet from its emission to its receptions: over the loopback to participants on the
-// same host, and over its source's queue and the stages of the route to the others. Nothing here
-// looks at what is in a packet.
+// same host, and over its source's queue and the stages of the route to the others: those of
+// staged_channel.hpp, or with access points and losses as here. Nothing here looks at what is in a
+// packet.
 #include <algorithm>
 
 #include "tests/oracle/fastdds_world.hpp"
@@ -10,77 +11,20 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-int stage_rank(const World& w, std::size_t stage) {
-  switch (w.scenario.wireless.order) {
-    case model::ServiceOrder::fifo_uplink:
-    case model::ServiceOrder::datagram_uplink:
-      return static_cast<int>(stage);
-    case model::ServiceOrder::fifo_downlink:
-      return -static_cast<int>(stage);
-    case model::ServiceOrder::fifo:
-      return 0;
-  }
-  return 0;
-}
-
-void schedule_dispatch(World& w, const std::string& name) {
-  Channel& channel = w.channels.at(name);
-  if (channel.busy || channel.dispatch_pending) return;
-  channel.dispatch_pending = true;
-  Event event;
-  event.kind = EventKind::dispatch;
-  event.channel = name;
-  schedule(w, w.now, EventClass::dispatch, event);
-}
-
 bool by_unit(const World& w) { return w.scenario.wireless.service == model::ServedBy::unit; }
 
-void request(World& w, std::uint64_t packet, std::size_t fragment, std::size_t stage) {
-  request_frame(w, w.packets.at(packet), fragment, stage, access_points(w).front());
-}
-
-void request_all(World& w, const Packet& packet, std::size_t stage) {
-  for (std::size_t k = 0; k < packet.fragments.size(); ++k) request(w, packet.id, k, stage);
-}
-
-std::int64_t demand(const Packet& packet) {
-  std::int64_t sum = 0;
-  for (const std::int64_t bytes : packet.fragments) sum += bytes;
-  return sum;
-}
-
-bool fits(const World& w, const Participant& p, std::int64_t bytes) {
-  const model::Bytes limit = w.scenario.wireless.source_queue_bytes;
-  if (p.queued_bytes == 0 || limit == model::WirelessProfile::unlimited) return true;
-  return p.queued_bytes + bytes <= limit.count();
+void enter(World& w, const Packet& head) {
+  count_admitted(w, head);
+  if (w.makes(WifiMistake::held_until_next_packet)) wake(w, head.source);
+  if (is_wired(w, w.participants.at(head.source).host)) return leave_wired_host(w, head);
+  if (!over_access_points(w)) return staged::begin(w, head);
+  const bool one = w.scenario.wireless.fragment_request == model::FragmentRequest::sequential;
+  const Packet whole = head;
+  for (std::size_t k = 0; k < (one ? 1 : whole.fragments.size()); ++k) request_up(w, whole, k);
 }
 
 void admit(World& w, Id i) {
-  Participant& p = w.participants.at(i);
-  while (!p.backlog.empty()) {
-    const Packet& head = w.packets.at(p.backlog.front());
-    if (!fits(w, p, demand(head))) return;
-    p.queued_bytes += demand(head);
-    p.backlog.pop_front();
-    count_admitted(w, head);
-    if (w.makes(WifiMistake::held_until_next_packet)) wake(w, i);
-    if (is_wired(w, p.host)) {
-      leave_wired_host(w, head);
-      continue;
-    }
-    if (over_access_points(w)) {
-      const bool one = w.scenario.wireless.fragment_request == model::FragmentRequest::sequential;
-      const Packet whole = head;
-      for (std::size_t k = 0; k < (one ? 1 : whole.fragments.size()); ++k) request_up(w, whole, k);
-      continue;
-    }
-    if (w.scenario.wireless.fragment_request == model::FragmentRequest::sequential) {
-      request(w, head.id, 0, 0);
-    } else {
-      request_all(w, head, 0);
-    }
-  }
-  wake(w, i);
+  if (staged::admit(w, i, [&](const Packet& head) { enter(w, head); })) wake(w, i);
 }
 
 // Who is to receive the packet over the loopback (same_host) or over the channel, ascending.
@@ -109,12 +53,12 @@ void schedule_receptions(World& w, const Packet& packet, bool same_host, Time at
 void request_frame(World& w, const Packet& packet, std::size_t fragment, std::size_t stage,
                    const std::string& access_point) {
   if (by_unit(w)) return request_unit(w, packet, fragment, stage > 0, access_point);
-  const std::string name =
-      radio_of(w, access_point) + "/" + w.scenario.wireless.stages.at(stage).channel;
-  w.channels[name].waiting[{w.now, stage_rank(w, stage), w.requests}] = {packet.id, stage, fragment,
-                                                                         access_point};
-  ++w.requests;
-  schedule_dispatch(w, name);
+  staged::enqueue(w, radio_of(w, access_point) + "/" + w.scenario.wireless.stages.at(stage).channel,
+                  {packet.id, stage, fragment, access_point});
+}
+
+void request(World& w, std::uint64_t packet, std::size_t fragment, std::size_t stage) {
+  request_frame(w, w.packets.at(packet), fragment, stage, access_points(w).front());
 }
 
 void request_up(World& w, const Packet& packet, std::size_t fragment) {
@@ -123,7 +67,7 @@ void request_up(World& w, const Packet& packet, std::size_t fragment) {
 }
 
 void leave_wired_host(World& w, const Packet& packet) {
-  w.participants.at(packet.source).queued_bytes -= demand(packet);
+  w.participants.at(packet.source).queued_bytes -= staged::demand(w, packet);
   Event event;
   event.kind = EventKind::distribution;
   event.packet = packet.id;
@@ -132,7 +76,7 @@ void leave_wired_host(World& w, const Packet& packet) {
 }
 
 void leave_source(World& w, const Packet& packet) {
-  w.participants.at(packet.source).queued_bytes -= demand(packet);
+  w.participants.at(packet.source).queued_bytes -= staged::demand(w, packet);
   admit(w, packet.source);
 }
 
@@ -197,21 +141,13 @@ void emit(World& w, Packet packet) {
 
 void dispatch(World& w, const std::string& name) {
   if (by_unit(w)) return dispatch_unit(w, name);
-  Channel& channel = w.channels.at(name);
-  channel.dispatch_pending = false;
-  if (channel.busy || channel.waiting.empty()) return;
-  const Request next = channel.waiting.begin()->second;
-  channel.waiting.erase(channel.waiting.begin());
-  channel.busy = true;
+  const std::optional<Request> taken = staged::take_next(w, name);
+  if (!taken) return;
+  const Request& next = *taken;
 
   const Packet& packet = w.packets.at(next.packet);
   const bool multicast = !packet.destination.has_value();
-  Event event = make_event(EventKind::service_finished, packet.source,
-                           packet.destination.value_or(packet.source), packet.stream);
-  event.packet = next.packet;
-  event.stage = next.stage;
-  event.fragment = next.fragment;
-  event.channel = name;
+  Event event = staged::end_of(w, next, name);
   event.access_point = next.access_point;
   const std::int64_t bytes = packet.fragments.at(next.fragment);
   model::WirelessProfile own = w.scenario.wireless;
@@ -263,28 +199,10 @@ void frame_finished(World& w, const Event& event) {
 
 void service_finished(World& w, const Event& event) {
   if (by_unit(w)) return unit_finished(w, event.channel);
-  const model::WirelessProfile& wireless = w.scenario.wireless;
+  if (!over_access_points(w)) return staged::service_finished(w, event);
   w.channels.at(event.channel).busy = false;
-  if (over_access_points(w)) {
-    frame_finished(w, event);
-    if (!w.channels.at(event.channel).waiting.empty()) schedule_dispatch(w, event.channel);
-    return;
-  }
-  Packet& packet = w.packets.at(event.packet);
-  ++packet.served[event.stage];
-
-  const bool last = packet.served[event.stage] == packet.fragments.size();
-  const bool first_stage = event.stage == 0;
-  const bool last_stage = event.stage + 1 == wireless.stages.size();
-  const bool whole_datagrams = wireless.order == model::ServiceOrder::datagram_uplink;
-  const bool one_by_one = wireless.fragment_request == model::FragmentRequest::sequential;
-
-  if (whole_datagrams && last && !last_stage) request_all(w, packet, event.stage + 1);
-  if (first_stage && !last && one_by_one) request(w, packet.id, event.fragment + 1, 0);
-  if (!whole_datagrams && !last_stage) request(w, packet.id, event.fragment, event.stage + 1);
-  if (first_stage && last) leave_source(w, packet);
-  if (last_stage && last) arrive(w, packet);
-  if (!w.channels.at(event.channel).waiting.empty()) schedule_dispatch(w, event.channel);
+  frame_finished(w, event);
+  if (!w.channels.at(event.channel).waiting.empty()) staged::schedule_dispatch(w, event.channel);
 }
 
 }  // namespace stormproof::oracle::fastdds

@@ -16,12 +16,11 @@
 
 #include "model/scenario.hpp"
 #include "tests/oracle/fastdds_oracle.hpp"
+#include "tests/oracle/staged_channel.hpp"
 
 namespace stormproof::oracle::fastdds {
 
 using Mistake = FastddsMistake;
-using Id = std::uint32_t;  // a participant or a descriptor
-using Time = std::int64_t;
 
 constexpr int pub = 0;
 constexpr int sub = 1;
@@ -30,8 +29,6 @@ constexpr int participants_stream = 2;  // of a Discovery Server and its clients
 // Bytes of a HEARTBEAT to one participant and of an ACKNACK without bitmap.
 constexpr std::int64_t heartbeat_payload = 68;
 constexpr std::int64_t acknack_payload = 64;
-
-enum class EventClass { service = 0, protocol = 1, dispatch = 2 };
 
 enum class EventKind {
   service_finished,
@@ -297,19 +294,6 @@ struct Server {
   std::uint64_t token = 0;       // of the periodic run that still counts
 };
 
-struct Request {
-  std::uint64_t packet = 0;
-  std::size_t stage = 0;
-  std::size_t fragment = 0;
-  std::string access_point;
-};
-
-struct Channel {
-  bool busy = false;
-  bool dispatch_pending = false;
-  std::map<std::tuple<Time, int, std::uint64_t>, Request> waiting;  // (time, stage rank, number)
-};
-
 /// A fragment that waits for a place in a unit.
 struct Frame {
   std::uint64_t number = 0;  // of its request
@@ -412,6 +396,7 @@ constexpr int liveliness = -1;
 
 // fastdds_channel.cpp
 void emit(World& w, Packet packet);
+void request(World& w, std::uint64_t packet, std::size_t fragment, std::size_t stage);
 void leave_source(World& w, const Packet& packet);
 void arrive(World& w, const Packet& packet);
 void arrive_at(World& w, const Packet& packet, const std::string& access_point);

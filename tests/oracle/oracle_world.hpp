@@ -15,13 +15,9 @@
 #include "model/scenario.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/oracle_sizes.hpp"
+#include "tests/oracle/staged_channel.hpp"
 
 namespace stormproof::oracle {
-
-using Id = std::uint32_t;  // a participant or a descriptor
-using Time = std::int64_t;
-
-enum class EventClass { service = 0, protocol = 1, dispatch = 2 };
 
 enum class EventKind {
   service_finished,
@@ -72,7 +68,7 @@ struct Packet {
   bool initial = false;            // an initial ACKNACK
   std::set<Id> bitmap;             // of an ACKNACK
   Id announces = 0;                // of a HEARTBEAT: so many exist; of an ACKNACK: are known
-  std::uint64_t number = 0;        // from here on: filled in by emit
+  std::uint64_t id = 0;            // from here on: filled in by emit
   Time emitted = 0;
   bool lost = false;
   std::vector<std::int64_t> fragments;        // bytes on the channel
@@ -121,18 +117,6 @@ struct Participant {
   std::int64_t queued_bytes = 0;
 };
 
-struct Request {
-  std::uint64_t packet = 0;
-  std::size_t stage = 0;
-  std::size_t fragment = 0;
-};
-
-struct Channel {
-  bool busy = false;
-  bool dispatch_pending = false;
-  std::map<std::tuple<Time, int, std::uint64_t>, Request> waiting;  // (time, stage rank, number)
-};
-
 struct World {
   explicit World(const model::Scenario& s, Mistake m = Mistake::none);
 
@@ -176,6 +160,9 @@ void schedule(World& w, Time at, EventClass event_class, const Event& event);
 
 // oracle_channel.cpp
 void emit(World& w, Packet packet);
+void request(World& w, std::uint64_t packet, std::size_t fragment, std::size_t stage);
+void leave_source(World& w, const Packet& packet);
+void arrive(World& w, const Packet& packet);
 void dispatch(World& w, const std::string& channel);
 void service_finished(World& w, const Event& event);
 
