@@ -81,8 +81,9 @@ inline constexpr std::size_t rule_count = 38;
 struct Sender {
   std::string_view scope;   ///< a rule or procedure: "ReaderIsMatched"
   std::string_view packet;  ///< "Heartbeat"
-  /// "ClientAnnounces.5", if several effects there send the packet.
-  std::string_view effect{};
+  /// If several effects there send the packet: the condition right around the one that is meant, as
+  /// the composition states it. Numbers of effects move when one comes before them.
+  std::string_view condition{};
 
   auto operator<=>(const Sender&) const = default;
 };

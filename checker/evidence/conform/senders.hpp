@@ -36,8 +36,10 @@ inline constexpr Sender reply{"Reply", "AckNack"};
 
 /// The same in what a Discovery Server adds (fsm/composition/server.hpp).
 namespace server {
-inline constexpr Sender announces_first{"ClientAnnounces", "Registration", "ClientAnnounces.5"};
-inline constexpr Sender announces{"ClientAnnounces", "Registration", "ClientAnnounces.9"};
+inline constexpr Sender announces_first{"ClientAnnounces", "Registration",
+                                        "if not (AnnouncementsSent > 0)"};
+inline constexpr Sender announces{"ClientAnnounces", "Registration",
+                                  "if not (not (AnnouncementsSent > 0))"};
 inline constexpr Sender tick{"ClientSyncIsDue", "Registration"};
 inline constexpr Sender first_heartbeat{"ClientAnnounces", "RegistrationHeartbeat"};
 inline constexpr Sender asked_heartbeat{"RegistrationAckNackArrives", "RegistrationHeartbeat"};

@@ -95,6 +95,11 @@ std::map<std::string, std::string> reasons_with_server(
   return reasons;
 }
 
+/// The condition right around an effect.
+std::string_view condition_of(const EffectInfo& effect) {
+  return effect.blocks.empty() ? std::string_view{} : effect.blocks.back().text;
+}
+
 /// Gives the events of each sender to the one effect that can have sent them; how many have one.
 std::uint64_t attribute(const std::map<Sender, std::uint64_t>& by_sender,
                         std::vector<RuleCoverage>& rules) {
@@ -106,7 +111,7 @@ std::uint64_t attribute(const std::map<Sender, std::uint64_t>& by_sender,
       if (rule.rule != sender.scope) continue;
       for (EffectCoverage& effect : rule.effects) {
         if (!effect.ruled_out_by.empty() ||
-            (!sender.effect.empty() && sender.effect != effect.effect->id) ||
+            (!sender.condition.empty() && sender.condition != condition_of(*effect.effect)) ||
             std::ranges::find(effect.packets, sender.packet) == effect.packets.end()) {
           continue;
         }
