@@ -28,8 +28,7 @@ const fsm::program::Program& program_of_exchange(const DdsProfile& dds) {
 }
 
 bool is_living_fastdds(const Scenario& scenario) {
-  const ImplementationTraits& traits = traits_of(scenario.dds);
-  return scenario.deployment.life && traits.knows_lives && traits.writer == Writer::stateful;
+  return scenario.deployment.life && traits_of(scenario.dds).has_living_composition;
 }
 
 const fsm::composition::CompositionInfo& composition_of(const Scenario& scenario) {

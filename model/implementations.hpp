@@ -1,7 +1,8 @@
 // The implementations of DDS that there are: which composition of machines each executes, and what
-// is true of each whatever its profile says. This is the one place that tells them apart
-// (tests/structure); everybody else asks for the capability that they mean, or gives a function for
-// each composition to `visit_composition`, and does not compile as long as one is missing.
+// is true of each whatever its profile says. This is the one place that tells them apart;
+// everybody else asks for the capability that they mean, or gives a function for each composition
+// to `visit_composition`, and does not compile as long as one is missing. Who states something
+// about one `Writer`, a theorem, a property or a law, asks whose it is: tests/structure lists them.
 #pragma once
 
 #include <array>
@@ -103,8 +104,25 @@ struct ImplementationTraits {
   /// Engines, monitors and laws that are about descriptors know its writer. Otherwise only what is
   /// about machines, the network or results says something of it (props/applicability.hpp).
   bool is_known_to_engines = true;
-  /// Its rules know participants that forget each other and come back (`deployment.life`).
+  /// Its rules know participants that forget each other and come back (`deployment.life`);
   bool knows_lives = false;
+  /// these rules are a composition of their own.
+  bool has_living_composition = false;
+  /// `amendments` of the profile change its rules.
+  bool can_be_amended = false;
+  /// Its timers, and what it packs, have keys of its own ("sedp.heartbeat_interval", …) and not
+  /// those of the others.
+  bool has_own_timers = false;
+  /// A participant answers whoever announces itself, and tells nobody else then: no "spdp.resend".
+  bool answers_newcomers = false;
+  /// What a participant sends goes through an event thread, which takes its time for it.
+  bool has_event_thread = false;
+  /// Messages of all built-in endpoints share packets.
+  bool mixes_messages = false;
+  /// How long its threads are busy with what, is known (`processor` of a host).
+  bool has_processor_times = false;
+  /// What everything sent once would be is defined: each descriptor goes to each reader by itself.
+  bool has_open_loop = true;
   Writer writer = Writer::of_the_paper;
 };
 
@@ -141,7 +159,8 @@ inline constexpr ImplementationTraits traits_of_programs{
           .rules = "the rules of the closed-loop model",
           .guide = "specs/guide/model.md",
           .has_size_knobs = true,
-          .waits_for_source = true};
+          .waits_for_source = true,
+          .can_be_amended = true};
 }
 
 /// The paper's, with rules that other implementations have or had (model/amendments.hpp).
@@ -162,6 +181,8 @@ inline constexpr ImplementationTraits traits_of_programs{
   traits.guide = "specs/guide/fastdds.md";
   traits.vendor = vendor::fastdds;
   traits.knows_lives = true;
+  traits.has_living_composition = true;
+  traits.has_processor_times = true;
   traits.writer = Writer::stateful;
   return traits;
 }
@@ -174,6 +195,11 @@ inline constexpr ImplementationTraits traits_of_programs{
   traits.guide = "specs/guide/cyclone.md";
   traits.vendor = vendor::cyclonedds;
   traits.is_known_to_engines = false;
+  traits.has_own_timers = true;
+  traits.answers_newcomers = true;
+  traits.has_event_thread = true;
+  traits.mixes_messages = true;
+  traits.has_open_loop = false;
   traits.writer = Writer::of_cyclone;
   return traits;
 }
@@ -183,6 +209,7 @@ inline constexpr ImplementationTraits traits_of_programs{
   ImplementationTraits traits = traits_of_fastdds();
   traits.rules = "Fast DDS's own rules with static peers";
   traits.knows_lives = false;
+  traits.has_living_composition = false;
   traits.guide = "specs/guide/discovery-server.md";
   return traits;
 }
@@ -193,6 +220,8 @@ inline constexpr ImplementationTraits traits_of_programs{
   traits.rules = "the rules of Fast DDS's Discovery Server";
   traits.has_server = true;
   traits.is_known_to_engines = false;
+  traits.has_processor_times = false;
+  traits.has_open_loop = false;
   traits.writer = Writer::of_server;
   return traits;
 }

@@ -105,9 +105,8 @@ Counts failure_free_reference(const Scenario& scenario) {
   counts.acknack = topology.relation_count();
   const bool same_host = traits_of(scenario.dds).discovers_same_host;
   // Cyclone DDS answers the one who has announced itself, and does not announce itself to all.
-  const SpdpResend resend = traits_of(scenario.dds).writer == Writer::of_cyclone
-                                ? SpdpResend::new_only
-                                : scenario.dds.spdp.resend;
+  const SpdpResend resend =
+      traits_of(scenario.dds).answers_newcomers ? SpdpResend::new_only : scenario.dds.spdp.resend;
   for (std::uint32_t i = 0; i < topology.participant_count(); ++i) {
     const std::uint64_t peers = topology.peer_count(i);
     add_spdp(counts, resend, same_host ? topology.participant_count() - 1 : peers, peers);
@@ -122,10 +121,7 @@ Counts failure_free_reference(const Scenario& scenario) {
 
 std::optional<Nanoseconds> open_loop_airtime(const Scenario& scenario) {
   if (scenario.wireless.kind == ServiceKind::constant_delay) return std::nullopt;
-  const Writer writer = traits_of(scenario.dds).writer;
-  if (writer == Writer::of_cyclone || writer == Writer::of_server) {
-    return std::nullopt;  // not defined
-  }
+  if (!traits_of(scenario.dds).has_open_loop) return std::nullopt;
   const Topology topology{scenario.deployment, scenario.dds.descriptors};
   const RouteAirtime route{scenario.wireless};
   return Nanoseconds{everything_once_ns(topology, route, packet_sizes(scenario.dds))};

@@ -48,8 +48,7 @@ Result<TracedProfile> changed_profile(const museum::Exhibit& exhibit, const muse
 
 /// Only amended rules know participants that forget; without a change they are the paper's.
 void amend(model::DdsProfile& dds) {
-  const bool can_be = model::traits_of(dds).writer == model::Writer::of_the_paper;
-  if (can_be && !dds.amendments) dds.amendments.emplace();
+  if (model::traits_of(dds).can_be_amended && !dds.amendments) dds.amendments.emplace();
 }
 
 bool has_life(const std::string& over, const config::SpecPath& specs) {

@@ -10,7 +10,7 @@ namespace stormproof::model::trace {
 EffectNames::EffectNames(const DdsProfile& dds)
     : ids_{fsm::composition::effect_ids(composition_of(dds))} {
   // With a life its rules are those of another composition, which shares most of them.
-  if (traits_of(dds).knows_lives && traits_of(dds).writer == Writer::stateful) {
+  if (traits_of(dds).has_living_composition) {
     ids_.merge(fsm::composition::effect_ids(fsm::composition::compositions().back()));
   }
   if (!traits_of(dds).has_server) return;

@@ -113,7 +113,7 @@ void draw_cyclone_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds)
 }  // namespace
 
 void draw_rules_and_sizes(Dice& dice, Scenario& scenario) {
-  if (model::traits_of(scenario.dds).writer == model::Writer::of_cyclone) {
+  if (model::traits_of(scenario.dds).has_own_timers) {
     draw_cyclone_rules(dice, scenario.dds);
     return;
   }
@@ -131,7 +131,7 @@ void draw_rules_and_sizes(Dice& dice, Scenario& scenario) {
 }
 
 void draw_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds) {
-  if (model::traits_of(dds).writer == model::Writer::of_cyclone) {
+  if (model::traits_of(dds).has_own_timers) {
     draw_cyclone_timers(dice, clock, dds);
     return;
   }

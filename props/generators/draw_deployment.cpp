@@ -119,7 +119,7 @@ void draw_times(Dice& dice, const ScenarioSpace& space, const Clock& clock, Scen
     if (starts != Starts::far_apart) latest = std::max(latest, p.endpoints_done.count());
   }
   if (traits.discovers_same_host) draw_loopback(dice, clock, scenario);
-  if (traits.writer == model::Writer::of_cyclone) draw_thread(dice, clock, scenario);
+  if (traits.has_event_thread) draw_thread(dice, clock, scenario);
   // Where discovery takes seconds, what follows a few of them is more of the same.
   const std::int64_t longer = std::min(clock.scale * dice.among({1, 2, 4, 8, 16}) / 2,
                                        std::max(2 * clock.scale, 5 * second));

@@ -39,7 +39,7 @@ quiet_laws();  ///< a network without delays or losses to speak of
 }
 /// Of those that are about what a packet says as a whole; messages of Cyclone DDS share packets.
 [[nodiscard]] inline bool says_one_thing(const model::Scenario& scenario) {
-  return model::traits_of(scenario.dds).writer != model::Writer::of_cyclone;
+  return !model::traits_of(scenario.dds).mixes_messages;
 }
 /// Of those that count on packets of their own for each reader.
 [[nodiscard]] inline bool is_sent_to_each(const model::Scenario& scenario) {

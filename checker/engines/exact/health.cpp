@@ -116,8 +116,7 @@ RunHealth health_of(const model::Scenario& scenario, const model::RunResult& res
     run.airtime = used(result) / airtime;
     run.stretch = static_cast<double>(run.took.count()) / airtime;
   }
-  const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
-  if (traits.has_server || traits.writer == model::Writer::of_cyclone) {
+  if (!model::traits_of(scenario.dds).has_open_loop) {
     // What a server relays is not sent once, so there is no open loop to compare with; nor is
     // there one of Cyclone DDS.
     const auto needed = model::failure_free_reference(scenario).total();

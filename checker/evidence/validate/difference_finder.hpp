@@ -31,9 +31,7 @@ class Finder {
     return model::traits_of(scenario_.dds);
   }
   /// Whether the model's messages mix submessages of all built-in endpoints, as in Cyclone DDS.
-  [[nodiscard]] bool mixes_submessages() const {
-    return traits().writer == model::Writer::of_cyclone;
-  }
+  [[nodiscard]] bool mixes_submessages() const { return traits().mixes_messages; }
   [[nodiscard]] const capture::Participant& captured(const CapturedParticipant& one) const {
     return conversation_.topology.participants[one.number];
   }

@@ -124,7 +124,7 @@ bool is_predicted(Figure figure, const model::ImplementationTraits& traits) {
     case Figure::heartbeat_piggyback:
     case Figure::heartbeat_periodic:
     case Figure::last_open:
-      return traits.writer != model::Writer::of_cyclone && !traits.has_server;
+      return !traits.mixes_messages && !traits.has_server;
     case Figure::initial_pulled:  // a client asks for what a server has announced and not yet sent
       return !traits.has_server;
     default:

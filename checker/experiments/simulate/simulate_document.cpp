@@ -80,7 +80,7 @@ std::string elaboration(const Simulation& s) {
     if (model::traits_of(s.scenario.dds).has_server) {
       return text + "No open-loop airtime: it is not defined with a Discovery Server.";
     }
-    return text + (model::traits_of(s.scenario.dds).writer == model::Writer::of_cyclone
+    return text + (model::traits_of(s.scenario.dds).mixes_messages
                        ? "No open-loop airtime: it is not defined for Cyclone DDS's shared packets."
                        : "No open-loop airtime: this profile has a constant delay and no channel.");
   }

@@ -81,12 +81,11 @@ inline constexpr std::int64_t max_epsilon_denominator = 1'000;
 }
 /// Of what only Cyclone DDS has, and of what only the others have.
 [[nodiscard]] constexpr Presence of_cyclone(ImplementationKind implementation) {
-  return traits_of(implementation).writer == Writer::of_cyclone ? Presence::required
-                                                                : Presence::of_others;
+  return traits_of(implementation).has_own_timers ? Presence::required : Presence::of_others;
 }
 [[nodiscard]] constexpr Presence not_of_cyclone(ImplementationKind implementation,
                                                 Presence elsewhere = Presence::required) {
-  return traits_of(implementation).writer == Writer::of_cyclone ? Presence::of_others : elsewhere;
+  return traits_of(implementation).has_own_timers ? Presence::of_others : elsewhere;
 }
 
 /// Of what only Fast DDS has with some way to discover.
@@ -351,7 +350,7 @@ void visit_knobs(auto& visit, Is<Amendments> auto& rules) {
 
 /// Of the amended rules.
 [[nodiscard]] constexpr Presence with_amendments(ImplementationKind implementation) {
-  return traits_of(implementation).has_size_knobs ? Presence::optional : Presence::of_others;
+  return traits_of(implementation).can_be_amended ? Presence::optional : Presence::of_others;
 }
 
 /// Where a profile says whose writer it describes; the reader looks at it before anything else.

@@ -209,7 +209,7 @@ inline constexpr std::uint64_t max_descriptor_deliveries = 10'000'000'000;
 
 /// Whether it is known of the participants what a thread of theirs does, and when.
 [[nodiscard]] inline bool takes_processor_time(const DdsProfile& dds) {
-  return traits_of(dds).writer == Writer::stateful && !traits_of(dds).has_server;
+  return traits_of(dds).has_processor_times;
 }
 
 /// Amplifications of real storms are around 10; the limit keeps products within 64 bits.

@@ -15,6 +15,7 @@
 #include "model/packet_sizes.hpp"
 #include "model/paper/amended_protocol.hpp"
 #include "model/paper/protocol.hpp"
+#include "model/reference.hpp"
 #include "model/simulator.hpp"
 #include "tests/oracle/random_scenario.hpp"
 
@@ -94,6 +95,20 @@ TEST_P(Implementations, LeaveRulesToTheProfileOrNot) {
   EXPECT_EQ(after.heartbeat_timer == before.heartbeat_timer, fixed);
 }
 
+TEST_P(Implementations, HaveWhatScenariosCanSayOfThem) {
+  Scenario scenario = three();
+  EXPECT_EQ(open_loop_airtime(scenario).has_value(), traits().has_open_loop);
+  scenario.dds.spdp.resend = SpdpResend::all_known;
+  const Counts to_all = failure_free_reference(scenario);
+  scenario.dds.spdp.resend = SpdpResend::new_only;
+  EXPECT_EQ(failure_free_reference(scenario) == to_all, traits().answers_newcomers);
+  scenario.deployment.life.emplace();
+  EXPECT_EQ(&composition_of(scenario) != &composition_of(scenario.dds),
+            traits().has_living_composition);
+  scenario.dds.amendments.emplace();
+  EXPECT_EQ(kind_of(scenario.dds) != GetParam(), traits().can_be_amended);
+}
+
 TEST_P(Implementations, ReceiveAsTheirHostsDo) {
   const Scenario scenario = three();
   const bool found = visit_composition(
@@ -106,6 +121,7 @@ struct Seen : Probe {
   void run_started(const Topology& topology) override { pairs = topology.pair_count(); }
   void event_started(const Event& event) override {
     creations += event.kind == EventKind::endpoint_creation ? 1U : 0U;
+    threads += event.kind == EventKind::thread_run ? 1U : 0U;
   }
   void looped_back(const Packet&, std::uint32_t) override { ++loops; }
   void emitted(const Packet& packet, std::uint32_t, std::span<const std::uint32_t>) override {
@@ -118,6 +134,7 @@ struct Seen : Probe {
 
   std::uint32_t pairs = 0;
   std::uint64_t creations = 0;
+  std::uint64_t threads = 0;
   std::uint64_t loops = 0;
   std::uint64_t bases = 0;
 };
@@ -130,6 +147,7 @@ TEST_P(Implementations, RunAsTheyAreSaidTo) {
   const RunResult result = simulate(scenario, options);
   EXPECT_TRUE(result.completed());
   EXPECT_EQ(seen.creations > 0, traits().creates_endpoints_over_time);
+  EXPECT_EQ(seen.threads > 0, traits().has_event_thread);
   EXPECT_EQ(seen.pairs, traits().discovers_same_host ? 6U : 4U);
   EXPECT_EQ(topology_of(scenario).pair_count(), seen.pairs);
   EXPECT_EQ(seen.loops > 0, traits().discovers_same_host);
