@@ -18,45 +18,45 @@ struct ReaderRetryDue : TimerAtDestination<owner::relation> {};
 struct CopyDue : Timer<owner::pair> {};
 
 // Of initial ACKNACKs.
-struct InitialResets : Switch {};
-struct InitialArms : Switch {};
-struct IgnoresLateInitial : Switch {};
-struct AsksOnce : Switch {};
-struct AsksByAge : Switch {};
-struct AsksAtOnceBeforeCreation : Switch {};
-struct StopsWhenComplete : Switch {};
-struct MatchClockSkew : Delay {};
-struct AgePeriod : Delay {};  ///< 1 s
+struct InitialResets : SwitchOf<"amendments.initial_acknack_resets", "true"> {};
+struct InitialArms : SwitchOf<"amendments.initial_acknack_arms", "true"> {};
+struct IgnoresLateInitial : SwitchOf<"amendments.late_initial", "ignore_after_ack"> {};
+struct AsksOnce : SwitchOf<"amendments.initial_acknack_repeat", "once"> {};
+struct AsksByAge : SwitchOf<"amendments.initial_acknack_repeat", "age_based", "age_based_zero"> {};
+struct AsksAtOnceBeforeCreation : SwitchOf<"amendments.initial_acknack_repeat", "age_based_zero"> {
+};
+struct StopsWhenComplete : SwitchOf<"amendments.initial_acknack_stop", "complete"> {};
+struct MatchClockSkew : DelayOf<"amendments.match_clock_skew"> {};
+struct AgePeriod : FixedDelay<1'000'000'000> {};
 // Of requests and repairs.
-struct ReopensAcknowledged : Switch {};
-struct ResendsAcknowledged : Switch {};
-struct OnlyInUWaits : Switch {};
-struct SuppressionEndArms : Switch {};
-struct HeartbeatBeforeRepair : Switch {};
-struct HeartbeatAfterRepair : Switch {};
-struct AnswersRequests : Switch {};
-struct AnswersEachAckNack : Switch {};
-struct LatestOnly : Switch {};
-struct RequiredDrops : Switch {};
-struct RequiredGates : Switch {};
-struct RequiredAtRepair : Switch {};
+struct ReopensAcknowledged : SwitchOf<"amendments.acked_request", "reopen"> {};
+struct ResendsAcknowledged : SwitchOf<"amendments.acked_request", "resend"> {};
+struct OnlyInUWaits : SwitchOf<"amendments.heartbeat_condition", "in_u"> {};
+struct SuppressionEndArms : SwitchOf<"amendments.suppression_end_arms", "true"> {};
+struct HeartbeatBeforeRepair : SwitchOf<"amendments.repair_heartbeat", "before"> {};
+struct HeartbeatAfterRepair : SwitchOf<"amendments.repair_heartbeat", "after"> {};
+struct AnswersRequests : SwitchOf<"amendments.acknack_reply", "nonfinal"> {};
+struct AnswersEachAckNack : SwitchOf<"amendments.acknack_reply", "all"> {};
+struct LatestOnly : SwitchOf<"amendments.stale_acknack", "latest_only"> {};
+struct RequiredDrops : SwitchOf<"amendments.stale_acknack", "required_drop"> {};
+struct RequiredGates : SwitchOf<"amendments.stale_acknack", "required_gate"> {};
+struct RequiredAtRepair : SwitchOf<"amendments.stale_acknack", "required_at_repair"> {};
 // Of the clock of HEARTBEATs.
-struct MeasuresAcks : Switch {};
-struct ShortestMeasured : Delay {};  ///< 10 ms
-struct LongestMeasured : Delay {};   ///< 10 s
+struct MeasuresAcks : SwitchOf<"amendments.heartbeat_policy", "measured_ack"> {};
+struct ShortestMeasured : FixedDelay<10'000'000> {};
+struct LongestMeasured : FixedDelay<10'000'000'000> {};
 // Of readers.
-struct AcksHighest : Switch {};
-struct AcksMissing : Switch {};
-struct RetriesAfterNack : Switch {};
-struct RetriesWheneverMissing : Switch {};
-struct RetryPeriod : Delay {};
-struct NackDelay : Delay {};
-// Of participants that come and go.
-/// How many ACKNACKs of a reader that came back count as those of its earlier life.
-struct CountFilter : Delay {};
+struct AcksHighest : SwitchOf<"amendments.on_reannounce", "ack_highest"> {};
+struct AcksMissing : SwitchOf<"amendments.on_reannounce", "ack_missing"> {};
+struct RetriesAfterNack : SwitchOf<"amendments.reader_retry", "after_nack", "whenever_missing"> {};
+struct RetriesWheneverMissing : SwitchOf<"amendments.reader_retry", "whenever_missing"> {};
+struct RetryPeriod : DelayOf<"amendments.reader_retry_period"> {};
+struct NackDelay : DelayOf<"amendments.reader_nack_delay"> {};
+/// Of readers that come back: how many of their ACKNACKs count as those of an earlier life.
+struct CountFilter : DelayOf<"amendments.count_filter"> {};
 // Of announcements.
-struct ResendCopies : Delay {};  ///< how many, the first one included
-struct ResendCopyPeriod : Delay {};
+struct ResendCopies : DelayOf<"amendments.resend_copies"> {};  ///< how many, the first one included
+struct ResendCopyPeriod : DelayOf<"amendments.resend_copy_period"> {};
 
 /// The writer has written the sample: those that its participant starts with, and one for each
 /// endpoint that was created or deleted since.

@@ -20,13 +20,14 @@ struct AnnouncementsSent : Number<owner::participant> {};
 /// The destination of the pair has recognised its source.
 struct Recognised : Flag<owner::pair> {};
 
-struct StartupAnnouncements : Delay {};  ///< how many follow announcement 0
-struct StartupPeriod : Delay {};
-struct AnnouncementPeriod : Delay {};  ///< τ_P
+/// How many follow announcement 0.
+struct StartupAnnouncements : DelayOf<"spdp.startup_announcements"> {};
+struct StartupPeriod : DelayOf<"spdp.startup_period"> {};
+struct AnnouncementPeriod : DelayOf<"spdp.period"> {};  ///< τ_P
 // What is sent to a participant that is recognised; none of them: nothing.
-struct ResendsToAll : Switch {};
-struct ResendsCopyAndMulticast : Switch {};
-struct ResendsCopy : Switch {};
+struct ResendsToAll : SwitchOf<"spdp.resend", "all_known"> {};
+struct ResendsCopyAndMulticast : SwitchOf<"spdp.resend", "new_and_multicast"> {};
+struct ResendsCopy : SwitchOf<"spdp.resend", "new_only"> {};
 
 /// To every started participant of another host, each of which is a pair with the source. Fast
 /// DDS's also reaches those of the same host.

@@ -20,7 +20,8 @@ struct ControlReplyDue : TimerAtDestination<owner::control_relation> {};
 struct ControlHeartbeatSeen : Flag<owner::control_relation> {};
 struct ControlLastDelay : Number<owner::control_relation> {};
 
-struct ControlReplyDelay : Delay {};  ///< heartbeatResponseDelay of ordinary readers, 5 ms
+/// heartbeatResponseDelay of ordinary readers.
+struct ControlReplyDelay : FixedDelay<5'000'000> {};
 
 struct UserHeartbeat : Packet<owner::control_relation> {};
 struct UserAckNack : Packet<owner::control_relation, IsInitial> {};

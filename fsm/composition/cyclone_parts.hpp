@@ -70,21 +70,21 @@ struct NextAckCount : Number<owner::relation> {};  ///< less 1
 
 struct RepliesSent : Number<owner::pair> {};
 
-struct HeartbeatInterval : Delay {};
-struct HeartbeatIntervalMax : Delay {};
-struct MatchHeartbeatDelay : Delay {};
-struct AckDelay : Delay {};
-struct NackDelay : Delay {};
-struct AutoReschedNackDelay : Delay {};
-struct PreEmptiveAckDelay : Delay {};
-struct PreEmptiveRepeatDelay : Delay {};  ///< 1 s
-struct CountWindow : Delay {};            ///< how long counts are compared, 500 ms
-struct SpdpStartupPeriod : Delay {};
-struct SpdpPeriod : Delay {};
-struct DirectedReplies : Delay {};  ///< how many
-struct DirectedReplyInterval : Delay {};
+struct HeartbeatInterval : DelayOf<"sedp.heartbeat_interval"> {};
+struct HeartbeatIntervalMax : DelayOf<"sedp.heartbeat_interval_max"> {};
+struct MatchHeartbeatDelay : DelayOf<"sedp.match_heartbeat_delay"> {};
+struct AckDelay : DelayOf<"sedp.ack_delay"> {};
+struct NackDelay : DelayOf<"sedp.nack_delay"> {};
+struct AutoReschedNackDelay : DelayOf<"sedp.auto_resched_nack_delay"> {};
+struct PreEmptiveAckDelay : DelayOf<"sedp.preemptive_ack_delay"> {};
+struct PreEmptiveRepeatDelay : FixedDelay<1'000'000'000> {};
+struct CountWindow : FixedDelay<500'000'000> {};  ///< how long counts are compared
+struct SpdpStartupPeriod : DelayOf<"spdp.startup_period"> {};
+struct SpdpPeriod : DelayOf<"spdp.period"> {};
+struct DirectedReplies : DelayOf<"spdp.directed_replies"> {};  ///< how many
+struct DirectedReplyInterval : DelayOf<"spdp.directed_reply_interval"> {};
 struct SendTime : Delay {};  ///< of the deployment: between two packets of a participant
-struct MergesQueued : Switch {};
+struct MergesQueued : SwitchOf<"sedp.merge_queued_rexmit", "true"> {};
 
 /// The count of a HEARTBEAT or ACKNACK.
 struct Count : PacketNumber {};

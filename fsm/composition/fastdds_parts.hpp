@@ -32,8 +32,8 @@ struct SomeConfirmed : Flag<owner::relation> {};
 struct Known : Flag<owner::descriptor> {};     ///< the reader knows that it exists
 struct Notified : Flag<owner::descriptor> {};  ///< the reader's application knows
 
-struct NackResponseDelay : Delay {};    ///< τ_N
-struct SuppressionDuration : Delay {};  ///< τ_S
+struct NackResponseDelay : DelayOf<"sedp.nack_response_delay"> {};          ///< τ_N
+struct SuppressionDuration : DelayOf<"sedp.nack_suppression_duration"> {};  ///< τ_S
 /// The relation crosses hosts, so discovery needs it.
 struct CrossHost : Answer {};
 

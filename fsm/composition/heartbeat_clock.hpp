@@ -21,9 +21,9 @@ struct CycleStart : Timer<owner::writer, true> {};
 struct CycleEnd : Timer<owner::writer, true> {};
 struct BatchDue : Timer<owner::writer, true> {};
 
-struct HeartbeatPeriod : Delay {};  ///< τ_H
-struct Additive : Switch {};
-struct Adaptive : Switch {};
+struct HeartbeatPeriod : DelayOf<"sedp.heartbeat_period"> {};  ///< τ_H
+struct Additive : SwitchOf<"sedp.heartbeat_timer", "additive"> {};
+struct Adaptive : SwitchOf<"sedp.heartbeat_policy", "adaptive"> {};
 
 // The cycle of the adaptive policy.
 struct CycleBegan : Number<owner::writer> {};   ///< c, ns
@@ -33,8 +33,8 @@ struct Responded : Flag<owner::relation> {};    ///< it has answered
 struct AnnouncedAtStart : Flag<owner::entry> {};
 struct ContactedCount : Amount {};  ///< H, readers of the writer that the cycle has contacted
 struct RespondedCount : Amount {};  ///< A, those of them that have responded
-struct MinPeriod : Delay {};
-struct MaxPeriod : Delay {};
+struct MinPeriod : DelayOf<"sedp.adaptive.min_period"> {};
+struct MaxPeriod : DelayOf<"sedp.adaptive.max_period"> {};
 struct EpsilonNumerator : Delay {};
 struct EpsilonDenominator : Delay {};
 

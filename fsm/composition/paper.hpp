@@ -19,16 +19,16 @@ struct WriterOpen : Flag<owner::relation> {};
 struct RepairGeneration : Timer<owner::relation> {};
 struct SuppressionEnd : Timer<owner::relation> {};
 
-struct NackResponseDelay : Delay {};    ///< τ_N
-struct SuppressionDuration : Delay {};  ///< τ_S
-struct PushesInitialData : Switch {};   ///< `initial_data: push`
-struct PrefixOnly : Switch {};          ///< `acknowledge: prefix`
+struct NackResponseDelay : DelayOf<"sedp.nack_response_delay"> {};          ///< τ_N
+struct SuppressionDuration : DelayOf<"sedp.nack_suppression_duration"> {};  ///< τ_S
+struct PushesInitialData : SwitchOf<"sedp.initial_data", "push"> {};
+struct PrefixOnly : SwitchOf<"sedp.acknowledge", "prefix"> {};
 // What an initial ACKNACK is to the writer: an ACKNACK as any other, or a call for a HEARTBEAT;
 // none of them: nothing.
-struct InitialCountsAsAckNack : Switch {};
-struct InitialIsAnsweredByHeartbeat : Switch {};
-struct HeartbeatToMatched : Switch {};      ///< `heartbeat_recipients: matched`
-struct ReceiverOpensBothSides : Switch {};  ///< `relation_opening: receiver`
+struct InitialCountsAsAckNack : SwitchOf<"sedp.initial_acknack", "bitmap"> {};
+struct InitialIsAnsweredByHeartbeat : SwitchOf<"sedp.initial_acknack", "heartbeat"> {};
+struct HeartbeatToMatched : SwitchOf<"sedp.heartbeat_recipients", "matched"> {};
+struct ReceiverOpensBothSides : SwitchOf<"sedp.relation_opening", "receiver"> {};
 
 struct Data : Packet<owner::relation, Carries, IsRepair, CarriesHeartbeat> {};
 struct Heartbeat : Packet<owner::relation> {};

@@ -53,10 +53,10 @@ struct LearnerHeartbeatSeen : Flag<owner::relation> {};
 struct LearnerLastDelay : Number<owner::relation> {};
 struct RelayOpen : Flag<owner::relation> {};
 
-struct ClientSyncPeriod : Delay {};             ///< τ_T
-struct RoutinePeriod : Delay {};                ///< τ_R
-struct RegistrationHeartbeatPeriod : Delay {};  ///< τ_H of announcements
-struct RegistrationResponseDelay : Delay {};    ///< τ_A of announcements
+struct ClientSyncPeriod : DelayOf<"client_sync_period"> {};               ///< τ_T
+struct RoutinePeriod : DelayOf<"server_routine_period"> {};               ///< τ_R
+struct RegistrationHeartbeatPeriod : DelayOf<"pdp_heartbeat_period"> {};  ///< τ_H of announcements
+struct RegistrationResponseDelay : DelayOf<"pdp_heartbeat_response_delay"> {};  ///< their τ_A
 // Those of announcements or of descriptors, as the relay is.
 struct RelayHeartbeatPeriod : Amount {};
 struct RelayResponseDelay : Amount {};

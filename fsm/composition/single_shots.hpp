@@ -9,7 +9,7 @@
 namespace stormproof::fsm::composition {
 
 /// No delay at all.
-struct Immediately : Delay {};
+struct Immediately : FixedDelay<0> {};
 
 /// Asks the timer `Shot`; `DueTimer` is due after `After` if it was idle.
 template <class Shot, class After, class DueTimer, class W>

@@ -46,6 +46,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "fsm/composition/knobs.hpp"
 #include "fsm/composition/owner.hpp"
 #include "fsm/reflect.hpp"
 
@@ -93,9 +94,6 @@ struct Number {
 /// keep it up to date instead.
 struct Fact {};
 
-/// A knob of the profile: a truth value, or a delay in ns.
-struct Switch {};
-struct Delay {};
 /// What only the host knows, a truth value or a number: `w(tag)` asks it.
 struct Answer {};
 struct Amount {};

@@ -5,6 +5,7 @@
 #include "tests/structure/callers.hpp"
 #include "tests/structure/host_functions.hpp"
 #include "tests/structure/includes.hpp"
+#include "tests/structure/knobs.hpp"
 #include "tests/structure/rules.hpp"
 #include "tests/structure/words.hpp"
 
@@ -82,6 +83,24 @@ TEST(Structure, FunctionsHaveCallersBesideTests) {
   EXPECT_EQ(lines(check_callers(texts(), allowed)), "");
 }
 
+TEST(Structure, AKnobIsNamedInFewPlaces) {
+  constexpr const char* table = "model/config/knobs/dds_knobs.hpp";
+  Texts places = read_texts(STORMPROOF_SOURCE_DIR, {"fsm/composition", "model/config"});
+  for (const char* file : {"model/dds_profile.hpp", "model/amendments.hpp",
+                           "model/engine/composition_knobs.hpp", table}) {
+    ASSERT_TRUE(texts().contains(file)) << file;
+    places[file] = texts().at(file);
+  }
+  std::map<std::string, std::size_t> listed;
+  for (const std::vector<std::string>& words : read_words(data_file("knobs.txt"))) {
+    ASSERT_EQ(words.size(), 2U) << "expected: key files # reason";
+    listed[words[0]] = std::stoul(words[1]);
+  }
+  const std::vector<std::string> knobs = knobs_of(texts().at(table));
+  EXPECT_GT(knobs.size(), 70U);
+  EXPECT_EQ(lines(check_knobs(knobs, places, 4, listed)), "");
+}
+
 TEST(Structure, ReadsIncludes) {
   EXPECT_EQ(includes_of("// a\n#include <z3++.h>\n  #  include \"a/b.hpp\"  // why\n"
                         "const char* text = \"#include <no>\";\n#define X\n"),
@@ -145,6 +164,20 @@ TEST(HeavyHeaders, PermissionsThatNobodyNeedsAreNoticed) {
   const Includes tree{{"a/x.hpp", {"boost/msm/row.hpp"}}, {"b/x.hpp", {}}};
   EXPECT_EQ(check_heavy_headers(tree, {"boost/", {"a/", "b/"}}),
             Complaints{"b/ does not reach boost/, and need not be allowed to"});
+}
+
+TEST(Knobs, AreCountedByFiles) {
+  const Texts tree{{"table.hpp", "visit.knob(\"first\", x);\nvisit.knob(\n    \"second\", y);\n"},
+                   {"a.cpp", "p.first = 1;  // second\n"},
+                   {"b.cpp", "set(\"sedp.first\"); the_second(1);\n"}};
+  const std::vector<std::string> knobs = knobs_of(tree.at("table.hpp"));
+  ASSERT_EQ(knobs, (std::vector<std::string>{"first", "second"}));
+  EXPECT_EQ(check_knobs(knobs, tree, 3, {}), Complaints{});
+  EXPECT_EQ(check_knobs(knobs, tree, 1, {}), Complaints{"first is named in 3 files, not 1"});
+  EXPECT_EQ(check_knobs(knobs, tree, 1, {{"first", 3}}), Complaints{});
+  EXPECT_EQ(
+      check_knobs(knobs, tree, 1, {{"first", 4}, {"third", 1}}),
+      (Complaints{"first is listed with 4 files, and needs 3", "third is listed and no knob"}));
 }
 
 TEST(ReservedWords, AreFoundWithBlanksInThem) {

@@ -75,8 +75,8 @@ class Reader {
     Input input;
     input.now = now;
     input.preemptive_delay = sedp_.preemptive_ack_delay.count();
-    input.repeat_delay = model::knobs_of_composition::value(
-        fsm::composition::cyclone::PreEmptiveRepeatDelay{}, context_.dds);
+    input.repeat_delay =
+        model::knob_value(fsm::composition::cyclone::PreEmptiveRepeatDelay{}, context_.dds);
     input.again_delay = sedp_.auto_resched_nack_delay.count();
     return input;
   }

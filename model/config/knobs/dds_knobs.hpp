@@ -101,7 +101,8 @@ inline constexpr std::int64_t max_epsilon_denominator = 1'000;
                                                                       : Presence::of_others;
 }
 
-void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp, ImplementationKind implementation) {
+constexpr void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp,
+                           ImplementationKind implementation) {
   visit.knob("period", spdp.period, period_range, "announcement period after startup (tau_P)");
   visit.knob("startup_announcements", spdp.startup_announcements, count_range(0, 1'000'000),
              "announcements at the startup period, after the immediate one",
@@ -120,7 +121,7 @@ void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp, ImplementationKind imp
              "between two of these announcements", of_cyclone(implementation));
 }
 
-void visit_knobs(auto& visit, Is<AdaptiveProfile> auto& adaptive) {
+constexpr void visit_knobs(auto& visit, Is<AdaptiveProfile> auto& adaptive) {
   visit.knob("min_period", adaptive.min_period, period_range, "least HEARTBEAT period (T_min)");
   visit.knob("max_period", adaptive.max_period, period_range, "greatest HEARTBEAT period (T_max)");
   visit.knob("epsilon", FractionParts{adaptive.epsilon_numerator, adaptive.epsilon_denominator},
@@ -130,7 +131,8 @@ void visit_knobs(auto& visit, Is<AdaptiveProfile> auto& adaptive) {
 }
 
 /// Delays and periods of the SEDP endpoints; the first part of `sedp`.
-void visit_sedp_timers(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
+constexpr void visit_sedp_timers(auto& visit, Is<SedpProfile> auto& sedp,
+                                 ImplementationKind implementation) {
   const Presence required = not_of_cyclone(implementation);
   visit.knob("heartbeat_period", sedp.heartbeat_period, period_range,
              "periodic HEARTBEAT of a writer (tau_H)", required);
@@ -149,8 +151,8 @@ void visit_sedp_timers(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKi
 }
 
 /// What Cyclone DDS has instead.
-void visit_cyclone_sedp(auto& visit, Is<SedpProfile> auto& sedp,
-                        ImplementationKind implementation) {
+constexpr void visit_cyclone_sedp(auto& visit, Is<SedpProfile> auto& sedp,
+                                  ImplementationKind implementation) {
   const Presence required = of_cyclone(implementation);
   visit.knob("heartbeat_interval", sedp.heartbeat_interval, period_range,
              "between two HEARTBEATs of a writer, the first ones (HeartbeatInterval)", required);
@@ -181,7 +183,8 @@ void visit_cyclone_sedp(auto& visit, Is<SedpProfile> auto& sedp,
 }
 
 /// How relations open, repair and acknowledge; the second part of `sedp`.
-void visit_sedp_rules(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
+constexpr void visit_sedp_rules(auto& visit, Is<SedpProfile> auto& sedp,
+                                ImplementationKind implementation) {
   const Presence of_rule = of_rules(implementation);
   visit.knob("relation_opening", sedp.relation_opening, ChoiceType<RelationOpening>{},
              "when the writer side opens: with the receiver's recognition, or with its own",
@@ -208,8 +211,8 @@ void visit_sedp_rules(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKin
 }
 
 /// How DATA shares packets, and what packets weigh; the last part of `sedp`.
-void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
-                        ImplementationKind implementation) {
+constexpr void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
+                                  ImplementationKind implementation) {
   const Presence of_size = of_sizes(implementation);
   visit.knob("grouping", sedp.grouping, ChoiceType<Grouping>{},
              "how descriptors share packets: up to a limit, one MTU, or one a packet", of_size);
@@ -233,14 +236,15 @@ void visit_sedp_packets(auto& visit, Is<SedpProfile> auto& sedp,
              "RTPS header and INFO_DST, once per packet", of_size);
 }
 
-void visit_knobs(auto& visit, Is<SedpProfile> auto& sedp, ImplementationKind implementation) {
+constexpr void visit_knobs(auto& visit, Is<SedpProfile> auto& sedp,
+                           ImplementationKind implementation) {
   visit_sedp_timers(visit, sedp, implementation);
   visit_sedp_rules(visit, sedp, implementation);
   visit_sedp_packets(visit, sedp, implementation);
   visit_cyclone_sedp(visit, sedp, implementation);
 }
 
-void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors) {
+constexpr void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors) {
   visit.knob("default_publications", descriptors.default_publications, count_range(0, 100'000),
              "publications of a participant without user endpoints");
   visit.knob("default_subscriptions", descriptors.default_subscriptions, count_range(0, 100'000),
@@ -291,7 +295,7 @@ template <>
 inline constexpr std::array<std::string_view, 2> enum_names<PiggybackAccount>{"of_the_profile",
                                                                               "linear_group"};
 
-void visit_knobs(auto& visit, Is<Amendments> auto& rules) {
+constexpr void visit_knobs(auto& visit, Is<Amendments> auto& rules) {
   const Presence defaulted = Presence::defaulted;
   visit.knob("initial_acknack_resets", rules.initial_acknack_resets, ChoiceType<Whether>{},
              "whether an initial ACKNACK un-acknowledges everything; false if absent", defaulted);
@@ -358,13 +362,8 @@ inline constexpr std::string_view implementation_key = "implementation";
 /// And then at the way to discover.
 inline constexpr std::string_view discovery_key = "discovery";
 
-/// How participants find each other.
-void visit_discovery(auto& visit, Is<DdsProfile> auto& dds) {
-  const ImplementationKind kind = kind_of(dds.implementation, dds.discovery);
-  visit.knob(discovery_key, dds.discovery, UsualChoiceType<Discovery>{{}, Discovery::simple},
-             "how participants find each other; simple if absent",
-             with_discovery(dds.implementation));
-  auto& server = dds.server;
+/// What a Discovery Server adds; keys of the profile itself, `kind` with its way to discover.
+constexpr void visit_knobs(auto& visit, Is<ServerProfile> auto& server, ImplementationKind kind) {
   visit.knob("client_sync_period", server.client_sync_period, period_range,
              "until a client matches its endpoints with the server's (tau_T); 450ms if absent",
              with_server(kind));
@@ -386,11 +385,20 @@ void visit_discovery(auto& visit, Is<DdsProfile> auto& dds) {
              "whether the server sends what is not acknowledged again whenever something arrives; "
              "repeat if absent",
              with_server(kind));
+}
+
+/// How participants find each other.
+constexpr void visit_discovery(auto& visit, Is<DdsProfile> auto& dds) {
+  const ImplementationKind kind = kind_of(dds.implementation, dds.discovery);
+  visit.knob(discovery_key, dds.discovery, UsualChoiceType<Discovery>{{}, Discovery::simple},
+             "how participants find each other; simple if absent",
+             with_discovery(dds.implementation));
+  visit_knobs(visit, dds.server, kind);
   visit.knob("peer_ports", dds.peer_ports, count_range(1, 1'000),
              "ports of each host that announcements go to; 4 if absent", with_static_peers(kind));
 }
 
-void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
+constexpr void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
   visit.knob(implementation_key, dds.implementation, ChoiceType<ImplementationKind>{},
              "whose writer: the paper's, or that of Fast DDS or Cyclone DDS", Presence::optional);
   visit_discovery(visit, dds);
