@@ -1,6 +1,5 @@
 // Which monitor decides which property. Limits of a scenario have monitors, too, but are not in the
 // list of monitored properties: they exist only if the scenario sets them.
-#include "model/implementations.hpp"
 #include "props/applicability.hpp"
 #include "props/monitors/monitors.hpp"
 
@@ -57,7 +56,7 @@ std::vector<std::string_view> monitored_properties() {
 std::vector<std::string_view> monitored_properties(const model::Scenario& scenario) {
   std::vector<std::string_view> properties = monitored_properties();
   std::erase_if(properties, [&](std::string_view property) {
-    return !why_not_applicable(property, scenario).empty();
+    return !applicability_of(property, scenario).is_decided_by(Engine::exact_run);
   });
   return properties;
 }

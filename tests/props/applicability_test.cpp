@@ -28,8 +28,8 @@ bool is_watched(const model::Scenario& scenario, std::string_view property) {
 
 TEST(CycloneDds, IsSpokenOfByWhatItsRulesProve) {
   for (const char* const property : {"safety.ack-implies-received", "safety.snapshot"}) {
-    EXPECT_EQ(why_not_applicable(property, cyclone()), "") << property;
-    EXPECT_EQ(why_not_provable(property, cyclone()), "") << property;
+    EXPECT_EQ(applicability_of(property, cyclone()).why_not, "") << property;
+    EXPECT_EQ(applicability_of(property, cyclone()).why_not_provable, "") << property;
     EXPECT_TRUE(is_watched(model::Scenario{}, property)) << property;
     EXPECT_TRUE(is_watched(cyclone(), property)) << property;
   }
@@ -38,32 +38,33 @@ TEST(CycloneDds, IsSpokenOfByWhatItsRulesProve) {
 TEST(CycloneDds, IsSpokenOfByWhatItsMonitorsObserve) {
   for (const char* const property : {"composition.followed", "safety.repair-only-if-asked",
                                      "live.no-stall", "storm.feedback-gain"}) {
-    EXPECT_EQ(why_not_applicable(property, cyclone()), "") << property;
+    EXPECT_EQ(applicability_of(property, cyclone()).why_not, "") << property;
     EXPECT_TRUE(is_watched(cyclone(), property)) << property;
   }
 }
 
 TEST(CycloneDds, IsSpokenOfByTheExplorerWhereNoCertificateIs) {
   const auto is_explored = [](const char* property, const model::Scenario& scenario) {
-    return is_only_explored(property, model::kind_of(scenario.dds));
+    const Applicability answer = applicability_of(property, scenario);
+    return answer.is_decided_by(Engine::explorer) && !answer.is_decided_by(Engine::tables);
   };
   for (const char* const property : {"safety.repair-only-if-asked", "live.no-stall"}) {
     EXPECT_TRUE(is_explored(property, cyclone())) << property;
     EXPECT_FALSE(is_explored(property, model::Scenario{})) << property;
-    EXPECT_EQ(why_not_provable(property, cyclone()), "") << property;
+    EXPECT_EQ(applicability_of(property, cyclone()).why_not_provable, "") << property;
   }
   for (const char* const property : {"safety.ack-implies-received", "storm.feedback-gain"}) {
     EXPECT_FALSE(is_explored(property, cyclone())) << property;
   }
-  EXPECT_NE(why_not_provable("storm.feedback-gain", cyclone()), "");
+  EXPECT_NE(applicability_of("storm.feedback-gain", cyclone()).why_not_provable, "");
 }
 
 TEST(CycloneDds, IsNotSpokenOfByPropertiesOfOtherWriters) {
   for (const char* const property :
        {"timer.single-heartbeat", "timer.suppression-honoured", "live.completion",
         "live.quiescence", "storm.single-copy", "composition.pending"}) {
-    EXPECT_NE(why_not_applicable(property, cyclone()), "") << property;
-    EXPECT_EQ(why_not_applicable(property, model::Scenario{}), "") << property;
+    EXPECT_NE(applicability_of(property, cyclone()).why_not, "") << property;
+    EXPECT_EQ(applicability_of(property, model::Scenario{}).why_not, "") << property;
   }
 }
 
@@ -75,26 +76,26 @@ TEST(Server, IsSpokenOfByWhatItsClientsTellIt) {
     scenario.dds.discovery = discovery;
     for (const char* const property : {"safety.ack-implies-received", "safety.repair-only-if-asked",
                                        "safety.snapshot", "timer.single-heartbeat"}) {
-      EXPECT_EQ(why_not_applicable(property, scenario), "") << property;
-      EXPECT_EQ(why_not_provable(property, scenario), "") << property;
+      EXPECT_EQ(applicability_of(property, scenario).why_not, "") << property;
+      EXPECT_EQ(applicability_of(property, scenario).why_not_provable, "") << property;
       EXPECT_TRUE(is_watched(scenario, property)) << property;
     }
     for (const char* const property :
          {"safety.ack-stable", "timer.suppression-honoured", "storm.feedback-gain"}) {
       EXPECT_TRUE(is_watched(scenario, property)) << property;
-      EXPECT_NE(why_not_provable(property, scenario), "") << property;
+      EXPECT_NE(applicability_of(property, scenario).why_not_provable, "") << property;
     }
     EXPECT_TRUE(is_watched(scenario, "composition.followed"));
-    EXPECT_EQ(why_not_applicable("composition.live", scenario), "");
+    EXPECT_EQ(applicability_of("composition.live", scenario).why_not, "");
     EXPECT_FALSE(is_watched(scenario, "composition.live"));
     for (const char* const property :
          {"composition.pending", "order.commutation", "live.no-stall", "live.completion",
           "live.quiescence", "storm.single-copy", "storm.cannot-start"}) {
-      EXPECT_NE(why_not_applicable(property, scenario), "") << property;
+      EXPECT_NE(applicability_of(property, scenario).why_not, "") << property;
     }
     const model::ImplementationKind kind = model::kind_of(scenario.dds);
-    EXPECT_TRUE(is_about_clients("safety.snapshot", kind));
-    EXPECT_FALSE(is_about_clients("composition.followed", kind));
+    EXPECT_TRUE(applicability_of("safety.snapshot", scenario).is_about_clients);
+    EXPECT_FALSE(applicability_of("composition.followed", scenario).is_about_clients);
     EXPECT_NE(statement_of(*find_property("safety.snapshot"), kind).find("tell the server"),
               std::string::npos);
   }

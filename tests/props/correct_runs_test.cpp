@@ -55,7 +55,7 @@ bool may_lose_heartbeats(const Scenario& scenario) {
 
 /// Whether a correct run of the scenario may violate the property.
 bool may_violate(const Scenario& scenario, std::string_view property) {
-  if (!why_not_applicable(property, scenario).empty()) return true;
+  if (!applicability_of(property, scenario).applies()) return true;
   // Amended rules have the defects that these properties are about.
   if (scenario.dds.amendments && property != "safety.conservation" &&
       property != "order.reception-first") {
@@ -179,12 +179,13 @@ Scenario with_one_port(const std::string& participants) {
 }
 
 TEST(CorrectRuns, StaticPeersThatAreNeverAskedStall) {
-  EXPECT_EQ(why_not_provable("live.completion", shipped("smallest", {"dds=fastdds-static-2.6.11"})),
+  EXPECT_EQ(applicability_of("live.completion", shipped("smallest", {"dds=fastdds-static-2.6.11"}))
+                .why_not_provable,
             "");
   const std::string one = "{host: 0, publications: 1, subscriptions: 1}";
   const std::string other = "{host: 1, publications: 1, subscriptions: 1}";
   const Scenario answered = with_one_port("[" + one + ", " + other + ", " + other + "]");
-  EXPECT_NE(why_not_provable("live.completion", answered), "");
+  EXPECT_NE(applicability_of("live.completion", answered).why_not_provable, "");
   const MonitoredRun found = run_monitored(answered);
   EXPECT_TRUE(found.result.discovery_time);
   EXPECT_EQ(found.violation("live.no-stall"), nullptr);

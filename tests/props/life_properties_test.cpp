@@ -225,7 +225,7 @@ TEST(FastDdsIsolation, IsBrokenByAPeriodThatFollowsTheSlowest) {
 TEST(LifeProperties, SayWhereTheySayNothing) {
   Scenario scenario = trio();
   const auto why = [&](std::string_view property) {
-    return std::string{why_not_applicable(property, scenario)};
+    return std::string{applicability_of(property, scenario).why_not};
   };
   EXPECT_NE(why("live.recovery").find("nobody forgets"), std::string::npos);
   EXPECT_NE(why("live.isolation").find("nobody falls silent"), std::string::npos);

@@ -43,7 +43,8 @@ MonitoredRun run_monitored(const model::Scenario& scenario, const model::Scenari
   model::trace::ProbeList probes;
   for (const std::string_view property : monitored_properties()) {
     const auto kind = model::kind_of(specification.dds);
-    if (!why_not_applicable(property, kind).empty()) continue;  // its monitors know no such writer
+    // Otherwise its monitors know no such writer.
+    if (!applicability_of(*find_property(property), kind).applies()) continue;
     run.monitors.push_back(make_monitor(property, specification));
     probes.add(*run.monitors.back());
   }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "checker/engines/calculus/cannot_start.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::calculus {
 
@@ -59,7 +60,10 @@ Scenario with_participants(Scenario scenario, std::uint32_t hosts,
 template <class Variant>
 void search(Frontier& frontier, const Variant& variant) {
   const auto holds = [&](std::uint32_t load) {
-    const Judged judged = judge(variant(load));
+    const Scenario loaded = variant(load);
+    if (!props::applicability_of(cannot_start, loaded).is_decided_by(props::Engine::calculus))
+      return false;
+    const Judged judged = judge(loaded);
     if (!judged.is_proved()) return false;
     frontier.most = load;
     frontier.delay = judged.threshold.unlimited ? std::nullopt : judged.delay;
@@ -90,7 +94,9 @@ std::optional<std::uint32_t> common(const auto& all, const Get& get) {
 
 }  // namespace
 
-std::vector<Frontier> frontier_of(const Scenario& scenario) {
+Frontiers frontier_of(const Scenario& scenario) {
+  const std::string_view why_not = props::applicability_of(cannot_start, scenario).why_not;
+  if (!why_not.empty()) return {why_not, {}};
   const auto hosts = hosts_of(scenario);
   const auto host_count = static_cast<std::uint32_t>(hosts.size());
   const auto largest_host = static_cast<std::uint32_t>(
@@ -112,7 +118,7 @@ std::vector<Frontier> frontier_of(const Scenario& scenario) {
                     .least = 2,
                     .limit = std::max(2U, most_participants / largest_host)};
   search(machines, [&](std::uint32_t load) { return with_participants(scenario, load, {}); });
-  return {endpoints, participants, machines};
+  return {{}, {endpoints, participants, machines}};
 }
 
 }  // namespace stormproof::calculus

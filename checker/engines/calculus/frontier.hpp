@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "model/scenario.hpp"
@@ -21,6 +22,11 @@ struct Frontier {
   std::optional<model::Nanoseconds> delay = {};
 };
 
-[[nodiscard]] std::vector<Frontier> frontier_of(const model::Scenario& scenario);
+struct Frontiers {
+  std::string_view why_not = {};  ///< why storm.cannot-start does not apply; then there is no list
+  std::vector<Frontier> of_loads = {};
+};
+
+[[nodiscard]] Frontiers frontier_of(const model::Scenario& scenario);
 
 }  // namespace stormproof::calculus

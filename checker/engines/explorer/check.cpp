@@ -12,6 +12,7 @@
 #include "checker/engines/explorer/plan.hpp"
 #include "checker/engines/explorer/replay.hpp"
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/quiescence.hpp"
 
@@ -38,10 +39,6 @@ constexpr std::array<Entry, claim_count> entries{{
     {"storm.single-copy", Claim::single_copy},
     {"storm.free-threshold", Claim::free_threshold},
 }};
-
-/// Those that have a meaning for Cyclone DDS's writer and a monitor in its runs.
-constexpr Claims claims_of_samples =
-    bit(Claim::ack_implies_received) | bit(Claim::repair_only_if_asked) | bit(Claim::no_stall);
 
 /// Claims that are looked for in one search. Each bound on a time adds a mark to the states, which
 /// are more then, so what refers to one is looked for by itself. Limits count states, so that an
@@ -234,15 +231,11 @@ checker::Findings check(std::span<const std::string_view> properties,
 checker::Findings explore(std::span<const std::string_view> properties, const Request& request) {
   Claims claims = 0;
   for (const Entry& entry : entries) {
-    if (std::ranges::find(properties, entry.property) != properties.end())
-      claims |= bit(entry.claim);
+    const bool is_asked = std::ranges::find(properties, entry.property) != properties.end();
+    const props::Applicability answer = props::applicability_of(entry.property, request.scenario);
+    if (is_asked && answer.is_decided_by(props::Engine::explorer)) claims |= bit(entry.claim);
   }
   checker::Findings findings;
-  if (props::has_samples(request.scenario)) {
-    claims &= claims_of_samples;
-  } else if (!model::traits_of(request.scenario.dds).is_known_to_engines) {
-    return findings;
-  }
   if (claims == 0) return findings;
   Exploration exploration{request, claims};
   if (!exploration.adaptive()) exploration.run();

@@ -11,6 +11,7 @@
 #include "checker/experiments/diff/words.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::diff {
@@ -19,7 +20,8 @@ namespace {
 
 void add_threshold(const model::DdsProfile& dds, bool constant_delay, Margin& margin) {
   const model::ImplementationTraits& traits = model::traits_of(dds);
-  if (!traits.is_known_to_engines) {
+  const props::Property& threshold_exists = *props::find_property("storm.free-threshold");
+  if (!applicability_of(threshold_exists, model::kind_of(dds)).applies()) {
     margin.formula = fmt::format("no theorem is about {}'s writer", traits.whose);
     return;
   }

@@ -14,6 +14,7 @@
 #include "checker/experiments/fuzz/variant.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 #include "props/limits.hpp"
 #include "props/monitor.hpp"
 #include "props/property.hpp"
@@ -80,8 +81,8 @@ class Fuzzer {
       if (const props::Property* property = props::find_property(id)) {
         const model::ImplementationKind implementation = model::kind_of(base_.dds);
         judgment.statement = statement_of(*property, implementation);
-        judgment.promised =
-            options_.only.empty() && !is_limit(id) && property->weakness_of(implementation).empty();
+        judgment.promised = options_.only.empty() && !is_limit(id) &&
+                            applicability_of(*property, base_).is_promised();
       }
       report_.judgments.push_back(std::move(judgment));
     }

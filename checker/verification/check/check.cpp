@@ -10,7 +10,6 @@
 #include "checker/engines/tables/tables.hpp"
 #include "checker/engines/timeline/timeline.hpp"
 #include "checker/verification/check/combination.hpp"
-#include "model/implementations.hpp"
 #include "props/applicability.hpp"
 #include "props/limits.hpp"
 
@@ -44,12 +43,12 @@ std::vector<std::string_view> selected(const std::vector<std::string_view>& want
 }
 
 std::vector<std::string_view> for_engine(Engine engine,
-                                         const std::vector<std::string_view>& properties) {
+                                         const std::vector<std::string_view>& properties,
+                                         const model::Scenario& scenario) {
   std::vector<std::string_view> ids;
-  for (const std::string_view id : properties) {
-    const auto& list = props::find_property(id)->engines;
-    if (std::find(list.begin(), list.end(), engine) != list.end()) ids.push_back(id);
-  }
+  std::ranges::copy_if(properties, std::back_inserter(ids), [&](std::string_view id) {
+    return props::applicability_of(id, scenario).is_decided_by(engine);
+  });
   return ids;
 }
 
@@ -58,7 +57,7 @@ std::vector<std::pair<std::string_view, std::string_view>> take_inapplicable(
     std::vector<std::string_view>& ids, const model::Scenario& scenario) {
   std::vector<std::pair<std::string_view, std::string_view>> taken;
   std::erase_if(ids, [&](std::string_view id) {
-    const std::string_view why = props::why_not_applicable(id, scenario);
+    const std::string_view why = props::applicability_of(id, scenario).why_not;
     if (!why.empty()) taken.emplace_back(id, why);
     return !why.empty();
   });
@@ -115,16 +114,7 @@ CheckReport check(const std::vector<std::string_view>& properties, const CheckRe
     return !report.interrupted;
   };
   for (const auto& [engine, function] : engines) {
-    std::vector<std::string_view> own = for_engine(engine, ids);
-    take_inapplicable(own, request.scenario);
-    if (engine != Engine::exact_run) {
-      const model::ImplementationKind kind = model::kind_of(request.scenario.dds);
-      const bool explores = engine == Engine::explorer;
-      std::erase_if(own, [&](std::string_view id) {
-        return !props::why_not_provable(id, request.scenario).empty() ||
-               (!explores && props::is_only_explored(id, kind));
-      });
-    }
+    const std::vector<std::string_view> own = for_engine(engine, ids, request.scenario);
     if (own.empty()) continue;
     if (!goes_on(engine)) break;
     answers.push_back(function(own, watched));

@@ -39,7 +39,7 @@ struct CheckReport {
   bool interrupted = false;  ///< the rest is inconclusive
   /// What the runs of the scenario were like; absent: no property needed one, or none ended.
   std::optional<exact::Outlook> outlook;
-  std::vector<calculus::Frontier> frontiers{};  ///< if they were asked for
+  std::optional<calculus::Frontiers> frontiers{};  ///< if they were asked for
 
   [[nodiscard]] std::size_t count(props::VerdictKind kind) const;
 };

@@ -7,6 +7,7 @@
 #include "checker/presentation/document/verdicts.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::checker {
 
@@ -26,7 +27,7 @@ std::string ids_of(const std::vector<std::string_view>& ids) {
 /// Whether the rules are known not to promise it, and nobody asks them to.
 bool is_weakness(const PropertyResult& result, const CheckContext& context) {
   return !context.gate.rules.strict &&
-         !result.property->weakness_of(model::kind_of(context.scenario.dds)).empty();
+         !applicability_of(*result.property, context.scenario).is_promised();
 }
 
 /// The answers to one question: what is violated, what nobody knows, how many hold.

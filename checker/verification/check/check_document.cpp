@@ -19,6 +19,7 @@
 #include "checker/verification/counterexample/stepper.hpp"
 #include "model/config/knobs/effective.hpp"
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::checker {
 
@@ -108,7 +109,8 @@ Table::Row row_of(const PropertyResult& result, Standing standing, const CheckCo
   row.cells = {
       possible ? report::badge(report::Tone::info, "possible") : report::badge(result.verdict),
       told ? report::link(id, id) : report::code(id), statement_of(*result.property, rules),
-      possible ? std::string{result.property->weakness_of(rules)} : sentence_of(result)};
+      possible ? std::string{applicability_of(*result.property, rules).weakness}
+               : sentence_of(result)};
   if (possible) row.details.emplace_back(Paragraph{sentence_of(result)}, Audience::verbose);
   for (Block& block : findings_at_terminal(result, context)) {
     if (possible && block.audience == Audience::terminal) block.audience = Audience::explained;
@@ -296,7 +298,7 @@ report::Document document_of(const CheckReport& report, const CheckContext& cont
     document.findings.push_back(storm_finding(report, context));
   }
   for (const Standing standing : standings) add_verdicts(document, report, context, standing);
-  add_frontiers(document, report.frontiers);
+  if (report.frontiers) add_frontiers(document, *report.frontiers);
   add_unmodelled(document, context.scenario.dds, "", &context.places);
   add_violations(document, report, context);
   add_run(document, context);

@@ -1,8 +1,10 @@
 // The JSON of a check.
+#include "checker/engines/calculus/cannot_start.hpp"
 #include "checker/engines/exact/health_json.hpp"
 #include "checker/presentation/json/schema.hpp"
 #include "checker/verification/check/check_report.hpp"
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::props {
 
@@ -101,7 +103,7 @@ void describe(V& v, const ResultInContext& shown) {
   v("verdict", result.verdict);
   v("standing", shown.standing);
   v("reaches", VerdictByReach{result});
-  v.or_null("weakness", result.property->weakness_of(model::kind_of(shown.context.scenario.dds)));
+  v.or_null("weakness", applicability_of(*result.property, shown.context.scenario).weakness);
   v("engine", decisive.engine);
   v("how", decisive.how);
   v("assumptions", decisive.assumptions);
@@ -148,11 +150,13 @@ void describe(V& v, const ReportInContext& shown) {
     verdicts.push_back({result, shown.context.gate.standings[verdicts.size()], shown.context});
   }
   v("verdicts", verdicts);
-  v.unless_empty("frontiers", shown.report.frontiers);
+  const calculus::Frontiers frontiers = shown.report.frontiers.value_or(calculus::Frontiers{});
+  v.unless_empty("frontiers", frontiers.of_loads);
   std::map<std::string, std::string> reasons;
   for (const auto& one : shown.report.not_applicable) {
     reasons.emplace(one.first, one.second);
   }
+  if (!frontiers.why_not.empty()) reasons.emplace(calculus::cannot_start, frontiers.why_not);
   v.unless_empty("does_not_apply", reasons);
 }
 

@@ -91,11 +91,11 @@ PropertyResult combined(const props::Property& property, std::vector<Finding> fi
   }
   if (result.findings.empty()) {
     Finding none;
-    const std::string_view why = props::why_not_applicable(property.id, request.scenario);
-    const std::string_view unproved = props::why_not_provable(property.id, request.scenario);
-    none.how = !why.empty()       ? "does not apply to this composition: " + std::string{why}
+    const props::Applicability answer = applicability_of(property, request.scenario);
+    const std::string unproved{answer.why_not_provable};
+    none.how = !answer.applies()  ? answer.in_words()
                : unproved.empty() ? "no engine has looked at it"
-                                  : "no run shows it, and " + std::string{unproved};
+                                  : "no run shows it, and " + unproved;
     result.findings.push_back(none);
   }
   result.deciding = deciding_finding(result.findings);

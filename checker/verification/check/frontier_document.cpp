@@ -17,19 +17,24 @@ std::string most_text(const calculus::Frontier& frontier) {
 
 }  // namespace
 
-void add_frontiers(report::Document& document, const std::vector<calculus::Frontier>& frontiers) {
-  if (frontiers.empty()) return;
+void add_frontiers(report::Document& document, const calculus::Frontiers& frontiers) {
+  report::Section section{"The largest load that cannot start a storm", "frontier"};
+  if (!frontiers.why_not.empty()) {
+    section.blocks.emplace_back(report::Paragraph{
+        fmt::format("storm.cannot-start does not apply: {}.", frontiers.why_not)});
+    document.blocks.emplace_back(std::move(section));
+    return;
+  }
   using Align = report::Column::Align;
   report::Table table{{{"load"},
                        {"now", Align::right},
                        {"storm.cannot-start is proved up to", Align::right},
                        {"no packet then takes longer than", Align::right}},
                       {}};
-  for (const calculus::Frontier& one : frontiers) {
+  for (const calculus::Frontier& one : frontiers.of_loads) {
     table.rows.push_back({{one.load, one.now ? fmt::format("{}", *one.now) : "various",
                            most_text(one), one.delay ? props::time_text(*one.delay) : "–"}});
   }
-  report::Section section{"The largest load that cannot start a storm", "frontier"};
   section.blocks.emplace_back(report::Paragraph{
       "Each kind of load alone, the rest as it is; whatever the start times are."});
   section.blocks.emplace_back(std::move(table));

@@ -7,6 +7,6 @@
 namespace stormproof::checker {
 
 /// Nothing is added if there are none.
-void add_frontiers(report::Document& document, const std::vector<calculus::Frontier>& frontiers);
+void add_frontiers(report::Document& document, const calculus::Frontiers& frontiers);
 
 }  // namespace stormproof::checker

@@ -5,6 +5,7 @@
 
 #include "checker/verification/check/combination.hpp"
 #include "model/implementations.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::checker {
 
@@ -117,7 +118,8 @@ class Judge {
   Standing standing(const PropertyResult& result) {
     const Property& property = *result.property;
     if (result.verdict == VerdictKind::disputed) return Standing::disputed;
-    const bool promised = gate_.rules.strict || property.weakness_of(model::kind_of(dds_)).empty();
+    const bool promised =
+        gate_.rules.strict || applicability_of(property, model::kind_of(dds_)).is_promised();
     if (const auto where = violated_in(result)) {
       const bool counts = promised || (*where == Reach::deployment && !property.is_margin);
       return counts ? failure({std::string{property.id}, *where}) : Standing::possible;

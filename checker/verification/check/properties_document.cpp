@@ -3,7 +3,7 @@
 
 #include "checker/verification/check/properties_report.hpp"
 #include "model/implementations.hpp"
-#include "props/property.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::checker {
 
@@ -24,7 +24,7 @@ report::Table::Row row_of(const props::Property& property) {
   };
   fact("formal", property.formal);
   for (const model::ImplementationKind kind : model::implementations) {
-    fact(model::traits_of(kind).whose, addition_of(property, kind));
+    fact(model::traits_of(kind).whose, applicability_of(property, kind).addition);
   }
   fact("assuming", property.assumptions);
   fact("decided by", engines_of(property));

@@ -18,7 +18,7 @@ void describe(V& v, const Property& property) {
     if (model::traits_of(kind).is_known_to_engines) {
       v(name, statement_of(property, kind));
     } else {
-      const bool applies = why_not_applicable(property.id, kind).empty();
+      const bool applies = applicability_of(property, kind).applies();
       v.unless_empty(name, applies ? statement_of(property, kind) : std::string{});
     }
   }

@@ -95,8 +95,9 @@ Concerns where_rules_are_knobs() {
 Concerns where_is_composition(std::string_view name) {
   for (std::size_t k = 0; k < model::implementation_traits.size(); ++k) {
     const auto kind = static_cast<model::ImplementationKind>(k);
-    const bool is_followed = props::why_not_applicable("composition.followed", kind).empty();
-    if (is_followed && model::composition_of(kind).name == name) return {kind};
+    if (applicability_of(*props::find_property("composition.followed"), kind).applies() &&
+        model::composition_of(kind).name == name)
+      return {kind};
   }
   return {};
 }

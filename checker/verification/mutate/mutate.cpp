@@ -18,7 +18,7 @@
 #include "checker/verification/mutate/law_trials.hpp"
 #include "checker/verification/mutate/trial_scenarios.hpp"
 #include "model/implementations.hpp"
-#include "props/property.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::mutate {
 
@@ -26,6 +26,7 @@ namespace {
 
 using checker::CheckRequest;
 using checker::Findings;
+using props::Engine;
 using props::VerdictKind;
 
 using EngineFunction = Findings (*)(std::span<const std::string_view>, const CheckRequest&);
@@ -50,6 +51,15 @@ Ids without(Ids ids, const Ids& removed) {
 Ids whole_catalogue() {
   Ids ids;
   for (const props::Property& property : props::catalogue()) ids.insert(property.id);
+  return ids;
+}
+
+/// What the engine is asked about the scenario.
+Ids decided_by(Engine engine, const model::Scenario& scenario) {
+  Ids ids;
+  for (const props::Property& property : props::catalogue()) {
+    if (applicability_of(property, scenario).is_decided_by(engine)) ids.insert(property.id);
+  }
   return ids;
 }
 
@@ -80,13 +90,15 @@ struct Question {
 std::vector<Question> questions_of(model::ImplementationKind implementation) {
   std::vector<Question> list;
   for (const Trial& trial : trials(implementation)) {
-    list.push_back({trial, exact::check, whole_catalogue()});
+    const auto decided = [&](Engine engine) { return decided_by(engine, trial.scenario); };
+    list.push_back({trial, exact::check, decided(Engine::exact_run)});
     if (!trial.all_engines) continue;
+    const Ids of_tables = decided(Engine::tables);
     for (const std::string_view id : tables::decidable()) {
-      list.push_back({trial, tables::check, {id}});
+      if (of_tables.contains(id)) list.push_back({trial, tables::check, {id}});
     }
-    list.push_back({trial, timeline::check, whole_catalogue()});
-    list.push_back({trial, explorer::check, whole_catalogue()});
+    list.push_back({trial, timeline::check, decided(Engine::timelines)});
+    list.push_back({trial, explorer::check, decided(Engine::explorer)});
   }
   return list;
 }
@@ -161,7 +173,8 @@ class Mutator {
     if (!list.empty()) return list;
     for (const Trial& trial : trials(implementation)) {
       if (!trial.all_engines) continue;
-      list.push_back({trial, explorer::check, whole_catalogue(), options_.readers});
+      const Ids ids = decided_by(Engine::explorer, trial.scenario);
+      list.push_back({trial, explorer::check, ids, options_.readers});
     }
     return list;
   }

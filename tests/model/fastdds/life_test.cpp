@@ -76,12 +76,12 @@ TEST(FastDdsLife, NeedsRulesThatKnowIt) {
 /// No bound or theorem says anything of it.
 TEST(FastDdsLife, IsUnknownToEngines) {
   Scenario scenario = rejoin();
-  EXPECT_NE(props::why_not_applicable("live.completion", scenario), "");
-  EXPECT_NE(props::why_not_provable("live.completion", scenario), "");
-  EXPECT_EQ(props::why_not_applicable("order.total", scenario), "");
+  EXPECT_NE(props::applicability_of("live.completion", scenario).why_not, "");
+  EXPECT_NE(props::applicability_of("live.completion", scenario).why_not_provable, "");
+  EXPECT_EQ(props::applicability_of("order.total", scenario).why_not, "");
   scenario.deployment.life.reset();
-  EXPECT_EQ(props::why_not_applicable("live.completion", scenario), "");
-  EXPECT_EQ(props::why_not_provable("live.completion", scenario), "");
+  EXPECT_EQ(props::applicability_of("live.completion", scenario).why_not, "");
+  EXPECT_EQ(props::applicability_of("live.completion", scenario).why_not_provable, "");
 }
 
 }  // namespace life_test
