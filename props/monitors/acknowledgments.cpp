@@ -5,40 +5,33 @@
 #include <bit>
 
 #include "model/implementations.hpp"
+#include "props/monitors/data_observer.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
-#include "props/monitors/received_descriptors.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
 /// Sees descriptors change their states, and knows who has them.
-class Acknowledgments : public Observer {
+class Acknowledgments : public DataObserver<> {
  public:
-  static constexpr std::array hears_machines{model::Report::reader_transition,
-                                             model::Report::descriptor_transition};
+  static constexpr std::array hears_machines{model::Report::descriptor_transition};
 
-  using Observer::Observer;
-
-  void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
-    received_.reset(topology);
+  Acknowledgments(std::string_view property, const model::Scenario& scenario)
+      : DataObserver{property} {
+    if (scenario.deployment.life) let_readers_forget();
   }
-  void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
+
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word,
                   std::uint64_t descriptors) override {
-    if (descriptors == 0) {
-      if (const model::Packet* data = received_.taken(machine, event)) received_.take(*data);
-      if (ReceivedDescriptors::is_new(machine, event)) received_.lose(machine.subject);
-      return;
-    }
+    DataObserver::transition(machine, event, before, after, first_word, descriptors);
+    if (descriptors == 0) return;
     // A writer that has forgotten believes nothing.
     if (event == ReceivedDescriptors::renewed || events() == 0 || before == after) return;
     moved({machine.subject, first_word, descriptors}, before, after,
-          received_.word(machine.subject, first_word));
+          x().word(machine.subject, first_word));
   }
 
  protected:
@@ -55,14 +48,12 @@ class Acknowledgments : public Observer {
     const auto d = 64 * in.first_word + static_cast<std::uint32_t>(std::countr_zero(some));
     return descriptor_text(topology(), in.relation, d);
   }
-
- private:
-  ReceivedDescriptors received_;
 };
 
 class TruthOfAcknowledgments : public Acknowledgments {
  public:
-  TruthOfAcknowledgments() : Acknowledgments{"safety.ack-implies-received"} {}
+  explicit TruthOfAcknowledgments(const model::Scenario& scenario)
+      : Acknowledgments{"safety.ack-implies-received", scenario} {}
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {std::to_string(acknowledged_) + " descriptors became acknowledged."};
@@ -85,7 +76,8 @@ class TruthOfAcknowledgments : public Acknowledgments {
 
 class StabilityOfAcknowledgments : public Acknowledgments {
  public:
-  StabilityOfAcknowledgments() : Acknowledgments{"safety.ack-stable"} {}
+  explicit StabilityOfAcknowledgments(const model::Scenario& scenario)
+      : Acknowledgments{"safety.ack-stable", scenario} {}
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {std::to_string(taken_back_) + " acknowledgments were taken back of what was missing."};
@@ -110,10 +102,10 @@ class StabilityOfAcknowledgments : public Acknowledgments {
 
 MonitorPtr watch_acknowledgments(const model::Scenario& scenario) {
   if (has_samples(scenario)) return watch_acknowledged_samples();
-  return attentive<TruthOfAcknowledgments>();
+  return attentive<TruthOfAcknowledgments>(scenario);
 }
-MonitorPtr watch_stable_acknowledgments(const model::Scenario&) {
-  return attentive<StabilityOfAcknowledgments>();
+MonitorPtr watch_stable_acknowledgments(const model::Scenario& scenario) {
+  return attentive<StabilityOfAcknowledgments>(scenario);
 }
 
 }  // namespace stormproof::props

@@ -6,31 +6,43 @@
 #include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
+#include "props/monitors/event_ends.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
-class Joins : public Observer {
+class Joins : public EndObserver {
  public:
   static constexpr std::array hears_machines{model::Report::reader_transition};
+  static constexpr auto selection_of_kinds = model::trace::Selection{}.only(
+      {model::Report::emitted},
+      {model::PacketKind::spdp_multicast, model::PacketKind::spdp_unicast});
 
-  Joins() : Observer{"storm.join-cost"} {}
+  Joins() : EndObserver{"storm.join-cost"} {}
 
   void transition(const model::MachineRef&, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t, std::uint64_t) override {
     // One reader of each stream opens.
-    if (before != after && event == "AnnouncementReceived") ++opened_;
+    if (before == after || event != "AnnouncementReceived") return;
+    ++opened_;
+    await_end();
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {
     const bool announces = packet.kind == model::PacketKind::spdp_multicast ||
                            packet.kind == model::PacketKind::spdp_unicast;
-    if (announces) sent_ += packet.copies;
+    if (!announces) return;
+    sent_ += packet.copies;
+    await_end();
   }
-  void event_finished(const model::Depths&) override {
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("At most {} announcements were sent because of one recognition.", most_)};
+  }
+
+ private:
+  void judge_event() override {
     const std::uint64_t opened = std::exchange(opened_, 0);
     const std::uint64_t sent = std::exchange(sent_, 0);
     if (opened == 0) return;
@@ -40,11 +52,7 @@ class Joins : public Observer {
     object_now(fmt::format("At {} {} announcements are sent because {} participant{} recognised.",
                            time_text(now()), sent, recognised, recognised == 1 ? " is" : "s are"));
   }
-  [[nodiscard]] std::vector<std::string> remarks() const override {
-    return {fmt::format("At most {} announcements were sent because of one recognition.", most_)};
-  }
 
- private:
   std::uint64_t opened_ = 0;
   std::uint64_t sent_ = 0;
   std::uint64_t most_ = 0;
@@ -52,6 +60,9 @@ class Joins : public Observer {
 
 class Piggybacks : public Observer {
  public:
+  static constexpr auto selection_of_kinds =
+      model::trace::Selection{}.only({model::Report::emitted}, {model::PacketKind::data});
+
   explicit Piggybacks(const model::Scenario& scenario)
       : Observer{"storm.piggyback-rate"},
         threshold_{static_cast<std::uint64_t>(scenario.dds.sedp.piggyback_threshold_bytes.count())},
@@ -86,12 +97,16 @@ class Piggybacks : public Observer {
   std::uint64_t heartbeats_ = 0;
 };
 
-class Feedback : public Observer {
+class Feedback : public EndObserver {
  public:
-  Feedback() : Observer{"storm.feedback-gain"} {}
+  static constexpr auto selection_of_kinds =
+      model::trace::Selection{}.only({model::Report::emitted}, {model::PacketKind::heartbeat});
+
+  Feedback() : EndObserver{"storm.feedback-gain"} {}
 
   void received(const model::Packet& packet, std::uint32_t) override {
     is_acknack_ = packet.kind == model::PacketKind::acknack && !packet.initial_acknack;
+    if (is_acknack_) await_end();
   }
   void transition(const model::MachineRef&, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t, std::uint64_t) override {
@@ -99,11 +114,18 @@ class Feedback : public Observer {
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {
-    if (packet.kind == model::PacketKind::heartbeat) heartbeats_ += packet.copies;
+    if (packet.kind != model::PacketKind::heartbeat) return;
+    if (std::exchange(counted_in_, event()) != event()) heartbeats_ = 0;
+    heartbeats_ += packet.copies;
   }
-  void event_finished(const model::Depths&) override {
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    return {fmt::format("The reception of an ACKNACK sent at most {} HEARTBEATs.", most_)};
+  }
+
+ private:
+  void judge_event() override {
     const bool changes = std::exchange(changes_, false);
-    const std::uint64_t heartbeats = std::exchange(heartbeats_, 0);
+    const std::uint64_t heartbeats = counted_in_ == event() ? heartbeats_ : 0;
     if (!std::exchange(is_acknack_, false)) return;
     most_ = std::max(most_, heartbeats);
     if (heartbeats <= (changes ? 1U : 0U)) return;
@@ -113,14 +135,11 @@ class Feedback : public Observer {
                                      "HEARTBEAT at once, which asks for the next ACKNACK.",
                                      time_text(now())));
   }
-  [[nodiscard]] std::vector<std::string> remarks() const override {
-    return {fmt::format("The reception of an ACKNACK sent at most {} HEARTBEATs.", most_)};
-  }
 
- private:
   bool is_acknack_ = false;
   bool changes_ = false;
-  std::uint64_t heartbeats_ = 0;
+  std::uint64_t heartbeats_ = 0;  // of this event
+  std::uint64_t counted_in_ = 0;
   std::uint64_t most_ = 0;
 };
 

@@ -21,11 +21,10 @@
 #include <fmt/core.h>
 
 #include "model/implementations.hpp"
+#include "props/monitors/data_observer.hpp"
 #include "props/monitors/delay_observer.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
-#include "props/monitors/received_descriptors.hpp"
 
 namespace stormproof::props {
 
@@ -47,12 +46,13 @@ model::Nanoseconds completion_bound(const model::DdsProfile& dds, model::Nanosec
 
 namespace {
 
-class Completion : public DelayObserver {
+class Completion : public DataObserver<DelayObserver> {
  public:
-  static constexpr std::array hears_machines{model::Report::reader_transition};
+  static constexpr auto selection_of_kinds = model::trace::Selection{}.only(
+      {model::Report::emitted}, {model::PacketKind::data, model::PacketKind::heartbeat});
 
   Completion(const model::Scenario& scenario, std::optional<model::Nanoseconds> bound)
-      : DelayObserver{"live.completion", scenario}, dds_{scenario.dds}, bound_{bound} {
+      : DataObserver{"live.completion", scenario}, dds_{scenario.dds}, bound_{bound} {
     for (const model::Participant& participant : scenario.deployment.participants) {
       const bool created_later = model::traits_of(dds_).creates_endpoints_over_time;
       ready_.push_back(created_later ? participant.endpoints_done : participant.start);
@@ -60,8 +60,7 @@ class Completion : public DelayObserver {
   }
 
   void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
-    received_.reset(topology);
+    DataObserver::run_started(topology);
     relations_.assign(topology.relation_count(), {});
     for (std::uint32_t r = 0; r < topology.relation_count(); ++r) {
       const model::Pair& ends = topology.pair(r / 2);
@@ -85,14 +84,6 @@ class Completion : public DelayObserver {
       const std::uint32_t source = topology().pair(packet.pair).source;
       note_opening(2 * topology().pair_between(source, destination) + packet.relation() % 2);
     }
-  }
-  void received(const model::Packet& packet, std::uint32_t receiver) override {
-    received_.arriving(packet);
-    DelayObserver::received(packet, receiver);
-  }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    if (const model::Packet* data = received_.taken(machine, event)) take(*data);
   }
   void finish(model::Nanoseconds end) override {
     largest_delay_ = delays().largest(end);
@@ -131,13 +122,8 @@ class Completion : public DelayObserver {
     if (!relations_[relation].opened) relations_[relation].opened = now();
   }
 
-  void take(const model::Packet& data) {
+  void took(const model::Packet& data, std::uint32_t fresh) override {
     const std::uint32_t r = data.relation();
-    std::uint32_t fresh = 0;
-    data.descriptors.for_each([&](std::uint32_t d) {
-      if (!received_.words().test(r, d)) ++fresh;
-    });
-    received_.take(data);
     relations_[r].missing -= fresh;
     if (fresh == 0 || !topology().pair(r / 2).cross_host) return;
     missing_ -= fresh;
@@ -193,7 +179,6 @@ class Completion : public DelayObserver {
   model::DdsProfile dds_;
   std::vector<model::Nanoseconds> ready_;  // by participant
   std::optional<model::Nanoseconds> bound_;
-  ReceivedDescriptors received_;
   std::vector<Relation> relations_;
   std::uint64_t missing_ = 0;
   bool done_ = false;

@@ -7,11 +7,12 @@
 //
 // Packets are admitted in the order of their emission, so the length of a backlog tells which ones.
 #include <algorithm>
-#include <deque>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "model/airtime.hpp"
+#include "model/engine/chunk_queue.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/number_map.hpp"
@@ -23,6 +24,8 @@ namespace {
 
 class Conservation : public Observer {
  public:
+  static constexpr bool reads_clock = true;
+
   explicit Conservation(const model::Scenario& scenario)
       : Observer{"safety.conservation"},
         participants_{scenario.deployment.participants},
@@ -37,21 +40,23 @@ class Conservation : public Observer {
     sources_.resize(topology.participant_count());
   }
   void event_started(const model::Event& event) override {
-    const model::Nanoseconds before = now();
     Observer::event_started(event);
+    const model::Nanoseconds before = std::exchange(instant_, event.time);
     if (event.time > before) check_instant(before, event.time);
   }
   void finish(model::Nanoseconds end) override {
-    if (end > now()) check_instant(now(), end);
+    if (end > instant_) check_instant(instant_, end);
   }
 
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t>) override {
     if (!shared_) return;
     const std::int64_t fragments = fragmentation_.count(packet.payload_bytes);
-    sources_[source].backlog.push_back({packet.number, packet.copies,
-                                        fragmentation_.demand(packet.payload_bytes, fragments),
-                                        static_cast<std::uint32_t>(fragments)});
+    Emitted& emitted = sources_[source].backlog.push_back();
+    emitted.number = packet.number;
+    emitted.copies = packet.copies;
+    emitted.demand = fragmentation_.demand(packet.payload_bytes, fragments);
+    emitted.fragments = static_cast<std::uint32_t>(fragments);
     sources_[source].waiting += packet.copies;
   }
   void backlog_changed(std::uint32_t participant, std::uint64_t packets,
@@ -152,20 +157,20 @@ class Conservation : public Observer {
  private:
   /// Packets of consecutive numbers in a backlog.
   struct Emitted {
-    std::uint64_t number = 0;
-    std::uint32_t copies = 0;
-    std::int64_t demand = 0;
-    std::uint32_t fragments = 0;
+    std::uint64_t number;
+    std::int64_t demand;
+    std::uint32_t copies;
+    std::uint32_t fragments;
   };
   struct Source {
-    std::deque<Emitted> backlog;
+    model::ChunkQueue<Emitted> backlog;
     std::uint64_t waiting = 0;  // copies in the backlog
     std::int64_t admitted_bytes = 0;
     std::uint64_t admitted_packets = 0;
   };
   struct Admitted {
-    std::uint32_t source = 0;
     std::int64_t demand = 0;
+    std::uint32_t source = 0;
     std::uint32_t fragments = 0;
     std::uint32_t served = 0;  // over all stages
     std::uint32_t served_at_source = 0;
@@ -196,8 +201,14 @@ class Conservation : public Observer {
 
   void admit(std::uint32_t participant, Source& source) {
     Emitted& head = source.backlog.front();
-    const Admitted flight{participant, head.demand, head.fragments, 0, 0, false};
-    if (!admitted_.add(head.number, flight)) {
+    if (Admitted* const flight = admitted_.add(head.number)) {
+      flight->source = participant;
+      flight->demand = head.demand;
+      flight->fragments = head.fragments;
+      flight->served = 0;
+      flight->served_at_source = 0;
+      flight->left = false;
+    } else {
       object_now(
           fmt::format("At {} packet {} is admitted a second time.", time_text(now()), head.number));
     }
@@ -239,6 +250,7 @@ class Conservation : public Observer {
   NumberMap<Admitted> admitted_;               // by packet number
   std::vector<std::uint64_t> to_be_received_;  // arrived in this instant
   std::int64_t peak_ = 0;
+  model::Nanoseconds instant_;
 };
 
 }  // namespace

@@ -17,6 +17,8 @@ namespace {
 
 class EventOrder : public Observer {
  public:
+  static constexpr bool reads_clock = true;
+
   EventOrder() : Observer{"order.reception-first"} {}
 
   void event_started(const model::Event& event) override {
@@ -28,7 +30,7 @@ class EventOrder : public Observer {
     } else if (events() > 1 && event.time == last_.time) {
       compare(event);
     }
-    last_ = event;
+    last_ = {event.time, event.insertion(), event.kind};
   }
 
  private:
@@ -39,14 +41,19 @@ class EventOrder : public Observer {
       object_now(fmt::format("At {} {} ({}) is processed after {} ({}), which should have seen it.",
                              time_text(event.time), name_of(event.kind), name_of(after),
                              name_of(last_.kind), name_of(before)));
-    } else if (after == before && event.insertion() < last_.insertion()) {
+    } else if (after == before && event.insertion() < last_.insertion) {
       object_now(fmt::format("At {} {} (inserted as number {}) comes after {} (number {}).",
                              time_text(event.time), name_of(event.kind), event.insertion(),
-                             name_of(last_.kind), last_.insertion()));
+                             name_of(last_.kind), last_.insertion));
     }
   }
 
-  model::Event last_;
+  struct Last {
+    model::Nanoseconds time;
+    std::uint64_t insertion = 0;
+    model::EventKind kind{};
+  };
+  Last last_;
 };
 
 }  // namespace

@@ -15,6 +15,10 @@ namespace {
 class HeartbeatTimers : public Observer {
  public:
   static constexpr std::array hears_machines{model::Report::transition};
+  static constexpr auto selection_of_kinds =
+      model::trace::Selection{}.only({model::Report::event_started, model::Report::scheduled},
+                                     {model::EventKind::heartbeat_expiry,
+                                      model::EventKind::cycle_start, model::EventKind::cycle_end});
 
   HeartbeatTimers() : Observer{"timer.single-heartbeat"} {}
 

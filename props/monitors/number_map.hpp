@@ -22,18 +22,19 @@ class NumberMap {
     const Slot& slot = slots_[place_of(number / page_size)];
     return (slot.members & bit(number)) != 0 ? &pages_[slot.page][number % page_size] : nullptr;
   }
-  /// Whether the number is new; otherwise nothing changes.
-  bool add(std::uint64_t number, T value) {
+  /// A place for what is remembered of a new number, with what somebody left there; null if there
+  /// is something already. It is to be filled in by its members: one that is put together elsewhere
+  /// and copied at once makes the processor wait until the parts are written.
+  [[nodiscard]] T* add(std::uint64_t number) {
     if (2 * (used_ + 1) > slots_.size()) grow();
     Slot& slot = slots_[place_of(number / page_size)];
     if (slot.members == 0) {
       slot = {number / page_size, pages_.take(), 0};
       ++used_;
     }
-    if ((slot.members & bit(number)) != 0) return false;
+    if ((slot.members & bit(number)) != 0) return nullptr;
     slot.members |= bit(number);
-    pages_[slot.page][number % page_size] = std::move(value);
-    return true;
+    return &pages_[slot.page][number % page_size];
   }
   void remove(std::uint64_t number) {
     if (slots_.empty()) return;
@@ -70,8 +71,11 @@ class NumberMap {
   }
   /// Where the page is, or belongs.
   [[nodiscard]] std::size_t place_of(std::uint64_t number) const {
+    // Packets of a page come one after the other, and so do the stages of one packet.
+    if (slots_[latest_].number == number && slots_[latest_].members != 0) return latest_;
     std::size_t k = home_of(number);
     while (slots_[k].members != 0 && slots_[k].number != number) k = next(k);
+    latest_ = k;
     return k;
   }
   /// The slot is free from now on; those behind it that belong before them move up.
@@ -93,6 +97,7 @@ class NumberMap {
 
   std::vector<Slot> slots_;  // a power of two of them
   std::size_t used_ = 0;
+  mutable std::size_t latest_ = 0;  // where a page was found last
   model::SlotPool<Page> pages_;
 };
 

@@ -13,6 +13,7 @@
 
 #include "model/engine/packet.hpp"
 #include "model/engine/topology.hpp"
+#include "model/trace/selection.hpp"
 #include "props/monitor.hpp"
 
 namespace stormproof::props {
@@ -25,7 +26,9 @@ class Observer : public Monitor {
 
   void join(model::Company&) override { is_alone_ = false; }
   void run_started(const model::Topology& topology) override { topology_ = &topology; }
-  void event_started(const model::Event& event) override { own_->begin(event); }
+  void event_started(const model::Event& event) override {
+    if (has_own_clock()) own_->begin(event);
+  }
 
  protected:
   /// Objects to what happens in the current event.
@@ -64,25 +67,38 @@ concept HearsSomeMachines = requires {
   M::hears_machines.size();
 };
 
-/// Whether a monitor that is not alone need not hear of something, because its function for that is
-/// the one of `M::Feeder`, which only gathers what the list gathers then.
-template <class M, class Function>
+/// Of which kinds of events and packets it hears, if not of all: `M::selection_of_kinds`.
+template <class M>
+concept HearsSomeKinds = requires {
+  M::selection_of_kinds;
+};
+
+/// Who does more when an event begins than to count it counts events itself, because the clock of a
+/// list is at the next event then; unless that is how it reads it.
+template <class M>
+concept ReadsClock = HearsSomeKinds<M> || requires {
+  M::reads_clock;
+};
+
+/// Whether a monitor that is not alone need not hear of something, because its function for that
+/// only feeds what the list gathers then: it is one of a class whose `Feeder` is that class.
+template <class Function>
 inline constexpr bool only_feeds = false;
-template <class M, class Result, class Class, class... Args>
-requires requires { typename M::Feeder; }
-inline constexpr bool only_feeds<M, Result (Class::*)(Args...)> =
-    std::is_same_v<Class, typename M::Feeder>;
+template <class Result, class Class, class... Args>
+requires requires { typename Class::Feeder; }
+inline constexpr bool only_feeds<Result (Class::*)(Args...)> =
+    std::is_same_v<Class, typename Class::Feeder>;
 
 /// A monitor that hears of nothing but what it has functions for. Channels have no relations, so no
 /// monitor cares how they move.
 template <class M>
-class Attentive final : public M {
+class Attentive final : public M, public model::trace::Selective {
  public:
   using M::M;
 
   void join(model::Company& company) override {
     M::join(company);
-    if (!counts_events) this->read(company.clock);
+    if (!counts_events || ReadsClock<M>) this->read(company.clock);
   }
   [[nodiscard]] model::Reports reports() const override {
     using enum model::Report;
@@ -92,11 +108,12 @@ class Attentive final : public M {
     const auto hears = [&]([[maybe_unused]] model::Report report, [[maybe_unused]] auto own,
                            [[maybe_unused]] auto inherited) {
       const bool is_own = !std::is_same_v<decltype(own), decltype(inherited)>;
-      reports.set(report, is_own && (this->is_alone() || !only_feeds<M, decltype(own)>));
+      reports.set(report, is_own && (this->is_alone() || !only_feeds<decltype(own)>));
     };
     hears(event_finished, &M::event_finished, &Probe::event_finished);
     if constexpr (HearsSomeMachines<M>) {
       for (const model::Report report : M::hears_machines) reports.set(report);
+      reports.set(reader_transition, reports.has(reader_transition) || feeds_transitions());
     } else {
       for (const model::Report report : {transition, reader_transition, descriptor_transition})
         hears(report, &M::transition, &Probe::transition);
@@ -115,7 +132,16 @@ class Attentive final : public M {
     return reports;
   }
 
+  [[nodiscard]] model::trace::Selection selection() const override {
+    if constexpr (HearsSomeKinds<M>) return M::selection_of_kinds;
+    return {};
+  }
+
  private:
+  /// Alone it has to see itself what readers take.
+  [[nodiscard]] bool feeds_transitions() const {
+    return this->is_alone() && requires { M::gathers_data; };
+  }
   /// Whether it does more when an event begins than to count it.
   static constexpr bool counts_events =
       !std::is_same_v<decltype(&M::event_started), decltype(&Observer::event_started)>;

@@ -45,7 +45,6 @@ Prospects::Prospects(const model::Scenario& scenario)
 
 void Prospects::run_started(const model::Topology& topology) {
   topology_ = topology;
-  received_.reset(topology);
   heartbeats_.reset(topology);
   for (RelationWords& words : states_) words.reset(topology);
   data_.reset(topology, 0);
@@ -64,11 +63,13 @@ void Prospects::run_started(const model::Topology& topology) {
 }
 
 void Prospects::event_started(const model::Event& event) {
-  arriving_ = nullptr;
-  delivered_ = nullptr;
-  if (constant_delay_) departing_ = {};
   heartbeats_.started(event);
   count(event.kind, event.subject, less);
+}
+
+void Prospects::event_ended() {
+  delivered_ = nullptr;
+  if (constant_delay_) departing_ = {};
 }
 
 void Prospects::scheduled(std::uint64_t insertion, EventKind kind, std::uint32_t subject) {
@@ -153,7 +154,6 @@ void Prospects::transition(const model::MachineRef& machine, std::string_view ev
     return touch_writer(machine.subject);
   }
   if (machine.machine != "DiscoveryReader") return;
-  if (const model::Packet* data = received_.taken(machine, event)) received_.take(*data);
   Relation& relation = relations_[machine.subject];
   if (event == "AnnouncementReceived") relation.reader_open = true;
   if (event == "HeartbeatReceived") relation.heartbeat_seen = true;
@@ -260,7 +260,6 @@ void Prospects::arrived(const model::Packet& packet, bool lost) {
 }
 
 void Prospects::received(const model::Packet& packet, std::uint32_t receiver) {
-  received_.arriving(packet);
   delivered_ = nullptr;
   if (!traits_.receives_separately || !crosses_hosts(*topology_, packet, receiver)) return;
   move(load_of(packet), less);

@@ -12,6 +12,7 @@
 #include "model/engine/packet.hpp"
 #include "model/implementations.hpp"
 #include "model/scenario.hpp"
+#include "model/trace/selection.hpp"
 #include "props/monitors/pending_heartbeats.hpp"
 #include "props/monitors/received_descriptors.hpp"
 #include "props/monitors/relation_words.hpp"
@@ -20,6 +21,25 @@ namespace stormproof::props {
 
 class Prospects {
  public:
+  /// It need not be told of other timers, nor of packets of control-only relations.
+  static constexpr auto selection =
+      model::trace::Selection{}
+          .only({model::Report::event_started},
+                {model::EventKind::acknack_generation, model::EventKind::initial_acknack_due,
+                 model::EventKind::repair_generation, model::EventKind::suppression_end,
+                 model::EventKind::nack_response, model::EventKind::heartbeat_expiry,
+                 model::EventKind::cycle_start, model::EventKind::cycle_end,
+                 model::EventKind::announcement_due, model::EventKind::endpoint_creation,
+                 model::EventKind::async_run})
+          .only({model::Report::scheduled},
+                {model::EventKind::acknack_generation, model::EventKind::initial_acknack_due,
+                 model::EventKind::repair_generation, model::EventKind::suppression_end,
+                 model::EventKind::nack_response, model::EventKind::heartbeat_expiry,
+                 model::EventKind::cycle_start, model::EventKind::cycle_end,
+                 model::EventKind::announcement_due, model::EventKind::endpoint_creation,
+                 model::EventKind::async_run, model::EventKind::source_completion,
+                 model::EventKind::reception, model::EventKind::delayed_reception});
+
   explicit Prospects(const model::Scenario& scenario);
 
   // The probe's reports.
@@ -36,6 +56,12 @@ class Prospects {
   void source_completed(const model::Packet& packet);
   void arrived(const model::Packet& packet, bool lost);
   void received(const model::Packet& packet, std::uint32_t receiver);
+  /// Nothing more follows from what has happened in this event.
+  void event_ended();
+  /// Whether that has to be told.
+  [[nodiscard]] bool expects_end() const {
+    return is_touched() || delivered_ != nullptr || !departing_.pairs.empty();
+  }
 
   [[nodiscard]] bool is_touched() const { return !touched_.empty(); }
   /// Relations of which something may have got lost since the last call; each once. They are there
@@ -43,8 +69,9 @@ class Prospects {
   [[nodiscard]] const std::vector<std::uint32_t>& take_touched();
   void touch_all();
 
-  /// A descriptor that the relation's reader lacks and that nothing can bring to it any more.
-  [[nodiscard]] std::optional<std::uint32_t> hopeless(std::uint32_t relation) const;
+  /// A descriptor that the relation's reader lacks (X) and that nothing can bring to it any more.
+  [[nodiscard]] std::optional<std::uint32_t> hopeless(std::uint32_t relation,
+                                                      const ReceivedDescriptors& x) const;
   /// In which state the writer has the descriptor, and whether the relation is open.
   [[nodiscard]] std::string situation(std::uint32_t relation, std::uint32_t d) const;
 
@@ -122,8 +149,6 @@ class Prospects {
   std::vector<std::uint64_t> lost_packets_;
   std::optional<model::Topology> topology_;  // a copy: asked after the run, too
 
-  ReceivedDescriptors received_;
-  const model::Packet* arriving_ = nullptr;   // being received
   const model::Packet* delivered_ = nullptr;  // arrived; its receptions are being scheduled
   Departing departing_;
   PendingHeartbeats heartbeats_;

@@ -76,12 +76,13 @@ std::uint64_t Prospects::progressing(std::uint32_t relation, std::uint32_t k) co
   return members;
 }
 
-std::optional<std::uint32_t> Prospects::hopeless(std::uint32_t relation) const {
+std::optional<std::uint32_t> Prospects::hopeless(std::uint32_t relation,
+                                                 const ReceivedDescriptors& x) const {
   const std::uint32_t count = topology_->descriptor_count(relation);
   const Relation& rel = relations_[relation];
   const bool usable = rel.writer_open && (rel.reader_open || accepts_unmatched_);
-  for (std::uint32_t k = 0; k < received_.word_count(relation); ++k) {
-    std::uint64_t left = RelationWords::below(count, k) & ~received_.word(relation, k);
+  for (std::uint32_t k = 0; k < x.word_count(relation); ++k) {
+    std::uint64_t left = RelationWords::below(count, k) & ~x.word(relation, k);
     if (left == 0) continue;
     if (!usable && can_open(relation)) return {};
     if (usable) left &= ~progressing(relation, k);

@@ -41,8 +41,6 @@
 #include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
-#include "props/monitors/received_descriptors.hpp"
 
 namespace stormproof::props {
 
@@ -91,6 +89,9 @@ namespace {
 class Quiescence : public QuiescenceMonitor {
  public:
   static constexpr std::array hears_machines{model::Report::reader_transition};
+  static constexpr auto selection_of_kinds = model::trace::Selection{}.only(
+      {model::Report::emitted, model::Report::looped_back},
+      {model::PacketKind::data, model::PacketKind::heartbeat, model::PacketKind::acknack});
 
   explicit Quiescence(const model::Scenario& scenario)
       : QuiescenceMonitor{"live.quiescence", scenario},
@@ -98,8 +99,7 @@ class Quiescence : public QuiescenceMonitor {
         loopback_{loopback_of(scenario)} {}
 
   void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
-    received_.reset(topology);
+    DataObserver::run_started(topology);
     opened_.assign(topology.relation_count(), false);
     missing_ = 0;
     for (std::uint32_t r = 0; r < topology.relation_count(); ++r) {
@@ -119,13 +119,10 @@ class Quiescence : public QuiescenceMonitor {
     if (!packet.to_writer()) note_opening(packet.relation());
     note_traffic(packet);
   }
-  void received(const model::Packet& packet, std::uint32_t receiver) override {
-    received_.arriving(packet);
-    DelayObserver::received(packet, receiver);
-  }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    if (const model::Packet* data = received_.taken(machine, event)) take(*data);
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
+                  std::string_view after, std::uint32_t first_word,
+                  std::uint64_t descriptors) override {
+    DataObserver::transition(machine, event, before, after, first_word, descriptors);
     if (event == "AnnouncementReceived" && settled_) settle();
   }
   void finish(model::Nanoseconds end) override {
@@ -209,17 +206,13 @@ class Quiescence : public QuiescenceMonitor {
                         fmt::format("A packet ({}) of {}", name_of(packet.kind),
                                     relation_text(topology(), packet.relation()))});
   }
-  void take(const model::Packet& data) {
-    data.descriptors.for_each([&](std::uint32_t d) {
-      if (!received_.words().test(data.relation(), d)) --missing_;
-    });
-    received_.take(data);
+  void took(const model::Packet&, std::uint32_t fresh) override {
+    missing_ -= fresh;
     if (missing_ == 0 && !settled_) settle();
   }
 
   model::DdsProfile dds_;
   model::Nanoseconds loopback_;
-  ReceivedDescriptors received_;
   std::vector<bool> opened_;  // by relation
   std::uint64_t missing_ = 0;
   std::optional<model::Nanoseconds> settled_;

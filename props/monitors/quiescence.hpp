@@ -6,6 +6,7 @@
 
 #include "model/dds_profile.hpp"
 #include "model/units.hpp"
+#include "props/monitors/data_observer.hpp"
 #include "props/monitors/delay_observer.hpp"
 
 namespace stormproof::props {
@@ -16,9 +17,9 @@ namespace stormproof::props {
                                                   model::Nanoseconds delay);
 
 /// The monitor of live.quiescence. It decides in `finish`.
-class QuiescenceMonitor : public DelayObserver {
+class QuiescenceMonitor : public DataObserver<DelayObserver> {
  public:
-  using DelayObserver::DelayObserver;
+  using DataObserver::DataObserver;
   /// From then on there must be no traffic, if no packet takes longer than those up to `now`.
   /// Absent: something is missing or not open.
   [[nodiscard]] virtual std::optional<model::Nanoseconds> silent_from(

@@ -15,6 +15,11 @@ namespace {
 
 class RepairRequests : public Observer {
  public:
+  static constexpr auto selection_of_kinds =
+      model::trace::Selection{}
+          .only({model::Report::emitted, model::Report::looped_back}, {model::PacketKind::data})
+          .only({model::Report::received}, {model::PacketKind::acknack});
+
   explicit RepairRequests(const model::Scenario& scenario)
       : Observer{"safety.repair-only-if-asked"},
         pushes_at_creation_{model::traits_of(scenario.dds).creates_endpoints_over_time},

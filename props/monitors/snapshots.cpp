@@ -7,12 +7,11 @@
 #include <tuple>
 
 #include "model/implementations.hpp"
+#include "props/monitors/data_observer.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/descriptors.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/number_map.hpp"
-#include "props/monitors/observer.hpp"
-#include "props/monitors/received_descriptors.hpp"
 
 namespace stormproof::props {
 
@@ -24,31 +23,41 @@ struct Snapshot {
   bool operator==(const Snapshot&) const = default;
 };
 
-class Snapshots : public Observer {
+class Snapshots : public DataObserver<> {
  public:
   static constexpr std::array hears_machines{model::Report::reader_transition};
+  static constexpr auto selection_of_kinds =
+      model::trace::Selection{}
+          .only({model::Report::emitted, model::Report::looped_back, model::Report::arrived},
+                {model::PacketKind::acknack})
+          .only({model::Report::received}, {model::PacketKind::data, model::PacketKind::heartbeat,
+                                            model::PacketKind::acknack});
 
   explicit Snapshots(const model::Scenario& scenario)
-      : Observer{"safety.snapshot"}, bases_{model::traits_of(scenario.dds).acknacks_have_bases} {}
+      : DataObserver{"safety.snapshot"},
+        bases_{model::traits_of(scenario.dds).acknacks_have_bases} {}
 
   void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
-    received_.reset(topology);
+    DataObserver::run_started(topology);
     announced_.assign(topology.relation_count(), 0);
   }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    if (const model::Packet* data = received_.taken(machine, event)) {
-      received_.take(*data);
-      if (!data->descriptors.empty()) raise(data->relation(), data->descriptors.highest() + 1);
-    } else if (announcing_ != nullptr && announced_in_ == this->event() &&
-               event == "HeartbeatReceived" && machine.subject == announcing_->relation()) {
+  void took(const model::Packet& data, std::uint32_t) override {
+    if (!data.descriptors.empty()) raise(data.relation(), data.descriptors.highest() + 1);
+  }
+  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
+                  std::string_view after, std::uint32_t first_word,
+                  std::uint64_t descriptors) override {
+    DataObserver::transition(machine, event, before, after, first_word, descriptors);
+    if (announcing_ != nullptr && announced_in_ == this->event() && event == "HeartbeatReceived" &&
+        machine.subject == announcing_->relation()) {
       raise(machine.subject, announcing_->detail);
     }
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {
-    if (packet.kind == model::PacketKind::acknack) under_way_.add(packet.number, check(packet));
+    if (packet.kind != model::PacketKind::acknack) return;
+    Snapshot snapshot = check(packet);
+    if (Snapshot* place = under_way_.add(packet.number)) *place = std::move(snapshot);
   }
   void looped_back(const model::Packet& packet, std::uint32_t) override {
     if (packet.kind == model::PacketKind::acknack) looped_[key(packet)].push_back(check(packet));
@@ -56,8 +65,8 @@ class Snapshots : public Observer {
   void arrived(const model::Packet& packet, bool lost) override {
     if (lost && packet.kind == model::PacketKind::acknack) under_way_.remove(packet.number);
   }
-  void received(const model::Packet& packet, std::uint32_t) override {
-    received_.arriving(packet);
+  void received(const model::Packet& packet, std::uint32_t receiver) override {
+    DataObserver::received(packet, receiver);
     const bool announces = packet.kind == model::PacketKind::heartbeat || packet.carries_heartbeat;
     announcing_ = announces ? &packet : nullptr;
     announced_in_ = event();
@@ -88,8 +97,8 @@ class Snapshots : public Observer {
     const bool claims = !(bases_ && packet.initial_acknack);
     Snapshot snapshot;
     std::uint32_t first = count;
-    for (std::uint32_t k = 0; k < received_.word_count(relation); ++k) {
-      const std::uint64_t lacking = RelationWords::below(count, k) & ~received_.word(relation, k);
+    for (std::uint32_t k = 0; k < x().word_count(relation); ++k) {
+      const std::uint64_t lacking = RelationWords::below(count, k) & ~x().word(relation, k);
       const std::uint32_t limit = bases_ ? announced_[relation] : count;
       if (claims) snapshot.listed.add(k, lacking & RelationWords::below(limit, k));
       if (lacking != 0 && first == count) {
@@ -134,7 +143,6 @@ class Snapshots : public Observer {
   }
 
   bool bases_;
-  ReceivedDescriptors received_;
   const model::Packet* announcing_ = nullptr;  // which lives as long as the event
   std::uint64_t announced_in_ = 0;
   std::vector<std::uint32_t> announced_;  // by relation

@@ -3,31 +3,32 @@
 // acknowledged, HEARTBEATs and timers do not count, only DATA on its way does. What counts when is
 // in prospects_judgment.cpp. Only cross-host relations are looked at, each after the events that
 // concern it.
+#include "props/monitors/data_observer.hpp"
 #include "props/monitors/describe.hpp"
+#include "props/monitors/event_ends.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
 #include "props/monitors/prospects.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
-class Stalls : public Observer {
+class Stalls : public DataObserver<EndObserver> {
  public:
+  static constexpr auto selection_of_kinds = Prospects::selection;
+
   explicit Stalls(const model::Scenario& scenario)
-      : Observer{"live.no-stall"}, prospects_{scenario} {}
+      : DataObserver{"live.no-stall"}, prospects_{scenario} {}
 
   void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
+    DataObserver::run_started(topology);
     topology_.emplace(topology);
     prospects_.run_started(topology);
   }
   void event_started(const model::Event& event) override {
     Observer::event_started(event);
     prospects_.event_started(event);
-  }
-  void event_finished(const model::Depths&) override {
-    if (prospects_.is_touched()) judge(now());
+    await_consequences();
   }
   void finish(model::Nanoseconds end) override {
     if (!topology_) return;
@@ -37,11 +38,14 @@ class Stalls : public Observer {
   void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t first_word,
                   std::uint64_t descriptors) override {
+    DataObserver::transition(machine, event, before, after, first_word, descriptors);
     prospects_.transition(machine, event, before, after, first_word, descriptors);
+    await_consequences();
   }
   void scheduled(std::uint64_t insertion, model::Nanoseconds, model::EventKind kind,
                  std::uint32_t subject) override {
     prospects_.scheduled(insertion, kind, subject);
+    await_consequences();
   }
   void rescheduled(const model::Event& event, std::uint64_t insertion) override {
     prospects_.rescheduled(event, insertion);
@@ -49,15 +53,20 @@ class Stalls : public Observer {
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
     prospects_.emitted(packet, source, destinations);
+    await_consequences();
   }
   void source_completed(const model::Packet& packet) override {
     prospects_.source_completed(packet);
+    await_consequences();
   }
   void arrived(const model::Packet& packet, bool lost) override {
     prospects_.arrived(packet, lost);
+    await_consequences();
   }
   void received(const model::Packet& packet, std::uint32_t receiver) override {
+    DataObserver::received(packet, receiver);
     prospects_.received(packet, receiver);
+    await_consequences();
   }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
@@ -65,12 +74,19 @@ class Stalls : public Observer {
   }
 
  private:
+  void await_consequences() {
+    if (prospects_.expects_end()) await_end();
+  }
+  void judge_event() override {
+    if (prospects_.is_touched()) judge(now());
+    prospects_.event_ended();
+  }
   void judge(model::Nanoseconds time) {
     for (const std::uint32_t relation : prospects_.take_touched()) {
       const model::Pair& ends = topology_->pair(relation / 2);
       if (!ends.cross_host || time < topology_->start(ends.destination) || violation()) continue;
       ++judged_;
-      const auto d = prospects_.hopeless(relation);
+      const auto d = prospects_.hopeless(relation, x());
       if (!d) continue;
       object(event(), time,
              "From " + time_text(time) + " on nothing can bring " +

@@ -7,11 +7,11 @@
 // From the first loss on, none claims anything. Only cross-host relations count.
 #include <fmt/core.h>
 
+#include "props/monitors/data_observer.hpp"
 #include "props/monitors/delay_observer.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
-#include "props/monitors/received_descriptors.hpp"
+#include "props/monitors/relation_words.hpp"
 
 namespace stormproof::props {
 
@@ -41,27 +41,19 @@ class LossAware : public DelayObserver {
   model::Nanoseconds largest_;
 };
 
-class SingleCopies : public LossAware {
+class SingleCopies : public DataObserver<LossAware> {
  public:
-  static constexpr std::array hears_machines{model::Report::reader_transition};
+  static constexpr auto selection_of_kinds =
+      model::trace::Selection{}.only({model::Report::received}, {model::PacketKind::data});
 
   explicit SingleCopies(const model::Scenario& scenario)
-      : LossAware{"storm.single-copy", scenario} {}
+      : DataObserver{"storm.single-copy", scenario} {}
 
-  void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
-    received_.reset(topology);
-  }
   void received(const model::Packet& packet, std::uint32_t receiver) override {
-    LossAware::received(packet, receiver);
-    received_.arriving(packet);
+    DataObserver::received(packet, receiver);
     if (packet.kind != model::PacketKind::data || !lossless()) return;
     const model::Pair& ends = topology().pair(packet.pair);
     if (ends.cross_host && now() >= topology().start(ends.destination)) look_for_copies(packet);
-  }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    if (const model::Packet* data = received_.taken(machine, event)) received_.take(*data);
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     auto lines = delay_remarks();
@@ -72,10 +64,10 @@ class SingleCopies : public LossAware {
  private:
   void look_for_copies(const model::Packet& data) {
     const std::uint32_t relation = data.relation();
-    const std::uint32_t d = received_.words().first_of(relation, data.descriptors, true);
+    const std::uint32_t d = x().words().first_of(relation, data.descriptors, true);
     if (d == UINT32_MAX) return;
     data.descriptors.for_each([&](std::uint32_t one) {
-      if (received_.words().test(relation, one)) ++copies_;
+      if (x().words().test(relation, one)) ++copies_;
     });
     object_now([&] {
       return "At " + time_text(now()) + " " + descriptor_text(topology(), relation, d) +
@@ -84,12 +76,14 @@ class SingleCopies : public LossAware {
     });
   }
 
-  ReceivedDescriptors received_;
   std::uint64_t copies_ = 0;
 };
 
 class NeedlessRepairs : public LossAware {
  public:
+  static constexpr auto selection_of_kinds =
+      model::trace::Selection{}.only({model::Report::emitted}, {model::PacketKind::data});
+
   NeedlessRepairs(std::string_view property, const model::Scenario& scenario)
       : LossAware{property, scenario} {}
 

@@ -21,6 +21,9 @@ namespace {
 class Suppression : public Observer {
  public:
   static constexpr std::array hears_machines{model::Report::descriptor_transition};
+  static constexpr auto selection_of_kinds = model::trace::Selection{}.only(
+      {model::Report::emitted, model::Report::looped_back, model::Report::source_completed},
+      {model::PacketKind::data});
 
   explicit Suppression(const model::Scenario& scenario)
       : Observer{"timer.suppression-honoured"},
