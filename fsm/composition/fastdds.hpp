@@ -21,7 +21,11 @@ struct Implementation {
   using Waits = fastdds::Waits;
   using NeedsHeartbeat = fastdds::NeedsHeartbeat;
   using Exists = fastdds::Exists;
+  using Notified = fastdds::Notified;
+  using Created = fastdds::Created;
   static constexpr bool multicast_first = false;
+  /// Readers are served in the order in which they were matched; otherwise by number.
+  static constexpr bool serves_in_order_of_match = true;
 
   // The reader.
   /// DATA tells of every descriptor up to its highest. The application is told about descriptors in
@@ -68,6 +72,11 @@ struct Implementation {
   }
 
   // The writer.
+  /// The queue is left for now, because its participant stalls: its run counts as requested.
+  template <class W>
+  static void leave_queue(W& w) {
+    request<AsyncRun, Immediately, AsyncRunDue>(w);
+  }
   template <class W>
   static void heartbeat(W& w) {
     emit_heartbeat(w);

@@ -26,9 +26,15 @@ struct HearReader : Opaque {
 /// The sides that the pair's source has of control-only relations with its destination are new
 /// ones.
 struct ForgetTopics : Opaque {
+  using ForgetsTopics = ForgetTopics;
+
   template <class W>
   static void contract(W& w) {
     w.renew(control::ControlWriterSide{});
+    forget_reader(w);
+  }
+  template <class W>
+  static void forget_reader(W& w) {
     w.renew(control::ControlReaderSide{});
     w.renew(control::ControlInitialTimer{});
     w.renew(control::ControlReply{});
@@ -133,6 +139,27 @@ struct HeardControlAckNack : Rule<Received<control::UserAckNack>> {
 /// The whole composition.
 struct FastDdsLiving : Implementation {
   static constexpr std::string_view name = "fastdds-living";
+  /// What was before the run: all descriptors of the relation's writer exist, and it believes that
+  /// the reader has them.
+  template <class W>
+  static void was_acknowledged(W& w) {
+    w.set_each(fastdds::Exists{}, everyone);
+    w.feed_each(C{}, on<change_for_reader::ReaderMatched>);
+    w.feed_each(C{}, on<change_for_reader::AckNackReceived>, [](auto& d) {
+      using D = typename std::remove_cvref_t<decltype(d)>::D;
+      return ChangeForReaderIo::Input<D>{.listed = !everyone(d), .below_base = everyone(d)};
+    });
+    w.set(WriterOpen{}, typename W::Bool(true));
+    w.set(SomeConfirmed{}, typename W::Bool(true));
+  }
+  /// The reader has everything.
+  template <class W>
+  static void was_received(W& w) {
+    w.set_each(X{}, everyone);
+    w.set_each(Known{}, everyone);
+    w.set_each(fastdds::Notified{}, everyone);
+    w.set(HeartbeatSeen{}, typename W::Bool(true));
+  }
   using AckNack = fastdds::AckNack;
   using Parts = FastDds::Parts;
   using Timers = Joined<FastDds::Timers, TypeList<LeaseCheck, Return>>;

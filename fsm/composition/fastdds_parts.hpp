@@ -11,6 +11,8 @@
 
 namespace stormproof::fsm::composition::fastdds {
 
+using composition::CrossHost;
+
 /// The writer's view of a descriptor, in the paper's letters.
 struct C : Part<ChangeForReader, owner::descriptor> {};
 struct Reply : Part<SingleShot, owner::relation> {};
@@ -34,8 +36,6 @@ struct Notified : Flag<owner::descriptor> {};  ///< the reader's application kno
 
 struct NackResponseDelay : DelayOf<"sedp.nack_response_delay"> {};          ///< τ_N
 struct SuppressionDuration : DelayOf<"sedp.nack_suppression_duration"> {};  ///< τ_S
-/// The relation crosses hosts, so discovery needs it.
-struct CrossHost : Answer {};
 
 struct Data : Packet<owner::relation, Carries, Announces, CarriesHeartbeat> {};
 struct Heartbeat : Packet<owner::relation, Announces> {};
@@ -129,6 +129,8 @@ struct ToRequesters {
 /// stated when it joins, as if it went alone: to a descriptor, a packet that carries others as well
 /// is one that carries it.
 struct Pack : Opaque {
+  using FillsMessage = void;
+
   template <class W, class To>
   static void contract(W& w, To) {
     const auto rides = w.choice("a HEARTBEAT rides in it");
@@ -145,6 +147,8 @@ struct Pack : Opaque {
 /// The descriptor is charged against the piggyback budget of its writer; if that is used up, a
 /// HEARTBEAT to every reader joins the open message, which is flushed first if it goes to others.
 struct Charge : Opaque {
+  using FillsMessage = void;
+
   template <class W, class To>
   static void contract(W& w, To) {
     w.when(w.choice("the budget is used up"),
@@ -153,6 +157,8 @@ struct Charge : Opaque {
 };
 /// The open message is emitted, one packet for each of its readers.
 struct Flush : Opaque {
+  using SendsMessage = void;
+
   template <class W, class To>
   static void contract(W&, To) {}
 };

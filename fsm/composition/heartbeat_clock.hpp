@@ -55,6 +55,8 @@ template <class C>
 struct ClockRules {
   /// A HEARTBEAT to each reader of the next batch that still waits.
   struct SendBatch : Opaque {
+    using SendsBatch = C;
+
     template <class W>
     static void contract(W& w) {
       w.for_readers_by_number([](auto& r) {

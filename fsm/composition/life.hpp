@@ -106,6 +106,8 @@ struct LifeRules {
   /// The participant is a new one in all that it has; others remember it as they did. A host
   /// forgets all peers, whether it knows them or not, before it comes to the writers.
   struct LoseAll : Opaque {
+    using LosesAll = LifeRules;
+
     template <class W>
     static void contract(W& w) {
       lose_participant(w);

@@ -7,6 +7,8 @@ namespace stormproof::fsm::composition {
 
 /// The time, ns. Untimed worlds say 0.
 struct Now : Amount {};
+/// The ends of the pair are on different hosts, so discovery needs it.
+struct CrossHost : Answer {};
 
 // DATA.
 struct Carries : DescriptorField {};  ///< the descriptor is in it

@@ -405,16 +405,11 @@ struct FastDdsServer {
       Unused{"Change", "requested", "the step that feeds it answers SomeRequested"},
       Unused{"Change", "enqueue", "the step that feeds it fills the queue"},
       Unused{"Change", "Created", "the step that gives a change its number feeds it"},
-      Unused{"Change", "Serialized", "the step that delivers feeds it"},
       Unused{"Change", "InitialAckNackReceived", "an initial ACKNACK says nothing of changes"},
   };
   static constexpr std::array from_outside{
       FromOutside{"ClientAnnouncement", "announcement 0 is due when a participant starts"},
       FromOutside{"Arrives", "a reader of the server receives what is new"},
-      FromOutside{"Inserted", "the database has something to send"},
-      FromOutside{"Skipped", "the sending thread delivers a change"},
-      FromOutside{"Served", "the sending thread delivers a change"},
-      FromOutside{"Delivered", "the sending thread delivers a change"},
   };
 };
 

@@ -16,6 +16,8 @@
 
 namespace stormproof::fsm::composition::server {
 
+using composition::CrossHost;
+
 // A client's announcements, which are reliable, and what the server keeps of them.
 struct RegistrationExpiry : Part<SingleShot, owner::pair> {};
 struct RegistrationReply : Part<SingleShot, owner::pair> {};
@@ -65,7 +67,6 @@ struct LearnerResponseDelay : Amount {};
 
 /// The relay is that of announcements.
 struct OfAnnouncements : Answer {};
-struct CrossHost : Answer {};
 struct HistoryNotEmpty : Answer {};
 /// The reader has not acknowledged the first change that there is, or something is in U.
 struct LacksSomething : Answer {};
@@ -149,13 +150,29 @@ struct EndSuppression : Opaque {
 /// Who has acknowledged what, who has to learn what: what is to be sent gets a new number.
 struct UpdateDatabase : Opaque {
   template <class W>
-  static void contract(W&) {}
+  static void contract(W& w) {
+    w.when(w.choice("somebody has to learn an item"), [&] { w.raise(Inserted{}); });
+  }
 };
 /// The next change that somebody wants is sent to everybody who does; who has never been sent it is
 /// told before what it does not need.
 struct DeliverNext : Opaque {
   template <class W>
-  static void contract(W&) {}
+  static void contract(W& w) {
+    w.when(w.choice("somebody wants a change that is queued"), [&] {
+      w.for_readers([](auto& r) {
+        r.when(r.choice("it is sent that for the first time, and does not need one before it"),
+               [&] { r.raise(Skipped{}); });
+      });
+      w.for_readers([](auto& r) {
+        r.when(r.choice("it wants it"), [&] {
+          r.feed(Change{}, on<change_for_reader::Serialized>);
+          r.raise(Served{});
+        });
+      });
+      w.raise(Delivered{});
+    });
+  }
 };
 /// What a DATA or GAP says is noted, and DATA is learned.
 struct TakeRelayed : Opaque {

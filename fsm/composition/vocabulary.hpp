@@ -124,7 +124,14 @@ struct Procedure {};
 ///   w.choice("…")               an unknown: it may be so or not
 ///   w.partition(set, body)      body(part, first) for the parts of some partition of the set, in
 ///                               order
-/// A world without a way of its own runs the contract.
+/// A world without a way of its own runs the contract. A world that is executed beside a run and
+/// looks at what that did needs to be told of some steps what they are about:
+///   FillsMessage       what the contract emits joins the message that is open, if that goes to the
+///                      same readers and has room; otherwise another one, and that is sent
+///   SendsMessage       the message that is open is sent
+///   SendsBatch         `PlanBatches` has planned it; of which `C` (heartbeat_clock.hpp)
+///   ForgetsTopics      it is about the topics of the pair; of which rules (fastdds_life.hpp)
+///   LosesAll           it is about all peers, known or not; of which rules (life.hpp)
 struct Opaque {};
 
 // When something happens, and the rule for it. ----------------------------------------------------

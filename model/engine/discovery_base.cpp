@@ -12,7 +12,10 @@ DiscoveryBase::DiscoveryBase(RunState& run, Network& network)
       sedp_{run.scenario.dds.sedp},
       cycles_(2 * std::size_t{run.topology.participant_count()}) {
   for (std::uint32_t relation = 0; relation < run.topology.relation_count(); ++relation) {
-    at<Lacking>(relation) = run.topology.descriptor_count(relation);
+    const std::uint32_t count = run.topology.descriptor_count(relation);
+    at<Lacking>(relation) = count;
+    using Reader = fsm::Reflect<fsm::DiscoveryReader>;
+    if (count == 0) at<comp::Reader>(relation) = Reader::id<fsm::discovery_reader::EarlyComplete>;
   }
 }
 

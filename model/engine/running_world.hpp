@@ -24,11 +24,15 @@
 //   writer_layout(), samples_of(w)       if participants have other writers than one for each
 //                                        stream: how they are numbered, how much each has
 //   for_queue(i, visit)                  visit(writer, descriptor) until the queue is empty
+//   pair_of_control(n)                     of control-only relation n
+//   stands_at(site)                      if it asks where in the source the next effect stands
+//   choice(), decide(choice, body), partition(set, body)   if it executes contracts
 //
 // What follows of this from what a composition declares, a host has from its store: `Kept`
 // (model/engine/kept.hpp) and, in the simulator, `Stored` (model/engine/stored.hpp). The
 // simulator's hosts are in model/paper, model/fastdds and model/cyclone, the explorer's in
-// checker/engines/explorer, those of a captured relation in checker/evidence/conform.
+// checker/engines/explorer, those of a captured relation in checker/evidence/conform, and the
+// audit's of runs in props/monitors/auditor.hpp.
 #pragma once
 
 #include <algorithm>
@@ -43,6 +47,7 @@
 
 #include <boost/pfr.hpp>
 
+#include "fsm/composition/announcements.hpp"
 #include "fsm/composition/vocabulary.hpp"
 #include "fsm/composition/watched_world.hpp"
 #include "fsm/domain.hpp"
@@ -56,6 +61,17 @@
 namespace stormproof::model {
 
 using comp::Owner;
+
+/// Of hosts that do not ask where effects stand in the source. One that does has a function
+/// `stands_at(site)`, which is called before each effect.
+struct Anywhere {
+  static constexpr Anywhere here() { return {}; }
+};
+template <class Host>
+using SiteFor = std::conditional_t < requires(Host& host) {
+  host.stands_at(comp::Site{});
+}
+, comp::Site, Anywhere > ;
 
 /// The outbox of many descriptors: who asks for what.
 struct SetDomain {
@@ -147,6 +163,7 @@ class RunningWorld {
   using Int = std::int64_t;
   using Set = DescriptorSet;
   using Composition = typename Host::Composition;
+  using Site = SiteFor<Host>;
   /// A reader of the writer; with a descriptor if this has one.
   using Reader =
       RunningWorld<Host,
@@ -177,6 +194,9 @@ class RunningWorld {
       if constexpr (wanted == own::pair.indices) return subject_ / stride;
       if constexpr (wanted == own::writer.indices) return stride * source + subject_ % stride;
       if constexpr (wanted == own::participant.indices) return source;
+    } else if constexpr (here == own::control_relation.indices) {
+      static_assert(wanted == own::pair.indices);
+      return host_.pair_of_control(subject_);
     } else if constexpr (here == own::writer.indices) {
       return subject_ / layout().stride;
     } else {
@@ -266,11 +286,31 @@ class RunningWorld {
     }
     return total;
   }
+  template <class Term>
+  bool some_entry(Term&& term) {
+    const WriterLayout writers = layout();
+    const std::uint32_t first = writers.stride * number<comp::owner::participant>();
+    for (std::uint32_t s = 0; s < writers.streams; ++s) {
+      RunningWorld<Host, comp::owner::writer> writer{host_, first + s, packet_};
+      if (writer.some(term)) return true;
+    }
+    return false;
+  }
+  /// What a host makes of a choice of a contract.
+  auto choice(const char*) { return host_.choice(); }
 
   // Conditions and loops.
   template <class Body>
   void when(bool condition, Body&& body) {
     if (condition) body();
+  }
+  template <class Choice, class Body>
+  void when(Choice choice, Body&& body) {
+    host_.decide(choice, body);
+  }
+  template <class Body>
+  void partition(const Set& set, Body&& body) {
+    host_.partition(set, body);
   }
   template <class Body>
   void for_readers(Body&& body) {
@@ -310,18 +350,33 @@ class RunningWorld {
       body(relation);
     }
   }
+  /// The pairs of the participant with those whom it has recognised.
+  template <class Body>
+  void for_known_peers(Body&& body) {
+    const std::uint32_t i = number<comp::owner::participant>();
+    const Topology& topology = host_.topology();
+    for (std::uint32_t n = topology.first_pair(i); n < topology.first_pair(i + 1); ++n) {
+      if (!host_.value(comp::Recognised{}, topology.pair(n).reverse)) continue;
+      RunningWorld<Host, comp::owner::pair> peer{host_, n, packet_};
+      body(peer);
+    }
+  }
+  /// From a control-only relation to the other pair of its ends.
   template <class Body>
   void reverse(Body&& body) {
-    constexpr bool pair = place == comp::owner::pair;
+    constexpr bool by_stream = (place.indices & comp::owner::stream_index) != 0;
     const std::uint32_t back = host_.topology().pair(number<comp::owner::pair>()).reverse;
     const std::uint32_t stride = layout().stride;
-    RunningWorld world{host_, pair ? back : stride * back + subject_ % stride, packet_};
+    RunningWorld<Host, by_stream ? place : comp::owner::pair> world{
+        host_, by_stream ? stride * back + subject_ % stride : back, packet_};
     body(world);
   }
 
   // Effects.
   template <class P, class E>
-  auto feed(P part, comp::On<E>, const typename P::Machine::Io::template Input<D>& input = {}) {
+  auto feed(P part, comp::On<E>, const typename P::Machine::Io::template Input<D>& input = {},
+            Site site = Site::here()) {
+    stands_at(site);
     if constexpr (has_descriptor<P>()) {
       const std::uint32_t relation = number<P::owner>();
       typename P::Machine::Io::template Output<D> output{};
@@ -339,7 +394,8 @@ class RunningWorld {
   }
   template <class P, class E, class Input = decltype(comp::no_input),
             class Who = decltype(comp::everyone)>
-  auto feed_each(P part, comp::On<E>, Input input = {}, Who who = {}) {
+  auto feed_each(P part, comp::On<E>, Input input = {}, Who who = {}, Site site = Site::here()) {
+    stands_at(site);
     typename P::Machine::Io::template Output<SetDomain> total{};
     auto& bits = host_.bits(part);
     const std::uint32_t relation = number<comp::owner::relation>();
@@ -363,7 +419,8 @@ class RunningWorld {
     return total;
   }
   template <class P>
-  void renew(P part) {
+  void renew(P part, Site site = Site::here()) {
+    stands_at(site);
     host_.renew(part, number<P::owner>());
   }
   template <class V, class Value>
@@ -386,11 +443,13 @@ class RunningWorld {
     }
   }
   template <class Wait, class T>
-  void after(Wait wait, T timer) {
+  void after(Wait wait, T timer, Site site = Site::here()) {
+    stands_at(site);
     host_.schedule(timer, number<T::owner>(), host_.now() + host_.knob(wait));
   }
   template <class T>
-  void at(Int time, T timer) {
+  void at(Int time, T timer, Site site = Site::here()) {
+    stands_at(site);
     host_.schedule(timer, number<T::owner>(), time);
   }
   template <class T>
@@ -398,7 +457,8 @@ class RunningWorld {
     host_.cancel(timer, number<T::owner>());
   }
   template <class P, class... Sayings>
-  void emit(P packet, const std::tuple<Sayings...>& sayings) {
+  void emit(P packet, const std::tuple<Sayings...>& sayings, Site site = Site::here()) {
+    stands_at(site);
     host_.emit(packet, *this, sayings);
   }
   template <class O>
@@ -409,9 +469,20 @@ class RunningWorld {
   void call(P, const Args&... args) {
     P::body(*this, args...);
   }
-  template <class Step, class... Args>
-  void perform(Step step, const Args&... args) {
-    host_.perform(step, *this, args...);
+  template <class Step>
+  void perform(Step step, Site site = Site::here()) {
+    stands_at(site);
+    host_.perform(step, *this);
+  }
+  template <class Step, class A>
+  void perform(Step step, const A& a, Site site = Site::here()) {
+    stands_at(site);
+    host_.perform(step, *this, a);
+  }
+  template <class Step, class A, class B>
+  void perform(Step step, const A& a, const B& b, Site site = Site::here()) {
+    stands_at(site);
+    host_.perform(step, *this, a, b);
   }
 
   /// How many words the descriptors of the stream take, and which bits of word k mean one.
@@ -421,6 +492,9 @@ class RunningWorld {
   }
 
  private:
+  [[gnu::always_inline]] void stands_at([[maybe_unused]] Site site) {
+    if constexpr (!std::is_same_v<Site, Anywhere>) host_.stands_at(site);
+  }
   static Bool of_domain(bool value) { return value; }
   static Int of_domain(std::uint32_t value) { return value; }
   template <class Tag>

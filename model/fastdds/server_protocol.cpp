@@ -1,9 +1,7 @@
-// The way from events and packets to rules, what clients send to the server, and what they learn
-// from it.
+// The way from events and packets to rules, and what clients learn from the server.
 #include "model/fastdds/server_protocol.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "model/fastdds/matching.hpp"
@@ -11,21 +9,8 @@
 
 namespace stormproof::model::fastdds {
 
-namespace {
-
-constexpr std::int64_t registration_bytes = 324;
-constexpr std::int64_t numbers_in_word = 32;
-constexpr std::int64_t word_bytes = 4;
-
-}  // namespace
-
 ServerProtocol::ServerProtocol(RunState& run, Network& network)
-    : Stored{run, network},
-      server_{run.scenario.dds.server},
-      database_{run.topology, run.scenario.dds.discovery, run.scenario.dds.server.relay},
-      learners_(std::size_t{relay::count} * run.scenario.deployment.size()) {
-  relays_[relay::announcements].append(database_.announcement(server_id()));
-}
+    : Stored{run, network}, ServerSteps{run} {}
 
 void ServerProtocol::begin_announcing(Number i) {
   schedule(server::ClientAnnouncement{}, run_.topology.pair_between(i, server_id()),
@@ -133,7 +118,7 @@ void ServerProtocol::take_descriptors(Number relation, const DescriptorSet& rece
   missing.for_each([&](std::uint32_t d) {
     if ((changes().received(relation, d / 64) >> d % 64 & 1) == 0) return;
     --at<Lacking>(relation);
-    database_.arrive(database_.descriptor(ends(relation).source, stream_of(relation), d));
+    arrive(ends(relation).source, stream_of(relation), d);
     some = true;
   });
   if (some) run_rule<comp::Happens<server::Arrives>>(*this, server_id());
@@ -143,38 +128,6 @@ void ServerProtocol::take_descriptors(Number relation, const DescriptorSet& rece
 bool ServerProtocol::is_notified(Number pair, Stream s, Number d) const {
   const auto relation = static_cast<Number>(2 * pair + index_of(s));
   return (changes().received(relation, d / 64) >> d % 64 & 1) != 0;
-}
-
-void ServerProtocol::open_readers(Number pair) {
-  for (const Stream s : streams) {
-    run_rule<comp::Happens<comp::ReaderOpens>>(static_cast<Protocol&>(*this),
-                                               static_cast<Number>(2 * pair + index_of(s)));
-  }
-}
-
-void ServerProtocol::open_own_writer(Number relation) {
-  const Number pair = run_.topology.pair(relation / relay::count).reverse;
-  const Number s = relation % relay::count == relay::publications ? 0 : 1;
-  run_rule<comp::Happens<rules::WriterOpens>>(static_cast<Protocol&>(*this), 2 * pair + s);
-}
-
-void ServerProtocol::take_relayed(Number relation, const Relayed& relayed) {
-  Learner& reader = learner(relation);
-  const auto receive = [&](std::int64_t number) {
-    const auto k = static_cast<std::size_t>(number);
-    if (reader.received.size() <= k) reader.received.resize(2 * k + 1);
-    reader.received[k] = true;
-  };
-  if (relayed.has_data) {
-    receive(relayed.number);
-    reader.announced = std::max(reader.announced, relayed.number);
-    learn(client_of(relation / relay::count), relayed);
-    if (run_.ends_now()) return;
-  }
-  std::ranges::for_each(relayed.numbers, receive);
-  if (!relayed.has_heartbeat) return;
-  reader.base = std::max(reader.base, relayed.first);
-  reader.announced = std::max(reader.announced, relayed.last);
 }
 
 void ServerProtocol::learn(Number client, const Relayed& relayed) {
@@ -206,58 +159,6 @@ void ServerProtocol::learn(Number client, const Relayed& relayed) {
     if (run_.ends_now()) return;
   }
   if (p.cross_host) open_notified(pair, relayed.stream, d);
-}
-
-void ServerProtocol::send_registration(PacketKind kind, Number pair, bool initial) {
-  const bool cross_host = run_.topology.pair(pair).cross_host;
-  std::int64_t bytes = acknack_bytes;
-  std::uint64_t* count = &generated().pdp_acknack;
-  if (kind == PacketKind::registration) {
-    bytes = registration_bytes;
-    count = &generated().pdp_data;
-  } else if (kind == PacketKind::registration_heartbeat) {
-    bytes = heartbeat_to_one_bytes;
-    count = &generated().pdp_heartbeat;
-  }
-  if (cross_host) ++*count;
-  Packet packet = packet_of(kind, pair, bytes);
-  packet.initial_acknack = initial;
-  send(std::move(packet));
-}
-
-/// It asks for all that is missing of what is announced; an initial one claims nothing.
-void ServerProtocol::send_acknack(Number relation, bool initial) {
-  const Number relay = relation % relay::count;
-  const bool of_announcements = relay == relay::announcements;
-  Relayed acknack;
-  if (!initial) {
-    Learner& reader = learner(relation);
-    const auto has = [&](std::int64_t number) {
-      const auto k = static_cast<std::size_t>(number);
-      return k < reader.received.size() && reader.received[k];
-    };
-    while (has(reader.base)) ++reader.base;
-    acknack.base = reader.base;
-    for (std::int64_t number = reader.base; number <= reader.announced; ++number) {
-      if (!has(number)) acknack.numbers.push_back(number);
-    }
-  }
-  std::int64_t bytes = acknack_bytes;
-  if (!acknack.numbers.empty()) {
-    const std::int64_t span = acknack.numbers.back() - acknack.numbers.front() + 1;
-    bytes += word_bytes * ((span + numbers_in_word - 1) / numbers_in_word);
-  }
-  const Number pair = relation / relay::count;
-  if (run_.topology.pair(pair).cross_host) {
-    ++(of_announcements ? generated().pdp_acknack : generated().acknack);
-  }
-  Packet packet = packet_of(PacketKind::relayed_acknack, pair, bytes);
-  packet.detail = relay;
-  packet.stream = relay == relay::subscriptions ? Stream::sub : Stream::pub;
-  packet.initial_acknack = initial;
-  packet.use = of_announcements ? TrafficClass::spdp : TrafficClass::acknack;
-  packet.relayed = std::make_shared<const Relayed>(std::move(acknack));
-  send(std::move(packet));
 }
 
 }  // namespace stormproof::model::fastdds

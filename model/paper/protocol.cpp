@@ -6,8 +6,6 @@
 
 namespace stormproof::model::paper {
 
-namespace reader = fsm::discovery_reader;
-
 ProtocolBase::ProtocolBase(RunState& run, Network& network)
     : Stored{run, network},
       participants_(run.topology.participant_count()),
@@ -15,12 +13,8 @@ ProtocolBase::ProtocolBase(RunState& run, Network& network)
       relations_(run.topology.relation_count()),
       known_rank_(run.topology.pair_count(), no_rank),
       sizes_{run.scenario.dds.descriptors} {
-  using ReaderStates = fsm::Reflect<fsm::DiscoveryReader>;
   for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) {
-    const std::uint32_t count = run.topology.descriptor_count(relation);
-    relations_[relation].unacknowledged = count;
-    at<comp::Reader>(relation) =
-        count > 0 ? ReaderStates::id<reader::Unknown> : ReaderStates::id<reader::EarlyComplete>;
+    relations_[relation].unacknowledged = run.topology.descriptor_count(relation);
   }
   for (std::uint32_t w = 0; w < writers_.size(); ++w) {
     refill(w);

@@ -24,6 +24,7 @@ class ControlSides {
     first_.push_back(next_);
   }
 
+  [[nodiscard]] std::uint32_t count() const { return next_; }
   /// The pair that the relation is of.
   [[nodiscard]] std::uint32_t pair_of(std::uint32_t number) const {
     const auto after = std::ranges::upper_bound(first_, number);

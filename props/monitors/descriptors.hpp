@@ -72,6 +72,13 @@ class Descriptors {
     return members;
   }
 
+  /// As packets have it.
+  [[nodiscard]] model::DescriptorSet set() const {
+    model::DescriptorSet set;
+    for (std::uint32_t k = 0; k <= others_.size(); ++k) set.add(k, word(k));
+    return set;
+  }
+
   bool operator==(const Descriptors&) const = default;
 
  private:

@@ -1,15 +1,17 @@
 // composition.followed: what a run does is what the rules say. The rules of fsm/composition are
-// executed a second time beside the run, in a plain world (props/monitors/followed_world.hpp) that
-// shares nothing with the simulator but the rules and the machines; timers, receptions and packets
-// that leave their source start them. What they do must be what the run did, in order: every
-// transition, every event that is scheduled, every packet; and what is missing then. What a rule
-// leaves to its host may be whatever its contract allows.
+// executed a second time beside the run, over plain columns (props/monitors/auditor.hpp): facts by
+// their definitions, opaque steps by their contracts. Timers, receptions and packets that leave
+// their source start them. What they do must be what the run did, in order: every transition, every
+// event that is scheduled, every packet; and what is missing then. What a rule leaves to its host
+// may be whatever its contract allows.
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
 
-#include "model/composition_of.hpp"
+#include "model/implementations.hpp"
+#include "model/life.hpp"
+#include "props/monitors/auditors.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/follower.hpp"
 #include "props/monitors/monitors.hpp"
@@ -19,37 +21,26 @@ namespace stormproof::props {
 
 namespace {
 
-/// To compositions that nobody follows the property does not apply.
-template <class Of>
-std::unique_ptr<Follower> follower_of(Of composition, const model::Scenario& scenario,
-                                      const model::Topology& topology) {
-  if constexpr (requires { follow(composition, scenario, topology); }) {
-    return follow(composition, scenario, topology);
-  } else {
-    throw std::logic_error{"nobody follows this composition"};
-  }
-}
-
 class FollowedRun : public Observer {
  public:
-  explicit FollowedRun(const model::Scenario& scenario)
-      : Observer{"composition.followed"}, scenario_{scenario} {}
+  FollowedRun(const model::Scenario& scenario, AuditorMaker make)
+      : Observer{"composition.followed"}, scenario_{with_successors(scenario)}, make_{make} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
-    follower_ = is_living_fastdds(scenario_)
-                    ? follow_life(scenario_, topology)
-                    : model::visit_composition(scenario_.dds, [&](auto composition) {
-                        return follower_of(composition, scenario_, topology);
-                      });
-    if (follower_ != nullptr) trigger_ = Trigger::start;
+    follower_.reset();
+    audit_ = std::make_unique<Audit>(topology);
+    run_ = std::make_unique<model::RunState>(scenario_, audit_.get(), nullptr,
+                                             same_host_pairs(scenario_.dds));
+    follower_ = make_(*run_, *audit_);
+    trigger_ = Trigger::start;
   }
   void event_started(const model::Event& event) override {
     follow_rule();
     Observer::event_started(event);
     if (follower_ == nullptr) return;
     ++followed_;
-    follower_->happens_at(event.time);
+    run_->now = event.time;
     if (!is_of_protocol(event.kind)) return;
     trigger_ = Trigger::due;
     due_ = event;
@@ -58,21 +49,20 @@ class FollowedRun : public Observer {
     follow_rule();
     if (follower_ == nullptr) return;
     trigger_ = Trigger::received;
-    message_ = message_of(packet);
+    take(packet);
     receiver_ = receiver;
-    emitted_ = packet.emitted;
   }
   void source_completed(const model::Packet& packet) override {
     follow_rule();
     if (follower_ == nullptr || !follower_->follows_leaving(packet.kind)) return;
     trigger_ = Trigger::left_source;
-    message_ = message_of(packet);
+    take(packet);
   }
   void event_finished(const model::Depths& depths) override {
     follow_rule();
-    if (follower_ == nullptr || depths.missing == follower_->missing()) return;
+    if (follower_ == nullptr || depths.missing == run_->missing) return;
     object_now(fmt::format("At {} {} required descriptors are missing, by the rules {}.",
-                           time_text(now()), depths.missing, follower_->missing()));
+                           time_text(now()), depths.missing, run_->missing));
     follower_.reset();
   }
 
@@ -122,13 +112,24 @@ class FollowedRun : public Observer {
   /// What starts the next rule.
   enum class Trigger : std::uint8_t { nothing, start, due, received, left_source };
 
+  static model::Scenario with_successors(model::Scenario scenario) {
+    scenario.deployment = model::with_successors(scenario.deployment);
+    return scenario;
+  }
+  /// The packet may be gone before its rule is followed.
+  void take(const model::Packet& packet) {
+    packet_.become(packet);
+    packet_.descriptors = Descriptors{packet.descriptors}.set();
+    packet_.submessages = packet.submessages;
+    packet_.relayed = packet.relayed;
+  }
   static bool is_of_protocol(model::EventKind kind) {
     return model::class_of(kind) == model::EventClass::protocol &&
            kind != model::EventKind::source_completion && kind != model::EventKind::thread_free;
   }
   template <class Kind>
   void add(Kind&& deed) {
-    if (follower_ != nullptr) follower_->deeds().add(std::forward<Kind>(deed));
+    if (follower_ != nullptr) audit_->deeds().add(std::forward<Kind>(deed));
   }
   void run_rule(Trigger trigger) {
     switch (trigger) {
@@ -139,38 +140,43 @@ class FollowedRun : public Observer {
       case Trigger::due:
         return follower_->due(due_);
       case Trigger::received:
-        return follower_->received(message_, receiver_, emitted_);
+        return follower_->received(packet_, receiver_);
       case Trigger::left_source:
-        return follower_->left_source(message_);
+        return follower_->left_source(packet_);
     }
   }
   /// Holds what was done since the last trigger against the rule that it started.
   void follow_rule() {
     if (follower_ == nullptr) return;
-    if (trigger_ != Trigger::nothing || !follower_->deeds().empty()) compare_with_rule();
+    if (trigger_ != Trigger::nothing || !audit_->deeds().empty()) compare_with_rule();
   }
   void compare_with_rule() {
     run_rule(std::exchange(trigger_, Trigger::nothing));
-    follower_->nothing_more();
-    if (!follower_->difference()) return;
-    object_now("At " + time_text(now()) + ", " + *follower_->difference());
+    audit_->nothing_more();
+    if (!audit_->difference()) return;
+    object_now("At " + time_text(now()) + ", " + *audit_->difference());
     follower_.reset();
   }
 
   const model::Scenario scenario_;
+  const AuditorMaker make_;
+  std::unique_ptr<Audit> audit_;
+  std::unique_ptr<model::RunState> run_;  // beside it
   std::unique_ptr<Follower> follower_;
   Trigger trigger_ = Trigger::nothing;
   model::Event due_;            // if it is
-  Message message_;             // that is received or has left its source
+  model::Packet packet_;        // that is received or has left its source
   std::uint32_t receiver_ = 0;  // of it
-  model::Nanoseconds emitted_;
   std::uint64_t followed_ = 0;
 };
 
 }  // namespace
 
 MonitorPtr watch_composition(const model::Scenario& scenario) {
-  return attentive<FollowedRun>(scenario);
+  return attentive<FollowedRun>(scenario, &make_auditor);
+}
+MonitorPtr watch_composition(const model::Scenario& scenario, AuditorMaker make) {
+  return attentive<FollowedRun>(scenario, make);
 }
 
 }  // namespace stormproof::props

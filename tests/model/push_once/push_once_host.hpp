@@ -87,6 +87,7 @@ class PushOnceHost final
     const std::uint32_t relation = w.template number<comp::owner::relation>();
     Packet packet = packet_on(PacketKind::data, relation, bytes);
     packet.descriptors = w.set_of(comp::everyone);
+    if (packet.descriptors.empty()) return;  // a packet carries something
     packet.carries_initial = true;
     network_.emit(ends(relation).source, std::move(packet));
   }

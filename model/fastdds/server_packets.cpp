@@ -1,0 +1,105 @@
+// What goes out between the server and its clients: how much it weighs, as what it counts.
+// Everything goes to one reader at a time.
+#include <memory>
+#include <utility>
+
+#include "model/fastdds/server_protocol.hpp"
+
+namespace stormproof::model::fastdds {
+
+namespace {
+
+constexpr std::int64_t registration_bytes = 324;
+constexpr std::int64_t numbers_in_word = 32;
+constexpr std::int64_t word_bytes = 4;
+constexpr std::int64_t own_announcement_bytes = 428;
+constexpr std::int64_t announcement_bytes = 356;
+constexpr std::int64_t gap_bytes = 72;
+constexpr std::int64_t gap_with_heartbeat_bytes = 100;
+
+}  // namespace
+
+void ServerProtocol::send_registration(PacketKind kind, Number pair, bool initial) {
+  const bool cross_host = run_.topology.pair(pair).cross_host;
+  std::int64_t bytes = acknack_bytes;
+  std::uint64_t* count = &generated().pdp_acknack;
+  if (kind == PacketKind::registration) {
+    bytes = registration_bytes;
+    count = &generated().pdp_data;
+  } else if (kind == PacketKind::registration_heartbeat) {
+    bytes = heartbeat_to_one_bytes;
+    count = &generated().pdp_heartbeat;
+  }
+  if (cross_host) ++*count;
+  Packet packet = packet_of(kind, pair, bytes);
+  packet.initial_acknack = initial;
+  send(std::move(packet));
+}
+
+void ServerProtocol::send_acknack(Number relation, bool initial) {
+  const Number relay = relation % relay::count;
+  const bool of_announcements = relay == relay::announcements;
+  Relayed acknack = asks(relation, initial);
+  std::int64_t bytes = acknack_bytes;
+  if (!acknack.numbers.empty()) {
+    const std::int64_t span = acknack.numbers.back() - acknack.numbers.front() + 1;
+    bytes += word_bytes * ((span + numbers_in_word - 1) / numbers_in_word);
+  }
+  const Number pair = relation / relay::count;
+  if (run_.topology.pair(pair).cross_host) {
+    ++(of_announcements ? generated().pdp_acknack : generated().acknack);
+  }
+  Packet packet = packet_of(PacketKind::relayed_acknack, pair, bytes);
+  packet.detail = relay;
+  packet.stream = relay == relay::subscriptions ? Stream::sub : Stream::pub;
+  packet.initial_acknack = initial;
+  packet.use = of_announcements ? TrafficClass::spdp : TrafficClass::acknack;
+  packet.relayed = std::make_shared<const Relayed>(std::move(acknack));
+  send(std::move(packet));
+}
+
+/// Whether the client is sent the descriptor for the first time, which it is with this.
+bool ServerProtocol::is_first_for(Number client, const Relayed& data) {
+  if (data.participant == client) return false;  // only a mistake tells it of itself
+  const Number pair = run_.topology.pair_between(data.participant, client);
+  const auto relation = static_cast<Number>(2 * pair + index_of(data.stream));
+  return changes().mark_generated(relation, data.descriptor);
+}
+
+/// Counts and sends it.
+void ServerProtocol::send_relayed(Number relation, Relayed relayed) {
+  const Number relay = relation % relay::count;
+  const Number pair = relation / relay::count;
+  const bool of_announcements = relay == relay::announcements;
+  const bool cross_host = run_.topology.pair(pair).cross_host;
+  Counts& counts = generated();
+  if (relayed.has_heartbeat && cross_host) {
+    ++(of_announcements ? counts.pdp_heartbeat : counts.heartbeat);
+  }
+  Packet packet = packet_of(PacketKind::relayed, pair, heartbeat_to_one_bytes);
+  packet.use = of_announcements ? TrafficClass::spdp : TrafficClass::heartbeat;
+  const auto weigh = [&](std::int64_t bytes) {
+    packet.payload_bytes = static_cast<std::uint32_t>(bytes);
+  };
+  if (!relayed.numbers.empty()) {
+    if (cross_host) ++counts.gap;
+    weigh(relayed.has_heartbeat ? gap_with_heartbeat_bytes : gap_bytes);
+  } else if (relayed.has_data && relayed.is_announcement) {
+    if (cross_host) ++counts.pdp_data;
+    weigh(relayed.participant == server_id() ? own_announcement_bytes : announcement_bytes);
+  } else if (relayed.has_data) {
+    const bool initial = is_first_for(client_of(pair), relayed);
+    if (cross_host) ++(initial ? counts.initial_data : counts.repair_data);
+    packet.carries_initial = initial;
+    packet.use = initial ? TrafficClass::initial_data : TrafficClass::repair_data;
+    weigh(message_header_bytes + destination_bytes + timestamp_bytes +
+          bytes_of(relayed.stream, relayed.descriptor) + heartbeat_submessage_bytes);
+  }
+  packet.detail = relay;
+  packet.carries_heartbeat = relayed.has_heartbeat;
+  packet.stream = relay == relay::subscriptions ? Stream::sub : Stream::pub;
+  packet.relayed = std::make_shared<const Relayed>(std::move(relayed));
+  send(std::move(packet));
+}
+
+}  // namespace stormproof::model::fastdds

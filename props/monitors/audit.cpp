@@ -1,0 +1,125 @@
+// Comparing what the run did with what the rules say.
+#include "props/monitors/audit.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include <fmt/core.h>
+
+namespace stormproof::props {
+
+namespace {
+
+/// Names are mostly the very same characters.
+bool same_text(std::string_view one, std::string_view other) {
+  return one.size() == other.size() && (one.data() == other.data() || one == other);
+}
+bool same_event(const Move& one, const Move& other) {
+  return one.machine.subject == other.machine.subject && one.machine.kind == other.machine.kind &&
+         same_text(one.event, other.event) && same_text(one.machine.machine, other.machine.machine);
+}
+bool same_step(const Move& one, const Move& other) {
+  return one.first_word == other.first_word && same_text(one.before, other.before) &&
+         same_text(one.after, other.after) && same_event(one, other);
+}
+/// The first of them alone.
+Move first_of(const std::vector<Move>& moves) {
+  const auto number = [](const Move& one) {
+    return 64 * one.first_word + static_cast<std::uint32_t>(std::countr_zero(one.descriptors));
+  };
+  Move first = *std::ranges::min_element(moves, {}, number);
+  first.descriptors &= ~first.descriptors + 1;
+  return first;
+}
+
+}  // namespace
+
+void Audit::transition(const model::MachineRef& machine, std::string_view event,
+                       std::string_view before, std::string_view after, std::uint32_t first_word,
+                       std::uint64_t descriptors) {
+  const Move wanted{machine, event, before, after, first_word, descriptors};
+  const auto same = [&](const Move& actual) {
+    return actual.descriptors == descriptors && same_step(actual, wanted);
+  };
+  if (descriptors == 0 || looks_ahead_) {
+    next(wanted, same);
+    return;
+  }
+  if (difference_) return;
+  if (!moved_.empty() && !same_event(moved_.front(), wanted)) settle();
+  const Move* actual = moved_.empty() ? deeds_.next<Move>() : nullptr;
+  if (actual != nullptr && same(*actual)) return deeds_.take();
+  for (Move& one : moved_) {
+    if (!same_step(one, wanted)) continue;
+    one.descriptors |= descriptors;
+    return;
+  }
+  moved_.push_back(wanted);
+}
+
+void Audit::settle() {
+  while (!moved_.empty() && !difference_) {
+    const Move* actual = deeds_.next<Move>();
+    const auto one = std::ranges::find_if(
+        moved_, [&](const Move& each) { return actual != nullptr && same_step(*actual, each); });
+    const std::uint64_t both = one == moved_.end() ? 0 : one->descriptors & actual->descriptors;
+    if (both == 0) return differ(said(first_of(moved_), topology_));
+    const Move first = *one;
+    one->descriptors &= ~both;
+    if (one->descriptors == 0) moved_.erase(one);
+    if (both != actual->descriptors) {
+      return differ(said(first_of(moved_.empty() ? std::vector{first} : moved_), topology_));
+    }
+    deeds_.take();
+  }
+}
+
+void Audit::nothing_more() {
+  settle();
+  site_ = {};
+  if (!deeds_.empty()) differ("nothing more happens");
+  deeds_.clear();
+  moved_.clear();
+  begin("without a rule");
+}
+
+const Scheduled* Audit::expect(const Scheduled& wanted) {
+  return next(wanted, [&](const Scheduled& actual) {
+    return actual.kind == wanted.kind && actual.subject == wanted.subject &&
+           actual.time == wanted.time;
+  });
+}
+void Audit::expect(const Message& wanted) {
+  next(wanted, [&](const Message& actual) { return actual == wanted; });
+}
+
+void Audit::differ(const std::string& wanted) {
+  if (difference_) return;
+  std::string place{rule_};
+  if (site_.line != 0) {
+    place += fmt::format(" ({}:{})", site_.file.substr(site_.file.rfind('/') + 1), site_.line);
+  }
+  difference_ = fmt::format("{}: by the rules {}; in the run {}.", place, wanted,
+                            deeds_.next_in_words(topology_));
+}
+
+/// The next deed if it is `same`; otherwise there is a difference, and null.
+template <class Kind, class Same>
+const Kind* Audit::next(const Kind& wanted, Same&& same) {
+  if (difference_) return nullptr;
+  if (looks_ahead_) {
+    const Kind* actual = deeds_.next<Kind>(looked_at_++);
+    fits_ = fits_ && actual != nullptr && same(*actual);
+    return nullptr;
+  }
+  settle();
+  const Kind* actual = deeds_.next<Kind>();
+  if (actual == nullptr || !same(*actual)) {
+    differ(said(wanted, topology_));
+    return nullptr;
+  }
+  deeds_.take();
+  return actual;
+}
+
+}  // namespace stormproof::props

@@ -1,0 +1,223 @@
+// What rules emit that are executed beside a run, and the choices of contracts, which the run
+// answers. A message that several steps fill (`FillsMessage`) carries what they put into it, of one
+// writer to the same readers; whether something had room shows in the run, which sends the message
+// at the next step then.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "props/monitors/audited_state.hpp"
+#include "props/monitors/packet_tags.hpp"
+
+namespace stormproof::props {
+
+template <class Self, class Base, class Of>
+class AuditedPackets : public AuditedState<Self, Base, Of> {
+  using State = AuditedState<Self, Base, Of>;
+
+ public:
+  using State::State;
+  using typename State::Number;
+
+  template <class P, class W, class... Sayings>
+  void emit(P packet, W& w, const std::tuple<Sayings...>& sayings) {
+    if constexpr (std::is_same_v<P, comp::SpdpMulticast>) {
+      this->announce(w.template number<comp::owner::participant>());
+    } else {
+      const Message message = message_of(packet, w, sayings);
+      if constexpr (P::owner == comp::owner::relation) {
+        if (is_filled_) {
+          put_.message = message;
+          put_.readers.push_back(w.template number<P::owner>());
+          return;
+        }
+      }
+      this->audit_.expect(message);
+    }
+  }
+
+  /// What only may happen does if the run did next all that it does.
+  template <class Body>
+  void decide(const Choice& choice, Body&& body) {
+    if (!choice.is_possible()) return;
+    if (is_filled_) {
+      put_.may_be = true;
+      return body();
+    }
+    if (!this->audit_.would(body)) return;
+    choice.take(true);
+    body();
+  }
+  /// As the next messages carry it, the least ones first.
+  template <class Body>
+  void partition(const model::DescriptorSet& set, Body&& body) {
+    Descriptors rest{set};
+    while (!rest.empty() && !this->audit_.difference()) {
+      const Message* next = this->audit_.next_message();
+      const std::size_t size = next == nullptr ? 0 : next->descriptors.size();
+      const bool possible = size > 0 && size <= rest.size();
+      body(rest.take(possible ? size : rest.size()).set());
+    }
+  }
+
+  // What is queued, and sent in messages that are filled.
+  template <class Visit>
+  void for_queue(Number i, Visit&& visit) {
+    if (const auto left = unfinished_.extract(i)) open_ = left.mapped();
+    auto& queue = this->queue_of(i);
+    while (!queue.empty() && !leaves_queue(i)) {
+      const auto first = queue.front();
+      queue.pop_front();
+      visit(first.writer, first.descriptor);
+    }
+  }
+
+ protected:
+  /// What the contract of a step emits joins the message that is open.
+  template <class Contract>
+  void fill(Contract&& contract) {
+    put_ = {};
+    is_filled_ = true;
+    contract();
+    is_filled_ = false;
+    if (put_.readers.empty()) return;
+    if (put_.may_be) {
+      (put_.readers == open_.readers ? open_.rides : open_.follow) = put_;
+      return;
+    }
+    const std::uint32_t d = put_.message.descriptors.least();
+    const bool joins = put_.readers == open_.readers && !open_.carried.has(d);
+    if (!joins || this->audit_.next_message() != nullptr) flush();
+    if (open_.carried.empty()) {
+      open_.message = put_.message;
+      open_.readers = put_.readers;
+    }
+    open_.carried.add(d);
+  }
+  /// What the message carries goes to each of its readers, with or without a HEARTBEAT.
+  void flush() {
+    OpenMessage sent = std::exchange(open_, {});
+    if (!sent.carried.empty()) {
+      const Message* next = this->audit_.next_message();
+      sent.message.descriptors = sent.carried;
+      sent.message.carries_heartbeat =
+          !sent.rides.readers.empty() && next != nullptr && next->carries_heartbeat;
+      sent.message.detail = sent.message.carries_heartbeat ? sent.rides.message.detail : 0;
+      send(sent.message, sent.readers);
+    }
+    const Message* next = this->audit_.next_message();
+    if (next == nullptr || sent.follow.readers.empty()) return;
+    if (next->kind == sent.follow.message.kind) send(sent.follow.message, sent.follow.readers);
+  }
+
+ private:
+  /// What a step puts into a message, which goes to these.
+  struct Put {
+    Message message;
+    std::vector<Number> readers;
+    bool may_be = false;  ///< or not
+  };
+  struct OpenMessage {
+    Message message;
+    std::vector<Number> readers;
+    Descriptors carried;
+    Put rides;   ///< a HEARTBEAT, in it
+    Put follow;  ///< HEARTBEATs to others as well, after it
+  };
+
+  template <class P, class W, class... Sayings>
+  Message message_of(P, W& w, const std::tuple<Sayings...>& sayings) {
+    Message message;
+    message.kind = packet_kind_of<P>;
+    if constexpr (P::owner == comp::owner::control_relation) {
+      message.detail = w.template number<P::owner>();
+    } else {
+      message.pair = w.template number<comp::owner::pair>();
+    }
+    if constexpr (P::owner == comp::owner::relation) {
+      message.stream = model::streams[w.template number<P::owner>() % 2];
+    }
+    std::apply([&](const auto&... each) { (say<typename P::Fields>(message, w, each), ...); },
+               sayings);
+    // Only a HEARTBEAT announces.
+    if (message.kind == model::PacketKind::data && !message.carries_heartbeat) message.detail = 0;
+    return message;
+  }
+  template <class Fields, class W, class Field, class Value>
+  void say(Message& message, W& w, const comp::Says<Field, Value>& says) {
+    if constexpr (!model::detail::is_listed<Field>(Fields{})) {
+      // Only observers of descriptors hear it.
+    } else if constexpr (std::is_same_v<Field, comp::Carries> ||
+                         std::is_same_v<Field, comp::Listed>) {
+      message.descriptors = Descriptors{w.set_of(says.value)};
+    } else if constexpr (std::is_same_v<Field, comp::BelowBase>) {
+      if (!this->has_bases()) return;
+      const model::DescriptorSet confirmed = w.set_of(says.value);
+      message.detail = confirmed.empty() ? 0 : confirmed.highest() + 1;
+    } else if constexpr (std::is_same_v<Field, comp::Announces>) {
+      message.detail = static_cast<std::uint32_t>(w.count(says.value));
+    } else if constexpr (std::is_same_v<Field, comp::IsInitial>) {
+      message.initial = says.value;
+    } else if constexpr (std::is_same_v<Field, comp::IsRepair>) {
+      message.repair = says.value;
+    } else {
+      static_assert(std::is_same_v<Field, comp::CarriesHeartbeat>);
+      message.carries_heartbeat = rides(w, says.value);
+    }
+  }
+  template <class W>
+  static bool rides(W&, bool says) {
+    return says;
+  }
+  /// It can if the packet goes to all readers. One that could does not go separately.
+  template <class W>
+  bool rides(W& w, const Choice& choice) {
+    const auto all = this->readers(w.template number<comp::owner::writer>()).size();
+    const bool could = choice.is_possible() && all == 1;
+    choice.take(could);
+    const Message* next = this->audit_.next_message();
+    return could && next != nullptr && next->carries_heartbeat;
+  }
+  void send(Message message, const std::vector<Number>& relations) {
+    for (const Number relation : relations) {
+      message.pair = relation / 2;
+      message.stream = model::streams[relation % 2];
+      this->audit_.expect(message);
+    }
+  }
+
+  /// Whether the queue is left for now, though there are entries, because its participant stalls.
+  /// The message stays open; if its DATA has gone, HEARTBEATs are left.
+  bool leaves_queue(Number i) {
+    if (!this->may_stall()) return false;
+    std::size_t messages = 0;
+    while (this->audit_.next_message(messages) != nullptr) ++messages;
+    const Move* move = this->audit_.deeds().template next<Move>(messages);
+    if (move == nullptr || move->machine.kind != model::MachineRef::Kind::participant) return false;
+    if (move->event != fsm::name_of<fsm::single_shot::Requested>()) return false;
+    if (messages > 0) {
+      OpenMessage rest;
+      std::swap(rest.follow, open_.follow);
+      flush();
+      rest.readers = rest.follow.readers;
+      rest.rides = rest.follow;
+      open_ = std::move(rest);
+    }
+    typename State::template World<comp::owner::participant> w{this->self(), i};
+    State::Composition::leave_queue(w);
+    unfinished_[i] = std::exchange(open_, {});
+    return true;
+  }
+
+  bool is_filled_ = false;  // by the step that is executed
+  Put put_;                 // by it
+  OpenMessage open_;
+  std::map<Number, OpenMessage> unfinished_;  // by participant, while it stalls
+};
+
+}  // namespace stormproof::props

@@ -1,0 +1,201 @@
+// Executes the rules of a composition beside a run: in the worlds of the simulator
+// (model/engine/running_world.hpp), over plain columns. Timers, receptions and packets that leave
+// their source start rules; what these do is told to the audit. Nothing here is of one composition:
+// one that is new is audited as well. In layers,
+//   audited_state.hpp    what is remembered, what packets say, timers
+//   audited_packets.hpp  what is emitted, and the choices of contracts
+//   audited_steps.hpp    opaque steps
+// and here what starts rules, also of participants that have a life.
+#pragma once
+
+#include <type_traits>
+
+#include "model/engine/living_host.hpp"
+#include "model/life.hpp"
+#include "model/trace/event_subject.hpp"
+#include "props/monitors/audited_steps.hpp"
+
+namespace stormproof::props {
+
+template <class Composition, class Trigger>
+inline constexpr bool has_rule = []<class... Rules>(fsm::TypeList<Rules...>) {
+  return (std::is_same_v<typename Rules::Trigger, Trigger> || ...);
+}(typename Composition::Rules{});
+
+template <class Self, class Base, class Of>
+class AuditedRules : public AuditedSteps<Self, Base, Of> {
+  using Steps = AuditedSteps<Self, Base, Of>;
+
+ public:
+  using typename Steps::Columns;
+  using typename Steps::Composition;
+  using typename Steps::Number;
+  using typename Steps::Packet;
+
+  AuditedRules(model::RunState& run, Audit& audit)
+      : Steps{run, audit}, life_{run.scenario.deployment.life.value_or(model::Life{})} {
+    for (Number n = 0; has_life_ && n < run.topology.relation_count(); ++n) {
+      const bool left_out = run.topology.pair(n / 2).cross_host && !is_required(n / 2);
+      if (left_out) run.missing -= run.topology.descriptor_count(n);
+    }
+  }
+
+  void started() override {
+    this->audit_.begin("Before the run");
+    for (const model::StaleRelation& stale : life_.stale) open_before(stale.writer, stale.reader);
+    Base::started();
+    if constexpr (model::detail::is_listed<comp::Return>(typename Composition::Timers{})) {
+      for (const model::StaleRelation& stale : life_.stale) this->forget_creations(stale.writer);
+      for (const model::Restart& restart : life_.restarts) {
+        if (restart.identity == model::Identity::fresh) continue;
+        this->schedule(comp::Return{}, restart.participant, restart.start.count());
+      }
+    }
+  }
+  void due(const model::Event& event) override {
+    if (has_life_ && is_away(life_, actor_of(event), this->run_.now)) return;
+    if (event.kind == model::EventKind::endpoint_creation) create(event);
+    comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
+      if (event.kind != model::event_kind_of<T>) return;
+      const Number n = Columns::number(T::owner, event);
+      if (this->is_due(event.kind, n, event)) run<comp::Due<T>>(n);
+      if (std::is_same_v<T, comp::Return>) this->take_creations(event.subject);
+    });
+  }
+  void received(const model::Packet& packet, Number receiver) override {
+    if constexpr (std::is_same_v<Packet, model::Packet>) take_in(packet, receiver);
+  }
+  void left_source(const model::Packet& packet) override {
+    comp::for_each_type(typename Composition::Packets{}, [&]<class P>() {
+      if constexpr (has_rule<Composition, comp::LeftSource<P>>) {
+        if (packet.kind == packet_kind_of<P>) {
+          run<comp::LeftSource<P>>(packet.relation(), &packet);
+        }
+      }
+    });
+  }
+  [[nodiscard]] bool follows_leaving(model::PacketKind kind) const override {
+    bool follows = false;
+    comp::for_each_type(typename Composition::Packets{}, [&]<class P>() {
+      if constexpr (has_rule<Composition, comp::LeftSource<P>>) {
+        follows = follows || kind == packet_kind_of<P>;
+      }
+    });
+    return follows;
+  }
+
+  [[nodiscard]] bool is_required(Number pair) const override {
+    const model::Pair& ends = this->topology().pair(pair);
+    return ends.cross_host && !is_replaced(life_, ends.source) &&
+           !is_replaced(life_, ends.destination);
+  }
+  using Steps::answer;
+  template <class W>
+  [[nodiscard]] std::int64_t answer(comp::LeaseDuration, const W& w) const {
+    const Number source = this->topology().pair(w.template number<comp::owner::pair>()).source;
+    return lease_of(life_, source).value_or(model::Nanoseconds{}).count();
+  }
+
+ protected:
+  template <class Trigger>
+  void run(Number n, const Packet* packet = nullptr, Number descriptor = 0) {
+    using Rule = comp::RuleFor<Composition, Trigger>;
+    static constexpr std::string_view name = fsm::name_of<Rule>();
+    this->audit_.begin(name);
+    model::RunningWorld<Self, Rule::owner> w{this->self(), n, packet, descriptor};
+    Rule::run(w);
+  }
+  void take_in(const Packet& packet, Number receiver) {
+    comp::for_each_type(typename Composition::Packets{}, [&]<class P>() {
+      if (packet.kind != packet_kind_of<P>) return;
+      if (!packet.multicast()) return take<P>(packet, pair_of_packet<P>(packet));
+      const model::Topology& topology = this->topology();
+      for (Number n = topology.first_pair(packet.pair); n < topology.first_pair(packet.pair + 1);
+           ++n) {
+        const bool here = receiver == topology.pair(n).destination;
+        if (here || receiver == model::Probe::everybody) take<P>(packet, n);
+      }
+    });
+  }
+  /// A packet of the pair is taken by whom it reaches.
+  template <class P>
+  void take(const Packet& packet, Number pair) {
+    const model::Pair& ends = this->topology().pair(pair);
+    const Number receiver = packet.to_writer() ? ends.source : ends.destination;
+    const Number sender = packet.to_writer() ? ends.destination : ends.source;
+    if (!this->has_started(receiver)) return;
+    if (has_life_ && !hears(life_, sender, receiver, packet.emitted, this->run_.now)) return;
+    if constexpr (P::owner == comp::owner::control_relation) {
+      run<comp::Received<P>>(packet.detail, &packet);
+    } else {
+      run<comp::Received<P>>(P::owner == comp::owner::pair ? pair : packet.relation(), &packet);
+    }
+  }
+  void expect_start(Number i) override {
+    this->schedule(comp::Announcement{}, i, this->topology().start(i).count());
+  }
+  const bool has_life_ = this->run_.scenario.deployment.life.has_value();
+  const model::Life life_;
+
+ private:
+  void create(const model::Event& event) {
+    if constexpr (requires { typename Composition::Created; }) {
+      const std::optional<model::Endpoint> endpoint = this->created_by(event);
+      if (!endpoint) return;
+      const auto writer = 2 * event.subject + static_cast<Number>(endpoint->stream);
+      run<comp::Happens<typename Composition::Created>>(writer, nullptr, endpoint->descriptor);
+    }
+  }
+  /// i's writers believe that j has everything, and i has everything of j.
+  void open_before([[maybe_unused]] Number i, [[maybe_unused]] Number j) {
+    using Relation = model::RunningWorld<Self, comp::owner::relation>;
+    if constexpr (requires(Relation & w) { Composition::was_received(w); }) {
+      const Number there = this->topology().pair_between(i, j);
+      const Number back = this->topology().pair(there).reverse;
+      this->assign(comp::Recognised{}, back, true);
+      model::RunningWorld<Self, comp::owner::pair>{this->self(), back}.call(comp::HearFrom{});
+      for (Number s = 0; s < 2; ++s) {
+        Relation w{this->self(), 2 * there + s};
+        Composition::was_acknowledged(w);
+        Relation r{this->self(), 2 * back + s};
+        Composition::was_received(r);
+        this->state(comp::Reader{}, 2 * back + s) =
+            fsm::Reflect<fsm::DiscoveryReader>::id<fsm::discovery_reader::Complete>;
+      }
+      this->open_topics_before(there, back);
+    }
+  }
+  template <class P>
+  [[nodiscard]] Number pair_of_packet(const Packet& packet) const {
+    if constexpr (P::owner == comp::owner::control_relation)
+      return this->pair_of_control(packet.detail);
+    return packet.pair;
+  }
+  /// Whose event it is: readers act in their relations at the destination, writers at the source.
+  [[nodiscard]] Number actor_of(const model::Event& event) const {
+    using enum model::trace::Subject;
+    switch (model::trace::subject_of(event.kind)) {
+      case writer:
+        return event.subject / 2;
+      case relation: {
+        const model::Pair& ends = this->topology().pair(event.subject / 2);
+        return event.kind == model::EventKind::suppression_end ? ends.source : ends.destination;
+      }
+      case control_relation:
+        return this->topology().pair(this->pair_of_control(event.subject)).destination;
+      case pair:
+        return this->topology().pair(event.subject).destination;
+      default:
+        return event.subject;
+    }
+  }
+};
+
+/// Of one composition.
+template <class Composition>
+class Auditor : public AuditedRules<Auditor<Composition>, Follower, Audited<Composition>> {
+ public:
+  using Auditor::AuditedRules::AuditedRules;
+};
+
+}  // namespace stormproof::props

@@ -1,0 +1,41 @@
+// How packets are called in compositions, and which kind of packet of a run each of them is.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "fsm/reflect.hpp"
+#include "model/engine/packet.hpp"
+
+namespace stormproof::props {
+
+namespace detail {
+using enum model::PacketKind;
+inline constexpr std::array<std::pair<std::string_view, model::PacketKind>, 14> packets{{
+    {"SpdpMulticast", spdp_multicast},
+    {"SpdpUnicast", spdp_unicast},
+    {"Data", data},
+    {"Heartbeat", heartbeat},
+    {"AckNack", acknack},
+    {"UserHeartbeat", user_heartbeat},
+    {"UserAckNack", user_acknack},
+    {"Registration", registration},
+    {"RegistrationHeartbeat", registration_heartbeat},
+    {"RegistrationAckNack", registration_acknack},
+    {"RelayedData", relayed},
+    {"RelayHeartbeat", relayed},
+    {"Gap", relayed},
+    {"RelayedAckNack", relayed_acknack},
+}};
+}  // namespace detail
+
+template <class Packet>
+inline constexpr model::PacketKind packet_kind_of = [] {
+  const auto* const found = std::ranges::find(detail::packets, fsm::name_of<Packet>(),
+                                              &decltype(detail::packets)::value_type::first);
+  return found->second;  // not a constant if it is not there
+}();
+
+}  // namespace stormproof::props
