@@ -30,7 +30,7 @@ std::vector<std::string> check_knobs(const std::vector<std::string>& knobs, cons
     std::set<std::string> said;
     for_words(code_of(text, Quoted::kept),
               [&](std::string_view word, std::size_t) { said.emplace(word); });
-    for (auto& [knob, count] : files) count += said.contains(knob) ? 1 : 0;
+    for (auto& [knob, count] : files) count += said.contains(knob) ? 1U : 0U;
   }
   std::vector<std::string> complaints;
   for (const auto& [knob, count] : files) {

@@ -16,7 +16,7 @@ std::string code_of(const std::string& text, Quoted quoted) {
       const std::string end = ")" + text.substr(begin, text.find('(', at) - begin) + "\"";
       at = std::min(text.find(end, at), text.size() - end.size()) + end.size() - 1;
     } else {
-      while (++at < text.size() && text[at] != '"') at += text[at] == '\\' ? 1 : 0;
+      while (++at < text.size() && text[at] != '"') at += text[at] == '\\' ? 1U : 0U;
     }
     if (quoted == Quoted::kept) code += text.substr(begin, at - begin);
     code += '"';

@@ -6,6 +6,7 @@
 // generic descriptor (checker/engines/tables/descriptor_system.hpp).
 #include "checker/engines/tables/properties.hpp"
 #include "checker/engines/tables/safety_certificate.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::tables {
 

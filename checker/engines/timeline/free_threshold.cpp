@@ -9,7 +9,7 @@ namespace stormproof::timeline {
 namespace {
 
 /// All that the network decides about the packets of one part.
-struct Delays {
+struct FreeDelays {
   Int data;
   Int heartbeat;
   Int acknack;
@@ -38,34 +38,34 @@ struct Profile {
   Int initial;  ///< τ_I
 };
 
-using Possible = Bool (*)(const Profile&, const Delays&);
+using Possible = Bool (*)(const Profile&, const FreeDelays&);
 
-Descriptor<Sym> pushed(const Delays& delays) {
+Descriptor<Sym> pushed(const FreeDelays& delays) {
   Descriptor<Sym> d;
   deliver<Sym>(d, 0, {delays.data, delays.leaves, false}, true);
   return d;
 }
 
-Bool by_heartbeat(const Profile& p, const Delays& n) {
+Bool by_heartbeat(const Profile& p, const FreeDelays& n) {
   Descriptor<Sym> d = pushed(n);
   const auto report = answer<Sym>(n.sent, {n.heartbeat, 0, false}, {n.acknack, 0, false}, p.timers);
   return acknack<Sym>(d, report, {}, p.timers).requested;
 }
 
-Bool by_initial(const Profile& p, const Delays& n) {
+Bool by_initial(const Profile& p, const FreeDelays& n) {
   Descriptor<Sym> d = pushed(n);
   const Report<Sym> report{p.initial, p.initial + n.acknack, false};
   const Bool unseen = n.heartbeat > p.initial;  // the HEARTBEAT of the opening, sent at 0
   return p.initial > 0 && unseen && acknack<Sym>(d, report, {}, p.timers).requested;
 }
 
-Bool by_heartbeat_in_order(const Profile& p, const Delays& n) {
+Bool by_heartbeat_in_order(const Profile& p, const FreeDelays& n) {
   return n.sent + n.heartbeat >= n.data && by_heartbeat(p, n);
 }
 
 /// Everything takes Δ: the answer to the HEARTBEAT of the opening is the first that finds the DATA
 /// received; if it arrives in time it takes the request back.
-Bool by_initial_constant(const Profile& p, const Delays&) {
+Bool by_initial_constant(const Profile& p, const FreeDelays&) {
   Descriptor<Sym> d;
   const Passage<Sym> passage{p.delta, 0, false};
   deliver<Sym>(d, 0, passage, true);
@@ -76,7 +76,7 @@ Bool by_initial_constant(const Profile& p, const Delays&) {
 }
 
 /// The first request at 0; it is answered, and another ACKNACK requests the descriptor again.
-Bool by_second_request(const Profile& p, const Delays& n) {
+Bool by_second_request(const Profile& p, const FreeDelays& n) {
   Descriptor<Sym> d;
   acknack<Sym>(d, {0, 0, false}, {n.data, n.leaves, false}, p.timers);
   generate<Sym>(d, true);
@@ -84,7 +84,7 @@ Bool by_second_request(const Profile& p, const Delays& n) {
   return acknack<Sym>(d, report, {}, p.timers).requested;
 }
 
-Bool by_heartbeat_fastdds(const Profile& p, const Delays& n) {
+Bool by_heartbeat_fastdds(const Profile& p, const FreeDelays& n) {
   Descriptor<Sym> d = pushed(n);
   d.asked = true;
   d.busy_until = p.timers.suppression;
@@ -97,8 +97,8 @@ struct Part {
   const char* name;
   const char* simplified;
   Possible possible;
-  Bool condition;  ///< claimed to be equivalent to: some delays make it possible
-  Delays example;  ///< delays that make it possible if the condition holds
+  Bool condition;      ///< claimed to be equivalent to: some delays make it possible
+  FreeDelays example;  ///< delays that make it possible if the condition holds
 };
 
 std::string in_one_line(std::string text) {
@@ -125,8 +125,8 @@ z3::expr eliminate(const z3::expr& formula) {
 
 EliminatedCondition decide(Theorem& t, const Profile& p, const Part& part) {
   const std::string name = part.name;
-  const Delays free{t.number("data_delay"), t.number("heartbeat_delay"), t.number("acknack_delay"),
-                    t.number("sent"), t.number("leaves")};
+  const FreeDelays free{t.number("data_delay"), t.number("heartbeat_delay"),
+                        t.number("acknack_delay"), t.number("sent"), t.number("leaves")};
   t.holds(name + ": only under the condition",
           implies(free.admitted(p.delta) && part.possible(p, free), part.condition));
   t.holds(
