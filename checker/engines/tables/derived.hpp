@@ -38,6 +38,9 @@ struct Derived {
   DerivedTime* time = nullptr;
   /// Timers of which it matters how many are pending, though no rule asks for that.
   std::set<std::string> counted{};
+  /// What knobs are, made once: Z3 orders what it simplifies by when it was made first, so that two
+  /// profiles whose rules do the same have the same steps word for word.
+  std::map<std::string_view, Expr> knobs{};
 
   [[nodiscard]] bool counts(const fsm::program::Thing& timer) const {
     return timer.counted || counted.contains(std::string{timer.name});

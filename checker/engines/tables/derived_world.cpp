@@ -27,9 +27,13 @@ DerivedWorld::Value DerivedWorld::knob(const Thing& it) {
   };
   // That of a deployment is no knob of the profile.
   if (!model::knob_value(it, derived_->dds)) return Int{derivation().unknown_count()};
-  const Expr expr =
-      derived_->knob ? derived_->knob({std::string{it.name}, value}) : value(derived_->dds);
-  return is_truth ? Value{Bool{expr}} : Value{Int{expr}};
+  auto found = derived_->knobs.find(it.full_name);
+  if (derived_->knob || found == derived_->knobs.end()) {
+    const Expr made =
+        derived_->knob ? derived_->knob({std::string{it.name}, value}) : value(derived_->dds);
+    found = derived_->knobs.insert_or_assign(it.full_name, made).first;
+  }
+  return is_truth ? Value{Bool{found->second}} : Value{Int{found->second}};
 }
 
 DerivedWorld::Value DerivedWorld::read(Tag tag) {
