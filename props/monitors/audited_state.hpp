@@ -213,7 +213,8 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
   void cancel(T, Number n) {
     pending_of(model::event_kind_of<T>, n).clear();
   }
-  void rescheduled(const model::Event& event, std::uint64_t insertion) override {
+  // Layers lie on one another, so none of their virtual functions says `override`.
+  virtual void rescheduled(const model::Event& event, std::uint64_t insertion) {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       if (event.kind != model::event_kind_of<T>) return;
       std::ranges::replace(pending_of(event.kind, Columns::number(T::owner, event)),
