@@ -42,6 +42,33 @@ class AnyValue {
       value_;
 };
 
+/// What an operator makes of two numbers.
+template <class Result, class Int>
+Result of_numbers(Op op, const Int& a, const Int& b) {
+  switch (op) {
+    case Op::plus:
+      return a + b;
+    case Op::minus:
+      return a - b;
+    case Op::times:
+      return a * b;
+    case Op::over:
+      return a / b;
+    case Op::equal:
+      return a == b;
+    case Op::unequal:
+      return a != b;
+    case Op::less:
+      return a < b;
+    case Op::at_most:
+      return a <= b;
+    case Op::greater:
+      return a > b;
+    default:
+      return a >= b;
+  }
+}
+
 /// What all places of an execution share.
 template <class Value>
 struct Execution {

@@ -160,28 +160,7 @@ class Interpreter {
   Value compute_numbers(const Term& term) {
     const Int b = evaluate(term.b).number();
     const Int a = evaluate(term.a).number();
-    switch (term.op) {
-      case Op::plus:
-        return a + b;
-      case Op::minus:
-        return a - b;
-      case Op::times:
-        return a * b;
-      case Op::over:
-        return a / b;
-      case Op::equal:
-        return a == b;
-      case Op::unequal:
-        return a != b;
-      case Op::less:
-        return a < b;
-      case Op::at_most:
-        return a <= b;
-      case Op::greater:
-        return a > b;
-      default:
-        return a >= b;
-    }
+    return of_numbers<Value>(term.op, a, b);
   }
   Value compute_over_others(const Term& term_) {
     const auto inner = term(term_.a);

@@ -1,5 +1,5 @@
-// How fast the explorer steps: fired events per second of processor time, through Boost.MSM and
-// with difference-bound matrices, on its own scopes; and beside it, if SPIN is installed, the
+// How fast the explorer steps: fired events per second of processor time, through recorded rules
+// and with difference-bound matrices, on its own scopes; and beside it, if SPIN is installed, the
 // states per second of SPIN on the exported composition. A state of the explorer is a zone (all
 // times at once), one of SPIN has no times. The ratio is that of the two rates. Started by hand, or
 // by the table of benchmarks (engine_bench.cpp); a time says more about the machine than about the
@@ -9,9 +9,8 @@
 #include <ctime>
 #include <filesystem>
 
-#include "checker/engines/explorer/fastdds_packing.hpp"
-#include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
 #include "checker/engines/explorer/search.hpp"
 #include "checker/engines/promela/promela.hpp"
 #include "checker/engines/promela/run_spin.hpp"
@@ -24,11 +23,10 @@ using namespace stormproof::explorer;
 std::uint64_t steps = 0;  ///< of all searches
 double spent = 0;         ///< on them, s
 
-template <class World>
 void measure(const char* name, const model::Scenario& scenario, const Scope& scope) {
   Scope uncounted = scope;
   uncounted.counts_bytes = false;  // as long as no budget is used up
-  World world{scenario, scenario, uncounted, {}};
+  RelationWorld world{scenario, scenario, uncounted, {}};
   SearchOptions options;
   options.count_generated = generated_before_heartbeat(scenario).value_or(0);
   // Everything that a search can look for in one go, and that correct rules keep.
@@ -36,7 +34,7 @@ void measure(const char* name, const model::Scenario& scenario, const Scope& sco
                    bit(Claim::snapshot) | bit(Claim::single_heartbeat) | bit(Claim::no_stall);
   options.max_states = 400'000;
   const std::clock_t start = std::clock();
-  const SearchResult result = Search<World>{world, options}.run();
+  const SearchResult result = Search<RelationWorld>{world, options}.run();
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf("%-9s %-75s %8llu states %9llu steps %6.2f s %9.0f steps/s, depth %u%s\n", name,
               to_text(scope).c_str(), static_cast<unsigned long long>(result.states),
@@ -72,33 +70,33 @@ void measure_spin(unsigned descriptors) {
 int main() {
   model::Scenario scenario;  // the paper's timers
   const model::Nanoseconds delay{scenario.dds.sedp.heartbeat_period.count() / 4};
-  for (const Scope& scope : scopes(scenario, delay)) measure<PaperWorld>("paper", scenario, scope);
+  for (const Scope& scope : scopes(scenario, delay)) measure("paper", scenario, scope);
   for (const Scope& scope : shared_scopes(scenario, delay, 2)) {
-    measure<SharedPaperWorld>("paper", scenario, scope);
+    measure("paper", scenario, scope);
   }
   for (const Scope& scope : shared_scopes(scenario, delay, most_readers)) {
-    measure<RelationWorld<PaperPacking, most_readers>>("paper", scenario, scope);
+    measure("paper", scenario, scope);
   }
   for (const Scope& scope : shared_scopes(scenario, delay, 1, most_writers)) {
-    measure<RelationWorld<PaperPacking, 1, most_writers>>("paper", scenario, scope);
+    measure("paper", scenario, scope);
   }
   scenario.dds.sedp.grouping = model::Grouping::single;
   for (const Scope& scope : scopes(scenario, delay)) {
-    if (scope.descriptors == 2) measure<PaperWorld>("single", scenario, scope);
+    if (scope.descriptors == 2) measure("single", scenario, scope);
   }
   scenario = {};
   scenario.dds.implementation = model::ImplementationKind::fastdds;
   for (const Scope& scope : scopes(scenario, delay)) {
-    measure<FastDdsWorld>("fastdds", scenario, scope);
+    measure("fastdds", scenario, scope);
   }
   for (const Scope& scope : shared_scopes(scenario, delay, 2)) {
-    measure<SharedFastDdsWorld>("fastdds", scenario, scope);
+    measure("fastdds", scenario, scope);
   }
   for (const Scope& scope : shared_scopes(scenario, delay, most_readers)) {
-    measure<RelationWorld<FastDdsPacking, most_readers>>("fastdds", scenario, scope);
+    measure("fastdds", scenario, scope);
   }
   for (const Scope& scope : shared_scopes(scenario, delay, 1, most_writers)) {
-    measure<RelationWorld<FastDdsPacking, 1, most_writers>>("fastdds", scenario, scope);
+    measure("fastdds", scenario, scope);
   }
   std::printf("all       %llu steps in %.2f s: %.0f steps/s\n",
               static_cast<unsigned long long>(steps), spent, static_cast<double>(steps) / spent);

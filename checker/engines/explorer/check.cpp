@@ -7,11 +7,9 @@
 #include "checker/engines/explorer/answer.hpp"
 #include "checker/engines/explorer/cyclone_world.hpp"
 #include "checker/engines/explorer/explorer.hpp"
-#include "checker/engines/explorer/fastdds_packing.hpp"
-#include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
 #include "checker/engines/explorer/replay.hpp"
-#include "model/implementations.hpp"
 #include "props/applicability.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/quiescence.hpp"
@@ -103,8 +101,7 @@ class Exploration {
         if (props::has_samples(running_)) {
           explore<CycloneWorld>(scope);
         } else {
-          model::visit_engine_composition(running_.dds,
-                                          [&](auto composition) { explore(composition, scope); });
+          explore<RelationWorld>(scope);
         }
         left -= std::min(left, searched_);
       }
@@ -116,19 +113,6 @@ class Exploration {
     return !where_.interrupted;
   }
 
-  void explore(model::Of<comp::paper::Paper>, const Scope& scope) {
-    explore_packing<PaperPacking>(scope);
-  }
-  void explore(model::Of<comp::fastdds::FastDds>, const Scope& scope) {
-    explore_packing<FastDdsPacking>(scope);
-  }
-  template <class Packing>
-  void explore_packing(const Scope& scope) {
-    if (scope.writers > 1) return explore<RelationWorld<Packing, 1, most_writers>>(scope);
-    if (scope.readers == 1) return explore<RelationWorld<Packing>>(scope);
-    if (scope.readers == 2) return explore<RelationWorld<Packing, 2>>(scope);
-    explore<RelationWorld<Packing, most_readers>>(scope);
-  }
   template <class World>
   void explore(const Scope& scope) {
     searched_ = 0;

@@ -205,7 +205,11 @@ void CycloneHost::send(const model::cyclone::Bundle& bundle) {
     if (m.kind != model::Submessage::Kind::data) continue;
     const auto up_to = static_cast<Members>(member(m.sample + 1) - 1);
     state_->set<cyclone::Sent>(state_->get<cyclone::Sent>() | up_to);
-    note_generated(*state_, *frame_, 0, member(m.sample), !bundle.to.is_set);
+    const Members it = member(m.sample);
+    const Members asked = state_->get<Asked>();
+    object_to_generated(*frame_, it, !bundle.to.is_set, asked, state_->get<Generated>());
+    state_->set<Generated>(state_->get<Generated>() | it);
+    state_->set<Asked>(asked & static_cast<Members>(~it));
   }
   const std::vector<Slot> parts = parts_of(bundle.contents);
   for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -20,9 +20,8 @@
 #include <type_traits>
 
 #include "checker/engines/explorer/claims.hpp"
+#include "checker/engines/explorer/cyclone_fields.hpp"
 #include "checker/engines/explorer/cyclone_state.hpp"
-#include "checker/engines/explorer/host_parts.hpp"
-#include "checker/engines/explorer/slot_fields.hpp"
 #include "model/cyclone/packer.hpp"
 #include "model/engine/effect_mutator.hpp"
 #include "model/engine/running_world.hpp"

@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 
+#include "checker/engines/explorer/cyclone_store.hpp"
 #include "checker/engines/explorer/slot.hpp"
-#include "checker/engines/explorer/world_state.hpp"
 #include "fsm/composition/cyclone.hpp"
 
 namespace stormproof::explorer {
@@ -48,7 +48,7 @@ inline constexpr What mark_of<comp::cyclone::AgainAt> = What::again_at;
 template <class V>
 concept Time = is_mark(mark_of<V>);
 
-struct CycloneState : WorldState<cyclone_parts::Things, cyclone_parts::most_samples> {
+struct CycloneState : ComposedState<cyclone_parts::Things, cyclone_parts::most_samples> {
   std::array<Slot, cyclone_parts::most_queued> queue{};  ///< of the writer's participant
   Slot kept{};                                           ///< the answer that waits, if one does
   std::array<std::uint8_t, 2> listed{};  ///< by participant: how often its timer is on the list
@@ -57,7 +57,7 @@ struct CycloneState : WorldState<cyclone_parts::Things, cyclone_parts::most_samp
   std::uint32_t unused = 0;  ///< no padding
 
   bool operator==(const CycloneState& other) const {
-    return WorldState::operator==(other) && queue == other.queue && kept == other.kept &&
+    return ComposedState::operator==(other) && queue == other.queue && kept == other.kept &&
            listed == other.listed && queued == other.queued && keeps == other.keeps;
   }
 };

@@ -13,7 +13,8 @@ namespace stormproof::explorer {
 class CycloneWorld {
  public:
   using State = CycloneState;
-  static constexpr bool sorts_slots = true;
+  static constexpr bool sorts_slots() { return true; }
+  static constexpr std::size_t state_words() { return sizeof(State) / sizeof(std::uint64_t); }
 
   /// `running` is the scenario that runs.
   CycloneWorld(const model::Scenario& running, const model::Scenario& specification,

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,14 +31,20 @@ class NodeStore {
  public:
   static constexpr std::uint32_t none = UINT32_MAX;
 
-  NodeStore() : groups_by_hash_(std::size_t{1} << 10, none) {}
+  /// `words`: how much of a state is used; the rest is the same in all of them.
+  explicit NodeStore(std::size_t words)
+      : words_{words}, groups_by_hash_(std::size_t{1} << 10, none) {}
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
   [[nodiscard]] std::size_t bytes() const {
-    return nodes_.size() * sizeof(Node) + groups_.size() * sizeof(Group) + slots_.bytes() +
+    return nodes_.size() * sizeof(Node) + groups_.size() * sizeof(Group) + keys_.bytes() +
            narrow_.bytes() + wide_.bytes();
   }
-  [[nodiscard]] const State& state(std::uint32_t node) const { return group_of(node).state; }
+  [[nodiscard]] State state(std::uint32_t node) const {
+    State state{};
+    std::memcpy(static_cast<void*>(&state), group_of(node).key, words_ * sizeof(std::uint64_t));
+    return state;
+  }
   [[nodiscard]] std::uint32_t parent(std::uint32_t node) const { return nodes_[node].parent; }
   [[nodiscard]] Label label(std::uint32_t node) const { return nodes_[node].label; }
   [[nodiscard]] std::uint32_t depth(std::uint32_t node) const { return nodes_[node].depth; }
@@ -69,18 +76,19 @@ class NodeStore {
   void load(std::uint32_t number, Frame& frame) const {
     const Node& node = nodes_[number];
     const Group& group = groups_[node.group];
+    std::array<Slot, Frame::capacity> slots;
+    std::memcpy(static_cast<void*>(slots.data()), group.key + words_, group.count * sizeof(Slot));
     if (node.narrow != nullptr) {
-      frame.restore(group.slots, group.count, node.narrow, group.losses_left);
+      frame.restore(slots.data(), group.count, node.narrow, group.losses_left);
     } else {
-      frame.restore(group.slots, group.count, node.wide, group.losses_left);
+      frame.restore(slots.data(), group.count, node.wide, group.losses_left);
     }
   }
 
  private:
   /// What nodes have in common that differ in their times only.
   struct Group {
-    State state;
-    const Slot* slots = nullptr;
+    const std::uint64_t* key = nullptr;  ///< the words of the state, then the slots
     std::uint64_t hash = 0;
     std::uint32_t newest = none;  ///< node
     std::uint8_t count = 0;
@@ -115,41 +123,49 @@ class NodeStore {
     hash = (hash ^ word) * 0x9E3779B97F4A7C15U;
     return hash ^ hash >> 29;
   }
-  static std::uint64_t hash_of(const State& state, const Frame& frame) {
-    static_assert(sizeof(State) % 8 == 0 && sizeof(Slot) == 8);
-    std::uint64_t hash = frame.losses_left();
-    std::array<std::uint64_t, sizeof(State) / 8> words;
-    std::memcpy(words.data(), &state, sizeof(State));
-    for (const std::uint64_t word : words) hash = mix(hash, word);
-    for (unsigned k = 0; k < frame.count(); ++k) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, &frame.slot(k), sizeof(Slot));
-      hash = mix(hash, word);
+  /// State and slots as words.
+  class Key {
+   public:
+    Key(const State& state, std::size_t words, const Frame& frame) : size_{words + frame.count()} {
+      static_assert(std::has_unique_object_representations_v<State>);
+      static_assert(sizeof(State) % 8 == 0 && sizeof(Slot) == 8);
+      std::memcpy(words_.data(), &state, words * sizeof(std::uint64_t));
+      if (frame.count() > 0) {
+        std::memcpy(words_.data() + words, &frame.slot(0), frame.count() * sizeof(Slot));
+      }
     }
-    return hash;
-  }
-  static bool same(const Group& group, const State& state, const Frame& frame) {
-    if (group.count != frame.count() || group.losses_left != frame.losses_left()) return false;
-    if (!(group.state == state)) return false;
-    for (unsigned k = 0; k < group.count; ++k) {
-      if (!(group.slots[k] == frame.slot(k))) return false;
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] const std::uint64_t* data() const { return words_.data(); }
+    [[nodiscard]] std::uint64_t hash(std::uint64_t start) const {
+      for (std::size_t k = 0; k < size_; ++k) start = mix(start, words_[k]);
+      return start;
     }
-    return true;
-  }
+    [[nodiscard]] bool is(const std::uint64_t* other) const {
+      return std::equal(data(), data() + size_, other);
+    }
 
+   private:
+    std::array<std::uint64_t, sizeof(State) / 8 + Frame::capacity> words_;
+    std::size_t size_;
+  };
   /// The group of the state, which may be new and empty.
   std::uint32_t find_group(const State& state, const Frame& frame) {
-    const std::uint64_t hash = hash_of(state, frame);
+    const Key key{state, words_, frame};
+    const std::uint64_t hash = key.hash(frame.losses_left());
+    const auto is = [&](const Group& group) {
+      return group.hash == hash && group.count == frame.count() &&
+             group.losses_left == frame.losses_left() && key.is(group.key);
+    };
     std::size_t place = hash & (groups_by_hash_.size() - 1);
     for (std::uint32_t g = groups_by_hash_[place]; g != none; g = groups_by_hash_[place]) {
-      if (groups_[g].hash == hash && same(groups_[g], state, frame)) return g;
+      if (is(groups_[g])) return g;
       place = (place + 1) & (groups_by_hash_.size() - 1);
     }
     const auto number = static_cast<std::uint32_t>(groups_.size());
     groups_by_hash_[place] = number;
-    Slot* const slots = slots_.allocate(frame.count());
-    for (unsigned k = 0; k < frame.count(); ++k) slots[k] = frame.slot(k);
-    groups_.push_back({state, slots, hash, none, static_cast<std::uint8_t>(frame.count()),
+    std::uint64_t* const words = keys_.allocate(key.size());
+    std::copy(key.data(), key.data() + key.size(), words);
+    groups_.push_back({words, hash, none, static_cast<std::uint8_t>(frame.count()),
                        static_cast<std::uint8_t>(frame.losses_left())});
     if (2 * groups_.size() > groups_by_hash_.size()) grow();
     return number;
@@ -215,10 +231,11 @@ class NodeStore {
     }
   }
 
+  std::size_t words_;
   std::vector<Node> nodes_;
   std::vector<Group> groups_;
   std::vector<std::uint32_t> groups_by_hash_;  // open addressing
-  Arena<Slot> slots_;
+  Arena<std::uint64_t> keys_;
   Arena<std::int32_t> narrow_;
   Arena<std::int64_t> wide_;
 };

@@ -2,6 +2,7 @@
 // fewest events. A world is a class with
 //   State start(Frame&), fire(State&, Frame&, const Slot&), complete(State), received(State),
 //   deliveries() (how many bits that has), scope(), rules(),
+//   state_words() (how much of a state is used), sorts_slots() (their order says nothing),
 // and knows nothing of searching; the search knows nothing of the protocol.
 //
 // Three claims are the search's own, because they are not about one state of the protocol:
@@ -72,7 +73,8 @@ class Search {
  public:
   using State = typename World::State;
 
-  Search(World& world, const SearchOptions& options) : world_{world}, options_{options} {}
+  Search(World& world, const SearchOptions& options)
+      : world_{world}, options_{options}, store_{world.state_words()} {}
 
   SearchResult run() {
     start();
@@ -120,15 +122,17 @@ class Search {
   }
 
   void expand(std::uint32_t node) {
-    if (options_.stop_when_complete && world_.complete(store_.state(node))) return;
+    const State state = store_.state(node);
+    if (options_.stop_when_complete && world_.complete(state)) return;
     Frame frame{world_.scope(), world_.rules()};
     store_.load(node, frame);
+    const Before before{node, state, frame};
     for (unsigned k = 0; k < frame.count(); ++k) {
       if (is_mark(frame.slot(k).what) || !frame.can_be_next(k)) continue;
       unsigned choices = 0;
       do {
         const Label label{static_cast<std::uint8_t>(k), 0, static_cast<std::uint8_t>(choices)};
-        choices = other_choices(choices, follow_with_losses(node, frame, label));
+        choices = other_choices(choices, follow_with_losses(before, label));
       } while (choices != 0);
     }
   }
@@ -140,24 +144,32 @@ class Search {
     return count == 0 ? 0 : choices | 1U << (count - 1);
   }
 
-  /// Takes one step from `node`, without and with losses; returns how many choices there were.
-  unsigned follow_with_losses(std::uint32_t node, const Frame& frame, Label label) {
-    const auto [packets, choices] = follow(node, frame, label);
-    const unsigned variants = frame.losses_left() > 0 ? 1U << std::min(packets, most_lost) : 1U;
-    if (frame.losses_left() > 0 && packets > most_lost) note_overflow(node);
+  /// A state that is expanded.
+  struct Before {
+    std::uint32_t node;
+    const State& state;
+    const Frame& frame;
+  };
+  /// Takes one step, without and with losses; returns how many choices there were.
+  unsigned follow_with_losses(const Before& before, Label label) {
+    const auto [packets, choices] = follow(before, label);
+    const unsigned left = before.frame.losses_left();
+    const unsigned variants = left > 0 ? 1U << std::min(packets, most_lost) : 1U;
+    if (left > 0 && packets > most_lost) note_overflow(before.node);
     for (unsigned mask = 1; mask < variants; ++mask) {
-      if (static_cast<unsigned>(std::popcount(mask)) > frame.losses_left()) continue;
+      if (static_cast<unsigned>(std::popcount(mask)) > left) continue;
       label.loss_mask = static_cast<std::uint8_t>(mask);
-      follow(node, frame, label);
+      follow(before, label);
     }
     return choices;
   }
 
-  /// Takes one step from `node`; returns how many packets it emitted and choices it made.
-  std::pair<unsigned, unsigned> follow(std::uint32_t node, const Frame& before, Label label) {
+  /// Takes one step; returns how many packets it emitted and choices it made.
+  std::pair<unsigned, unsigned> follow(const Before& before, Label label) {
     ++result_.steps;
-    Frame frame = before;
-    State state = store_.state(node);
+    const std::uint32_t node = before.node;
+    Frame frame = before.frame;
+    State state = before.state;
     step(world_, state, frame, label, options_.bounds);
     const Claims fresh = frame.objections() & wanted_;
     if (fresh != 0) note(fresh, node, label);
@@ -165,8 +177,7 @@ class Search {
       note_overflow(node);
       return {frame.emitted(), frame.choices()};
     }
-    if (options_.bounds.completion && world_.complete(state) &&
-        !world_.complete(store_.state(node))) {
+    if (options_.bounds.completion && world_.complete(state) && !world_.complete(before.state)) {
       const unsigned mark = frame.find(What::opened);
       result_.latest_completion =
           std::max(result_.latest_completion, model::Nanoseconds{frame.zone().bound(0, mark + 1)});
@@ -198,7 +209,7 @@ class Search {
         watch_quiet(frame, *bounds.quiescence);
       }
     }
-    if constexpr (World::sorts_slots) frame.sort();
+    if (world.sorts_slots()) frame.sort();
   }
 
  private:

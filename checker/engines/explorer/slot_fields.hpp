@@ -1,67 +1,40 @@
-// What the timers and the packet fields of a composition are in a slot of a frame.
+// What the timers, the packets and their fields of a program are in a slot of a frame, and which
+// rule its event has.
 #pragma once
 
-#include <bit>
-#include <concepts>
 #include <cstdint>
 #include <optional>
-#include <type_traits>
+#include <string_view>
 
-#include "checker/engines/explorer/slot.hpp"
-#include "fsm/composition/packets.hpp"
-#include "model/engine/descriptor_set.hpp"
-#include "model/engine/timer_kinds.hpp"
+#include "checker/engines/explorer/specialised.hpp"
+#include "fsm/program/program.hpp"
 
 namespace stormproof::explorer {
 
-namespace comp = fsm::composition;
-
+[[nodiscard]] inline bool is_of_descriptors(const fsm::program::Thing& thing) {
+  return (thing.owner.indices & fsm::composition::owner::descriptor_index) != 0;
+}
 /// Nothing: the timer belongs to what is not explored.
-template <class Timer>
-[[nodiscard]] constexpr std::optional<What> what_of() {
-  for (auto k = static_cast<std::uint8_t>(What::heartbeat_expiry);
-       k <= static_cast<std::uint8_t>(What::thread_run); ++k) {
-    if (kind_of(What{k}, false) == model::event_kind_of<Timer>) return What{k};
-  }
-  return std::nullopt;
-}
+[[nodiscard]] std::optional<What> what_of(const fsm::program::Thing& timer);
+/// Nothing: it is none of those that readers and writers exchange.
+[[nodiscard]] std::optional<What> what_of_packet(const fsm::program::Program& program,
+                                                 fsm::program::Tag packet);
 
-[[nodiscard]] inline std::uint16_t members_of(const model::DescriptorSet& set) {
-  return static_cast<std::uint16_t>(set.word(0));
-}
+/// The rule of an event; null if there is none.
+[[nodiscard]] const fsm::program::Rule* rule_of(const fsm::program::Program& program, What event);
 
-[[nodiscard]] constexpr std::uint8_t flag_of(comp::IsInitial) { return Slot::initial; }
-[[nodiscard]] constexpr std::uint8_t flag_of(comp::IsRepair) { return Slot::from_repair; }
-[[nodiscard]] constexpr std::uint8_t flag_of(comp::CarriesHeartbeat) {
-  return Slot::carries_heartbeat;
-}
-[[nodiscard]] constexpr std::uint8_t flag_of(comp::cyclone::IsDirected) { return Slot::directed; }
+/// How a slot says what a packet says of a field.
+struct SlotField {
+  std::string_view name;
+  Specialised::From as{};
+  std::uint8_t flag = 0;
+};
+[[nodiscard]] const SlotField& slot_field(const fsm::program::Thing& field);
 
-/// The field holds for the first descriptors, up to some number, and is kept as that number.
-template <class Field>
-inline constexpr bool is_limit =
-    std::is_same_v<Field, comp::Announces> || std::is_same_v<Field, comp::BelowBase>;
-
-/// The descriptors for which the packet says it.
-template <class Field>
-[[nodiscard]] constexpr std::uint16_t members_said(const Slot& packet) {
-  if constexpr (is_limit<Field>) return static_cast<std::uint16_t>(member(packet.number) - 1);
-  return packet.set;
-}
-
-/// The packet says this, in the world of its relation.
-template <class Saying, class World>
-void say(Slot& packet, const Saying& saying, World& w) {
-  using Field = typename Saying::Field;
-  if constexpr (std::derived_from<Field, comp::PacketField>) {
-    if (saying.value) packet.flags |= flag_of(Field{});
-  } else if constexpr (std::derived_from<Field, comp::PacketNumber>) {
-    packet.count = static_cast<std::uint16_t>(saying.value);
-  } else if constexpr (is_limit<Field>) {
-    packet.number = static_cast<std::uint8_t>(std::bit_width(members_of(w.set_of(saying.value))));
-  } else {
-    packet.set = members_of(w.set_of(saying.value));
-  }
+/// The descriptors for which the packet says it, as a set or as the number of the first ones.
+[[nodiscard]] inline std::uint16_t members_said(Specialised::From as, const Slot& packet) {
+  const bool is_limit = as == Specialised::From::limit;
+  return is_limit ? static_cast<std::uint16_t>(member(packet.number) - 1) : packet.set;
 }
 
 }  // namespace stormproof::explorer

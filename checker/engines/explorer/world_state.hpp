@@ -1,160 +1,107 @@
-// The state of an explored world, laid out from what a composition declares: a byte for each
-// machine, flag and count of scheduled events, a set for each flag of descriptors, eight bytes for
-// each number, and all of these once for each reader if each has one. It is plain memory without
-// padding, because states are kept by the hundred thousand, compared and hashed.
+// The state of an explored world: plain memory without padding, because states are kept by the
+// hundred thousand, compared and hashed. What is where follows from the program that is explored:
+// a byte for each machine, flag and count of scheduled events, a set for each flag of descriptors,
+// eight bytes for each number, and all of these once for each relation, writer or reader that has
+// one.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <type_traits>
+#include <stdexcept>
+#include <vector>
 
-#include "fsm/composition/cyclone.hpp"
-#include "fsm/composition/fastdds.hpp"
-#include "fsm/composition/paper.hpp"
-#include "fsm/machine_info.hpp"
+#include "checker/engines/explorer/scope.hpp"
+#include "fsm/program/program.hpp"
 
 namespace stormproof::explorer {
-
-namespace comp = fsm::composition;
 
 /// Descriptors, one bit each.
 using Members = std::uint16_t;
 
-// What the explorer remembers besides, for the claims about repairs.
-/// Listed by an ACKNACK since it was generated last.
-struct Asked : comp::Flag<comp::owner::descriptor> {};
-struct Generated : comp::Flag<comp::owner::descriptor> {};
-/// The reader has heard that it exists; only where ACKNACKs list nothing else.
-struct Announced : comp::Flag<comp::owner::descriptor> {};
+/// Where something is: that of relation k, or of its writer, reader or participant, whoever has it.
+struct Kept {
+  std::uint16_t offset = nowhere;
+  std::uint16_t stride = 0;
 
-/// The explored relations are opened from outside, their writer keeps the periodic policy, and they
-/// have no topics. Times are marks of a frame.
-using LeftOut = comp::Joined<
-    fsm::TypeList<comp::AnnouncementTimer, comp::AnnouncementsSent, comp::Recognised,
-                  comp::CycleStart, comp::CycleEnd, comp::BatchDue, comp::CycleBegan,
-                  comp::CyclePeriod, comp::Contacted, comp::Responded, comp::AnnouncedAtStart>,
-    fsm::TypeList<comp::cyclone::SpdpTimer, comp::cyclone::ReplyTimer, comp::cyclone::SpdpDue,
-                  comp::cyclone::ReplyDue, comp::cyclone::RepliesSent, comp::cyclone::AckDue,
-                  comp::cyclone::HeartbeatDue, comp::cyclone::LastHeartbeat,
-                  comp::cyclone::AckCountsUntil, comp::cyclone::HeartbeatCountsUntil,
-                  comp::cyclone::QuietUntil, comp::cyclone::HushUntil, comp::cyclone::AgainAt>,
-    comp::control::Parts, comp::control::State>;
+  static constexpr std::uint16_t nowhere = UINT16_MAX;
+  [[nodiscard]] bool is_kept() const { return offset != nowhere; }
+  bool operator==(const Kept&) const = default;
+  [[nodiscard]] std::size_t of(unsigned relation) const { return offset + relation * stride; }
+};
 
-namespace detail {
-template <class T, class... Ts>
-constexpr bool is_among(fsm::TypeList<Ts...>) {
-  return (std::is_same_v<T, Ts> || ...);
-}
-template <class T>
-inline constexpr bool is_of_descriptors = (T::owner.indices & comp::owner::descriptor_index) != 0;
-template <class T>
-inline constexpr bool is_of_readers = (T::owner.indices & comp::owner::peer_index) != 0;
-template <class T>
-inline constexpr bool is_of_writers = (T::owner.indices & comp::owner::stream_index) != 0;
-template <class T>
-constexpr auto kept_as() {
-  if constexpr (requires { typename T::Machine; }) {
-    return fsm::StateId{};
-  } else if constexpr (requires { typename T::IsNumber; }) {
-    return std::int64_t{};
-  } else if constexpr (requires { typename T::IsFlag; }) {
-    return std::conditional_t<is_of_descriptors<T>, Members, bool>{};
-  } else {
-    return std::uint8_t{};  // how often a timer is scheduled
-  }
-}
-}  // namespace detail
-
-template <class T>
-using KeptAs = decltype(detail::kept_as<T>());
-
-/// `Things` are parts, timers, flags and numbers; a machine of descriptors is there for each of
-/// `descriptors`, what belongs to a relation for each of `readers` of each of `writers`, and what
-/// belongs to a writer for each of these. What is left out is false or 0, whatever it is set to.
-template <class Things, unsigned descriptors, unsigned readers = 1, unsigned writers = 1>
 class WorldState {
  public:
-  bool operator==(const WorldState& other) const {
-    for (std::size_t k = 0; k < words_.size(); ++k) {
-      if (words_[k] != other.words_[k]) return false;
-    }
-    return true;
-  }
+  static constexpr std::size_t capacity = 128;  ///< bytes
 
-  /// That of a relation, or of its writer, reader or participant, whoever has it.
+  /// `T`: one byte of a machine, flag or count, `Members`, or `std::int64_t`.
   template <class T>
-  [[nodiscard]] KeptAs<T> get(unsigned relation = 0) const {
-    KeptAs<T> value{};
-    if constexpr (size<T>() > 0) std::memcpy(&value, bytes() + offset<T>(relation), sizeof value);
+  [[nodiscard]] T get(Kept kept, unsigned relation = 0) const {
+    T value;
+    std::memcpy(&value, bytes() + kept.of(relation), sizeof value);
     return value;
   }
   template <class T>
-  void set(KeptAs<T> value, unsigned relation = 0) {
-    if constexpr (size<T>() > 0) std::memcpy(bytes() + offset<T>(relation), &value, sizeof value);
+  void set(Kept kept, T value, unsigned relation = 0) {
+    std::memcpy(bytes() + kept.of(relation), &value, sizeof value);
   }
-  /// The state of a machine, of descriptor d if each of them has one.
-  template <class P>
-  [[nodiscard]] fsm::StateId& state(unsigned d = 0, unsigned relation = 0) {
-    return bytes()[offset<P>(relation) + d];
+  /// The bytes of something that has several.
+  [[nodiscard]] std::uint8_t* at(Kept kept, unsigned relation = 0) {
+    return bytes() + kept.of(relation);
   }
-  template <class P>
-  [[nodiscard]] fsm::StateId state(unsigned d = 0, unsigned relation = 0) const {
-    return bytes()[offset<P>(relation) + d];
+  [[nodiscard]] const std::uint8_t* at(Kept kept, unsigned relation = 0) const {
+    return bytes() + kept.of(relation);
   }
-  /// The descriptors whose machines are in a state.
-  template <class P>
-  [[nodiscard]] Members in_state(fsm::StateId wanted, unsigned relation = 0) const {
-    unsigned members = 0;
-    for (unsigned d = 0; d < descriptors; ++d) {
-      members |= static_cast<unsigned>(state<P>(d, relation) == wanted) << d;
-    }
-    return static_cast<Members>(members);
+  bool operator==(const WorldState&) const = default;
+
+ private:
+  [[nodiscard]] std::uint8_t* bytes() { return reinterpret_cast<std::uint8_t*>(words_.data()); }
+  [[nodiscard]] const std::uint8_t* bytes() const {
+    return reinterpret_cast<const std::uint8_t*>(words_.data());
+  }
+
+  std::array<std::uint64_t, capacity / sizeof(std::uint64_t)> words_{};
+};
+
+/// Gives everything in a state its place.
+class Layout {
+ public:
+  using Tag = fsm::program::Tag;
+  using Owner = fsm::program::Owner;
+
+  Layout(const fsm::program::Program& program, const Scope& scope, unsigned most_descriptors)
+      : program_{program},
+        readers_{scope.readers},
+        writers_{scope.writers},
+        descriptors_{most_descriptors},
+        things_(program.things.size()) {
+    if (readers_ > 1 && writers_ > 1) throw std::logic_error{"several readers of several writers"};
+  }
+
+  /// What is left out is false or 0, whatever it is set to.
+  [[nodiscard]] Kept of(Tag thing) const { return things_[thing]; }
+  /// Room for a thing of the program; a machine of descriptors is there for each of these.
+  void keep(Tag thing);
+  /// Room for so many bytes of each owner.
+  Kept keep(std::size_t bytes, Owner owner);
+  /// How much of a state is used; the rest is the same in all states.
+  [[nodiscard]] std::size_t words() const { return (end_ + 7) / 8; }
+  /// What has one for each relation, for each writer or for one of both, has its number there.
+  [[nodiscard]] unsigned place_of(Owner owner, unsigned relation) const {
+    return strides(owner) ? relation : 0;
   }
 
  private:
-  /// Bytes of one of them.
-  template <class T>
-  static constexpr std::size_t size() {
-    if constexpr (detail::is_among<T>(LeftOut{})) return 0;
-    if constexpr (requires { typename T::Machine; }) {
-      return detail::is_of_descriptors<T> ? descriptors : 1;
-    } else if constexpr (requires { T::counted; }) {
-      return T::counted ? 1 : 0;
-    } else {
-      return sizeof(KeptAs<T>);
-    }
-  }
-  /// How many of them there are, and which one is that of a relation.
-  template <class T>
-  static constexpr unsigned count() {
-    return (detail::is_of_readers<T> ? readers : 1) * (detail::is_of_writers<T> ? writers : 1);
-  }
-  template <class T>
-  static constexpr unsigned place(unsigned relation) {
-    if constexpr (!detail::is_of_readers<T>) return relation % writers;
-    if constexpr (!detail::is_of_writers<T>) return relation / writers;
-    return relation;
-  }
-  template <class T, class... Ts>
-  static constexpr std::size_t offset_in(fsm::TypeList<Ts...>) {
-    std::size_t sum = 0;
-    bool found = false;
-    ((found = found || std::is_same_v<T, Ts>, sum += found ? 0 : size<Ts>() * count<Ts>()), ...);
-    return sum;
-  }
-  template <class T>
-  static constexpr std::size_t offset(unsigned relation) {
-    constexpr std::size_t k = offset_in<T>(Things{});
-    static_assert(k < offset_in<void>(Things{}), "this is not part of the state");
-    return count<T>() == 1 ? k : k + place<T>(relation) * size<T>();
-  }
-  [[nodiscard]] unsigned char* bytes() { return reinterpret_cast<unsigned char*>(words_.data()); }
-  [[nodiscard]] const unsigned char* bytes() const {
-    return reinterpret_cast<const unsigned char*>(words_.data());
-  }
+  [[nodiscard]] bool strides(Owner owner) const;
+  [[nodiscard]] std::size_t size_of(const fsm::program::Thing& thing) const;
 
-  std::array<std::uint64_t, (offset_in<void>(Things{}) + 7) / 8> words_{};
+  const fsm::program::Program& program_;
+  const unsigned readers_;
+  const unsigned writers_;
+  const unsigned descriptors_;
+  std::vector<Kept> things_;
+  std::size_t end_ = 0;
 };
 
 }  // namespace stormproof::explorer

@@ -1,5 +1,5 @@
-// The third composition (tests/model/push_once) is proved, explored and given to SPIN, with what
-// packing its rules leave to a host and nothing else.
+// The third composition (tests/model/push_once) is proved, explored and given to SPIN, with its
+// rules and nothing else.
 #include "tests/model/push_once/push_once.hpp"
 
 #include <gtest/gtest.h>
@@ -42,38 +42,19 @@ TEST(PushOnceProofs, HoldForAnyNumberOfDescriptorsAndReaders) {
   EXPECT_EQ(decide("pending AckNackGeneration", false), violated);
 }
 
-/// What the rules leave to a host: one DATA for all descriptors.
-class Packing {
+/// Explored by its rules alone: what they leave to a host happens as its contract says.
+class World : public explorer::RelationWorld {
  public:
-  using Composition = push_once::PushOnce;
-  using WriterOpens = push_once::WriterOpens;
-  using State = fsm::TypeList<>;
-  template <unsigned, unsigned>
-  using SharedState = fsm::TypeList<>;
-  static constexpr unsigned max_descriptors = 3;
-  static constexpr bool receives_separately = false;
-  static constexpr bool one_event_opens_both = true;
-  static constexpr bool repairs_leave_later = false;
-  static constexpr bool lists_what_is_announced = false;
-
-  Packing(const model::Scenario&, const explorer::Scope& scope) : count_{scope.descriptors} {}
-  [[nodiscard]] unsigned descriptors(model::Stream) const { return count_; }
-  template <class Host>
-  static void start(Host&) {}
-  template <class Host>
-  static void create(Host&, const explorer::Slot&) {}
-  template <class W>
-  void perform(push_once::Push, W& w) {
-    const auto all = static_cast<explorer::Members>(explorer::member(count_) - 1);
-    const std::uint8_t relation = w.host().relation_at(w);
-    explorer::note_generated(w.host().state(), w.host().frame(), relation, all, false);
-    w.host().send({explorer::What::data, 0, all, 0, relation});
-  }
+  World(const model::Scenario& running, const model::Scenario& specification,
+        const explorer::Scope& scope, const model::Mutation& mutation)
+      : RelationWorld{rules_of_push_once(), running, specification, scope, mutation} {}
 
  private:
-  unsigned count_;
+  static const fsm::program::Program& rules_of_push_once() {
+    static const auto program = fsm::program::recorded<push_once::PushOnce>();
+    return program;
+  }
 };
-using World = explorer::RelationWorld<Packing>;
 
 bool stalls(unsigned losses) {
   explorer::Scope scope;

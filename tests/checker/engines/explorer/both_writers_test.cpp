@@ -5,9 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "checker/engines/explorer/explorer.hpp"
-#include "checker/engines/explorer/fastdds_packing.hpp"
-#include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
 #include "tests/checker/engines/explorer/walks.hpp"
 
@@ -17,8 +16,6 @@ namespace both_writers_test {
 using model::Nanoseconds;
 using props::Finding;
 using props::VerdictKind;
-using PaperWriters = RelationWorld<PaperPacking, 1, most_writers>;
-using FastDdsWriters = RelationWorld<FastDdsPacking, 1, most_writers>;
 
 constexpr std::array implementations{model::ImplementationKind::paper,
                                      model::ImplementationKind::fastdds};
@@ -70,7 +67,7 @@ TEST(BothWriters, OfThePaperDoWhatTheSimulatorDoes) {
     scenario.dds.sedp.piggyback = piggyback;
     for (Scope scope : shared_scopes(scenario, Nanoseconds{200'000'000}, 1, 2)) {
       scope.descriptors = 2;
-      const Walks walks = walk<PaperWriters>(scenario, scope);
+      const Walks walks = walk<RelationWorld>(scenario, scope);
       EXPECT_EQ(walks.refused, 0U) << to_text(scope) << ": " << walks.why;
     }
   }
@@ -82,7 +79,7 @@ TEST(BothWriters, OfFastDdsDoWhatTheSimulatorDoes) {
   for (const std::int64_t limit : {65'000, 2'400}) {
     scenario.dds.sedp.grouping_limit_bytes = model::Bytes{limit};
     for (const Scope& scope : shared_scopes(scenario, Nanoseconds{200'000'000}, 1, 2)) {
-      const Walks walks = walk<FastDdsWriters>(scenario, scope);
+      const Walks walks = walk<RelationWorld>(scenario, scope);
       EXPECT_EQ(walks.refused, 0U) << to_text(scope) << ": " << walks.why;
     }
   }
@@ -127,11 +124,11 @@ bool takes_for_acknowledged(const model::Scenario& scenario) {
 
 TEST(BothWriters, AWriterThatIsFedWithTheOthersAckNackIsNoticed) {
   const model::Scenario paper = tiny(model::ImplementationKind::paper);
-  EXPECT_FALSE(takes_for_acknowledged<PaperWriters>(paper));
-  EXPECT_TRUE((takes_for_acknowledged<Crossed<PaperWriters, What::acknack>>(paper)));
+  EXPECT_FALSE(takes_for_acknowledged<RelationWorld>(paper));
+  EXPECT_TRUE((takes_for_acknowledged<Crossed<RelationWorld, What::acknack>>(paper)));
   const model::Scenario fastdds = tiny(model::ImplementationKind::fastdds);
-  EXPECT_FALSE(takes_for_acknowledged<FastDdsWriters>(fastdds));
-  EXPECT_TRUE((takes_for_acknowledged<Crossed<FastDdsWriters, What::acknack>>(fastdds)));
+  EXPECT_FALSE(takes_for_acknowledged<RelationWorld>(fastdds));
+  EXPECT_TRUE((takes_for_acknowledged<Crossed<RelationWorld, What::acknack>>(fastdds)));
 }
 
 /// Paths of the wrong world that no run takes.
@@ -142,12 +139,12 @@ unsigned refused(const model::Scenario& scenario) {
 
 TEST(BothWriters, WhoseEventsAreTakenForTheOthersDoWhatNoRunDoes) {
   const model::Scenario paper = tiny(model::ImplementationKind::paper);
-  EXPECT_EQ(walk<PaperWriters>(paper, tiny_scope(1)).refused, 0U);
-  EXPECT_GT((refused<PaperWriters, What::repair_generation>(paper)), 0U);
-  EXPECT_GT((refused<PaperWriters, What::heartbeat>(paper)), 0U);
+  EXPECT_EQ(walk<RelationWorld>(paper, tiny_scope(1)).refused, 0U);
+  EXPECT_GT((refused<RelationWorld, What::repair_generation>(paper)), 0U);
+  EXPECT_GT((refused<RelationWorld, What::heartbeat>(paper)), 0U);
   const model::Scenario fastdds = tiny(model::ImplementationKind::fastdds);
-  EXPECT_EQ(walk<FastDdsWriters>(fastdds, tiny_scope(1)).refused, 0U);
-  EXPECT_GT((refused<FastDdsWriters, What::nack_response>(fastdds)), 0U);
+  EXPECT_EQ(walk<RelationWorld>(fastdds, tiny_scope(1)).refused, 0U);
+  EXPECT_GT((refused<RelationWorld, What::nack_response>(fastdds)), 0U);
 }
 
 }  // namespace both_writers_test

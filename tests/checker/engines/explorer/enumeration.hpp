@@ -41,15 +41,14 @@ inline std::string word_of(What what, std::uint16_t set, unsigned relation, bool
 template <class World>
 class RememberingWorld {
  public:
-  static constexpr bool sorts_slots = World::sorts_slots;
   struct State {
-    typename World::State rules;
     std::uint64_t history = 0;
+    typename World::State rules;
     bool operator==(const State&) const = default;
   };
   RememberingWorld(World& world, Outcomes& outcomes) : world_{world}, outcomes_{outcomes} {}
 
-  State start(Frame& frame) { return {world_.start(frame), number_of("")}; }
+  State start(Frame& frame) { return {number_of(""), world_.start(frame)}; }
   void fire(State& state, Frame& frame, const Slot& slot) {
     const bool missing = !complete(state);
     log_ = {};
@@ -76,6 +75,8 @@ class RememberingWorld {
   [[nodiscard]] unsigned deliveries() const { return world_.deliveries(); }
   [[nodiscard]] const Scope& scope() const { return world_.scope(); }
   [[nodiscard]] const EventRules& rules() const { return world_.rules(); }
+  [[nodiscard]] bool sorts_slots() const { return world_.sorts_slots(); }
+  [[nodiscard]] std::size_t state_words() const { return 1 + world_.state_words(); }
 
  private:
   std::uint64_t number_of(const std::string& history) {

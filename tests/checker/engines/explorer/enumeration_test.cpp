@@ -3,8 +3,8 @@
 // third composition has a test beside its own).
 #include "tests/checker/engines/explorer/enumeration.hpp"
 
-#include "checker/engines/explorer/fastdds_packing.hpp"
-#include "checker/engines/explorer/paper_packing.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
 
 namespace stormproof::explorer {
@@ -34,27 +34,12 @@ model::Scenario tiny_case(const Case& c, model::ImplementationKind implementatio
   return scenario;
 }
 
-template <class Packing>
-std::uint64_t runs_of(const model::Scenario& scenario, const Scope& scope) {
-  if (scope.writers > 1) {
-    return expect_equal_outcomes<RelationWorld<Packing, 1, most_writers>>(scenario, scope);
-  }
-  switch (scope.readers) {
-    case 1:
-      return expect_equal_outcomes<RelationWorld<Packing>>(scenario, scope);
-    case 2:
-      return expect_equal_outcomes<RelationWorld<Packing, 2>>(scenario, scope);
-    default:
-      return expect_equal_outcomes<RelationWorld<Packing, most_readers>>(scenario, scope);
-  }
-}
-
 class PaperRuns : public testing::TestWithParam<Case> {};
 
 TEST_P(PaperRuns, HaveTheOutcomesOfTheExplorer) {
   Scope scope;
   const model::Scenario scenario = tiny_case(GetParam(), model::ImplementationKind::paper, scope);
-  EXPECT_GT(runs_of<PaperPacking>(scenario, scope), GetParam().least_runs);
+  EXPECT_GT(expect_equal_outcomes<RelationWorld>(scenario, scope), GetParam().least_runs);
 }
 
 using Sedp = model::SedpProfile;
@@ -167,19 +152,19 @@ TEST(TinyRuns, ShowTheIntervalOfInitialAckNacks) {
   Case c{"", 2, 1, 0, [](Sedp& sedp, Scope&) { sedp.initial_acknack_delay = Nanoseconds{2}; }};
   Scope scope;
   model::Scenario scenario = tiny_case(c, model::ImplementationKind::paper, scope);
-  const Outcomes doubling = explored<PaperWorld>(scenario, scope);
+  const Outcomes doubling = explored<RelationWorld>(scenario, scope);
   scenario.dds.sedp.initial_acknack_interval = model::InitialAckNackInterval::constant;
-  EXPECT_NE(explored<PaperWorld>(scenario, scope).ends, doubling.ends);
+  EXPECT_NE(explored<RelationWorld>(scenario, scope).ends, doubling.ends);
 }
 
 class FastDdsRuns : public testing::TestWithParam<Case> {};
 
 TEST_P(FastDdsRuns, HaveTheOutcomesOfTheExplorer) {
   Scope scope;
-  scope.descriptors = FastDdsPacking::max_descriptors;
+  scope.descriptors = model::fastdds::default_publications;
   model::Scenario scenario = tiny_case(GetParam(), model::ImplementationKind::fastdds, scope);
   scope.leaves_within = Nanoseconds{0};
-  EXPECT_GT(runs_of<FastDdsPacking>(scenario, scope), GetParam().least_runs);
+  EXPECT_GT(expect_equal_outcomes<RelationWorld>(scenario, scope), GetParam().least_runs);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -7,9 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "checker/engines/explorer/explorer.hpp"
-#include "checker/engines/explorer/fastdds_packing.hpp"
-#include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
 #include "checker/engines/explorer/replay.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
 
@@ -39,10 +38,10 @@ Finding find(const model::Scenario& scenario, std::string_view property) {
 }
 
 SearchResult search_paper(const model::Scenario& scenario, const Scope& scope, Claim claim) {
-  PaperWorld world{scenario, scenario, scope, {}};
+  RelationWorld world{scenario, scenario, scope, {}};
   SearchOptions options;
   options.claims = bit(claim);
-  return Search<PaperWorld>{world, options}.run();
+  return Search<RelationWorld>{world, options}.run();
 }
 
 TEST(Explorer, AConstantDelayLetsNothingOvertake) {
@@ -141,18 +140,18 @@ TEST(Explorer, CompletionBoundIsAttainedButNotExceeded) {
   scope.leaves_within = scope.largest_delay;
   const auto bound = completion_bound(scenario.dds, scope);
   ASSERT_TRUE(bound);
-  PaperWorld world{scenario, scenario, scope, {}};
+  RelationWorld world{scenario, scenario, scope, {}};
   SearchOptions options;
   options.claims = bit(Claim::completion);
   options.stop_when_complete = true;
   options.bounds.completion = bound;
-  SearchResult result = Search<PaperWorld>{world, options}.run();
+  SearchResult result = Search<RelationWorld>{world, options}.run();
   EXPECT_TRUE(result.exhausted());
   EXPECT_FALSE(result.objections[static_cast<std::size_t>(Claim::completion)]);
   EXPECT_EQ(result.latest_completion, *bound);
 
   options.bounds.completion = *bound - Nanoseconds{1};
-  result = Search<PaperWorld>{world, options}.run();
+  result = Search<RelationWorld>{world, options}.run();
   const auto& path = result.objections[static_cast<std::size_t>(Claim::completion)];
   ASSERT_TRUE(path);
   const auto concrete = concrete_path(world, *path, Claim::completion, options.bounds);
@@ -196,18 +195,18 @@ TEST(Explorer, AnUnfinishedSearchSaysHowFarItCame) {
   Scope scope;
   scope.losses = 1;
   scope.largest_delay = Nanoseconds{250'000'000};
-  PaperWorld world{scenario, scenario, scope, {}};
+  RelationWorld world{scenario, scenario, scope, {}};
   SearchOptions options;
   options.claims = bit(Claim::no_stall);
   options.max_states = 2'000;
-  SearchResult result = Search<PaperWorld>{world, options}.run();
+  SearchResult result = Search<RelationWorld>{world, options}.run();
   EXPECT_EQ(result.cut_short, CutShort::by_limit);
   EXPECT_GT(result.depth, 2U);
   EXPECT_LT(result.depth, 50U);
 
   options.max_states = 1'000'000;
   options.go_on = [] { return false; };
-  result = Search<PaperWorld>{world, options}.run();
+  result = Search<RelationWorld>{world, options}.run();
   EXPECT_EQ(result.cut_short, CutShort::by_interruption);
 }
 
@@ -219,10 +218,10 @@ TEST(Explorer, WhatDoesNotFitIntoAStateIsNotOverlooked) {
   scenario.dds.sedp.initial_data = model::InitialData::pull;
   Scope scope;
   scope.least_delay = scope.largest_delay = scenario.wireless.one_way;
-  PaperWorld world{scenario, scenario, scope, {}};
+  RelationWorld world{scenario, scenario, scope, {}};
   SearchOptions options;
   options.claims = bit(Claim::no_stall);
-  const SearchResult result = Search<PaperWorld>{world, options}.run();
+  const SearchResult result = Search<RelationWorld>{world, options}.run();
   EXPECT_EQ(result.cut_short, CutShort::by_overflow);
   // Every step before has been taken, and there are no more.
   EXPECT_EQ(result.states, result.depth + 1);

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/engines/explorer/paper_packing.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
 #include "checker/engines/explorer/replay.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
 
@@ -59,10 +59,10 @@ TEST(StateGraph, TellsWhatMustHappenFromWhatCan) {
 
 /// A path in which a repair happens without a loss.
 ConcretePath some_path(const model::Scenario& scenario, const Scope& scope) {
-  PaperWorld world{scenario, scenario, scope, {}};
+  RelationWorld world{scenario, scenario, scope, {}};
   SearchOptions options;
   options.claims = bit(Claim::free_threshold);
-  const SearchResult result = Search<PaperWorld>{world, options}.run();
+  const SearchResult result = Search<RelationWorld>{world, options}.run();
   const auto& labels = result.objections[static_cast<std::size_t>(Claim::free_threshold)];
   EXPECT_TRUE(labels);
   return *concrete_path(world, *labels, Claim::free_threshold, {});

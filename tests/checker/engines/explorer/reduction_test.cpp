@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "checker/engines/explorer/fastdds_packing.hpp"
-#include "checker/engines/explorer/paper_packing.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "tests/checker/engines/explorer/enumeration.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
 
@@ -24,19 +24,18 @@ template <class World>
 class FullWorld {
  public:
   using Remembering = RememberingWorld<World>;
-  static constexpr bool sorts_slots = false;
   struct State {
-    typename Remembering::State inner;
     std::uint64_t times = 0;
+    typename Remembering::State inner;
     bool operator==(const State&) const = default;
   };
   FullWorld(World& world, Outcomes& outcomes, bool any_order)
       : inner_{world, outcomes}, any_order_{any_order} {}
 
   State start(Frame& frame) {
-    if (!any_order_) return {inner_.start(frame), 0};
+    if (!any_order_) return {0, inner_.start(frame)};
     Frame ordered = frame;
-    const State state{inner_.start(ordered), 0};
+    const State state{0, inner_.start(ordered)};
     for (unsigned k = 0; k < ordered.count(); ++k) {
       const Slot slot = ordered.slot(k);
       // Reader sides open together, as in order.
@@ -62,6 +61,8 @@ class FullWorld {
   [[nodiscard]] unsigned deliveries() const { return inner_.deliveries(); }
   [[nodiscard]] const Scope& scope() const { return inner_.scope(); }
   [[nodiscard]] const EventRules& rules() const { return inner_.rules(); }
+  [[nodiscard]] static bool sorts_slots() { return false; }
+  [[nodiscard]] std::size_t state_words() const { return 1 + inner_.state_words(); }
 
  private:
   Remembering inner_;
@@ -123,18 +124,18 @@ TEST(Reduction, CoveringAndSortingLoseNothingOfThePapersWorld) {
   const model::Scenario scenario = tiny(model::ImplementationKind::paper);
   for (const auto& [delay, losses] : {std::pair{2, 0U}, {1, 1U}}) {
     const Scope scope = two_readers(delay, losses, 1);
-    const Outcomes full = fully_explored<SharedPaperWorld>(scenario, scope, false);
+    const Outcomes full = fully_explored<RelationWorld>(scenario, scope, false);
     EXPECT_GT(full.ends.size(), 1U);
-    EXPECT_EQ(explored<SharedPaperWorld>(scenario, scope), full);
+    EXPECT_EQ(explored<RelationWorld>(scenario, scope), full);
   }
 }
 
 TEST(Reduction, CoveringAndSortingLoseNothingOfFastDdssWorld) {
   const model::Scenario scenario = tiny(model::ImplementationKind::fastdds);
-  const Scope scope = two_readers(1, 1, FastDdsPacking::max_descriptors);
-  const Outcomes full = fully_explored<SharedFastDdsWorld>(scenario, scope, false);
+  const Scope scope = two_readers(1, 1, model::fastdds::default_publications);
+  const Outcomes full = fully_explored<RelationWorld>(scenario, scope, false);
   EXPECT_GT(full.ends.size(), 1U);
-  EXPECT_EQ(explored<SharedFastDdsWorld>(scenario, scope), full);
+  EXPECT_EQ(explored<RelationWorld>(scenario, scope), full);
 }
 
 TEST(Reduction, WhichReaderOpensFirstDoesNotMatter) {
@@ -142,8 +143,8 @@ TEST(Reduction, WhichReaderOpensFirstDoesNotMatter) {
   scenario.dds.sedp.relation_opening = model::RelationOpening::each_side;
   Scope scope = two_readers(2, 0, 1);
   scope.side_by_side = true;
-  const Outcomes full = fully_explored<SharedPaperWorld>(scenario, scope, true);
-  const Outcomes reduced = explored<SharedPaperWorld>(scenario, scope);
+  const Outcomes full = fully_explored<RelationWorld>(scenario, scope, true);
+  const Outcomes reduced = explored<RelationWorld>(scenario, scope);
   EXPECT_GT(full.ends.size(), reduced.ends.size());
   EXPECT_EQ(nameless(reduced), nameless(full));
 }

@@ -6,9 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "checker/engines/explorer/explorer.hpp"
-#include "checker/engines/explorer/fastdds_packing.hpp"
-#include "checker/engines/explorer/paper_packing.hpp"
 #include "checker/engines/explorer/plan.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
 #include "fsm/composition/compositions.hpp"
 #include "fsm/composition/effect_mutation.hpp"
 #include "tests/checker/engines/explorer/walks.hpp"
@@ -126,7 +125,7 @@ TEST(SeveralReaders, ThePapersWorldDoesWhatTheSimulatorDoes) {
     scenario.dds.sedp.grouping = model::Grouping::single;
     for (Scope scope : shared_scopes(scenario, Nanoseconds{200'000'000}, 2)) {
       scope.descriptors = 2;
-      const Walks walks = walk<SharedPaperWorld>(scenario, scope);
+      const Walks walks = walk<RelationWorld>(scenario, scope);
       EXPECT_EQ(walks.refused, 0U) << to_text(scope) << ": " << walks.why;
     }
   }
@@ -136,7 +135,7 @@ TEST(SeveralReaders, FastDdssWorldDoesWhatTheSimulatorDoes) {
   model::Scenario scenario = wired(model::ImplementationKind::fastdds);
   scenario.wireless.packet_delays = {{0, Nanoseconds{0}, Nanoseconds{1}}};
   for (const Scope& scope : shared_scopes(scenario, Nanoseconds{200'000'000}, 2)) {
-    const Walks walks = walk<SharedFastDdsWorld>(scenario, scope);
+    const Walks walks = walk<RelationWorld>(scenario, scope);
     EXPECT_EQ(walks.refused, 0U) << to_text(scope) << ": " << walks.why;
   }
 }

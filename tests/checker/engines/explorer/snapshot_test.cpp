@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "checker/engines/explorer/claims.hpp"
 #include "checker/engines/explorer/explorer.hpp"
-#include "checker/engines/explorer/paper_packing.hpp"
 #include "fsm/composition/compositions.hpp"
 #include "fsm/composition/effect_mutation.hpp"
 #include "tests/checker/engines/explorer/tiny.hpp"
@@ -18,17 +18,12 @@ using model::Nanoseconds;
 using props::Finding;
 using props::VerdictKind;
 
-/// Of three descriptors the reader has the first and, if wanted, the others as well.
-PaperWorld::State with_received(Members received) {
-  PaperWorld::State state;
-  state.set<comp::X>(received);
-  return state;
-}
+/// About three descriptors, of which the reader has these.
 bool objects(const Slot& acknack, Members received, std::optional<Members> announced = {}) {
   const Scope scope;
   const EventRules rules{{}, false};
   Frame frame{scope, rules};
-  note_listed(with_received(received), frame, acknack, 3, announced);
+  object_to_listed(frame, acknack, received, 3, announced);
   return (frame.objections() & bit(Claim::snapshot)) != 0;
 }
 
@@ -52,8 +47,7 @@ TEST(ExploredSnapshot, IsWhatTheWriterTakes) {
   const Slot emitted{What::acknack, 0, 0b010};
   for (const Members taken : {Members{0b010}, Members{0b011}}) {
     Frame frame{scope, rules};
-    PaperWorld::State state;
-    note_asked(state, frame, 0, taken, emitted);
+    object_to_taken(frame, taken, emitted);
     EXPECT_EQ((frame.objections() & bit(Claim::snapshot)) != 0, taken != emitted.set);
   }
 }

@@ -2,27 +2,30 @@
 // and losses, seen by each descriptor, is a step of the system that is derived from the same rules.
 // So what it packs and schedules in its own way keeps the contracts from which proofs start.
 #include <set>
-#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "checker/engines/explorer/fastdds_packing.hpp"
-#include "checker/engines/explorer/paper_packing.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
+#include "checker/engines/explorer/slot_fields.hpp"
+#include "fsm/composition/fastdds.hpp"
+#include "fsm/composition/paper.hpp"
 #include "tests/checker/engines/tables/bridge.hpp"
 
 namespace stormproof::tables {
 namespace explored_bridge_test {
 
+using comp::fastdds::FastDds;
+using comp::paper::Paper;
 using explorer::Slot;
 using explorer::What;
 
 /// A path of the explored world, with what the systems know of the past.
-template <class Packing, unsigned readers>
 class Walk {
  public:
-  using World = explorer::RelationWorld<Packing, readers>;
-  using Composition = typename Packing::Composition;
+  using World = explorer::RelationWorld;
+  using Tag = fsm::program::Tag;
+  using Thing = fsm::program::Thing;
 
   Walk(World& world, std::mt19937_64& dice)
       : world_{world}, dice_{dice}, frame_{world.scope(), world.rules()} {
@@ -52,117 +55,88 @@ class Walk {
     note_timers(slot, scheduled);
     comp::Place place{0, slot.relation, 0};
     place.descriptor = slot.what == What::creation ? std::countr_zero(slot.set) : 0;
-    with_rule(slot.what, [&]<class Rule>() { visit(name<Rule>(), Rule::owner, place); });
+    const fsm::program::Rule* const rule = explorer::rule_of(world_.program(), slot.what);
+    if (rule != nullptr) visit(std::string{rule->name}, rule->owner, place);
     return true;
   }
 
  private:
-  template <class T>
-  static std::string name() {
-    return std::string{fsm::name_of<T>()};
+  [[nodiscard]] const Thing& thing(Tag tag) const { return world_.program().things[tag]; }
+  [[nodiscard]] explorer::Kept kept(Tag tag) const { return world_.layout().of(tag); }
+  [[nodiscard]] std::int64_t value_of(Tag tag, unsigned r, unsigned d) const {
+    const bool each = explorer::is_of_descriptors(thing(tag));
+    if (thing(tag).kind == Thing::Kind::part) return state_.at(kept(tag), r)[each ? d : 0];
+    if (!each) return state_.get<std::uint8_t>(kept(tag), r);
+    return state_.get<explorer::Members>(kept(tag), r) >> d & 1;
   }
-  template <class T, class Value>
-  void note_value(Value&& value_of) {
-    const bool each = (T::owner.indices & comp::owner::descriptor_index) != 0;
-    constexpr unsigned count = explorer::detail::is_of_readers<T> ? readers : 1;
-    for (unsigned r = 0; r < count; ++r) {
+  void note_values(Tag tag) {
+    if (!kept(tag).is_kept()) return;
+    const bool each = explorer::is_of_descriptors(thing(tag));
+    const bool of_readers = (thing(tag).owner.indices & comp::owner::peer_index) != 0;
+    for (unsigned r = 0; r < (of_readers ? world_.scope().readers : 1); ++r) {
       for (unsigned d = 0; d < (each ? world_.descriptors() : 1); ++d) {
-        seen_.values[{name<T>(), {0, static_cast<int>(r), static_cast<int>(d)}}] = value_of(d, r);
+        seen_
+            .values[{std::string{thing(tag).name}, {0, static_cast<int>(r), static_cast<int>(d)}}] =
+            value_of(tag, r, d);
       }
     }
   }
   void note_state() {
-    comp::for_each_type(typename Composition::Parts{}, [&]<class P>() {
-      if constexpr (!explorer::detail::is_among<P>(explorer::LeftOut{})) {
-        note_value<P>([&](unsigned d, unsigned r) { return state_.template state<P>(d, r); });
-      }
-    });
-    comp::for_each_type(typename Composition::State{}, [&]<class V>() {
-      if constexpr (requires { typename V::IsFlag; }) {
-        note_value<V>([&](unsigned d, unsigned r) { return state_.template get<V>(r) >> d & 1; });
-      }
-    });
+    for (const Tag part : world_.program().parts) note_values(part);
+    for (const Tag tag : world_.program().state) {
+      if (thing(tag).kind == Thing::Kind::flag) note_values(tag);
+    }
   }
   void note_timers(const Slot& due, std::size_t scheduled) {
-    comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
-      const auto key_of = [](const Slot& slot) {
-        return comp::Key{name<T>(), {0, slot.relation, 0}};
+    for (const Tag timer : world_.program().timers) {
+      const auto key_of = [&](const Slot& slot) {
+        return comp::Key{std::string{thing(timer).name}, {0, slot.relation, 0}};
       };
-      if constexpr (T::counted) {
-        seen_.pending[key_of({})] = state_.template get<T>();
-      } else {
-        if (explorer::what_of<T>() == due.what) seen_.surely_pending.erase(key_of(due));
-        for (std::size_t k = scheduled; k < log_.scheduled.size(); ++k) {
-          const Slot& started = log_.scheduled[k].slot;
-          if (explorer::what_of<T>() != started.what) continue;
-          seen_.surely_pending.insert(key_of(started));
-          seen_.started.insert(key_of(started));
-        }
+      const auto event = explorer::what_of(thing(timer));
+      if (thing(timer).counted) {
+        seen_.pending[key_of({})] =
+            kept(timer).is_kept() ? state_.get<std::uint8_t>(kept(timer)) : 0;
+        continue;
       }
-    });
-  }
-  void note(const Slot& packet) {
-    if (packet.what == What::data) note_packet<typename Composition::Data>(packet);
-    if (packet.what == What::heartbeat) note_packet<typename Composition::Heartbeat>(packet);
-    if (packet.what == What::acknack) note_packet<typename Composition::AckNack>(packet);
-  }
-  template <class P>
-  void note_packet(const Slot& packet) {
-    comp::SentPacket sent{name<P>(), {0, packet.relation, 0}, {}};
-    comp::for_each_type(typename P::Fields{}, [&]<class F>() {
-      std::uint32_t& said = sent.says[name<F>()];
-      if constexpr (std::derived_from<F, comp::PacketField>) {
-        said = packet.has(explorer::flag_of(F{})) ? 1 : 0;
-      } else if constexpr (std::is_same_v<P, comp::fastdds::Data> &&
-                           std::is_same_v<F, comp::Announces>) {
-        // Its HEARTBEAT would say it; it has none, and nobody reads it.
-        said = state_.template get<comp::fastdds::Exists>();
-      } else {
-        said = explorer::members_said<F>(packet);
+      if (event == due.what) seen_.surely_pending.erase(key_of(due));
+      for (std::size_t k = scheduled; k < log_.scheduled.size(); ++k) {
+        const Slot& started = log_.scheduled[k].slot;
+        if (event != started.what) continue;
+        seen_.surely_pending.insert(key_of(started));
+        seen_.started.insert(key_of(started));
       }
-    });
-    seen_.sent.insert(sent);
+    }
   }
-  template <class Visit>
-  static void with_rule(What what, Visit&& visit) {
-    const auto rule_for = [&]<class Trigger>() {
-      visit.template operator()<comp::RuleFor<Composition, Trigger>>();
-    };
-    using comp::Happens;
-    using comp::Received;
-    comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
-      if (explorer::what_of<T>() == what) rule_for.template operator()<comp::Due<T>>();
-    });
-    if (what == What::data) rule_for.template operator()<Received<typename Composition::Data>>();
-    if (what == What::heartbeat) {
-      rule_for.template operator()<Received<typename Composition::Heartbeat>>();
+  void note(const Slot& slot) {
+    for (const Tag packet : world_.program().packets) {
+      if (explorer::what_of_packet(world_.program(), packet) != slot.what) continue;
+      comp::SentPacket sent{std::string{thing(packet).name}, {0, slot.relation, 0}, {}};
+      for (const Tag field : thing(packet).fields) {
+        sent.says[std::string{thing(field).name}] = said(field, slot);
+      }
+      seen_.sent.insert(sent);
     }
-    if (what == What::acknack) {
-      rule_for.template operator()<Received<typename Composition::AckNack>>();
-    }
-    if (what == What::reader_opens) rule_for.template operator()<Happens<comp::ReaderOpens>>();
-    if (what == What::writer_opens) {
-      rule_for.template operator()<Happens<typename Packing::WriterOpens>>();
-    }
-    if constexpr (Packing::repairs_leave_later) {
-      if (what != What::source_completion) return;
-      rule_for.template operator()<comp::LeftSource<typename Composition::Data>>();
-    } else {
-      if (what != What::creation) return;
-      rule_for.template operator()<Happens<comp::fastdds::Created>>();
-    }
+  }
+  [[nodiscard]] std::uint32_t said(Tag tag, const Slot& packet) const {
+    const explorer::SlotField& field = explorer::slot_field(thing(tag));
+    if (field.as == explorer::Specialised::From::flag) return packet.has(field.flag) ? 1 : 0;
+    // The HEARTBEAT of DATA would say it; it has none, and nobody reads it.
+    const bool is_of_data = packet.what == What::data && field.name == "Announces";
+    if (!is_of_data) return explorer::members_said(field.as, packet);
+    return state_.get<explorer::Members>(kept(world_.program().find("Exists")));
   }
 
   World& world_;
   std::mt19937_64& dice_;
   explorer::PathLog log_;
   explorer::Frame frame_;
-  typename World::State state_;
+  World::State state_;
   comp::SmallState seen_;
 };
 
-template <class Packing, unsigned readers = 1>
-Crossing cross(const model::DdsProfile& dds, explorer::Scope scope, Unsound unsound) {
+template <class Composition>
+Crossing cross(const model::DdsProfile& dds, explorer::Scope scope, Unsound unsound,
+               unsigned readers = 1) {
   z3::context context;
   const smt::SymbolicContext current{context};
   const DescriptorSystem derived{dds, model::Mutation{}, unsound};
@@ -175,7 +149,7 @@ Crossing cross(const model::DdsProfile& dds, explorer::Scope scope, Unsound unso
   scope.leaves_within = scope.largest_delay;
   scope.side_by_side = true;
   scope.readers = readers;
-  explorer::RelationWorld<Packing, readers> world{scenario, scenario, scope, {}};
+  explorer::RelationWorld world{scenario, scenario, scope, {}};
   std::vector<comp::Place> places;
   for (unsigned it = 0; it < world.deliveries(); ++it) {
     places.push_back({0, static_cast<int>(it / world.descriptors()),
@@ -183,10 +157,10 @@ Crossing cross(const model::DdsProfile& dds, explorer::Scope scope, Unsound unso
   }
   std::mt19937_64 dice{1};
   for (unsigned walk = 0; walk < 30; ++walk) {
-    Walk<Packing, readers> path{world, dice};
+    Walk path{world, dice};
     comp::SmallState state = path.seen();
     const auto look = [&](const comp::Place& place) {
-      return seen_from<typename Packing::Composition>(state, place);
+      return seen_from<Composition>(state, place);
     };
     bridge.begin(places, look);
     for (unsigned k = 0; k < 60; ++k) {
@@ -215,8 +189,7 @@ TEST(ExploredBridge, EveryStepOfThePapersWorldIsDerived) {
   single.sedp.heartbeat_timer = model::HeartbeatTimerKind::additive;
   single.sedp.piggyback_threshold_bytes = model::Bytes{500};
   for (const model::DdsProfile& dds : {model::DdsProfile{}, single}) {
-    const Crossing crossing =
-        cross<explorer::PaperPacking>(dds, of_descriptors(2, 0), Unsound::none);
+    const Crossing crossing = cross<Paper>(dds, of_descriptors(2, 0), Unsound::none);
     EXPECT_GT(crossing.distinct, 100U);
     EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
   }
@@ -225,8 +198,7 @@ TEST(ExploredBridge, EveryStepOfThePapersWorldIsDerived) {
 TEST(ExploredBridge, EveryStepOfFastDdssWorldIsDerived) {
   model::DdsProfile dds;
   dds.implementation = model::ImplementationKind::fastdds;
-  const Crossing crossing =
-      cross<explorer::FastDdsPacking>(dds, of_descriptors(9, 2), Unsound::none);
+  const Crossing crossing = cross<FastDds>(dds, of_descriptors(9, 2), Unsound::none);
   EXPECT_GT(crossing.distinct, 100U);
   EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
 }
@@ -235,28 +207,23 @@ TEST(ExploredBridge, EveryStepWithSeveralReadersIsDerived) {
   model::DdsProfile single;
   single.sedp.grouping = model::Grouping::single;
   single.sedp.piggyback_threshold_bytes = model::Bytes{500};
-  Crossing crossing = cross<explorer::PaperPacking, 2>(single, of_descriptors(2, 0), Unsound::none);
+  Crossing crossing = cross<Paper>(single, of_descriptors(2, 0), Unsound::none, 2);
   EXPECT_GT(crossing.distinct, 100U);
   EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
   model::DdsProfile dds;
   dds.implementation = model::ImplementationKind::fastdds;
-  crossing = cross<explorer::FastDdsPacking, 2>(dds, of_descriptors(9, 2), Unsound::none);
+  crossing = cross<FastDds>(dds, of_descriptors(9, 2), Unsound::none, 2);
   EXPECT_GT(crossing.distinct, 100U);
   EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;
 }
 
 TEST(ExploredBridge, RefusesADerivationThatForgetsOthers) {
-  EXPECT_NE(first_of(cross<explorer::PaperPacking>({}, of_descriptors(2, 0),
-                                                   Unsound::packets_arrive_once)),
-            "");
-  const Crossing several =
-      cross<explorer::PaperPacking, 2>({}, of_descriptors(2, 0), Unsound::rules_for_us_only);
+  EXPECT_NE(first_of(cross<Paper>({}, of_descriptors(2, 0), Unsound::packets_arrive_once)), "");
+  const Crossing several = cross<Paper>({}, of_descriptors(2, 0), Unsound::rules_for_us_only, 2);
   EXPECT_NE(first_of(several), "");
   model::DdsProfile dds;
   dds.implementation = model::ImplementationKind::fastdds;
-  EXPECT_NE(first_of(cross<explorer::FastDdsPacking>(dds, of_descriptors(9, 2),
-                                                     Unsound::rules_for_us_only)),
-            "");
+  EXPECT_NE(first_of(cross<FastDds>(dds, of_descriptors(9, 2), Unsound::rules_for_us_only)), "");
 }
 
 }  // namespace explored_bridge_test
