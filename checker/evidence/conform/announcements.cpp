@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/static_peers.hpp"
 #include "checker/evidence/conform/words.hpp"
@@ -34,18 +35,17 @@ struct Way {
 
 class Announcements {
  public:
-  Announcements(const Dialogue& dialogue, std::size_t participant, const model::DdsProfile& dds,
-                const Bounds& bounds, Tally<fsm::Announcer>& announcer, Ledger& ledger)
-      : dialogue_{dialogue},
+  Announcements(const Context& context, std::size_t participant, Ledger& ledger)
+      : dialogue_{context.dialogue},
         participant_{participant},
-        spdp_{dds.spdp},
-        bounds_{bounds},
-        announcer_{announcer},
+        spdp_{context.dds.spdp},
+        bounds_{context.bounds},
+        announcer_{ledger.machines.fastdds.of<fsm::Announcer>()},
         ledger_{ledger} {
-    if (dds.discovery == model::Discovery::static_peers) {
-      static_peers_.emplace(dialogue, participant, dds.peer_ports, bounds);
+    if (context.dds.discovery == model::Discovery::static_peers) {
+      static_peers_.emplace(dialogue_, participant, context.dds.peer_ports, bounds_);
     }
-    for (std::size_t j = 0; j < dialogue.participants(); ++j) {
+    for (std::size_t j = 0; j < dialogue_.participants(); ++j) {
       known_since_.push_back(j == participant ? std::nullopt : known_since(j));
       if (known_since_.back()) recognitions_.push_back(*known_since_.back());
     }
@@ -420,10 +420,9 @@ class Announcements {
 
 }  // namespace
 
-std::optional<Unexplained> explain_announcements(const Dialogue& dialogue, std::size_t participant,
-                                                 const model::DdsProfile& dds, const Bounds& bounds,
-                                                 Tally<fsm::Announcer>& announcer, Ledger& ledger) {
-  return Announcements{dialogue, participant, dds, bounds, announcer, ledger}.explain();
+std::optional<Unexplained> explain_announcements(const Context& context, std::size_t participant,
+                                                 Ledger& ledger) {
+  return Announcements{context, participant, ledger}.explain();
 }
 
 }  // namespace stormproof::conform

@@ -4,15 +4,14 @@
 // peers rounds of copies take the place of multicasts (static_peers.hpp).
 #pragma once
 
+#include "checker/evidence/conform/context.hpp"
 #include "checker/evidence/conform/ledger.hpp"
-#include "fsm/announcer.hpp"
-#include "model/dds_profile.hpp"
 
 namespace stormproof::conform {
 
 /// Explains all announcements of `participant`, or returns the first that it cannot.
-[[nodiscard]] std::optional<Unexplained> explain_announcements(
-    const Dialogue& dialogue, std::size_t participant, const model::DdsProfile& dds,
-    const Bounds& bounds, Tally<fsm::Announcer>& announcer, Ledger& ledger);
+[[nodiscard]] std::optional<Unexplained> explain_announcements(const Context& context,
+                                                               std::size_t participant,
+                                                               Ledger& ledger);
 
 }  // namespace stormproof::conform

@@ -12,6 +12,7 @@
 #include "checker/evidence/conform/dialogue.hpp"
 #include "checker/evidence/conform/heartbeats.hpp"
 #include "checker/evidence/conform/ledger.hpp"
+#include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/reader_side.hpp"
 #include "checker/evidence/conform/server.hpp"
 #include "checker/evidence/conform/to_everybody.hpp"
@@ -77,7 +78,7 @@ class Check {
   /// Runs `explain` for one place and files what it finds.
   void at(const Place& place, const auto& explain) {
     PlaceResult& one = places_.try_emplace(place, PlaceResult{place}).first->second;
-    Ledger ledger{result_, one};
+    Ledger ledger{result_, one, machines_};
     if (auto fault = explain(ledger)) {
       ++one.unexplained;
       result_.unexplained.push_back(std::move(*fault));
@@ -88,10 +89,8 @@ class Check {
     if (dialogue_.server == i) return;  // it answers
     at({i, {}, capture::entity::spdp_writer}, [&](Ledger& ledger) {
       if (is_of_cyclone_) return cyclone::explain_announcements(context_, i, ledger);
-      if (has_server_) {
-        return server::explain_registration(context_, i, {announcer_, timers_}, ledger);
-      }
-      return explain_announcements(dialogue_, i, request_.dds, request_.bounds, announcer_, ledger);
+      if (has_server_) return server::explain_registration(context_, i, ledger);
+      return explain_announcements(context_, i, ledger);
     });
   }
 
@@ -103,26 +102,20 @@ class Check {
     const RelationKind kind = kind_of(dialogue_, place);
     const model::DdsProfile& dds =
         place.writer == capture::entity::spdp_writer ? announcing_ : request_.dds;
+    const Context its{dialogue_, dds, request_.bounds};
     std::set<std::size_t> to_everybody;
     if (kind == RelationKind::relay) {
-      at({place.source, {}, place.writer}, [&](Ledger& ledger) {
-        return server::explain_relay({dialogue_, dds, request_.bounds}, writer, ledger);
-      });
+      at({place.source, {}, place.writer},
+         [&](Ledger& ledger) { return server::explain_relay(its, writer, ledger); });
     } else if (kind == RelationKind::descriptors) {
-      at({place.source, {}, place.writer}, [&](Ledger& ledger) {
-        return explain_heartbeats(dialogue_, writer, dds.sedp, request_.bounds, heartbeat_timer_,
-                                  ledger);
-      });
+      at({place.source, {}, place.writer},
+         [&](Ledger& ledger) { return explain_heartbeats(its, writer, ledger); });
       to_everybody = sent_to_everybody(
           dialogue_, messages_of(dialogue_, place.source, request_.bounds), request_.bounds);
     }
     const AnnouncedSince announced = announced_since(writer);
-    WriterContext context{dialogue_,
-                          dds,
-                          request_.bounds,
-                          announced,
-                          last - first == 1 && !dialogue_.has_neighbour[place.source],
-                          to_everybody,
+    WriterContext context{its, announced,
+                          last - first == 1 && !dialogue_.has_neighbour[place.source], to_everybody,
                           request_.interrupted};
     if (kind == RelationKind::relay) {
       context.knows_readers = !dialogue_.has_neighbour[place.source];
@@ -131,26 +124,20 @@ class Check {
     for (std::size_t r = first; r < last; ++r) {
       const Relation& relation = dialogue_.relations[r];
       if (kind != RelationKind::registration) {  // that is explained by participant
-        at(relation.place, [&](Ledger& ledger) {
-          return explain_data(context, relation, changes_, timers_, ledger);
-        });
+        at(relation.place, [&](Ledger& ledger) { return explain_data(context, relation, ledger); });
       }
-      at(relation.place, [&](Ledger& ledger) {
-        return explain_reader(dialogue_, relation, dds, request_.bounds, readers_, timers_, ledger);
-      });
+      at(relation.place, [&](Ledger& ledger) { return explain_reader(its, relation, ledger); });
     }
   }
 
   void writer_of_cyclone(const WriterRelations& writer) {
     const Place place{writer.place().source, {}, writer.place().writer};
-    at(place, [&](Ledger& ledger) {
-      return cyclone::explain_heartbeats(context_, writer, cyclone_, ledger);
-    });
+    at(place,
+       [&](Ledger& ledger) { return cyclone::explain_heartbeats(context_, writer, ledger); });
     at(place, [&](Ledger& ledger) { return cyclone::explain_data(context_, writer, ledger); });
     for (const Relation* relation : writer.relations) {
-      at(relation->place, [&](Ledger& ledger) {
-        return cyclone::explain_reader(context_, *relation, cyclone_, ledger);
-      });
+      at(relation->place,
+         [&](Ledger& ledger) { return cyclone::explain_reader(context_, *relation, ledger); });
     }
   }
 
@@ -218,7 +205,8 @@ class Check {
     for (const auto& [place, one] : places_) result_.places.push_back(one);
     std::stable_sort(result_.hidden.begin(), result_.hidden.end(),
                      [](const Hidden& a, const Hidden& b) { return a.time_ns < b.time_ns; });
-    report_machines();
+    is_of_cyclone_ ? machines_.cyclone.report(result_.rows)
+                   : machines_.fastdds.report(result_.rows);
     result_.verdict = Verdict::conforms;
     if (!has_descriptor()) {
       result_.verdict = Verdict::inconclusive;
@@ -240,20 +228,6 @@ class Check {
     }
     if (!result_.unexplained.empty()) result_.verdict = Verdict::does_not_conform;
     assume();
-  }
-
-  void report_machines() {
-    if (is_of_cyclone_) {
-      cyclone_.pacer.report(result_.rows);
-      cyclone_.reader.report(result_.rows);
-      return;
-    }
-    announcer_.report(result_.rows);
-    heartbeat_timer_.report(result_.rows);
-    changes_.report(result_.rows);
-    timers_.report(result_.rows);
-    readers_.reader.report(result_.rows);
-    readers_.initial.report(result_.rows);
   }
 
   void assume() {
@@ -287,13 +261,8 @@ class Check {
   const model::DdsProfile announcing_{server::of_announcements(request_.dds)};
   Conformance result_;
   std::map<Place, PlaceResult> places_;
-  Tally<fsm::Announcer> announcer_;
-  Tally<fsm::HeartbeatTimer> heartbeat_timer_;
-  Tally<fsm::ChangeForReader> changes_;
-  Tally<fsm::SingleShot> timers_;
-  ReaderMachines readers_;
+  Machines machines_;
   const Context context_{dialogue_, request_.dds, request_.bounds};
-  cyclone::Machines cyclone_;
 };
 
 }  // namespace

@@ -11,19 +11,11 @@
 #include "checker/evidence/conform/context.hpp"
 #include "checker/evidence/conform/ledger.hpp"
 #include "checker/evidence/conform/sent_heartbeats.hpp"
-#include "fsm/cautious_reader.hpp"
-#include "fsm/heartbeat_pacer.hpp"
-#include "model/dds_profile.hpp"
 
 namespace stormproof::conform::cyclone {
 
 /// Copies of one packet leave one after the other, in less time.
 inline constexpr std::int64_t most_apart_ns = 20'000'000;
-
-struct Machines {
-  Tally<fsm::HeartbeatPacer> pacer;
-  Tally<fsm::CautiousReader> reader;
-};
 
 /// SPDP: the schedule of announcements, their copies, and replies by name.
 [[nodiscard]] std::optional<Unexplained> explain_announcements(const Context& context,
@@ -32,15 +24,14 @@ struct Machines {
 /// The HEARTBEATs of a writer.
 [[nodiscard]] std::optional<Unexplained> explain_heartbeats(const Context& context,
                                                             const WriterRelations& writer,
-                                                            Machines& machines, Ledger& ledger);
+                                                            Ledger& ledger);
 /// The DATA of a writer.
 [[nodiscard]] std::optional<Unexplained> explain_data(const Context& context,
                                                       const WriterRelations& writer,
                                                       Ledger& ledger);
 /// The ACKNACKs of a reader.
 [[nodiscard]] std::optional<Unexplained> explain_reader(const Context& context,
-                                                        const Relation& relation,
-                                                        Machines& machines, Ledger& ledger);
+                                                        const Relation& relation, Ledger& ledger);
 
 /// What a verdict by these rules does not say.
 [[nodiscard]] std::vector<std::string> assumptions(const Bounds& bounds);

@@ -8,6 +8,7 @@
 
 #include "checker/evidence/conform/cyclone.hpp"
 #include "checker/evidence/conform/cyclone_sent.hpp"
+#include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/words.hpp"
 
@@ -33,14 +34,13 @@ struct Way {
 
 class Heartbeats {
  public:
-  Heartbeats(const Context& context, const WriterRelations& writer, Machines& machines,
-             Ledger& ledger)
+  Heartbeats(const Context& context, const WriterRelations& writer, Ledger& ledger)
       : context_{context},
         bounds_{context.bounds},
         sedp_{context.dds.sedp},
         writer_{writer},
         source_{writer.place().source},
-        pacer_{machines.pacer},
+        pacer_{ledger.machines.cyclone.of<fsm::HeartbeatPacer>()},
         ledger_{ledger} {}
 
   std::optional<Unexplained> explain() {
@@ -209,8 +209,8 @@ class Heartbeats {
 }  // namespace
 
 std::optional<Unexplained> explain_heartbeats(const Context& context, const WriterRelations& writer,
-                                              Machines& machines, Ledger& ledger) {
-  return Heartbeats{context, writer, machines, ledger}.explain();
+                                              Ledger& ledger) {
+  return Heartbeats{context, writer, ledger}.explain();
 }
 
 }  // namespace stormproof::conform::cyclone

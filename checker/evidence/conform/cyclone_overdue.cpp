@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "checker/evidence/conform/cyclone_sent.hpp"
+#include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/words.hpp"
 
 namespace stormproof::conform::cyclone {

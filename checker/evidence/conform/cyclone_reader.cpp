@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "checker/evidence/conform/cyclone.hpp"
+#include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/words.hpp"
 #include "model/engine/composition_knobs.hpp"
@@ -35,12 +36,12 @@ struct Heard {
 
 class Reader {
  public:
-  Reader(const Context& context, const Relation& relation, Machines& machines, Ledger& ledger)
+  Reader(const Context& context, const Relation& relation, Ledger& ledger)
       : context_{context},
         bounds_{context.bounds},
         sedp_{context.dds.sedp},
         relation_{relation},
-        machine_{machines.reader},
+        machine_{ledger.machines.cyclone.of<Machine>()},
         ledger_{ledger} {
     for (std::size_t k = 0; k < relation.sent.size(); ++k) {
       const auto d = relation.sent[k].descriptor;
@@ -312,8 +313,8 @@ class Reader {
 }  // namespace
 
 std::optional<Unexplained> explain_reader(const Context& context, const Relation& relation,
-                                          Machines& machines, Ledger& ledger) {
-  return Reader{context, relation, machines, ledger}.explain();
+                                          Ledger& ledger) {
+  return Reader{context, relation, ledger}.explain();
 }
 
 }  // namespace stormproof::conform::cyclone

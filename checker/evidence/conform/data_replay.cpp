@@ -13,17 +13,15 @@ namespace change = fsm::change_for_reader;
 namespace {
 
 std::unique_ptr<ReplayedWriter> host_of(bool is_relay, const model::DdsProfile& dds,
-                                        std::uint32_t count, Tally<fsm::ChangeForReader>& changes,
-                                        Tally<fsm::SingleShot>& timers) {
-  if (is_relay) return std::make_unique<RelayHost>(dds, count, changes, timers);
-  return std::make_unique<WriterHost>(dds, count, changes, timers);
+                                        std::uint32_t count, Machines& machines) {
+  if (is_relay) return std::make_unique<WriterHost<FromRelay>>(dds, count, machines);
+  return std::make_unique<WriterHost<FromParticipant>>(dds, count, machines);
 }
 
 }  // namespace
 
 DataReplay::DataReplay(const WriterContext& context, const Relation& relation,
                        const std::vector<Transmission>& transmissions, std::uint32_t existing,
-                       Tally<fsm::ChangeForReader>& changes, Tally<fsm::SingleShot>& timers,
                        Ledger& ledger)
     : context_{context},
       relation_{relation},
@@ -32,7 +30,7 @@ DataReplay::DataReplay(const WriterContext& context, const Relation& relation,
       ledger_{ledger},
       count_{std::max(descriptors_of(context.dialogue, relation.place), existing)},
       is_relay_{kind_of(context.dialogue, relation.place) == RelationKind::relay},
-      host_{host_of(is_relay_, context.dds, count_, changes, timers)} {}
+      host_{host_of(is_relay_, context.dds, count_, ledger.machines)} {}
 
 const Answer* DataReplay::run(const Plan& plan, std::int64_t lag) {
   std::vector<Step> steps;

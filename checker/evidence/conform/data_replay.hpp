@@ -25,7 +25,7 @@ class DataReplay {
   /// `existing`: how many descriptors there were when the relation opened.
   DataReplay(const WriterContext& context, const Relation& relation,
              const std::vector<Transmission>& transmissions, std::uint32_t existing,
-             Tally<fsm::ChangeForReader>& changes, Tally<fsm::SingleShot>& timers, Ledger& ledger);
+             Ledger& ledger);
 
   /// Writes into the ledger what the machines confirm. Returns an ACKNACK that must have arrived
   /// and is not answered, if nothing may be lost. `lag`: from a serialization to its capture, ns.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/piggyback_budget.hpp"
 #include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/words.hpp"
@@ -30,18 +31,16 @@ struct Exchangeable {
 
 class Heartbeats {
  public:
-  Heartbeats(const Dialogue& dialogue, const WriterRelations& writer,
-             const model::SedpProfile& sedp, const Bounds& bounds,
-             Tally<fsm::HeartbeatTimer>& machine, Ledger& ledger)
-      : dialogue_{dialogue},
+  Heartbeats(const Context& context, const WriterRelations& writer, Ledger& ledger)
+      : dialogue_{context.dialogue},
         writer_{writer},
-        sedp_{sedp},
-        bounds_{bounds},
-        machine_{machine},
+        sedp_{context.dds.sedp},
+        bounds_{context.bounds},
+        machine_{ledger.machines.fastdds.of<fsm::HeartbeatTimer>()},
         ledger_{ledger},
         source_{writer.place().source},
         sent_{sent_heartbeats(writer)},
-        budget_{dialogue, writer, sedp, bounds},
+        budget_{dialogue_, writer, sedp_, bounds_},
         next_initial_(writer.relations.size()),
         is_opened_(writer.relations.size()),
         has_replied_(writer.relations.size()) {
@@ -372,11 +371,9 @@ AnnouncedSince announced_since(const WriterRelations& writer) {
   return since;
 }
 
-std::optional<Unexplained> explain_heartbeats(const Dialogue& dialogue,
-                                              const WriterRelations& writer,
-                                              const model::SedpProfile& sedp, const Bounds& bounds,
-                                              Tally<fsm::HeartbeatTimer>& timer, Ledger& ledger) {
-  return Heartbeats{dialogue, writer, sedp, bounds, timer, ledger}.explain();
+std::optional<Unexplained> explain_heartbeats(const Context& context, const WriterRelations& writer,
+                                              Ledger& ledger) {
+  return Heartbeats{context, writer, ledger}.explain();
 }
 
 }  // namespace stormproof::conform

@@ -7,8 +7,6 @@
 #include "checker/evidence/conform/ledger.hpp"
 #include "checker/evidence/conform/sent_heartbeats.hpp"
 #include "checker/evidence/conform/writer_side.hpp"
-#include "fsm/heartbeat_timer.hpp"
-#include "model/dds_profile.hpp"
 
 namespace stormproof::conform {
 
@@ -16,8 +14,8 @@ namespace stormproof::conform {
 [[nodiscard]] AnnouncedSince announced_since(const WriterRelations& writer);
 
 /// Explains all HEARTBEATs of the writer, or returns the first that it cannot.
-[[nodiscard]] std::optional<Unexplained> explain_heartbeats(
-    const Dialogue& dialogue, const WriterRelations& writer, const model::SedpProfile& sedp,
-    const Bounds& bounds, Tally<fsm::HeartbeatTimer>& timer, Ledger& ledger);
+[[nodiscard]] std::optional<Unexplained> explain_heartbeats(const Context& context,
+                                                            const WriterRelations& writer,
+                                                            Ledger& ledger);
 
 }  // namespace stormproof::conform

@@ -1,57 +1,25 @@
 // What the sides of all relations write down while they explain events: rules used, hidden events,
-// rows fired, and how much of the bounds it took. Also the way a Boost.MSM machine is stepped so
-// that the row that fired is counted.
+// rows of machines that fired, and how much of the bounds it took.
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <utility>
-#include <vector>
+#include <optional>
+#include <string_view>
 
 #include "checker/evidence/conform/conform.hpp"
 #include "checker/evidence/conform/dialogue.hpp"
-#include "fsm/stepper.hpp"
 
 namespace stormproof::conform {
 
-/// Steps machines of one kind and counts the rows that fire.
-template <class Machine>
-class Tally {
- public:
-  using Fly = fsm::Stepper<Machine>;
-
-  template <class Event>
-  typename Fly::Output step(fsm::StateId& state, const typename Fly::Input& input) {
-    fsm::RowId row = fsm::no_row;
-    const auto output = machine_.template step<Event>(state, input, row);
-    if (row != fsm::no_row) ++uses_[row];
-    return output;
-  }
-
-  void report(std::vector<RowUse>& into) const {
-    const fsm::MachineInfo info = fsm::Reflect<Machine>::info();
-    for (std::size_t k = 0; k < info.rows.size(); ++k) {
-      const fsm::RowInfo& row = info.rows[k];
-      std::string text{info.states[row.source]};
-      text += " + ";
-      text += info.events[row.event];
-      if (row.guard != "none") text += " [" + row.guard + "]";
-      if (row.action != "none") (text += " / ") += row.action;
-      (text += " → ") += info.states[row.target];
-      into.push_back({info.name, k, std::move(text), uses_[k]});
-    }
-  }
-
- private:
-  Fly machine_;
-  std::array<std::uint64_t, fsm::Reflect<Machine>::Rows::size> uses_{};
-};
+struct Machines;
 
 /// Written by one place after the other.
 struct Ledger {
   Conformance& result;
   PlaceResult& place;
+  Machines& machines;
 
   /// By a rule of which what sends is clear.
   void explained(Rule rule, std::uint64_t times = 1) {

@@ -11,17 +11,16 @@ namespace stormproof::conform {
 namespace {
 
 std::unique_ptr<ReplayedReader> host_of(RelationKind kind, const model::DdsProfile& dds,
-                                        std::uint32_t count, ReaderMachines& machines,
-                                        Tally<fsm::SingleShot>& timers) {
+                                        std::uint32_t count, Machines& machines) {
   switch (kind) {
     case RelationKind::registration:
-      return std::make_unique<LearnerHost<OfRegistration>>(dds, count, machines, timers);
+      return std::make_unique<ReaderHost<OfRegistration>>(dds, count, machines);
     case RelationKind::relay:
-      return std::make_unique<LearnerHost<OfRelay>>(dds, count, machines, timers);
+      return std::make_unique<ReaderHost<OfRelay>>(dds, count, machines);
     case RelationKind::descriptors:
       break;
   }
-  return std::make_unique<ReaderHost>(dds, count, machines, timers);
+  return std::make_unique<ReaderHost<OfDescriptors>>(dds, count, machines);
 }
 
 Rule initial_rule(RelationKind kind) {
@@ -37,14 +36,13 @@ Rule reply_rule(RelationKind kind) {
 
 }  // namespace
 
-ReaderReplay::ReaderReplay(const Dialogue& dialogue, const Relation& relation,
-                           const model::DdsProfile& dds, const Bounds& bounds,
-                           ReaderMachines& machines, Tally<fsm::SingleShot>& timers, Ledger& ledger)
+ReaderReplay::ReaderReplay(const Context& context, const Relation& relation, Ledger& ledger)
     : relation_{relation},
-      bounds_{bounds},
+      bounds_{context.bounds},
       ledger_{ledger},
-      kind_{kind_of(dialogue, relation.place)},
-      host_{host_of(kind_, dds, descriptors_of(dialogue, relation.place), machines, timers)} {}
+      kind_{kind_of(context.dialogue, relation.place)},
+      host_{host_of(kind_, context.dds, descriptors_of(context.dialogue, relation.place),
+                    ledger.machines)} {}
 
 std::int64_t ReaderReplay::open(std::int64_t now) {
   is_open_ = true;

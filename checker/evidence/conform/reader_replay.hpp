@@ -12,9 +12,7 @@ namespace stormproof::conform {
 
 class ReaderReplay {
  public:
-  ReaderReplay(const Dialogue& dialogue, const Relation& relation, const model::DdsProfile& dds,
-               const Bounds& bounds, ReaderMachines& machines, Tally<fsm::SingleShot>& timers,
-               Ledger& ledger);
+  ReaderReplay(const Context& context, const Relation& relation, Ledger& ledger);
 
   /// The reader side opens. Returns the delay until the first initial ACKNACK, ns; 0: there is
   /// none.

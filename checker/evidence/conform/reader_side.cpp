@@ -42,18 +42,16 @@ std::vector<Announcement> openings_of(const Dialogue& dialogue, const Relation& 
 
 class ReaderSide {
  public:
-  ReaderSide(const Dialogue& dialogue, const Relation& relation, const model::DdsProfile& dds,
-             const Bounds& bounds, ReaderMachines& machines, Tally<fsm::SingleShot>& timers,
-             Ledger& ledger)
-      : dialogue_{dialogue},
+  ReaderSide(const Context& context, const Relation& relation, Ledger& ledger)
+      : dialogue_{context.dialogue},
         relation_{relation},
-        sedp_{dds.sedp},
-        bounds_{bounds},
+        sedp_{context.dds.sedp},
+        bounds_{context.bounds},
         ledger_{ledger},
         sent_{relation.sent},
-        opens_itself_{kind_of(dialogue, relation.place) == RelationKind::relay},
-        openings_{openings_of(dialogue, relation)},
-        replay_{dialogue, relation, dds, bounds, machines, timers, ledger} {}
+        opens_itself_{kind_of(context.dialogue, relation.place) == RelationKind::relay},
+        openings_{openings_of(context.dialogue, relation)},
+        replay_{context, relation, ledger} {}
 
   std::optional<Unexplained> explain() {
     std::optional<std::int64_t> announced;
@@ -392,11 +390,9 @@ class ReaderSide {
 
 }  // namespace
 
-std::optional<Unexplained> explain_reader(const Dialogue& dialogue, const Relation& relation,
-                                          const model::DdsProfile& dds, const Bounds& bounds,
-                                          ReaderMachines& machines, Tally<fsm::SingleShot>& timers,
+std::optional<Unexplained> explain_reader(const Context& context, const Relation& relation,
                                           Ledger& ledger) {
-  return ReaderSide{dialogue, relation, dds, bounds, machines, timers, ledger}.explain();
+  return ReaderSide{context, relation, ledger}.explain();
 }
 
 }  // namespace stormproof::conform

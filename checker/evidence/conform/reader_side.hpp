@@ -8,23 +8,13 @@
 // a HEARTBEAT the initial ACKNACK is sent at τ_I after the relation opened, and again.
 #pragma once
 
+#include "checker/evidence/conform/context.hpp"
 #include "checker/evidence/conform/ledger.hpp"
-#include "fsm/discovery_reader.hpp"
-#include "fsm/initial_acknack.hpp"
-#include "fsm/single_shot.hpp"
-#include "model/dds_profile.hpp"
 
 namespace stormproof::conform {
 
-/// The machines of all reader sides.
-struct ReaderMachines {
-  Tally<fsm::DiscoveryReader> reader;
-  Tally<fsm::InitialAckNack> initial;
-};
-
 /// Explains all ACKNACKs of `relation`, or returns the first that it cannot.
-[[nodiscard]] std::optional<Unexplained> explain_reader(
-    const Dialogue& dialogue, const Relation& relation, const model::DdsProfile& dds,
-    const Bounds& bounds, ReaderMachines& machines, Tally<fsm::SingleShot>& timers, Ledger& ledger);
+[[nodiscard]] std::optional<Unexplained> explain_reader(const Context& context,
+                                                        const Relation& relation, Ledger& ledger);
 
 }  // namespace stormproof::conform

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 #include "checker/evidence/conform/dialogue.hpp"
 #include "fsm/stepper.hpp"
@@ -32,17 +31,9 @@ class ReplayedReader {
   virtual std::optional<MadeAckNack> attempt(std::int64_t now_ns) = 0;
   virtual std::optional<MadeAckNack> reply(std::int64_t now_ns) = 0;
   /// When the timer that was started last is due; it is forgotten with that.
-  std::optional<std::int64_t> take_reply_due() { return std::exchange(reply_due_ns_, {}); }
+  virtual std::optional<std::int64_t> take_reply_due() = 0;
   /// How long the next initial ACKNACK waits; nothing: there is none.
-  std::optional<std::int64_t> take_initial_delay() {
-    if (!std::exchange(waits_for_initial_, false)) return std::nullopt;
-    return initial_delay_ns_;
-  }
-
- protected:
-  bool waits_for_initial_ = false;
-  std::int64_t initial_delay_ns_ = 0;
-  std::optional<std::int64_t> reply_due_ns_;
+  virtual std::optional<std::int64_t> take_initial_delay() = 0;
 };
 
 class ReplayedWriter {
@@ -59,7 +50,7 @@ class ReplayedWriter {
   virtual void respond(std::int64_t now_ns) = 0;
   virtual void end_suppression(std::int64_t now_ns) = 0;
   /// In the machine ChangeForReader.
-  [[nodiscard]] virtual fsm::StateId state_of(std::uint32_t descriptor) const = 0;
+  [[nodiscard]] virtual fsm::StateId state_of(std::uint32_t descriptor) = 0;
 };
 
 }  // namespace stormproof::conform

@@ -16,16 +16,9 @@
 #include "checker/evidence/conform/context.hpp"
 #include "checker/evidence/conform/ledger.hpp"
 #include "checker/evidence/conform/sent_heartbeats.hpp"
-#include "fsm/announcer.hpp"
-#include "fsm/single_shot.hpp"
 #include "model/dds_profile.hpp"
 
 namespace stormproof::conform::server {
-
-struct Machines {
-  Tally<fsm::Announcer>& announcer;
-  Tally<fsm::SingleShot>& timers;
-};
 
 /// The profile with the delays of announcements, which are reliable, in the places of those of
 /// SEDP.
@@ -33,9 +26,7 @@ struct Machines {
 
 /// DATA(p) and HEARTBEAT(p) of a client, and that it matches its writers with the server at a tick.
 [[nodiscard]] std::optional<Unexplained> explain_registration(const Context& context,
-                                                              std::size_t client,
-                                                              const Machines& machines,
-                                                              Ledger& ledger);
+                                                              std::size_t client, Ledger& ledger);
 /// The second of these: HEARTBEAT(p) among a client's announcements to the server.
 [[nodiscard]] std::optional<Unexplained> explain_registration_heartbeats(const Context& context,
                                                                          const Relation& own,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/server.hpp"
 #include "checker/evidence/conform/server_timers.hpp"
@@ -26,13 +27,12 @@ struct Timers {
 
 class Registration {
  public:
-  Registration(const Context& context, std::size_t client, const Machines& machines, Ledger& ledger)
+  Registration(const Context& context, std::size_t client, Ledger& ledger)
       : context_{context},
         bounds_{context.bounds},
         spdp_{context.dds.spdp},
         server_{context.dds.server},
         client_{client},
-        machines_{machines},
         ledger_{ledger},
         announcements_{context.dialogue.announcements[client]} {
     for (const Relation& relation : context.dialogue.relations) {
@@ -204,6 +204,7 @@ class Registration {
   }
 
   void replay(const Timers& way) {
+    auto& announcer = ledger_.machines.fastdds.of<fsm::Announcer>();
     fsm::StateId state = Tally<fsm::Announcer>::Fly::initial;
     std::int64_t number = 0;
     for (std::size_t k = 0; k < announcements_.size(); ++k) {
@@ -211,7 +212,7 @@ class Registration {
         ledger_.explained(Rule::registration_tick);
         continue;
       }
-      const auto output = machines_.announcer.step<fsm::announcer::AnnouncementDue>(
+      const auto output = announcer.step<fsm::announcer::AnnouncementDue>(
           state, {.now = announcements_[k].time_ns,
                   .number = number++,
                   .startup = spdp_.startup_announcements,
@@ -231,7 +232,6 @@ class Registration {
   const model::SpdpProfile& spdp_;
   const model::ServerProfile& server_;
   std::size_t client_;
-  const Machines& machines_;
   Ledger& ledger_;
   const std::vector<Announcement>& announcements_;  ///< DATA(p)
   const Relation* own_ = nullptr;                   ///< announcements to the server
@@ -241,8 +241,8 @@ class Registration {
 }  // namespace
 
 std::optional<Unexplained> explain_registration(const Context& context, std::size_t client,
-                                                const Machines& machines, Ledger& ledger) {
-  return Registration{context, client, machines, ledger}.explain();
+                                                Ledger& ledger) {
+  return Registration{context, client, ledger}.explain();
 }
 
 }  // namespace stormproof::conform::server

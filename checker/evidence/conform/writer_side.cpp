@@ -19,13 +19,8 @@ constexpr std::chrono::milliseconds solver_limit{10'000};
 
 class WriterSide {
  public:
-  WriterSide(const WriterContext& context, const Relation& relation,
-             Tally<fsm::ChangeForReader>& changes, Tally<fsm::SingleShot>& timers, Ledger& ledger)
-      : context_{context},
-        relation_{relation},
-        changes_{changes},
-        timers_{timers},
-        ledger_{ledger} {}
+  WriterSide(const WriterContext& context, const Relation& relation, Ledger& ledger)
+      : context_{context}, relation_{relation}, ledger_{ledger} {}
 
   std::optional<Unexplained> explain() {
     if (relation_.sent.empty()) return std::nullopt;
@@ -178,7 +173,7 @@ class WriterSide {
   }
 
   std::optional<Unexplained> replay(const Plan& plan, std::int64_t lag) {
-    DataReplay replay{context_, relation_, transmissions_, existing_, changes_, timers_, ledger_};
+    DataReplay replay{context_, relation_, transmissions_, existing_, ledger_};
     const Answer* unanswered_one = replay.run(plan, lag);
     if (unanswered_one == nullptr) return std::nullopt;
     return unanswered(*unanswered_one);
@@ -360,8 +355,6 @@ class WriterSide {
 
   const WriterContext& context_;
   const Relation& relation_;
-  Tally<fsm::ChangeForReader>& changes_;
-  Tally<fsm::SingleShot>& timers_;
   Ledger& ledger_;
 
   std::int64_t opened_ns_ = 0;
@@ -372,9 +365,8 @@ class WriterSide {
 }  // namespace
 
 std::optional<Unexplained> explain_data(const WriterContext& context, const Relation& relation,
-                                        Tally<fsm::ChangeForReader>& changes,
-                                        Tally<fsm::SingleShot>& timers, Ledger& ledger) {
-  return WriterSide{context, relation, changes, timers, ledger}.explain();
+                                        Ledger& ledger) {
+  return WriterSide{context, relation, ledger}.explain();
 }
 
 }  // namespace stormproof::conform

@@ -8,10 +8,8 @@
 #include <set>
 #include <span>
 
+#include "checker/evidence/conform/context.hpp"
 #include "checker/evidence/conform/ledger.hpp"
-#include "fsm/change_for_reader.hpp"
-#include "fsm/single_shot.hpp"
-#include "model/dds_profile.hpp"
 
 namespace stormproof::conform {
 
@@ -19,10 +17,7 @@ namespace stormproof::conform {
 /// for each number of descriptors, when a HEARTBEAT first announced that many or more.
 using AnnouncedSince = std::map<std::uint32_t, std::int64_t>;
 
-struct WriterContext {
-  const Dialogue& dialogue;
-  const model::DdsProfile& dds;
-  const Bounds& bounds;
+struct WriterContext : Context {
   const AnnouncedSince& announced;
   /// The writer has no reader but this one and `others`, not even on its own host, so that no other
   /// request can have armed its nack response before.
@@ -39,9 +34,6 @@ struct WriterContext {
 
 /// Explains all DATA of `relation`, or returns the first that it cannot.
 [[nodiscard]] std::optional<Unexplained> explain_data(const WriterContext& context,
-                                                      const Relation& relation,
-                                                      Tally<fsm::ChangeForReader>& changes,
-                                                      Tally<fsm::SingleShot>& timers,
-                                                      Ledger& ledger);
+                                                      const Relation& relation, Ledger& ledger);
 
 }  // namespace stormproof::conform

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "checker/evidence/conform/data_replay.hpp"
+#include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/reader_replay.hpp"
 
 namespace stormproof::conform {
@@ -17,10 +18,11 @@ struct Scene {
   Relation relation{};
   model::DdsProfile dds{};
   Bounds bounds{};
+  const Context context{dialogue, dds, bounds};
   Conformance result{};
   PlaceResult place{};
-  Ledger ledger{result, place};
-  Tally<fsm::SingleShot> timers{};
+  Machines machines{};
+  Ledger ledger{result, place, machines};
 
   Scene() {
     dds.implementation = model::ImplementationKind::fastdds;
@@ -38,9 +40,7 @@ Scene replied(const std::vector<std::uint32_t>& missing, bool arrives) {
   Scene scene;
   scene.relation.sent = {{2 * ms, 0, 1, {}, Heartbeat{1, 2, 1, true, false}}};
   const Answer answer{20 * ms, 1, 0, missing, false};
-  ReaderMachines machines;
-  ReaderReplay replay{scene.dialogue, scene.relation, scene.dds,   scene.bounds,
-                      machines,       scene.timers,   scene.ledger};
+  ReaderReplay replay{scene.context, scene.relation, scene.ledger};
   replay.open(ms);
   Choice choice{1, {}, 3 * ms};
   choice.arrivals.arrived = {arrives};
@@ -76,13 +76,10 @@ void send(Scene& scene, const std::vector<std::int64_t>& times,
     plan.request.emplace_back();
     plan.to_everybody.push_back(false);
   }
-  Tally<fsm::ChangeForReader> changes;
   const AnnouncedSince announced;
   const std::set<std::size_t> to_everybody;
-  const WriterContext context{scene.dialogue, scene.dds, scene.bounds, announced, true,
-                              to_everybody,   {}};
-  DataReplay replay{context, scene.relation, transmissions, existing,
-                    changes, scene.timers,   scene.ledger};
+  const WriterContext context{scene.context, announced, true, to_everybody, {}};
+  DataReplay replay{context, scene.relation, transmissions, existing, scene.ledger};
   EXPECT_EQ(replay.run(plan, 0), nullptr);
 }
 
@@ -153,9 +150,7 @@ TEST(ReplayRules, OfAClientSayWhatItAsksTheServerFor) {
     Submessage heartbeat{2 * ms, 1, 1, {}, Heartbeat{first, 4, 1, true, false}, false, {}};
     scene.relation.sent = {told, heartbeat};
     const Answer answer{20 * ms, 2, missing.empty() ? 4 : missing.front(), missing, false};
-    ReaderMachines machines;
-    ReaderReplay replay{scene.dialogue, scene.relation, scene.dds,   scene.bounds,
-                        machines,       scene.timers,   scene.ledger};
+    ReaderReplay replay{scene.context, scene.relation, scene.ledger};
     replay.open(ms);
     Choice choice{2, {}, 3 * ms};
     choice.arrivals.arrived = {true, true};
