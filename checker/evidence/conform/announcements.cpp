@@ -12,7 +12,8 @@
 #include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/static_peers.hpp"
-#include "checker/evidence/conform/words.hpp"
+#include "checker/evidence/conform/timers.hpp"
+#include "checker/evidence/conform/ways.hpp"
 
 namespace stormproof::conform {
 
@@ -21,16 +22,19 @@ namespace {
 /// One way to explain the multicasts so far.
 struct Way {
   std::vector<bool> is_scheduled{};
-  std::int64_t due_from_ns = 0;  ///< of the next scheduled one, earliest
-  std::int64_t due_to_ns = 0;    ///< latest, if the timer is not late
-  std::int64_t nominal_ns = 0;   ///< of the next one, if nothing is ever late
-  std::int64_t worst_ns = 0;     ///< how far one was from its nominal time, at most
+  Window due{};                 ///< the next scheduled one
+  std::int64_t nominal_ns = 0;  ///< of the next one, if nothing is ever late
+  std::int64_t worst_ns = 0;    ///< how far one was from its nominal time, at most
   std::size_t resends = 0;
   /// Multicasts taken as scheduled though the first copy to somebody goes with them, as it does
   /// with a resend: of ways that are alike, those with fewer are nearer to what happened.
   std::size_t unlikely = 0;
 
   [[nodiscard]] std::size_t scheduled() const { return is_scheduled.size() - resends; }
+  [[nodiscard]] bool is_as_good_as(const Way& other) const {
+    return resends == other.resends && due.contains(other.due) && worst_ns <= other.worst_ns &&
+           unlikely <= other.unlikely;
+  }
 };
 
 class Announcements {
@@ -140,7 +144,7 @@ class Announcements {
         if (const auto resent = as_resend(way, multicasts_[k].time_ns)) next.push_back(*resent);
       }
       if (next.empty()) return unexplained(ways, multicasts_[k]);
-      ways = without_twins(std::move(next));
+      ways = best(std::move(next));
     }
     if (multicasts_.empty()) return std::nullopt;
     if (auto fault = silent(ways)) return fault;
@@ -153,19 +157,12 @@ class Announcements {
 
   /// While the participant sends anything, its announcement timer goes on.
   std::optional<Unexplained> silent(const std::vector<Way>& ways) {
-    const auto& events = dialogue_.conversation.events;
-    const capture::GuidPrefix& prefix =
-        dialogue_.conversation.topology.participants[participant_].prefix;
-    std::size_t last = events.size();
-    while (last-- > 0 &&
-           (events[last].source != prefix || events[last].time_ns > dialogue_.end_ns)) {
-    }
-    const Announcement latest{events[last].time_ns, last, {}};
+    const Announcement latest = *dialogue_.last_sign_of(participant_);
     const bool overdue = std::all_of(
         ways.begin(), ways.end(), [&](const Way& way) { return is_overdue(way, latest.time_ns); });
     if (!overdue) return std::nullopt;
     std::int64_t due = INT64_MIN;
-    for (const Way& way : ways) due = std::max(due, way.due_to_ns);
+    for (const Way& way : ways) due = std::max(due, way.due.to_ns);
     return fault(
         latest, Fault::announcement_due,
         fmt::format("the participant still sends, {} after an announcement was due",
@@ -175,21 +172,16 @@ class Announcements {
   }
 
   [[nodiscard]] std::optional<Way> on_schedule(Way way, std::int64_t time_ns) const {
-    const std::int64_t sent_from = time_ns - bounds_.most_send_lag_ns;
-    std::int64_t from = sent_from;
-    std::int64_t to = time_ns + capture_resolution_ns;
+    Window at = sent_in(bounds_, time_ns);
     if (!way.is_scheduled.empty()) {
-      from = std::max(from, way.due_from_ns);
-      to = std::min(to, way.due_to_ns + bounds_.most_lateness_ns);
-      if (from > to) return std::nullopt;
-    }
-    const std::int64_t period = period_after(way.scheduled());
-    if (!way.is_scheduled.empty()) {
+      const auto again = fired(bounds_, way.due, at);
+      if (!again) return std::nullopt;
+      at = *again;
       way.worst_ns = std::max(way.worst_ns, std::abs(time_ns - way.nominal_ns));
     }
+    const std::int64_t period = period_after(way.scheduled());
     way.nominal_ns = time_ns + period;
-    way.due_from_ns = from + period;
-    way.due_to_ns = to + period;
+    way.due = at.after(period);
     way.is_scheduled.push_back(true);
     return way;
   }
@@ -206,21 +198,7 @@ class Announcements {
   }
 
   [[nodiscard]] bool is_overdue(const Way& way, std::int64_t time_ns) const {
-    return way.due_to_ns + bounds_.most_lateness_ns < time_ns - bounds_.most_send_lag_ns;
-  }
-
-  /// Of ways with equally many resends and the same window one is enough.
-  static std::vector<Way> without_twins(std::vector<Way> ways) {
-    std::vector<Way> different;
-    for (Way& way : ways) {
-      const bool known = std::any_of(different.begin(), different.end(), [&](const Way& other) {
-        return other.resends == way.resends && other.due_from_ns <= way.due_from_ns &&
-               other.due_to_ns >= way.due_to_ns && other.worst_ns <= way.worst_ns &&
-               other.unlikely <= way.unlikely;
-      });
-      if (!known) different.push_back(std::move(way));
-    }
-    return different;
+    return conform::is_overdue(bounds_, way.due, time_ns);
   }
 
   void replay(const Way& way) {
@@ -364,7 +342,7 @@ class Announcements {
     std::int64_t due = INT64_MAX;  // of the nearest way
     for (const Way& way : ways) {
       const std::int64_t distance =
-          overdue ? one.time_ns - way.due_to_ns : way.due_from_ns - one.time_ns;
+          overdue ? one.time_ns - way.due.to_ns : way.due.from_ns - one.time_ns;
       due = std::min(due, distance);
     }
     if (overdue) {
@@ -386,20 +364,8 @@ class Announcements {
 
   Unexplained fault(const Announcement& one, Fault kind, std::string what, std::string nearest,
                     std::vector<Need> needs) {
-    constexpr std::size_t before = 8;
-    constexpr std::size_t after = 4;
-    Unexplained result{
-        one.event,        kind, ledger_.place.place, std::move(what), std::move(nearest),
-        std::move(needs), {}};
-    const auto& all = dialogue_.announcements[participant_];
-    std::size_t at = 0;
-    while (at < all.size() && all[at].event < one.event) ++at;
-    if (at == all.size() || all[at].event != one.event) result.context.push_back(one.event);
-    for (std::size_t k = at - std::min(at, before); k < std::min(at + after + 1, all.size()); ++k) {
-      result.context.push_back(all[k].event);
-    }
-    std::sort(result.context.begin(), result.context.end());
-    return result;
+    return unexplained_among(dialogue_.announcements[participant_], ledger_.place.place, one, kind,
+                             std::move(what), std::move(nearest), std::move(needs), {8, 4});
   }
 
   const Dialogue& dialogue_;

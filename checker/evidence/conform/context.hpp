@@ -1,6 +1,8 @@
 // What those need who explain each message by itself: the sorted capture, the profile, the bounds.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "checker/evidence/conform/bounds.hpp"
@@ -19,13 +21,17 @@ struct Context {
   [[nodiscard]] bool can_precede(std::int64_t cause_ns, std::int64_t time_ns) const {
     return earliest_arrival(cause_ns) <= time_ns + capture_resolution_ns;
   }
+  /// How many ACKNACKs of the relation for which `is_one` holds can have arrived before `time_ns`.
+  [[nodiscard]] std::size_t arrived(const Relation& relation, std::int64_t time_ns,
+                                    auto&& is_one) const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(relation.answers, [&](const Answer& answer) {
+          return is_one(answer) && can_precede(answer.time_ns, time_ns);
+        }));
+  }
   /// When what was captured at its source then arrives elsewhere, at the earliest.
   [[nodiscard]] std::int64_t earliest_arrival(std::int64_t captured_ns) const {
     return captured_ns + bounds.least_delay_ns - bounds.clock_error_ns;
-  }
-  /// When a timer that is due at `due_ns` has surely fired, and what it sends has been captured.
-  [[nodiscard]] std::int64_t surely_after(std::int64_t due_ns) const {
-    return due_ns + bounds.most_lateness_ns + bounds.most_send_lag_ns;
   }
 };
 

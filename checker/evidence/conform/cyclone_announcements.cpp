@@ -8,16 +8,15 @@
 
 #include "checker/evidence/conform/cyclone.hpp"
 #include "checker/evidence/conform/senders.hpp"
-#include "checker/evidence/conform/words.hpp"
+#include "checker/evidence/conform/timers.hpp"
 
 namespace stormproof::conform::cyclone {
 
 namespace {
 
-/// When a timer has fired for the last time: not before, and not after.
+/// A timer: when it has fired for the last time.
 struct Fired {
-  std::int64_t from_ns = 0;
-  std::int64_t to_ns = 0;
+  Window at{};
   std::size_t times = 0;
 };
 
@@ -48,8 +47,9 @@ class Announcements {
   std::optional<Unexplained> scheduled(const Announcement& one) {
     const bool is_first = timer_.times == 0;
     if (is_first) {
-      timer_ = {one.time_ns - (knows_somebody(one) ? longest_wait() : bounds_.most_send_lag_ns),
-                one.time_ns + capture_resolution_ns, 1};
+      timer_ = {
+          sent_within(knows_somebody(one) ? longest_wait() : bounds_.most_send_lag_ns, one.time_ns),
+          1};
     } else if (auto fault = fire(timer_, one, period())) {
       return fault;
     }
@@ -83,8 +83,8 @@ class Announcements {
     if (timer.times == 0) {
       const std::int64_t known =
           *known_since(context_.dialogue, participant_, *one.destination, bounds_);
-      timer = {std::max(known, one.time_ns - longest_wait()), one.time_ns + capture_resolution_ns,
-               1};
+      timer = {sent_within(longest_wait(), one.time_ns), 1};
+      timer.at.from_ns = std::max(known, timer.at.from_ns);
     } else if (auto fault = fire(timer, one, spdp_.directed_reply_interval.count())) {
       return fault;
     }
@@ -129,51 +129,43 @@ class Announcements {
 
   /// The timer fires again, `wait_ns` after the last time.
   std::optional<Unexplained> fire(Fired& timer, const Announcement& one, std::int64_t wait_ns) {
-    const std::int64_t from = timer.from_ns + wait_ns;
-    const std::int64_t to = timer.to_ns + wait_ns + bounds_.most_lateness_ns;
-    const std::int64_t earliest = one.time_ns - longest_wait();
-    const std::int64_t latest = one.time_ns + capture_resolution_ns;
-    if (latest < from) {
-      return fault(
-          one, Fault::announcement_extra,
-          fmt::format("announcement {} before its timer is due", duration(from - latest)),
-          fmt::format("the timer fires again after {}", duration(wait_ns)),
-          {{"send lag", bounds_.most_send_lag_ns + from - latest, bounds_.most_send_lag_ns}});
+    const Window due = timer.at.after(wait_ns);
+    const Window sent = sent_within(longest_wait(), one.time_ns);
+    if (const auto at = fired(bounds_, due, sent)) {
+      timer = {*at, timer.times + 1};
+      return std::nullopt;
     }
-    if (earliest > to) {
-      return fault(
-          one, Fault::announcement_due,
-          fmt::format("announcement {} after it was due", duration(earliest - to)),
-          fmt::format("the timer fires again after {}", duration(wait_ns)),
-          {{"lateness", bounds_.most_lateness_ns + earliest - to, bounds_.most_lateness_ns}});
+    const std::int64_t early = due.from_ns - sent.to_ns;
+    if (early > 0) {
+      return fault(one, Fault::announcement_extra,
+                   fmt::format("announcement {} before its timer is due", duration(early)),
+                   fmt::format("the timer fires again after {}", duration(wait_ns)),
+                   {{"send lag", bounds_.most_send_lag_ns + early, bounds_.most_send_lag_ns}});
     }
-    timer = {std::max(from, earliest), std::min(to, latest), timer.times + 1};
-    return std::nullopt;
+    const std::int64_t late = sent.from_ns - due.to_ns - bounds_.most_lateness_ns;
+    return fault(one, Fault::announcement_due,
+                 fmt::format("announcement {} after it was due", duration(late)),
+                 fmt::format("the timer fires again after {}", duration(wait_ns)),
+                 {{"lateness", bounds_.most_lateness_ns + late, bounds_.most_lateness_ns}});
   }
 
   /// While the participant sends anything, its timers go on.
   std::optional<Unexplained> silent() {
-    const auto& events = context_.dialogue.conversation.events;
-    const auto& self = context_.dialogue.conversation.topology.participants[participant_].prefix;
-    std::size_t last = events.size();
-    while (last-- > 0 &&
-           (events[last].source != self || events[last].time_ns > context_.dialogue.end_ns)) {
-    }
-    if (last >= events.size()) return std::nullopt;
-    const Announcement latest{events[last].time_ns, last, {}};
+    const auto latest = context_.dialogue.last_sign_of(participant_);
+    if (!latest) return std::nullopt;
     if (timer_.times > 0) {
-      if (auto fault = overdue(timer_, latest, period())) return fault;
+      if (auto fault = overdue(timer_, *latest, period())) return fault;
     }
     for (const auto& [receiver, timer] : replies_) {
       if (timer.times >= spdp_.directed_replies) continue;
-      if (auto fault = overdue(timer, latest, spdp_.directed_reply_interval.count())) return fault;
+      if (auto fault = overdue(timer, *latest, spdp_.directed_reply_interval.count())) return fault;
     }
     return std::nullopt;
   }
   std::optional<Unexplained> overdue(const Fired& timer, const Announcement& latest,
                                      std::int64_t wait_ns) {
     const std::int64_t late =
-        latest.time_ns - timer.to_ns - wait_ns - bounds_.most_lateness_ns - longest_wait();
+        latest.time_ns - timer.at.to_ns - wait_ns - bounds_.most_lateness_ns - longest_wait();
     if (late <= 0) return std::nullopt;
     return fault(latest, Fault::announcement_due,
                  fmt::format("the participant still sends, {} after an announcement was due",
@@ -189,17 +181,8 @@ class Announcements {
 
   Unexplained fault(const Announcement& one, Fault kind, std::string what, std::string nearest,
                     std::vector<Need> needs) {
-    constexpr std::size_t around = 6;
-    Unexplained result{
-        one.event,        kind,       ledger_.place.place, std::move(what), std::move(nearest),
-        std::move(needs), {one.event}};
-    std::size_t at = 0;
-    while (at < all_.size() && all_[at].event < one.event) ++at;
-    for (std::size_t k = at - std::min(at, around); k < std::min(at + around, all_.size()); ++k) {
-      if (all_[k].event != one.event) result.context.push_back(all_[k].event);
-    }
-    std::ranges::sort(result.context);
-    return result;
+    return unexplained_among(all_, ledger_.place.place, one, kind, std::move(what),
+                             std::move(nearest), std::move(needs), {6, 5});
   }
 
   const Context& context_;

@@ -106,10 +106,8 @@ class Data {
   /// How often the reader has asked for it, as far as that can have arrived.
   [[nodiscard]] std::size_t requests_of(std::size_t r, std::uint32_t d,
                                         std::int64_t time_ns) const {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(writer_.relations[r]->answers, [&](const Answer& answer) {
-          return answer.asks_for(d) && context_.can_precede(answer.time_ns, time_ns);
-        }));
+    return context_.arrived(*writer_.relations[r], time_ns,
+                            [&](const Answer& answer) { return answer.asks_for(d); });
   }
 
   const Context& context_;

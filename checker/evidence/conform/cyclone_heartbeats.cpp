@@ -10,6 +10,7 @@
 #include "checker/evidence/conform/cyclone_sent.hpp"
 #include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/senders.hpp"
+#include "checker/evidence/conform/ways.hpp"
 #include "checker/evidence/conform/words.hpp"
 
 namespace stormproof::conform::cyclone {
@@ -19,17 +20,9 @@ namespace {
 namespace pacer = fsm::heartbeat_pacer;
 using Pacer = Tally<fsm::HeartbeatPacer>;
 
-/// One way to tell answers from what the timer sent.
-struct Way {
-  std::int64_t last_ns = 0;           ///< when the timer sent for the last time, earliest
-  std::int64_t next_ns = 0;           ///< when it can send again
-  bool has_sent = false;              ///< the timer
-  std::vector<std::size_t> answered;  ///< ACKNACKs, by relation
-
-  [[nodiscard]] bool is_as_good_as(const Way& other) const {
-    return next_ns <= other.next_ns &&
-           std::ranges::equal(answered, other.answered, std::less_equal{});
-  }
+struct Way : Telling {
+  std::int64_t last_ns = 0;  ///< when the timer sent for the last time, earliest
+  bool has_sent = false;     ///< the timer
 };
 
 class Heartbeats {
@@ -64,12 +57,13 @@ class Heartbeats {
     std::vector<Way> ways{std::move(first)};
     for (const Sent& one : sent_) {
       std::vector<Way> next;
-      const bool is_answer = one.is_named() && answer(ways, one, next);
+      const bool is_answer =
+          one.is_named() && answer(ways, *one.receivers.begin(), causes_of(one), next);
       const bool is_timed = fire(ways, one, next);
       const bool is_on_write = next.empty() && one.is_with_data && !one.is_named();
       if (is_on_write) next = ways;
       if (next.empty()) return without_cause(ways, one);
-      ways = best(std::move(next));
+      ways = some(best(std::move(next)));
       if (is_answer) {
         ledger_.explained(Rule::heartbeat_answer, sends::cyclone::answer, one.events.size());
       } else if (is_timed) {
@@ -109,20 +103,11 @@ class Heartbeats {
     return first;
   }
 
-  /// By an ACKNACK of its reader that nothing has answered yet.
-  bool answer(const std::vector<Way>& ways, const Sent& one, std::vector<Way>& next) const {
-    const std::size_t r = *one.receivers.begin();
-    const auto causes = static_cast<std::size_t>(
-        std::ranges::count_if(writer_.relations[r]->answers, [&](const Answer& acknack) {
-          return (acknack.is_initial || !acknack.missing.empty()) &&
-                 context_.can_precede(acknack.time_ns, one.time_ns);
-        }));
-    for (const Way& way : ways) {
-      if (way.answered[r] >= causes) continue;
-      next.push_back(way);
-      ++next.back().answered[r];
-    }
-    return !next.empty();
+  /// How many ACKNACKs of its reader it can be the answer to.
+  [[nodiscard]] std::size_t causes_of(const Sent& one) const {
+    return context_.arrived(
+        *writer_.relations[*one.receivers.begin()], one.time_ns,
+        [](const Answer& acknack) { return acknack.is_initial || !acknack.missing.empty(); });
   }
 
   /// By the timer. Matches, DATA and requests that the capture does not show may have begun the
@@ -153,16 +138,9 @@ class Heartbeats {
     return any;
   }
 
-  static std::vector<Way> best(std::vector<Way> ways) {
-    std::vector<Way> kept;
-    for (Way& way : ways) {
-      const auto is_as_good = [&](const Way& other) { return other.is_as_good_as(way); };
-      if (std::ranges::any_of(kept, is_as_good)) continue;
-      std::erase_if(kept, [&](const Way& other) { return way.is_as_good_as(other); });
-      kept.push_back(std::move(way));
-    }
-    if (kept.size() > most_ways) return {together(kept)};
-    return kept;
+  static std::vector<Way> some(std::vector<Way> ways) {
+    if (ways.size() > most_ways) return {together(ways)};
+    return ways;
   }
   /// What any of them allows, it allows.
   static Way together(const std::vector<Way>& ways) {
@@ -181,9 +159,7 @@ class Heartbeats {
   }
 
   Unexplained without_cause(const std::vector<Way>& ways, const Sent& one) {
-    std::int64_t next = INT64_MAX;
-    for (const Way& way : ways) next = std::min(next, way.next_ns);
-    const std::int64_t early = next - one.time_ns;
+    const std::int64_t early = earliest(ways) - one.time_ns;
     return unexplained_in(
         writer_, one, Fault::heartbeat_cause,
         fmt::format("HEARTBEAT {} {} before its timer is due", one.heartbeat.count,

@@ -5,7 +5,7 @@
 
 #include "checker/evidence/conform/cyclone_sent.hpp"
 #include "checker/evidence/conform/machines.hpp"
-#include "checker/evidence/conform/words.hpp"
+#include "checker/evidence/conform/timers.hpp"
 
 namespace stormproof::conform::cyclone {
 
@@ -29,7 +29,7 @@ class Overdue {
       if (one.is_named() || one.is_multicast || one.is_with_data) continue;
       const std::int64_t interval = longest_interval_after(one);
       const std::int64_t due = one.time_ns + interval * (can_match_after(one.time_ns) ? 2 : 1);
-      const std::int64_t until = context_.surely_after(due);
+      const std::int64_t until = surely_after(bounds_, due);
       if (until >= context_.dialogue.end_ns) continue;
       // Copies of one packet are apart.
       const bool goes_on = std::ranges::any_of(sent_, [&](const Sent& other) {

@@ -7,9 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/conform/arrivals.hpp"
 #include "checker/evidence/conform/cyclone.hpp"
 #include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/senders.hpp"
+#include "checker/evidence/conform/ways.hpp"
 #include "checker/evidence/conform/words.hpp"
 #include "model/engine/composition_knobs.hpp"
 
@@ -122,7 +124,8 @@ class Reader {
       }
     }
     if (next.empty()) return without_cause(one);
-    heard_ = best(std::move(next), one);
+    note_heard(next, one);
+    heard_ = best(std::move(next));
     remember(one);
     ledger_.explained(is_reply ? Rule::acknack_reply : Rule::acknack_again, sends::cyclone::reply);
     return std::nullopt;
@@ -149,7 +152,7 @@ class Reader {
   [[nodiscard]] bool agrees(const Answer& one, const Heartbeat& heartbeat) const {
     if (one.missing.empty()) return true;
     for (std::uint32_t d = one.missing.back() + 1; d < heartbeat.announced; ++d) {
-      if (d >= one.base + bitmap_bits) break;
+      if (d >= one.base + bitmap_limit) break;
       if (!can_have(d, one.time_ns)) return false;
     }
     return true;
@@ -235,21 +238,12 @@ class Reader {
   }
 
   /// What it says that it has it has received, so far it has heard on a way that alone brought it.
-  std::vector<Heard> best(std::vector<Heard> all, const Answer& one) const {
-    Heard least;
+  void note_heard(std::vector<Heard>& all, const Answer& one) const {
+    std::size_t least = 0;
     for (std::uint32_t d = 0; d < one.base; ++d) {
-      if (by_multicast_[d]) continue;
-      least.until[0] = std::max(least.until[0], *first_data_[d]);
+      if (!by_multicast_[d]) least = std::max(least, *first_data_[d]);
     }
-    std::vector<Heard> kept;
-    for (Heard& heard : all) {
-      heard.until[0] = std::max(heard.until[0], least.until[0]);
-      const auto is_as_good = [&](const Heard& other) { return other.is_as_good_as(heard); };
-      if (std::ranges::any_of(kept, is_as_good)) continue;
-      std::erase_if(kept, [&](const Heard& other) { return heard.is_as_good_as(other); });
-      kept.push_back(heard);
-    }
-    return kept;
+    for (Heard& heard : all) heard.until[0] = std::max(heard.until[0], least);
   }
 
   void remember(const Answer& one) {
@@ -286,9 +280,6 @@ class Reader {
     return unexplained_in(relation_, one.event, kind, std::move(what), std::move(nearest),
                           std::move(needs));
   }
-
-  /// An ACKNACK lists at most so many.
-  static constexpr std::uint32_t bitmap_bits = 256;
 
   const Context& context_;
   const Bounds& bounds_;

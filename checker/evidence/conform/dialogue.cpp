@@ -255,6 +255,17 @@ std::optional<std::int64_t> Dialogue::first_announced(std::size_t from, std::siz
   return std::nullopt;
 }
 
+std::optional<Announcement> Dialogue::last_sign_of(std::size_t participant) const {
+  const auto& events = conversation.events;
+  const capture::GuidPrefix& self = conversation.topology.participants[participant].prefix;
+  for (std::size_t k = events.size(); k-- > 0;) {
+    if (events[k].source == self && events[k].time_ns <= end_ns) {
+      return Announcement{events[k].time_ns, k, {}};
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<std::int64_t> known_since(const Dialogue& dialogue, std::size_t i, std::size_t j,
                                         const Bounds& bounds) {
   const auto announced = dialogue.first_announced(j, i);

@@ -91,6 +91,8 @@ struct Dialogue {
 
   /// When `from` can have been announced to `to` first: the time of that announcement's capture.
   [[nodiscard]] std::optional<std::int64_t> first_announced(std::size_t from, std::size_t to) const;
+  /// The last thing that the participant sends: as long as it does, its timers go on.
+  [[nodiscard]] std::optional<Announcement> last_sign_of(std::size_t participant) const;
   [[nodiscard]] std::size_t participants() const { return announcements.size(); }
 };
 

@@ -8,17 +8,11 @@
 #include <fmt/format.h>
 
 #include "checker/evidence/conform/reader_replay.hpp"
-#include "checker/evidence/conform/words.hpp"
+#include "checker/evidence/conform/timers.hpp"
 
 namespace stormproof::conform {
 
 namespace {
-
-/// The instants between which something happened.
-struct Window {
-  std::int64_t from_ns = 0;
-  std::int64_t to_ns = 0;
-};
 
 /// The announcements of the writer's participant open its readers. A client opens its readers of
 /// announcements with its first own one, and the others when it matches its own writers.
@@ -93,7 +87,7 @@ class ReaderSide {
                    {{"delay", answer.time_ns - heartbeat->time_ns, bounds_.most_delay_ns}},
                    heartbeat->event);
     }
-    Window sent{answer.time_ns - bounds_.most_send_lag_ns, answer.time_ns + capture_resolution_ns};
+    const Window sent = sent_in(bounds_, answer.time_ns);
     if (!replay_.is_open()) {
       open(std::max(answer.time_ns - sedp_.initial_acknack_delay.count(), opens_from_ns_));
       if (next_delay_ns_ == 0) {
@@ -103,7 +97,7 @@ class ReaderSide {
       attempt_ = {opens_from_ns_ - bounds_.most_clock_age_ns,
                   answer.time_ns - next_delay_ns_ + capture_resolution_ns};
     }
-    const Window due{attempt_.from_ns + next_delay_ns_, attempt_.to_ns + next_delay_ns_};
+    const Window due = attempt_.after(next_delay_ns_);
     if (due.from_ns > sent.to_ns) return initial_early(answer, due.from_ns - answer.time_ns);
     const std::int64_t overdue = sent.from_ns - due.to_ns - bounds_.most_lateness_ns;
     if (attempts_ > 0 && overdue > 0) return initial_late(answer, overdue);

@@ -3,6 +3,7 @@
 // the relation, answers an initial ACKNACK, or comes from the timer of the writer, which goes to
 // all readers that lack something: all ways to tell these apart are followed at once.
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -10,20 +11,18 @@
 
 #include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/server_relay.hpp"
+#include "checker/evidence/conform/timers.hpp"
+#include "checker/evidence/conform/ways.hpp"
 
 namespace stormproof::conform::server {
 
 namespace {
 
-/// One way to tell answers from what the timer sent.
-struct Telling {
+struct Way : Telling {
   std::int64_t expired_ns = INT64_MIN;  ///< when the timer sent for the last time, earliest
-  std::int64_t next_ns = INT64_MIN;     ///< when it can send again
-  std::vector<std::size_t> answered{};  ///< initial ACKNACKs, by relation
 
-  [[nodiscard]] bool is_as_good_as(const Telling& other) const {
-    return next_ns <= other.next_ns && expired_ns == other.expired_ns &&
-           std::ranges::equal(answered, other.answered, std::less_equal{});
+  [[nodiscard]] bool is_as_good_as(const Way& other) const {
+    return expired_ns == other.expired_ns && Telling::is_as_good_as(other);
   }
 };
 
@@ -120,9 +119,9 @@ class Heartbeats {
   }
 
   std::optional<Unexplained> causes() {
-    Telling first;
+    Way first;
     first.answered.resize(relay_.relations.size());
-    std::vector<Telling> ways{std::move(first)};
+    std::vector<Way> ways{std::move(first)};
     for (const Passed& one : passed_) {
       if (!one.heartbeat) continue;
       if (!one.is_alone()) {
@@ -138,19 +137,21 @@ class Heartbeats {
     return std::nullopt;
   }
 
-  void open(std::vector<Telling>& ways, const Passed& one) {
+  void open(std::vector<Way>& ways, const Passed& one) {
     is_opened_[one.relation] = true;
     ledger_.explained(Rule::relay_open);
     // A client that nobody sees may have armed the timer before.
     if (may_be_hidden()) return;
-    for (Telling& way : ways) {
+    for (Way& way : ways) {
       if (way.next_ns == INT64_MIN) way.next_ns = earliest(one) + period_ns_;
     }
   }
 
-  std::optional<Unexplained> alone(std::vector<Telling>& ways, const Passed& one) {
-    std::vector<Telling> next;
-    const bool is_reply = answer(ways, one, next);
+  std::optional<Unexplained> alone(std::vector<Way>& ways, const Passed& one) {
+    std::vector<Way> next;
+    const std::size_t asked = context_.arrived(*relay_.relations[one.relation], one.time_ns,
+                                               std::mem_fn(&Answer::is_initial));
+    const bool is_reply = answer(ways, one.relation, asked, next);
     const bool is_expiry = expire(ways, one, next);
     if (next.empty()) return without_cause(ways, one);
     ways = best(std::move(next));
@@ -158,25 +159,9 @@ class Heartbeats {
     return std::nullopt;
   }
 
-  bool answer(const std::vector<Telling>& ways, const Passed& one,
-              std::vector<Telling>& next) const {
-    const std::size_t r = one.relation;
-    const auto asked = static_cast<std::size_t>(
-        std::ranges::count_if(relay_.relations[r]->answers, [&](const Answer& acknack) {
-          return acknack.is_initial && context_.can_precede(acknack.time_ns, one.time_ns);
-        }));
-    for (const Telling& way : ways) {
-      if (way.answered[r] >= asked) continue;
-      next.push_back(way);
-      ++next.back().answered[r];
-    }
-    return !next.empty();
-  }
-
-  bool expire(const std::vector<Telling>& ways, const Passed& one,
-              std::vector<Telling>& next) const {
+  bool expire(const std::vector<Way>& ways, const Passed& one, std::vector<Way>& next) const {
     bool any = false;
-    for (const Telling& way : ways) {
+    for (const Way& way : ways) {
       const bool is_same = way.expired_ns > INT64_MIN &&
                            one.time_ns - way.expired_ns <= 2 * bounds_.most_send_lag_ns;
       if (!is_same && way.next_ns > one.time_ns + capture_resolution_ns) continue;
@@ -189,17 +174,6 @@ class Heartbeats {
     return any;
   }
 
-  static std::vector<Telling> best(std::vector<Telling> ways) {
-    std::vector<Telling> kept;
-    for (Telling& way : ways) {
-      const auto is_as_good = [&](const Telling& other) { return other.is_as_good_as(way); };
-      if (std::ranges::any_of(kept, is_as_good)) continue;
-      std::erase_if(kept, [&](const Telling& other) { return way.is_as_good_as(other); });
-      kept.push_back(std::move(way));
-    }
-    return kept;
-  }
-
   /// A client that has acknowledged nothing of what was there when the relation opened lacks it
   /// when the timer expires, which it does within its period.
   std::optional<Unexplained> check_due(std::size_t r) const {
@@ -209,7 +183,7 @@ class Heartbeats {
     if (opening.heartbeat->announced + std::int64_t{1} == opening.heartbeat->first) {
       return std::nullopt;  // the history is empty
     }
-    const std::int64_t until = context_.surely_after(opening.time_ns + period_ns_);
+    const std::int64_t until = surely_after(bounds_, opening.time_ns + period_ns_);
     if (until >= context_.dialogue.end_ns) return std::nullopt;
     for (const Answer& answer : relation.answers) {
       if (!answer.is_initial && answer.time_ns <= until) return std::nullopt;
@@ -228,10 +202,8 @@ class Heartbeats {
         {{"lateness", {}, bounds_.most_lateness_ns}});
   }
 
-  Unexplained without_cause(const std::vector<Telling>& ways, const Passed& one) const {
-    std::int64_t next = INT64_MAX;
-    for (const Telling& way : ways) next = std::min(next, way.next_ns);
-    const std::int64_t early = next - one.time_ns;
+  Unexplained without_cause(const std::vector<Way>& ways, const Passed& one) const {
+    const std::int64_t early = conform::earliest(ways) - one.time_ns;
     return unexplained_in(
         relay_, one, one.event, Fault::heartbeat_cause,
         fmt::format("HEARTBEAT {} {} before the timer is due", one.heartbeat->count,

@@ -2,12 +2,13 @@
 // server, or comes from a timer until the server has acknowledged. All ways to tell answers from
 // what the timer sent are followed at once.
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "checker/evidence/conform/server.hpp"
-#include "checker/evidence/conform/server_timers.hpp"
+#include "checker/evidence/conform/timers.hpp"
 
 namespace stormproof::conform::server {
 
@@ -33,7 +34,7 @@ class RegistrationHeartbeats {
       if (auto fault = check(one, before)) return fault;
       if (before == nullptr) {
         if (auto fault = first(one)) return fault;
-        ways.push_back({sent_in(context_, one.time_ns).after(heartbeat_period()), true, 0});
+        ways.push_back({sent_in(context_.bounds, one.time_ns).after(heartbeat_period()), true, 0});
       } else if (auto fault = later(ways, one)) {
         return fault;
       }
@@ -78,11 +79,8 @@ class RegistrationHeartbeats {
   }
 
   std::optional<Unexplained> later(std::vector<HeartbeatWay>& ways, const Submessage& one) {
-    const Window sent = sent_in(context_, one.time_ns);
-    const auto asked =
-        static_cast<std::size_t>(std::ranges::count_if(own_.answers, [&](const Answer& answer) {
-          return answer.is_initial && context_.can_precede(answer.time_ns, one.time_ns);
-        }));
+    const Window sent = sent_in(context_.bounds, one.time_ns);
+    const std::size_t asked = context_.arrived(own_, one.time_ns, std::mem_fn(&Answer::is_initial));
     std::vector<HeartbeatWay> next;
     bool is_reply = false;
     for (HeartbeatWay way : ways) {
@@ -92,7 +90,7 @@ class RegistrationHeartbeats {
         ++next.back().answered;
         is_reply = true;
       }
-      if (const auto at = fired(context_, way.due, sent); at && way.goes_on) {
+      if (const auto at = fired(context_.bounds, way.due, sent); at && way.goes_on) {
         next.push_back(way);
         next.back().due = at->after(heartbeat_period());
       }
@@ -114,7 +112,7 @@ class RegistrationHeartbeats {
   /// Whether it can be that no other HEARTBEAT came before `time_ns`: the timer has not fired, or
   /// the server can have acknowledged by then.
   [[nodiscard]] bool skip(HeartbeatWay& way, std::int64_t time_ns) const {
-    if (!way.goes_on || context_.surely_after(way.due.to_ns) >= time_ns) return true;
+    if (!way.goes_on || !is_overdue(context_.bounds, way.due, time_ns)) return true;
     way.goes_on = false;
     return std::ranges::any_of(own_.answers, [&](const Answer& answer) {
       return !answer.is_initial &&

@@ -10,7 +10,8 @@
 #include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/server.hpp"
-#include "checker/evidence/conform/server_timers.hpp"
+#include "checker/evidence/conform/timers.hpp"
+#include "checker/evidence/conform/ways.hpp"
 
 namespace stormproof::conform::server {
 
@@ -23,6 +24,11 @@ struct Timers {
   bool ticks = true;  ///< until the writers have opened
   std::vector<bool> is_tick{};
   std::int64_t number = 0;  ///< of the next scheduled one
+
+  [[nodiscard]] bool is_as_good_as(const Timers& other) const {
+    return number == other.number && scheduled.contains(other.scheduled) &&
+           tick.contains(other.tick);
+  }
 };
 
 class Registration {
@@ -82,7 +88,7 @@ class Registration {
   }
 
   std::optional<Unexplained> announce(std::vector<Timers>& ways, const Announcement& one) {
-    const Window sent = sent_in(context_, one.time_ns);
+    const Window sent = sent_in(bounds_, one.time_ns);
     if (ways.empty()) {
       Timers first{sent.after(period_after(0)), sent.after(tick_period()), true, {false}, 1};
       ways.push_back(std::move(first));
@@ -91,19 +97,19 @@ class Registration {
     std::vector<Timers> next;
     for (const Timers& way : ways) {
       if (is_overdue(way, one.time_ns)) continue;
-      if (const auto at = fired(context_, way.scheduled, sent)) {
+      if (const auto at = fired(bounds_, way.scheduled, sent)) {
         Timers& by_schedule = next.emplace_back(way);
         by_schedule.scheduled = at->after(period_after(by_schedule.number++));
         by_schedule.is_tick.push_back(false);
       }
-      if (const auto at = fired(context_, way.tick, sent); at && way.ticks) {
+      if (const auto at = fired(bounds_, way.tick, sent); at && way.ticks) {
         Timers& by_tick = next.emplace_back(way);
         by_tick.tick = at->after(tick_period());
         by_tick.is_tick.push_back(true);
       }
     }
-    if (next.empty()) return not_in_time(ways, one.event, one.time_ns, "DATA(p)");
-    ways = without_twins(std::move(next));
+    if (next.empty()) return not_in_time(ways, one, "DATA(p)");
+    ways = best(std::move(next));
     return std::nullopt;
   }
 
@@ -118,13 +124,15 @@ class Registration {
     std::vector<Timers> next;
     for (const Timers& way : ways) {
       if (is_overdue(way, first.time_ns) ||
-          !fired(context_, way.tick, sent_in(context_, first.time_ns)))
+          !fired(bounds_, way.tick, sent_in(bounds_, first.time_ns)))
         continue;
       next.push_back(way);
       next.back().ticks = false;
     }
-    if (next.empty()) return not_in_time(ways, first.event, first.time_ns, "the writers' opening");
-    ways = without_twins(std::move(next));
+    if (next.empty()) {
+      return not_in_time(ways, {first.time_ns, first.event, {}}, "the writers' opening");
+    }
+    ways = best(std::move(next));
     return std::nullopt;
   }
   std::optional<Unexplained> opens_together() const {
@@ -141,19 +149,8 @@ class Registration {
   }
 
   [[nodiscard]] bool is_overdue(const Timers& way, std::int64_t time_ns) const {
-    return context_.surely_after(way.scheduled.to_ns) < time_ns ||
-           (way.ticks && context_.surely_after(way.tick.to_ns) < time_ns);
-  }
-  static std::vector<Timers> without_twins(std::vector<Timers> ways) {
-    std::vector<Timers> different;
-    for (Timers& way : ways) {
-      const bool is_known = std::ranges::any_of(different, [&](const Timers& other) {
-        return other.number == way.number && other.scheduled.contains(way.scheduled) &&
-               other.tick.contains(way.tick);
-      });
-      if (!is_known) different.push_back(std::move(way));
-    }
-    return different;
+    return conform::is_overdue(bounds_, way.scheduled, time_ns) ||
+           (way.ticks && conform::is_overdue(bounds_, way.tick, time_ns));
   }
   [[nodiscard]] std::int64_t period_after(std::int64_t number) const {
     return (number < spdp_.startup_announcements ? spdp_.startup_period : spdp_.period).count();
@@ -162,26 +159,21 @@ class Registration {
 
   /// While the client sends anything, its timers go on.
   std::optional<Unexplained> silent(const std::vector<Timers>& ways) const {
-    const auto& events = context_.dialogue.conversation.events;
-    const auto& self = context_.dialogue.conversation.topology.participants[client_].prefix;
-    std::size_t last = events.size();
-    while (last-- > 0 &&
-           (events[last].source != self || events[last].time_ns > context_.dialogue.end_ns)) {
-    }
-    if (last >= events.size()) return std::nullopt;
-    const auto is_late = [&](const Timers& way) { return is_overdue(way, events[last].time_ns); };
+    const auto last = context_.dialogue.last_sign_of(client_);
+    if (!last) return std::nullopt;
+    const auto is_late = [&](const Timers& way) { return is_overdue(way, last->time_ns); };
     if (!std::ranges::all_of(ways, is_late)) return std::nullopt;
-    return not_in_time(ways, last, events[last].time_ns, "the client still sends, and DATA(p)");
+    return not_in_time(ways, *last, "the client still sends, and DATA(p)");
   }
 
-  [[nodiscard]] Unexplained not_in_time(const std::vector<Timers>& ways, std::size_t event,
-                                        std::int64_t time_ns, std::string_view what) const {
+  [[nodiscard]] Unexplained not_in_time(const std::vector<Timers>& ways, const Announcement& one,
+                                        std::string_view what) const {
     std::int64_t due = INT64_MIN;
     for (const Timers& way : ways) {
       due = std::max(
           due, way.ticks ? std::min(way.scheduled.to_ns, way.tick.to_ns) : way.scheduled.to_ns);
     }
-    const std::int64_t late = time_ns - due - bounds_.most_send_lag_ns;
+    const std::int64_t late = one.time_ns - due - bounds_.most_send_lag_ns;
     const bool is_late = late > bounds_.most_lateness_ns;
     const Relation& relation = own_ != nullptr ? *own_ : *opened_.front();
     std::vector<Need> needs;
@@ -189,11 +181,11 @@ class Registration {
       needs.push_back({"lateness", late, bounds_.most_lateness_ns});
     } else {
       needs.push_back(
-          {"send lag", due - time_ns + bounds_.most_send_lag_ns, bounds_.most_send_lag_ns});
+          {"send lag", due - one.time_ns + bounds_.most_send_lag_ns, bounds_.most_send_lag_ns});
     }
     return unexplained_in(
-        relation, event, is_late ? Fault::announcement_due : Fault::announcement_extra,
-        is_late ? fmt::format("{} {} after it was due", what, duration(time_ns - due))
+        relation, one.event, is_late ? Fault::announcement_due : Fault::announcement_extra,
+        is_late ? fmt::format("{} {} after it was due", what, duration(one.time_ns - due))
                 : fmt::format("{} when neither an announcement nor a tick is due", what),
         fmt::format(
             "an announcement is due every {}, later every {}, and a tick every {} until the "

@@ -52,6 +52,22 @@ std::vector<std::size_t> context_of(const Relation& relation, std::size_t event,
   return context;
 }
 
+Unexplained unexplained_among(const std::vector<Announcement>& all, const Place& place,
+                              const Announcement& one, Fault fault, std::string what,
+                              std::string nearest, std::vector<Need> needs, Around shown) {
+  Unexplained result{one.event,        fault, place, std::move(what), std::move(nearest),
+                     std::move(needs), {}};
+  std::size_t at = 0;
+  while (at < all.size() && all[at].event < one.event) ++at;
+  if (at == all.size() || all[at].event != one.event) result.context.push_back(one.event);
+  for (std::size_t k = at - std::min(at, shown.before);
+       k < std::min(at + shown.after + 1, all.size()); ++k) {
+    result.context.push_back(all[k].event);
+  }
+  std::ranges::sort(result.context);
+  return result;
+}
+
 Unexplained unexplained_in(const Relation& relation, std::size_t event, Fault fault,
                            std::string what, std::string nearest, std::vector<Need> needs,
                            std::optional<std::size_t> cause) {

@@ -23,6 +23,17 @@ inline constexpr std::int64_t capture_resolution_ns = 1'000;
 [[nodiscard]] std::vector<std::size_t> context_of(const Relation& relation, std::size_t event,
                                                   std::optional<std::size_t> cause = {});
 
+/// How many are shown before and after one.
+struct Around {
+  std::size_t before = 0;
+  std::size_t after = 0;
+};
+/// What is wrong with one of a participant's announcements `all`, or with something else at its
+/// time.
+[[nodiscard]] Unexplained unexplained_among(const std::vector<Announcement>& all,
+                                            const Place& place, const Announcement& one,
+                                            Fault fault, std::string what, std::string nearest,
+                                            std::vector<Need> needs, Around shown);
 /// What is wrong with `event`, with the events around it and `cause`.
 [[nodiscard]] Unexplained unexplained_in(const Relation& relation, std::size_t event, Fault fault,
                                          std::string what, std::string nearest,
