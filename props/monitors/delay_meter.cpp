@@ -57,6 +57,10 @@ model::Nanoseconds DelayMeter::largest(model::Nanoseconds end) const {
   return std::max(largest_, end - under_way_.front().emitted);
 }
 
+bool takes_equal_times(const model::WirelessProfile& wireless) {
+  return wireless.kind == model::ServiceKind::constant_delay && wireless.packet_delays.empty();
+}
+
 model::Nanoseconds loopback_of(const model::Scenario& scenario) {
   const bool same_host = model::traits_of(scenario.dds).discovers_same_host;
   return same_host ? scenario.deployment.loopback_delay : model::Nanoseconds{0};

@@ -54,6 +54,9 @@ class DelayMeter {
   std::uint64_t lost_ = 0;
 };
 
+/// Every packet between two hosts takes the same time.
+[[nodiscard]] bool takes_equal_times(const model::WirelessProfile& wireless);
+
 /// How long packets within a host take; 0 where there are none.
 [[nodiscard]] model::Nanoseconds loopback_of(const model::Scenario& scenario);
 

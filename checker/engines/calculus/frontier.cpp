@@ -95,8 +95,8 @@ std::optional<std::uint32_t> common(const auto& all, const Get& get) {
 }  // namespace
 
 Frontiers frontier_of(const Scenario& scenario) {
-  const std::string_view why_not = props::applicability_of(cannot_start, scenario).why_not;
-  if (!why_not.empty()) return {why_not, {}};
+  const props::Applicability answer = props::applicability_of(cannot_start, scenario);
+  if (!answer.applies()) return {answer.why_not, {}, {}};
   const auto hosts = hosts_of(scenario);
   const auto host_count = static_cast<std::uint32_t>(hosts.size());
   const auto largest_host = static_cast<std::uint32_t>(
@@ -118,7 +118,7 @@ Frontiers frontier_of(const Scenario& scenario) {
                     .least = 2,
                     .limit = std::max(2U, most_participants / largest_host)};
   search(machines, [&](std::uint32_t load) { return with_participants(scenario, load, {}); });
-  return {{}, {endpoints, participants, machines}};
+  return {{}, answer.why_not_provable, {endpoints, participants, machines}};
 }
 
 }  // namespace stormproof::calculus

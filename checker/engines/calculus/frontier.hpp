@@ -24,6 +24,8 @@ struct Frontier {
 
 struct Frontiers {
   std::string_view why_not = {};  ///< why storm.cannot-start does not apply; then there is no list
+  /// Why nothing is proved of the scenario as it is, as a sentence; loads can differ.
+  std::string_view why_not_provable = {};
   std::vector<Frontier> of_loads = {};
 };
 

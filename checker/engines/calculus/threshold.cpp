@@ -6,16 +6,13 @@
 #include "checker/engines/timeline/free_threshold.hpp"
 #include "checker/engines/timeline/needless_repair.hpp"
 #include "model/implementations.hpp"
+#include "props/monitors/delay_meter.hpp"
 
 namespace stormproof::calculus {
 
 namespace {
 
 using model::Nanoseconds;
-
-bool takes_equal_times(const model::WirelessProfile& wireless) {
-  return wireless.kind == model::ServiceKind::constant_delay && wireless.packet_delays.empty();
-}
 
 Threshold none(std::string why) {
   Threshold threshold;
@@ -25,7 +22,7 @@ Threshold none(std::string why) {
 
 Threshold of_the_paper(const model::Scenario& scenario, const OpenLoop* traffic) {
   const model::SedpProfile& sedp = scenario.dds.sedp;
-  const bool equal = takes_equal_times(scenario.wireless);
+  const bool equal = props::takes_equal_times(scenario.wireless);
   if (sedp.relation_opening == model::RelationOpening::each_side) {
     return none("a side that opens alone drops DATA, or asks before the other side has opened");
   }
@@ -81,7 +78,9 @@ Threshold of_the_stateful(const model::Scenario& scenario, const OpenLoop* traff
 }  // namespace
 
 bool pushes_keep_order(const model::WirelessProfile& wireless, const OpenLoop* traffic) {
-  if (wireless.kind == model::ServiceKind::constant_delay) return wireless.packet_delays.empty();
+  if (wireless.kind == model::ServiceKind::constant_delay) {
+    return props::takes_equal_times(wireless);
+  }
   if (wireless.loss) return false;
   if (wireless.service == model::ServedBy::unit) {
     return wireless.queueing == model::Queueing::fifo;

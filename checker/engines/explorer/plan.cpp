@@ -10,6 +10,7 @@
 #include "model/implementations.hpp"
 #include "model/packet_sizes.hpp"
 #include "model/simulator.hpp"
+#include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 
@@ -21,8 +22,7 @@ namespace {
 
 /// Whether the wireless profile gives every packet the same delay.
 bool has_one_delay(const model::Scenario& scenario) {
-  return scenario.wireless.kind == model::ServiceKind::constant_delay &&
-         scenario.wireless.packet_delays.empty() && scenario.wireless.one_way.count() > 0;
+  return props::takes_equal_times(scenario.wireless) && scenario.wireless.one_way.count() > 0;
 }
 
 constexpr unsigned default_publications = model::fastdds::default_publications;

@@ -5,6 +5,7 @@
 #include "checker/engines/bounds/measure.hpp"
 #include "checker/engines/bounds/resting.hpp"
 #include "model/implementations.hpp"
+#include "props/monitors/delay_meter.hpp"
 
 namespace stormproof::timeline {
 
@@ -25,8 +26,7 @@ struct Question {
   }
   /// Every packet takes the same time.
   [[nodiscard]] bool has_constant_delay() const {
-    const model::WirelessProfile& wireless = request.scenario.wireless;
-    return wireless.kind == model::ServiceKind::constant_delay && wireless.packet_delays.empty();
+    return props::takes_equal_times(request.scenario.wireless);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "model/implementations.hpp"
+#include "props/monitors/delay_meter.hpp"
 
 namespace stormproof::timeline {
 namespace {
@@ -121,11 +122,9 @@ bool asks_by_itself(const model::SedpProfile& sedp) {
 std::optional<props::Counterexample> needless_repair(const model::Scenario& scenario,
                                                      std::string_view property, Nanoseconds delta) {
   const model::SedpProfile& sedp = scenario.dds.sedp;
-  const bool same_for_all = scenario.wireless.kind == model::ServiceKind::constant_delay &&
-                            scenario.wireless.packet_delays.empty();
   Setting setting = counterexample_setting(scenario);
   std::vector<Director> candidates;
-  if (same_for_all) {
+  if (props::takes_equal_times(scenario.wireless)) {
     candidates.push_back(constant(delta));
   } else if (model::traits_of(scenario.dds).writer == model::Writer::stateful) {
     add_stateful(sedp, delta, setting, candidates);

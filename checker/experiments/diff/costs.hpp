@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -31,11 +32,11 @@ struct CostAnswer {
 /// `samples` schedules; those that stay unclear get twice as many, up to `most_samples`.
 [[nodiscard]] CostAnswer compare_costs(const CostRequest& request);
 
-/// The storm-free margin of both profiles. `wireless_is_constant`: every packet of the grid takes
-/// the same time.
+/// The storm-free margin of both profiles, over the deployments of a grid: the threshold of the
+/// theorem where it is about all of them.
 [[nodiscard]] MarginComparison compare_margins(const model::DdsProfile& base,
                                                const model::DdsProfile& candidate,
-                                               bool wireless_is_constant,
+                                               std::span<const ReviewedPoint> points,
                                                const CostComparison& costs, const Policy& policy);
 
 }  // namespace stormproof::diff

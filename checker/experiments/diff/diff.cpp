@@ -65,10 +65,7 @@ class DiffStudy {
     report_.costs = answer.comparison;
     report_.interrupted = answer.interrupted;
     if (!goes_on()) return;
-    const bool constant_delay = std::ranges::all_of(grid_.points, [](const ReviewedPoint& point) {
-      return point.base.wireless.kind == model::ServiceKind::constant_delay;
-    });
-    report_.margin = compare_margins(request_.base.value, request_.candidate.value, constant_delay,
+    report_.margin = compare_margins(request_.base.value, request_.candidate.value, grid_.points,
                                      report_.costs, request_.policy);
     report_.blame = blame(report_.profiles.changes, request, answer);
     report_.interrupted = !progress("costs");

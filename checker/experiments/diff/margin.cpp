@@ -12,17 +12,34 @@
 #include "checker/presentation/text/numbers.hpp"
 #include "model/implementations.hpp"
 #include "props/applicability.hpp"
+#include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::diff {
 
 namespace {
 
-void add_threshold(const model::DdsProfile& dds, bool constant_delay, Margin& margin) {
+/// Why the theorem is not about the deployments, as a clause; empty: it is about all of them.
+std::string_view why_not(const props::Property& theorem, std::span<const ReviewedPoint> points,
+                         model::Scenario ReviewedPoint::*side) {
+  for (const ReviewedPoint& point : points) {
+    const props::Applicability answer = applicability_of(theorem, point.*side);
+    if (!answer.applies()) return answer.why_not;
+    if (!answer.why_not_provable.empty()) return answer.why_not_provable;
+  }
+  return {};
+}
+
+void add_threshold(const model::DdsProfile& dds, std::span<const ReviewedPoint> points,
+                   model::Scenario ReviewedPoint::*side, Margin& margin) {
   const model::ImplementationTraits& traits = model::traits_of(dds);
   const props::Property& threshold_exists = *props::find_property("storm.free-threshold");
   if (!applicability_of(threshold_exists, model::kind_of(dds)).applies()) {
     margin.formula = fmt::format("no theorem is about {}'s writer", traits.whose);
+    return;
+  }
+  if (const std::string_view why = why_not(threshold_exists, points, side); !why.empty()) {
+    margin.formula = fmt::format("the theorem is not about these deployments: {}", why);
     return;
   }
   if (traits.writer == model::Writer::stateful) {
@@ -30,6 +47,10 @@ void add_threshold(const model::DdsProfile& dds, bool constant_delay, Margin& ma
     margin.formula = fmt::format("{}'s shared timers leave no threshold above 0", traits.whose);
     return;
   }
+  const bool constant_delay =
+      !points.empty() && std::ranges::all_of(points, [side](const ReviewedPoint& point) {
+        return props::takes_equal_times((point.*side).wireless);
+      });
   const timeline::FreeThreshold threshold = timeline::free_threshold(dds.sedp, constant_delay);
   margin.unlimited = threshold.exists && threshold.unlimited;
   if (threshold.exists && !threshold.unlimited) margin.threshold = threshold.delta;
@@ -106,11 +127,11 @@ int compare_thresholds(const Margin& before, const Margin& after, std::string& r
 }  // namespace
 
 MarginComparison compare_margins(const model::DdsProfile& base, const model::DdsProfile& candidate,
-                                 bool wireless_is_constant, const CostComparison& costs,
+                                 std::span<const ReviewedPoint> points, const CostComparison& costs,
                                  const Policy& policy) {
   MarginComparison margins;
-  add_threshold(base, wireless_is_constant, margins.before);
-  add_threshold(candidate, wireless_is_constant, margins.after);
+  add_threshold(base, points, &ReviewedPoint::base, margins.before);
+  add_threshold(candidate, points, &ReviewedPoint::candidate, margins.after);
   add_load(costs, false, margins.before);
   add_load(costs, true, margins.after);
   const int load = compare_loads(costs, margins);

@@ -37,6 +37,10 @@ void add_frontiers(report::Document& document, const calculus::Frontiers& fronti
   }
   section.blocks.emplace_back(report::Paragraph{
       "Each kind of load alone, the rest as it is; whatever the start times are."});
+  if (!frontiers.why_not_provable.empty()) {
+    section.blocks.emplace_back(report::Paragraph{fmt::format(
+        "Of the deployment as it is nothing is proved: {}.", frontiers.why_not_provable)});
+  }
   section.blocks.emplace_back(std::move(table));
   document.blocks.emplace_back(std::move(section));
 }

@@ -227,16 +227,16 @@ TEST(Margins, AreTheHighestLoadWithoutAStorm) {
     costs.configurations.push_back(each);
   }
   const model::DdsProfile dds;
-  const MarginComparison worse = compare_margins(dds, dds, false, costs, policy());
+  const MarginComparison worse = compare_margins(dds, dds, {}, costs, policy());
   EXPECT_EQ(worse.before.load, 300U);
   EXPECT_EQ(worse.after.load, 100U);
   EXPECT_EQ(worse.judgment, Judgment::regression);
   Policy tolerant = policy();
   tolerant.margin = false;
-  EXPECT_EQ(compare_margins(dds, dds, false, costs, tolerant).judgment, Judgment::worse);
+  EXPECT_EQ(compare_margins(dds, dds, {}, costs, tolerant).judgment, Judgment::worse);
   // The same flips without a shift that is beyond chance are none.
   for (Configuration& each : costs.configurations) each.measures[3].shift->low = -5;
-  EXPECT_EQ(compare_margins(dds, dds, false, costs, policy()).judgment, Judgment::same);
+  EXPECT_EQ(compare_margins(dds, dds, {}, costs, policy()).judgment, Judgment::same);
 }
 
 TEST(Margins, ThresholdOfTheTheorem) {
@@ -244,18 +244,36 @@ TEST(Margins, ThresholdOfTheTheorem) {
   model::DdsProfile shorter = base;
   shorter.sedp.heartbeat_response_delay = model::Nanoseconds{4'000};
   const CostComparison none;
-  const MarginComparison margin = compare_margins(base, shorter, false, none, policy());
+  const MarginComparison margin = compare_margins(base, shorter, {}, none, policy());
   EXPECT_EQ(margin.before.threshold->count(), 10'000);
   EXPECT_EQ(margin.after.threshold->count(), 4'000);
   EXPECT_EQ(margin.judgment, Judgment::regression);
-  EXPECT_EQ(compare_margins(shorter, base, false, none, policy()).judgment, Judgment::better);
-  EXPECT_EQ(compare_margins(base, base, false, none, policy()).judgment, Judgment::same);
+  EXPECT_EQ(compare_margins(shorter, base, {}, none, policy()).judgment, Judgment::better);
+  EXPECT_EQ(compare_margins(base, base, {}, none, policy()).judgment, Judgment::same);
+  // It is about deployments to which it applies, and in which it is proved.
+  std::vector<ReviewedPoint> busy(2);
+  for (ReviewedPoint& point : busy) point.base.dds = base, point.candidate.dds = shorter;
+  EXPECT_TRUE(compare_margins(base, shorter, busy, none, policy()).before.threshold);
+  busy.back().base.wireless.sender = model::Sender::stalls;
+  const MarginComparison unknown = compare_margins(base, shorter, busy, none, policy());
+  EXPECT_FALSE(unknown.before.threshold);
+  EXPECT_NE(unknown.before.formula.find("sender: stalls"), std::string::npos);
+  EXPECT_TRUE(unknown.after.threshold);
+  // Delays are equal if all packets of all deployments have the same.
+  for (ReviewedPoint& point : busy) {
+    point.base.wireless = {};
+    point.base.wireless.kind = model::ServiceKind::constant_delay;
+  }
+  EXPECT_EQ(compare_margins(base, base, busy, none, policy()).before.threshold->count(),
+            70'090'000);
+  busy.front().base.wireless.packet_delays = {{0, {}, model::Nanoseconds{5}}};
+  EXPECT_EQ(compare_margins(base, base, busy, none, policy()).before.threshold->count(), 10'000);
   // A load that the runs show to be higher counts before it.
   CostComparison calmer;
   calmer.configurations.emplace_back();
   calmer.configurations[0].storm_before = true;
   calmer.configurations[0].measures[0].shift = Shift{-1, -1, -1, 1, true};
-  EXPECT_EQ(compare_margins(base, shorter, false, calmer, policy()).judgment, Judgment::better);
+  EXPECT_EQ(compare_margins(base, shorter, {}, calmer, policy()).judgment, Judgment::better);
 }
 
 }  // namespace judging_test
