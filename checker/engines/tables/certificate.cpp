@@ -17,7 +17,8 @@ Exprs holds_of(const std::vector<Clause>& clauses) {
   return all;
 }
 
-/// Of what is given, stated and found: what every step keeps, and what is stated in vain.
+/// Of what is given, stated and found: what every step keeps, and what is stated in vain. Nothing
+/// if a solver has no answer.
 struct Found {
   struct Loss {
     std::string words;
@@ -26,19 +27,20 @@ struct Found {
   std::vector<Clause> invariant;
   std::vector<Loss> lost;
 };
-Found find(Proof& proof, const Certificate& certificate) {
+std::optional<Found> find(Proof& proof, const Certificate& certificate) {
   std::vector<Clause> all = certificate.given;
   all.insert(all.end(), certificate.invariant.begin(), certificate.invariant.end());
   const std::size_t stated = all.size();
   for (const Expr& candidate : certificate.candidates) all.push_back({"found", candidate});
-  const Kept kept = houdini(proof, certificate.system, holds_of(all));
+  const std::optional<Kept> kept = houdini(proof, certificate.system, holds_of(all));
+  if (!kept) return std::nullopt;
   Found found;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (kept.kept[k]) {
+    if (kept->kept[k]) {
       found.invariant.push_back(all[k]);
     } else if (k < stated) {
       found.lost.push_back(
-          {"'" + all[k].words + "' is lost at: " + kept.lost_at[k], kept.lost_in[k]});
+          {"'" + all[k].words + "' is lost at: " + kept->lost_at[k], kept->lost_in[k]});
     }
   }
   return found;
@@ -79,14 +81,18 @@ bool conclude(Proof& proof, const Certificate& certificate, const std::vector<Cl
   bool holds = certify(proof, safe, all);
   if (!holds) proof.give_up("an invariant that was found does not pass its check");
   holds = follows(proof, certificate, all) && holds;
-  for (const auto* stated : {&certificate.invariant, &certificate.conclusions}) {
-    for (const Clause& clause : *stated) proof.detail(clause.words);
+  for (const Clause& clause : certificate.invariant) proof.detail(clause.words);
+  for (const Clause& clause : certificate.conclusions) {
+    const bool is_said = std::ranges::find(certificate.invariant, clause.words, &Clause::words) !=
+                         certificate.invariant.end();
+    if (!is_said) proof.detail(clause.words);
   }
   for (const StepClause& clause : certificate.on_steps) proof.detail(clause.words);
   smt::Claims& claims = proof.request().claims;
   if (holds && !claims.options().export_dir.empty()) {
-    claims.export_certificate(proof.property(),
-                              certificate_text(certificate, invariant, proof.property()));
+    claims.export_certificate(
+        proof.property(),
+        certificate_text(certificate, invariant, proof.property(), proof.so_far().assumptions));
   }
   return holds;
 }
@@ -97,13 +103,12 @@ std::string question_of(const Proof& proof, const Certificate& certificate,
   std::vector<Clause> all = certificate.given;
   all.insert(all.end(), certificate.invariant.begin(), certificate.invariant.end());
   for (const Expr& candidate : certificate.candidates) all.push_back({"found", candidate});
-  std::string text = certificate_text(certificate, all, proof.property()) + how;
+  std::string text =
+      certificate_text(certificate, all, proof.property(), proof.so_far().assumptions) + how;
   for (const StepClause& clause : certificate.on_steps) {
     text += "\n" + clause.step + ": " + clause.words;
   }
-  for (const auto* said : {&proof.so_far().assumptions, &proof.so_far().details}) {
-    for (const std::string& sentence : *said) text += "\n" + sentence;
-  }
+  for (const std::string& sentence : proof.so_far().details) text += "\n" + sentence;
   return text + "\n" + std::to_string(certificate.given.size()) + ", " +
          std::to_string(certificate.invariant.size());
 }
@@ -111,13 +116,14 @@ std::string question_of(const Proof& proof, const Certificate& certificate,
 }  // namespace
 
 bool prove(Proof& proof, const Certificate& certificate) {
-  const Found found = find(proof, certificate);
-  for (const Found::Loss& loss : found.lost) {
+  const std::optional<Found> found = find(proof, certificate);
+  if (!found) return false;
+  for (const Found::Loss& loss : found->lost) {
     proof.give_up(loss.words);
     proof.detail(loss.words);
     proof.detail("a state in which it is: " + loss.state);
   }
-  return conclude(proof, certificate, found.invariant);
+  return conclude(proof, certificate, found->invariant);
 }
 
 props::Finding proved(Proof& proof, const Certificate& certificate, const std::string& how) {
@@ -131,8 +137,8 @@ props::Finding proved(Proof& proof, const Certificate& certificate, const std::s
 }
 
 bool prove_if_kept(Proof& proof, const Certificate& certificate) {
-  const Found found = find(proof, certificate);
-  return found.lost.empty() && conclude(proof, certificate, found.invariant);
+  const std::optional<Found> found = find(proof, certificate);
+  return found && found->lost.empty() && conclude(proof, certificate, found->invariant);
 }
 
 props::Finding of_certificates(const checker::CheckRequest& request, const char* how,

@@ -47,10 +47,12 @@ bool prove(Proof& proof, const Certificate& certificate);
 /// step does not keep what is stated.
 [[nodiscard]] bool prove_if_kept(Proof& proof, const Certificate& certificate);
 
-/// The certificate with this invariant as SMT-LIB, to be read and checked by others.
+/// The certificate with this invariant as SMT-LIB, to be read and checked by others. It begins with
+/// what is claimed: of every state, of steps, and under which assumptions.
 [[nodiscard]] std::string certificate_text(const Certificate& certificate,
                                            const std::vector<Clause>& invariant,
-                                           std::string_view property);
+                                           std::string_view property,
+                                           const std::vector<std::string>& assumptions);
 
 /// A property that certificates make together, unless there is a reason why they say nothing of the
 /// scenario. Nothing is decided then.

@@ -25,14 +25,13 @@ std::string asserted(const Expr& condition) { return "(assert " + condition.to_s
 class Text {
  public:
   Text(const Certificate& certificate, const std::vector<Clause>& invariant,
-       std::string_view property)
+       std::string_view property, const std::vector<std::string>& assumptions)
       : certificate_{certificate}, variables_{certificate.system.variables} {
-    text_ =
-        "; certificate of " + std::string{property} +
-        ": every (check-sat) must be answered unsat\n(set-logic ALL)\n\n; any values of these\n" +
-        declared(certificate.constants);
+    text_ = "; certificate of " + std::string{property} +
+            ": every (check-sat) must be answered unsat\n" + claim(assumptions) +
+            "(set-logic ALL)\n\n; any values of these\n" + declared(certificate.constants);
     define("invariant", invariant);
-    define("conclusion", certificate.conclusions);
+    if (!certificate.conclusions.empty()) define("conclusion", certificate.conclusions);
   }
 
   std::string whole() {
@@ -48,12 +47,25 @@ class Text {
                 asserted(!with(clause.after, variables_, step.next)));
       }
     }
-    ask("the invariant implies what is claimed",
+    if (certificate_.conclusions.empty()) return std::move(text_);
+    ask("the invariant implies what is claimed of every state",
         holds("invariant", variables_) + fails("conclusion", variables_));
     return std::move(text_);
   }
 
  private:
+  /// What the file is about, for those who read it.
+  [[nodiscard]] std::string claim(const std::vector<std::string>& assumptions) const {
+    std::string text;
+    for (const std::string& one : assumptions) text += "; assumed: " + in_comment(one) + "\n";
+    for (const Clause& clause : certificate_.conclusions) {
+      text += "; claimed of every state: " + in_comment(clause.words) + "\n";
+    }
+    for (const StepClause& clause : certificate_.on_steps) {
+      text += "; claimed of the step " + clause.step + ": " + in_comment(clause.words) + "\n";
+    }
+    return text;
+  }
   void define(const std::string& name, const std::vector<Clause>& clauses) {
     text_ += "\n(define-fun " + name + " (";
     for (const Expr& variable : variables_) {
@@ -91,8 +103,9 @@ class Text {
 }  // namespace
 
 std::string certificate_text(const Certificate& certificate, const std::vector<Clause>& invariant,
-                             std::string_view property) {
-  return Text{certificate, invariant, property}.whole();
+                             std::string_view property,
+                             const std::vector<std::string>& assumptions) {
+  return Text{certificate, invariant, property, assumptions}.whole();
 }
 
 }  // namespace stormproof::tables

@@ -82,17 +82,19 @@ class Statements {
   Exprs facts_;
 };
 
-/// Which of the statements are kept together by every step; with correct rules all of them.
-std::vector<bool> kept_together(Proof& proof, const DescriptorSystem& descriptor,
-                                const Statements& statements) {
+/// Which of the statements are kept together by every step; with correct rules all of them. Nothing
+/// if a solver has no answer.
+std::optional<std::vector<bool>> kept_together(Proof& proof, const DescriptorSystem& descriptor,
+                                               const Statements& statements) {
   const Moving moving{descriptor.whole()};
   Exprs candidates = facts_of(moving.system);
   const auto add = [&](const Expr& one) { candidates.push_back(moving(one)); };
   for (const Expr& fact : statements.facts()) add(fact);
   const std::size_t facts = candidates.size();
   for (const Statement& statement : statements.list()) add(!statement.broken);
-  const std::vector<bool> kept = inductive_together(proof, moving.system, candidates);
-  return {kept.begin() + static_cast<std::ptrdiff_t>(facts), kept.end()};
+  auto kept = inductive_together(proof, moving.system, candidates);
+  if (kept) kept->erase(kept->begin(), kept->begin() + static_cast<std::ptrdiff_t>(facts));
+  return kept;
 }
 
 }  // namespace
@@ -101,7 +103,9 @@ Finding composition_pending(const CheckRequest& request) {
   Proof proof{"composition.pending", request};
   const DescriptorSystem descriptor = descriptor_system(proof);
   const Statements statements{descriptor, proof.scenario().dds};
-  const std::vector<bool> kept = kept_together(proof, descriptor, statements);
+  const std::optional<std::vector<bool>> together = kept_together(proof, descriptor, statements);
+  if (!together) return proof.finish("an invariant of all statements together was looked for");
+  const std::vector<bool>& kept = *together;
   std::string how = std::to_string(std::ranges::count(kept, true)) + " of " +
                     std::to_string(kept.size()) +
                     " statements are together an invariant: they hold initially, and every step "

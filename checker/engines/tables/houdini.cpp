@@ -21,13 +21,14 @@ class Search {
                 std::vector<std::string>(candidates.size()),
                 std::vector<std::string>(candidates.size())} {}
 
-  Kept run() {
+  std::optional<Kept> run() {
     remove("initially", {system_.initial}, candidates_);
     // One round after the other, until every step has kept all that is left since the last loss.
     const std::size_t steps = system_.steps.size();
     for (std::size_t k = 0, kept_by = 0; kept_by < steps && !stopped_; ++k) {
       kept_by = keep(k % steps) ? kept_by + 1 : 1;
     }
+    if (stopped_) return std::nullopt;
     return std::move(result_);
   }
 
@@ -110,13 +111,15 @@ Exprs facts_of(const TransitionSystem& system) {
   return facts;
 }
 
-Kept houdini(Proof& proof, const TransitionSystem& system, const Exprs& candidates) {
+std::optional<Kept> houdini(Proof& proof, const TransitionSystem& system, const Exprs& candidates) {
   return Search{proof, system, candidates}.run();
 }
 
-std::vector<bool> inductive_together(Proof& proof, const TransitionSystem& system,
-                                     const Exprs& candidates) {
-  const std::vector<bool> kept = houdini(proof, system, candidates).kept;
+std::optional<std::vector<bool>> inductive_together(Proof& proof, const TransitionSystem& system,
+                                                    const Exprs& candidates) {
+  const std::optional<Kept> found = houdini(proof, system, candidates);
+  if (!found) return std::nullopt;
+  const std::vector<bool>& kept = found->kept;
   Exprs parts;
   for (std::size_t k = 0; k < kept.size(); ++k) {
     if (kept[k]) parts.push_back(candidates[k]);

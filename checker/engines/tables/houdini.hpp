@@ -3,6 +3,7 @@
 // found.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,14 +19,18 @@ struct Kept {
 
 /// The largest set of `candidates` that hold initially and that every step keeps together. About
 /// the others that says nothing. Z3 alone looks for it: what is made of it is to be certified.
-[[nodiscard]] Kept houdini(Proof& proof, const TransitionSystem& system, const Exprs& candidates);
+/// Nothing if a solver has no answer: what it has not looked at is no invariant, and `proof` says
+/// why it has given up.
+[[nodiscard]] std::optional<Kept> houdini(Proof& proof, const TransitionSystem& system,
+                                          const Exprs& candidates);
 
 /// Candidates that need no thought: counts are not negative, and a machine is in exactly one of its
 /// states.
 [[nodiscard]] Exprs facts_of(const TransitionSystem& system);
 
-/// The largest set, which both solvers then check.
-[[nodiscard]] std::vector<bool> inductive_together(Proof& proof, const TransitionSystem& system,
-                                                   const Exprs& candidates);
+/// The largest set, which both solvers then check; nothing as above.
+[[nodiscard]] std::optional<std::vector<bool>> inductive_together(Proof& proof,
+                                                                  const TransitionSystem& system,
+                                                                  const Exprs& candidates);
 
 }  // namespace stormproof::tables

@@ -98,6 +98,7 @@ Certificate certificate_of(const RecognisingPair& pair, const StallStatement& st
   Certificate certificate{.system = what_matters(moving.system)};
   for (const Clause& clause : statement.invariant) {
     certificate.invariant.push_back({clause.words, moving(clause.holds)});
+    certificate.conclusions.push_back(certificate.invariant.back());
   }
   for (const StepClause& clause : statement.on_steps) {
     certificate.on_steps.push_back(
@@ -109,6 +110,9 @@ Certificate certificate_of(const RecognisingPair& pair, const StallStatement& st
 
 Finding decided(const CheckRequest& request) {
   Proof proof{"live.no-stall.recognition", request};
+  proof.assume(
+      "Of the announcements to one participant, which go on, some arrives; what a rule raises "
+      "happens.");
   const RecognisingPair pair{proof.scenario().dds, proof.mistakes()};
   return proved(proof, certificate_of(pair, about(pair, proof.scenario().dds)),
                 "invariant over the steps of all rules, any number of them");

@@ -2,7 +2,12 @@
 // no certificate follows a timer, and mistakes in what recognition does break it.
 #include "checker/engines/tables/no_stall.hpp"
 
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <sstream>
+
+#include <unistd.h>
 
 #include "tests/checker/engines/tables/effect_mistake.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
@@ -61,6 +66,58 @@ TEST(NoStall, MistakesInRecognitionBreakItsCertificate) {
     EXPECT_EQ(finding.kind, VerdictKind::inconclusive) << rule << ": " << what;
     EXPECT_TRUE(mentions(finding, words)) << rule << ": " << what;
   }
+}
+
+/// Whoever reads the file finds what is claimed, and nothing in it is claimed of nothing: without
+/// its invariant the question about every state has another answer.
+TEST(NoStall, TheExportSaysWhatIsClaimed) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("recognition-" + std::to_string(getpid()));
+  for (const model::Scenario& scenario : {paper(), each_side(), fastdds()}) {
+    smt::Claims claims{{.export_dir = folder.string(), .second_solver = false}};
+    const checker::CheckRequest request{.scenario = scenario, .claims = claims, .on_progress = {}};
+    EXPECT_EQ(recognition_certificate(request).kind, VerdictKind::proved);
+    std::ostringstream file;
+    file << std::ifstream{folder / "certificates" / "live.no-stall.recognition.smt2"}.rdbuf();
+    std::string text = file.str();
+    for (const char* words :
+         {"; assumed: Of the announcements to one participant, which go on, some arrives",
+          "; claimed of every state: whoever is recognised finds the reader's side opened",
+          "; claimed of the step MulticastArrives: who hears an announcement recognises its",
+          "; claimed of the step ReaderOpened: a reader's side that is opened is open"}) {
+      EXPECT_NE(text.find(words), std::string::npos) << words;
+    }
+    const auto answers = [](const std::string& questions) {
+      z3::context context;
+      return std::string{Z3_eval_smtlib2_string(context, questions.c_str())};
+    };
+    EXPECT_EQ(answers(text).find("sat"), 2U);
+    EXPECT_EQ(answers(text).find("\nsat"), std::string::npos);
+    const std::size_t last = text.rfind("(assert (invariant");
+    ASSERT_NE(last, std::string::npos);
+    text.replace(last, 8, "(assert (or true ");
+    text.insert(text.find("(assert (not (conclusion"), ")");
+    EXPECT_TRUE(answers(text).ends_with("\nsat\n")) << answers(text);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+/// A solver that is stopped while it looks for an invariant leaves candidates that it has not
+/// looked at. Nobody takes them for one: there is no answer, and no contradiction.
+TEST(NoStall, ASolverThatIsStoppedMakesNoDispute) {
+  std::size_t unanswered = 0;
+  for (const unsigned budget : {1'000U, 10'000U, 50'000U, 200'000U}) {
+    for (const char* property :
+         {"live.no-stall", "composition.pending", "safety.ack-implies-received"}) {
+      smt::Options options{.second_solver = false};
+      options.budget.z3 = budget;
+      const Finding finding = decide(property, paper(), nullptr, options);
+      EXPECT_NE(finding.kind, VerdictKind::disputed) << property << ", " << budget << finding.how;
+      EXPECT_EQ(finding.how.find("disputed"), std::string::npos) << finding.how;
+      if (finding.how.find("in the search for an invariant") != std::string::npos) ++unanswered;
+    }
+  }
+  EXPECT_GT(unanswered, 0U) << "no solver was stopped";
 }
 
 /// Several properties take something from one certificate: it is decided once.
