@@ -31,6 +31,9 @@ struct Judged {
 };
 [[nodiscard]] Judged judge(const model::Scenario& scenario, const Omission& omission = {});
 
+/// "no packet is lost", and if the scenario loses some, that nothing is said of its own run.
+[[nodiscard]] std::string without_losses(const model::Scenario& scenario);
+
 /// The lemmas that the deployment's threshold needs, for all timers, delays and loads.
 void prove_lemmas(timeline::Theorem& theorem, Lemma lemma);
 /// The numbers of this deployment: the work of a busy period of this length does not exceed it.

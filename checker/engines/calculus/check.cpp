@@ -70,10 +70,13 @@ void add_load(const Judged& judged, props::Finding& finding) {
   } else if (!judged.traffic) {
     finding.details.push_back("no packet takes longer than " + time_text(*judged.delay));
   } else {
-    finding.details.push_back(
-        fmt::format("no packet of the open-loop traffic takes longer than {}, the longest busy "
-                    "period of the channel",
-                    time_text(*judged.busy)));
+    const bool is_local = *judged.delay > *judged.busy;
+    finding.details.push_back(fmt::format(
+        "no packet of the open-loop traffic takes longer than {}, {}", time_text(*judged.delay),
+        is_local ? fmt::format("as long as on the same host (loopback_delay); the longest busy "
+                               "period of the channel is {}",
+                               time_text(*judged.busy))
+                 : std::string{"the longest busy period of the channel"}));
     finding.details.push_back("  its work: " +
                               parts_text(*judged.traffic, *judged.busy, *judged.delay));
   }
@@ -136,7 +139,7 @@ props::Finding decide(const checker::CheckRequest& request, LazyLoop& loop) {
   }
   props::Finding finding = theorem.finish(sentence(judged));
   finding.engine = props::name_of(props::Engine::calculus);
-  finding.assumptions = {"no packet is lost", "start times may be any"};
+  finding.assumptions = {without_losses(request.scenario), "start times may be any"};
   if (judged.traffic) {
     finding.assumptions.emplace_back(
         "the channel never pauses while something waits for it "
@@ -180,6 +183,15 @@ Judged judge(const model::Scenario& scenario, const Omission& omission) {
     }
   }
   return judged;
+}
+
+std::string without_losses(const model::Scenario& scenario) {
+  const std::size_t lost = scenario.wireless.lost_packets.size();
+  if (lost == 0) return "no packet is lost";
+  return fmt::format(
+      "no packet is lost, so nothing is said of the scenario's own run, which is to lose {} "
+      "(wireless.lost_packets)",
+      lost);
 }
 
 checker::Findings check(std::span<const std::string_view> properties,

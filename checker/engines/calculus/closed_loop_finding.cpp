@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "checker/engines/bounds/resting.hpp"
+#include "checker/engines/calculus/cannot_start.hpp"
 #include "checker/engines/calculus/closed_loop.hpp"
 #include "checker/engines/tables/completion_certificate.hpp"
 #include "checker/engines/timeline/quiescence.hpp"
@@ -31,7 +32,7 @@ props::Finding closed_loop_certificate(const ClosedLoop& loop,
     prove_closed_loop(theorem, loop);
     props::Finding finding = theorem.finish("the least delay that suffices for its own load");
     finding.engine = props::name_of(props::Engine::calculus);
-    finding.assumptions = {"no packet is lost", "start times may be any",
+    finding.assumptions = {without_losses(request.scenario), "start times may be any",
                            "the bound of the rules, at Δ = D*"};
     if (loop.busy) {
       finding.assumptions.emplace_back(

@@ -1,9 +1,12 @@
 // The verdict about a deployment: proved, missed and by how much, and how it depends on the
 // profile.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "checker/engines/calculus/calculus.hpp"
 #include "checker/engines/calculus/cannot_start.hpp"
+#include "props/monitors/describe.hpp"
 #include "tests/checker/engines/timeline/requests.hpp"
 
 namespace stormproof::calculus {
@@ -34,6 +37,41 @@ TEST(CannotStart, IsProvedFromTheDeploymentAlone) {
   EXPECT_EQ(finding.engine, "network calculus");
   EXPECT_NE(finding.how.find("open-loop packets take at most 19.69"), std::string::npos)
       << finding.how;
+}
+
+bool says(const std::vector<std::string>& lines, std::string_view text) {
+  return std::ranges::any_of(
+      lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+}
+
+/// A scenario that loses packets has no run of which it is true.
+TEST(CannotStart, SaysThatItIsAboutNoRunThatLosesSomething) {
+  model::Scenario scenario = patient_scenario();
+  EXPECT_FALSE(says(finding_about(scenario).assumptions, "lost_packets"));
+  scenario.wireless.lost_packets = {4, 5, 6, 7};
+  const props::Finding finding = finding_about(scenario);
+  EXPECT_EQ(finding.kind, VerdictKind::proved);
+  EXPECT_TRUE(says(finding.assumptions,
+                   "nothing is said of the scenario's own run, which is to "
+                   "lose 4 (wireless.lost_packets)"));
+  for (const char* property : {"live.completion", "live.quiescence"}) {
+    const props::Finding closed = timeline::finding_by(check, property, scenario);
+    if (closed.assumptions.empty()) continue;
+    EXPECT_TRUE(says(closed.assumptions, "which is to lose 4")) << property;
+  }
+}
+
+/// What is said of the longest packet is what the verdict compares.
+TEST(CannotStart, ThePacketsOfAHostCountIfTheyTakeLonger) {
+  model::Scenario scenario = patient_scenario();
+  scenario.dds.implementation = model::ImplementationKind::fastdds;
+  scenario.dds.sedp.nack_response_delay = Nanoseconds{1'000'000};
+  scenario.deployment.loopback_delay = Nanoseconds{400'000'000};
+  ASSERT_GT(*judge(scenario).delay, *judge(scenario).busy);
+  const props::Finding finding = finding_about(scenario);
+  EXPECT_TRUE(says(finding.details, "takes longer than 400 ms, as long as on the same host"));
+  EXPECT_FALSE(
+      says(finding.details, "takes longer than " + props::time_text(*judge(scenario).busy)));
 }
 
 TEST(CannotStart, OneNanosecondDecides) {
