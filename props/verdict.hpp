@@ -49,6 +49,8 @@ struct Finding {
   std::string engine;  ///< "tables", "explorer", "timelines", …: `name_of(Engine)`
   std::string how;     ///< method and bounds, one sentence
   std::vector<std::string> assumptions;  ///< one sentence each
+  /// It is established if no packet takes longer; absent: whatever packets take.
+  std::optional<model::Nanoseconds> longest_delay;
   std::vector<std::string> details;  ///< invariants, matrices, witnesses, numbers; lines of text
   double seconds = 0;
   std::string solver;  ///< for example "z3 4.8.12 + cvc5 1.0.3"; empty if none was asked

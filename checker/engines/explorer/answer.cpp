@@ -152,6 +152,7 @@ Finding Answer::finding(Claim claim, const Surroundings& surroundings) const {
                               what_was_explored(surroundings), cut_short_);
   } else {
     finding.kind = VerdictKind::bounded;
+    finding.longest_delay = surroundings.delay.delay;
     finding.how =
         fmt::format("all interleavings of {}: {}", what_was_explored(surroundings), exhausted_);
     if (!cut_short_.empty()) finding.how += "; not decided: " + cut_short_;

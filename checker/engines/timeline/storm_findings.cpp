@@ -27,7 +27,7 @@ void judge(const Question& question, std::string_view property, props::Finding& 
   if (question.writer() == model::Writer::of_the_paper) {
     const FreeThreshold threshold = free_threshold(question.sedp(), question.has_constant_delay());
     if (question.has_constant_delay()) {
-      finding.assumptions.push_back("every packet takes the same time");
+      finding.assumptions.push_back("every packet between two hosts takes the same time");
     }
     if (threshold.unlimited) {
       finding.details.push_back("no repair is possible at any delay");
@@ -40,7 +40,12 @@ void judge(const Question& question, std::string_view property, props::Finding& 
           threshold.formula, time_text(threshold.delta), time_text(delta),
           within ? "margin" : "too much by",
           time_text(within ? threshold.delta - delta : delta - threshold.delta)));
-      if (within) return;
+      if (within) {
+        finding.longest_delay = threshold.delta;
+        finding.assumptions.push_back(fmt::format("no packet takes longer than Δ* = {} = {}",
+                                                  threshold.formula, time_text(threshold.delta)));
+        return;
+      }
     }
   }
   if (auto example = needless_repair(question.request.scenario, property, delta)) {
@@ -66,6 +71,7 @@ void rest_on_free_certificate(const Question& question, props::Finding& finding)
   const auto covered = tables::certified_free(question.dds(), constant);
   if (!covered || question.measured.largest_delay > *covered) return;
   rest_on(finding, tables::free_certificate(question.request, constant));
+  if (finding.longest_delay) finding.longest_delay = std::min(*finding.longest_delay, *covered);
 }
 
 }  // namespace

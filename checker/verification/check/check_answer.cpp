@@ -2,12 +2,15 @@
 // three questions behind it, which are never mixed.
 #include "checker/verification/check/check_answer.hpp"
 
+#include <map>
+
 #include <fmt/core.h>
 
 #include "checker/presentation/document/verdicts.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/implementations.hpp"
 #include "props/applicability.hpp"
+#include "props/monitors/describe.hpp"
 
 namespace stormproof::checker {
 
@@ -30,11 +33,46 @@ bool is_weakness(const PropertyResult& result, const CheckContext& context) {
          !applicability_of(*result.property, context.scenario).is_promised();
 }
 
+/// How many hold, and of them up to which delays, or in small scopes only.
+class Holding {
+ public:
+  void add(std::string_view id, const props::Finding& answer) {
+    ++count_;
+    if (answer.kind == VerdictKind::bounded) {
+      ++in_small_scopes_;
+    } else if (answer.longest_delay) {
+      up_to_[*answer.longest_delay].push_back(id);
+    }
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] bool is_limited() const { return in_small_scopes_ > 0 || !up_to_.empty(); }
+  /// "7 properties hold, 3 of them in small scopes; storm.single-copy if no packet takes longer
+  /// than 10 µs (Δ*)".
+  [[nodiscard]] std::string in_words() const {
+    std::string text = count_ == 1 ? "1 property holds" : fmt::format("{} properties hold", count_);
+    if (in_small_scopes_ == count_) {
+      text += " in small scopes";
+    } else if (in_small_scopes_ > 0) {
+      text += fmt::format(", {} of them in small scopes", in_small_scopes_);
+    }
+    for (const auto& [delay, ids] : up_to_) {
+      text += fmt::format("; {} if no packet takes longer than {} (Δ*)", ids_of(ids),
+                          props::time_text(delay));
+    }
+    return text;
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::size_t in_small_scopes_ = 0;
+  std::map<model::Nanoseconds, std::vector<std::string_view>> up_to_;
+};
+
 /// The answers to one question: what is violated, what nobody knows, how many hold.
 Table::Row question_row(props::Reach reach, std::string_view question, const CheckReport& report,
                         const CheckContext& context) {
   std::vector<std::string_view> disputed, failing, possible, open;
-  std::size_t holding = 0;
+  Holding holding;
   for (std::size_t k = 0; k < report.results.size(); ++k) {
     const PropertyResult& result = report.results[k];
     const props::Finding* const answer = answer_to(reach, result);
@@ -46,14 +84,14 @@ Table::Row question_row(props::Reach reach, std::string_view question, const Che
     else if (answer->kind == VerdictKind::violated)
       (weak ? possible : failing).push_back(result.property->id);
     else if (holds(answer->kind))
-      ++holding;
+      holding.add(result.property->id, *answer);
     else if (context.gate.standings[k] == Standing::open)
       open.push_back(result.property->id);
     else if (reach == props::Reach::deployment && margin)
       possible.push_back(result.property->id);
   }
-  if (reach == props::Reach::deployment && context.gate.storm != Standing::holds) {
-    failing.insert(failing.begin(), storm_id);
+  if (reach == props::Reach::deployment && context.gate.outlook != Standing::holds) {
+    failing.insert(failing.begin(), context.gate.outlook_id);
   }
   std::string text;
   const auto add = [&](const char* word, const std::vector<std::string_view>& ids) {
@@ -63,21 +101,22 @@ Table::Row question_row(props::Reach reach, std::string_view question, const Che
   add("violated", failing);
   add("not established", open);
   add("possible", possible);
-  if (holding > 0) {
-    text += holding == 1 ? "1 property holds" : fmt::format("{} properties hold", holding);
+  if (holding.count() > 0) {
+    text += holding.in_words();
   } else if (text.ends_with("; ")) {
     text.resize(text.size() - 2);
   } else {
     text = "not asked";
   }
-  const bool nothing =
-      disputed.empty() && failing.empty() && open.empty() && possible.empty() && holding == 0;
-  const Text badge = !disputed.empty()   ? report::badge(VerdictKind::disputed)
-                     : !failing.empty()  ? report::badge(report::Tone::bad, "no")
-                     : nothing           ? report::badge(report::Tone::plain, "–")
-                     : !open.empty()     ? report::badge(report::Tone::warn, "open")
-                     : !possible.empty() ? report::badge(report::Tone::info, "not promised")
-                                         : report::badge(report::Tone::good, "yes");
+  const bool nothing = disputed.empty() && failing.empty() && open.empty() && possible.empty() &&
+                       holding.count() == 0;
+  const Text badge = !disputed.empty()      ? report::badge(VerdictKind::disputed)
+                     : !failing.empty()     ? report::badge(report::Tone::bad, "no")
+                     : nothing              ? report::badge(report::Tone::plain, "–")
+                     : !open.empty()        ? report::badge(report::Tone::warn, "open")
+                     : !possible.empty()    ? report::badge(report::Tone::info, "not promised")
+                     : holding.is_limited() ? report::badge(report::Tone::good, "within limits")
+                                            : report::badge(report::Tone::good, "yes");
   return {{std::string{question}, badge, text}};
 }
 
@@ -125,9 +164,11 @@ void say_whether_it_passes(report::Document& document, const CheckReport& report
     answer += ": " + report.outlook->sentence();
   } else if (gate.exit_code == 0) {
     const std::size_t all = report.results.size();
-    answer += all == 1 ? fmt::format(": {} is {}", report.results.front().property->id,
-                                     name_of(report.results.front().verdict))
-                       : fmt::format(": all {} properties hold", all);
+    answer += gate.count(Standing::unknown) == all
+                  ? std::string{": nobody has looked at what was asked"}
+              : all == 1 ? fmt::format(": {} is {}", report.results.front().property->id,
+                                       name_of(report.results.front().verdict))
+                         : fmt::format(": all {} properties hold", all);
   }
   const bool disputed = gate.count(Standing::disputed) > 0;
   answer += count_text(report, gate, Standing::disputed, "disputed");

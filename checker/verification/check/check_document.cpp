@@ -135,6 +135,8 @@ const char* title_of(Standing standing) {
       return "What is not established";
     case Standing::possible:
       return "What the rules do not promise";
+    case Standing::unknown:
+      return "What nobody has looked at";
     case Standing::holds:
       return "What holds, and how";
   }
@@ -294,8 +296,8 @@ report::Document document_of(const CheckReport& report, const CheckContext& cont
   for (std::size_t k = 0; k < report.results.size(); ++k) {
     document.findings.push_back(ci_finding(report.results[k], context.gate.standings[k], context));
   }
-  if (context.gate.storm != Standing::holds) {
-    document.findings.push_back(storm_finding(report, context));
+  if (context.gate.outlook != Standing::holds) {
+    document.findings.push_back(outlook_finding(report, context));
   }
   for (const Standing standing : standings) add_verdicts(document, report, context, standing);
   if (report.frontiers) add_frontiers(document, *report.frontiers);

@@ -35,6 +35,7 @@ report::Finding::Outcome outcome_of(Standing standing) {
     case Standing::disputed:
       return Outcome::disputed;
     case Standing::possible:
+    case Standing::unknown:
     case Standing::accepted:
       return Outcome::note;
     case Standing::holds:
@@ -45,13 +46,14 @@ report::Finding::Outcome outcome_of(Standing standing) {
 
 }  // namespace
 
-report::Finding storm_finding(const CheckReport& report, const CheckContext& context) {
+report::Finding outlook_finding(const CheckReport& report, const CheckContext& context) {
   report::Finding one;
-  one.id = storm_id;
+  one.id = context.gate.outlook_id;
   one.group = "stormproof." + context.name;
-  one.statement = "Discovery is no storm: feedback does not take the channel.";
-  one.outcome = outcome_of(context.gate.storm);
-  one.word = name_of(context.gate.storm);
+  one.statement = one.id == storm_id ? "Discovery is no storm: feedback does not take the channel."
+                                     : std::string{props::find_property(incomplete_id)->statement};
+  one.outcome = outcome_of(context.gate.outlook);
+  one.word = name_of(context.gate.outlook);
   one.message = report.outlook->headline() + ": " + report.outlook->sentence();
   one.locations.push_back(location_of(one.id, context.places, context.name));
   one.identity = {context.name, one.word};

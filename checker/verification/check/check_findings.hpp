@@ -9,7 +9,8 @@ namespace stormproof::checker {
 [[nodiscard]] report::Finding ci_finding(const PropertyResult& result, Standing standing,
                                          const CheckContext& context);
 
-/// That this deployment is in a storm.
-[[nodiscard]] report::Finding storm_finding(const CheckReport& report, const CheckContext& context);
+/// That this deployment is in a storm, or does not complete.
+[[nodiscard]] report::Finding outlook_finding(const CheckReport& report,
+                                              const CheckContext& context);
 
 }  // namespace stormproof::checker

@@ -14,6 +14,7 @@ void describe(V& v, const Finding& finding) {
   v("verdict", finding.kind);
   v("how", finding.how);
   v("assumptions", finding.assumptions);
+  v("longest_delay_ns", finding.longest_delay);
   v("seconds", finding.seconds);
   v.or_null("solver", finding.solver);
   v("seed", finding.seed);
@@ -61,7 +62,7 @@ void describe(V& v, const Gate& gate) {
   v("require", gate.rules.require);
   v("strict", gate.rules.strict);
   v("standings", Standings{gate});
-  v("storm", gate.storm);
+  v("storm", gate.outlook_id == storm_id ? gate.outlook : Standing::holds);
   v("failures", gate.failures);
   v("outdated", gate.outdated);
 }

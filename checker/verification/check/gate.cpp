@@ -22,6 +22,8 @@ const char* name_of(Standing standing) {
       return "possible";
     case Standing::accepted:
       return "accepted";
+    case Standing::unknown:
+      return "unknown";
     case Standing::open:
       return "open";
     case Standing::fails:
@@ -42,30 +44,48 @@ bool is_about_deployment(const Property& property) {
          std::ranges::all_of(property.engines, is_run);
 }
 
+bool is_of_run(const Finding& finding) {
+  return finding.engine == props::name_of(props::Engine::exact_run);
+}
+
 }  // namespace
 
 Reach reach_of(const Property& property, const Finding& finding) {
   if (finding.engine == props::name_of(props::Engine::tables)) return Reach::rules;
   if (finding.engine == props::name_of(props::Engine::calculus)) return Reach::deployment;
-  const bool ran = finding.engine == props::name_of(props::Engine::exact_run);
-  const bool of_profile = property.is_margin && !is_about_deployment(property);
-  return ran && !of_profile ? Reach::deployment : Reach::profile;
+  // A run that keeps a margin says nothing of others; one that does not is a run of the profile.
+  const bool of_profile =
+      property.is_margin && !is_about_deployment(property) && finding.kind == VerdictKind::violated;
+  return is_of_run(finding) && !of_profile ? Reach::deployment : Reach::profile;
 }
 
 const Finding* answer_to(Reach reach, const PropertyResult& result) {
   std::vector<Finding> about;
   std::vector<const Finding*> places;
-  for (const Finding& finding : result.findings) {
-    if (finding.engine.empty() || reach_of(*result.property, finding) != reach) continue;
+  const auto add = [&](const Finding& finding) {
     about.push_back(finding);
     places.push_back(&finding);
+  };
+  for (const Finding& finding : result.findings) {
+    if (finding.engine.empty() || reach_of(*result.property, finding) != reach) continue;
+    add(finding);
   }
-  return about.empty() ? nullptr : places[deciding_finding(about)];
+  if (about.empty()) return nullptr;
+  for (const Finding& finding : result.findings) {
+    if (reach != Reach::profile || finding.kind != VerdictKind::violated) continue;
+    if (is_of_run(finding)) add(finding);
+  }
+  return places[deciding_finding(about)];
 }
 
 namespace {
 
 bool is_limit(const Property& property) { return property.id.starts_with("limit."); }
+
+bool is_looked_at(const PropertyResult& result) {
+  return std::ranges::any_of(result.findings,
+                             [](const Finding& finding) { return !finding.engine.empty(); });
+}
 
 /// Where a property is violated, the nearest first.
 std::optional<Reach> violated_in(const PropertyResult& result) {
@@ -84,8 +104,9 @@ class Judge {
   }
 
   Gate judge() && {
-    if (report_.outlook && report_.outlook->health() == exact::Health::storm) {
-      gate_.storm = failure({std::string{storm_id}, Reach::deployment});
+    if (const std::string_view id = outlook_failure(); !id.empty()) {
+      gate_.outlook_id = id;
+      gate_.outlook = failure({std::string{id}, Reach::deployment});
     }
     for (const PropertyResult& result : report_.results) {
       gate_.standings.push_back(standing(result));
@@ -108,6 +129,17 @@ class Judge {
   }
 
  private:
+  /// What the runs are, if that fails by itself; empty: nothing does.
+  [[nodiscard]] std::string_view outlook_failure() const {
+    if (!report_.outlook) return {};
+    if (report_.outlook->health() == exact::Health::storm) return storm_id;
+    const bool is_judged = std::ranges::any_of(report_.results, [](const PropertyResult& result) {
+      return result.property->id == incomplete_id;
+    });
+    const bool is_incomplete = report_.outlook->completed() < report_.outlook->size();
+    return is_incomplete && !is_judged ? incomplete_id : std::string_view{};
+  }
+
   Standing failure(Failure one) {
     const auto& accepted = gate_.rules.baseline;
     const bool known = std::ranges::find(accepted, one) != accepted.end();
@@ -124,7 +156,10 @@ class Judge {
       const bool counts = promised || (*where == Reach::deployment && !property.is_margin);
       return counts ? failure({std::string{property.id}, *where}) : Standing::possible;
     }
-    if (!holds(result.verdict)) return promised ? Standing::open : Standing::possible;
+    if (!holds(result.verdict) && !promised) {
+      return is_looked_at(result) ? Standing::possible : Standing::unknown;
+    }
+    if (!holds(result.verdict)) return Standing::open;
     // Kinds are in the order of their strength.
     const bool weak = result.verdict > gate_.rules.require && !is_limit(property);
     return promised && weak ? Standing::open : Standing::holds;
@@ -140,7 +175,7 @@ class Judge {
 std::size_t Gate::count(Standing standing) const {
   const auto properties = std::ranges::count(standings, standing);
   return static_cast<std::size_t>(properties) +
-         (storm == standing && storm != Standing::holds ? 1 : 0);
+         (outlook == standing && outlook != Standing::holds ? 1 : 0);
 }
 
 Gate judge(const CheckReport& report, const model::DdsProfile& dds, GateRules rules) {

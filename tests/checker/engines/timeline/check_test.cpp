@@ -44,6 +44,21 @@ TEST(TimelineCheck, ConstantDelayBelowTheInitialAckNackIsFreeOfStorms) {
   }
 }
 
+/// Whoever takes the assumptions at their word gets what is promised: a delay above Δ* breaks one.
+TEST(TimelineCheck, WhatIsProvedUpToAThresholdAssumesIt) {
+  model::Scenario apart = quiet_scenario();
+  apart.wireless.packet_delays = {{0, Nanoseconds{0}, Nanoseconds{5'000}}};
+  apart.wireless.one_way = Nanoseconds{5'000};
+  for (const char* property : {"storm.free-threshold", "storm.single-copy"}) {
+    const props::Finding constant = finding_about(property, quiet_scenario());
+    EXPECT_TRUE(mentions(constant.assumptions, "no packet takes longer than Δ* = ")) << property;
+    EXPECT_TRUE(mentions(constant.assumptions, " = 70.09 ms")) << property;
+    const props::Finding any = finding_about(property, apart);
+    EXPECT_EQ(any.kind, VerdictKind::proved) << any.how;
+    EXPECT_TRUE(mentions(any.assumptions, "no packet takes longer than Δ* = min(τ_A, τ_I) = 10"));
+  }
+}
+
 TEST(TimelineCheck, ConstantDelayAboveTheInitialAckNackIsNot) {
   model::Scenario scenario = quiet_scenario();
   scenario.wireless.one_way = Nanoseconds{70'090'000};

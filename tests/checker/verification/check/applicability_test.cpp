@@ -99,6 +99,8 @@ TEST(Applicability, IsWhatTheFrontierSays) {
     const Applicability answer = props::applicability_of("storm.cannot-start", scenario);
     const calculus::Frontiers frontiers = calculus::frontier_of(scenario);
     EXPECT_EQ(frontiers.why_not, answer.why_not);
+    EXPECT_EQ(frontiers.why_not_provable,
+              answer.applies() ? answer.why_not_provable : std::string_view{});
     EXPECT_EQ(frontiers.of_loads.empty(), !answer.applies());
   }
 }
@@ -140,7 +142,7 @@ TEST(Applicability, IsWhatTheGateAndTheListSay) {
       CheckReport report;
       report.results.push_back(open);
       const Standing standing = judge(report, scenario.dds, {}).standings.front();
-      EXPECT_EQ(standing, answer.is_promised() ? Standing::open : Standing::possible);
+      EXPECT_EQ(standing, answer.is_promised() ? Standing::open : Standing::unknown);
       const auto* const named = std::ranges::find(model::implementations, kind);
       if (named == model::implementations.end() || model::traits_of(kind).is_known_to_engines ||
           kind == model::default_implementation) {

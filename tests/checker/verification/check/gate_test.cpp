@@ -153,6 +153,59 @@ TEST(Gate, AStormFailsEvenIfNoPropertyBreaks) {
   EXPECT_EQ(judge(report, model::DdsProfile{}, accepting).exit_code, 0);
 }
 
+/// Whatever was asked: who looks at one property does not pass a discovery that never completes.
+TEST(Gate, ADiscoveryThatDoesNotCompleteFailsWhateverWasAsked) {
+  exact::RunHealth incomplete;
+  incomplete.health = exact::Health::incomplete;
+  CheckReport report;
+  report.outlook.emplace(std::vector{incomplete});
+  report.results = {result_of("live.completion", {by(tables, VerdictKind::proved)})};
+  const Gate gate = judge(report, model::DdsProfile{}, {});
+  EXPECT_EQ(gate.exit_code, 1);
+  const std::vector<Failure> failures{{std::string{incomplete_id}, Reach::deployment}};
+  EXPECT_EQ(gate.failures, failures);
+  EXPECT_EQ(judge(report, model::DdsProfile{}, {.baseline = failures}).exit_code, 0);
+  // One run of several is enough; where limit.time is judged, it is the one that fails.
+  exact::RunHealth fine;
+  fine.completion = model::Nanoseconds{5};
+  report.outlook.emplace(std::vector{fine, incomplete, fine});
+  EXPECT_EQ(judge(report, model::DdsProfile{}, {}).exit_code, 1);
+  report.results.push_back(result_of("limit.time", {by(run, VerdictKind::violated)}));
+  EXPECT_EQ(judge(report, model::DdsProfile{}, {}).failures, failures);
+  report.outlook.emplace(std::vector{fine});
+  report.results.pop_back();
+  EXPECT_EQ(judge(report, model::DdsProfile{}, {}).exit_code, 0);
+}
+
+/// What holds in small scopes, or up to some delay, is refuted by a run of the profile.
+TEST(Gate, NothingHoldsForAProfileOfWhichARunBreaksIt) {
+  for (const VerdictKind kind : {VerdictKind::proved, VerdictKind::bounded}) {
+    const PropertyResult broken = result_of("timer.suppression-honoured",
+                                            {by(explorer, kind), by(run, VerdictKind::violated)});
+    EXPECT_EQ(answer_to(Reach::deployment, broken)->kind, VerdictKind::violated);
+    EXPECT_EQ(answer_to(Reach::profile, broken)->kind, VerdictKind::violated);
+    EXPECT_EQ(judged(broken).failures,
+              (std::vector<Failure>{{"timer.suppression-honoured", Reach::deployment}}));
+  }
+  // What only runs tell is no answer about all of them, unless one breaks it.
+  const PropertyResult kept = result_of("storm.free-threshold", {by(run, VerdictKind::observed)});
+  EXPECT_EQ(answer_to(Reach::profile, kept), nullptr);
+  EXPECT_EQ(answer_to(Reach::deployment, kept)->kind, VerdictKind::observed);
+  const PropertyResult limit = result_of("limit.time", {by(run, VerdictKind::violated)});
+  EXPECT_EQ(answer_to(Reach::profile, limit), nullptr);
+}
+
+/// Nobody has found that it can break.
+TEST(Gate, WhatNobodyHasLookedAtIsNotPossible) {
+  const PropertyResult asked = result_of("storm.cannot-start", {Finding{}});
+  EXPECT_EQ(standing(asked), Standing::unknown);
+  EXPECT_EQ(judged(asked).exit_code, 0);
+  EXPECT_EQ(judged(asked, {.strict = true}).exit_code, 3);
+  const PropertyResult missed =
+      result_of("storm.cannot-start", {by(props::Engine::calculus, VerdictKind::inconclusive)});
+  EXPECT_EQ(standing(missed), Standing::possible);
+}
+
 TEST(Gate, ABaselineAcceptsWhatItListsAndNothingElse) {
   const PropertyResult broken = result_of("storm.single-copy", {by(run, VerdictKind::violated)});
   const Gate accepted = judged(broken, {.baseline = {{"storm.single-copy", Reach::deployment}}});
