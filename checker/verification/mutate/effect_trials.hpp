@@ -1,5 +1,6 @@
-// The trials of mutants of effects: random runs of the mutant's composition. Their rules say what
-// each event does (`composition.followed`), and a correct run what would have been.
+// The trials of mutants of effects: random runs of the mutant's composition, many of them with
+// losses, late packets, late endpoints and returns. Their rules say what each event does
+// (`composition.followed`), and a correct run what would have been.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ namespace stormproof::mutate {
 
 class EffectTrials {
  public:
-  static constexpr std::uint64_t runs = 40;
+  static constexpr std::uint64_t runs = 120;
 
   /// `goes_on` is asked now and then; once it says no, what is returned means nothing.
   explicit EffectTrials(std::function<bool()> goes_on = {}) : goes_on_{std::move(goes_on)} {}
@@ -25,6 +26,7 @@ class EffectTrials {
   /// Whether all runs of the mutant are what the rules say.
   [[nodiscard]] bool are_followed(const CatalogueEntry& entry);
   /// Whether some run of the mutant differs from the correct one: in an event, or in what one does.
+  /// If none does, that is no proof.
   [[nodiscard]] bool makes_a_difference(const CatalogueEntry& entry);
 
  private:

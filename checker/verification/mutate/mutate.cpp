@@ -248,7 +248,7 @@ class Mutator {
     if (result.noticed()) return result;
     result.makes_a_difference = effects_.makes_a_difference(entry);
     if (!result.makes_a_difference) {
-      result.reason = fmt::format("it changes nothing in {} random runs", EffectTrials::runs);
+      result.reason = fmt::format("no difference in {} random runs", EffectTrials::runs);
     }
     return result;
   }

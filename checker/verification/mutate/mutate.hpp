@@ -24,7 +24,8 @@ struct MutantResult {
   /// Laws that the mutant breaks; absent if no run can show it, or if they were not asked: a
   /// property has noticed it before.
   std::optional<std::vector<std::string>> killed_by_laws;
-  /// Of a surviving mutant of an effect: whether some random run differs from the correct one.
+  /// Of a surviving mutant of an effect: whether some random run differs from the correct one; if
+  /// not, it is unseen.
   bool makes_a_difference = true;
 
   /// By a property; a mistake at an effect also by a law.
@@ -38,9 +39,11 @@ struct MutationReport {
   bool interrupted = false;
 
   [[nodiscard]] std::size_t killed() const;
-  /// How many change nothing in any random run, so that nothing can notice them.
-  [[nodiscard]] std::size_t harmless() const;
-  /// At least 95 % of the others.
+  /// Of how many no random run shows a difference. Nobody has proved that there is none.
+  [[nodiscard]] std::size_t unseen() const;
+  /// How many only `composition.followed` notices, which executes the correct rules beside a run.
+  [[nodiscard]] std::size_t only_followed() const;
+  /// At least 95 %.
   [[nodiscard]] bool notices_enough() const;
   /// How many mutants the property notices.
   [[nodiscard]] std::size_t killed_by(std::string_view property) const;

@@ -25,7 +25,7 @@ std::string laws_text(const MutantResult& mutant, bool everybody) {
 }
 
 std::string noticed_by(const MutantResult& mutant) {
-  if (!mutant.makes_a_difference) return "harmless: " + mutant.reason;
+  if (!mutant.makes_a_difference) return "UNSEEN: " + mutant.reason;
   if (!mutant.noticed()) return "SURVIVES: " + mutant.reason;
   return mutant.killed_by.empty() ? "→ a law"
                                   : fmt::format("→ {}", fmt::join(mutant.killed_by, ", "));
@@ -39,8 +39,8 @@ report::Table mutants_table(const MutationReport& report) {
       {report.everybody ? "who notices" : "who notices first", Column::Align::left, true}};
   for (const MutantResult& mutant : report.mutants) {
     report::Text who = noticed_by(mutant) + laws_text(mutant, report.everybody);
-    table.rows.push_back({{report::code(mutant.id), mutant.description, std::move(who)},
-                          !mutant.noticed() && mutant.makes_a_difference});
+    table.rows.push_back(
+        {{report::code(mutant.id), mutant.description, std::move(who)}, !mutant.noticed()});
   }
   return table;
 }
@@ -63,8 +63,8 @@ report::Finding finding_of(const MutantResult& mutant, bool everybody) {
   finding.group = "stormproof.mutate";
   finding.statement = mutant.description;
   using enum report::Finding::Outcome;
-  finding.outcome = mutant.noticed() ? passed : mutant.makes_a_difference ? failed : note;
-  finding.word = mutant.noticed() ? "noticed" : mutant.makes_a_difference ? "survives" : "harmless";
+  finding.outcome = mutant.noticed() ? passed : failed;
+  finding.word = mutant.noticed() ? "noticed" : mutant.makes_a_difference ? "survives" : "unseen";
   finding.message = noticed_by(mutant);
   finding.details =
       mutant.description + "\n" + noticed_by(mutant) + laws_text(mutant, everybody) + "\n";
@@ -76,7 +76,7 @@ report::Finding finding_of(const MutantResult& mutant, bool everybody) {
 void add_survivors(report::Document& document, const MutationReport& report) {
   report::Bullets survivors;
   for (const MutantResult& mutant : report.mutants) {
-    if (mutant.noticed() || !mutant.makes_a_difference) continue;
+    if (mutant.noticed()) continue;
     survivors.items.push_back(report::code(mutant.id) + ": " + mutant.reason);
   }
   if (survivors.items.empty()) return;
@@ -96,11 +96,15 @@ report::Document document_of(const MutationReport& report) {
   document.tone = report.interrupted        ? report::Tone::warn
                   : report.notices_enough() ? report::Tone::good
                                             : report::Tone::bad;
-  const std::size_t total_seen = total - report.harmless();
   document.answer = fmt::format("{} of {} mutants are noticed ({}), in {:.1f} s", report.killed(),
-                                total_seen, share(report.killed(), total_seen), report.seconds);
-  if (report.harmless() > 0) {
-    document.answer += fmt::format("; {} more change nothing in random runs", report.harmless());
+                                total, share(report.killed(), total), report.seconds);
+  if (report.unseen() > 0) {
+    document.answer += fmt::format("; of {} no random run shows a difference", report.unseen());
+  }
+  if (report.only_followed() > 0) {
+    document.answer += fmt::format(
+        "; {} only composition.followed notices, which executes the correct rules beside the run",
+        report.only_followed());
   }
   document.elaboration =
       report.everybody

@@ -46,7 +46,8 @@ void describe(V& v, const MutationReport& report) {
   v("everybody", report.everybody);
   v("mutants", report.mutants);
   v("killed", report.killed());
-  v("harmless", report.harmless());
+  v("unseen", report.unseen());
+  v("only_followed", report.only_followed());
   v("killed_by_property", ByProperty{report});
   v("killed_by_any_law", report.killed_by_laws());
   v("tried_on_laws", report.tried_on_laws());

@@ -125,6 +125,43 @@ TEST(MutateReport, ShowsLawsBesideProperties) {
   EXPECT_EQ(json["killed_by_law"]["law.counts"], 1);
 }
 
+/// Losses, late packets and late endpoints show what an undisturbed discovery never does: here that
+/// an ACKNACK arms the HEARTBEAT timer of a writer that has no expiry pending.
+TEST(Mutate, MistakesThatOnlyDisturbedRunsShowAreNoticed) {
+  MutateOptions options;
+  for (const char* effect : {"5", "6", "11", "12"}) {
+    options.only.push_back(std::string{"fastdds:AckNackArrives."} + effect + ":dropped");
+  }
+  const MutationReport report = mutate(options);
+  EXPECT_EQ(report.mutants.size(), 4U);
+  EXPECT_EQ(report.unseen(), 0U);
+  for (const MutantResult& mutant : report.mutants) {
+    EXPECT_TRUE(mutant.noticed()) << mutant.id << ": " << mutant.reason;
+  }
+}
+
+/// What nobody has proved equivalent is not left out of the share.
+TEST(MutateReport, WhatNoRunShowsIsUnseenAndCounts) {
+  MutationReport report;
+  MutantResult unseen{"a", Kind::effect, "first", {}, "no difference in 120 random runs", {}};
+  unseen.makes_a_difference = false;
+  report.mutants.push_back(unseen);
+  for (int k = 0; k < 18; ++k) {
+    report.mutants.push_back({"b", Kind::effect, "next", {"composition.followed"}, "", {}});
+  }
+  EXPECT_EQ(report.unseen(), 1U);
+  EXPECT_EQ(report.only_followed(), 18U);
+  EXPECT_FALSE(report.notices_enough());
+  const std::string text = to_text(document_of(report));
+  EXPECT_NE(text.find("UNSEEN: no difference in 120 random runs"), std::string::npos) << text;
+  EXPECT_NE(text.find("18 of 19 mutants are noticed"), std::string::npos) << text;
+  EXPECT_NE(text.find("of 1 no random run shows a difference"), std::string::npos) << text;
+  EXPECT_EQ(text.find("harmless"), std::string::npos) << text;
+  report.mutants.push_back({"c", Kind::effect, "last", {"live.no-stall"}, "", {}});
+  EXPECT_EQ(report.only_followed(), 18U);
+  EXPECT_TRUE(report.notices_enough());
+}
+
 /// Several hundred, one for each mistake that the rules allow. Those that nobody notices change
 /// nothing in random runs, or have a reason.
 TEST(Mutate, MistakesAtEffectsAreNoticed) {
@@ -132,8 +169,7 @@ TEST(Mutate, MistakesAtEffectsAreNoticed) {
   options.kinds = {Kind::effect};
   const MutationReport report = mutate(options);
   EXPECT_GE(report.mutants.size(), 900U);
-  EXPECT_GE(100 * report.killed(), 95 * (report.mutants.size() - report.harmless()));
-  EXPECT_LE(8 * report.harmless(), report.mutants.size());
+  EXPECT_TRUE(report.notices_enough()) << report.killed() << " of " << report.mutants.size();
   for (const MutantResult& mutant : report.mutants) {
     EXPECT_TRUE(mutant.noticed() || !mutant.reason.empty()) << mutant.id;
     EXPECT_NE(mutant.reason, "no property notices it on the trial scenarios") << mutant.id;
