@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "checker/engines/bounds/measure.hpp"
+#include "checker/verification/counterexample/minimal.hpp"
 #include "checker/verification/counterexample/write.hpp"
 #include "model/implementations.hpp"
 #include "props/applicability.hpp"
@@ -40,6 +41,21 @@ void confirm(Finding& finding) {
   if (!error) return;
   finding.counterexample.reset();
   dispute(finding, "a violation was found that does not happen in the simulator: " + *error);
+}
+
+/// Leaves out of the counterexample what it does not need.
+void minimize(Finding& finding, const CheckRequest& request) {
+  if (!finding.counterexample) return;
+  const std::string before = finding.counterexample->reason;
+  finding.counterexample = counterexample::minimal(*std::move(finding.counterexample), [&] {
+    return !request.on_progress || request.on_progress("making a counterexample smaller");
+  });
+  for (std::string& line : finding.details) {
+    const std::size_t place = line.find(before);
+    if (place != std::string::npos) {
+      line.replace(place, before.size(), finding.counterexample->reason);
+    }
+  }
 }
 
 /// Whether what was proved says that this run cannot be.
@@ -89,6 +105,7 @@ PropertyResult combined(const props::Property& property, std::vector<Finding> fi
   if (auto dispute = contradiction(result.findings, request)) {
     result.findings.push_back(*std::move(dispute));
   }
+  for (Finding& finding : result.findings) minimize(finding, request);
   if (result.findings.empty()) {
     Finding none;
     const props::Applicability answer = applicability_of(property, request.scenario);

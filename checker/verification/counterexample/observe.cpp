@@ -33,12 +33,13 @@ class MonitorWatch final : public ViolationWatch {
 }  // namespace
 
 std::optional<props::Violation> observe(const model::Scenario& scenario, props::Monitor& monitor,
-                                        model::Probe* also) {
+                                        model::Probe* also, std::uint64_t most_events) {
   ProbeList probes;
   if (also != nullptr) probes.add(*also);
   probes.add(monitor);
   model::RunOptions options;
   options.probe = &probes;
+  options.max_events = most_events;
   options.on_progress = [&](const model::Progress&) { return !monitor.violation(); };
   const model::RunResult result = simulate(scenario, options);
   if (result.end != model::RunEnd::interrupted) {

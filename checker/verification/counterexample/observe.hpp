@@ -3,6 +3,7 @@
 // property's monitor objects.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,10 +16,12 @@
 
 namespace stormproof::counterexample {
 
-/// Runs the scenario until the monitor objects or the run ends by itself. `also` hears of the same
-/// run, perhaps a little beyond the objection; null: nobody.
+/// Runs the scenario until the monitor objects or the run ends by itself, or after `most_events`
+/// (0: no limit). `also` hears of the same run, perhaps a little beyond the objection; null:
+/// nobody.
 std::optional<props::Violation> observe(const model::Scenario& scenario, props::Monitor& monitor,
-                                        model::Probe* also = nullptr);
+                                        model::Probe* also = nullptr,
+                                        std::uint64_t most_events = 0);
 
 /// What `model::trace::replay` needs to know of properties: the monitors of the catalogue.
 [[nodiscard]] model::trace::WatchMaker catalogue_watches();
