@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "tests/vectors/staggered.hpp"
+
 namespace stormproof::vectors {
 
 namespace {
@@ -17,52 +19,25 @@ using model::Scenario;
 constexpr std::int64_t us = 1'000;
 constexpr std::int64_t ms = 1'000'000;
 constexpr std::uint32_t hosts = 2;
-constexpr std::int64_t default_endpoints = 17;
 constexpr AllowMulticast uc = AllowMulticast::spdp;
 constexpr AllowMulticast mc = AllowMulticast::always;
-
-void fill_wireless(model::WirelessProfile& w) {
-  w.overhead_unicast = Nanoseconds{150 * us};
-  w.overhead_multicast = Nanoseconds{150 * us};
-  w.rate_unicast = model::BitsPerSecond{144'400'000};
-  w.rate_multicast = model::BitsPerSecond{6'000'000};
-  w.link_overhead_bytes = Bytes{14};
-  w.source_queue_bytes = model::WirelessProfile::unlimited;
-  w.order = model::ServiceOrder::fifo;
-  w.fragment_request = model::FragmentRequest::at_admission;
-}
 
 }  // namespace
 
 Scenario cyclone_grid(std::uint32_t participants, std::uint32_t endpoints,
                       AllowMulticast multicast) {
-  Scenario scenario;
-  scenario.deployment = model::Deployment::homogeneous(hosts, participants, endpoints);
+  Scenario scenario = staggered(hosts, participants, endpoints, 100 * us);
   scenario.deployment.loopback_delay = Nanoseconds{60 * us};
   scenario.deployment.send_time = Nanoseconds{20 * us};
-  const std::int64_t creation = participants * (default_endpoints + endpoints) * 100 * us;
-  for (std::uint32_t i = 0; i < scenario.deployment.size(); ++i) {
-    model::Participant& p = scenario.deployment.participants.at(i);
-    const std::int64_t rank = std::int64_t{hosts} * (i % participants) + p.host.value;
-    p.start = Nanoseconds{3 * ms + 2 * ms * rank};
-    p.endpoints_done = Nanoseconds{p.start.count() + creation};
-  }
   scenario.dds.implementation = model::ImplementationKind::cyclone;
   scenario.dds.allow_multicast = multicast;
   scenario.dds.spdp.period = Nanoseconds{8'000 * ms};
-  fill_wireless(scenario.wireless);
   return scenario;
 }
 
 namespace {
 
-using Table = std::vector<CycloneVector>;
-
-template <class Change>
-Scenario with(Scenario scenario, Change change) {
-  change(scenario);
-  return scenario;
-}
+using Table = std::vector<Vector>;
 
 auto loopback_and_send_time(std::int64_t loopback, std::int64_t send) {
   return [=](Scenario& s) {
@@ -85,16 +60,6 @@ Scenario losing(Scenario scenario, std::vector<std::uint64_t> packets) {
 
 Scenario losing_range(Scenario scenario, std::uint64_t first, std::uint64_t last) {
   for (std::uint64_t k = first; k <= last; ++k) scenario.wireless.lost_packets.push_back(k);
-  return scenario;
-}
-
-// Start and end of the creation of each participant's endpoints, in half milliseconds.
-Scenario at(Scenario scenario, const std::vector<std::pair<std::int64_t, std::int64_t>>& times) {
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    scenario.deployment.participants.at(i).start = Nanoseconds{times.at(i).first * 500 * us};
-    scenario.deployment.participants.at(i).endpoints_done =
-        Nanoseconds{times.at(i).second * 500 * us};
-  }
   return scenario;
 }
 
@@ -199,7 +164,7 @@ void add_schedules(Table& table) {
 
 }  // namespace
 
-const std::vector<CycloneVector>& cyclone_vectors() {
+const std::vector<Vector>& cyclone_vectors() {
   static const Table table = [] {
     Table t;
     add_sizes(t);

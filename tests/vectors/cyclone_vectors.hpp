@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "model/scenario.hpp"
@@ -11,18 +10,7 @@
 
 namespace stormproof::vectors {
 
-struct CycloneVector {
-  std::string name;  ///< letters, digits and underscores only: usable as the name of a test
-  model::Scenario scenario;
-  Expected expected;
-  std::int64_t user_control = 0;
-};
-
-inline std::ostream& operator<<(std::ostream& out, const CycloneVector& vector) {
-  return out << vector.name;
-}
-
-[[nodiscard]] const std::vector<CycloneVector>& cyclone_vectors();
+[[nodiscard]] const std::vector<Vector>& cyclone_vectors();
 
 /// Two hosts with participants that start one after the other, on the channel of the vectors.
 [[nodiscard]] model::Scenario cyclone_grid(std::uint32_t participants_per_host,

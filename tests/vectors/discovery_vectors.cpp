@@ -4,7 +4,7 @@
 // versions of Fast DDS differ in.
 #include "tests/vectors/discovery_vectors.hpp"
 
-#include <utility>
+#include "tests/vectors/staggered.hpp"
 
 namespace stormproof::vectors {
 
@@ -17,31 +17,12 @@ using model::Scenario;
 
 constexpr std::int64_t us = 1'000;
 constexpr std::int64_t ms = 1'000'000;
-constexpr std::int64_t default_endpoints = 17;
 
-// Participants start one after the other, the hosts in turn, and need longer the more there are.
 Scenario grid(Discovery discovery, std::uint32_t hosts, std::uint32_t participants,
               std::uint32_t endpoints) {
-  Scenario scenario;
-  scenario.deployment = model::Deployment::homogeneous(hosts, participants, endpoints);
-  const std::int64_t creation = participants * (default_endpoints + endpoints) * 500 * us;
-  for (std::uint32_t i = 0; i < scenario.deployment.size(); ++i) {
-    model::Participant& p = scenario.deployment.participants.at(i);
-    const std::int64_t rank = std::int64_t{hosts} * (i % participants) + p.host.value;
-    p.start = Nanoseconds{3 * ms + 2 * ms * rank};
-    p.endpoints_done = Nanoseconds{p.start.count() + creation};
-  }
+  Scenario scenario = staggered(hosts, participants, endpoints, 500 * us);
   scenario.dds.implementation = model::ImplementationKind::fastdds;
   scenario.dds.discovery = discovery;
-  model::WirelessProfile& w = scenario.wireless;
-  w.overhead_unicast = Nanoseconds{150 * us};
-  w.overhead_multicast = Nanoseconds{150 * us};
-  w.rate_unicast = model::BitsPerSecond{144'400'000};
-  w.rate_multicast = model::BitsPerSecond{6'000'000};
-  w.link_overhead_bytes = Bytes{14};
-  w.source_queue_bytes = model::WirelessProfile::unlimited;
-  w.order = model::ServiceOrder::fifo;
-  w.fragment_request = model::FragmentRequest::at_admission;
   return scenario;
 }
 
@@ -54,12 +35,6 @@ Scenario late(Discovery discovery) {
     p.start = Nanoseconds{170 * ms * (3 * i % participants)};
     p.endpoints_done = Nanoseconds{p.start.count() + 58 * ms};
   }
-  return scenario;
-}
-
-template <class Change>
-Scenario with(Scenario scenario, Change change) {
-  change(scenario);
   return scenario;
 }
 

@@ -2,7 +2,7 @@
 // them; they differ in size, in when participants start and are done, and in a few knobs.
 #include "tests/vectors/fastdds_vectors.hpp"
 
-#include <utility>
+#include "tests/vectors/staggered.hpp"
 
 namespace stormproof::vectors {
 
@@ -15,38 +15,10 @@ using model::Scenario;
 constexpr std::int64_t us = 1'000;
 constexpr std::int64_t ms = 1'000'000;
 constexpr std::uint32_t hosts = 2;
-constexpr std::int64_t default_endpoints = 17;
 
-void fill_wireless(model::WirelessProfile& w) {
-  w.overhead_unicast = Nanoseconds{150 * us};
-  w.overhead_multicast = Nanoseconds{150 * us};
-  w.rate_unicast = model::BitsPerSecond{144'400'000};
-  w.rate_multicast = model::BitsPerSecond{6'000'000};
-  w.link_overhead_bytes = Bytes{14};
-  w.source_queue_bytes = model::WirelessProfile::unlimited;
-  w.order = model::ServiceOrder::fifo;
-  w.fragment_request = model::FragmentRequest::at_admission;
-}
-
-// Participants start one after the other, the hosts in turn, and need longer the more there are.
 Scenario grid(std::uint32_t participants, std::uint32_t endpoints) {
-  Scenario scenario;
-  scenario.deployment = model::Deployment::homogeneous(hosts, participants, endpoints);
-  const std::int64_t creation = participants * (default_endpoints + endpoints) * 500 * us;
-  for (std::uint32_t i = 0; i < scenario.deployment.size(); ++i) {
-    model::Participant& p = scenario.deployment.participants.at(i);
-    const std::int64_t rank = std::int64_t{hosts} * (i % participants) + p.host.value;
-    p.start = Nanoseconds{3 * ms + 2 * ms * rank};
-    p.endpoints_done = Nanoseconds{p.start.count() + creation};
-  }
+  Scenario scenario = staggered(hosts, participants, endpoints, 500 * us);
   scenario.dds.implementation = model::ImplementationKind::fastdds;
-  fill_wireless(scenario.wireless);
-  return scenario;
-}
-
-template <class Change>
-Scenario with(Scenario scenario, Change change) {
-  change(scenario);
   return scenario;
 }
 
@@ -75,17 +47,7 @@ void done_at_once_linear(Scenario& s) {
   s.dds.sedp.piggyback = model::Piggyback::linear;
 }
 
-// Start and end of the creation of each participant's endpoints, in half milliseconds.
-Scenario at(Scenario scenario, const std::vector<std::pair<std::int64_t, std::int64_t>>& times) {
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    scenario.deployment.participants.at(i).start = Nanoseconds{times.at(i).first * 500 * us};
-    scenario.deployment.participants.at(i).endpoints_done =
-        Nanoseconds{times.at(i).second * 500 * us};
-  }
-  return scenario;
-}
-
-using Table = std::vector<FastddsVector>;
+using Table = std::vector<Vector>;
 
 void add_small(Table& table) {
   const Scenario one = grid(1, 20);
@@ -138,7 +100,7 @@ void add_schedules(Table& table) {
 
 }  // namespace
 
-const std::vector<FastddsVector>& fastdds_vectors() {
+const std::vector<Vector>& fastdds_vectors() {
   static const Table table = [] {
     Table t;
     add_small(t);

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "tests/vectors/staggered.hpp"
+
 namespace stormproof::vectors {
 
 namespace {
@@ -18,12 +20,6 @@ constexpr std::int64_t ms = 1'000'000;
 Scenario grid(std::uint32_t hosts, std::uint32_t participants, std::uint32_t endpoints) {
   Scenario scenario;
   scenario.deployment = model::Deployment::homogeneous(hosts, participants, endpoints);
-  return scenario;
-}
-
-template <class Change>
-Scenario with(Scenario scenario, Change change) {
-  change(scenario);
   return scenario;
 }
 

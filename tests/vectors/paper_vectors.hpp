@@ -31,6 +31,7 @@ struct Vector {
   std::string name;  ///< letters, digits and underscores only: usable as the name of a test
   model::Scenario scenario;
   Expected expected;
+  std::int64_t user_control = 0;
 };
 
 /// Tests show a vector by its name.

@@ -133,8 +133,8 @@ WirelessProfile frames_of_80211n() {
 }
 
 model::Scenario over(const std::string& deployment, const WirelessProfile& wireless) {
-  const std::vector<FastddsVector>& known = fastdds_vectors();
-  const auto found = std::ranges::find(known, deployment, &FastddsVector::name);
+  const std::vector<Vector>& known = fastdds_vectors();
+  const auto found = std::ranges::find(known, deployment, &Vector::name);
   if (found == known.end()) throw std::logic_error{"no vector " + deployment};
   model::Scenario scenario = found->scenario;
   scenario.wireless = wireless;
@@ -159,8 +159,8 @@ const std::vector<ChannelVector>& channel_vectors() {
   return table;
 }
 
-const std::vector<FastddsVector>& wifi_vectors() {
-  static const std::vector<FastddsVector> table = [] {
+const std::vector<Vector>& wifi_vectors() {
+  static const std::vector<Vector> table = [] {
     const WirelessProfile units =
         with(units_of_80211n(), [](WirelessProfile& w) { w.sender = model::Sender::stalls; });
     const WirelessProfile of_flows = with(units, flows);
@@ -174,7 +174,7 @@ const std::vector<FastddsVector>& wifi_vectors() {
     const std::string three = "hosts2x3x20";
     const std::string five = "hosts2x5x20";
     const std::string six = "hosts2x6x30";
-    return std::vector<FastddsVector>{
+    return std::vector<Vector>{
         {"units_3x20", over(three, units), {92408386, 666, 0, 42, 42, 36, 46}, 287},
         {"units_5x20", over(five, units), {274057643, 1850, 394, 707, 291, 120, 288}, 1049},
         {"flows_5x20", over(five, of_flows), {466429339, 1850, 1887, 6234, 1441, 140, 370}, 1661},

@@ -38,6 +38,6 @@ inline std::ostream& operator<<(std::ostream& out, const ChannelVector& vector) 
 [[nodiscard]] model::WirelessProfile units_of_80211n();
 
 [[nodiscard]] const std::vector<ChannelVector>& channel_vectors();
-[[nodiscard]] const std::vector<FastddsVector>& wifi_vectors();
+[[nodiscard]] const std::vector<Vector>& wifi_vectors();
 
 }  // namespace stormproof::vectors

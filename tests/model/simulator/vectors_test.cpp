@@ -1,16 +1,18 @@
-// The simulator against the table of test vectors: completion time and every count, exactly; and
-// the open-loop baseline.
+// The simulator against the tables of test vectors: completion time, every count, and the control
+// traffic that is counted apart, exactly; the open-loop baseline; and the channel against lists of
+// packets.
 #include <gtest/gtest.h>
 
 #include "model/reference.hpp"
 #include "model/simulator.hpp"
-#include "tests/vectors/paper_vectors.hpp"
+#include "tests/model/packet_feed.hpp"
+#include "tests/vectors/cyclone_vectors.hpp"
+#include "tests/vectors/wifi_vectors.hpp"
 
 namespace stormproof {
 namespace vectors_test {
 
-vectors::Expected run(const model::Scenario& scenario) {
-  const model::RunResult result = model::simulate(scenario);
+vectors::Expected outcome(const model::RunResult& result) {
   const model::Counts& counts = result.counts;
   const auto number = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
   return {result.discovery_time ? result.discovery_time->count() : -1,
@@ -22,16 +24,38 @@ vectors::Expected run(const model::Scenario& scenario) {
           number(counts.spdp_unicast)};
 }
 
-class PaperVectors : public testing::TestWithParam<vectors::Vector> {};
+class Vectors : public testing::TestWithParam<vectors::Vector> {};
 
-TEST_P(PaperVectors, AgreeExactly) { EXPECT_EQ(run(GetParam().scenario), GetParam().expected); }
-
-TEST_P(PaperVectors, AreTheSameFromRunToRun) {
-  EXPECT_EQ(run(GetParam().scenario), run(GetParam().scenario));
+TEST_P(Vectors, AgreeExactly) {
+  const model::RunResult result = model::simulate(GetParam().scenario);
+  EXPECT_EQ(outcome(result), GetParam().expected);
+  EXPECT_EQ(static_cast<std::int64_t>(result.user_control), GetParam().user_control);
+  EXPECT_EQ(result.missing_count, 0U);
+  EXPECT_TRUE(result.missing.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PaperVectors, testing::ValuesIn(vectors::paper_vectors()),
-                         [](const auto& tested) { return tested.param.name; });
+TEST_P(Vectors, AreTheSameFromRunToRun) {
+  const model::RunResult first = model::simulate(GetParam().scenario);
+  const model::RunResult second = model::simulate(GetParam().scenario);
+  EXPECT_EQ(outcome(first), outcome(second));
+  EXPECT_EQ(first.user_control, second.user_control);
+  EXPECT_EQ(first.events, second.events);
+}
+
+const auto name = [](const auto& tested) { return tested.param.name; };
+INSTANTIATE_TEST_SUITE_P(Paper, Vectors, testing::ValuesIn(vectors::paper_vectors()), name);
+INSTANTIATE_TEST_SUITE_P(FastDds, Vectors, testing::ValuesIn(vectors::fastdds_vectors()), name);
+INSTANTIATE_TEST_SUITE_P(Cyclone, Vectors, testing::ValuesIn(vectors::cyclone_vectors()), name);
+INSTANTIATE_TEST_SUITE_P(Wifi, Vectors, testing::ValuesIn(vectors::wifi_vectors()), name);
+
+class FastDdsVectors : public testing::TestWithParam<vectors::Vector> {};
+
+TEST_P(FastDdsVectors, DeliverEveryDescriptorOnceForTheFirstTime) {
+  const model::RunResult result = model::simulate(GetParam().scenario);
+  EXPECT_EQ(result.useful_deliveries, result.counts.initial_data);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FastDdsVectors, testing::ValuesIn(vectors::fastdds_vectors()), name);
 
 class OpenLoopVectors : public testing::TestWithParam<vectors::OpenLoopVector> {};
 
@@ -42,7 +66,16 @@ TEST_P(OpenLoopVectors, AgreeExactly) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, OpenLoopVectors, testing::ValuesIn(vectors::open_loop_vectors()),
-                         [](const auto& tested) { return tested.param.name; });
+                         name);
+
+class ChannelVectors : public testing::TestWithParam<vectors::ChannelVector> {};
+
+TEST_P(ChannelVectors, AgreeExactly) {
+  const vectors::ChannelVector& vector = GetParam();
+  EXPECT_EQ(arrivals(vector.wireless, vector.hosts, vector.packets), vector.arrived_ns);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ChannelVectors, testing::ValuesIn(vectors::channel_vectors()), name);
 
 }  // namespace vectors_test
 }  // namespace stormproof

@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Vector, WritePaper,
                          ::testing::ValuesIn(short_ones(vectors::paper_vectors())),
                          [](const auto& one) { return one.param.name; });
 
-class WriteFastdds : public ::testing::TestWithParam<vectors::FastddsVector> {};
+class WriteFastdds : public ::testing::TestWithParam<vectors::Vector> {};
 TEST_P(WriteFastdds, CaptureAgreesWithTheRun) { expect_agreement(GetParam().scenario); }
 INSTANTIATE_TEST_SUITE_P(Vector, WriteFastdds,
                          ::testing::ValuesIn(short_ones(vectors::fastdds_vectors())),

@@ -60,10 +60,10 @@ void expect_conforming(const model::Scenario& scenario) {
   EXPECT_TRUE(is_explained(result)) << description(result);
 }
 
-class CycloneVector : public ::testing::TestWithParam<vectors::CycloneVector> {};
+class CycloneVector : public ::testing::TestWithParam<vectors::Vector> {};
 TEST_P(CycloneVector, Conforms) { expect_conforming(GetParam().scenario); }
-std::vector<vectors::CycloneVector> short_vectors() {
-  std::vector<vectors::CycloneVector> list = vectors::cyclone_vectors();
+std::vector<vectors::Vector> short_vectors() {
+  std::vector<vectors::Vector> list = vectors::cyclone_vectors();
   std::erase_if(list, [](const auto& one) { return one.expected.heartbeat > 1'000; });
   return list;
 }

@@ -21,13 +21,13 @@ void expect_conforming(const model::Scenario& scenario) {
   EXPECT_EQ(result.used_send_lag_ns, 0);
 }
 
-std::vector<vectors::FastddsVector> short_vectors() {
-  std::vector<vectors::FastddsVector> list = vectors::fastdds_vectors();
+std::vector<vectors::Vector> short_vectors() {
+  std::vector<vectors::Vector> list = vectors::fastdds_vectors();
   std::erase_if(list, [](const auto& one) { return one.expected.heartbeat > 3'000; });
   return list;
 }
 
-class SimulatedVector : public ::testing::TestWithParam<vectors::FastddsVector> {};
+class SimulatedVector : public ::testing::TestWithParam<vectors::Vector> {};
 TEST_P(SimulatedVector, ConformsExactly) { expect_conforming(GetParam().scenario); }
 INSTANTIATE_TEST_SUITE_P(Vector, SimulatedVector, ::testing::ValuesIn(short_vectors()),
                          [](const auto& one) { return one.param.name; });

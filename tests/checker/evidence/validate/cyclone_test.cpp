@@ -22,7 +22,7 @@ using model::MessageClass;
 std::uint64_t of(const Tally& tally, Figure figure) { return tally[index_of(figure)]; }
 
 TEST(CycloneTally, CountsWhatTheRunCounts) {
-  for (const vectors::CycloneVector& vector : vectors::cyclone_vectors()) {
+  for (const vectors::Vector& vector : vectors::cyclone_vectors()) {
     MessageTally tally{vector.scenario.dds, 1'000'000, 100};
     model::RunOptions options;
     options.probe = &tally;
