@@ -59,7 +59,6 @@ set(thorough
   Life.OfNobodyWhoFails*
   Lives/EffectsInRecordings.*
   Network.ARunIsTheSameWhetherSomebodyHearsOfItOrNot
-  Parts/StatefulEngine*
   Perfetto.AnInterruptedRun*
   ProbeList.*
   Replay.AnInterruptedTrace*
@@ -69,6 +68,7 @@ set(thorough
   # The oracles themselves, mutated, and random scenarios in both.
   MutatedOracle.*
   MutatedProduct.*
+  MutatedRows.*
   RandomCycloneScenario.*
   RandomFastddsScenario.*
   Ways/RandomDiscovery.*

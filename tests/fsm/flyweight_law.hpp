@@ -1,16 +1,12 @@
 // The law of the flyweight: one shared MSM object that steps many machines by their stored numbers
 // does for each of them exactly what an MSM object of its own would do, whatever the order of
-// events; and so does a stepper, whatever it remembers of the steps before. Each machine's test
-// file instantiates this for its machine.
-//
-// GoogleTest must be included before rapidcheck/gtest.h.
+// events; and so does a stepper, whatever it remembers of the steps before.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include <boost/pfr.hpp>
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include "fsm/msm.hpp"

@@ -2,11 +2,12 @@
 // guards of its reflected rows, by letting Boost.MSM process the same event and by interpreting the
 // table. It exists so that totality, determinism, reachability and the agreement of the three are
 // one loop and a few questions.
-// The result is plain data, so that each machine's template code is compiled once, in the test file
-// of that machine.
+// The result is plain data, so that each machine's template code is compiled once, in the file of
+// its inputs (tests/fsm/surveys).
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 
 #include "fsm/msm.hpp"
 #include "fsm/reflect.hpp"
+#include "tests/fsm/flyweight_law.hpp"
 #include "tests/fsm/table_law.hpp"
 
 namespace stormproof::fsm {
@@ -34,6 +36,7 @@ struct PairSurvey {
 
 struct MachineSurvey {
   MachineInfo info;
+  std::function<void()> flyweight_law;         ///< to be checked by RapidCheck
   std::vector<PairSurvey> pairs;               ///< every state with every event
   std::vector<std::uint64_t> enabled_by_row;   ///< inputs on which the row is enabled in its state
   std::vector<std::uint64_t> rejected_by_row;  ///< inputs on which its guard is false
@@ -50,16 +53,20 @@ bool enabled(const Input& input) {
 }
 
 template <class Machine>
+using Inputs = std::vector<typename Flyweight<Machine>::Input>;
+
+template <class Machine>
 class Surveyor {
  public:
   using Info = Reflect<Machine>;
   using Input = typename Flyweight<Machine>::Input;
   using Output = typename Flyweight<Machine>::Output;
 
-  explicit Surveyor(std::vector<Input> inputs) : inputs_{std::move(inputs)} {}
+  explicit Surveyor(Inputs<Machine> inputs) : inputs_{std::move(inputs)} {}
 
   MachineSurvey run() {
     result_.info = Info::info();
+    result_.flyweight_law = [inputs = inputs_] { FlyweightLaw<Machine>::check(inputs); };
     result_.enabled_by_row.assign(result_.info.rows.size(), 0);
     result_.rejected_by_row.assign(result_.info.rows.size(), 0);
     for (StateId state = 0; state < Info::state_count; ++state) {
@@ -150,13 +157,18 @@ class Surveyor {
     result_.msm_ids = {boost::msm::back::get_state_id<Stt, States>::value...};
   }
 
-  std::vector<Input> inputs_;
+  Inputs<Machine> inputs_;
   Flyweight<Machine> engine_;
   TableInterpreter<Machine> table_;
   MachineSurvey result_;
 };
 
-/// The machines' surveys, each compiled in the test file of its machine.
+template <class Machine>
+MachineSurvey survey(Inputs<Machine> inputs) {
+  return Surveyor<Machine>{std::move(inputs)}.run();
+}
+
+/// The machines' surveys, each compiled in a file of its machine, which lists inputs.
 MachineSurvey survey_descriptor_repair();
 MachineSurvey survey_discovery_reader();
 MachineSurvey survey_heartbeat_timer();

@@ -1,6 +1,7 @@
 // Questions about every machine alike, answered from the surveys: never two rows at once (Boost.MSM
 // would take the last one, so the order of rows would matter), every state and row is of use, every
-// guard is needed, and the reflected rows describe what Boost.MSM really does.
+// guard is needed, the reflected rows describe what Boost.MSM really does, and one object of it
+// does for many machines what an object of its own does.
 #include "tests/fsm/survey.hpp"
 
 #include <gtest/gtest.h>
@@ -53,6 +54,12 @@ TEST(Surveys, TheInterpretedTableDoesWhatMsmDoes) {
     for (const PairSurvey& pair : survey.pairs) {
       EXPECT_EQ(pair.interpreted_otherwise, 0U) << describe(survey, pair);
     }
+  }
+}
+
+TEST(Surveys, FlyweightsEqualObjectsOfTheirOwn) {
+  for (const MachineSurvey& survey : surveys()) {
+    EXPECT_TRUE(rc::check(std::string{survey.info.name}, survey.flyweight_law));
   }
 }
 

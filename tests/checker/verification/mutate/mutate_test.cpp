@@ -42,7 +42,7 @@ TEST(Mutants, HaveUniqueIdsDescriptionsAndMistakes) {
 }
 
 /// Whether only implementations have the machine that no profile names as such, so that no trial
-/// could notice a mistake in it. tests/fsm/stateful notices those in its rows.
+/// could notice a mistake in it. The oracles notice those in its rows (tests/oracle).
 bool is_of_unknown_writers(std::string_view machine) {
   const auto has_it = [&](model::ImplementationKind kind) {
     const auto& parts = model::composition_of(kind).parts;
