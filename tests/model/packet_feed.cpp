@@ -57,11 +57,6 @@ std::vector<std::int64_t> arrivals(const model::WirelessProfile& wireless, std::
   model::Scenario scenario;
   scenario.deployment = model::Deployment::homogeneous(hosts, 1, 0);
   scenario.wireless = wireless;
-  return arrivals(scenario, packets);
-}
-
-std::vector<std::int64_t> arrivals(const model::Scenario& scenario,
-                                   const std::vector<vectors::ChannelPacket>& packets) {
   model::RunState run{scenario, nullptr};
   model::Network network{run};
   Listener listener{run, packets.size()};

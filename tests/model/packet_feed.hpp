@@ -9,11 +9,8 @@
 
 namespace stormproof {
 
-/// When each packet reached its last receiver, or −1, over the scenario's hosts and channel. Each
-/// host has one participant, with its number.
-[[nodiscard]] std::vector<std::int64_t> arrivals(
-    const model::Scenario& scenario, const std::vector<vectors::ChannelPacket>& packets);
-/// The same over one access point.
+/// When each packet reached its last receiver, or −1. Each host has one participant, with its
+/// number.
 [[nodiscard]] std::vector<std::int64_t> arrivals(
     const model::WirelessProfile& wireless, std::uint32_t hosts,
     const std::vector<vectors::ChannelPacket>& packets);

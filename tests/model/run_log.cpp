@@ -1,8 +1,6 @@
 // The probe behind RunLog, and the small scenarios.
 #include "tests/model/run_log.hpp"
 
-#include <algorithm>
-
 namespace stormproof::model {
 
 namespace {
@@ -13,10 +11,6 @@ class Recorder final : public Probe {
 
   void event_started(const Event& event) override { now_ = event.time.count(); }
 
-  void event_finished(const Depths& depths) override {
-    log_.most_admitted_bytes = std::max(log_.most_admitted_bytes, depths.admitted_bytes);
-  }
-
   void transition(const MachineRef& machine, std::string_view event, std::string_view before,
                   std::string_view after, std::uint32_t, std::uint64_t) override {
     log_.transitions.push_back(std::string{machine.machine} + " " +
@@ -24,9 +18,6 @@ class Recorder final : public Probe {
                                " + " + std::string{event} + " -> " + std::string{after});
   }
 
-  void rescheduled(const Event& event, std::uint64_t) override {
-    log_.rescheduled.push_back({now_, now_, event.kind, event.subject});
-  }
   void scheduled(std::uint64_t, Nanoseconds time, EventKind kind, std::uint32_t subject) override {
     log_.scheduled.push_back({now_, time.count(), kind, subject});
   }
@@ -42,8 +33,6 @@ class Recorder final : public Probe {
     packet.descriptors.for_each([&](std::uint32_t d) { sent.descriptors.push_back(d); });
     sent.payload_bytes = packet.payload_bytes;
     sent.from_repair = packet.from_repair;
-    sent.carries_heartbeat = packet.carries_heartbeat;
-    sent.initial_acknack = packet.initial_acknack;
     sent.port = packet.port;
     if (destinations.empty()) log_.sent.push_back(sent);
     for (const std::uint32_t destination : destinations) {
@@ -123,12 +112,6 @@ Scenario by_hand(const std::vector<Node>& nodes, std::int64_t one_way_ns) {
   scenario.wireless.kind = ServiceKind::constant_delay;
   scenario.wireless.one_way = Nanoseconds{one_way_ns};
   return scenario;
-}
-
-void lose(Scenario& scenario, std::uint64_t first, std::uint64_t end) {
-  for (std::uint64_t number = first; number < end; ++number) {
-    scenario.wireless.lost_packets.push_back(number);
-  }
 }
 
 }  // namespace stormproof::model

@@ -13,7 +13,6 @@
 
 namespace stormproof::model {
 
-inline constexpr std::int64_t us = 1'000;
 inline constexpr std::int64_t ms = 1'000'000;
 inline constexpr std::int64_t sec = 1'000'000'000;
 
@@ -29,8 +28,6 @@ struct Sent {
   std::vector<std::uint32_t> descriptors;
   std::int64_t payload_bytes = 0;
   bool from_repair = false;
-  bool carries_heartbeat = false;
-  bool initial_acknack = false;
   std::uint8_t port = 0;  ///< of its flow
 };
 
@@ -62,10 +59,8 @@ struct RunLog {
   std::vector<Sent> sent;
   std::vector<Service> services;
   std::vector<Scheduled> scheduled;
-  std::vector<Scheduled> rescheduled;  ///< held by a sender that stalled, until `due_ns`
   std::vector<Arrived> arrived;
   std::vector<std::string> transitions;  ///< "machine subject: before + event -> after"
-  std::int64_t most_admitted_bytes = 0;
 
   /// Packets of one kind from `source` to `destination` on stream `s`.
   [[nodiscard]] std::vector<Sent> of(PacketKind kind, std::uint32_t source,
@@ -92,8 +87,5 @@ struct Node {
 /// A scenario without default descriptors, without piggybacked HEARTBEATs and with a constant
 /// delay, so that times can be worked out by hand.
 [[nodiscard]] Scenario by_hand(const std::vector<Node>& nodes, std::int64_t one_way_ns = ms);
-
-/// Loses every packet from `first` up to but not including `end`.
-void lose(Scenario& scenario, std::uint64_t first, std::uint64_t end);
 
 }  // namespace stormproof::model

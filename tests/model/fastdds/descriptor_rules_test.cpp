@@ -10,7 +10,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "model/fastdds/protocol.hpp"
-#include "tests/model/fastdds/fastdds_run.hpp"
+#include "tests/model/fastdds/one_writer.hpp"
 
 namespace stormproof::model::fastdds {
 namespace descriptor_rules_test {
@@ -58,7 +58,7 @@ struct Fixture {
   }
 
   static Scenario scenario_of(std::uint32_t count) {
-    Scenario scenario = one_writer(0);
+    Scenario scenario = one_writer();
     scenario.deployment.participants[0].publications = count - default_publications;
     return scenario;
   }
@@ -124,45 +124,6 @@ struct Letters {
   }
   std::string state;
 };
-
-TEST(FastddsDescriptorRules, WhatExistsAtTheMatchIsUnacknowledgedAndTheRestIsAbsent) {
-  Fixture f{12, 5};
-  EXPECT_EQ(f.probe.states, "UUUUU-------");
-  EXPECT_TRUE(f.has_unacknowledged());
-  f.create(5);
-  EXPECT_EQ(f.probe.states, "UUUUUQ------");
-  EXPECT_TRUE(f.is_queued(5));
-  EXPECT_FALSE(f.is_queued(4));
-}
-
-TEST(FastddsDescriptorRules, AnAckNackAcknowledgesThePrefixAndRequestsWhatItLists) {
-  Fixture f{9, 6};
-  f.acknack(2, {3, 5});
-  EXPECT_EQ(f.probe.states, "AAURUR---");
-  f.acknack(4, {5});  // R acknowledged
-  EXPECT_EQ(f.probe.states, "AAAAUR---");
-}
-
-TEST(FastddsDescriptorRules, AcknowledgmentReachesWhatIsToBeSentAndWhatIsSuppressed) {
-  Fixture f{9, 4};
-  f.acknack(0, {0, 1});
-  EXPECT_EQ(f.each(comp::on<change::NackResponseDue>).enqueue.count(), 2U);
-  f.serialize(0);
-  EXPECT_EQ(f.probe.states, "SQUU-----");
-  f.acknack(2, {});
-  EXPECT_EQ(f.probe.states, "AAUU-----");
-  EXPECT_FALSE(f.is_queued(1));
-}
-
-TEST(FastddsDescriptorRules, AnInitialAckNackTakesAcknowledgmentsBackAndLeavesTheRest) {
-  Fixture f{9, 5};
-  f.acknack(2, {3, 4});
-  f.create(5);
-  f.serialize(5);
-  EXPECT_EQ(f.probe.states, "AAURRS---");
-  f.acknack(0, {}, true);
-  EXPECT_EQ(f.probe.states, "UUURRS---");
-}
 
 /// One random event on both; returns whether they agree on its result.
 bool step(Fixture& f, Letters& letters, std::uint32_t& created) {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/model/fastdds/fastdds_run.hpp"
+#include "tests/model/fastdds/one_writer.hpp"
 
 namespace stormproof::model::fastdds {
 namespace protocol_test {
@@ -61,7 +61,7 @@ class FastddsProtocol : public testing::Test, private Probe {
     }
   }
 
-  Scenario scenario_ = one_writer(0);
+  Scenario scenario_ = one_writer();
   RunState run_;
   Network network_;
   Protocol protocol_;

@@ -149,23 +149,5 @@ RC_GTEST_PROP(DescriptorRules, AreALetterForEachDescriptor, ()) {
   }
 }
 
-TEST(DescriptorRules, ADescriptorTakesOneStepPerAckNackNotTwo) {
-  Fixture f{3, false};
-  f.acknack({0, 2});
-  EXPECT_EQ(f.probe.states, "RAR");
-  EXPECT_EQ(f.probe.repairs, 1);
-  f.acknack({0, 2});
-  EXPECT_EQ(f.probe.states, "RAR");
-  EXPECT_EQ(f.probe.repairs, 1);
-}
-
-TEST(DescriptorRules, WithThePrefixRuleWhatIsAboveTheFirstMissingOneStays) {
-  Fixture f{130, true};
-  f.acknack({64, 129});
-  EXPECT_EQ(f.probe.states, std::string(64, 'A') + "R" + std::string(64, 'U') + "R");
-  f.acknack({});
-  EXPECT_EQ(f.probe.states, std::string(130, 'A'));
-}
-
 }  // namespace descriptor_rules_test
 }  // namespace stormproof::model::paper

@@ -44,72 +44,6 @@ void separate(Scenario& scenario, std::int64_t start, std::int64_t end) {
   life(scenario).outages.push_back({1, 0, Nanoseconds{start}, Nanoseconds{end}});
 }
 
-/// One more publication, from 30 s on.
-TEST(EndpointsComeAndGo, DiscoveryIsCompleteAgainWhenAllHaveThem) {
-  Scenario scenario = pair_of_participants();
-  life(scenario).endpoints = {{0, 1, 0, Nanoseconds{30 * sec}, {}}};
-  const RunResult pulled = simulate(scenario);
-  ASSERT_TRUE(pulled.completed());
-  // The clock of HEARTBEATs, then an answer, then the repair.
-  EXPECT_GT(*pulled.recovery_time, scenario.dds.sedp.heartbeat_period);
-  EXPECT_LT(*pulled.recovery_time, scenario.dds.sedp.heartbeat_period * 2);
-  scenario.dds.sedp.initial_data = InitialData::push;
-  const RunResult pushed = simulate(scenario);
-  ASSERT_TRUE(pushed.completed());
-  EXPECT_EQ(*pushed.recovery_time, Nanoseconds{ms});
-  EXPECT_EQ(pushed.useful_deliveries, 3U) << "two that they start with, and the new one";
-}
-
-/// Who deletes says so; and who counts from then on counts that alone.
-TEST(EndpointsComeAndGo, ADeletionIsOneMoreSample) {
-  Scenario scenario = pair_of_participants();
-  scenario.dds.sedp.initial_data = InitialData::push;
-  life(scenario).endpoints = {{0, 0, 2, Nanoseconds{30 * sec}, Nanoseconds{31 * sec}}};
-  scenario.dds.sedp.heartbeat_period = Nanoseconds{2 * sec};
-  const RunResult result = simulate(scenario);
-  ASSERT_TRUE(result.completed());
-  EXPECT_EQ(*result.discovery_time, Nanoseconds{31 * sec + ms});
-  EXPECT_EQ(result.useful_deliveries, 6U);
-  EXPECT_EQ(result.messages_since_last_start, 2U) << "a DATA for each that is gone";
-}
-
-/// The push is lost: the reader does not know that there is something, until a HEARTBEAT says so.
-TEST(EndpointsComeAndGo, AReaderAsksForWhatItKnows) {
-  Scenario scenario = pair_of_participants();
-  scenario.dds.sedp.initial_data = InitialData::push;
-  life(scenario).endpoints = {{0, 1, 0, Nanoseconds{30 * sec}, {}}};
-  life(scenario).outages = {{0, 1, Nanoseconds{30 * sec}, Nanoseconds{30 * sec + 2 * ms}}};
-  const RunResult result = simulate(scenario);
-  ASSERT_TRUE(result.completed());
-  EXPECT_GT(*result.discovery_time, Nanoseconds{30 * sec} + scenario.dds.sedp.heartbeat_period);
-  EXPECT_EQ(result.counts.repair_data, 1U);
-}
-
-TEST(ParticipantsComeAndGo, AShortOutageIsNoFailure) {
-  Scenario scenario = pair_of_participants();
-  const RunResult alone = simulate(scenario);
-  life(scenario).lease = Nanoseconds{20 * sec};
-  separate(scenario, 30 * sec, 40 * sec);
-  const RunResult result = simulate(scenario);
-  ASSERT_TRUE(result.completed());
-  EXPECT_EQ(result.discovery_time, alone.discovery_time);
-  EXPECT_EQ(result.recovery_time, Nanoseconds{});
-  EXPECT_GE(result.end_time, Nanoseconds{60 * sec}) << "a lease may end until then";
-}
-
-/// Both forget, and all is as at first.
-TEST(ParticipantsComeAndGo, WhoForgetEachOtherMeetAgain) {
-  Scenario scenario = pair_of_participants();
-  life(scenario).lease = Nanoseconds{5 * sec};
-  separate(scenario, 30 * sec, 40 * sec);
-  const RunResult result = simulate(scenario);
-  ASSERT_TRUE(result.completed());
-  ASSERT_TRUE(result.recovery_time);
-  EXPECT_GT(result.recovery_time->count(), 0);
-  EXPECT_LT(*result.recovery_time, Nanoseconds{5 * sec});
-  EXPECT_EQ(*result.discovery_time, Nanoseconds{40 * sec} + *result.recovery_time);
-}
-
 /// Fast DDS #155 from its beginning: one lease is shorter than the outage, the other one longer.
 TEST(ParticipantsComeAndGo, UnequalLeasesMakeAReaderThatNobodyServes) {
   Scenario scenario = pair_of_participants();
@@ -140,31 +74,6 @@ TEST(ParticipantsComeAndGo, WhoComesBackUnderItsNameIsOneThatForgot) {
     last = *result.recovery_time;
   }
   EXPECT_GT(last, Nanoseconds{8 * sec});
-}
-
-TEST(ParticipantsComeAndGo, WhoComesBackAsSomebodyNewIsLearnedAnew) {
-  Scenario scenario = pair_of_participants();
-  life(scenario).restarts = {{1, Nanoseconds{10 * sec}, Nanoseconds{11 * sec}, Identity::fresh}};
-  const RunResult result = simulate(scenario);
-  ASSERT_TRUE(result.completed());
-  EXPECT_GT(*result.discovery_time, Nanoseconds{11 * sec});
-  EXPECT_EQ(result.missing_count, 0U);
-}
-
-TEST(ParticipantsComeAndGo, NothingOfAnEarlierLifeHappens) {
-  Scenario scenario = pair_of_participants();
-  life(scenario).restarts = {{1, Nanoseconds{2 * sec}, Nanoseconds{4 * sec}, Identity::same}};
-  scenario.run_until = RunUntil::time_limit;
-  scenario.time_limit = Nanoseconds{9 * sec};
-  const RunLog log = run_and_log(scenario);
-  std::vector<std::int64_t> announced;
-  for (const Sent& packet : log.sent) {
-    EXPECT_FALSE(packet.source == 1 && packet.time_ns >= 2 * sec && packet.time_ns < 4 * sec);
-    if (packet.source == 1 && packet.kind == PacketKind::spdp_multicast) {
-      announced.push_back(packet.time_ns);
-    }
-  }
-  EXPECT_EQ(announced, (std::vector<std::int64_t>{0, 4 * sec, 7 * sec}));
 }
 
 TEST(ParticipantsComeAndGo, ARunUntilQuiescenceEndsWhenNothingIsLeftToDo) {
