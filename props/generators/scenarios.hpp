@@ -1,7 +1,6 @@
 // Random scenarios for property tests. They use every knob, shrink towards the smallest deployment,
 // the fewest changed knobs, the fewest lost packets and round numbers, and print as scenario files.
-// With machine_events.hpp the only header of the project that shows RapidCheck; keep it out of
-// other headers.
+// The only header of the project that shows RapidCheck; keep it out of other headers.
 #pragma once
 
 #include <iosfwd>
