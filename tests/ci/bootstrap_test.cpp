@@ -1,38 +1,25 @@
 // The way to an up-to-date build that the launcher and the tests take (cmake/bootstrap.sh), with a
 // small project in the place of this one: it recovers from what a failed configuration or a library
 // that has moved leaves behind, and starts no more compilations than memory is there for.
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
+
+#include "tests/files.hpp"
 
 namespace bootstrap_test {
 
 namespace fs = std::filesystem;
 
-std::string content(const fs::path& file) {
-  std::ifstream in{file};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
-
-void write(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  std::ofstream{file} << text;
-}
+using stormproof::files::content;
+using stormproof::files::write;
 
 /// A project without sources in a folder of its own: it needs the file `library`, and with tests
 /// also `test_library`.
 class Bootstrap : public testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "stormproof-bootstrap-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    home_ = fs::canonical(pattern);
     fs::create_directories(home_ / "cmake");
     fs::copy_file(STORMPROOF_SOURCE_DIR "/cmake/bootstrap.sh", home_ / "cmake/bootstrap.sh");
     write(home_ / "cmake/debian-packages.txt", "build sh nothing\ntest sh nothing\n");
@@ -50,16 +37,13 @@ class Bootstrap : public testing::Test {
           "DEPENDS ${LIBRARY})\nadd_custom_target(program_of_it DEPENDS program)\n");
     write(home_ / "library", "first");
   }
-  void TearDown() override { fs::remove_all(home_); }
 
   /// Runs a script that has the functions of bootstrap.sh; its exit code.
   int shell(const std::string& script) {
     write(home_ / "script",
           "set -eu\nroot='" + home_.string() + "'\n. \"$root/cmake/bootstrap.sh\"\n" + script);
-    const std::string command = "sh '" + (home_ / "script").string() + "' > '" +
-                                (home_ / "output").string() + "' 2>&1 </dev/null";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return stormproof::files::exit_code_of("sh '" + (home_ / "script").string() + "' > '" +
+                                           (home_ / "output").string() + "' 2>&1 </dev/null");
   }
   int build_program() { return shell("bootstrap release build program_of_it build\n"); }
   int build_tests() {
@@ -67,7 +51,8 @@ class Bootstrap : public testing::Test {
   }
   std::string output() const { return content(home_ / "output"); }
 
-  fs::path home_;
+  const stormproof::files::Folder own_;
+  const fs::path home_ = own_.path();
 };
 
 TEST_F(Bootstrap, BuildsOnceAndIsSilentThen) {

@@ -2,7 +2,6 @@
 // own: every `run` of the workflow in order, in one checkout, and every hook of pre-commit. What an
 // example says must be true: a harmless change passes, a harmful one is stopped, and the files that
 // later steps upload are there.
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -10,9 +9,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <yaml-cpp/yaml.h>
+
+#include "tests/files.hpp"
 
 namespace workflow_test {
 
@@ -20,15 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* specs = STORMPROOF_SOURCE_DIR "/specs/";
 
-std::string content(const fs::path& file) {
-  std::ifstream in{file};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
-
-void write(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  std::ofstream{file} << text;
-}
+using stormproof::files::content;
+using stormproof::files::write;
 
 /// A profile with one setting of discovery.
 std::string profile(const std::string& setting) {
@@ -56,9 +48,6 @@ const std::string useless =
 class Examples : public testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "stormproof-ci-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    home_ = pattern;
     fs::create_directories(home_ / "temp");
     write(home_ / "repository/dds/robots.xml", usual);
     write(home_ / "repository/dds/fleet.yaml",
@@ -76,7 +65,6 @@ class Examples : public testing::Test {
               0)
         << output();
   }
-  void TearDown() override { fs::remove_all(home_); }
 
   /// Runs a script in the repository; its exit code.
   int shell(const std::string& script) {
@@ -87,11 +75,11 @@ class Examples : public testing::Test {
         (home_ / "path").string() + "' GITHUB_STEP_SUMMARY='" + (home_ / "summary").string() +
         "' BASE=origin/main PROFILE=dds/robots.xml FLEET=dds/fleet.yaml bash -e '" +
         (home_ / "script").string() + "' > '" + (home_ / "output").string() + "' 2>&1 </dev/null";
-    const int status = std::system(command.c_str());
+    const int code = stormproof::files::exit_code_of(command);
     std::ifstream added{home_ / "path"};
     path_.clear();
     for (std::string line; std::getline(added, line);) path_ += line + ":";
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return code;
   }
   std::string output() const { return content(home_ / "output"); }
   fs::path file(const std::string& name) const { return home_ / "repository" / name; }
@@ -129,7 +117,8 @@ class Examples : public testing::Test {
     return -1;
   }
 
-  fs::path home_;
+  const stormproof::files::Folder own_;
+  const fs::path home_ = own_.path();
   std::string path_;
 };
 

@@ -1,6 +1,5 @@
 // What goes wrong outside of the program never turns into success, an abort or a lost answer: full
 // disks, closed pipes and descriptors, outputs that are inputs, folders that cannot be written.
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -11,19 +10,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/files.hpp"
+
 namespace failure_test {
 
 namespace fs = std::filesystem;
+namespace files = stormproof::files;
 
 class Failure : public testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "stormproof-failure-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
     fs::copy_file(STORMPROOF_SPECS_DIR "/scenarios/smallest.yaml", folder_ / "my.yaml");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   /// The exit code of a shell's commands, in the folder unless they leave it; `redirection` comes
   /// after those into the files `out` and `err`.
@@ -32,15 +30,13 @@ class Failure : public testing::Test {
                              fs::path{STORMPROOF_PROGRAM}.parent_path().string() + "':$PATH; T='" +
                              folder_.string() + "'; " + commands + "\n} >" + file("out") + " 2>" +
                              file("err") + " " + redirection + " </dev/null";
-    const int status = std::system(line.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return files::exit_code_of(line);
   }
   [[nodiscard]] std::string file(const char* name) const {
     return "'" + (folder_ / name).string() + "'";
   }
   [[nodiscard]] std::string content(const std::string& name) const {
-    std::ifstream in{folder_ / name};
-    return {std::istreambuf_iterator<char>{in}, {}};
+    return files::content(folder_ / name);
   }
   [[nodiscard]] bool says(const char* name, const std::string& words) const {
     return content(name).find(words) != std::string::npos;
@@ -52,7 +48,8 @@ class Failure : public testing::Test {
     return false;
   }
 
-  fs::path folder_;
+  const files::Folder own_;
+  const fs::path folder_ = own_.path();
 };
 
 /// A violation that a quick check finds.

@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/shown.hpp"
+#include "tests/files.hpp"
 
 namespace golden_test {
 
@@ -74,14 +75,12 @@ class Golden : public testing::TestWithParam<fs::path> {};
 TEST_P(Golden, OutputAndExitCode) {
   const std::vector<Step> steps = read_steps(GetParam());
   ASSERT_FALSE(steps.empty());
-  std::string pattern = (fs::temp_directory_path() / "stormproof-golden-XXXXXX").string();
-  ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-  const fs::path folder{pattern};
+  const stormproof::files::Folder folder;
   std::string updated;
   bool elided = false;
   for (const Step& step : steps) {
     ASSERT_GE(step.exit_code, 0) << "no `exit` line after: " << step.command;
-    const Step actual = run(step, folder);
+    const Step actual = run(step, folder.path());
     EXPECT_TRUE(shown::matches(step.out, actual.out) && shown::matches(step.err, actual.err) &&
                 step.exit_code == actual.exit_code)
         << "expected:\n"
@@ -93,7 +92,6 @@ TEST_P(Golden, OutputAndExitCode) {
   if (std::getenv("STORMPROOF_UPDATE_GOLDEN") != nullptr && !elided) {
     std::ofstream{GetParam()} << updated;
   }
-  fs::remove_all(folder);
 }
 
 std::vector<fs::path> golden_files() {

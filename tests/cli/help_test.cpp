@@ -1,54 +1,42 @@
 // The help: every command has it, with examples that run as they stand; the same by `help COMMAND`;
 // what it lists is there; and bash completes what the parser knows.
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
+
+#include "tests/files.hpp"
 
 namespace help_test {
 
 namespace fs = std::filesystem;
+namespace files = stormproof::files;
 
 /// A folder with the shipped files in it, in which lines of a shell run.
 class Shell {
  public:
-  Shell() {
-    std::string pattern = (fs::temp_directory_path() / "stormproof-help-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    fs::create_directory_symlink(STORMPROOF_SPECS_DIR, folder_ / "specs");
-  }
-  ~Shell() { fs::remove_all(folder_); }
-  Shell(const Shell&) = delete;
-  Shell& operator=(const Shell&) = delete;
+  Shell() { fs::create_directory_symlink(STORMPROOF_SPECS_DIR, folder_.path() / "specs"); }
 
   /// Standard output; the exit code is in `code`, standard error in `errors`.
   std::string operator()(const std::string& line) {
-    std::ofstream{folder_ / "typed.sh"}
-        << "PATH='" << fs::path{STORMPROOF_PROGRAM}.parent_path().string() << "':$PATH\n"
-        << line << '\n';
-    const std::string run = "cd '" + folder_.string() + "' && bash typed.sh >out 2>err </dev/null";
-    const int status = std::system(run.c_str());
-    code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-    errors = content("err");
-    return content("out");
+    const fs::path& folder = folder_.path();
+    files::write(
+        folder / "typed.sh",
+        "PATH='" + fs::path{STORMPROOF_PROGRAM}.parent_path().string() + "':$PATH\n" + line + '\n');
+    code =
+        files::exit_code_of("cd '" + folder.string() + "' && bash typed.sh >out 2>err </dev/null");
+    errors = files::content(folder / "err");
+    return files::content(folder / "out");
   }
 
   int code = -1;
   std::string errors;
 
  private:
-  [[nodiscard]] std::string content(const char* name) const {
-    std::ifstream in{folder_ / name};
-    return {std::istreambuf_iterator<char>{in}, {}};
-  }
-
-  fs::path folder_;
+  files::Folder folder_;
 };
 
 /// "simulate", …, "profile show": what the front page of the help lists.

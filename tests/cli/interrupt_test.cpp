@@ -13,24 +13,23 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/files.hpp"
+
 namespace interrupt_test {
 
 namespace fs = std::filesystem;
+namespace files = stormproof::files;
 
 using Words = std::vector<std::string>;
 
 class Interrupt : public testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "stormproof-interrupt-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
     std::ofstream grid{folder_ / "big.yaml"};
     grid << "base: live-5x20\ngrid: {time_limit: [100s";
     for (int k = 1; k < 5'000; ++k) grid << ", " << 100'000 + k << "ms";
     grid << "]}\n";
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   /// Starts the program in the folder, with its output in the files `out` and `err`.
   [[nodiscard]] pid_t start(const Words& arguments) const {
@@ -65,14 +64,14 @@ class Interrupt : public testing::Test {
   }
 
   [[nodiscard]] std::string content(const char* name) const {
-    std::ifstream in{folder_ / name};
-    return {std::istreambuf_iterator<char>{in}, {}};
+    return files::content(folder_ / name);
   }
   [[nodiscard]] bool says_interrupted() const {
     return (content("out") + content("err")).find("nterrupted") != std::string::npos;
   }
 
-  fs::path folder_;
+  const files::Folder own_;
+  const fs::path folder_ = own_.path();
 };
 
 const Words endless{

@@ -6,9 +6,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,10 +16,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/shown.hpp"
+#include "tests/files.hpp"
 
 namespace pages_test {
 
 namespace fs = std::filesystem;
+namespace files = stormproof::files;
 
 struct Command {
   std::string line;                ///< as the page shows it
@@ -95,9 +95,6 @@ std::vector<Command> commands_of(const fs::path& page) {
 class Reader {
  public:
   Reader() {
-    std::string pattern = (fs::temp_directory_path() / "stormproof-page-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error{"no temporary folder"};
-    folder_ = pattern;
     fs::create_directory(home());
     fs::create_directory(folder_ / "output");
     fs::create_directory_symlink(STORMPROOF_SOURCE_DIR "/specs", home() / "specs");
@@ -121,9 +118,6 @@ class Reader {
       fs::copy_file(specs / "vendor/fastdds/large-send-buffer.xml", home() / name);
     }
   }
-  ~Reader() { fs::remove_all(folder_); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
 
   /// Assignments hold for the commands after them.
   shown::Output run(const Command& command) {
@@ -139,8 +133,7 @@ class Reader {
  private:
   [[nodiscard]] fs::path home() const { return folder_ / "home"; }
   [[nodiscard]] static std::string named_lidar(const fs::path& file) {
-    std::ifstream in{file};
-    std::string text{std::istreambuf_iterator<char>{in}, {}};
+    std::string text = files::content(file);
     const std::string_view name = "\"humble\"";
     text.replace(text.find(name), name.size(), "\"lidar\"");
     return text;
@@ -150,7 +143,8 @@ class Reader {
     if (program) fs::permissions(home() / name, fs::perms::owner_all);
   }
 
-  fs::path folder_;
+  const files::Folder own_;
+  const fs::path folder_ = own_.path();
   std::string assignments_;
 };
 

@@ -13,10 +13,12 @@
 #include <sys/wait.h>
 
 #include "tests/checker/presentation/json/schema_errors.hpp"
+#include "tests/files.hpp"
 
 namespace repeat_test {
 
 namespace fs = std::filesystem;
+namespace files = stormproof::files;
 using Json = nlohmann::ordered_json;
 
 struct Case {
@@ -102,9 +104,6 @@ Json schema_of(const std::string& arguments) {
 class Repeat : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "stormproof repeat-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
     fs::copy_file(STORMPROOF_SPECS_DIR "/scenarios/smallest.yaml", folder_ / "it's one.yaml");
     std::ofstream{folder_ / "it's new.yaml"} << "base: fastdds-2.6.11\n"
                                                 "sedp: {heartbeat_period: 2s}\n";
@@ -112,7 +111,6 @@ class Repeat : public testing::TestWithParam<Case> {
                                                    "grid: {time_limit: [2s, 3s]}\n";
     shell("stormproof simulate smallest --trace \"it's a trace.jsonl\"", "trace");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   /// The standard output of a command, run in the folder.
   std::string shell(const std::string& command, const std::string& name) {
@@ -129,11 +127,11 @@ class Repeat : public testing::TestWithParam<Case> {
   }
 
   [[nodiscard]] std::string content(const std::string& name) const {
-    std::ifstream in{folder_ / name};
-    return {std::istreambuf_iterator<char>{in}, {}};
+    return files::content(folder_ / name);
   }
 
-  fs::path folder_;
+  const files::Folder own_{"stormproof repeat"};
+  const fs::path folder_ = own_.path();
   int exit_code_ = -1;
 };
 

@@ -2,7 +2,6 @@
 // files after a change: STORMPROOF_UPDATE_GOLDEN=1. And the vocabulary: a key has one type, whoever
 // prints it. That the JSON of every verb is as its schema says, tests/cli/repeat_test.cpp holds.
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/checker/presentation/json/schema_errors.hpp"
+#include "tests/files.hpp"
 
 namespace schema_test {
 
@@ -36,11 +36,7 @@ const char* const verbs[] = {"simulate",     "check",
                              "museum"};
 
 std::string output_of(const std::string& arguments) {
-  FILE* pipe = popen((STORMPROOF_PROGRAM " " + arguments).c_str(), "r");
-  std::string text;
-  char part[4096];
-  for (std::size_t n = 0; (n = fread(part, 1, sizeof part, pipe)) > 0;) text.append(part, n);
-  return pclose(pipe) == 0 ? text : "";
+  return stormproof::files::output_of(STORMPROOF_PROGRAM " " + arguments);
 }
 
 fs::path file_of(std::string verb) {
@@ -48,10 +44,7 @@ fs::path file_of(std::string verb) {
   return fs::path{STORMPROOF_SPECS_DIR "/schema/output"} / (verb + ".schema.json");
 }
 
-std::string content(const fs::path& path) {
-  std::ifstream in{path};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
+using stormproof::files::content;
 
 TEST(OutputSchema, TheFilesSayWhatTheProgramSays) {
   const bool renew = std::getenv("STORMPROOF_UPDATE_GOLDEN") != nullptr;

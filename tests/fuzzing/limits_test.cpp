@@ -1,12 +1,11 @@
 // Hostile sizes are refused with the limit named, before they cost memory or time.
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "model/config/scenario_file.hpp"
 #include "model/trace/replay.hpp"
+#include "tests/files.hpp"
 #include "tests/fuzzing/checks.hpp"
 #include "tests/fuzzing/memory_file.hpp"
 
@@ -16,9 +15,7 @@ namespace limits_test {
 using model::Scenario;
 
 std::string corpus(const std::string& file) {
-  std::ifstream in{std::string{STORMPROOF_SOURCE_DIR "/tests/fuzzing/corpus"} + "/" + file,
-                   std::ios::binary};
-  return {std::istreambuf_iterator<char>{in}, {}};
+  return files::content(std::string{STORMPROOF_SOURCE_DIR "/tests/fuzzing/corpus/"} + file);
 }
 
 std::string error_of(const std::string& file) {

@@ -3,15 +3,14 @@
 // not mention, are mistakes; invented pages show that they are noticed.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "fsm/composition/compositions.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::fsm::composition {
 namespace guide_test {
@@ -85,12 +84,6 @@ Complaints not_mentioned(const std::string& page, const CompositionInfo& composi
   return complaints;
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file}.rdbuf();
-  return text.str();
-}
-
 std::string lines(const Complaints& complaints) {
   std::string text;
   for (const std::string& complaint : complaints) text += complaint + "\n";
@@ -115,7 +108,7 @@ TEST(Guide, RefersToRulesAndEffectsThatExist) {
       if (begin != end && std::none_of(begin, end, is_its)) continue;
       ids.merge(ids_of(composition));
     }
-    EXPECT_EQ(lines(wrong_references(text_of(entry.path()), ids)), "") << name;
+    EXPECT_EQ(lines(wrong_references(files::content(entry.path()), ids)), "") << name;
     ++pages;
   }
   EXPECT_GT(pages, 15U);
@@ -125,8 +118,9 @@ TEST(Guide, StatesEveryRule) {
   for (const CompositionInfo& composition : compositions()) {
     for (const auto& [page, name] : page_of) {
       if (name != composition.name) continue;
-      std::string text = text_of(std::string{STORMPROOF_SPECS_DIR "/guide/"} + page);
-      if (name == "fastdds-living") text += text_of(STORMPROOF_SPECS_DIR "/guide/fastdds.md");
+      std::string text = files::content(std::string{STORMPROOF_SPECS_DIR "/guide/"} + page);
+      if (name == "fastdds-living")
+        text += files::content(STORMPROOF_SPECS_DIR "/guide/fastdds.md");
       EXPECT_EQ(lines(not_mentioned(text, composition)), "") << page;
     }
   }

@@ -2,14 +2,14 @@
 // makes one thing wrong. And the files of a run are read as they are written.
 #include "tests/live/report/judgement.hpp"
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "tests/files.hpp"
 
 namespace stormproof::live {
 namespace judgement_test {
@@ -186,17 +186,9 @@ class Folder : public ::testing::Test {
       "endpoints_done_ns": 12, "app_ns": 30, "matches": 12, "matches_expected": 12,
       "strict_ns": 29, "discovered": 19, "discovered_expected": 19})");
   }
-  void TearDown() override { fs::remove_all(path_.parent_path()); }
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(path_ / name) << text;
-  }
-  /// Tests run side by side: each has a folder of its own.
-  static fs::path own_folder() {
-    std::string pattern = ::testing::TempDir() + "stormproof-live-XXXXXX";
-    EXPECT_NE(mkdtemp(pattern.data()), nullptr);
-    return pattern;
-  }
-  fs::path path_ = own_folder() / "run-1";
+  void write(const std::string& name, const std::string& text) { files::write(path_ / name, text); }
+  const files::Folder own_;
+  const fs::path path_ = own_.path() / "run-1";
 };
 
 TEST_F(Folder, IsRead) {

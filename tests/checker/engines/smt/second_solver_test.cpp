@@ -2,8 +2,6 @@
 // left behind.
 #include "checker/engines/smt/second_solver.hpp"
 
-#include <sstream>
-
 #include "checker/engines/smt/decision.hpp"
 #include "tests/checker/engines/smt/solver_on_path.hpp"
 
@@ -131,12 +129,6 @@ TEST(SecondOpinion, LeavesNoFilesBehind) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream{path}.rdbuf();
-  return text.str();
-}
-
 TEST(Export, TheFileSaysWhatIsAskedAndExpected) {
   const Folder folder;
   Claims claims{
@@ -144,7 +136,7 @@ TEST(Export, TheFileSaysWhatIsAskedAndExpected) {
   ask_three(claims);
   const SecondOpinion opinion = claims.second_opinion("some.property");
   EXPECT_TRUE(opinion.problem.empty()) << opinion.problem;
-  const std::string text = text_of(folder.path() / "new" / "folder" / "some.property.smt2");
+  const std::string text = files::content(folder.path() / "new" / "folder" / "some.property.smt2");
   EXPECT_NE(text.find("; property: some.property\n"), std::string::npos);
   EXPECT_NE(text.find("; query: first\n; expected: unsat\n"), std::string::npos);
   EXPECT_NE(text.find("; query: second\n; expected: sat\n"), std::string::npos);

@@ -3,10 +3,8 @@
 #include "checker/engines/tables/completion_certificate.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
-#include <unistd.h>
 #include <z3++.h>
 
 #include "checker/engines/process/process.hpp"
@@ -17,6 +15,7 @@
 #include "checker/engines/tables/unrolling.hpp"
 #include "tests/checker/engines/tables/effect_mistake.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::tables {
 namespace completion_certificate_test {
@@ -134,12 +133,6 @@ TEST(CompletionCertificate, IsAboutSystemsThatMove) {
   }
 }
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream{path}.rdbuf();
-  return text.str();
-}
-
 /// Answers, one in each line; only unsat is as it should be.
 void expect_unsat(const std::string& answers) {
   std::istringstream lines{answers};
@@ -149,12 +142,12 @@ void expect_unsat(const std::string& answers) {
 }
 
 TEST(CompletionCertificate, IsExportedForOthersToCheck) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("certificates-" + std::to_string(getpid()));
+  const files::Folder own;
+  const std::filesystem::path& folder = own.path();
   for (const model::Scenario& scenario : {paper(), fastdds()}) {
     certified(scenario, nullptr, {}, {.export_dir = folder.string(), .second_solver = false});
     const auto file = folder / "certificates" / "live.completion.rules.smt2";
-    const std::string text = text_of(file);
+    const std::string text = files::content(file);
     EXPECT_NE(text.find("(define-fun invariant"), std::string::npos);
     z3::context context;
     expect_unsat(Z3_eval_smtlib2_string(context, text.c_str()));
@@ -163,7 +156,6 @@ TEST(CompletionCertificate, IsExportedForOthersToCheck) {
                                            .limit = std::chrono::seconds{120}});
     expect_unsat(run.output);
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace completion_certificate_test

@@ -3,17 +3,15 @@
 // mistakes between the machines break them.
 #include "checker/engines/tables/recovery_certificate.hpp"
 
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
-#include <unistd.h>
 #include <z3++.h>
 
 #include "checker/engines/tables/unrolling.hpp"
 #include "props/monitors/recovery_bound.hpp"
 #include "tests/checker/engines/tables/effect_mistake.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
+#include "tests/files.hpp"
 #include "tests/props/monitored_run.hpp"
 
 namespace stormproof::tables {
@@ -210,19 +208,17 @@ TEST(RecoveryCertificate, SaysNothingOfOtherDeployments) {
 }
 
 TEST(RecoveryCertificate, IsExportedForOthersToCheck) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("recovery-" + std::to_string(getpid()));
+  const files::Folder folder;
   certified(proposed(), Before::stale, nullptr, {},
-            {.export_dir = folder.string(), .second_solver = false});
-  std::ostringstream text;
-  text << std::ifstream{folder / "certificates" / "live.recovery.stale.rules.smt2"}.rdbuf();
-  EXPECT_NE(text.str().find("(define-fun invariant"), std::string::npos);
+            {.export_dir = folder.path().string(), .second_solver = false});
+  const std::string text =
+      files::content(folder.path() / "certificates" / "live.recovery.stale.rules.smt2");
+  EXPECT_NE(text.find("(define-fun invariant"), std::string::npos);
   z3::context context;
-  std::istringstream answers{Z3_eval_smtlib2_string(context, text.str().c_str())};
+  std::istringstream answers{Z3_eval_smtlib2_string(context, text.c_str())};
   std::size_t count = 0;
   for (std::string line; std::getline(answers, line); ++count) EXPECT_EQ(line, "unsat");
   EXPECT_GT(count, 20U);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace recovery_certificate_test

@@ -1,15 +1,13 @@
 // The unbounded safety properties and the timer: proved with an invariant that both solvers check,
 // and violated with the shortest steps when a rule is wrong.
 #include <filesystem>
-#include <fstream>
 #include <sstream>
-
-#include <unistd.h>
 
 #include "checker/engines/smt/second_solver.hpp"
 #include "checker/engines/tables/transition_system.hpp"
 #include "tests/checker/engines/smt/solver_on_path.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::tables {
 namespace safety_test {
@@ -183,8 +181,8 @@ TEST(SingleHeartbeat, AnArmingInTheWrongStateIsFound) {
 
 TEST(SecondOpinion, BothSolversSeeEveryPropertyAndItsExport) {
   if (smt::second_solver_name().empty()) GTEST_SKIP() << "cvc5 is not installed";
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("stormproof-tables-" + std::to_string(getpid()));
+  const files::Folder own;
+  const std::filesystem::path& folder = own.path();
   for (const std::string_view property : decidable()) {
     if (property == "live.recovery") continue;  // of amended rules: recovery_certificate_test.cpp
     const Finding finding = decide(property, paper(), nullptr, {.export_dir = folder.string()});
@@ -195,7 +193,6 @@ TEST(SecondOpinion, BothSolversSeeEveryPropertyAndItsExport) {
     if (property == "live.no-stall") continue;  // it rests on certificates with their own names
     EXPECT_TRUE(std::filesystem::exists(folder / (std::string{property} + ".smt2")));
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(SecondOpinion, ASolverThatDisagreesMakesItDisputed) {
@@ -218,24 +215,21 @@ TEST(Certificate, AnInvariantThatIsNoneIsDisputed) {
 
 /// A stranger has what is needed: the invariant, and one question for each step.
 TEST(Safety, ItsCertificateIsExported) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("stormproof-safety-" + std::to_string(getpid()));
+  const files::Folder own;
+  const std::filesystem::path& folder = own.path();
   for (const char* const property : {"safety.ack-implies-received", "safety.repair-only-if-asked",
                                      "safety.snapshot", "timer.single-heartbeat"}) {
     for (const model::Scenario& scenario : {paper(), fastdds()}) {
       const smt::Options options{.export_dir = folder.string(), .second_solver = false};
       EXPECT_EQ(decide(property, scenario, nullptr, options).kind, VerdictKind::proved);
       const auto file = folder / "certificates" / (std::string{property} + ".smt2");
-      std::ostringstream text;
-      text << std::ifstream{file}.rdbuf();
       z3::context context;
-      std::istringstream answers{Z3_eval_smtlib2_string(context, text.str().c_str())};
+      std::istringstream answers{Z3_eval_smtlib2_string(context, files::content(file).c_str())};
       std::size_t count = 0;
       for (std::string line; std::getline(answers, line); ++count) EXPECT_EQ(line, "unsat");
       EXPECT_GT(count, 4U) << property;
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Budget, ThatIsUsedUpIsInconclusiveAndNeverSomethingElse) {

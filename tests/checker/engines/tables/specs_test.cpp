@@ -1,21 +1,18 @@
 // The specifications that are built into the program are those in the source tree, and the expected
 // matrix gives reasons.
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
 #include "checker/engines/tables/ignored_pairs.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::tables {
 namespace specs_test {
 
 std::string text_of(const std::string& name) {
-  std::ostringstream text;
-  text << std::ifstream{STORMPROOF_SPECS_DIR "/" + name}.rdbuf();
-  return text.str();
+  return files::content(STORMPROOF_SPECS_DIR "/" + name);
 }
 
 TEST(EmbeddedSpecs, AreTheFiles) {

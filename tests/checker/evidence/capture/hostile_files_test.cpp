@@ -13,6 +13,7 @@
 #include "checker/evidence/capture/decompress.hpp"
 #include "tests/checker/evidence/capture/gzip.hpp"
 #include "tests/checker/evidence/capture/packets.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::capture {
 
@@ -148,13 +149,6 @@ TEST(Bombs, AnXzDictionaryBeyondTheMemoryLimit) {
 
 class Files : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "stormproof-files-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string path(const char* name) const { return folder_ / name; }
   static std::string error_of(const std::string& path) {
     const std::vector<std::string> files{path};
@@ -162,7 +156,8 @@ class Files : public ::testing::Test {
     return conversation ? "" : conversation.error().message;
   }
 
-  fs::path folder_;
+  const files::Folder own_;
+  const fs::path folder_ = own_.path();
 };
 
 TEST_F(Files, FoldersPipesAndDevicesAreRefusedWithoutWaiting) {

@@ -1,6 +1,5 @@
 // The command itself: time limits, interruption, exit codes and commands that repeat a result.
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -9,33 +8,28 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/files.hpp"
+
 namespace command_test {
 
 namespace fs = std::filesystem;
+namespace files = stormproof::files;
 
 class FuzzCommand : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "stormproof-fuzz-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Exit code of `stormproof fuzz ARGUMENTS`, whose output goes to the file `out`.
   [[nodiscard]] int fuzz(const std::string& arguments, const std::string& out) const {
     const std::string command = "cd '" + folder_.string() + "' && PATH='" +
                                 fs::path{STORMPROOF_PROGRAM}.parent_path().string() +
                                 "':$PATH stormproof fuzz " + arguments + " >" + out + " 2>err";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return files::exit_code_of(command);
   }
   [[nodiscard]] std::string content(const std::string& name) const {
-    std::ifstream in{folder_ / name};
-    return {std::istreambuf_iterator<char>{in}, {}};
+    return files::content(folder_ / name);
   }
 
-  fs::path folder_;
+  const files::Folder own_;
+  const fs::path folder_ = own_.path();
 };
 
 TEST_F(FuzzCommand, is_the_same_on_one_thread_and_on_two) {

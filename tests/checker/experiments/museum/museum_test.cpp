@@ -2,7 +2,6 @@
 // are no exhibits are refused with their place.
 #include "checker/experiments/museum/museum.hpp"
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "checker/experiments/museum/certified.hpp"
 #include "checker/experiments/museum/claims.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::museum {
 namespace museum_test {
@@ -69,10 +69,7 @@ std::string refusal(const std::string& text) {
   return message.starts_with(path) ? message.substr(path.size()) : message;
 }
 
-std::string shipped() {
-  std::ifstream file{STORMPROOF_SPECS_DIR "/museum/E0.yaml"};
-  return {std::istreambuf_iterator<char>{file}, {}};
-}
+std::string shipped() { return files::content(STORMPROOF_SPECS_DIR "/museum/E0.yaml"); }
 std::string with(const std::string& from, const std::string& to) {
   std::string text = shipped();
   const std::size_t at = text.find(from);

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include "tests/files.hpp"
+
 namespace stormproof::sweep {
 namespace database_test {
 
@@ -17,14 +19,6 @@ namespace fs = std::filesystem;
 
 class DatabaseTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "stormproof-database-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-    file_ = folder_ / "runs.db";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   Database open(const std::string& version = "1.0") const {
     auto database = Database::open(file_, version);
     EXPECT_TRUE(database) << to_string(database.error());
@@ -40,13 +34,11 @@ class DatabaseTest : public testing::Test {
     EXPECT_EQ(sqlite3_exec(connection, sql, nullptr, nullptr, nullptr), SQLITE_OK);
     sqlite3_close(connection);
   }
-  [[nodiscard]] std::string content() const {
-    std::ifstream in{file_, std::ios::binary};
-    return {std::istreambuf_iterator<char>{in}, {}};
-  }
+  [[nodiscard]] std::string content() const { return files::content(file_); }
 
-  fs::path folder_;
-  fs::path file_;
+  const files::Folder own_;
+  const fs::path folder_ = own_.path();
+  fs::path file_ = folder_ / "runs.db";
 };
 
 Outcome some_outcome() {

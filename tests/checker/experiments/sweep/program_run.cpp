@@ -76,21 +76,13 @@ testing::AssertionResult contains(const Rows& all, const Rows& some) {
 }
 
 void SweepProgram::SetUp() {
-  std::string pattern = (fs::temp_directory_path() / "stormproof-sweep-XXXXXX").string();
-  ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-  folder_ = pattern;
   std::ofstream{folder_ / "grid.yaml"}
       << "base: wifi-5x20\ngrid:\n  deployment.endpoints_per_participant: {from: 16, to: 20}\n"
          "  wireless.order: [fifo, fifo_uplink, fifo_downlink, datagram_uplink]\n"
          "  dds.sedp.heartbeat_period: {from: 800ms, to: 1200ms, step: 100ms}\n";
 }
 
-void SweepProgram::TearDown() { fs::remove_all(folder_); }
-
-std::string SweepProgram::content(const char* name) const {
-  std::ifstream in{folder_ / name};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
+std::string SweepProgram::content(const char* name) const { return files::content(folder_ / name); }
 
 Arguments SweepProgram::sweep(const char* database) const {
   return {STORMPROOF_PROGRAM, "sweep", path("grid.yaml"), "-o", path(database)};

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <sys/types.h>
 
+#include "tests/files.hpp"
+
 namespace stormproof::sweep {
 
 using Arguments = std::vector<std::string>;
@@ -34,7 +36,6 @@ using Rows = std::map<std::string, Row>;
 class SweepProgram : public testing::Test {
  protected:
   void SetUp() override;
-  void TearDown() override;
 
   /// The jobs of the grid; one takes some milliseconds.
   static constexpr std::size_t jobs = 100;
@@ -43,7 +44,8 @@ class SweepProgram : public testing::Test {
   [[nodiscard]] std::string content(const char* name) const;
   [[nodiscard]] Arguments sweep(const char* database) const;
 
-  std::filesystem::path folder_;
+  const files::Folder own_;
+  const std::filesystem::path folder_ = own_.path();
 };
 
 }  // namespace stormproof::sweep

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "program_run.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::sweep {
 namespace ranks_test {
@@ -36,19 +37,15 @@ class Ranks : public SweepProgram {
   }
 };
 
-std::string file_content(const fs::path& file) {
-  std::ifstream in{file, std::ios::binary};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
-
 /// The process of rank 1 that writes to `database`.
 std::optional<pid_t> second_rank(const std::string& database) {
   for (const auto& entry : fs::directory_iterator{"/proc"}) {
     const std::string name = entry.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    const bool is_ours = file_content(entry.path() / "cmdline").find(database) != std::string::npos;
+    const bool is_ours =
+        files::content(entry.path() / "cmdline").find(database) != std::string::npos;
     if (!is_ours) continue;
-    const std::string environment = file_content(entry.path() / "environ");
+    const std::string environment = files::content(entry.path() / "environ");
     if (environment.find(std::string{"\0OMPI_COMM_WORLD_RANK=1\0", 24}) != std::string::npos) {
       return std::stoi(name);
     }

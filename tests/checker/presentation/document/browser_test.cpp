@@ -1,9 +1,7 @@
 // The page in a real browser: headless Chromium opens it once, a script appended to it presses keys
 // and buttons and writes down what it sees.
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -11,6 +9,7 @@
 
 #include "checker/presentation/document/render.hpp"
 #include "tests/checker/presentation/document/examples.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::report {
 namespace browser_test {
@@ -104,27 +103,16 @@ std::string document_after(const fs::path& page, const fs::path& folder, int wid
       "--disable-dev-shm-usage --virtual-time-budget=8000 --window-size=" +
       std::to_string(width) + ",900 --user-data-dir='" + (folder / "profile").string() +
       "' --dump-dom 'file://" + page.string() + "' 2>'" + (folder / "messages").string() + "'";
-  std::string text;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return text;
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    text.append(buffer.data(), n);
-  }
-  pclose(pipe);
-  return text;
+  return files::output_of(command);
 }
 
 /// What the script noted, by name.
 std::map<std::string, std::string> notes_of(const std::string& page,
                                             std::string_view script = driver, int width = 1200) {
-  std::string folder = testing::TempDir() + "stormproof-browser-XXXXXX";
-  if (mkdtemp(folder.data()) == nullptr) return {};
-  const fs::path file = fs::path{folder} / "page.html";
-  std::ofstream{file} << with(with(page, "<head>", catcher), "</body>", script);
-  const std::string document = document_after(file, folder, width);
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
+  const files::Folder folder;
+  const fs::path file = folder.path() / "page.html";
+  files::write(file, with(with(page, "<head>", catcher), "</body>", script));
+  const std::string document = document_after(file, folder.path(), width);
   const std::string open = "<pre id=\"notes\">";
   const std::size_t begin = document.rfind(open);
   EXPECT_NE(begin, std::string::npos) << "is the program chromium installed?";

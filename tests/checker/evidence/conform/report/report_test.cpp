@@ -2,7 +2,6 @@
 // nothing from a capture becomes markup.
 #include "checker/evidence/conform/report/report.hpp"
 
-#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -16,6 +15,7 @@
 #include "checker/presentation/text/paragraph.hpp"
 #include "model/config/tree/quantities.hpp"
 #include "tests/checker/evidence/conform/report/results.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::conform {
 
@@ -211,8 +211,7 @@ void collect_keys(const Json& json, std::set<std::string>& keys) {
 }
 
 std::string documentation() {
-  std::ifstream file{STORMPROOF_SOURCE_DIR "/specs/guide/conforming.md"};
-  return {std::istreambuf_iterator<char>{file}, {}};
+  return files::content(STORMPROOF_SOURCE_DIR "/specs/guide/conforming.md");
 }
 
 TEST_F(Reports, EveryKeyIsDocumented) {
