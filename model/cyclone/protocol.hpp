@@ -17,7 +17,6 @@
 #include "fsm/composition/cyclone.hpp"
 #include "model/cyclone/endpoints.hpp"
 #include "model/cyclone/packer.hpp"
-#include "model/engine/effect_mutator.hpp"
 #include "model/engine/network.hpp"
 #include "model/engine/running_world.hpp"
 #include "model/engine/stored.hpp"
@@ -85,15 +84,9 @@ class Protocol final : public Stored<Protocol, HostBase, ThingsOf<rules::Cyclone
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override;
 
   // The host of a RunningWorld.
-  [[nodiscard]] comp::Watcher* watcher() { return watched_ ? &mutator_ : nullptr; }
-  [[nodiscard]] const Topology& topology() const { return run_.topology; }
-  [[nodiscard]] std::int64_t now() const { return run_.now.count(); }
   [[nodiscard]] WriterLayout writer_layout() const { return {stride_, writer::first_topic}; }
   [[nodiscard]] Number samples_of(Number w) const;
-  template <class Knob>
-  [[nodiscard]] auto knob(Knob knob) const {
-    return knob_value(knob, run_.scenario.dds);
-  }
+  using Stored::knob;
   [[nodiscard]] std::int64_t knob(rules::SendTime) const {
     return run_.scenario.deployment.time_to_send().count();
   }
@@ -134,14 +127,7 @@ class Protocol final : public Stored<Protocol, HostBase, ThingsOf<rules::Cyclone
   }
 
   // What only the host knows.
-  template <class World>
-  [[nodiscard]] std::int64_t answer(comp::Now, const World&) const {
-    return now();
-  }
-  template <class World>
-  [[nodiscard]] bool answer(comp::RunEnds, const World&) const {
-    return run_.ends_now();
-  }
+  using Stored::answer;
   template <class World>
   [[nodiscard]] bool answer(rules::IsQueued, const World& w) const {
     return find_queued(w.template number<comp::owner::relation>(), w.descriptor(), false) !=
@@ -331,8 +317,6 @@ class Protocol final : public Stored<Protocol, HostBase, ThingsOf<rules::Cyclone
   const SedpProfile& sedp_;
   const bool multicast_;
   const Number stride_;  ///< writers of each participant
-  EffectMutator mutator_{run_.mutation, run_.probe};
-  const bool watched_ = mutator_.is_needed();
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;                        // stride · participant + writer
   std::vector<std::vector<std::uint64_t>> delivered_;  // by relation, stride · pair + writer:

@@ -11,8 +11,6 @@
 #include "fsm/composition/announcements.hpp"
 #include "fsm/composition/heartbeat_clock.hpp"
 #include "fsm/composition/reader.hpp"
-#include "model/engine/composition_knobs.hpp"
-#include "model/engine/effect_mutator.hpp"
 #include "model/engine/network.hpp"
 #include "model/engine/relation_bits.hpp"
 #include "model/engine/running_world.hpp"
@@ -45,23 +43,8 @@ class DiscoveryBase : public Stored<DiscoveryBase, HostBase, SharedThings, Share
 
   DiscoveryBase(RunState& run, Network& network);
 
-  [[nodiscard]] comp::Watcher* watcher() { return watched_ ? &mutator_ : nullptr; }
-  [[nodiscard]] const Topology& topology() const { return run_.topology; }
-  [[nodiscard]] std::int64_t now() const { return run_.now.count(); }
-  template <class Knob>
-  [[nodiscard]] auto knob(Knob knob) const {
-    return knob_value(knob, run_.scenario.dds);
-  }
-
   // What only the host knows.
-  template <class World>
-  [[nodiscard]] std::int64_t answer(comp::Now, const World&) const {
-    return now();
-  }
-  template <class World>
-  [[nodiscard]] bool answer(comp::RunEnds, const World&) const {
-    return run_.ends_now();
-  }
+  using Stored::answer;
   template <class World>
   [[nodiscard]] std::int64_t answer(comp::ContactedCount, const World& w) const {
     return cycles_[w.template number<comp::owner::writer>()].contacted;
@@ -222,9 +205,6 @@ class DiscoveryBase : public Stored<DiscoveryBase, HostBase, SharedThings, Share
  private:
   void plan_batches(std::uint32_t writer, std::int64_t stretched);
   void note_last_delivery(std::uint32_t relation, std::uint32_t descriptor);
-
-  EffectMutator mutator_{run_.mutation, run_.probe};
-  const bool watched_ = mutator_.is_needed();
 };
 
 }  // namespace stormproof::model

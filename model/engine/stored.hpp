@@ -6,7 +6,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "model/engine/composition_knobs.hpp"
 #include "model/engine/driver.hpp"
+#include "model/engine/effect_mutator.hpp"
 #include "model/engine/implementation.hpp"
 #include "model/engine/kept.hpp"
 #include "model/engine/relation_bits.hpp"
@@ -57,7 +59,7 @@ using SteppedAlone = Filtered<Filtered<Things, HasPlace<Columns>>, OnlyMachines>
 
 }  // namespace detail
 
-/// What is below all layers: a timer that none of them has.
+/// What is below all layers: the run, its knobs and its time, and a timer that none of them has.
 class HostBase : public Implementation {
   using Number = std::uint32_t;
 
@@ -65,6 +67,22 @@ class HostBase : public Implementation {
   using OwnThings = fsm::TypeList<>;
 
   explicit HostBase(RunState& run) : run_{run} {}
+
+  [[nodiscard]] comp::Watcher* watcher() { return watched_ ? &mutator_ : nullptr; }
+  [[nodiscard]] const Topology& topology() const { return run_.topology; }
+  [[nodiscard]] std::int64_t now() const { return run_.now.count(); }
+  template <class Knob>
+  [[nodiscard]] auto knob(Knob knob) const {
+    return knob_value(knob, run_.scenario.dds);
+  }
+  template <class World>
+  [[nodiscard]] std::int64_t answer(comp::Now, const World&) const {
+    return now();
+  }
+  template <class World>
+  [[nodiscard]] bool answer(comp::RunEnds, const World&) const {
+    return run_.ends_now();
+  }
 
   template <class T>
   void schedule(T, Number n, std::int64_t time) {
@@ -83,6 +101,10 @@ class HostBase : public Implementation {
   [[nodiscard]] const RunState& numbering() const { return run_; }
 
   RunState& run_;
+
+ private:
+  EffectMutator mutator_{run_.mutation, run_.probe};
+  const bool watched_ = mutator_.is_needed();
 };
 
 /// `Self`, `Base` and `Heard` are those of `Kept`.
