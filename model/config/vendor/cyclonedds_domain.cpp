@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "model/config/tree/suggestion.hpp"
+#include "model/config/vendor/any_case.hpp"
 #include "model/config/vendor/variables.hpp"
 
 namespace stormproof::model::config::vendor {

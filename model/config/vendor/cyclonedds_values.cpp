@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include "model/config/tree/tree.hpp"
+#include "model/config/vendor/any_case.hpp"
 
 namespace stormproof::model::config::vendor {
 namespace {
@@ -36,14 +37,6 @@ std::span<const Unit> units_of(CycloneKind kind) {
   if (kind == CycloneKind::duration) return durations;
   if (kind == CycloneKind::size) return sizes;
   return {};
-}
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-std::string in_lower_case(std::string_view text) {
-  std::string word{text};
-  std::ranges::transform(word, word.begin(), lower);
-  return word;
 }
 
 std::string unit_names(std::span<const Unit> units) {
@@ -137,10 +130,6 @@ Parsed<CycloneValue> parse_choices(const CycloneType& type, std::string_view tex
 }
 
 }  // namespace
-
-bool is_same_word(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, {}, lower, lower);
-}
 
 std::string expectation(const CycloneType& type) {
   const std::string or_word =

@@ -38,9 +38,6 @@ struct CycloneValue {
 inline constexpr std::int64_t cyclone_longest_ns = 9'223'372'036'854'775'806;
 inline constexpr std::int64_t cyclone_largest_bytes = 2'147'483'647;
 
-/// Whether `a` and `b` are the same but for the case of ASCII letters.
-[[nodiscard]] bool is_same_word(std::string_view a, std::string_view b);
-
 /// "a duration with its unit (ns, us, …) from 0 s to 1 hr", "one of false, true".
 [[nodiscard]] std::string expectation(const CycloneType& type);
 

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include "model/config/vendor/any_case.hpp"
 #include "model/config/vendor/cyclonedds_domain.hpp"
 
 namespace stormproof::model::config::vendor {

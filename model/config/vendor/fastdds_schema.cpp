@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 
 #include <fmt/core.h>
+
+#include "model/config/vendor/any_case.hpp"
 
 namespace stormproof::model::config::vendor::fastdds {
 namespace {
@@ -166,11 +167,6 @@ constexpr std::array participant_items{
     SchemaItem{"rtps/easy_mode_ip", text, "", Effect::outside,
                "discovery goes through servers on every host", "", 302}};
 
-bool same_in_any_case(std::string_view a, std::string_view b) {
-  return std::ranges::equal(
-      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
 }  // namespace
 
 std::string print_version(Version version) {
@@ -208,7 +204,7 @@ std::optional<std::string> home_of(std::string_view name) {
                                               {"data_reader", reader_schema()}};
   for (const auto& [section, schema] : sections) {
     for (const SchemaItem& item : schema) {
-      if (same_in_any_case(item.name(), name)) return fmt::format("{}/{}", section, item.path);
+      if (is_same_word(item.name(), name)) return fmt::format("{}/{}", section, item.path);
     }
   }
   return std::nullopt;

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "model/config/tree/suggestion.hpp"
+#include "model/config/vendor/any_case.hpp"
 
 namespace stormproof::model::config::vendor::fastdds {
 namespace {
@@ -116,8 +117,7 @@ class SectionReader {
     --hints_left_;
     const std::vector<std::string> siblings = names_below(path);
     for (const std::string& sibling : siblings) {
-      const std::string_view name = child.name;
-      if (std::ranges::equal(sibling, name, {}, lower, lower)) {
+      if (is_same_word(sibling, child.name)) {
         return add_remark(profile_, Severity::error, "fastdds.wrong-case", child.place, what,
                           fmt::format("case counts: <{}>", sibling));
       }
@@ -128,10 +128,6 @@ class SectionReader {
     }
     add_remark(profile_, Severity::error, "fastdds.unknown-element", child.place, what,
                as_hint(suggestion(child.name, siblings)));
-  }
-
-  static char lower(char letter) {
-    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
   }
 
   std::vector<std::string> names_below(const std::string& path) const {

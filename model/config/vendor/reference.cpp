@@ -2,26 +2,22 @@
 // end, by '#' or by '@'. A '#' or '@' before it belongs to the file's name.
 #include "model/config/vendor/reference.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <string_view>
+
+#include "model/config/vendor/any_case.hpp"
 
 namespace stormproof::model::config::vendor {
 namespace {
 
 constexpr std::string_view ending = ".xml";
 
-bool is_ending(std::string_view text) {
-  return std::ranges::equal(text, ending, [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == b;
-  });
-}
-
 /// Length of the file's name, or 0 if there is no XML file.
 std::size_t file_length(std::string_view reference) {
   for (std::size_t end = reference.size(); end > ending.size(); --end) {
     const bool ends = end == reference.size() || reference[end] == '#' || reference[end] == '@';
-    if (ends && is_ending(reference.substr(end - ending.size(), ending.size()))) return end;
+    if (ends && is_same_word(reference.substr(end - ending.size(), ending.size()), ending)) {
+      return end;
+    }
   }
   return 0;
 }

@@ -6,8 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "model/config/vendor/any_case.hpp"
 #include "model/config/vendor/cyclonedds_domain.hpp"
-#include "model/config/vendor/cyclonedds_values.hpp"
 
 namespace stormproof::model::config::vendor {
 
