@@ -55,12 +55,12 @@ class Heartbeats {
     first.next_ns = first_expiry(*match_ns);
     first.answered.resize(writer_.relations.size());
     std::vector<Way> ways{std::move(first)};
-    for (const Sent& one : sent_) {
+    for (const SentHeartbeat& one : sent_) {
       std::vector<Way> next;
       const bool is_answer =
           one.is_named() && answer(ways, *one.receivers.begin(), causes_of(one), next);
       const bool is_timed = fire(ways, one, next);
-      const bool is_on_write = next.empty() && one.is_with_data && !one.is_named();
+      const bool is_on_write = next.empty() && one.is_behind_data && !one.is_named();
       if (is_on_write) next = ways;
       if (next.empty()) return without_cause(ways, one);
       ways = some(best(std::move(next)));
@@ -104,7 +104,7 @@ class Heartbeats {
   }
 
   /// How many ACKNACKs of its reader it can be the answer to.
-  [[nodiscard]] std::size_t causes_of(const Sent& one) const {
+  [[nodiscard]] std::size_t causes_of(const SentHeartbeat& one) const {
     return context_.arrived(
         *writer_.relations[*one.receivers.begin()], one.time_ns,
         [](const Answer& acknack) { return acknack.is_initial || !acknack.missing.empty(); });
@@ -112,7 +112,7 @@ class Heartbeats {
 
   /// By the timer. Matches, DATA and requests that the capture does not show may have begun the
   /// interval anew, so it is the shortest.
-  bool fire(const std::vector<Way>& ways, const Sent& one, std::vector<Way>& next) {
+  bool fire(const std::vector<Way>& ways, const SentHeartbeat& one, std::vector<Way>& next) {
     bool any = false;
     for (const Way& way : ways) {
       if (way.next_ns > one.time_ns + capture_resolution_ns) continue;
@@ -158,7 +158,7 @@ class Heartbeats {
     return all;
   }
 
-  Unexplained without_cause(const std::vector<Way>& ways, const Sent& one) {
+  Unexplained without_cause(const std::vector<Way>& ways, const SentHeartbeat& one) {
     const std::int64_t early = earliest(ways) - one.time_ns;
     return unexplained_in(
         writer_, one, Fault::heartbeat_cause,
@@ -179,7 +179,7 @@ class Heartbeats {
   std::size_t source_;
   Pacer& pacer_;
   Ledger& ledger_;
-  std::vector<Sent> sent_;
+  std::vector<SentHeartbeat> sent_;
 };
 
 }  // namespace

@@ -15,7 +15,8 @@ namespace pacer = fsm::heartbeat_pacer;
 
 class Overdue {
  public:
-  Overdue(const Context& context, const WriterRelations& writer, const std::vector<Sent>& sent)
+  Overdue(const Context& context, const WriterRelations& writer,
+          const std::vector<SentHeartbeat>& sent)
       : context_{context},
         bounds_{context.bounds},
         sedp_{context.dds.sedp},
@@ -25,14 +26,14 @@ class Overdue {
 
   std::optional<Unexplained> find() const {
     for (std::size_t k = 0; k < sent_.size(); ++k) {
-      const Sent& one = sent_[k];
-      if (one.is_named() || one.is_multicast || one.is_with_data) continue;
+      const SentHeartbeat& one = sent_[k];
+      if (one.is_named() || one.is_multicast || one.is_behind_data) continue;
       const std::int64_t interval = longest_interval_after(one);
       const std::int64_t due = one.time_ns + interval * (can_match_after(one.time_ns) ? 2 : 1);
       const std::int64_t until = surely_after(bounds_, due);
       if (until >= context_.dialogue.end_ns) continue;
       // Copies of one packet are apart.
-      const bool goes_on = std::ranges::any_of(sent_, [&](const Sent& other) {
+      const bool goes_on = std::ranges::any_of(sent_, [&](const SentHeartbeat& other) {
         return other.heartbeat.count != one.heartbeat.count && other.time_ns >= one.time_ns &&
                other.time_ns <= until;
       });
@@ -54,7 +55,7 @@ class Overdue {
 
  private:
   /// Each HEARTBEAT so far may have made it longer.
-  [[nodiscard]] std::int64_t longest_interval_after(const Sent& one) const {
+  [[nodiscard]] std::int64_t longest_interval_after(const SentHeartbeat& one) const {
     fsm::Stepper<fsm::HeartbeatPacer> machine;
     fsm::StateId state = fsm::Reflect<fsm::HeartbeatPacer>::id<pacer::Pacing>;
     const std::int64_t number = std::max<std::int64_t>(one.heartbeat.count, 1) - 1;
@@ -93,7 +94,8 @@ class Overdue {
 
   /// Whether the writer cannot know by then that the reader has everything that it announced: it
   /// counts as having what existed when it was matched, and what its ACKNACKs say.
-  [[nodiscard]] bool surely_waits(std::size_t r, const Sent& one, std::int64_t until) const {
+  [[nodiscard]] bool surely_waits(std::size_t r, const SentHeartbeat& one,
+                                  std::int64_t until) const {
     const Relation& relation = *writer_.relations[r];
     std::uint32_t most = UINT32_MAX;
     std::uint32_t first_count = UINT32_MAX;
@@ -116,13 +118,13 @@ class Overdue {
   const model::SedpProfile& sedp_;
   const WriterRelations& writer_;
   std::size_t source_;
-  const std::vector<Sent>& sent_;
+  const std::vector<SentHeartbeat>& sent_;
 };
 
 }  // namespace
 
 std::optional<Unexplained> overdue(const Context& context, const WriterRelations& writer,
-                                   const std::vector<Sent>& sent) {
+                                   const std::vector<SentHeartbeat>& sent) {
   return Overdue{context, writer, sent}.find();
 }
 

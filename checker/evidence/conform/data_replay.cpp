@@ -29,8 +29,8 @@ DataReplay::DataReplay(const WriterContext& context, const Relation& relation,
       existing_{existing},
       ledger_{ledger},
       count_{std::max(descriptors_of(context.dialogue, relation.place), existing)},
-      is_relay_{kind_of(context.dialogue, relation.place) == RelationKind::relay},
-      host_{host_of(is_relay_, context.dds, count_, ledger.machines)} {}
+      host_{host_of(kind_of(context.dialogue, relation.place) == RelationKind::relay, context.dds,
+                    count_, ledger.machines)} {}
 
 const Answer* DataReplay::run(const Plan& plan, std::int64_t lag) {
   std::vector<Step> steps;
@@ -78,7 +78,7 @@ bool DataReplay::arrive(const Step& step, const Arrival& arrival) {
 }
 
 bool DataReplay::is_unanswered(const Answer& answer, std::int64_t now) const {
-  if (is_relay_) return false;  // a change that gets another number is not sent under the old one
+  if (!host_->answers_all()) return false;
   constexpr fsm::StateId u = fsm::Reflect<fsm::ChangeForReader>::id<change::U>;
   return std::any_of(answer.missing.begin(), answer.missing.end(), [&](std::uint32_t d) {
     if (d >= count_ || host_->state_of(d) != u) return false;
@@ -102,13 +102,8 @@ void DataReplay::transmit(const Step& step, bool to_everybody) {
     ledger_.not_replayed();
     return;
   }
-  if (is_relay_) {
-    ledger_.explained(one.is_first ? Rule::relay_data : Rule::relay_repair);
-    return;
-  }
-  ledger_.explained(one.is_pushed  ? Rule::data_push
-                    : one.is_first ? Rule::data_pull
-                                   : Rule::data_repair);
+  const DataRules by = host_->explained_by();
+  ledger_.explained(!one.is_first ? by.again : one.is_pushed ? by.pushed : by.first);
 }
 
 }  // namespace stormproof::conform

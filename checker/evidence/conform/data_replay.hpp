@@ -50,7 +50,6 @@ class DataReplay {
   std::uint32_t existing_;
   Ledger& ledger_;
   const std::uint32_t count_;  ///< descriptors
-  const bool is_relay_;
   std::unique_ptr<ReplayedWriter> host_;
 };
 

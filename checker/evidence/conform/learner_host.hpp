@@ -33,6 +33,7 @@ struct OfRelay : Learner {
   using ReplyDue = comp::server::LearnerReplyDue;
   using AttemptDue = comp::server::LearnerAttempt;
   using LastDelay = comp::server::LearnerLastDelay;
+  static constexpr AckNackRules explained_by{Rule::relay_initial, Rule::relay_acknack};
 
   static void open(auto& host) { host.template run<comp::Happens<comp::server::LearnerOpens>>(); }
   static void receive(auto& host, const Submessage& message) {
@@ -59,6 +60,8 @@ struct OfRegistration : Learner {
   using ReplyDue = comp::server::RegistrationReplyDue;
   using AttemptDue = comp::server::RegistrationAttempt;
   using LastDelay = comp::server::RegistrationLastDelay;
+  static constexpr AckNackRules explained_by{Rule::registration_initial,
+                                             Rule::registration_acknack};
 
   /// RegistrationArrives does much else.
   static void open(auto& host) {

@@ -2,6 +2,7 @@
 // have sent. Which submessages arrive, and when timers are served, is the replay's choice. A side
 // (relation_host.hpp) says which reader it is:
 //   ReplyDue, AttemptDue, LastDelay   its timers, and the delay of the latter
+//   explained_by                      the rules of its ACKNACKs
 //   open(host), receive(host, message), ask(host)     what happens to it
 //   complete(acknack)                 if its rules leave open what an ACKNACK says
 #pragma once
@@ -27,6 +28,7 @@ struct OfDescriptors {
   using ReplyDue = comp::AckNackGeneration;
   using AttemptDue = comp::InitialAttempt;
   using LastDelay = comp::LastDelay;
+  static constexpr AckNackRules explained_by{Rule::acknack_initial, Rule::acknack_reply};
 
   static void open(auto& host) { host.template run<comp::Happens<comp::ReaderOpens>>(); }
   static void receive(auto& host, const Submessage& message) {
@@ -71,6 +73,7 @@ class ReaderHost final : public RelationHost<ReaderHost<Side>, Side>, public Rep
     if (!std::exchange(this->template due<typename Side::AttemptDue>(), {})) return std::nullopt;
     return this->value(typename Side::LastDelay{}, 0);
   }
+  [[nodiscard]] AckNackRules explained_by() const override { return Side::explained_by; }
 
   // What a RunningWorld asks of its host.
   template <class P, class W, class... Sayings>

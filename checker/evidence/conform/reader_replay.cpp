@@ -23,26 +23,14 @@ std::unique_ptr<ReplayedReader> host_of(RelationKind kind, const model::DdsProfi
   return std::make_unique<ReaderHost<OfDescriptors>>(dds, count, machines);
 }
 
-Rule initial_rule(RelationKind kind) {
-  return kind == RelationKind::descriptors    ? Rule::acknack_initial
-         : kind == RelationKind::registration ? Rule::registration_initial
-                                              : Rule::relay_initial;
-}
-Rule reply_rule(RelationKind kind) {
-  return kind == RelationKind::descriptors    ? Rule::acknack_reply
-         : kind == RelationKind::registration ? Rule::registration_acknack
-                                              : Rule::relay_acknack;
-}
-
 }  // namespace
 
 ReaderReplay::ReaderReplay(const Context& context, const Relation& relation, Ledger& ledger)
     : relation_{relation},
       bounds_{context.bounds},
       ledger_{ledger},
-      kind_{kind_of(context.dialogue, relation.place)},
-      host_{host_of(kind_, context.dds, descriptors_of(context.dialogue, relation.place),
-                    ledger.machines)} {}
+      host_{host_of(kind_of(context.dialogue, relation.place), context.dds,
+                    descriptors_of(context.dialogue, relation.place), ledger.machines)} {}
 
 std::int64_t ReaderReplay::open(std::int64_t now) {
   is_open_ = true;
@@ -54,7 +42,7 @@ std::int64_t ReaderReplay::open(std::int64_t now) {
 
 std::int64_t ReaderReplay::attempt(const Answer& answer) {
   const auto said = host_->attempt(answer.time_ns);
-  confirm(said && said->is_initial, initial_rule(kind_));
+  confirm(said && said->is_initial, host_->explained_by().initial);
   ledger_.hidden(Hidden::Kind::timer, answer.time_ns, answer.event, "InitialAckNack");
   return host_->take_initial_delay().value_or(0);
 }
@@ -83,7 +71,7 @@ void ReaderReplay::reply(const Answer& answer, const Choice& choice) {
   consumed_ = choice.end;
   const std::int64_t due = host_->take_reply_due().value_or(answer.time_ns);
   const auto said = host_->reply(due);
-  confirm(is_captured(said, answer), reply_rule(kind_));
+  confirm(is_captured(said, answer), host_->explained_by().reply);
   ledger_.used_lateness(answer.time_ns - due - bounds_.most_send_lag_ns);
 }
 

@@ -40,7 +40,6 @@ class ReaderReplay {
   const Relation& relation_;
   const Bounds& bounds_;
   Ledger& ledger_;
-  const RelationKind kind_;
   std::unique_ptr<ReplayedReader> host_;
 
   bool is_open_ = false;

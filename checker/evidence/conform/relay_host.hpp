@@ -19,6 +19,9 @@ struct FromRelay {
   using Data = comp::server::RelayedData;
   using ResponseDue = comp::server::RelayResponseDue;
   using SuppressionEnd = comp::server::RelaySuppressionEnd;
+  static constexpr DataRules explained_by{Rule::relay_data, Rule::relay_data, Rule::relay_repair};
+  /// A change that gets another number is not sent under the old one.
+  static constexpr bool answers_all = false;
 
   std::uint32_t existing = 0;   ///< changes when the relation opened
   bool some_requested = false;  ///< by the last ACKNACK

@@ -12,6 +12,18 @@
 
 namespace stormproof::conform {
 
+/// By which rules an initial ACKNACK and a reply are explained.
+struct AckNackRules {
+  Rule initial{};
+  Rule reply{};
+};
+/// The same of DATA: pushed, for the first time because it was asked for, and again.
+struct DataRules {
+  Rule pushed{};
+  Rule first{};
+  Rule again{};
+};
+
 /// An ACKNACK as the rules have it.
 struct MadeAckNack {
   bool is_initial = false;
@@ -34,6 +46,7 @@ class ReplayedReader {
   virtual std::optional<std::int64_t> take_reply_due() = 0;
   /// How long the next initial ACKNACK waits; nothing: there is none.
   virtual std::optional<std::int64_t> take_initial_delay() = 0;
+  [[nodiscard]] virtual AckNackRules explained_by() const = 0;
 };
 
 class ReplayedWriter {
@@ -51,6 +64,9 @@ class ReplayedWriter {
   virtual void end_suppression(std::int64_t now_ns) = 0;
   /// In the machine ChangeForReader.
   [[nodiscard]] virtual fsm::StateId state_of(std::uint32_t descriptor) = 0;
+  [[nodiscard]] virtual DataRules explained_by() const = 0;
+  /// Whether what an ACKNACK asks for is surely sent again under its number.
+  [[nodiscard]] virtual bool answers_all() const = 0;
 };
 
 }  // namespace stormproof::conform

@@ -27,6 +27,9 @@ void add_copy(SentHeartbeat& one, std::size_t relation, const Submessage& copy,
   }
   one.is_behind_data = one.is_behind_data || is_behind_data;
   one.is_directed = copy.heartbeat->is_directed && !one.is_behind_data && one.copies == 1;
+  one.is_multicast = one.is_multicast || copy.is_multicast;
+  one.events.insert(copy.event);
+  if (!copy.is_multicast) one.receivers.insert(relation);
 }
 
 }  // namespace

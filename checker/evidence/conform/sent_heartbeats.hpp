@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "checker/evidence/conform/dialogue.hpp"
@@ -16,7 +17,7 @@ struct WriterRelations {
   [[nodiscard]] const Place& place() const { return relations.front()->place; }
 };
 
-/// One HEARTBEAT of a writer.
+/// One HEARTBEAT of a writer, with all of its copies.
 struct SentHeartbeat {
   std::int64_t time_ns = 0;  ///< of the first copy
   std::size_t event = 0;     ///< of the first copy
@@ -25,6 +26,13 @@ struct SentHeartbeat {
   std::size_t copies = 0;
   bool is_behind_data = false;  ///< shares its datagram with DATA
   bool is_directed = false;     ///< names its reader, and shares its datagram with nothing
+  bool is_multicast = false;
+  std::set<std::size_t> events{};     ///< one of a group is one, whoever is in it
+  std::set<std::size_t> receivers{};  ///< of copies by unicast, index in WriterRelations
+
+  [[nodiscard]] bool is_named() const {
+    return heartbeat.is_directed && !is_multicast && receivers.size() == 1;
+  }
 };
 
 struct SentHeartbeats {

@@ -5,6 +5,7 @@
 // (relation_host.hpp) says which writer it is:
 //   Changes, Data                   the part of its descriptors, and what they are sent in
 //   ResponseDue, SuppressionEnd     its timers
+//   explained_by, answers_all       as a replay asks for them
 //   open(host, existing), create(host, d), serve(host, d)     what happens to it
 #pragma once
 
@@ -28,6 +29,8 @@ struct FromParticipant {
   using Data = comp::fastdds::Data;
   using ResponseDue = comp::fastdds::NackResponseDue;
   using SuppressionEnd = comp::fastdds::SuppressionEnd;
+  static constexpr DataRules explained_by{Rule::data_push, Rule::data_pull, Rule::data_repair};
+  static constexpr bool answers_all = true;
 
   static void open(auto& host, std::uint32_t existing) {
     host.template set_first<comp::fastdds::Exists>(0, existing);
@@ -81,6 +84,9 @@ class WriterHost final : public RelationHost<WriterHost<Side>, Side>, public Rep
   [[nodiscard]] fsm::StateId state_of(std::uint32_t descriptor) override {
     return this->bits(typename Side::Changes{}).state_of(0, descriptor);
   }
+
+  [[nodiscard]] DataRules explained_by() const override { return Side::explained_by; }
+  [[nodiscard]] bool answers_all() const override { return Side::answers_all; }
 
   // What a RunningWorld asks of its host.
   template <class P, class W, class... Sayings>

@@ -1,8 +1,10 @@
-// Small parts: sorting a conversation into relations, what a reader learns from a submessage, and
-// the words for ACKNACKs.
+// Small parts: sorting a conversation into relations, what a reader learns from a submessage, when
+// timers fired, ways to tell what was sent, and the words for ACKNACKs.
 #include <gtest/gtest.h>
 
 #include "checker/evidence/conform/arrivals.hpp"
+#include "checker/evidence/conform/timers.hpp"
+#include "checker/evidence/conform/ways.hpp"
 #include "checker/evidence/conform/words.hpp"
 #include "tests/checker/evidence/conform/captures.hpp"
 #include "tests/checker/evidence/conform/edits.hpp"
@@ -158,6 +160,62 @@ TEST_F(Sorting, EndsAtTheInstantGiven) {
   for (const Relation& relation : half.relations) {
     for (const Submessage& one : relation.sent) EXPECT_LE(one.time_ns, middle);
   }
+}
+
+TEST_F(Sorting, KnowsTheLastSignOfAParticipant) {
+  const Dialogue all = sort_out(conversation_, INT64_MAX);
+  for (std::size_t i = 0; i < all.participants(); ++i) {
+    const auto last = all.last_sign_of(i);
+    ASSERT_TRUE(last);
+    const auto& self = conversation_.topology.participants[i].prefix;
+    EXPECT_EQ(conversation_.events[last->event].source, self);
+    for (std::size_t k = last->event + 1; k < conversation_.events.size(); ++k) {
+      EXPECT_NE(conversation_.events[k].source, self);
+    }
+  }
+}
+
+TEST(Timers, FireWhenTheyAreDueOrLateAndWhatTheySendIsCapturedBehind) {
+  Bounds bounds;
+  bounds.most_send_lag_ns = 10'000;
+  bounds.most_lateness_ns = 50'000;
+  const Window due{100'000, 120'000};
+  const auto when = [&](std::int64_t captured_ns) {
+    const auto at = fired(bounds, due, sent_in(bounds, captured_ns));
+    return at ? std::vector{at->from_ns, at->to_ns} : std::vector<std::int64_t>{};
+  };
+  EXPECT_EQ(when(98'999), (std::vector<std::int64_t>{}));
+  EXPECT_EQ(when(99'000), (std::vector<std::int64_t>{100'000, 100'000}));
+  EXPECT_EQ(when(115'000), (std::vector<std::int64_t>{105'000, 116'000}));
+  EXPECT_EQ(when(180'000), (std::vector<std::int64_t>{170'000, 170'000}));
+  EXPECT_EQ(when(180'001), (std::vector<std::int64_t>{}));
+  EXPECT_FALSE(is_overdue(bounds, due, 180'000));
+  EXPECT_TRUE(is_overdue(bounds, due, 180'001));
+}
+
+/// Whichever of two comes first.
+TEST(Ways, KeepOnlyThoseThatNoOtherIsAsGoodAs) {
+  const Telling better{5, {0, 1}};
+  const Telling worse{5, {1, 1}};
+  const Telling other{4, {2, 0}};
+  const auto next = [](const std::vector<Telling>& ways) {
+    std::vector<std::vector<std::size_t>> answered;
+    for (const Telling& way : best(ways)) answered.push_back(way.answered);
+    return answered;
+  };
+  const std::vector<std::vector<std::size_t>> both{{0, 1}, {2, 0}};
+  EXPECT_EQ(next({better, worse, other}), both);
+  EXPECT_EQ(next({worse, better, other}), both);
+  EXPECT_EQ(next({better, better}), (std::vector<std::vector<std::size_t>>{{0, 1}}));
+  EXPECT_EQ(earliest(std::vector{better, other}), 4);
+}
+
+TEST(Ways, AnswerEachAckNackOnce) {
+  std::vector<Telling> next;
+  EXPECT_FALSE(answer(std::vector<Telling>{{0, {2}}}, 0, 2, next));
+  EXPECT_TRUE(answer(std::vector<Telling>{{0, {2}}, {0, {1}}}, 0, 2, next));
+  ASSERT_EQ(next.size(), 1U);
+  EXPECT_EQ(next.front().answered, std::vector<std::size_t>{2});
 }
 
 }  // namespace parts_test
