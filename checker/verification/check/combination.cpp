@@ -62,12 +62,14 @@ void minimize(Finding& finding, const CheckRequest& request) {
 bool excludes(const Finding& proof, const Finding& violation, const CheckRequest& request) {
   if (proof.kind != VerdictKind::proved) return false;
   if (is_by(proof, Engine::tables)) return true;
-  // The timelines prove it for delays up to the largest one that the scenario has.
+  // The timelines prove it up to the delay that they name, or the largest one of the scenario.
   if (!is_by(violation, Engine::exact_run)) return false;
   const auto largest = [&](const model::Scenario& scenario) {
     return exact::measure(scenario, request).largest_delay;
   };
-  return largest(violation.counterexample->scenario) <= largest(request.scenario);
+  const model::Nanoseconds up_to =
+      proof.longest_delay ? *proof.longest_delay : largest(request.scenario);
+  return largest(violation.counterexample->scenario) <= up_to;
 }
 
 /// What two findings say of each other, if they contradict.

@@ -113,6 +113,14 @@ TEST_F(ProofAndRun, ContradictEachOther) {
   }
 }
 
+TEST_F(ProofAndRun, ContradictEachOtherUpToTheDelayThatTheProofNames) {
+  Finding proof = by(Engine::timelines, VerdictKind::proved);
+  proof.longest_delay = model::Nanoseconds{1};
+  EXPECT_EQ(beside(proof).verdict, VerdictKind::violated);
+  proof.longest_delay = model::Nanoseconds{10'000'000'000};
+  EXPECT_EQ(beside(proof).verdict, VerdictKind::disputed);
+}
+
 TEST_F(ProofAndRun, AScopeThatDoesNotContainTheRunContradictsNothing) {
   EXPECT_EQ(beside(by(Engine::explorer, VerdictKind::bounded)).verdict, VerdictKind::violated);
   EXPECT_EQ(beside(by(Engine::timelines, VerdictKind::inconclusive)).verdict,
