@@ -43,7 +43,7 @@ struct MutationReport {
   [[nodiscard]] std::size_t unseen() const;
   /// How many only `composition.followed` notices, which executes the correct rules beside a run.
   [[nodiscard]] std::size_t only_followed() const;
-  /// At least 95 %.
+  /// At least 95 % of those that some run shows, or a proof.
   [[nodiscard]] bool notices_enough() const;
   /// How many mutants the property notices.
   [[nodiscard]] std::size_t killed_by(std::string_view property) const;

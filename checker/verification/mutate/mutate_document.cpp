@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/verification/mutate/effect_trials.hpp"
 #include "checker/verification/mutate/mutate_report.hpp"
 #include "props/laws/law.hpp"
 #include "props/property.hpp"
@@ -25,7 +26,7 @@ std::string laws_text(const MutantResult& mutant, bool everybody) {
 }
 
 std::string noticed_by(const MutantResult& mutant) {
-  if (!mutant.makes_a_difference) return "UNSEEN: " + mutant.reason;
+  if (!mutant.makes_a_difference) return "unseen: " + mutant.reason;
   if (!mutant.noticed()) return "SURVIVES: " + mutant.reason;
   return mutant.killed_by.empty() ? "→ a law"
                                   : fmt::format("→ {}", fmt::join(mutant.killed_by, ", "));
@@ -39,8 +40,8 @@ report::Table mutants_table(const MutationReport& report) {
       {report.everybody ? "who notices" : "who notices first", Column::Align::left, true}};
   for (const MutantResult& mutant : report.mutants) {
     report::Text who = noticed_by(mutant) + laws_text(mutant, report.everybody);
-    table.rows.push_back(
-        {{report::code(mutant.id), mutant.description, std::move(who)}, !mutant.noticed()});
+    table.rows.push_back({{report::code(mutant.id), mutant.description, std::move(who)},
+                          !mutant.noticed() && mutant.makes_a_difference});
   }
   return table;
 }
@@ -63,7 +64,7 @@ report::Finding finding_of(const MutantResult& mutant, bool everybody) {
   finding.group = "stormproof.mutate";
   finding.statement = mutant.description;
   using enum report::Finding::Outcome;
-  finding.outcome = mutant.noticed() ? passed : failed;
+  finding.outcome = mutant.noticed() ? passed : mutant.makes_a_difference ? failed : note;
   finding.word = mutant.noticed() ? "noticed" : mutant.makes_a_difference ? "survives" : "unseen";
   finding.message = noticed_by(mutant);
   finding.details =
@@ -76,7 +77,7 @@ report::Finding finding_of(const MutantResult& mutant, bool everybody) {
 void add_survivors(report::Document& document, const MutationReport& report) {
   report::Bullets survivors;
   for (const MutantResult& mutant : report.mutants) {
-    if (mutant.noticed()) continue;
+    if (mutant.noticed() || !mutant.makes_a_difference) continue;
     survivors.items.push_back(report::code(mutant.id) + ": " + mutant.reason);
   }
   if (survivors.items.empty()) return;
@@ -96,10 +97,13 @@ report::Document document_of(const MutationReport& report) {
   document.tone = report.interrupted        ? report::Tone::warn
                   : report.notices_enough() ? report::Tone::good
                                             : report::Tone::bad;
+  const std::size_t seen = total - report.unseen();
   document.answer = fmt::format("{} of {} mutants are noticed ({}), in {:.1f} s", report.killed(),
-                                total, share(report.killed(), total), report.seconds);
+                                seen, share(report.killed(), seen), report.seconds);
   if (report.unseen() > 0) {
-    document.answer += fmt::format("; of {} no random run shows a difference", report.unseen());
+    document.answer +=
+        fmt::format("; {} more are unseen in {} random runs, which proves nothing of them",
+                    report.unseen(), EffectTrials::runs);
   }
   if (report.only_followed() > 0) {
     document.answer += fmt::format(

@@ -29,7 +29,7 @@ std::size_t MutationReport::only_followed() const {
 
 bool MutationReport::notices_enough() const {
   constexpr std::size_t required_percent = 95;
-  return 100 * killed() >= required_percent * mutants.size();
+  return 100 * killed() >= required_percent * (mutants.size() - unseen());
 }
 
 std::size_t MutationReport::killed_by(std::string_view property) const {
