@@ -82,6 +82,7 @@ inline constexpr std::array sentences{
     Sentence{"What is scheduled happens at its time", true_of_all},
     Sentence{"What is sent without being asked for is sent once", true_of_all},
     Sentence{"A packet is a value", true_of_all},
+    Sentence{"while something is not acknowledged, an expiry is pending within τ_H", true_of_all},
     Sentence{"Relations open, suppressions end and responses come at any time", true_of_all},
     Sentence{"A scheduled event fires once", true_of_all},
     Sentence{"Participants that have started go on", true_of_all},

@@ -13,6 +13,15 @@ namespace {
 /// Events of all runs together: the search ends at the same place on every machine.
 constexpr std::uint64_t budget = 2'000'000;
 
+/// No packet has a fate that it did not have: delays stay within what the engine looked at.
+bool is_part_of(const model::WirelessProfile& less, const model::WirelessProfile& whole) {
+  const auto had = [&](const model::PacketDelay& delay) {
+    return std::ranges::find(whole.packet_delays, delay) != whole.packet_delays.end();
+  };
+  return less.one_way == whole.one_way && std::ranges::all_of(less.packet_delays, had) &&
+         std::ranges::includes(whole.lost_packets, less.lost_packets);
+}
+
 }  // namespace
 
 props::Counterexample minimal(props::Counterexample found, const std::function<bool()>& goes_on) {
@@ -22,6 +31,7 @@ props::Counterexample minimal(props::Counterexample found, const std::function<b
   base.wireless.packet_delays.clear();
   std::uint64_t left = budget;
   const auto breaks_too = [&](const model::Scenario& simpler) {
+    if (!is_part_of(simpler.wireless, found.scenario.wireless)) return false;
     const std::uint64_t most = std::min(found.event + 1, left);
     if (most == 0 || (goes_on && !goes_on())) return false;
     left -= most;

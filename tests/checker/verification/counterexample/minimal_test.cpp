@@ -2,6 +2,7 @@
 // late packets the property does not break as early.
 #include "checker/verification/counterexample/minimal.hpp"
 
+#include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,10 @@ TEST(Minimal, KeepsRulesAndProperty) {
   for (const Example& example : examples()) {
     if (example.name == "lossy" || example.name == "storm") continue;
     const props::Counterexample less = minimal(example.counterexample);
+    const model::WirelessProfile& before = example.counterexample.scenario.wireless;
+    for (const model::PacketDelay& delay : less.scenario.wireless.packet_delays) {
+      EXPECT_EQ(std::ranges::count(before.packet_delays, delay), 1) << example.name;
+    }
     EXPECT_EQ(less.property, example.counterexample.property);
     EXPECT_EQ(less.scenario.dds, example.counterexample.scenario.dds) << example.name;
     EXPECT_LE(less.event, example.counterexample.event) << example.name;
