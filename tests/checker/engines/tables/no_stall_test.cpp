@@ -3,14 +3,13 @@
 #include "checker/engines/tables/no_stall.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
-#include <unistd.h>
+#include <z3++.h>
 
 #include "tests/checker/engines/tables/effect_mistake.hpp"
 #include "tests/checker/engines/tables/table_check.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::tables {
 namespace no_stall_test {
@@ -71,15 +70,13 @@ TEST(NoStall, MistakesInRecognitionBreakItsCertificate) {
 /// Whoever reads the file finds what is claimed, and nothing in it is claimed of nothing: without
 /// its invariant the question about every state has another answer.
 TEST(NoStall, TheExportSaysWhatIsClaimed) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("recognition-" + std::to_string(getpid()));
+  const files::Folder own;
+  const std::filesystem::path& folder = own.path();
   for (const model::Scenario& scenario : {paper(), each_side(), fastdds()}) {
     smt::Claims claims{{.export_dir = folder.string(), .second_solver = false}};
     const checker::CheckRequest request{.scenario = scenario, .claims = claims, .on_progress = {}};
     EXPECT_EQ(recognition_certificate(request).kind, VerdictKind::proved);
-    std::ostringstream file;
-    file << std::ifstream{folder / "certificates" / "live.no-stall.recognition.smt2"}.rdbuf();
-    std::string text = file.str();
+    std::string text = files::content(folder / "certificates" / "live.no-stall.recognition.smt2");
     for (const char* words :
          {"; assumed: Of the announcements to one participant, which go on, some arrives",
           "; claimed of every state: whoever is recognised finds the reader's side opened",
@@ -99,7 +96,6 @@ TEST(NoStall, TheExportSaysWhatIsClaimed) {
     text.insert(text.find("(assert (not (conclusion"), ")");
     EXPECT_TRUE(answers(text).ends_with("\nsat\n")) << answers(text);
   }
-  std::filesystem::remove_all(folder);
 }
 
 /// A solver that is stopped while it looks for an invariant leaves candidates that it has not
