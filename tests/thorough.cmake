@@ -66,6 +66,7 @@ set(thorough
   Replay.TheCallerCanStopIt
   TraceWriter.InterruptedRun*
   # The oracles themselves, mutated, and random scenarios in both.
+  Assumptions.AreMissed*
   MutatedOracle.*
   MutatedProduct.*
   MutatedRows.*
