@@ -76,6 +76,11 @@ class Reports {
   constexpr Reports() = default;
 
   [[nodiscard]] constexpr bool has(Report one) const { return (bits_ & bit(one)) != 0; }
+  /// Whether some of those change if a record of several packets is emitted instead of each of them.
+  [[nodiscard]] constexpr bool tell_packets_apart() const {
+    return has(Report::emitted) || has(Report::looped_back) || has(Report::backlog_changed) ||
+           has(Report::waiting_changed);
+  }
   constexpr void set(Report one, bool wanted = true) {
     bits_ = wanted ? bits_ | bit(one) : bits_ & ~bit(one);
   }
@@ -117,6 +122,10 @@ class Probe {
 
   /// Which of its functions below do something; the others need not be called.
   [[nodiscard]] virtual Reports reports() const { return Reports::all(); }
+  /// Whether it must hear of each packet on its own, which slows a run down. Otherwise a record that
+  /// stands for several may be emitted, admitted and requested at once, before what its message
+  /// sends within the host.
+  [[nodiscard]] virtual bool wants_single_packets() const { return true; }
   /// It is one of a list from now on; called before it is asked for `reports`. It may add
   /// gatherers.
   virtual void join(Company&) {}

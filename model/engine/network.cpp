@@ -38,7 +38,7 @@ Network::Network(RunState& run)
       takes_at_admission_{over_access_points_ || counts_at_admission_},
       admits_together_{wireless_.kind == ServiceKind::shared_channel && !takes_at_admission_ &&
                        run.mutation == nullptr &&
-                       run.who_hears(Report::waiting_changed) == nullptr},
+                       !run.hears_single_packets},
       leaving_(sources_.size()) {
   if (wireless_.kind == ServiceKind::shared_channel) build_route();
   for (std::size_t radio = 0; by_unit_ && radio < fleet_.radios().size(); ++radio) {

@@ -56,9 +56,7 @@ class Network {
   /// Whether the packets of a record ask for the channel together, and nobody hears of each: then a
   /// record is the same as its packets, emitted one after the other.
   [[nodiscard]] bool takes_records() const {
-    return admits_together_ && run_.who_hears(Report::emitted) == nullptr &&
-           run_.who_hears(Report::looped_back) == nullptr &&
-           run_.who_hears(Report::backlog_changed) == nullptr;
+    return admits_together_ && !run_.hears_single_packets;
   }
   /// The threads of the participants, if they take time; otherwise null.
   [[nodiscard]] Processors* processors() const { return processors_.get(); }

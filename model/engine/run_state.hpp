@@ -22,6 +22,7 @@ struct RunState {
         topology{scenario_.deployment, scenario_.dds.descriptors, same_host},
         probe{probe_},
         reports{probe_ == nullptr ? Reports{} : probe_->reports()},
+        hears_single_packets{reports.tell_packets_apart() && probe_->wants_single_packets()},
         mutation{mutation_},
         ends_when_complete{scenario_.run_until == RunUntil::completion},
         settled_at{model::settled_at(scenario_.deployment)},
@@ -68,6 +69,7 @@ struct RunState {
   const Topology topology;
   Probe* const probe;
   const Reports reports;           ///< that the probe wants
+  const bool hears_single_packets;
   const Mutation* const mutation;  ///< a deliberate mistake, or none
   const bool ends_when_complete;
   const Nanoseconds settled_at;  ///< what is complete from then on stays so

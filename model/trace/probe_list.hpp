@@ -30,6 +30,9 @@ class ProbeList final : public Probe {
   [[nodiscard]] bool empty() const { return probes_.empty(); }
 
   [[nodiscard]] Reports reports() const override { return reports_; }
+  [[nodiscard]] bool wants_single_packets() const override {
+    return wants_single_packets_;
+  }
   void run_started(const Topology& topology) override {
     sort_by_kind();
     for (Probe* probe : probes_) probe->run_started(topology);
@@ -100,6 +103,8 @@ class ProbeList final : public Probe {
   void tell(Probe& probe) {
     probes_.push_back(&probe);
     const Reports wanted = probe.reports();
+    wants_single_packets_ = wants_single_packets_ ||
+                            (wanted.tell_packets_apart() && probe.wants_single_packets());
     wanted_.push_back(wanted);
     for (std::size_t k = 0; k < report_count; ++k) {
       if (wanted.has(static_cast<Report>(k))) who_hears_[k].push_back(&probe);
@@ -151,6 +156,7 @@ class ProbeList final : public Probe {
       std::make_shared<RunClock>();  // probes read it at the end, too
   Company company_{clock_, {}};
   Reports reports_;
+  bool wants_single_packets_ = false;
   std::vector<Probe*> probes_;
   std::vector<Reports> wanted_;  // by each of them
   std::array<std::vector<Probe*>, report_count> who_hears_;

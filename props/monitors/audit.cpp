@@ -89,8 +89,19 @@ const Scheduled* Audit::expect(const Scheduled& wanted) {
            actual.time == wanted.time;
   });
 }
-void Audit::expect(const Message& wanted) {
-  next(wanted, [&](const Message& actual) { return actual == wanted; });
+void Audit::expect(const Message& wanted, std::span<const std::uint32_t> pairs) {
+  if (difference_) return;
+  if (looks_ahead_) {
+    sees_some_ = true;
+    fits_ = fits_ && deeds_.pass(ahead_, wanted, pairs) == pairs.size();
+    return;
+  }
+  settle();
+  const std::size_t fitting = deeds_.take(wanted, pairs);
+  if (fitting == pairs.size()) return;
+  Message missing = wanted;
+  missing.pair = pairs[fitting];
+  differ(said(missing, topology_));
 }
 
 void Audit::differ(const std::string& wanted) {
@@ -100,7 +111,7 @@ void Audit::differ(const std::string& wanted) {
     place += fmt::format(" ({}:{})", site_.file.substr(site_.file.rfind('/') + 1), site_.line);
   }
   difference_ = fmt::format("{}: by the rules {}; in the run {}.", place, wanted,
-                            deeds_.next_in_words(topology_));
+                            deeds_.next_in_words());
 }
 
 /// The next deed if it is `same`; otherwise there is a difference, and null.
@@ -108,7 +119,9 @@ template <class Kind, class Same>
 const Kind* Audit::next(const Kind& wanted, Same&& same) {
   if (difference_) return nullptr;
   if (looks_ahead_) {
-    const Kind* actual = deeds_.next<Kind>(looked_at_++);
+    const Kind* actual = deeds_.at<Kind>(ahead_.deed);
+    ahead_ = {ahead_.deed + 1};
+    sees_some_ = true;
     fits_ = fits_ && actual != nullptr && same(*actual);
     return nullptr;
   }

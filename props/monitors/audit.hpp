@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,7 @@ namespace stormproof::props {
 /// It is the probe of the machines that move beside the run.
 class Audit final : public model::Probe {
  public:
-  explicit Audit(const model::Topology& topology) : topology_{topology} {}
+  explicit Audit(const model::Topology& topology) : topology_{topology}, deeds_{topology} {}
 
   [[nodiscard]] Deeds& deeds() { return deeds_; }
   /// In words, what the run did that the rules do not say, or the other way around.
@@ -43,7 +44,9 @@ class Audit final : public model::Probe {
                   std::uint64_t descriptors) override;
   /// Null if the run did something else.
   const Scheduled* expect(const Scheduled& wanted);
-  void expect(const Message& wanted);
+  void expect(const Message& wanted) { expect(wanted, {&wanted.pair, 1}); }
+  /// To each of the pairs.
+  void expect(const Message& wanted, std::span<const std::uint32_t> pairs);
   /// The next thing that the run did, if it is a message.
   [[nodiscard]] const Message* next_message(std::size_t skip = 0) {
     settle();
@@ -53,12 +56,13 @@ class Audit final : public model::Probe {
   template <class Body>
   [[nodiscard]] bool would(Body&& body) {
     settle();
-    looked_at_ = 0;
+    ahead_ = deeds_.position();
     fits_ = true;
+    sees_some_ = false;
     looks_ahead_ = true;
     body();
     looks_ahead_ = false;
-    return fits_ && looked_at_ > 0;
+    return fits_ && sees_some_;
   }
 
  private:
@@ -77,7 +81,8 @@ class Audit final : public model::Probe {
   std::optional<std::string> difference_;
   bool looks_ahead_ = false;
   bool fits_ = true;  // so far what is looked at ahead
-  std::size_t looked_at_ = 0;
+  bool sees_some_ = false;
+  Deeds::Position ahead_;
 };
 
 }  // namespace stormproof::props

@@ -29,15 +29,14 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
     if constexpr (std::is_same_v<P, comp::SpdpMulticast>) {
       this->announce(w.template number<comp::owner::participant>());
     } else {
-      const Message message = message_of(packet, w, sayings);
       if constexpr (P::owner == comp::owner::relation) {
         if (is_filled_) {
-          put_.message = message;
-          put_.readers.push_back(w.template number<P::owner>());
+          if (put_.to.empty()) put_.message = message_of(packet, w, sayings);
+          put_.to.push_back(w.template number<comp::owner::pair>());
           return;
         }
       }
-      this->audit_.expect(message);
+      this->audit_.expect(message_of(packet, w, sayings));
     }
   }
 
@@ -81,21 +80,22 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
   /// What the contract of a step emits joins the message that is open.
   template <class Contract>
   void fill(Contract&& contract) {
-    put_ = {};
+    put_.to.clear();
+    put_.may_be = false;
     is_filled_ = true;
     contract();
     is_filled_ = false;
-    if (put_.readers.empty()) return;
+    if (put_.to.empty()) return;
     if (put_.may_be) {
-      (put_.readers == open_.readers ? open_.rides : open_.follow) = put_;
+      (goes_with_open() ? open_.rides : open_.follow) = put_;
       return;
     }
     const std::uint32_t d = put_.message.descriptors.least();
-    const bool joins = put_.readers == open_.readers && !open_.carried.has(d);
+    const bool joins = goes_with_open() && !open_.carried.has(d);
     if (!joins || this->audit_.next_message() != nullptr) flush();
     if (open_.carried.empty()) {
       open_.message = put_.message;
-      open_.readers = put_.readers;
+      open_.to = put_.to;
     }
     open_.carried.add(d);
   }
@@ -106,25 +106,27 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
       const Message* next = this->audit_.next_message();
       sent.message.descriptors = sent.carried;
       sent.message.carries_heartbeat =
-          !sent.rides.readers.empty() && next != nullptr && next->carries_heartbeat;
+          !sent.rides.to.empty() && next != nullptr && next->carries_heartbeat;
       sent.message.detail = sent.message.carries_heartbeat ? sent.rides.message.detail : 0;
-      send(sent.message, sent.readers);
+      this->audit_.expect(sent.message, sent.to);
     }
     const Message* next = this->audit_.next_message();
-    if (next == nullptr || sent.follow.readers.empty()) return;
-    if (next->kind == sent.follow.message.kind) send(sent.follow.message, sent.follow.readers);
+    if (next == nullptr || sent.follow.to.empty()) return;
+    if (next->kind == sent.follow.message.kind) {
+      this->audit_.expect(sent.follow.message, sent.follow.to);
+    }
   }
 
  private:
-  /// What a step puts into a message, which goes to these.
+  /// What a step puts into a message, which goes to these pairs.
   struct Put {
     Message message;
-    std::vector<Number> readers;
+    std::vector<Number> to;
     bool may_be = false;  ///< or not
   };
   struct OpenMessage {
     Message message;
-    std::vector<Number> readers;
+    std::vector<Number> to;
     Descriptors carried;
     Put rides;   ///< a HEARTBEAT, in it
     Put follow;  ///< HEARTBEATs to others as well, after it
@@ -183,14 +185,10 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
     const Message* next = this->audit_.next_message();
     return could && next != nullptr && next->carries_heartbeat;
   }
-  void send(Message message, const std::vector<Number>& relations) {
-    for (const Number relation : relations) {
-      message.pair = relation / 2;
-      message.stream = model::streams[relation % 2];
-      this->audit_.expect(message);
-    }
+  /// Whether what was put goes to the same readers.
+  [[nodiscard]] bool goes_with_open() const {
+    return put_.message.stream == open_.message.stream && put_.to == open_.to;
   }
-
   /// Whether the queue is left for now, though there are entries, because its participant stalls.
   /// The message stays open; if its DATA has gone, HEARTBEATs are left.
   bool leaves_queue(Number i) {
@@ -204,7 +202,8 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
       OpenMessage rest;
       std::swap(rest.follow, open_.follow);
       flush();
-      rest.readers = rest.follow.readers;
+      rest.message.stream = rest.follow.message.stream;
+      rest.to = rest.follow.to;
       rest.rides = rest.follow;
       open_ = std::move(rest);
     }

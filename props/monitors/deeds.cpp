@@ -160,6 +160,11 @@ std::string said(const Message& message, const model::Topology& topology) {
 
 namespace {
 
+bool is_of_control(const model::Packet& packet) {
+  return packet.kind == model::PacketKind::user_heartbeat ||
+         packet.kind == model::PacketKind::user_acknack;
+}
+
 Message content_of(const model::Submessage& submessage) {
   using Kind = model::Submessage::Kind;
   Message content;
@@ -191,6 +196,24 @@ Message content_of(const model::Submessage& submessage) {
 
 }  // namespace
 
+bool Message::says_what(const Message& other) const {
+  return kind == other.kind && stream == other.stream && detail == other.detail &&
+         initial == other.initial && repair == other.repair &&
+         carries_heartbeat == other.carries_heartbeat && to_nobody == other.to_nobody &&
+         to_group == other.to_group && directed == other.directed && loops_to == other.loops_to &&
+         bytes == other.bytes && writer == other.writer && count == other.count &&
+         descriptors == other.descriptors && contents == other.contents &&
+         relayed == other.relayed;
+}
+
+bool Message::says_what(const model::Packet& packet) const {
+  return kind == packet.kind && stream == packet.stream && detail == packet.detail &&
+         initial == packet.initial_acknack && repair == packet.from_repair &&
+         carries_heartbeat == packet.carries_heartbeat && to_nobody == packet.to_nobody &&
+         !packet.multicast() && packet.submessages == nullptr && packet.relayed == nullptr &&
+         descriptors.are(packet.descriptors);
+}
+
 bool RelayedContents::operator==(const RelayedContents& other) const {
   if (of == nullptr || other.of == nullptr) return of == other.of;
   return *of == *other.of;
@@ -199,9 +222,7 @@ bool RelayedContents::operator==(const RelayedContents& other) const {
 Message message_of(const model::Packet& packet) {
   Message message;
   message.kind = packet.kind;
-  const bool control = packet.kind == model::PacketKind::user_heartbeat ||
-                       packet.kind == model::PacketKind::user_acknack;
-  message.pair = control ? 0 : packet.pair;
+  message.pair = is_of_control(packet) ? 0 : packet.pair;
   message.stream = packet.stream;
   message.descriptors = Descriptors{packet.descriptors};
   message.detail = packet.detail;
@@ -236,11 +257,57 @@ std::string said(const Scheduled& event, const model::Topology& topology) {
                      time_text(event.time));
 }
 
-std::string Deeds::next_in_words(const model::Topology& topology) const {
-  if (const Move* move = next<Move>()) return said(*move, topology);
-  if (const Scheduled* event = next<Scheduled>()) return said(*event, topology);
-  const Message* message = next<Message>();
-  return message == nullptr ? "nothing more happens" : said(*message, topology);
+void Deeds::add(const model::Packet& packet, std::uint32_t pair, std::uint32_t loops_to) {
+  if (is_of_control(packet)) pair = 0;
+  auto& messages = list_of<Message>();
+  const bool goes_on = !order_.empty() && order_.back().tag == Tag::message &&
+                       messages.back().says_what(packet);
+  if (!goes_on) {
+    const auto number = static_cast<std::uint32_t>(messages.size());
+    order_.push_back({Tag::message, number, static_cast<std::uint32_t>(pairs_.size())});
+    Message& message = messages.emplace_back(message_of(packet));
+    message.pair = pair;
+    message.loops_to = loops_to;
+  }
+  pairs_.push_back(pair);
+  ++order_.back().pairs;
+}
+
+std::size_t Deeds::pass(Position& from, const Message& message,
+                        std::span<const std::uint32_t> pairs) const {
+  const Message* sent = nullptr;
+  std::span<const std::uint32_t> to;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (sent == nullptr) {
+      sent = at<Message>(from.deed);
+      if (sent == nullptr || !sent->says_what(message)) return k;
+      to = pairs_of(from.deed);
+    }
+    const bool crosses_hosts = crosses(message, pairs[k]);
+    std::uint32_t& behind = crosses_hosts ? from.crossing : from.looped;
+    while (behind < to.size() && crosses(message, to[behind]) != crosses_hosts) ++behind;
+    if (behind == to.size() || to[behind] != pairs[k]) return k;
+    ++behind;
+    if (++from.taken < to.size()) continue;
+    from = {from.deed + 1};
+    sent = nullptr;
+  }
+  return pairs.size();
+}
+
+std::string Deeds::next_in_words() const {
+  if (const Move* move = next<Move>()) return said(*move, topology_);
+  if (const Scheduled* event = next<Scheduled>()) return said(*event, topology_);
+  if (empty()) return "nothing more happens";
+  Message message = *next<Message>();
+  const auto pairs = pairs_of(next_.deed);
+  const auto is_behind = [&](std::size_t k) {
+    return k < (crosses(message, pairs[k]) ? next_.crossing : next_.looped);
+  };
+  std::size_t first = 0;
+  while (is_behind(first)) ++first;
+  message.pair = pairs[first];
+  return said(message, topology_);
 }
 
 }  // namespace stormproof::props

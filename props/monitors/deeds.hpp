@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -44,8 +45,8 @@ struct RelayedContents {
   bool operator==(const RelayedContents& other) const;
 };
 
-/// What a packet says, without its size. A record that stands for several packets is several. One
-/// of Cyclone DDS has contents, which are about a writer of a participant each, and its size.
+/// What a packet says, without its size. One of Cyclone DDS has contents, which are about a writer
+/// of a participant each, and its size.
 struct Message {
   model::PacketKind kind{};
   model::Stream stream{};
@@ -67,6 +68,13 @@ struct Message {
   RelayedContents relayed;
 
   bool operator==(const Message&) const = default;
+  /// The same to whomever.
+  [[nodiscard]] bool says_what(const Message& other) const;
+  /// Whether the packet is it, to whomever; of those with contents and of multicasts it is not told.
+  [[nodiscard]] bool says_what(const model::Packet& packet) const;
+  [[nodiscard]] bool is_multicast() const {
+    return to_group || kind == model::PacketKind::spdp_multicast;
+  }
   [[nodiscard]] std::uint32_t relation() const {
     return 2 * pair + static_cast<std::uint32_t>(stream);
   }
@@ -78,32 +86,61 @@ struct Message {
 [[nodiscard]] std::string said(const Scheduled& event, const model::Topology& topology);
 [[nodiscard]] std::string said(const Message& message, const model::Topology& topology);
 
-/// In the order in which they were done; those of a kind are together.
+/// In the order in which they were done; those of a kind are together. The same message to one
+/// pair after the other is one deed: a record stands for several of its packets, which it may put
+/// before those within the host. So what goes over the network has an order, and what does not.
 class Deeds {
  public:
+  /// How far somebody has come.
+  struct Position {
+    std::size_t deed = 0;
+    // Of a message: how many of its pairs are behind, of those on other hosts and of the others.
+    std::uint32_t crossing = 0;
+    std::uint32_t looped = 0;
+    std::uint32_t taken = 0;  // of all
+  };
+
+  explicit Deeds(const model::Topology& topology) : topology_{topology} {}
+
   template <class Kind>
   void add(Kind&& deed) {
     auto& list = list_of<std::remove_cvref_t<Kind>>();
     order_.push_back({tag_of<std::remove_cvref_t<Kind>>, static_cast<std::uint32_t>(list.size())});
     list.push_back(std::forward<Kind>(deed));
   }
+  /// The packet goes to the pair, or within the host to the participant.
+  void add(const model::Packet& packet, std::uint32_t pair, std::uint32_t loops_to = UINT32_MAX);
   void clear() {
     if (order_.empty()) return;
     order_.clear();
     std::apply([](auto&... list) { (list.clear(), ...); }, lists_);
-    next_ = 0;
+    pairs_.clear();
+    next_ = {};
   }
-  [[nodiscard]] bool empty() const { return next_ == order_.size(); }
+  [[nodiscard]] bool empty() const { return next_.deed == order_.size(); }
+  /// The next one.
+  [[nodiscard]] const Position& position() const { return next_; }
   /// The next one but `skip` if it is a `Kind`, or null.
   template <class Kind>
   [[nodiscard]] const Kind* next(std::size_t skip = 0) const {
-    if (next_ + skip >= order_.size()) return nullptr;
-    const auto [tag, number] = order_[next_ + skip];
-    return tag == tag_of<Kind> ? &std::get<std::vector<Kind>>(lists_)[number] : nullptr;
+    return at<Kind>(next_.deed + skip);
   }
-  void take() { ++next_; }
+  template <class Kind>
+  [[nodiscard]] const Kind* at(std::size_t deed) const {
+    if (deed >= order_.size()) return nullptr;
+    const Entry& entry = order_[deed];
+    return entry.tag == tag_of<Kind> ? &std::get<std::vector<Kind>>(lists_)[entry.number] : nullptr;
+  }
+  void take() { next_ = {next_.deed + 1}; }
+  /// Goes on from there, behind the message to each of the pairs; stops before the first one to
+  /// which it was not sent next, and returns how many those before it are.
+  [[nodiscard]] std::size_t pass(Position& from, const Message& message,
+                                 std::span<const std::uint32_t> pairs) const;
+  [[nodiscard]] std::size_t take(const Message& message, std::span<const std::uint32_t> pairs) {
+    return pass(next_, message, pairs);
+  }
   /// The next one in words.
-  [[nodiscard]] std::string next_in_words(const model::Topology& topology) const;
+  [[nodiscard]] std::string next_in_words() const;
 
  private:
   enum class Tag : std::uint8_t { move, scheduled, message };
@@ -114,15 +151,26 @@ class Deeds {
   struct Entry {
     Tag tag{};
     std::uint32_t number = 0;  // among those of its kind
+    // Of a message.
+    std::uint32_t first_pair = 0;
+    std::uint32_t pairs = 0;
   };
+  [[nodiscard]] std::span<const std::uint32_t> pairs_of(std::size_t deed) const {
+    return std::span{pairs_}.subspan(order_[deed].first_pair, order_[deed].pairs);
+  }
+  [[nodiscard]] bool crosses(const Message& message, std::uint32_t pair) const {
+    return message.is_multicast() || topology_.pair(pair).cross_host;
+  }
   template <class Kind>
   std::vector<Kind>& list_of() {
     return std::get<std::vector<Kind>>(lists_);
   }
 
+  const model::Topology& topology_;
   std::vector<Entry> order_;
   std::tuple<std::vector<Move>, std::vector<Scheduled>, std::vector<Message>> lists_;
-  std::size_t next_ = 0;
+  std::vector<std::uint32_t> pairs_;  // of messages
+  Position next_;
 };
 
 }  // namespace stormproof::props

@@ -26,6 +26,7 @@ class DelayProbe : public model::Probe {
     }
     return reports;
   }
+  [[nodiscard]] bool wants_single_packets() const override { return false; }
   void run_started(const model::Topology& topology) override { topology_ = &topology; }
   void event_started(const model::Event& event) override { own_->begin(event); }
   void emitted(const model::Packet& packet, std::uint32_t,

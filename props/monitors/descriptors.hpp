@@ -3,6 +3,7 @@
 // that nobody asks for are 0. A stream of 64 descriptors needs no memory but the bitmap's own.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -72,6 +73,15 @@ class Descriptors {
     return members;
   }
 
+  /// Whether the set has the same members.
+  [[nodiscard]] bool are(const model::DescriptorSet& set) const {
+    const std::uint32_t end = set.empty() ? 0 : set.end_word();
+    if (end < others_.size() + 1 && !others_.empty()) return false;
+    for (std::uint32_t k = 0; k < std::max(end, std::uint32_t{1}); ++k) {
+      if (word(k) != set.word(k)) return false;
+    }
+    return true;
+  }
   /// As packets have it.
   [[nodiscard]] model::DescriptorSet set() const {
     model::DescriptorSet set;

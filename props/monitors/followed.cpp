@@ -82,17 +82,14 @@ class FollowedRun : public Observer {
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
     if (follower_ == nullptr) return;
-    Message message = message_of(packet);
-    for (std::uint32_t copy = 0; copy < packet.copies; ++copy) {
-      if (packet.copies > 1) message.pair = topology().pair_between(source, destinations[copy]);
-      add(message);
+    if (packet.copies == 1) return audit_->deeds().add(packet, packet.pair);
+    for (const std::uint32_t destination : destinations) {
+      audit_->deeds().add(packet, topology().pair_between(source, destination));
     }
   }
   void looped_back(const model::Packet& packet, std::uint32_t receiver) override {
     if (follower_ == nullptr) return;
-    Message message = message_of(packet);
-    if (packet.multicast()) message.loops_to = receiver;
-    add(std::move(message));
+    audit_->deeds().add(packet, packet.pair, packet.multicast() ? receiver : UINT32_MAX);
   }
 
   [[nodiscard]] std::vector<std::string> assumptions() const override {

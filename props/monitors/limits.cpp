@@ -194,6 +194,8 @@ class MessageLimit : public LimitMonitor {
                                 limit.value(), reference)},
         limit_{limit.value()} {}
 
+  /// The first one too many is what it tells of.
+  [[nodiscard]] bool wants_single_packets() const override { return true; }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {
     if (completed()) return;
@@ -219,6 +221,7 @@ class BacklogLimit : public LimitMonitor {
  public:
   explicit BacklogLimit(std::uint64_t limit) : LimitMonitor{"limit.backlog"}, limit_{limit} {}
 
+  [[nodiscard]] bool wants_single_packets() const override { return true; }
   void backlog_changed(std::uint32_t participant, std::uint64_t packets, std::int64_t) override {
     if (completed() || packets <= highest_) return;
     highest_ = packets;

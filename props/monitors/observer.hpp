@@ -24,6 +24,7 @@ class Observer : public Monitor {
 
   [[nodiscard]] std::string_view property() const override { return property_; }
 
+  [[nodiscard]] bool wants_single_packets() const override { return false; }
   void join(model::Company&) override { is_alone_ = false; }
   void run_started(const model::Topology& topology) override { topology_ = &topology; }
   void event_started(const model::Event& event) override {
