@@ -38,6 +38,17 @@ struct MachineRef {
   std::uint32_t subject = 0;
 };
 
+/// A row of a machine's table fired: on the event it went from one state to another, or to the
+/// same.
+struct Transition {
+  MachineRef machine;
+  std::string_view event;
+  std::string_view before;
+  std::string_view after;
+  std::uint32_t first_word = 0;
+  std::uint64_t descriptors = 0;  ///< that moved, of this word; 0 if the machine has none
+};
+
 /// Queue depths after an event.
 struct Depths {
   std::uint64_t events = 0;           ///< scheduled events
@@ -76,7 +87,8 @@ class Reports {
   constexpr Reports() = default;
 
   [[nodiscard]] constexpr bool has(Report one) const { return (bits_ & bit(one)) != 0; }
-  /// Whether some of those change if a record of several packets is emitted instead of each of them.
+  /// Whether some of those change if a record of several packets is emitted instead of each of
+  /// them.
   [[nodiscard]] constexpr bool tell_packets_apart() const {
     return has(Report::emitted) || has(Report::looped_back) || has(Report::backlog_changed) ||
            has(Report::waiting_changed);
@@ -108,10 +120,11 @@ struct RunClock {
 };
 
 /// Whose transition it is.
-[[nodiscard]] inline Report report_of(const MachineRef& machine, std::uint64_t descriptors) {
-  if (machine.kind == MachineRef::Kind::channel) return Report::channel_transition;
-  if (descriptors != 0) return Report::descriptor_transition;
-  return machine.machine == "DiscoveryReader" ? Report::reader_transition : Report::transition;
+[[nodiscard]] inline Report report_of(const Transition& fired) {
+  if (fired.machine.kind == MachineRef::Kind::channel) return Report::channel_transition;
+  if (fired.descriptors != 0) return Report::descriptor_transition;
+  const bool of_reader = fired.machine.machine == "DiscoveryReader";
+  return of_reader ? Report::reader_transition : Report::transition;
 }
 
 struct Company;
@@ -122,9 +135,9 @@ class Probe {
 
   /// Which of its functions below do something; the others need not be called.
   [[nodiscard]] virtual Reports reports() const { return Reports::all(); }
-  /// Whether it must hear of each packet on its own, which slows a run down. Otherwise a record that
-  /// stands for several may be emitted, admitted and requested at once, before what its message
-  /// sends within the host.
+  /// Whether it must hear of each packet on its own, which slows a run down. Otherwise a record
+  /// that stands for several may be emitted, admitted and requested at once, before what its
+  /// message sends within the host.
   [[nodiscard]] virtual bool wants_single_packets() const { return true; }
   /// It is one of a list from now on; called before it is asked for `reports`. It may add
   /// gatherers.
@@ -133,12 +146,7 @@ class Probe {
   virtual void run_started(const Topology&) {}
   virtual void event_started(const Event&) {}
   virtual void event_finished(const Depths&) {}
-  /// A row of a machine's table fired: it went from state `before` to `after`, which may be equal.
-  /// `descriptors` is the set of descriptors that moved, word by word; empty for machines that have
-  /// none.
-  virtual void transition(const MachineRef&, std::string_view /*event*/,
-                          std::string_view /*before*/, std::string_view /*after*/,
-                          std::uint32_t /*first_word*/, std::uint64_t /*descriptors*/) {}
+  virtual void transition(const Transition&) {}
   /// Whether `effect` is wanted; it slows a run down.
   [[nodiscard]] virtual bool wants_effects() const { return false; }
   /// An effect of a rule is about to happen; `draw composition` names it.

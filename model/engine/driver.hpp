@@ -25,7 +25,7 @@ class Driver {
   Driver(const RunState& run, MachineRef::Kind kind)
       : machines_{table_mutations(run)},
         kind_{kind},
-        hearer_{run.who_hears(report_of({fsm::name_of<Machine>(), kind}, 0))} {}
+        hearer_{run.who_hears(report_of({{fsm::name_of<Machine>(), kind}, {}, {}, {}}))} {}
 
   template <class Event>
   [[gnu::always_inline]] Output step(fsm::StateId& state, const Input& input,
@@ -41,8 +41,10 @@ class Driver {
   template <class Event>
   [[gnu::noinline]] void tell(fsm::StateId before, fsm::StateId after, std::uint32_t subject) {
     using Info = fsm::Reflect<Machine>;
-    hearer_->transition({fsm::name_of<Machine>(), kind_, subject}, fsm::name_of<Event>(),
-                        Info::state_names[before], Info::state_names[after], 0, 0);
+    hearer_->transition({.machine = {fsm::name_of<Machine>(), kind_, subject},
+                         .event = fsm::name_of<Event>(),
+                         .before = Info::state_names[before],
+                         .after = Info::state_names[after]});
   }
 
   fsm::Stepper<Machine> machines_;

@@ -102,8 +102,10 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
                     fsm::StateId after) {
     if (this->run_.probe == nullptr) return;
     using States = fsm::Reflect<Machine>;
-    this->run_.probe->transition({fsm::name_of<Machine>(), kind, n}, renewed,
-                                 States::state_names[before], States::state_names[after], 0, 0);
+    this->run_.probe->transition({.machine = {fsm::name_of<Machine>(), kind, n},
+                                  .event = renewed,
+                                  .before = States::state_names[before],
+                                  .after = States::state_names[after]});
   }
   /// `Life::LoseAll` of participant i, with what the host has besides: `of_participant()`, and
   /// `of_writer(w)` for each.

@@ -63,8 +63,12 @@ class RelationBits {
       for (fsm::StateId s = 1; s < States::state_count && run_.probe != nullptr; ++s) {
         const std::uint64_t members = in_state(relation, k, s);
         if (members == 0) continue;
-        run_.probe->transition({fsm::name_of<Machine>(), MachineRef::Kind::relation, relation},
-                               step, States::state_names[s], States::state_names[0], k, members);
+        run_.probe->transition({{fsm::name_of<Machine>(), MachineRef::Kind::relation, relation},
+                                step,
+                                States::state_names[s],
+                                States::state_names[0],
+                                k,
+                                members});
       }
       Word fresh;
       fresh.received = word(relation, k).received;
@@ -231,8 +235,12 @@ void RelationBits<Machine>::step(std::uint32_t relation, std::uint32_t k, std::u
     }
     if (run_.who_hears(Report::descriptor_transition) != nullptr && row != fsm::no_row) {
       const auto& names = fsm::Reflect<Machine>::state_names;
-      run_.probe->transition({fsm::name_of<Machine>(), MachineRef::Kind::relation, relation},
-                             fsm::name_of<Event>(), names[before], names[after], k, classes[s]);
+      run_.probe->transition({{fsm::name_of<Machine>(), MachineRef::Kind::relation, relation},
+                              fsm::name_of<Event>(),
+                              names[before],
+                              names[after],
+                              k,
+                              classes[s]});
     }
     effect(classes[s], output, before, after);
   }

@@ -78,6 +78,11 @@ std::uint32_t Topology::matching_descriptors(std::uint32_t i, std::uint32_t j,
 std::uint32_t Topology::pair_between(std::uint32_t i, std::uint32_t j) const {
   const auto begin = pairs_.begin() + first_pair_[i];
   const auto end = pairs_.begin() + first_pair_[i + 1];
+  // Where it is if i has a pair with everybody.
+  const auto expected = begin + (j > i ? j - 1 : j);
+  if (expected < end && expected->destination == j) {
+    return static_cast<std::uint32_t>(expected - pairs_.begin());
+  }
   const auto found = std::lower_bound(begin, end, j, [](const Pair& pair, std::uint32_t value) {
     return pair.destination < value;
   });

@@ -153,13 +153,11 @@ void PerfettoWriter::add_packet(Slice& slice, const Packet& packet) {
   slice.flows.push_back({FlowPhase::end, packet_flow, packet.number});
 }
 
-void PerfettoWriter::transition(const MachineRef& machine, std::string_view event,
-                                std::string_view before, std::string_view after,
-                                std::uint32_t first_word, std::uint64_t descriptors) {
-  transitions_.add(machine, event, before, after, first_word, descriptors);
-  const bool first_of_pair = machine.subject % 2 == 0;
-  if (multicast_ && event == "AnnouncementReceived" && first_of_pair) {
-    informed_.push_back(topology_->pair(machine.subject / 2).destination);
+void PerfettoWriter::transition(const Transition& fired) {
+  transitions_.add(fired);
+  const bool first_of_pair = fired.machine.subject % 2 == 0;
+  if (multicast_ && fired.event == "AnnouncementReceived" && first_of_pair) {
+    informed_.push_back(topology_->pair(fired.machine.subject / 2).destination);
   }
 }
 

@@ -32,9 +32,7 @@ class PerfettoWriter final : public Probe {
   void event_finished(const Depths& depths) override;
   [[nodiscard]] bool wants_effects() const override { return effect_names_.has_value(); }
   void effect(fsm::composition::EffectKey key) override;
-  void transition(const MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override;
+  void transition(const Transition& fired) override;
   void scheduled(std::uint64_t insertion, Nanoseconds time, EventKind kind,
                  std::uint32_t subject) override;
   void rescheduled(const Event& event, std::uint64_t insertion) override;

@@ -30,9 +30,7 @@ class ProbeList final : public Probe {
   [[nodiscard]] bool empty() const { return probes_.empty(); }
 
   [[nodiscard]] Reports reports() const override { return reports_; }
-  [[nodiscard]] bool wants_single_packets() const override {
-    return wants_single_packets_;
-  }
+  [[nodiscard]] bool wants_single_packets() const override { return wants_single_packets_; }
   void run_started(const Topology& topology) override {
     sort_by_kind();
     for (Probe* probe : probes_) probe->run_started(topology);
@@ -44,11 +42,9 @@ class ProbeList final : public Probe {
   void event_finished(const Depths& depths) override {
     for (Probe* probe : who_hears(Report::event_finished)) probe->event_finished(depths);
   }
-  void transition(const MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    for (Probe* probe : who_hears(report_of(machine, descriptors))) {
-      probe->transition(machine, event, before, after, first_word, descriptors);
+  void transition(const Transition& fired) override {
+    for (Probe* probe : who_hears(report_of(fired))) {
+      probe->transition(fired);
     }
   }
   [[nodiscard]] bool wants_effects() const override {
@@ -103,8 +99,8 @@ class ProbeList final : public Probe {
   void tell(Probe& probe) {
     probes_.push_back(&probe);
     const Reports wanted = probe.reports();
-    wants_single_packets_ = wants_single_packets_ ||
-                            (wanted.tell_packets_apart() && probe.wants_single_packets());
+    wants_single_packets_ =
+        wants_single_packets_ || (wanted.tell_packets_apart() && probe.wants_single_packets());
     wanted_.push_back(wanted);
     for (std::size_t k = 0; k < report_count; ++k) {
       if (wanted.has(static_cast<Report>(k))) who_hears_[k].push_back(&probe);

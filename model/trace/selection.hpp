@@ -28,6 +28,15 @@ class Selection {
     for (const PacketKind kind : kinds) wanted |= bit(static_cast<std::size_t>(kind));
     return with(reports, wanted);
   }
+  /// Of this report only events of the kinds for which `wanted(kind)` holds.
+  template <class Wanted>
+  [[nodiscard]] constexpr Selection only_if(Report report, Wanted wanted) const {
+    std::uint64_t kinds = 0;
+    for (std::size_t kind = 0; kind < event_kind_count; ++kind) {
+      if (wanted(static_cast<EventKind>(kind))) kinds |= bit(kind);
+    }
+    return with({report}, kinds);
+  }
   [[nodiscard]] constexpr bool has(Report report, std::size_t kind) const {
     return (left_out_[static_cast<std::size_t>(report)] & bit(kind)) == 0;
   }

@@ -105,11 +105,7 @@ void TraceWriter::effect(fsm::composition::EffectKey key) {
   append(effects_, effects_.empty() ? "\"" : ",\"", effect_names_->happens(key), "\"");
 }
 
-void TraceWriter::transition(const MachineRef& machine, std::string_view event,
-                             std::string_view before, std::string_view after,
-                             std::uint32_t first_word, std::uint64_t descriptors) {
-  transitions_.add(machine, event, before, after, first_word, descriptors);
-}
+void TraceWriter::transition(const Transition& fired) { transitions_.add(fired); }
 
 void TraceWriter::emitted(const Packet& packet, std::uint32_t source,
                           std::span<const std::uint32_t> destinations) {

@@ -3,29 +3,28 @@
 
 namespace stormproof::model::trace {
 
-void TransitionList::add(const MachineRef& machine, std::string_view event, std::string_view before,
-                         std::string_view after, std::uint32_t word, std::uint64_t descriptors) {
-  Entry* entry = descriptors == 0 ? nullptr : find(machine, event, before, after);
+void TransitionList::add(const Transition& fired) {
+  Entry* entry = fired.descriptors == 0 ? nullptr : find(fired);
   if (entry == nullptr) {
     entry = &append();
-    entry->machine = machine;
-    entry->event = event;
-    entry->before = before;
-    entry->after = after;
+    entry->machine = fired.machine;
+    entry->event = fired.event;
+    entry->before = fired.before;
+    entry->after = fired.after;
   }
-  if (descriptors == 0) return;
-  if (entry->words.size() <= word) entry->words.resize(word + 1);
-  entry->words[word] |= descriptors;
+  if (fired.descriptors == 0) return;
+  if (entry->words.size() <= fired.first_word) entry->words.resize(fired.first_word + 1);
+  entry->words[fired.first_word] |= fired.descriptors;
 }
 
-TransitionList::Entry* TransitionList::find(const MachineRef& machine, std::string_view event,
-                                            std::string_view before, std::string_view after) {
+TransitionList::Entry* TransitionList::find(const Transition& fired) {
   for (std::size_t k = used_; k-- > 0;) {
     Entry& entry = entries_[k];
-    const bool same_step = entry.machine.machine == machine.machine &&
-                           entry.machine.subject == machine.subject && entry.event == event;
+    const bool same_step = entry.machine.machine == fired.machine.machine &&
+                           entry.machine.subject == fired.machine.subject &&
+                           entry.event == fired.event;
     if (!same_step) return nullptr;
-    if (entry.before == before && entry.after == after) return &entry;
+    if (entry.before == fired.before && entry.after == fired.after) return &entry;
   }
   return nullptr;
 }

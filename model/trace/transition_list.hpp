@@ -20,16 +20,14 @@ class TransitionList {
     std::vector<std::uint64_t> words;  ///< the descriptors that moved; empty for other machines
   };
 
-  void add(const MachineRef& machine, std::string_view event, std::string_view before,
-           std::string_view after, std::uint32_t word, std::uint64_t descriptors);
+  void add(const Transition& fired);
   void clear() { used_ = 0; }
 
   [[nodiscard]] std::span<const Entry> entries() const { return {entries_.data(), used_}; }
 
  private:
   /// The entry of this move among those of the machine that moved last, or null.
-  Entry* find(const MachineRef& machine, std::string_view event, std::string_view before,
-              std::string_view after);
+  Entry* find(const Transition& fired);
   Entry& append();
 
   std::vector<Entry> entries_;  // those from `used_` on keep their memory for the next event

@@ -135,9 +135,8 @@ class DeliveryCounter final : public model::Probe {
       if (received_.words().test(packet.relation(), d)) ++repeated_;
     });
   }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    const Packet* data = received_.taken(machine, event);
+  void transition(const model::Transition& fired) override {
+    const Packet* data = received_.taken(fired.machine, fired.event);
     if (data == nullptr) return;
     if (crosses(*data)) {
       data->descriptors.for_each([&](std::uint32_t d) {

@@ -116,12 +116,11 @@ class RecipientWatch final : public Observer {
     Observer::event_started(event);
     of_cycle_ = event.kind == EventKind::cycle_start || event.kind == EventKind::batch_due;
   }
-  void transition(const model::MachineRef& machine, std::string_view, std::string_view before,
-                  std::string_view after, std::uint32_t, std::uint64_t descriptors) override {
-    if (machine.machine != "DescriptorRepair" || before == after) return;
-    const auto moved = static_cast<std::uint32_t>(std::popcount(descriptors));
-    if (after == "A") acknowledged_[machine.subject] += moved;
-    if (before == "A") acknowledged_[machine.subject] -= moved;
+  void transition(const model::Transition& fired) override {
+    if (fired.machine.machine != "DescriptorRepair" || fired.before == fired.after) return;
+    const auto moved = static_cast<std::uint32_t>(std::popcount(fired.descriptors));
+    if (fired.after == "A") acknowledged_[fired.machine.subject] += moved;
+    if (fired.before == "A") acknowledged_[fired.machine.subject] -= moved;
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {

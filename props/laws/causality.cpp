@@ -114,12 +114,11 @@ class ReceptionWatch final : public Observer {
     arriving_ = Arrival{packet.kind, packet.pair, packet.multicast() ? 0 : packet.relation(),
                         packet.detail, receiver};
   }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    if (!event.ends_with("Received")) return;
-    if (arriving_ && causes(*arriving_, machine, event)) return;
+  void transition(const model::Transition& fired) override {
+    if (!fired.event.ends_with("Received")) return;
+    if (arriving_ && causes(*arriving_, fired.machine, fired.event)) return;
     object_now(fmt::format("At {} {} of {} {} happens without such a packet.", time_text(now()),
-                           event, machine.machine, machine.subject));
+                           fired.event, fired.machine.machine, fired.machine.subject));
   }
 
  private:
@@ -186,9 +185,8 @@ class KnowledgeWatch final : public Observer {
   }
   void looped_back(const Packet& packet, std::uint32_t) override { note(packet); }
   void received(const Packet& packet, std::uint32_t) override { received_.arriving(packet); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    const Packet* data = received_.taken(machine, event);
+  void transition(const model::Transition& fired) override {
+    const Packet* data = received_.taken(fired.machine, fired.event);
     if (data == nullptr) return;
     const std::uint32_t unsent = sent_.first_of(data->relation(), data->descriptors, false);
     if (unsent != UINT32_MAX) {

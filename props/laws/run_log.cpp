@@ -41,16 +41,14 @@ void RunLog::event_finished(const model::Depths& depths) {
   if (!drop_current_) entries_.push_back(current_);
 }
 
-void RunLog::transition(const model::MachineRef& machine, std::string_view event,
-                        std::string_view before, std::string_view after, std::uint32_t first_word,
-                        std::uint64_t descriptors) {
-  note(machine.machine);
-  note_subject(model::trace::subject_of(machine.kind), machine.subject);
-  note(event);
-  note(before);
-  note(after);
-  note(first_word);
-  note(descriptors);
+void RunLog::transition(const model::Transition& fired) {
+  note(fired.machine.machine);
+  note_subject(model::trace::subject_of(fired.machine.kind), fired.machine.subject);
+  note(fired.event);
+  note(fired.before);
+  note(fired.after);
+  note(fired.first_word);
+  note(fired.descriptors);
 }
 
 void RunLog::scheduled(std::uint64_t insertion, Nanoseconds time, EventKind kind,

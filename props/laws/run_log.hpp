@@ -44,9 +44,7 @@ class RunLog final : public model::Probe {
   void run_started(const model::Topology& topology) override;
   void event_started(const model::Event& event) override;
   void event_finished(const model::Depths& depths) override;
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override;
+  void transition(const model::Transition& fired) override;
   void scheduled(std::uint64_t insertion, model::Nanoseconds time, model::EventKind kind,
                  std::uint32_t subject) override;
   void emitted(const model::Packet& packet, std::uint32_t source,

@@ -23,15 +23,14 @@ class Acknowledgments : public DataObserver<> {
     if (scenario.deployment.life) let_readers_forget();
   }
 
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    DataObserver::transition(machine, event, before, after, first_word, descriptors);
-    if (descriptors == 0) return;
+  void transition(const model::Transition& fired) override {
+    DataObserver::transition(fired);
+    if (fired.descriptors == 0) return;
     // A writer that has forgotten believes nothing.
-    if (event == ReceivedDescriptors::renewed || events() == 0 || before == after) return;
-    moved({machine.subject, first_word, descriptors}, before, after,
-          x().word(machine.subject, first_word));
+    if (fired.event == ReceivedDescriptors::renewed || events() == 0 || fired.before == fired.after)
+      return;
+    moved({fired.machine.subject, fired.first_word, fired.descriptors}, fired.before, fired.after,
+          x().word(fired.machine.subject, fired.first_word));
   }
 
  protected:

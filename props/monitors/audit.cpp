@@ -34,14 +34,11 @@ Move first_of(const std::vector<Move>& moves) {
 
 }  // namespace
 
-void Audit::transition(const model::MachineRef& machine, std::string_view event,
-                       std::string_view before, std::string_view after, std::uint32_t first_word,
-                       std::uint64_t descriptors) {
-  const Move wanted{machine, event, before, after, first_word, descriptors};
+void Audit::transition(const Move& wanted) {
   const auto same = [&](const Move& actual) {
-    return actual.descriptors == descriptors && same_step(actual, wanted);
+    return actual.descriptors == wanted.descriptors && same_step(actual, wanted);
   };
-  if (descriptors == 0 || looks_ahead_) {
+  if (wanted.descriptors == 0 || looks_ahead_) {
     next(wanted, same);
     return;
   }
@@ -51,7 +48,7 @@ void Audit::transition(const model::MachineRef& machine, std::string_view event,
   if (actual != nullptr && same(*actual)) return deeds_.take();
   for (Move& one : moved_) {
     if (!same_step(one, wanted)) continue;
-    one.descriptors |= descriptors;
+    one.descriptors |= wanted.descriptors;
     return;
   }
   moved_.push_back(wanted);
@@ -110,8 +107,8 @@ void Audit::differ(const std::string& wanted) {
   if (site_.line != 0) {
     place += fmt::format(" ({}:{})", site_.file.substr(site_.file.rfind('/') + 1), site_.line);
   }
-  difference_ = fmt::format("{}: by the rules {}; in the run {}.", place, wanted,
-                            deeds_.next_in_words());
+  difference_ =
+      fmt::format("{}: by the rules {}; in the run {}.", place, wanted, deeds_.next_in_words());
 }
 
 /// The next deed if it is `same`; otherwise there is a difference, and null.

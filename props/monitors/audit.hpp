@@ -39,9 +39,7 @@ class Audit final : public model::Probe {
 
   // What the run must do next.
   /// Moves of one event of an owner's machines may come in any order and in any parts.
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override;
+  void transition(const Move& wanted) override;
   /// Null if the run did something else.
   const Scheduled* expect(const Scheduled& wanted);
   void expect(const Message& wanted) { expect(wanted, {&wanted.pair, 1}); }

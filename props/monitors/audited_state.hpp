@@ -192,9 +192,11 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
       constexpr bool shown = P::owner != comp::owner::control_relation &&
                              std::is_same_v<typename P::Machine, fsm::SingleShot>;
       if (!std::is_same_v<P, comp::Reader> && !(shown && before != after)) return;
-      this->audit_.transition({fsm::name_of<typename P::Machine>(), Columns::kind(P::owner), n},
-                              ReceivedDescriptors::renewed, States::state_names[before],
-                              States::state_names[after], 0, 0);
+      this->audit_.transition(
+          {.machine = {fsm::name_of<typename P::Machine>(), Columns::kind(P::owner), n},
+           .event = ReceivedDescriptors::renewed,
+           .before = States::state_names[before],
+           .after = States::state_names[after]});
     }
   }
 

@@ -22,10 +22,9 @@ class Joins : public EndObserver {
 
   Joins() : EndObserver{"storm.join-cost"} {}
 
-  void transition(const model::MachineRef&, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t, std::uint64_t) override {
+  void transition(const model::Transition& fired) override {
     // One reader of each stream opens.
-    if (before == after || event != "AnnouncementReceived") return;
+    if (fired.before == fired.after || fired.event != "AnnouncementReceived") return;
     ++opened_;
     await_end();
   }
@@ -108,9 +107,9 @@ class Feedback : public EndObserver {
     is_acknack_ = packet.kind == model::PacketKind::acknack && !packet.initial_acknack;
     if (is_acknack_) await_end();
   }
-  void transition(const model::MachineRef&, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t, std::uint64_t) override {
-    if (is_acknack_) changes_ = changes_ || (before != after && event == "AckNackReceived");
+  void transition(const model::Transition& fired) override {
+    if (is_acknack_)
+      changes_ = changes_ || (fired.before != fired.after && fired.event == "AckNackReceived");
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {

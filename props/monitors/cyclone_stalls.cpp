@@ -76,18 +76,18 @@ class CycloneStalls : public Observer {
     }
   }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view after, std::uint32_t, std::uint64_t) override {
-    const std::uint32_t n = machine.subject;
-    const model::Submessage* heard = received_.heard(machine, event);
-    if (heard != nullptr && event == "DataReceived") have_[n].insert(heard->sample);
-    if (machine.machine == "EventThread") asleep_[n] = after == "Asleep";
-    if (machine.machine == "MovableTimer" && machine.kind == Kind::participant) spdp_[n] = after;
-    if (machine.machine == "MovableTimer" && machine.kind == Kind::endpoint_writer) {
-      heartbeat_[n] = after;
+  void transition(const model::Transition& fired) override {
+    const std::uint32_t n = fired.machine.subject;
+    const model::Submessage* heard = received_.heard(fired.machine, fired.event);
+    if (heard != nullptr && fired.event == "DataReceived") have_[n].insert(heard->sample);
+    if (fired.machine.machine == "EventThread") asleep_[n] = fired.after == "Asleep";
+    if (fired.machine.machine == "MovableTimer" && fired.machine.kind == Kind::participant)
+      spdp_[n] = fired.after;
+    if (fired.machine.machine == "MovableTimer" && fired.machine.kind == Kind::endpoint_writer) {
+      heartbeat_[n] = fired.after;
     }
-    if (event != "Opened") return;
-    (machine.machine == "MatchedReader" ? writer_sides_ : reader_sides_).insert(n);
+    if (fired.event != "Opened") return;
+    (fired.machine.machine == "MatchedReader" ? writer_sides_ : reader_sides_).insert(n);
     unrest(now());
     touched_.insert(received_.ends(n).source);
   }

@@ -35,14 +35,13 @@ class DataProbe final : public model::Probe {
 
   void run_started(const model::Topology& topology) override { received_.reset(topology); }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    if (const model::Packet* data = received_.taken(machine, event)) {
+  void transition(const model::Transition& fired) override {
+    if (const model::Packet* data = received_.taken(fired.machine, fired.event)) {
       const std::uint32_t fresh = fresh_in(*data);
       received_.take(*data);
       for (Listener* one : listeners_) one->took(*data, fresh);
-    } else if (forgets_ && ReceivedDescriptors::is_new(machine, event)) {
-      received_.lose(machine.subject);
+    } else if (forgets_ && ReceivedDescriptors::is_new(fired.machine, fired.event)) {
+      received_.lose(fired.machine.subject);
     }
   }
 
@@ -86,11 +85,9 @@ class DataObserver : public Base, private DataProbe::Listener {
     Base::received(packet, receiver);
     if (this->is_alone()) probe_->received(packet, receiver);
   }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    if (this->is_alone() && descriptors == 0) {
-      probe_->transition(machine, event, before, after, first_word, descriptors);
+  void transition(const model::Transition& fired) override {
+    if (this->is_alone() && fired.descriptors == 0) {
+      probe_->transition(fired);
     }
   }
 

@@ -20,15 +20,7 @@
 
 namespace stormproof::props {
 
-/// A row fired; `descriptors` are the bits of word `first_word`, 0 if the machine has none.
-struct Move {
-  model::MachineRef machine;
-  std::string_view event;
-  std::string_view before;
-  std::string_view after;
-  std::uint32_t first_word = 0;
-  std::uint64_t descriptors = 0;
-};
+using Move = model::Transition;
 
 /// An event was scheduled. Two are the same whatever their insertion numbers.
 struct Scheduled {
@@ -70,7 +62,8 @@ struct Message {
   bool operator==(const Message&) const = default;
   /// The same to whomever.
   [[nodiscard]] bool says_what(const Message& other) const;
-  /// Whether the packet is it, to whomever; of those with contents and of multicasts it is not told.
+  /// Whether the packet is it, to whomever; of those with contents and of multicasts it is not
+  /// told.
   [[nodiscard]] bool says_what(const model::Packet& packet) const;
   [[nodiscard]] bool is_multicast() const {
     return to_group || kind == model::PacketKind::spdp_multicast;

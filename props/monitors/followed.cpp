@@ -21,8 +21,18 @@ namespace stormproof::props {
 
 namespace {
 
+/// Of protocol decisions; what the network schedules for itself is its own.
+constexpr bool is_of_rules(model::EventKind kind) {
+  return model::class_of(kind) == model::EventClass::protocol &&
+         kind != model::EventKind::source_completion && kind != model::EventKind::thread_free;
+}
+
 class FollowedRun : public Observer {
  public:
+  static constexpr bool reads_clock = false;
+  static constexpr auto selection_of_kinds =
+      model::trace::Selection{}.only_if(model::Report::scheduled, is_of_rules);
+
   FollowedRun(const model::Scenario& scenario, AuditorMaker make)
       : Observer{"composition.followed"}, scenario_{with_successors(scenario)}, make_{make} {}
 
@@ -41,7 +51,7 @@ class FollowedRun : public Observer {
     if (follower_ == nullptr) return;
     ++followed_;
     run_->now = event.time;
-    if (!is_of_protocol(event.kind)) return;
+    if (!is_of_rules(event.kind)) return;
     trigger_ = Trigger::due;
     due_ = event;
   }
@@ -66,15 +76,13 @@ class FollowedRun : public Observer {
     follower_.reset();
   }
 
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    if (machine.kind == model::MachineRef::Kind::channel) return;
-    add(Move{machine, event, before, after, first_word, descriptors});
+  void transition(const model::Transition& fired) override {
+    if (fired.machine.kind == model::MachineRef::Kind::channel) return;
+    add(fired);
   }
   void scheduled(std::uint64_t insertion, model::Nanoseconds time, model::EventKind kind,
                  std::uint32_t subject) override {
-    if (is_of_protocol(kind)) add(Scheduled{kind, subject, time, insertion});
+    if (is_of_rules(kind)) add(Scheduled{kind, subject, time, insertion});
   }
   void rescheduled(const model::Event& event, std::uint64_t insertion) override {
     if (follower_ != nullptr) follower_->rescheduled(event, insertion);
@@ -120,10 +128,6 @@ class FollowedRun : public Observer {
     packet_.submessages = packet.submessages;
     packet_.relayed = packet.relayed;
   }
-  static bool is_of_protocol(model::EventKind kind) {
-    return model::class_of(kind) == model::EventClass::protocol &&
-           kind != model::EventKind::source_completion && kind != model::EventKind::thread_free;
-  }
   template <class Kind>
   void add(Kind&& deed) {
     if (follower_ != nullptr) audit_->deeds().add(std::forward<Kind>(deed));
@@ -147,7 +151,7 @@ class FollowedRun : public Observer {
     if (follower_ == nullptr) return;
     if (trigger_ != Trigger::nothing || !audit_->deeds().empty()) compare_with_rule();
   }
-  void compare_with_rule() {
+  [[gnu::noinline]] void compare_with_rule() {
     run_rule(std::exchange(trigger_, Trigger::nothing));
     audit_->nothing_more();
     if (!audit_->difference()) return;

@@ -30,9 +30,8 @@ class HeartbeatTimers : public Observer {
     Observer::event_started(event);
     pending_.started(event);
   }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view after, std::uint32_t, std::uint64_t) override {
-    pending_.transition(machine, event, after);
+  void transition(const model::Transition& fired) override {
+    pending_.transition(fired.machine, fired.event, fired.after);
   }
   void scheduled(std::uint64_t insertion, model::Nanoseconds due, model::EventKind kind,
                  std::uint32_t subject) override {

@@ -77,15 +77,15 @@ class ComparedRun : public Observer {
     }
   }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    if (const model::Packet* data = received_.taken(machine, event)) take(*data);
-    if (ReceivedDescriptors::is_new(machine, event)) {
-      received_.lose(machine.subject);
-      relations_[machine.subject].missing = topology().descriptor_count(machine.subject);
-      relations_[machine.subject].complete.reset();
+  void transition(const model::Transition& fired) override {
+    if (const model::Packet* data = received_.taken(fired.machine, fired.event)) take(*data);
+    if (ReceivedDescriptors::is_new(fired.machine, fired.event)) {
+      received_.lose(fired.machine.subject);
+      relations_[fired.machine.subject].missing =
+          topology().descriptor_count(fired.machine.subject);
+      relations_[fired.machine.subject].complete.reset();
     }
-    if (machine.kind == model::MachineRef::Kind::relation) touch(machine.subject);
+    if (fired.machine.kind == model::MachineRef::Kind::relation) touch(fired.machine.subject);
   }
 
   [[nodiscard]] const std::map<Ends, std::uint32_t>& by_ends() const { return by_ends_; }

@@ -75,11 +75,15 @@ concept HearsSomeKinds = requires {
 };
 
 /// Who does more when an event begins than to count it counts events itself, because the clock of a
-/// list is at the next event then; unless that is how it reads it.
+/// list is at the next event then; unless that is how it reads it (`M::reads_clock`).
 template <class M>
-concept ReadsClock = HearsSomeKinds<M> || requires {
-  M::reads_clock;
-};
+inline constexpr bool reads_clock = [] {
+  if constexpr (requires { M::reads_clock; }) {
+    return M::reads_clock;
+  } else {
+    return HearsSomeKinds<M>;
+  }
+}();
 
 /// Whether a monitor that is not alone need not hear of something, because its function for that
 /// only feeds what the list gathers then: it is one of a class whose `Feeder` is that class.
@@ -99,7 +103,7 @@ class Attentive final : public M, public model::trace::Selective {
 
   void join(model::Company& company) override {
     M::join(company);
-    if (!counts_events || ReadsClock<M>) this->read(company.clock);
+    if (!counts_events || reads_clock<M>) this->read(company.clock);
   }
   [[nodiscard]] model::Reports reports() const override {
     using enum model::Report;

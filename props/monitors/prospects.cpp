@@ -141,23 +141,23 @@ Prospects::State Prospects::state_named(std::string_view name) {
   }
 }
 
-void Prospects::transition(const model::MachineRef& machine, std::string_view event,
-                           std::string_view before, std::string_view after,
-                           std::uint32_t first_word, std::uint64_t descriptors) {
-  if (descriptors != 0) {
-    states_[state_named(before)].word(machine.subject, first_word) &= ~descriptors;
-    states_[state_named(after)].word(machine.subject, first_word) |= descriptors;
-    return touch(machine.subject);
+void Prospects::transition(const model::Transition& fired) {
+  if (fired.descriptors != 0) {
+    states_[state_named(fired.before)].word(fired.machine.subject, fired.first_word) &=
+        ~fired.descriptors;
+    states_[state_named(fired.after)].word(fired.machine.subject, fired.first_word) |=
+        fired.descriptors;
+    return touch(fired.machine.subject);
   }
-  if (machine.machine == "HeartbeatTimer") {
-    heartbeats_.transition(machine, event, after);
-    return touch_writer(machine.subject);
+  if (fired.machine.machine == "HeartbeatTimer") {
+    heartbeats_.transition(fired.machine, fired.event, fired.after);
+    return touch_writer(fired.machine.subject);
   }
-  if (machine.machine != "DiscoveryReader") return;
-  Relation& relation = relations_[machine.subject];
-  if (event == "AnnouncementReceived") relation.reader_open = true;
-  if (event == "HeartbeatReceived") relation.heartbeat_seen = true;
-  touch(machine.subject);
+  if (fired.machine.machine != "DiscoveryReader") return;
+  Relation& relation = relations_[fired.machine.subject];
+  if (fired.event == "AnnouncementReceived") relation.reader_open = true;
+  if (fired.event == "HeartbeatReceived") relation.heartbeat_seen = true;
+  touch(fired.machine.subject);
 }
 
 Prospects::Load Prospects::load_of(const model::Packet& packet) {

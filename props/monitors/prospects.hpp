@@ -45,8 +45,7 @@ class Prospects {
   // The probe's reports.
   void run_started(const model::Topology& topology);
   void event_started(const model::Event& event);
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word, std::uint64_t descriptors);
+  void transition(const model::Transition& fired);
   void scheduled(std::uint64_t insertion, model::EventKind kind, std::uint32_t subject);
   void rescheduled(const model::Event& event, std::uint64_t insertion) {
     heartbeats_.rescheduled(event, insertion);

@@ -119,11 +119,9 @@ class Quiescence : public QuiescenceMonitor {
     if (!packet.to_writer()) note_opening(packet.relation());
     note_traffic(packet);
   }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    DataObserver::transition(machine, event, before, after, first_word, descriptors);
-    if (event == "AnnouncementReceived" && settled_) settle();
+  void transition(const model::Transition& fired) override {
+    DataObserver::transition(fired);
+    if (fired.event == "AnnouncementReceived" && settled_) settle();
   }
   void finish(model::Nanoseconds end) override {
     if (!settled_) return;

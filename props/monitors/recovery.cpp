@@ -48,11 +48,10 @@ class Recovery : public DelayObserver {
       touch(event.subject);
     }
   }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    if (const model::Packet* data = received_.taken(machine, event)) take(*data);
-    if (received_.is_new(machine, event)) lose(machine.subject);
-    if (machine.kind == model::MachineRef::Kind::relation) touch(machine.subject);
+  void transition(const model::Transition& fired) override {
+    if (const model::Packet* data = received_.taken(fired.machine, fired.event)) take(*data);
+    if (received_.is_new(fired.machine, fired.event)) lose(fired.machine.subject);
+    if (fired.machine.kind == model::MachineRef::Kind::relation) touch(fired.machine.subject);
   }
   void received(const model::Packet& packet, std::uint32_t receiver) override {
     DelayObserver::received(packet, receiver);

@@ -44,13 +44,11 @@ class Snapshots : public DataObserver<> {
   void took(const model::Packet& data, std::uint32_t) override {
     if (!data.descriptors.empty()) raise(data.relation(), data.descriptors.highest() + 1);
   }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    DataObserver::transition(machine, event, before, after, first_word, descriptors);
-    if (announcing_ != nullptr && announced_in_ == this->event() && event == "HeartbeatReceived" &&
-        machine.subject == announcing_->relation()) {
-      raise(machine.subject, announcing_->detail);
+  void transition(const model::Transition& fired) override {
+    DataObserver::transition(fired);
+    if (announcing_ != nullptr && announced_in_ == this->event() &&
+        fired.event == "HeartbeatReceived" && fired.machine.subject == announcing_->relation()) {
+      raise(fired.machine.subject, announcing_->detail);
     }
   }
   void emitted(const model::Packet& packet, std::uint32_t,

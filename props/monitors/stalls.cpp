@@ -35,11 +35,9 @@ class Stalls : public DataObserver<EndObserver> {
     prospects_.touch_all();
     judge(end);
   }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    DataObserver::transition(machine, event, before, after, first_word, descriptors);
-    prospects_.transition(machine, event, before, after, first_word, descriptors);
+  void transition(const model::Transition& fired) override {
+    DataObserver::transition(fired);
+    prospects_.transition(fired);
     await_consequences();
   }
   void scheduled(std::uint64_t insertion, model::Nanoseconds, model::EventKind kind,

@@ -23,12 +23,13 @@ class SubmessageObserver : public Observer {
     last_.assign(topology.participant_count(), nullptr);
   }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t, std::uint64_t) override {
-    if (machine.machine == "MatchedReader" && event == "Opened") matched(machine.subject);
-    if (machine.machine == "CautiousReader" && event == "TimerFired") timer_fired(machine.subject);
-    const model::Submessage* taken = received_.heard(machine, event);
-    if (taken != nullptr) heard(machine.subject, *taken, {before, after});
+  void transition(const model::Transition& fired) override {
+    if (fired.machine.machine == "MatchedReader" && fired.event == "Opened")
+      matched(fired.machine.subject);
+    if (fired.machine.machine == "CautiousReader" && fired.event == "TimerFired")
+      timer_fired(fired.machine.subject);
+    const model::Submessage* taken = received_.heard(fired.machine, fired.event);
+    if (taken != nullptr) heard(fired.machine.subject, *taken, {fired.before, fired.after});
   }
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t>) override {

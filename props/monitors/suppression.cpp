@@ -46,12 +46,11 @@ class Suppression : public Observer {
   void source_completed(const model::Packet& packet) override {
     if (waits_ && packet.from_repair) note(packet, now().count());
   }
-  void transition(const model::MachineRef& machine, std::string_view, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    if (descriptors == 0 || before != "S" || after != "U") return;
-    for (std::uint64_t bits = descriptors; bits != 0; bits &= bits - 1) {
-      judge(machine.subject, 64 * first_word + static_cast<std::uint32_t>(std::countr_zero(bits)));
+  void transition(const model::Transition& fired) override {
+    if (fired.descriptors == 0 || fired.before != "S" || fired.after != "U") return;
+    for (std::uint64_t bits = fired.descriptors; bits != 0; bits &= bits - 1) {
+      judge(fired.machine.subject,
+            64 * fired.first_word + static_cast<std::uint32_t>(std::countr_zero(bits)));
     }
   }
 

@@ -11,11 +11,11 @@ class Recorder final : public Probe {
 
   void event_started(const Event& event) override { now_ = event.time.count(); }
 
-  void transition(const MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t, std::uint64_t) override {
-    log_.transitions.push_back(std::string{machine.machine} + " " +
-                               std::to_string(machine.subject) + ": " + std::string{before} +
-                               " + " + std::string{event} + " -> " + std::string{after});
+  void transition(const Transition& fired) override {
+    log_.transitions.push_back(std::string{fired.machine.machine} + " " +
+                               std::to_string(fired.machine.subject) + ": " +
+                               std::string{fired.before} + " + " + std::string{fired.event} +
+                               " -> " + std::string{fired.after});
   }
 
   void scheduled(std::uint64_t, Nanoseconds time, EventKind kind, std::uint32_t subject) override {

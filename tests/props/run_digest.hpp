@@ -23,14 +23,14 @@ class RunDigest : public model::Probe {
     note(event.subject);
   }
   void event_finished(const model::Depths& depths) override { note(depths.missing); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view after, std::uint32_t word, std::uint64_t descriptors) override {
-    for (const std::string_view text : {machine.machine, event, after}) {
+  void transition(const model::Transition& fired) override {
+    const std::uint32_t word = fired.first_word;
+    for (const std::string_view text : {fired.machine.machine, fired.event, fired.after}) {
       note(std::hash<std::string_view>{}(text));
     }
-    note(machine.subject);
+    note(fired.machine.subject);
     note(word);
-    note(descriptors);
+    note(fired.descriptors);
   }
   void scheduled(std::uint64_t, model::Nanoseconds time, model::EventKind kind,
                  std::uint32_t subject) override {

@@ -49,17 +49,15 @@ void Fingerprints::event_started(const model::Event& event) {
   if (!names_a_packet(event.kind)) mix(current_, event.subject);
 }
 
-void Fingerprints::transition(const model::MachineRef& machine, std::string_view event,
-                              std::string_view before, std::string_view after,
-                              std::uint32_t first_word, std::uint64_t descriptors) {
-  if (before == after) return;
-  mix(current_, machine.machine);
-  mix(current_, machine.subject);
-  mix(current_, event);
-  mix(current_, before);
-  mix(current_, after);
-  mix(current_, first_word);
-  mix(current_, descriptors);
+void Fingerprints::transition(const model::Transition& fired) {
+  if (fired.before == fired.after) return;
+  mix(current_, fired.machine.machine);
+  mix(current_, fired.machine.subject);
+  mix(current_, fired.event);
+  mix(current_, fired.before);
+  mix(current_, fired.after);
+  mix(current_, fired.first_word);
+  mix(current_, fired.descriptors);
 }
 
 void Fingerprints::add_packet(const model::Packet& packet, std::uint32_t source,
@@ -121,10 +119,10 @@ void RunLog::event_started(const model::Event& event) {
   events.push_back({event.time, event.kind, names_a_packet(event.kind) ? 0 : event.subject, {}});
 }
 
-void RunLog::transition(const model::MachineRef& machine, std::string_view, std::string_view before,
-                        std::string_view after, std::uint32_t, std::uint64_t) {
-  if (!logs_event_ || before == after) return;
-  events.back().changes.push_back(fmt::format("{} {} → {}", machine.machine, before, after));
+void RunLog::transition(const model::Transition& fired) {
+  if (!logs_event_ || fired.before == fired.after) return;
+  events.back().changes.push_back(
+      fmt::format("{} {} → {}", fired.machine.machine, fired.before, fired.after));
 }
 
 void RunLog::add_packet(const model::Packet& packet, std::uint32_t source,

@@ -20,9 +20,7 @@ class Fingerprints final : public model::Probe {
  public:
   void event_started(const model::Event& event) override;
   void event_finished(const model::Depths&) override { events.push_back(current_); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override;
+  void transition(const model::Transition& fired) override;
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override;
   void looped_back(const model::Packet& packet, std::uint32_t receiver) override;
@@ -75,9 +73,7 @@ class RunLog final : public model::Probe {
   void run_started(const model::Topology& topology) override { topology_ = &topology; }
   void event_started(const model::Event& event) override;
   void event_finished(const model::Depths&) override { ++processed_; }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override;
+  void transition(const model::Transition& fired) override;
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override;
   void looped_back(const model::Packet& packet, std::uint32_t receiver) override;

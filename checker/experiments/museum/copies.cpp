@@ -33,10 +33,10 @@ class Copies final : public props::Observer {
     });
   }
   /// A side that was forgotten is served anew.
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    if (event != "Renewed" || machine.kind != model::MachineRef::Kind::relation) return;
-    std::erase_if(copies_, [&](const auto& copy) { return copy.first.first == machine.subject; });
+  void transition(const model::Transition& fired) override {
+    if (fired.event != "Renewed" || fired.machine.kind != model::MachineRef::Kind::relation) return;
+    std::erase_if(copies_,
+                  [&](const auto& copy) { return copy.first.first == fired.machine.subject; });
   }
   void arrived(const model::Packet& packet, bool lost) override {
     if (packet.kind != model::PacketKind::data || !lost) return;

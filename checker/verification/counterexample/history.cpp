@@ -75,12 +75,10 @@ class Recorder final : public model::Probe {
     }
   }
 
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
+  void transition(const model::Transition& fired) override {
     if (over_) return;
-    transitions_.add(machine, event, before, after, first_word, descriptors);
-    if (event == "DataReceived") take_data(machine.subject);
+    transitions_.add(fired);
+    if (fired.event == "DataReceived") take_data(fired.machine.subject);
   }
 
   void scheduled(std::uint64_t insertion, model::Nanoseconds due, model::EventKind kind,

@@ -60,17 +60,16 @@ class Follower final : public model::Probe {
     for (std::uint32_t k = 0; k < arriving_.size(); ++k) arriving_[k] = packet.descriptors.word(k);
   }
 
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    if (!concerns(machine)) return;
-    if (event == "DataReceived") take_data(machine.subject);
-    Followed& followed = machines_[{machine.kind, machine.subject, machine.machine}];
-    if (descriptors == 0) {
-      followed.state = after;
+  void transition(const model::Transition& fired) override {
+    if (!concerns(fired.machine)) return;
+    if (fired.event == "DataReceived") take_data(fired.machine.subject);
+    Followed& followed =
+        machines_[{fired.machine.kind, fired.machine.subject, fired.machine.machine}];
+    if (fired.descriptors == 0) {
+      followed.state = fired.after;
       return;
     }
-    move(followed, machine, before, after, first_word, descriptors);
+    move(followed, fired.machine, fired.before, fired.after, fired.first_word, fired.descriptors);
   }
 
   std::vector<std::vector<StateRow>> run(const model::Scenario& scenario) && {

@@ -52,15 +52,15 @@ class Packing : public Probe {
       : piggyback_{scenario.dds.sedp.piggyback != Piggyback::off} {}
 
   void event_started(const Event&) override { now_.clear(); }
-  void transition(const MachineRef& machine, std::string_view /*event*/, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    const bool paper = machine.machine == "DescriptorRepair" && before == "R" && after == "Q";
-    const bool fastdds = machine.machine == "ChangeForReader" && before == "Q" && after == "S";
+  void transition(const Transition& fired) override {
+    const bool paper =
+        fired.machine.machine == "DescriptorRepair" && fired.before == "R" && fired.after == "Q";
+    const bool fastdds =
+        fired.machine.machine == "ChangeForReader" && fired.before == "Q" && fired.after == "S";
     if (!paper && !fastdds) return;
     for (std::uint32_t bit = 0; bit < 64; ++bit) {
-      if ((descriptors >> bit & 1) == 0) continue;
-      now_[machine.subject].generated.push_back(first_word * 64 + bit);
+      if ((fired.descriptors >> bit & 1) == 0) continue;
+      now_[fired.machine.subject].generated.push_back(fired.first_word * 64 + bit);
     }
   }
   void emitted(const Packet& packet, std::uint32_t /*source*/,

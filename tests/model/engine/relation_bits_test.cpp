@@ -69,10 +69,9 @@ TEST(RelationBits, FirstGenerationIsTold) {
 
 /// What a probe is told of the writer's machines.
 struct Told : Probe {
-  void transition(const MachineRef&, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t, std::uint64_t descriptors) override {
-    lines.push_back(std::string{event} + ": " + std::string{before} + " → " + std::string{after} +
-                    " " + std::to_string(descriptors));
+  void transition(const Transition& fired) override {
+    lines.push_back(std::string{fired.event} + ": " + std::string{fired.before} + " → " +
+                    std::string{fired.after} + " " + std::to_string(fired.descriptors));
   }
   std::vector<std::string> lines;
 };

@@ -27,13 +27,14 @@ class StateProbe final : public Probe {
  public:
   explicit StateProbe(std::uint32_t count) : states(count, '-') {}
 
-  void transition(const MachineRef& machine, std::string_view, std::string_view before,
-                  std::string_view after, std::uint32_t word, std::uint64_t bits) override {
-    if (machine.machine != "ChangeForReader") return;
+  void transition(const Transition& fired) override {
+    const std::uint32_t word = fired.first_word;
+    std::uint64_t bits = fired.descriptors;
+    if (fired.machine.machine != "ChangeForReader") return;
     for (; bits != 0; bits &= bits - 1) {
       char& state = states.at(64 * word + static_cast<std::uint32_t>(std::countr_zero(bits)));
-      consistent = consistent && state == letter(before);
-      state = letter(after);
+      consistent = consistent && state == letter(fired.before);
+      state = letter(fired.after);
     }
   }
 

@@ -53,11 +53,11 @@ class FastddsProtocol : public testing::Test, private Probe {
     return run_.counts.heartbeat - before;
   }
 
-  void transition(const MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t, std::uint64_t bits) override {
-    if (machine.machine == "ChangeForReader" && event == "InitialAckNackReceived") {
+  void transition(const Transition& fired) override {
+    std::uint64_t bits = fired.descriptors;
+    if (fired.machine.machine == "ChangeForReader" && fired.event == "InitialAckNackReceived") {
       taken_back_ |= bits;
-      taken_back_properly_ = before == "A" && after == "U";
+      taken_back_properly_ = fired.before == "A" && fired.after == "U";
     }
   }
 

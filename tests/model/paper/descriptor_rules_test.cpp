@@ -57,13 +57,14 @@ class StateProbe final : public Probe {
  public:
   explicit StateProbe(std::uint32_t count) : states(count, 'U') {}
 
-  void transition(const MachineRef& machine, std::string_view, std::string_view before,
-                  std::string_view after, std::uint32_t word, std::uint64_t bits) override {
-    if (machine.machine != "DescriptorRepair") return;
+  void transition(const Transition& fired) override {
+    const std::uint32_t word = fired.first_word;
+    std::uint64_t bits = fired.descriptors;
+    if (fired.machine.machine != "DescriptorRepair") return;
     for (; bits != 0; bits &= bits - 1) {
       char& state = states[64 * word + static_cast<std::uint32_t>(std::countr_zero(bits))];
-      consistent = consistent && before[0] == state;
-      state = after[0];
+      consistent = consistent && fired.before[0] == state;
+      state = fired.after[0];
     }
   }
   void scheduled(std::uint64_t, Nanoseconds, EventKind kind, std::uint32_t) override {

@@ -17,11 +17,7 @@ class Forwarding : public model::Probe {
   void run_started(const model::Topology& topology) override { to_.run_started(topology); }
   void event_started(const model::Event& event) override { to_.event_started(event); }
   void event_finished(const model::Depths& depths) override { to_.event_finished(depths); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view before,
-                  std::string_view after, std::uint32_t first_word,
-                  std::uint64_t descriptors) override {
-    to_.transition(machine, event, before, after, first_word, descriptors);
-  }
+  void transition(const model::Transition& fired) override { to_.transition(fired); }
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
     to_.emitted(packet, source, destinations);

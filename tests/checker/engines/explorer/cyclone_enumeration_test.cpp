@@ -31,10 +31,9 @@ class SampleHistory final : public model::Probe {
     until_completion = history;
   }
   void received(const model::Packet& packet, std::uint32_t) override { heard_.arriving(packet); }
-  void transition(const model::MachineRef& machine, std::string_view event, std::string_view,
-                  std::string_view, std::uint32_t, std::uint64_t) override {
-    const model::Submessage* heard = heard_.heard(machine, event);
-    if (heard != nullptr && event == "DataReceived" && machine.subject == 0) {
+  void transition(const model::Transition& fired) override {
+    const model::Submessage* heard = heard_.heard(fired.machine, fired.event);
+    if (heard != nullptr && fired.event == "DataReceived" && fired.machine.subject == 0) {
       received_.insert(heard->sample);
     }
   }

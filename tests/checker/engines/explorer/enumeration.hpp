@@ -124,12 +124,12 @@ class RelationHistory final : public model::Probe {
     completion = now_;
     until_completion = history;
   }
-  void transition(const model::MachineRef& machine, std::string_view, std::string_view,
-                  std::string_view after, std::uint32_t, std::uint64_t) override {
+  void transition(const model::Transition& fired) override {
     const bool of_ours =
-        machine.subject % 2 < scope_.writers && machine.subject / 2 < scope_.readers;
-    if (machine.machine == "DiscoveryReader" && of_ours && after.ends_with("Complete")) {
-      complete_.insert(machine.subject);
+        fired.machine.subject % 2 < scope_.writers && fired.machine.subject / 2 < scope_.readers;
+    if (fired.machine.machine == "DiscoveryReader" && of_ours &&
+        fired.after.ends_with("Complete")) {
+      complete_.insert(fired.machine.subject);
     }
   }
   void emitted(const model::Packet& packet, std::uint32_t source,
