@@ -10,17 +10,21 @@ namespace stormproof::props {
 
 namespace {
 
-/// Names are mostly the very same characters.
-bool same_text(std::string_view one, std::string_view other) {
-  return one.size() == other.size() && (one.data() == other.data() || one == other);
-}
 bool same_event(const Move& one, const Move& other) {
   return one.machine.subject == other.machine.subject && one.machine.kind == other.machine.kind &&
-         same_text(one.event, other.event) && same_text(one.machine.machine, other.machine.machine);
+         one.event == other.event && one.machine.machine == other.machine.machine;
 }
+/// Names are mostly the very same characters.
 bool same_step(const Move& one, const Move& other) {
-  return one.first_word == other.first_word && same_text(one.before, other.before) &&
-         same_text(one.after, other.after) && same_event(one, other);
+  if (one.machine.subject != other.machine.subject || one.first_word != other.first_word) {
+    return false;
+  }
+  const bool same_characters = one.event.data() == other.event.data() &&
+                               one.before.data() == other.before.data() &&
+                               one.after.data() == other.after.data() &&
+                               one.machine.machine.data() == other.machine.machine.data();
+  if (same_characters) return one.machine.kind == other.machine.kind;
+  return one.before == other.before && one.after == other.after && same_event(one, other);
 }
 /// The first of them alone.
 Move first_of(const std::vector<Move>& moves) {
@@ -54,7 +58,7 @@ void Audit::transition(const Move& wanted) {
   moved_.push_back(wanted);
 }
 
-void Audit::settle() {
+void Audit::settle_moves() {
   while (!moved_.empty() && !difference_) {
     const Move* actual = deeds_.next<Move>();
     const auto one = std::ranges::find_if(

@@ -31,7 +31,7 @@ class Audit final : public model::Probe {
   }
   /// The effects that come now are those at this place in the source.
   void stands_at(fsm::composition::Site site) {
-    if (!moved_.empty()) settle();
+    settle();
     site_ = site;
   }
   /// Nothing more follows from what has happened.
@@ -65,7 +65,10 @@ class Audit final : public model::Probe {
 
  private:
   /// Holds the moves that were told so far against those of the run.
-  void settle();
+  void settle() {
+    if (!moved_.empty()) settle_moves();
+  }
+  void settle_moves();
   /// `wanted` is what the rules say that happens next; the run did something else.
   void differ(const std::string& wanted);
   template <class Kind, class Same>

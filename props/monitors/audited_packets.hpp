@@ -87,21 +87,23 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
     is_filled_ = false;
     if (put_.to.empty()) return;
     if (put_.may_be) {
-      (goes_with_open() ? open_.rides : open_.follow) = put_;
+      std::swap(goes_with_open() ? open_.rides : open_.follow, put_);
       return;
     }
     const std::uint32_t d = put_.message.descriptors.least();
     const bool joins = goes_with_open() && !open_.carried.has(d);
     if (!joins || this->audit_.next_message() != nullptr) flush();
     if (open_.carried.empty()) {
-      open_.message = put_.message;
-      open_.to = put_.to;
+      std::swap(open_.message, put_.message);
+      std::swap(open_.to, put_.to);
     }
     open_.carried.add(d);
   }
   /// What the message carries goes to each of its readers, with or without a HEARTBEAT.
   void flush() {
-    OpenMessage sent = std::exchange(open_, {});
+    std::swap(open_, sent_);
+    open_.clear();
+    OpenMessage& sent = sent_;
     if (!sent.carried.empty()) {
       const Message* next = this->audit_.next_message();
       sent.message.descriptors = sent.carried;
@@ -130,6 +132,14 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
     Descriptors carried;
     Put rides;   ///< a HEARTBEAT, in it
     Put follow;  ///< HEARTBEATs to others as well, after it
+
+    /// Its memory is kept.
+    void clear() {
+      to.clear();
+      carried = {};
+      rides.to.clear();
+      follow.to.clear();
+    }
   };
 
   template <class P, class W, class... Sayings>
@@ -216,6 +226,7 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
   bool is_filled_ = false;  // by the step that is executed
   Put put_;                 // by it
   OpenMessage open_;
+  OpenMessage sent_;                          // last
   std::map<Number, OpenMessage> unfinished_;  // by participant, while it stalls
 };
 

@@ -98,6 +98,7 @@ class Piggybacks : public Observer {
 
 class Feedback : public EndObserver {
  public:
+  static constexpr std::array hears_machines{model::Report::descriptor_transition};
   static constexpr auto selection_of_kinds =
       model::trace::Selection{}.only({model::Report::emitted}, {model::PacketKind::heartbeat});
 

@@ -62,10 +62,11 @@ class Completion : public DataObserver<DelayObserver> {
   void run_started(const model::Topology& topology) override {
     DataObserver::run_started(topology);
     relations_.assign(topology.relation_count(), {});
+    closed_ = 0;
     for (std::uint32_t r = 0; r < topology.relation_count(); ++r) {
       const model::Pair& ends = topology.pair(r / 2);
-      relations_[r].missing = topology.descriptor_count(r);
       relations_[r].cross_host = ends.cross_host;
+      if (ends.cross_host) ++closed_;
       relations_[r].ready = std::max(ready_[ends.source], ready_[ends.destination]);
     }
     missing_ = topology.required_deliveries();
@@ -75,7 +76,7 @@ class Completion : public DataObserver<DelayObserver> {
     DelayObserver::emitted(packet, sender, destinations);
     const bool by_writer =
         packet.kind == model::PacketKind::data || packet.kind == model::PacketKind::heartbeat;
-    if (!by_writer || done_) return;
+    if (!by_writer || done_ || closed_ == 0) return;
     if (packet.copies == 1) {
       note_opening(packet.relation());
       return;
@@ -107,7 +108,6 @@ class Completion : public DataObserver<DelayObserver> {
  private:
   struct Relation {
     std::optional<model::Nanoseconds> opened;
-    std::uint32_t missing = 0;
     model::Nanoseconds ready;  ///< both ends have started, all descriptors exist
     bool cross_host = true;
   };
@@ -119,16 +119,17 @@ class Completion : public DataObserver<DelayObserver> {
   };
 
   void note_opening(std::uint32_t relation) {
-    if (!relations_[relation].opened) relations_[relation].opened = now();
+    if (relations_[relation].opened) return;
+    relations_[relation].opened = now();
+    if (relations_[relation].cross_host) --closed_;
   }
 
   void took(const model::Packet& data, std::uint32_t fresh) override {
     const std::uint32_t r = data.relation();
-    relations_[r].missing -= fresh;
     if (fresh == 0 || !topology().pair(r / 2).cross_host) return;
     missing_ -= fresh;
     done_ = missing_ == 0;
-    if (relations_[r].missing > 0) return;
+    if (lacking(r) > 0) return;
     note_latest(r);
     if (!relations_[r].opened) return;
     const model::Nanoseconds took = now() - *relations_[r].opened;
@@ -146,14 +147,15 @@ class Completion : public DataObserver<DelayObserver> {
     latest_ = {took, now(), event(), relation_text(topology(), relation)};
   }
   void judge_open_ends(model::Nanoseconds end) {
-    for (const Relation& relation : relations_) {
-      if (!relation.cross_host || !relation.opened || relation.missing == 0) continue;
+    for (std::uint32_t r = 0; r < relations_.size(); ++r) {
+      const Relation& relation = relations_[r];
+      if (!relation.cross_host || !relation.opened || lacking(r) == 0) continue;
       if (end <= *relation.opened + *bound_) continue;
-      object(event(), end,
-             fmt::format("At {} a relation that opened at {} still lacks {} descriptors; the bound "
-                         "is {}.",
-                         time_text(end), time_text(*relation.opened), relation.missing,
-                         time_text(*bound_)));
+      object(
+          event(), end,
+          fmt::format("At {} a relation that opened at {} still lacks {} descriptors; the bound "
+                      "is {}.",
+                      time_text(end), time_text(*relation.opened), lacking(r), time_text(*bound_)));
     }
   }
   void judge_general_bound(model::Nanoseconds end) {
@@ -164,14 +166,15 @@ class Completion : public DataObserver<DelayObserver> {
                          latest_.what, time_text(latest_.took), time_text(largest_delay_),
                          delays().lost(), time_text(general_bound_)));
     }
-    for (const Relation& relation : relations_) {
-      if (!relation.cross_host || relation.missing == 0) continue;
+    for (std::uint32_t r = 0; r < relations_.size(); ++r) {
+      const Relation& relation = relations_[r];
+      if (!relation.cross_host || lacking(r) == 0) continue;
       if (end <= relation.ready + general_bound_) continue;
       object(event(), end,
              fmt::format("At {} a relation whose ends are there since {} still lacks {} "
                          "descriptors; with packets that take at most {} and {} losses they must "
                          "be there after {}.",
-                         time_text(end), time_text(relation.ready), relation.missing,
+                         time_text(end), time_text(relation.ready), lacking(r),
                          time_text(largest_delay_), delays().lost(), time_text(general_bound_)));
     }
   }
@@ -181,6 +184,7 @@ class Completion : public DataObserver<DelayObserver> {
   std::optional<model::Nanoseconds> bound_;
   std::vector<Relation> relations_;
   std::uint64_t missing_ = 0;
+  std::uint32_t closed_ = 0;  // cross-host relations that no packet has opened
   bool done_ = false;
   model::Nanoseconds longest_;
   model::Nanoseconds largest_delay_;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,7 +20,16 @@ class ControlSides {
     for (std::uint32_t pair = 0; pair < topology.pair_count(); ++pair) {
       first_.push_back(next_);
       const model::Pair& ends = topology.pair(pair);
-      if (ends.cross_host) next_ += count_of(ends);
+      if (!ends.cross_host) continue;
+      const std::uint32_t topics = count_of(ends);
+      next_ += topics;
+      for (const model::Stream stream : model::streams) {
+        std::vector<std::uint32_t>& on = descriptors_[model::index_of(stream)];
+        for (std::uint32_t topic = static_cast<std::uint32_t>(on.size()); topic < topics; ++topic) {
+          const bool has_some = topic != model::fastdds::topic::liveliness;
+          on.push_back(has_some ? model::fastdds::descriptor_on(topic, stream) : 0);
+        }
+      }
     }
     first_.push_back(next_);
   }
@@ -45,7 +55,6 @@ class ControlSides {
   /// the side of the writer, or of the reader.
   template <class Visit>
   void for_each(std::uint32_t pair, bool of_writer, Visit&& visit) const {
-    using model::fastdds::descriptor_on;
     const model::Pair& ends = topology_.pair(pair);
     const std::uint32_t own = of_writer ? 0 : 1;
     Needs needs;
@@ -56,8 +65,8 @@ class ControlSides {
       const std::uint32_t topic = number - first_[pair];
       needs.liveliness = topic == model::fastdds::topic::liveliness;
       if (!needs.liveliness) {
-        needs.created = descriptor_on(topic, model::streams[own]);
-        needs.notified = descriptor_on(topic, model::streams[needs.stream]);
+        needs.created = descriptors_[own][topic];
+        needs.notified = descriptors_[needs.stream][topic];
       }
       visit(number, needs);
     }
@@ -76,7 +85,8 @@ class ControlSides {
   }
 
   const model::Topology& topology_;
-  std::vector<std::uint32_t> first_;  // by pair
+  std::vector<std::uint32_t> first_;                       // by pair
+  std::array<std::vector<std::uint32_t>, 2> descriptors_;  // of a stream, by topic
   std::uint32_t next_ = 0;
 };
 

@@ -33,19 +33,30 @@ class DataProbe final : public model::Probe {
   }
   void listen(Listener& listener) { listeners_.push_back(&listener); }
 
-  void run_started(const model::Topology& topology) override { received_.reset(topology); }
+  void run_started(const model::Topology& topology) override {
+    received_.reset(topology);
+    lacking_.clear();
+    for (std::uint32_t relation = 0; relation < topology.relation_count(); ++relation) {
+      lacking_.push_back(topology.descriptor_count(relation));
+    }
+    all_ = lacking_;
+  }
   void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
   void transition(const model::Transition& fired) override {
     if (const model::Packet* data = received_.taken(fired.machine, fired.event)) {
       const std::uint32_t fresh = fresh_in(*data);
       received_.take(*data);
+      lacking_[data->relation()] -= fresh;
       for (Listener* one : listeners_) one->took(*data, fresh);
     } else if (forgets_ && ReceivedDescriptors::is_new(fired.machine, fired.event)) {
       received_.lose(fired.machine.subject);
+      lacking_[fired.machine.subject] = all_[fired.machine.subject];
     }
   }
 
   [[nodiscard]] const ReceivedDescriptors& x() const { return received_; }
+  /// How many descriptors the reader of the relation has not received.
+  [[nodiscard]] std::uint32_t lacking(std::uint32_t relation) const { return lacking_[relation]; }
 
  private:
   [[nodiscard]] std::uint32_t fresh_in(const model::Packet& data) const {
@@ -60,6 +71,8 @@ class DataProbe final : public model::Probe {
 
   const bool forgets_;
   ReceivedDescriptors received_;
+  std::vector<std::uint32_t> lacking_;  // by relation
+  std::vector<std::uint32_t> all_;      // the same before the run
   std::vector<Listener*> listeners_;
 };
 
@@ -93,6 +106,9 @@ class DataObserver : public Base, private DataProbe::Listener {
 
  protected:
   [[nodiscard]] const ReceivedDescriptors& x() const { return probe_->x(); }
+  [[nodiscard]] std::uint32_t lacking(std::uint32_t relation) const {
+    return probe_->lacking(relation);
+  }
   /// A reader that forgets has nothing; to be called before the run.
   void let_readers_forget() { probe_ = own_probe(true); }
   void took(const model::Packet& /*data*/, std::uint32_t /*fresh*/) override {}

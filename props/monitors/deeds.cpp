@@ -202,8 +202,7 @@ bool Message::says_what(const Message& other) const {
          carries_heartbeat == other.carries_heartbeat && to_nobody == other.to_nobody &&
          to_group == other.to_group && directed == other.directed && loops_to == other.loops_to &&
          bytes == other.bytes && writer == other.writer && count == other.count &&
-         descriptors == other.descriptors && contents == other.contents &&
-         relayed == other.relayed;
+         descriptors == other.descriptors && contents == other.contents && relayed == other.relayed;
 }
 
 bool Message::says_what(const model::Packet& packet) const {
@@ -260,8 +259,8 @@ std::string said(const Scheduled& event, const model::Topology& topology) {
 void Deeds::add(const model::Packet& packet, std::uint32_t pair, std::uint32_t loops_to) {
   if (is_of_control(packet)) pair = 0;
   auto& messages = list_of<Message>();
-  const bool goes_on = !order_.empty() && order_.back().tag == Tag::message &&
-                       messages.back().says_what(packet);
+  const bool goes_on =
+      !order_.empty() && order_.back().tag == Tag::message && messages.back().says_what(packet);
   if (!goes_on) {
     const auto number = static_cast<std::uint32_t>(messages.size());
     order_.push_back({Tag::message, number, static_cast<std::uint32_t>(pairs_.size())});
@@ -269,8 +268,7 @@ void Deeds::add(const model::Packet& packet, std::uint32_t pair, std::uint32_t l
     message.pair = pair;
     message.loops_to = loops_to;
   }
-  pairs_.push_back(pair);
-  ++order_.back().pairs;
+  add_copy(pair);
 }
 
 std::size_t Deeds::pass(Position& from, const Message& message,
@@ -283,11 +281,16 @@ std::size_t Deeds::pass(Position& from, const Message& message,
       if (sent == nullptr || !sent->says_what(message)) return k;
       to = pairs_of(from.deed);
     }
-    const bool crosses_hosts = crosses(message, pairs[k]);
-    std::uint32_t& behind = crosses_hosts ? from.crossing : from.looped;
-    while (behind < to.size() && crosses(message, to[behind]) != crosses_hosts) ++behind;
-    if (behind == to.size() || to[behind] != pairs[k]) return k;
-    ++behind;
+    const bool in_order = from.crossing <= from.taken && from.looped <= from.taken;
+    if (in_order && to[from.taken] == pairs[k]) {
+      from.crossing = from.looped = from.taken + 1;
+    } else {
+      const bool crosses_hosts = crosses(message, pairs[k]);
+      std::uint32_t& behind = crosses_hosts ? from.crossing : from.looped;
+      while (behind < to.size() && crosses(message, to[behind]) != crosses_hosts) ++behind;
+      if (behind == to.size() || to[behind] != pairs[k]) return k;
+      ++behind;
+    }
     if (++from.taken < to.size()) continue;
     from = {from.deed + 1};
     sent = nullptr;

@@ -79,9 +79,9 @@ struct Message {
 [[nodiscard]] std::string said(const Scheduled& event, const model::Topology& topology);
 [[nodiscard]] std::string said(const Message& message, const model::Topology& topology);
 
-/// In the order in which they were done; those of a kind are together. The same message to one
-/// pair after the other is one deed: a record stands for several of its packets, which it may put
-/// before those within the host. So what goes over the network has an order, and what does not.
+/// In the order in which they were done; those of a kind are together. The same message to several
+/// pairs, one after the other, is one deed. Over the network a record may stand for all of it
+/// (Probe::wants_single_packets), so packets on that way are in order, and those within the host.
 class Deeds {
  public:
   /// How far somebody has come.
@@ -103,6 +103,11 @@ class Deeds {
   }
   /// The packet goes to the pair, or within the host to the participant.
   void add(const model::Packet& packet, std::uint32_t pair, std::uint32_t loops_to = UINT32_MAX);
+  /// So does another packet of the record that was added last.
+  void add_copy(std::uint32_t pair) {
+    pairs_.push_back(pair);
+    ++order_.back().pairs;
+  }
   void clear() {
     if (order_.empty()) return;
     order_.clear();

@@ -90,9 +90,10 @@ class FollowedRun : public Observer {
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
     if (follower_ == nullptr) return;
-    if (packet.copies == 1) return audit_->deeds().add(packet, packet.pair);
-    for (const std::uint32_t destination : destinations) {
-      audit_->deeds().add(packet, topology().pair_between(source, destination));
+    audit_->deeds().add(packet, packet.pair);
+    if (packet.copies == 1) return;
+    for (const std::uint32_t destination : destinations.subspan(1)) {
+      audit_->deeds().add_copy(topology().pair_between(source, destination));
     }
   }
   void looped_back(const model::Packet& packet, std::uint32_t receiver) override {
@@ -124,7 +125,7 @@ class FollowedRun : public Observer {
   /// The packet may be gone before its rule is followed.
   void take(const model::Packet& packet) {
     packet_.become(packet);
-    packet_.descriptors = Descriptors{packet.descriptors}.set();
+    if (!packet.descriptors.empty()) packet_.descriptors = Descriptors{packet.descriptors}.set();
     packet_.submessages = packet.submessages;
     packet_.relayed = packet.relayed;
   }

@@ -155,8 +155,8 @@ void Prospects::transition(const model::Transition& fired) {
   }
   if (fired.machine.machine != "DiscoveryReader") return;
   Relation& relation = relations_[fired.machine.subject];
-  if (fired.event == "AnnouncementReceived") relation.reader_open = true;
-  if (fired.event == "HeartbeatReceived") relation.heartbeat_seen = true;
+  if (!relation.reader_open) relation.reader_open = fired.event == "AnnouncementReceived";
+  if (!relation.heartbeat_seen) relation.heartbeat_seen = fired.event == "HeartbeatReceived";
   touch(fired.machine.subject);
 }
 

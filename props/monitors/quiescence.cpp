@@ -101,6 +101,7 @@ class Quiescence : public QuiescenceMonitor {
   void run_started(const model::Topology& topology) override {
     DataObserver::run_started(topology);
     opened_.assign(topology.relation_count(), false);
+    closed_ = topology.relation_count();
     missing_ = 0;
     for (std::uint32_t r = 0; r < topology.relation_count(); ++r) {
       missing_ += topology.descriptor_count(r);
@@ -111,17 +112,17 @@ class Quiescence : public QuiescenceMonitor {
                std::span<const std::uint32_t> destinations) override {
     DelayObserver::emitted(packet, source, destinations);
     if (!is_sedp(packet)) return;
-    if (!packet.to_writer()) note_openings(packet, source, destinations);
+    if (!packet.to_writer() && closed_ > 0) note_openings(packet, source, destinations);
     note_traffic(packet);
   }
   void looped_back(const model::Packet& packet, std::uint32_t) override {
     if (!is_sedp(packet)) return;
-    if (!packet.to_writer()) note_opening(packet.relation());
+    if (!packet.to_writer() && closed_ > 0) note_opening(packet.relation());
     note_traffic(packet);
   }
   void transition(const model::Transition& fired) override {
     DataObserver::transition(fired);
-    if (fired.event == "AnnouncementReceived" && settled_) settle();
+    if (settled_ && fired.event == "AnnouncementReceived") settle();
   }
   void finish(model::Nanoseconds end) override {
     if (!settled_) return;
@@ -195,6 +196,7 @@ class Quiescence : public QuiescenceMonitor {
   void note_opening(std::uint32_t relation) {
     if (opened_[relation]) return;
     opened_[relation] = true;
+    --closed_;
     if (settled_) settle();
   }
   /// Only what may come too late is kept: never more than one entry for an event.
@@ -212,6 +214,7 @@ class Quiescence : public QuiescenceMonitor {
   model::DdsProfile dds_;
   model::Nanoseconds loopback_;
   std::vector<bool> opened_;  // by relation
+  std::uint32_t closed_ = 0;  // how many are not
   std::uint64_t missing_ = 0;
   std::optional<model::Nanoseconds> settled_;
   std::uint64_t lost_before_ = 0;

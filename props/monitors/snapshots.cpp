@@ -46,10 +46,11 @@ class Snapshots : public DataObserver<> {
   }
   void transition(const model::Transition& fired) override {
     DataObserver::transition(fired);
-    if (announcing_ != nullptr && announced_in_ == this->event() &&
-        fired.event == "HeartbeatReceived" && fired.machine.subject == announcing_->relation()) {
-      raise(fired.machine.subject, announcing_->detail);
-    }
+    if (announcing_ == nullptr || announced_in_ != event()) return;
+    const std::uint32_t relation = announcing_->relation();
+    const bool is_new =
+        fired.machine.subject == relation && announcing_->detail > announced_[relation];
+    if (is_new && fired.event == "HeartbeatReceived") announced_[relation] = announcing_->detail;
   }
   void emitted(const model::Packet& packet, std::uint32_t,
                std::span<const std::uint32_t>) override {

@@ -84,6 +84,7 @@ class Stalls : public DataObserver<EndObserver> {
       const model::Pair& ends = topology_->pair(relation / 2);
       if (!ends.cross_host || time < topology_->start(ends.destination) || violation()) continue;
       ++judged_;
+      if (lacking(relation) == 0) continue;
       const auto d = prospects_.hopeless(relation, x());
       if (!d) continue;
       object(event(), time,

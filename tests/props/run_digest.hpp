@@ -24,12 +24,11 @@ class RunDigest : public model::Probe {
   }
   void event_finished(const model::Depths& depths) override { note(depths.missing); }
   void transition(const model::Transition& fired) override {
-    const std::uint32_t word = fired.first_word;
     for (const std::string_view text : {fired.machine.machine, fired.event, fired.after}) {
       note(std::hash<std::string_view>{}(text));
     }
     note(fired.machine.subject);
-    note(word);
+    note(fired.first_word);
     note(fired.descriptors);
   }
   void scheduled(std::uint64_t, model::Nanoseconds time, model::EventKind kind,
