@@ -1,7 +1,7 @@
 // Steps the machines of one kind, with Boost.MSM; or, if there is a deliberate mistake in their
 // table (fsm/table_mutation.hpp), with the interpreter of the mutated one. Whoever runs machines
-// runs them through here: the simulator, the explorer, the monitors that follow a run, the replay
-// of captures, and the stateful tests.
+// runs them through here: the simulator, the explorer, the monitors that follow a run, and the
+// replay of captures.
 //
 // An event of which a machine reads nothing but truth values has few different steps. Each of them
 // is taken once and remembered: from then on it costs a look into a table of a few hundred bytes,
