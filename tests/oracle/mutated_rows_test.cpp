@@ -147,6 +147,9 @@ const std::vector<Explanation>& explained() {
   static const char* const no_change = "the row changes nothing and asks for nothing";
   static const char* const set_again =
       "an arming sets the period, too, and nothing is pending that could be void";
+  static const char* const at_rest =
+      "an adaptive timer rests when everything is acknowledged, and no suppression returns "
+      "anything";
   static const char* const beyond =
       "the oracle knows no requests for what was acknowledged; amended_test does";
   static const std::vector<Explanation> list{
@@ -167,6 +170,9 @@ const std::vector<Explanation>& explained() {
        {"guard ignored"},
        overruled},
       {"HeartbeatTimer: Idle + ArmRequested [not Adaptive] -> Armed", {"guard ignored"}, overruled},
+      {"HeartbeatTimer: Idle + SuppressionEnded [not Adaptive] -> Armed",
+       {"guard ignored"},
+       at_rest},
       {"HeartbeatTimer: Pacing + CycleStarted [Unacknowledged] -> Awaiting",
        {"guard ignored"},
        overruled},
