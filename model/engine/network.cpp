@@ -37,8 +37,7 @@ Network::Network(RunState& run)
       counts_at_admission_{wireless_.count_at == CountAt::admission},
       takes_at_admission_{over_access_points_ || counts_at_admission_},
       admits_together_{wireless_.kind == ServiceKind::shared_channel && !takes_at_admission_ &&
-                       run.mutation == nullptr &&
-                       !run.hears_single_packets},
+                       run.mutation == nullptr && !run.hears_single_packets},
       leaving_(sources_.size()) {
   if (wireless_.kind == ServiceKind::shared_channel) build_route();
   for (std::size_t radio = 0; by_unit_ && radio < fleet_.radios().size(); ++radio) {

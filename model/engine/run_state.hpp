@@ -68,7 +68,7 @@ struct RunState {
   const Scenario& scenario;
   const Topology topology;
   Probe* const probe;
-  const Reports reports;           ///< that the probe wants
+  const Reports reports;  ///< that the probe wants
   const bool hears_single_packets;
   const Mutation* const mutation;  ///< a deliberate mistake, or none
   const bool ends_when_complete;
