@@ -30,9 +30,8 @@
 //
 // What follows of this from what a composition declares, a host has from its store: `Kept`
 // (model/engine/kept.hpp) and, in the simulator, `Stored` (model/engine/stored.hpp). The
-// simulator's hosts are in model/paper, model/fastdds and model/cyclone, the explorer's of
-// Cyclone DDS in checker/engines/explorer, those of a captured relation in
-// checker/evidence/conform, and the audit's of runs in props/monitors/auditor.hpp.
+// simulator's hosts are in model/paper, model/fastdds and model/cyclone, those of a captured
+// relation in checker/evidence/conform, and the audit's of runs in props/monitors/auditor.hpp.
 #pragma once
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "checker/engines/explorer/answer.hpp"
-#include "checker/engines/explorer/cyclone_world.hpp"
 #include "checker/engines/explorer/explorer.hpp"
 #include "checker/engines/explorer/plan.hpp"
 #include "checker/engines/explorer/relation_world.hpp"
@@ -98,11 +97,7 @@ class Exploration {
         // What a scope does not need of its share is left to those after it.
         limit_ = std::min(group.most_states * request_.effort, left / (list.size() - k));
         const Scope& scope = list[k];
-        if (props::has_samples(running_)) {
-          explore<CycloneWorld>(scope);
-        } else {
-          explore<RelationWorld>(scope);
-        }
+        explore<RelationWorld>(scope);
         left -= std::min(left, searched_);
       }
     }

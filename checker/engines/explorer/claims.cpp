@@ -40,7 +40,7 @@ void mark_left(Frame& frame, unsigned relation, Members members) {
 void check_descriptors(const View& before, const View& now, Members received, Frame& frame,
                        unsigned relation, std::int64_t suppression) {
   if ((now.acknowledged & ~received) != 0) frame.object(Claim::ack_implies_received);
-  const unsigned returned = before.suppressed & now.unsent;
+  const unsigned returned = before.suppressed & now.unacknowledged;
   const auto is_mark_of = [relation](const Slot& slot) {
     return slot.what == What::repair_left && slot.relation == relation;
   };

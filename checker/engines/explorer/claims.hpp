@@ -33,9 +33,9 @@ void mark_left(Frame& frame, unsigned relation, Members members);
 
 /// The writer's view of a relation's descriptors.
 struct View {
-  Members unsent = 0;        ///< in U
-  Members suppressed = 0;    ///< in S
-  Members acknowledged = 0;  ///< in A
+  Members unacknowledged = 0;  ///< in U
+  Members suppressed = 0;      ///< in S
+  Members acknowledged = 0;    ///< in A
 };
 /// What must hold of the descriptors of a relation after each event; they have to be suppressed
 /// for `suppression` ns.

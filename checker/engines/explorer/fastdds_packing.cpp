@@ -22,12 +22,12 @@ class FastDdsPacking final : public Packing {
                                         : model::fastdds::default_subscriptions;
   }
   Specialised::Action action(std::string_view step) override {
-    if (step == "Pack") {
+    if (step.starts_with("Pack ")) {
       return [this](RuleRunner& w, const Specialised::Call& call) {
         pack(w, w.emitted_by(call.contract));
       };
     }
-    if (step != "Flush") return {};
+    if (!step.starts_with("Flush ")) return {};
     return [this](RuleRunner& w, const auto&) {
       if (message_ != 0) flush(w);
     };

@@ -162,10 +162,10 @@ std::vector<Scope> scopes(const model::Scenario& scenario, Nanoseconds delay) {
     list.back().pushed = pushed;
   };
   if (props::has_samples(scenario)) {
-    for (const unsigned losses : {0U, 1U, 2U}) add(2, losses, 0);
+    for (const unsigned losses : {0U, 1U, 2U}) add(most_samples, losses, 0);
     add(1, 0, 1);
     add(1, 1, 1);
-    add(2, 0, 1);
+    add(most_samples, 0, 1);
     for (Scope& scope : list) scope.side_by_side = true;
     return list;
   }

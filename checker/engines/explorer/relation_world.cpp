@@ -25,12 +25,11 @@ namespace {
 
 constexpr std::size_t most_relations = std::max(most_readers, most_writers);
 
-/// The writer's view of a descriptor.
+/// The writer's view of a descriptor; nothing: it has none.
 Tag descriptor_part(const Program& program) {
   const auto found = std::ranges::find_if(
       program.parts, [&](Tag part) { return program.things[part].owner == owner::descriptor; });
-  if (found == program.parts.end()) throw std::logic_error{"no part is about descriptors"};
-  return *found;
+  return found == program.parts.end() ? no_thing : *found;
 }
 /// Whether one announcement opens both sides, where it arrives.
 bool opens_both(const fsm::program::Steps& steps, Tag writer_opens) {
@@ -59,15 +58,17 @@ RelationWorld::RelationWorld(const Program& program, const model::Scenario& runn
                      opens_both(program.opening, program.find("WriterOpens"))},
       leaves_later_{program.rule_for(fsm::program::Trigger::left, program.find("Data")) != nullptr},
       view_{descriptor_part(program)},
-      packing_{packing_of(program, running, scope)},
+      packing_{packing_of(program, running, scope, rules_)},
       layout_{laid_out()},
       rules_of_events_{specialised(mutation)},
       runner_{
           rules_of_events_,
           remembered_,
           scope_,
-          {packing_->descriptors(model::Stream::pub), packing_->descriptors(model::Stream::sub)}} {
+          {packing_->descriptors(model::Stream::pub), packing_->descriptors(model::Stream::sub)},
+          *packing_} {
   place(rules_of_events_, layout_);
+  if (view_ == no_thing) return;
   const std::vector<std::string_view>& states = program_.machine_of(view_).states;
   for (const std::string_view state : states) {
     const std::size_t letter = std::string_view{"USA"}.find(state);
@@ -76,8 +77,7 @@ RelationWorld::RelationWorld(const Program& program, const model::Scenario& runn
 }
 
 Specialised RelationWorld::specialised(const model::Mutation& mutation) {
-  Specialiser specialiser{program_, running_.dds, mutation,
-                          [this](std::string_view step) { return packing_->action(step); }};
+  Specialiser specialiser{program_, running_.dds, mutation, *packing_};
   Specialised made = specialiser.specialise();
   drop_unused(made);
   return made;
@@ -87,7 +87,8 @@ Specialised RelationWorld::specialised(const model::Mutation& mutation) {
 Layout RelationWorld::laid_out() {
   Layout layout{program_, scope_,
                 std::max(packing_->descriptors(model::Stream::pub),
-                         packing_->descriptors(model::Stream::sub))};
+                         packing_->descriptors(model::Stream::sub)),
+                packing_->has_two_ends()};
   Specialised correct = specialised({});
   for (const Tag thing : changed_things(correct)) layout.keep(thing);
   packing_->keep(layout);
@@ -108,9 +109,10 @@ Layout RelationWorld::laid_out() {
 
 WorldState RelationWorld::start(Frame& frame) {
   State state;
-  packing_->start(state);
+  if (packing_->has_two_ends()) schedule_openings(frame);
   if (program_.find("Created") != no_thing) start_creations(state, frame);
-  schedule_openings(frame);
+  if (!packing_->has_two_ends()) schedule_openings(frame);
+  packing_->start(state);
   return state;
 }
 /// The last descriptors of the first writer are created after the match. Two creations keep their
@@ -171,9 +173,10 @@ void RelationWorld::schedule_openings(Frame& frame) const {
 }
 
 void RelationWorld::fire(State& state, Frame& frame, const Slot& slot) {
+  runner_.go_on_with(state, frame);
+  if (packing_->happens(slot, runner_)) return;
   std::array<View, most_relations> before{};
   for (unsigned k = 0; k < relations(); ++k) before.at(k) = view_of(state, k);
-  runner_.go_on_with(state, frame);
   happen(slot);
   for (unsigned k = 0; k < relations(); ++k) {
     check_descriptors(before.at(k), view_of(state, k), state.get<Members>(remembered_.received, k),
@@ -249,8 +252,9 @@ unsigned RelationWorld::deliveries() const {
 }
 
 std::string RelationWorld::describe(const State& state) const {
+  std::string text = packing_->describe(state);
+  if (!text.empty()) return text;
   if (relations() == 1) return describe(state, 0);
-  std::string text;
   for (unsigned k = 0; k < relations(); ++k) {
     text +=
         fmt::format("{}{}: {}", k == 0 ? "" : "; ", relation_text(scope_, k), describe(state, k));

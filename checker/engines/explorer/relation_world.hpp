@@ -45,8 +45,8 @@ class RelationWorld {
   }
   [[nodiscard]] const Scope& scope() const { return scope_; }
   [[nodiscard]] const EventRules& rules() const { return rules_; }
-  [[nodiscard]] bool sorts_slots() const { return relations() > 1; }
-  [[nodiscard]] std::size_t state_words() const { return layout_.words(); }
+  [[nodiscard]] bool sorts_slots() const { return relations() > 1 || packing_->has_two_ends(); }
+  [[nodiscard]] std::size_t used_words() const { return layout_.words(); }
   /// The state in words.
   [[nodiscard]] std::string describe(const State& state) const;
 
@@ -74,8 +74,8 @@ class RelationWorld {
   const EventRules rules_;
   const bool live_bitmaps_;
   const bool opens_at_once_;
-  const bool leaves_later_;            ///< suppression begins when a repair has left the source
-  const Tag view_;                     ///< the writer's view of a descriptor, the paper's letter
+  const bool leaves_later_;  ///< suppression begins when a repair has left the source
+  const Tag view_;  ///< the writer's view of a descriptor, if it has one: the paper's letter
   std::vector<std::uint8_t> letters_;  ///< by its state: 1, 2 or 3 of U, S or A
   const std::unique_ptr<Packing> packing_;
   RuleRunner::Remembered remembered_;

@@ -14,9 +14,10 @@ using From = Specialised::From;
 using Op = Specialised::Op;
 
 RuleRunner::RuleRunner(const Specialised& program, const Remembered& remembered, const Scope& scope,
-                       std::array<unsigned, most_writers> descriptors)
+                       std::array<unsigned, most_writers> descriptors, Packing& host)
     : program_{program},
       remembered_{remembered},
+      host_{host},
       readers_{scope.readers},
       writers_{scope.writers},
       descriptors_{descriptors},
@@ -33,6 +34,19 @@ void RuleRunner::run(const Slot& slot, const Slot& emitted) {
   run(program_.rule(slot.what));
 }
 
+void RuleRunner::run_at(unsigned participant, const Slot& slot) {
+  relation_ = participant;
+  run(program_.rule(slot.what));
+}
+void RuleRunner::raise(std::string_view occasion, unsigned participant) {
+  const auto rule =
+      std::ranges::find(program_.occasions, occasion, &std::pair<std::string_view, Steps>::first);
+  const unsigned here = std::exchange(relation_, participant);
+  const Slot* const packet = std::exchange(packet_, nullptr);
+  run(rule->second);
+  packet_ = packet;
+  relation_ = here;
+}
 Slot RuleRunner::said_now(const Slot& acknack) {
   relation_ = acknack.relation;
   emitted_ = &acknack;
@@ -65,7 +79,7 @@ std::vector<unsigned> RuleRunner::readers() const {
 
 // Terms as one value.
 
-std::int64_t RuleRunner::read(const Term& term) const {
+std::int64_t RuleRunner::read(const Term& term) {
   switch (term.from) {
     case From::truth:
       return state_->get<std::uint8_t>(term.kept, relation_);
@@ -73,6 +87,8 @@ std::int64_t RuleRunner::read(const Term& term) const {
       return get(term.kept) >> descriptor_ & 1;
     case From::number:
       return state_->get<std::int64_t>(term.kept, relation_);
+    case From::host:
+      return host_.read(static_cast<unsigned>(term.value), *this);
     case From::flag:
       return packet_->has(static_cast<std::uint8_t>(term.value)) ? 1 : 0;
     case From::count:
@@ -111,7 +127,7 @@ std::int64_t RuleRunner::number(Ref ref) {
     case Op::either:
       return truth(term.a) || truth(term.b);
     case Op::select:
-      return number(truth(term.a) ? term.b : term.c);
+      return selected(term, ref);
     case Op::set_of:
       return members(term.a);
     case Op::some:
@@ -133,13 +149,23 @@ std::int64_t RuleRunner::number(Ref ref) {
   }
 }
 
+std::int64_t RuleRunner::selected(const Term& term, Ref ref) {
+  if (selected_.size() <= ref) selected_.resize(program_.terms.size());
+  if (selected_[ref].step != step_) {
+    const std::int64_t value = number(truth(term.a) ? term.b : term.c);
+    selected_[ref] = {step_, value};
+  }
+  return selected_[ref].value;
+}
 std::int64_t RuleRunner::count_readers(Ref ref) {
   std::int64_t count = 0;
   const unsigned here = relation_;
   for (Lanes left = open_readers(); left != 0; left &= left - 1) {
     relation_ = here % writers_ + static_cast<unsigned>(std::countr_zero(left)) * writers_;
+    ++step_;  // elsewhere, a selection is another one
     count += truth(ref) ? 1 : 0;
   }
+  ++step_;
   relation_ = here;
   return count;
 }

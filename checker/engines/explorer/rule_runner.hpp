@@ -11,9 +11,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "checker/engines/explorer/claims.hpp"
+#include "checker/engines/explorer/packing.hpp"
 #include "checker/engines/explorer/specialised.hpp"
 
 namespace stormproof::explorer {
@@ -33,7 +35,7 @@ class RuleRunner {
     Kept queued{};     ///< descriptors: in the queue
   };
   RuleRunner(const Specialised& program, const Remembered& remembered, const Scope& scope,
-             std::array<unsigned, most_writers> descriptors);
+             std::array<unsigned, most_writers> descriptors, Packing& host);
 
   /// What rules are about from now on.
   void go_on_with(WorldState& state, Frame& frame) {
@@ -42,11 +44,15 @@ class RuleRunner {
   }
   /// The rule for a packet or a timer. `emitted`: as what the packet was emitted.
   void run(const Slot& slot, const Slot& emitted);
+  /// The same for a participant.
+  void run_at(unsigned participant, const Slot& slot);
   /// The same for a descriptor.
   void run(const Slot& slot, unsigned descriptor) {
     descriptor_ = descriptor;
     run(slot, slot);
   }
+  /// The rule of an occasion of a participant, or of what it is in its relation.
+  void raise(std::string_view occasion, unsigned participant);
   /// What the reader would say if it emitted the ACKNACK now.
   [[nodiscard]] Slot said_now(const Slot& acknack);
 
@@ -75,8 +81,9 @@ class RuleRunner {
   using Lanes = std::uint64_t;
 
   [[nodiscard]] std::int64_t number(Ref ref);
+  [[nodiscard]] std::int64_t selected(const Term& term, Ref ref);
   [[nodiscard]] bool truth(Ref ref) { return number(ref) != 0; }
-  [[nodiscard]] std::int64_t read(const Term& term) const;
+  [[nodiscard]] std::int64_t read(const Term& term);
   [[nodiscard]] Lanes lanes(Ref ref);
   [[nodiscard]] Lanes in_state(const Term& term) const;
   [[nodiscard]] Members members(Ref ref) { return static_cast<Members>(lanes(ref) & valid()); }
@@ -110,11 +117,19 @@ class RuleRunner {
 
   const Specialised& program_;
   const Remembered remembered_;
+  Packing& host_;
   const unsigned readers_;
   const unsigned writers_;
   const std::array<unsigned, most_writers> descriptors_;
   std::array<Lanes, most_writers> valid_{};
   std::vector<std::int64_t> registers_;
+  /// What a selection is within one step; one may be part of another many times.
+  struct Selected {
+    std::uint64_t step = 0;
+    std::int64_t value = 0;
+  };
+  std::vector<Selected> selected_;
+  std::uint64_t step_ = 0;
   WorldState* state_ = nullptr;
   Frame* frame_ = nullptr;
   // The place.

@@ -13,12 +13,19 @@ using Act = Specialised::Act;
 using From = Specialised::From;
 
 void RuleRunner::take(const Step& step) {
+  ++step_;
   switch (step.act) {
     case Act::let:
+    case Act::decide:
       registers_[step.reg] = number(step.value);
       break;
     case Act::when:
       if (truth(step.value)) run(step.body);
+      break;
+    case Act::reverse:
+      relation_ ^= 1U;
+      run(step.body);
+      relation_ ^= 1U;
       break;
     case Act::for_readers:
       return for_readers(step);
@@ -47,6 +54,15 @@ void RuleRunner::take(const Step& step) {
     }
     case Act::set_each:
       return set_each(step);
+    case Act::set_host:
+      host_.set(step.reg, number(step.value), *this);
+      break;
+    case Act::ask:
+      set(remembered_.asked, get(remembered_.asked) | unsigned{packet_->set});
+      break;
+    case Act::overflow:
+      frame_->overflow();
+      break;
     case Act::come: {
       const auto scheduled = state_->get<std::uint8_t>(step.kept, relation_);
       const unsigned left = scheduled == 0 ? 0U : scheduled - 1U;  // 0: it was scheduled twice
@@ -207,8 +223,10 @@ void RuleRunner::schedule(const Step& step) {
     state_->set(step.kept, static_cast<std::uint8_t>(scheduled + 1), relation_);
   }
   Slot slot{step.event};
-  slot.relation = static_cast<std::uint8_t>(step.each ? relation_ : 0);
-  frame_->schedule(slot, number(step.value));
+  const auto place = static_cast<std::uint8_t>(step.each ? relation_ : 0);
+  (host_.has_two_ends() ? slot.number : slot.relation) = place;
+  const std::int64_t time = number(step.value);
+  if (!host_.moves(slot, time, *this)) frame_->schedule(slot, time);
 }
 void RuleRunner::emit(const Step& step) {
   Slot packet{step.event};
@@ -236,6 +254,7 @@ void RuleRunner::emit(const Step& step) {
   }
 }
 void RuleRunner::sent(const Slot& packet) {
+  if (host_.leaves(packet, *this)) return;
   if (packet.what == What::data) {
     note_generated(packet.relation, packet.set, packet.has(Slot::from_repair));
   } else if (packet.what == What::acknack) {

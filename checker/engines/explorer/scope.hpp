@@ -16,6 +16,10 @@ inline constexpr unsigned most_writers = 2;
 /// Descriptors of a writer whose implementation does not say how many there are.
 inline constexpr unsigned most_descriptors = 8;
 
+/// Samples of a writer of Cyclone DDS: all of them, and what other writers say at the same time,
+/// fit into one packet, so that the others do not change what is explored.
+inline constexpr unsigned most_samples = 2;
+
 struct Scope {
   /// D of each writer, 1 … most_descriptors; with Fast DDS the 9 default publications, and the 8
   /// default subscriptions; with Cyclone DDS the first publication, or the first two.

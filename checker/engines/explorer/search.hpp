@@ -2,7 +2,7 @@
 // fewest events. A world is a class with
 //   State start(Frame&), fire(State&, Frame&, const Slot&), complete(State), received(State),
 //   deliveries() (how many bits that has), scope(), rules(),
-//   state_words() (how much of a state is used), sorts_slots() (their order says nothing),
+//   used_words() (how much of a state is used), sorts_slots() (their order says nothing),
 // and knows nothing of searching; the search knows nothing of the protocol.
 //
 // Three claims are the search's own, because they are not about one state of the protocol:
@@ -74,7 +74,7 @@ class Search {
   using State = typename World::State;
 
   Search(World& world, const SearchOptions& options)
-      : world_{world}, options_{options}, store_{world.state_words()} {}
+      : world_{world}, options_{options}, store_{world.used_words()} {}
 
   SearchResult run() {
     start();

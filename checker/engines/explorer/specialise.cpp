@@ -28,15 +28,16 @@ bool announces(const fsm::program::Program& program) {
 }
 
 Specialiser::Specialiser(const Program& program, const model::DdsProfile& dds,
-                         const model::Mutation& mistakes, ActionOf action_of)
+                         const model::Mutation& mistakes, Packing& host)
     : program_{program},
       dds_{dds},
       mistakes_{mistakes},
-      action_of_{std::move(action_of)},
+      host_{host},
       announces_{announces(program)},
       defers_{std::ranges::any_of(
           mistakes.effects, [](const auto& each) { return each.change == Change::after_next; })} {
   number_registers();
+  find_short_circuits();
 }
 
 void Specialiser::number_registers() {
@@ -51,6 +52,10 @@ Specialised Specialiser::specialise() {
   for (std::size_t k = 0; k < result_.rules.size(); ++k) {
     const Rule* const found = rule_of(program_, What{static_cast<std::uint8_t>(k)});
     if (found != nullptr) result_.rules.at(k) = rule(*found);
+  }
+  for (const std::string_view name : host_.occasions()) {
+    result_.occasions.emplace_back(name,
+                                   rule(*program_.rule_for(Trigger::happens, program_.find(name))));
   }
   for (const bool is_initial : {false, true}) result_.acknacks.at(is_initial) = acknack(is_initial);
   return std::move(result_);
@@ -124,6 +129,9 @@ std::int64_t Specialiser::knob(Tag tag) const {
 
 Specialiser::Ref Specialiser::read(Tag tag) {
   const Thing& it = thing(tag);
+  if (const auto number = host_.keeps(it.name)) {
+    return add({.op = Op::read, .from = From::host, .value = *number});
+  }
   switch (it.kind) {
     case Thing::Kind::toggle:
     case Thing::Kind::delay:
@@ -148,7 +156,18 @@ Specialiser::Ref Specialiser::read(Tag tag) {
 }
 
 Specialiser::Ref Specialiser::term(Ref ref) {
-  const fsm::program::Term it = program_.terms[ref];
+  const auto known = made_.find(ref);
+  if (known != made_.end()) return known->second;
+  ++depth_;
+  const Ref made = made_of(program_.terms[ref]);
+  if (--depth_ == 0) {
+    made_.clear();
+  } else {
+    made_.emplace(ref, made);
+  }
+  return made;
+}
+Specialiser::Ref Specialiser::made_of(const fsm::program::Term& it) {
   switch (it.op) {
     case Op::truth:
     case Op::integer:

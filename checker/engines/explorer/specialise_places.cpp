@@ -29,6 +29,7 @@ void each_step(Steps& steps, Visit&& visit) {
 template <class Visit>
 void each_rule(Specialised& specialised, Visit&& visit) {
   for (Steps& rule : specialised.rules) visit(rule);
+  for (auto& [name, rule] : specialised.occasions) visit(rule);
   for (Steps& acknack : specialised.acknacks) visit(acknack);
 }
 
@@ -36,7 +37,9 @@ void each_rule(Specialised& specialised, Visit&& visit) {
 class Uses {
  public:
   explicit Uses(Specialised& specialised)
-      : specialised_{specialised}, used_(specialised.registers, false) {
+      : specialised_{specialised},
+        used_(specialised.registers, false),
+        seen_(specialised.terms.size(), false) {
     each_rule(specialised, [&](Steps& rule) { each_step(rule, [&](Step& step) { use(step); }); });
   }
   [[nodiscard]] bool operator[](Specialised::Register reg) const { return used_[reg]; }
@@ -53,7 +56,8 @@ class Uses {
     for (const Specialised::Ref argument : step.with) use(argument);
   }
   void use(Specialised::Ref ref) {
-    if (ref == no_term) return;
+    if (ref == no_term || seen_[ref]) return;
+    seen_[ref] = true;
     const Specialised::Term& term = specialised_.terms[ref];
     if (term.op == Op::let) used_[term.reg] = true;
     for (const Specialised::Ref part : {term.a, term.b, term.c}) use(part);
@@ -61,6 +65,7 @@ class Uses {
 
   const Specialised& specialised_;
   std::vector<bool> used_;
+  std::vector<bool> seen_;
 };
 
 /// Whether something has gone.
@@ -77,7 +82,7 @@ bool drop_unused(Steps& steps, const Uses& uses) {
   }
   has_gone |= std::erase_if(steps, [&](const Step& step) {
                 if (step.act == Act::let) return !uses[step.reg];
-                return step.act <= Act::for_queue && step.body.empty();
+                return step.act > Act::decide && step.act <= Act::for_queue && step.body.empty();
               }) > 0;
   return has_gone;
 }

@@ -13,6 +13,7 @@ using fsm::program::Do;
 using fsm::program::no_term;
 using fsm::program::no_thing;
 using fsm::program::Thing;
+using From = Specialised::From;
 namespace owner = fsm::composition::owner;
 
 Specialiser::Change Specialiser::change_of(const fsm::program::Step& step) const {
@@ -30,10 +31,7 @@ void Specialiser::take(const fsm::program::Step& step) {
   };
   switch (step.what) {
     case Do::let:
-      value_[step.reg] = term(step.value);
-      if (known(value_[step.reg])) break;
-      put({.act = Act::let, .value = value_[step.reg], .reg = first_[step.reg]});
-      value_[step.reg] = no_term;
+      let(step);
       break;
     case Do::when: {
       const Change change = change_of(step);
@@ -58,14 +56,45 @@ void Specialiser::take(const fsm::program::Step& step) {
     case Do::for_queue:
       loop(Act::for_queue, no_term, step, owner::entry);
       break;
-    case Do::reverse:  // there is nothing in the reverse direction
-      take_all(step.body);
+    case Do::reverse:
+      reverse([&] { take_all(step.body); });
       break;
     case Do::for_streams:
     case Do::for_known_peers:
       throw std::logic_error{"a loop over what is not explored"};
     default:
       effect(step);
+  }
+}
+void Specialiser::let(const fsm::program::Step& step) {
+  const Ref value = term(step.value);
+  const Term made = result_.terms[value];
+  value_[step.reg] = value;
+  if (made.from == From::host && host_.is_decided_by_reading(static_cast<unsigned>(made.value))) {
+    const Ref condition = short_circuits_[step.reg];
+    if (condition == no_term) value_[step.reg] = no_term;
+    put({.act = Act::decide,
+         .value = condition == no_term ? value : term(condition),
+         .reg = first_[step.reg]});
+  } else if (!known(value)) {
+    value_[step.reg] = no_term;
+    put({.act = Act::let, .value = value, .reg = first_[step.reg]});
+  }
+}
+void Specialiser::find_short_circuits() {
+  short_circuits_.assign(first_.size(), no_term);
+  const auto look = [&](const auto& self, Ref ref, Ref condition) -> void {
+    if (ref == no_term) return;
+    const fsm::program::Term& term = program_.terms[ref];
+    if (term.op == Op::let && short_circuits_[term.reg] == no_term) {
+      short_circuits_[term.reg] = condition;
+    }
+    if (term.op == Op::let || term.op == Op::select) return;
+    for (const Ref part : {term.a, term.b, term.c}) self(self, part, condition);
+  };
+  for (Ref ref = 0; ref < program_.terms.size(); ++ref) {
+    const fsm::program::Term& term = program_.terms[ref];
+    if (term.op == Op::both || term.op == Op::either) look(look, term.b, ref);
   }
 }
 void Specialiser::when(Ref condition, const fsm::program::Steps& body) {
@@ -83,6 +112,15 @@ void Specialiser::loop(Act act, Ref which, const fsm::program::Step& step, Owner
        .first_only = change_of(step) == Change::first_only,
        .value = which,
        .body = std::move(body)});
+}
+
+/// If there are no two ends, there is nothing in the reverse direction.
+template <class Body>
+void Specialiser::reverse(Body&& body) {
+  if (!host_.has_two_ends()) return body();
+  is_reverse_ = !is_reverse_;
+  put({.act = Act::reverse, .body = steps_of(body)});
+  is_reverse_ = !is_reverse_;
 }
 
 // Effects, and mistakes at them (fsm/composition/watched_world.hpp).
@@ -105,6 +143,11 @@ void Specialiser::effect(const fsm::program::Step& step) {
     }
     case Change::every_reader:
       if (here_ == owner::relation) act_for_every_reader(step);
+      break;
+    case Change::reversed:
+      if (here_ == owner::relation || here_ == owner::pair) {
+        reverse([&] { act(step, Change::none); });
+      }
       break;
     default:
       act(step, change);
@@ -151,7 +194,8 @@ void Specialiser::act(const fsm::program::Step& step, Change change, bool keeps_
     case Do::set:
       return set(step);
     case Do::set_each:
-      return put({.act = Act::set_each, .tag = step.target, .value = term(step.value)});
+      return put_on(step.target,
+                    {.act = Act::set_each, .tag = step.target, .value = term(step.value)});
     case Do::after:
     case Do::at:
       return start(step, change);
@@ -170,103 +214,6 @@ void Specialiser::act(const fsm::program::Step& step, Change change, bool keeps_
   }
 }
 
-/// Rows that can fire, the last one of the table first, as in Boost.MSM.
-void Specialiser::feed(const fsm::program::Step& step, bool keeps_outbox) {
-  const fsm::program::Machine& machine = program_.machine_of(step.target);
-  const bool each = step.what == Do::feed_each;
-  Refs input;
-  for (const fsm::program::Given& given : step.with) input.push_back(term(given.value));
-  Step made{.act = each                                    ? Act::feed_each
-                   : is_of_descriptors(thing(step.target)) ? Act::feed_one
-                                                           : Act::feed,
-            .tag = step.target};
-  if (each) {
-    made.value = step.value == no_term ? constant(1) : term(step.value);
-    // What the writer takes from an ACKNACK is what it is told first.
-    if (machine.events[step.event] == "AckNackReceived") made.asked = input.at(0);
-  }
-  const Refs* const outer = std::exchange(input_, &input);
-  auto rows = rows_of(machine, mistakes_.tables);
-  std::ranges::reverse(rows);
-  for (const fsm::program::Machine::Row& row : rows) {
-    if (row.event != step.event) continue;
-    Specialised::Row taken{.source = row.source,
-                           .target = row.target,
-                           .guard = row.guard == no_term ? constant(1) : term(row.guard),
-                           .out = {}};
-    if (row.negated) taken.guard = negation(taken.guard);
-    if (known(taken.guard) == 0) continue;
-    for (std::size_t k = 0; k < row.out.size() && keeps_outbox; ++k) {
-      if (row.out[k] == no_term) continue;
-      taken.out.emplace_back(first_[step.reg] + static_cast<Register>(k), term(row.out[k]));
-    }
-    made.rows.push_back(std::move(taken));
-  }
-  input_ = outer;
-  for (std::size_t k = 0; k < machine.outputs.size() && keeps_outbox; ++k) {
-    made.outbox.push_back(first_[step.reg] + static_cast<Register>(k));
-  }
-  put(std::move(made));
-  if (announces_ && thing(step.target).name == "Reader") hear(step);
-}
-/// A reader that takes DATA or a HEARTBEAT hears of descriptors.
-void Specialiser::hear(const fsm::program::Step& step) {
-  const fsm::program::Machine& machine = program_.machine_of(step.target);
-  const std::string_view event = machine.events[step.event];
-  const auto hears_if = [&](What packet, std::string_view field) {
-    const auto found =
-        std::ranges::find(machine.outputs, field, &fsm::program::Machine::Field::name);
-    const auto k = static_cast<Register>(found - machine.outputs.begin());
-    put({.act = Act::when,
-         .value = add({.op = Op::let, .reg = first_[step.reg] + k}),
-         .body = {{.act = Act::hear, .event = packet}}});
-  };
-  if (event == "DataReceived") hears_if(What::data, "take_data");
-  if (event == "HeartbeatReceived") hears_if(What::heartbeat, "schedule_acknack");
-}
-
-void Specialiser::set(const fsm::program::Step& step) {
-  const Thing& it = thing(step.target);
-  Step made{.tag = step.target, .value = term(step.value)};
-  made.act = it.kind == Thing::Kind::number ? Act::set_number
-             : is_of_descriptors(it)        ? Act::set_member
-                                            : Act::set_truth;
-  // Doubling without end, the explored world would never come back to a state.
-  if (it.name == "LastDelay") made.most = knob(program_.find("InitialDelay")) << last_doubling;
-  put(std::move(made));
-}
-
-/// A timer, as the rule has it or at another time.
-void Specialiser::start(const fsm::program::Step& step, Change change) {
-  const Thing& timer = thing(step.target);
-  const auto event = what_of(timer);
-  if (!event) return;
-  const bool is_period = timer.name == "HeartbeatExpiry";
-  const auto delay = [&] {
-    if (change == Change::at_once) return constant(0);
-    if (change == Change::other_delay) {
-      return constant(knob(is_period ? program_.response_delay : program_.heartbeat_period));
-    }
-    return step.what == Do::after ? constant(knob(step.wait)) : term(step.value);
-  };
-  put({.act = Act::schedule,
-       .event = *event,
-       .owner = timer.owner,
-       .tag = timer.counted ? step.target : no_thing,
-       .value = delay()});
-}
-
-void Specialiser::emit(const fsm::program::Step& step) {
-  const auto what = what_of_packet(program_, step.target);
-  if (!what) throw std::logic_error{"a packet that is not explored"};
-  Step made{.act = Act::emit, .event = *what};
-  for (std::size_t k = 0; k < step.with.size(); ++k) {
-    const SlotField& field = slot_field(thing(step.fields[k]));
-    made.says.push_back({field.as, field.flag, term(step.with[k].value)});
-  }
-  put(std::move(made));
-}
-
 /// A procedure, or a step: as the host does it, or by its contract, in which no mistakes are made.
 void Specialiser::enter(const fsm::program::Step& step) {
   const fsm::program::Procedure& procedure = program_.procedures[step.procedure];
@@ -283,7 +230,7 @@ void Specialiser::enter(const fsm::program::Step& step) {
   const bool outer = makes_mistakes_;
   makes_mistakes_ = outer && !procedure.is_contract;
   Specialised::Action action =
-      procedure.is_contract ? action_of_(thing(step.target).name) : Specialised::Action{};
+      procedure.is_contract ? host_.action(procedure.name) : Specialised::Action{};
   if (action) {
     Steps contract = steps_of([&] { take_all(procedure.body); });
     put({.act = Act::perform,

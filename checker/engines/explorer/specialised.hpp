@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,7 @@ struct Specialised {
 
   /// What a term reads. A packet says something as a flag, as the set of some descriptors, or, if
   /// it is about the first ones, as their number.
-  enum class From : std::uint8_t { truth, members, number, flag, set, limit, count };
+  enum class From : std::uint8_t { truth, members, number, host, flag, set, limit, count };
 
   struct Term {
     Op op{};
@@ -61,8 +62,10 @@ struct Specialised {
   using Action = std::function<void(RuleRunner&, const Call&)>;
 
   enum class Act : std::uint8_t {
-    let,   ///< register `reg` becomes `value`
-    when,  ///< the body, if `value`
+    let,      ///< register `reg` becomes `value`
+    decide,   ///< the same of what reading can decide: it is not left out
+    when,     ///< the body, if `value`
+    reverse,  ///< at the other end
     for_readers,
     for_descriptors,  ///< for which `value`
     for_queue,
@@ -73,6 +76,9 @@ struct Specialised {
     set_number,  ///< unless it is more than `most`
     set_member,  ///< of the descriptor
     set_each,
+    set_host,  ///< number `reg` of what the host keeps
+    ask,       ///< the writer takes the ACKNACK of its reader
+    overflow,  ///< what is not explored: only a mistake gets here
     come,      ///< a timer that is counted is scheduled once less
     schedule,  ///< `event` after `value`, which is counted at `kept`
     emit,
@@ -112,6 +118,9 @@ struct Specialised {
   std::array<Steps, static_cast<std::size_t>(What::repair_left)> rules{};  ///< by their events
   /// The ACKNACKs that a reader emits, by whether they are initial, as correct rules do.
   std::array<Steps, 2> acknacks{};
+
+  /// Of what the host makes happen.
+  std::vector<std::pair<std::string_view, Steps>> occasions{};
 
   [[nodiscard]] const Steps& rule(What what) const { return rules[static_cast<std::size_t>(what)]; }
 };

@@ -7,6 +7,7 @@ using fsm::program::Thing;
 namespace owner = fsm::composition::owner;
 
 bool Layout::strides(Owner of) const {
+  if (has_two_ends_) return of == owner::participant;
   const bool of_reader = readers_ > 1 && (of.indices & owner::peer_index) != 0;
   const bool of_writer = writers_ > 1 && (of.indices & owner::stream_index) != 0;
   return of_reader || of_writer;
@@ -29,7 +30,7 @@ void Layout::keep(Tag tag) {
 Kept Layout::keep(std::size_t bytes, Owner of) {
   const bool each = strides(of);
   const Kept kept{static_cast<std::uint16_t>(end_), static_cast<std::uint16_t>(each ? bytes : 0)};
-  end_ += bytes * (each ? readers_ * writers_ : 1);
+  end_ += bytes * (!each ? 1 : has_two_ends_ ? 2 : readers_ * writers_);
   if (end_ > WorldState::capacity) throw std::logic_error{"a state is larger than its room"};
   return kept;
 }

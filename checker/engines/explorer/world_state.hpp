@@ -33,7 +33,7 @@ struct Kept {
 
 class WorldState {
  public:
-  static constexpr std::size_t capacity = 128;  ///< bytes
+  static constexpr std::size_t capacity = 192;  ///< bytes
 
   /// `T`: one byte of a machine, flag or count, `Members`, or `std::int64_t`.
   template <class T>
@@ -70,11 +70,14 @@ class Layout {
   using Tag = fsm::program::Tag;
   using Owner = fsm::program::Owner;
 
-  Layout(const fsm::program::Program& program, const Scope& scope, unsigned most_descriptors)
+  /// `has_two_ends`: participants of both ends of the one relation have things.
+  Layout(const fsm::program::Program& program, const Scope& scope, unsigned most_descriptors,
+         bool has_two_ends)
       : program_{program},
         readers_{scope.readers},
         writers_{scope.writers},
         descriptors_{most_descriptors},
+        has_two_ends_{has_two_ends},
         things_(program.things.size()) {
     if (readers_ > 1 && writers_ > 1) throw std::logic_error{"several readers of several writers"};
   }
@@ -100,6 +103,7 @@ class Layout {
   const unsigned readers_;
   const unsigned writers_;
   const unsigned descriptors_;
+  const bool has_two_ends_;
   std::vector<Kept> things_;
   std::size_t end_ = 0;
 };

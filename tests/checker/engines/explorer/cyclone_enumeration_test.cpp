@@ -2,7 +2,7 @@
 // run, beside all that the other writers of the two participants say.
 #include <sstream>
 
-#include "checker/engines/explorer/cyclone_world.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
 #include "checker/engines/explorer/replayed_packets.hpp"
 #include "props/monitors/received_submessages.hpp"
 #include "tests/checker/engines/explorer/enumeration.hpp"
@@ -102,7 +102,7 @@ TEST_P(CycloneRuns, HaveTheOutcomesOfTheExplorer) {
   scope.least_delay = Nanoseconds{1};
   scope.largest_delay = Nanoseconds{c.delay};
   scope.side_by_side = c.apart;
-  const std::uint64_t runs = expect_equal_outcomes<CycloneWorld, SampleHistory>(
+  const std::uint64_t runs = expect_equal_outcomes<RelationWorld, SampleHistory>(
       tiny_cyclone(), scope, nullptr, said_by_each);
   EXPECT_GT(runs, c.least_runs);
 }

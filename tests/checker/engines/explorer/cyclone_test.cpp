@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "checker/engines/explorer/cyclone_messages.hpp"
-#include "checker/engines/explorer/cyclone_world.hpp"
 #include "checker/engines/explorer/explorer.hpp"
 #include "checker/engines/explorer/plan.hpp"
+#include "checker/engines/explorer/relation_world.hpp"
 #include "fsm/composition/compositions.hpp"
 #include "fsm/composition/effect_mutation.hpp"
 #include "fsm/matched_reader.hpp"
@@ -178,7 +178,7 @@ TEST(CycloneExplored, IsWhatTheSimulatorRuns) {
            {std::pair{20'000'000, 0U}, {100'000'000, 0U}, {100'000, 1U}}) {
         const model::Scenario scenario = cyclone();
         const Walks walks =
-            walk<CycloneWorld>(scenario, scope_of(delay_ns, samples, losses, pushed));
+            walk<RelationWorld>(scenario, scope_of(delay_ns, samples, losses, pushed));
         EXPECT_EQ(walks.refused, 0U) << walks.why;
       }
     }
@@ -190,7 +190,7 @@ TEST(CycloneExplored, ThatIsMisreadIsNot) {
   const Scope scope = scope_of(20'000'000, 2, 1, 0);
   for (const char* const name : {"MoveAckTimer.3", "RepeatListed.4", "Reply.3"}) {
     const model::Mutation misread = effect(name, EffectMutation::Change::drop).rules;
-    EXPECT_GT(walk<CycloneWorld>(scenario, scope, misread).refused, 0U) << name;
+    EXPECT_GT(walk<RelationWorld>(scenario, scope, misread).refused, 0U) << name;
   }
   Request request{scenario, nullptr, {}};
   request.misread = takes_requests_for_replies().rules;
@@ -201,7 +201,7 @@ TEST(CycloneExplored, ThatIsMisreadIsNot) {
 
 TEST(CycloneExplored, SamplesFitIntoOnePacketWithWhatOthersSay) {
   std::int64_t bytes = model::cyclone::header_bytes + model::cyclone::destination_bytes;
-  for (unsigned d = 0; d < cyclone_parts::most_samples; ++d) {
+  for (unsigned d = 0; d < most_samples; ++d) {
     bytes += message_of({What::data, Slot::from_repair, member(d)}).bytes;
     // Created before the next publication.
     if (d > 0) bytes += model::cyclone::data_bytes(model::cyclone::writer::subscriptions, d - 1);

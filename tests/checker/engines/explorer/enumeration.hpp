@@ -76,7 +76,7 @@ class RememberingWorld {
   [[nodiscard]] const Scope& scope() const { return world_.scope(); }
   [[nodiscard]] const EventRules& rules() const { return world_.rules(); }
   [[nodiscard]] bool sorts_slots() const { return world_.sorts_slots(); }
-  [[nodiscard]] std::size_t state_words() const { return 1 + world_.state_words(); }
+  [[nodiscard]] std::size_t used_words() const { return 1 + world_.used_words(); }
 
  private:
   std::uint64_t number_of(const std::string& history) {

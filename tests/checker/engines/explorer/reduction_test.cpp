@@ -62,7 +62,7 @@ class FullWorld {
   [[nodiscard]] const Scope& scope() const { return inner_.scope(); }
   [[nodiscard]] const EventRules& rules() const { return inner_.rules(); }
   [[nodiscard]] static bool sorts_slots() { return false; }
-  [[nodiscard]] std::size_t state_words() const { return 1 + inner_.state_words(); }
+  [[nodiscard]] std::size_t used_words() const { return 1 + inner_.used_words(); }
 
  private:
   Remembering inner_;
