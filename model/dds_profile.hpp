@@ -58,8 +58,15 @@ enum class HeartbeatRecipients : std::uint8_t { unacknowledged, matched };
 enum class HeartbeatPolicy : std::uint8_t { periodic, adaptive };
 /// How descriptors share packets: RTPS messages up to a limit, one MTU, or one descriptor a packet.
 enum class Grouping : std::uint8_t { message, mtu, single };
-/// How DATA is charged against the byte threshold of the piggyback HEARTBEAT.
-enum class Piggyback : std::uint8_t { cumulative, linear, off };
+/// How DATA is charged against the byte threshold of the piggyback HEARTBEAT; `group`, which only
+/// `implementation: fastdds` has, counts what the participant has sent, for all its writers.
+enum class Piggyback : std::uint8_t { cumulative, linear, off, group };
+
+/// In which order a participant of `implementation: fastdds` opens what it has with one that it
+/// recognises: its endpoints, or the built-in ones beside them.
+enum class MatchOrder : std::uint8_t { endpoints_first, builtin_first };
+/// From which version of Fast DDS on announcements and descriptors have their sizes.
+enum class SizesSince : std::uint8_t { v2_6, v3_2, v3_6 };
 
 /// What `implementation: cyclone` sends by multicast: all that goes to two readers or more, or only
 /// announcements.
@@ -151,6 +158,20 @@ struct ServerProfile {
   bool operator==(const ServerProfile&) const = default;
 };
 
+/// What later versions of Fast DDS have beside other timers; without it they are those of 2.6.
+struct VersionProfile {
+  MatchOrder match_order = MatchOrder::endpoints_first;
+  /// From a HEARTBEAT of a built-in endpoint beside SEDP to the ACKNACK that answers it (τ_B).
+  Nanoseconds builtin_response_delay{5'000'000};
+  SizesSince sizes = SizesSince::v2_6;
+  Whether type_lookup = Whether::no;       ///< there are endpoints that ask for types, and answer
+  Bytes descriptor_extra_bytes{0};         ///< more in each descriptor: what it says of its type
+  Bytes statistics_bytes{0};               ///< more in each packet: a submessage of the vendor
+  std::uint32_t max_data_per_message = 0;  ///< that a message takes; 0: as many as fit
+
+  bool operator==(const VersionProfile&) const = default;
+};
+
 /// How many descriptors a default ROS 2 node has and how large they are (UDP payload of a packet of
 /// its own).
 struct DescriptorProfile {
@@ -171,6 +192,7 @@ struct DdsProfile {
   AllowMulticast allow_multicast = AllowMulticast::always;  ///< `implementation: cyclone` only
   // `implementation: fastdds` only.
   Discovery discovery = Discovery::simple;
+  VersionProfile version;
   ServerProfile server;
   std::uint32_t peer_ports = 4;               ///< of each host, with static peers
   std::optional<Amendments> amendments = {};  ///< `implementation: paper` only

@@ -27,26 +27,29 @@ PacketSizes sizes_of(Of<fsm::composition::paper::Paper>, const DdsProfile& dds) 
 }
 
 PacketSizes sizes_of(Of<fsm::composition::fastdds::FastDds>, const DdsProfile& dds) {
+  const std::int64_t statistics = dds.version.statistics_bytes.count();
   return {
-      .announcement = fastdds::spdp_bytes,
-      .heartbeat = fastdds::heartbeat_to_one_bytes,
-      .acknack = fastdds::acknack_bytes + fastdds::acknack_bitmap_bytes,
-      .header = fastdds::message_header_bytes,
+      .announcement = fastdds::sizes_of(dds).announcement + statistics,
+      .heartbeat = fastdds::heartbeat_to_one_bytes + statistics,
+      .acknack = fastdds::acknack_bytes + fastdds::acknack_bitmap_bytes + statistics,
+      .header = fastdds::message_header_bytes + statistics,
       .destination = fastdds::destination_bytes,
       .heartbeat_in_data = fastdds::heartbeat_submessage_bytes,
       .descriptor =
-          [](Stream s, std::uint32_t d) {
-            return fastdds::timestamp_bytes + fastdds::submessage_bytes(s, d);
+          [dds](Stream s, std::uint32_t d) {
+            return fastdds::timestamp_bytes + fastdds::submessage_bytes(dds, s, d);
           },
-      .is_full = [limit = dds.sedp.grouping_limit_bytes.count()](
+      // What the statistics module adds does not count.
+      .is_full = [limit = dds.sedp.grouping_limit_bytes.count() + statistics](
                      std::int64_t payload, std::int64_t added) { return payload + added > limit; }};
 }
 
 /// Of what a client sends to the server.
 PacketSizes sizes_of(Of<fsm::composition::server::FastDdsServer>, const DdsProfile& dds) {
   PacketSizes sizes = sizes_of(Of<fsm::composition::fastdds::FastDds>{}, dds);
-  sizes.descriptor = [](Stream s, std::uint32_t d) {
-    return fastdds::timestamp_bytes + fastdds::inline_qos_bytes + fastdds::submessage_bytes(s, d);
+  sizes.descriptor = [dds](Stream s, std::uint32_t d) {
+    return fastdds::timestamp_bytes + fastdds::sizes_of(dds).inline_qos +
+           fastdds::submessage_bytes(dds, s, d);
   };
   return sizes;
 }

@@ -72,6 +72,7 @@ set(thorough
   MutatedRows.*
   RandomCycloneScenario.*
   RandomFastddsScenario.*
+  RandomVersions.*
   Ways/RandomDiscovery.*
   # Mutants of all properties; examples of the help, all verbs in all ways.
   Mutate.*

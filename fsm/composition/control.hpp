@@ -1,5 +1,6 @@
-// Relations of which only HEARTBEATs and ACKNACKs are modelled: liveliness, and user topics. Which
-// of them open when, the host knows, because it knows the topics; see `OpenTopics`.
+// Relations of which only HEARTBEATs and ACKNACKs are modelled: liveliness, what asks for types and
+// answers, and user topics. Which of them open when, the host knows, because it knows the topics;
+// see `OpenTopics`.
 // Source: specs/guide/fastdds.md, "Control-only relations".
 #pragma once
 
@@ -20,8 +21,17 @@ struct ControlReplyDue : TimerAtDestination<owner::control_relation> {};
 struct ControlHeartbeatSeen : Flag<owner::control_relation> {};
 struct ControlLastDelay : Number<owner::control_relation> {};
 
-/// heartbeatResponseDelay of ordinary readers.
-struct ControlReplyDelay : FixedDelay<5'000'000> {};
+/// It is a user topic; otherwise it is built in.
+struct OfTopic : Answer {};
+/// heartbeatResponseDelay of ordinary readers, and τ_B of those that are built in.
+struct TopicReplyDelay : FixedDelay<5'000'000> {};
+struct BuiltinReplyDelay : DelayOf<"builtin_response_delay"> {};
+struct ControlReplyDelay : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return W::D::select(w(OfTopic{}), w(TopicReplyDelay{}), w(BuiltinReplyDelay{}));
+  }
+};
 
 struct UserHeartbeat : Packet<owner::control_relation> {};
 struct UserAckNack : Packet<owner::control_relation, IsInitial> {};
@@ -82,8 +92,8 @@ struct ControlReplyIsDue : Rule<Due<ControlReplyDue>> {
 };
 
 /// After a recognition, a creation or a notification: each side of a control-only relation opens
-/// that now has what it needs. Liveliness needs the recognition; a topic needs that this side has
-/// created its endpoint and has been notified of the other's.
+/// that now has what it needs. What is built in needs the recognition; a topic needs that this side
+/// has created its endpoint and has been notified of the other's.
 struct OpenTopics : Opaque {
   template <class W>
   static void contract(W& w) {

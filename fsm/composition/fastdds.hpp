@@ -89,12 +89,23 @@ struct Implementation {
   }
   template <class W>
   static void open_sides(W& w) {
+    const auto builtin_first = w(OpensBuiltinFirst{});
+    w.when(builtin_first, [&] { w.call(OpenBuiltin{}); });
     w.for_streams([](auto& r) {
       r.raise(ReaderOpens{});
       r.reverse([](auto& back) { back.raise(WriterOpens{}); });
     });
-    w.when(w(CrossHost{}), [&] { w.perform(control::OpenTopics{}); });
+    w.when(!builtin_first, [&] { w.call(OpenBuiltin{}); });
   }
+
+ private:
+  /// What is built in beside the streams.
+  struct OpenBuiltin : Procedure {
+    template <class W>
+    static void body(W& w) {
+      w.when(w(CrossHost{}) || w(LooksUpTypes{}), [&] { w.perform(control::OpenTopics{}); });
+    }
+  };
 };
 
 using Clock = ClockRules<Implementation>;

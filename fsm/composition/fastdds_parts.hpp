@@ -37,6 +37,9 @@ struct Notified : Flag<owner::descriptor> {};  ///< the reader's application kno
 struct NackResponseDelay : DelayOf<"sedp.nack_response_delay"> {};          ///< τ_N
 struct SuppressionDuration : DelayOf<"sedp.nack_suppression_duration"> {};  ///< τ_S
 
+struct LooksUpTypes : SwitchOf<"type_lookup", "true"> {};
+struct OpensBuiltinFirst : SwitchOf<"match_order", "builtin_first"> {};
+
 struct Data : Packet<owner::relation, Carries, Announces, CarriesHeartbeat> {};
 struct Heartbeat : Packet<owner::relation, Announces> {};
 struct AckNack : Packet<owner::relation, Listed, BelowBase, IsInitial> {};

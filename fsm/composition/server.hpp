@@ -196,7 +196,7 @@ struct RegistrationArrives : Rule<Received<Registration>> {
         back.for_streams(
             [](auto& r) { r.when(!r(OfAnnouncements{}), [&] { r.raise(RelayOpens{}); }); });
       });
-      w.when(w(CrossHost{}), [&] { w.perform(OpenLiveliness{}); });
+      w.when(w(CrossHost{}) || w(fastdds::LooksUpTypes{}), [&] { w.perform(OpenBuiltin{}); });
       w.reverse([](auto& back) { back.call(WakeRoutine{}); });
     });
   }

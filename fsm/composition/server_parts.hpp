@@ -105,8 +105,9 @@ struct OpenReaders : Opaque {
   template <class W>
   static void contract(W&) {}
 };
-/// Both sides of liveliness between the server and a client of another host.
-struct OpenLiveliness : Opaque {
+/// Both sides of liveliness between the server and a client of another host, and of what asks for
+/// types and answers.
+struct OpenBuiltin : Opaque {
   template <class W>
   static void contract(W&) {}
 };

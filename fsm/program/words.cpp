@@ -133,6 +133,11 @@ class Printer {
         return joined(term, "/");
       case greater:
         return joined(term, ">");
+      case select: {
+        const Said condition = a();
+        return condition.as(say(term.b).text() + " if " + condition.text() + ", otherwise " +
+                            say(term.c).text());
+      }
       default:
         return prefixed(prefix_of(term.op), a());
     }

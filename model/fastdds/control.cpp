@@ -11,16 +11,17 @@ namespace {
 Stream other(Stream s) { return s == Stream::pub ? Stream::sub : Stream::pub; }
 }  // namespace
 
-ControlRelations::ControlRelations(const RunState& run) {
+ControlRelations::ControlRelations(const RunState& run)
+    : lookups_{looks_up_types(run.scenario.dds) ? std::uint32_t{topic::lookups.size()} : 0} {
   const std::uint32_t participants = run.scenario.deployment.size();
   for (std::uint32_t pair = 0; pair < run.topology.pair_count(); ++pair) {
     first_relation_.push_back(count());
     const Pair& p = run.topology.pair(pair);
-    if (!p.cross_host) continue;
-    std::uint32_t relations = 1;  // a Discovery Server has no topics
-    if (p.source != participants && p.destination != participants) {
-      relations =
-          topic::first_user +
+    std::uint32_t relations = lookups_;
+    if (p.cross_host) relations += 1;  // a Discovery Server has no topics
+    if (p.cross_host && p.source != participants && p.destination != participants) {
+      relations +=
+          topic::first_user - 1 +
           std::min(
               run.topology.descriptor_count(p.source, Stream::pub) - default_publications,
               run.topology.descriptor_count(p.destination, Stream::sub) - default_subscriptions);
@@ -31,8 +32,10 @@ ControlRelations::ControlRelations(const RunState& run) {
 }
 
 std::uint32_t ControlRelations::find(std::uint32_t pair, std::uint32_t t) const {
+  const std::uint32_t first_lookup = first_relation_[pair + 1] - lookups_;
+  if (is_lookup(t)) return lookups_ > 0 ? first_lookup + (t - topic::lookups.front()) : topic::none;
   const std::uint32_t relation = first_relation_[pair] + t;
-  return relation < first_relation_[pair + 1] ? relation : topic::none;
+  return relation < first_lookup ? relation : topic::none;
 }
 
 Packet ControlRelations::packet_of(PacketKind kind, std::uint32_t relation,
@@ -53,10 +56,16 @@ void Protocol::open(ControlSide side) {
     run_rule<comp::Happens<control::ControlReaderOpens>>(*this, side.relation);
 }
 
-/// j has recognised i; `pair` is (i, j): liveliness opens on j's side.
-void Protocol::open_liveliness(std::uint32_t pair) {
-  open({control_.find(pair, topic::liveliness), false});
-  open({control_.find(run_.topology.pair(pair).reverse, topic::liveliness), true});
+/// j has recognised i; `pair` is (i, j): what is built in opens on j's side.
+void Protocol::open_builtin(std::uint32_t pair) {
+  const std::uint32_t back = run_.topology.pair(pair).reverse;
+  if (run_.topology.pair(pair).cross_host) {
+    open({control_.find(pair, topic::liveliness), false});
+    open({control_.find(back, topic::liveliness), true});
+  }
+  if (!looks_up_types(run_.scenario.dds)) return;
+  for (const std::uint32_t t : topic::lookups) open({control_.find(pair, t), false});
+  for (const std::uint32_t t : topic::lookups) open({control_.find(back, t), true});
 }
 
 /// Participant i has created descriptor d of stream s: what it has been notified of is the peer's
@@ -86,14 +95,13 @@ void Protocol::open_notified(std::uint32_t pair, Stream s, std::uint32_t d) {
 }
 
 void Protocol::send_control(PacketKind kind, std::uint32_t relation, bool initial) {
-  if (!counts_at_admission(run_)) ++run_.user_control;
   const bool acknack = kind == PacketKind::user_acknack;
   Packet packet =
       control_.packet_of(kind, relation, acknack ? acknack_bytes : heartbeat_to_one_bytes);
   packet.initial_acknack = initial;
-  packet.port = relation == control_.find(packet.pair, topic::liveliness) ? 0 : 1;
-  const Pair& p = run_.topology.pair(packet.pair);
-  network_.emit(acknack ? p.destination : p.source, std::move(packet));
+  packet.port = control_.is_builtin(relation) ? 0 : 1;
+  if (run_.topology.pair(packet.pair).cross_host && !counts_at_admission(run_)) ++run_.user_control;
+  send(std::move(packet));
 }
 
 }  // namespace stormproof::model::fastdds

@@ -1,11 +1,13 @@
 // Relations of which only HEARTBEATs and ACKNACKs are modelled: liveliness between any two
-// participants, and the user endpoints that match once both sides have been discovered. In a storm
+// participants, what asks for types and answers, and the user endpoints that match once both sides
+// have been discovered. In a storm
 // of Fast DDS this traffic takes a good part of the channel, so it must be there; it is counted
 // apart from the six classes. Here is what its rules (fsm/composition/control.hpp) are about, and
 // which relations there are.
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "fsm/composition/control.hpp"
@@ -26,15 +28,26 @@ class ControlRelations {
   explicit ControlRelations(const RunState& run);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(pairs_.size()); }
+  /// Those of a pair: from the first one until before the second.
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> of(std::uint32_t pair) const {
+    return {first_relation_[pair], first_relation_[pair + 1]};
+  }
   /// Writer at the pair's source, reader at its destination.
   [[nodiscard]] std::uint32_t pair_of(std::uint32_t relation) const { return pairs_[relation]; }
   /// The relation of a pair on a topic, if the source publishes it and the destination subscribes
   /// to it; otherwise `topic::none`.
   [[nodiscard]] std::uint32_t find(std::uint32_t pair, std::uint32_t topic) const;
+  /// It is no user topic.
+  [[nodiscard]] bool is_builtin(std::uint32_t relation) const {
+    const std::uint32_t pair = pairs_[relation];
+    return relation == find(pair, topic::liveliness) ||
+           relation >= first_relation_[pair + 1] - lookups_;
+  }
   /// A HEARTBEAT or ACKNACK of a relation.
   [[nodiscard]] Packet packet_of(PacketKind kind, std::uint32_t relation, std::int64_t bytes) const;
 
  private:
+  std::uint32_t lookups_;                      // of each pair, its last ones
   std::vector<std::uint32_t> first_relation_;  // by pair
   std::vector<std::uint32_t> pairs_;           // by relation
 };

@@ -1,21 +1,66 @@
-// The tables of the default node.
+// The tables of the default node, by version.
 #include "model/fastdds/endpoints.hpp"
+
+#include <algorithm>
 
 namespace stormproof::model::fastdds {
 
 namespace {
 
-constexpr std::array<std::int64_t, default_publications> publication_bytes{412, 384, 428, 436, 428,
-                                                                           452, 436, 428, 404};
-constexpr std::array<std::int64_t, default_subscriptions> subscription_bytes{412, 432, 440, 432,
-                                                                             448, 440, 432, 404};
-constexpr std::int64_t user_bytes = 392;
+constexpr VersionSizes since_2_6{
+    .announcement = 252,
+    .publications = {412, 384, 428, 436, 428, 452, 436, 428, 404},
+    .subscriptions = {412, 432, 440, 432, 448, 440, 432, 404},
+    .user_publication = 392,
+    .user_subscription = 392,
+    .registration = 324,
+    .passed_on = 324,
+    .of_server = 396,
+    .inline_qos = 32,
+};
+/// QoS that equal the default are left out.
+constexpr VersionSizes since_3_2{
+    .announcement = 484,
+    .publications = {248, 244, 276, 284, 276, 300, 284, 276, 252},
+    .subscriptions = {276, 296, 304, 296, 312, 304, 296, 268},
+    .user_publication = 240,
+    .user_subscription = 256,
+    .registration = 568,
+    .passed_on = 584,
+    .of_server = 656,
+    .inline_qos = 60,
+};
+constexpr VersionSizes since_3_6 = [] {
+  VersionSizes sizes = since_3_2;
+  sizes.registration = 572;
+  sizes.passed_on = 588;
+  sizes.of_server = 652;
+  return sizes;
+}();
+
+/// In the order of SizesSince.
+constexpr std::array by_version{since_2_6, since_3_2, since_3_6};
 
 }  // namespace
 
-std::int64_t submessage_bytes(Stream s, std::uint32_t d) {
-  if (s == Stream::pub) return d < default_publications ? publication_bytes[d] : user_bytes;
-  return d < default_subscriptions ? subscription_bytes[d] : user_bytes;
+const VersionSizes& sizes_of(const DdsProfile& dds) {
+  return by_version[static_cast<std::size_t>(dds.version.sizes)];
+}
+
+std::int64_t submessage_bytes(const DdsProfile& dds, Stream s, std::uint32_t d) {
+  const VersionSizes& sizes = sizes_of(dds);
+  const std::int64_t extra = dds.version.descriptor_extra_bytes.count();
+  if (s == Stream::pub) {
+    return extra + (d < default_publications ? sizes.publications[d] : sizes.user_publication);
+  }
+  return extra + (d < default_subscriptions ? sizes.subscriptions[d] : sizes.user_subscription);
+}
+
+std::int64_t largest_submessage_bytes(const DdsProfile& dds) {
+  const VersionSizes& sizes = sizes_of(dds);
+  return dds.version.descriptor_extra_bytes.count() +
+         std::max({std::ranges::max(sizes.publications), std::ranges::max(sizes.subscriptions),
+                   sizes.user_publication, sizes.user_subscription});
 }
 
 std::uint32_t topic_of(Stream s, std::uint32_t d) {

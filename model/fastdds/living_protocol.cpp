@@ -54,12 +54,13 @@ void LivingProtocol::open_before(std::uint32_t i, std::uint32_t j) {
 /// i's sides of the control-only relations of both directions are open, and it has heard of the
 /// other's writers.
 void LivingProtocol::open_topics_before(std::uint32_t there, std::uint32_t back) {
-  for (std::uint32_t t = 0; control_.find(there, t) != topic::none; ++t) {
-    at<control::ControlWriterSide>(control_.find(there, t)) =
+  const auto [first_there, end_there] = control_.of(there);
+  for (std::uint32_t relation = first_there; relation < end_there; ++relation) {
+    at<control::ControlWriterSide>(relation) =
         fsm::Reflect<fsm::ControlWriter>::id<fsm::control_relation::Open>;
   }
-  for (std::uint32_t t = 0; control_.find(back, t) != topic::none; ++t) {
-    const std::uint32_t relation = control_.find(back, t);
+  const auto [first_back, end_back] = control_.of(back);
+  for (std::uint32_t relation = first_back; relation < end_back; ++relation) {
     at<control::ControlReaderSide>(relation) =
         fsm::Reflect<fsm::ControlReader>::id<fsm::control_relation::Open>;
     at<control::ControlHeartbeatSeen>(relation) = true;
@@ -87,13 +88,12 @@ void LivingProtocol::hear_from(std::uint32_t pair) {
 }
 
 void LivingProtocol::forget_topics(std::uint32_t there) {
-  for (std::uint32_t t = 0; control_.find(there, t) != topic::none; ++t) {
-    at<control::ControlWriterSide>(control_.find(there, t)) =
-        fsm::Stepper<fsm::ControlWriter>::initial;
+  const auto [first_there, end_there] = control_.of(there);
+  for (std::uint32_t relation = first_there; relation < end_there; ++relation) {
+    at<control::ControlWriterSide>(relation) = fsm::Stepper<fsm::ControlWriter>::initial;
   }
-  const std::uint32_t back = topology().pair(there).reverse;
-  for (std::uint32_t t = 0; control_.find(back, t) != topic::none; ++t) {
-    const std::uint32_t relation = control_.find(back, t);
+  const auto [first_back, end_back] = control_.of(topology().pair(there).reverse);
+  for (std::uint32_t relation = first_back; relation < end_back; ++relation) {
     at<control::ControlReaderSide>(relation) = fsm::Stepper<fsm::ControlReader>::initial;
     at<control::ControlInitialTimer>(relation) = fsm::Stepper<fsm::InitialAckNack>::initial;
     at<control::ControlReply>(relation) = fsm::Stepper<fsm::SingleShot>::initial;

@@ -18,7 +18,7 @@ struct Message {
   std::vector<std::uint32_t> readers;  ///< relations, in match order
   std::int64_t bytes = 0;              ///< UDP payload so far
   std::vector<std::uint64_t> descriptors;
-  bool has_data = false;
+  std::uint32_t data = 0;  ///< how many DATA
   std::uint16_t heartbeats = 0;
   std::uint32_t announced = 0;  ///< by its last HEARTBEAT
   // By reader: how many descriptors go to it for the first time, and how many again; of those of
@@ -33,7 +33,7 @@ struct Message {
     readers = readers_;
     bytes = message_header_bytes + (readers.size() == 1 ? destination_bytes : 0);
     descriptors.assign(words_for(descriptor_count), 0);
-    has_data = false;
+    data = 0;
     heartbeats = 0;
     announced = 0;
     initial_data.assign(readers.size(), 0);
@@ -46,7 +46,7 @@ struct Message {
   void add(std::uint32_t d, std::int64_t added_bytes) {
     descriptors[d / 64] |= std::uint64_t{1} << d % 64;
     bytes += added_bytes;
-    has_data = true;
+    ++data;
   }
 };
 

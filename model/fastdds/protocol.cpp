@@ -11,10 +11,11 @@ namespace stormproof::model::fastdds {
 
 Protocol::Protocol(RunState& run, Network& network)
     : Stored{run, network},
+      sizes_{sizes_of(run.scenario.dds)},
+      statistics_bytes_{run.scenario.dds.version.statistics_bytes.count()},
       control_{run},
       participants_(run.topology.participant_count()),
       writers_(2 * std::size_t{run.topology.participant_count()}),
-      inline_qos_bytes_{traits_of(run.scenario.dds).has_server ? inline_qos_bytes : 0},
       sends_records_{network.takes_records() && !run.scenario.deployment.life},
       generated_{counts_at_admission(run) ? of_no_interest_ : run.counts} {
   for (std::uint32_t w = 0; w < writers_.size(); ++w) refill(w);
@@ -141,9 +142,9 @@ void Protocol::send_spdp_to_ports(std::uint32_t i) {
       } else if (host != own) {
         ++generated_.spdp_unicast;
         const std::uint32_t somebody_there = run_.topology.pair_between(i, there.front());
-        Packet packet = packet_of(PacketKind::spdp_unicast, somebody_there, spdp_bytes);
+        Packet packet = packet_of(PacketKind::spdp_unicast, somebody_there, sizes_.announcement);
         packet.to_nobody = true;
-        network_.emit(i, std::move(packet));
+        send_across(i, std::move(packet));
       }
     }
   }
@@ -156,14 +157,14 @@ void Protocol::send_spdp_multicast(std::uint32_t i) {
        ++pair) {
     const Pair& p = run_.topology.pair(pair);
     if (p.cross_host) continue;
-    network_.loop_back(packet_of(PacketKind::spdp_multicast, i, spdp_bytes), p.destination);
+    send_on_host(packet_of(PacketKind::spdp_multicast, i, sizes_.announcement), p.destination);
   }
-  network_.emit(i, packet_of(PacketKind::spdp_multicast, i, spdp_bytes));
+  send_across(i, packet_of(PacketKind::spdp_multicast, i, sizes_.announcement));
 }
 
 void Protocol::send_spdp_copy(std::uint32_t pair) {
   if (run_.topology.pair(pair).cross_host) ++generated_.spdp_unicast;
-  send(packet_of(PacketKind::spdp_unicast, pair, spdp_bytes));
+  send(packet_of(PacketKind::spdp_unicast, pair, sizes_.announcement));
 }
 
 void Protocol::send_heartbeat(std::uint32_t relation, std::uint32_t announced, std::int64_t bytes) {
@@ -193,13 +194,13 @@ void Protocol::send_to_readers(PacketNumbers heartbeat, const std::vector<std::u
     const Pair& to = ends(relation);
     heartbeat.pair = relation / 2;
     if (!to.cross_host) {
-      network_.loop_back(heartbeat, to.destination);
+      send_on_host(heartbeat, to.destination);
     } else if (!is_recorded) {
       Packet packet;
       packet.become(heartbeat);
       if (sends_records_) packet.copies = count_crossing(readers);
       is_recorded = sends_records_;
-      network_.emit(to.source, std::move(packet));
+      send_across(to.source, std::move(packet));
     }
   }
 }
@@ -231,9 +232,9 @@ void Protocol::send(Packet&& packet) {
   const std::uint32_t from = packet.to_writer() ? p.destination : p.source;
   const std::uint32_t to = packet.to_writer() ? p.source : p.destination;
   if (p.cross_host)
-    network_.emit(from, std::move(packet));
+    send_across(from, std::move(packet));
   else
-    network_.loop_back(std::move(packet), to);
+    send_on_host(std::move(packet), to);
 }
 
 std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {

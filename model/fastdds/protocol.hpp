@@ -83,6 +83,10 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] bool answer(rules::CrossHost, const World& w) const {
     return run_.topology.pair(w.template number<comp::owner::pair>()).cross_host;
   }
+  template <class World>
+  [[nodiscard]] bool answer(control::OfTopic, const World& w) const {
+    return !control_.is_builtin(w.template number<comp::owner::control_relation>());
+  }
   /// The relation's reader has these now. Another way to discover does it in its own way.
   virtual void take_descriptors(std::uint32_t relation, const DescriptorSet& received) {
     take(planes(), relation, received, ends(relation).cross_host);
@@ -178,21 +182,15 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
     pack(async_message_, w.template number<comp::owner::writer>(), w.descriptor(), targets_,
          SendMode::async);
   }
-  template <class World>
-  void perform(rules::Charge, World& w, rules::ToAll) {
-    charge(sync_message_, w.descriptor(), SendMode::sync);
+  template <class World, class To>
+  void perform(rules::Charge, World& w, To) {
+    constexpr SendMode mode = To::repairs ? SendMode::async : SendMode::sync;
+    charge(message(mode), w.descriptor(), mode);
   }
-  template <class World>
-  void perform(rules::Charge, World& w, rules::ToRequesters) {
-    charge(async_message_, w.descriptor(), SendMode::async);
-  }
-  template <class World>
-  void perform(rules::Flush, World&, rules::ToAll) {
-    flush(sync_message_, SendMode::sync);
-  }
-  template <class World>
-  void perform(rules::Flush, World&, rules::ToRequesters) {
-    flush(async_message_, SendMode::async);
+  template <class World, class To>
+  void perform(rules::Flush, World&, To) {
+    constexpr SendMode mode = To::repairs ? SendMode::async : SendMode::sync;
+    flush(message(mode), mode);
   }
   /// After a recognition, a notification or a creation, as the world's place says.
   template <class World>
@@ -200,7 +198,7 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
     constexpr Owner place = World::place;
     const std::uint32_t d = w.descriptor();
     if constexpr (place == comp::owner::pair) {
-      open_liveliness(w.template number<comp::owner::pair>());
+      open_builtin(w.template number<comp::owner::pair>());
     } else if constexpr (place == comp::owner::descriptor) {
       const std::uint32_t relation = w.template number<comp::owner::relation>();
       open_notified(relation / 2, stream_of(relation), d);
@@ -224,11 +222,23 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
     return d < first<rules::Notified>(static_cast<std::uint32_t>(2 * pair + index_of(s)));
   }
   [[nodiscard]] std::int64_t bytes_of(Stream s, std::uint32_t d) const {
-    return inline_qos_bytes_ + submessage_bytes(s, d);
+    const DdsProfile& dds = run_.scenario.dds;
+    return (traits_of(dds).has_server ? sizes_.inline_qos : 0) + submessage_bytes(dds, s, d);
+  }
+  // Every packet has what the statistics module adds.
+  void send_across(std::uint32_t from, Packet&& packet) {
+    packet.payload_bytes += static_cast<std::uint32_t>(statistics_bytes_);
+    network_.emit(from, std::move(packet));
+  }
+  template <class P>
+  void send_on_host(P&& packet, std::uint32_t to) {
+    std::remove_cvref_t<P> carried{std::forward<P>(packet)};
+    carried.payload_bytes += static_cast<std::uint32_t>(statistics_bytes_);
+    network_.loop_back(std::move(carried), to);
   }
   /// Sends a unicast packet by the channel, or by loopback if both ends are on one host.
   void send(Packet&& packet);
-  void open_liveliness(std::uint32_t pair);
+  void open_builtin(std::uint32_t pair);
   void open_notified(std::uint32_t pair, Stream s, std::uint32_t d);
 
   void refill(std::uint32_t writer) override;
@@ -244,14 +254,20 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
 
   struct Writer {
     std::int64_t budget = 0;             ///< piggyback budget, bytes
+    std::uint64_t group_number = 0;      ///< of the participant when it last sent a HEARTBEAT
     std::vector<std::uint32_t> readers;  ///< M: relations in match order
   };
   struct Participant {
     std::deque<Endpoint> queue;   ///< what the async run will send
     std::int64_t sent_bytes = 0;  ///< all bytes that the async sender has ever sent
+    // With `piggyback: group`: how often what it sent has exceeded the threshold, and since then.
+    std::uint64_t group_number = 0;
+    std::int64_t group_bytes = 0;
     Message unfinished;           ///< that of an async run which stalls, if it is open
     std::uint32_t endpoints = 0;  ///< created so far, of a participant that may stall
   };
+  const VersionSizes& sizes_;
+  const std::int64_t statistics_bytes_;
   ControlRelations control_;
   std::vector<Participant> participants_;
   std::vector<Writer> writers_;  // 2 · participant + stream
@@ -281,9 +297,14 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
 
   // sender.cpp
   enum class SendMode : std::uint8_t { sync, async };
+  [[nodiscard]] Message& message(SendMode mode) {
+    return mode == SendMode::sync ? sync_message_ : async_message_;
+  }
   void pack(Message& message, std::uint32_t writer, std::uint32_t d,
             const std::vector<std::uint32_t>& readers, SendMode mode);
   void charge(Message& message, std::uint32_t d, SendMode mode);
+  [[nodiscard]] bool is_used_up(const Message& message, std::uint32_t d, SendMode mode);
+  void count_sent(std::uint32_t i, std::int64_t bytes);
   void piggyback(Message& message, std::uint32_t writer, SendMode mode);
   void flush(Message& message, SendMode mode);
   void suspend(std::uint32_t i);
@@ -303,7 +324,6 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
         std::ranges::count_if(relations, [this](std::uint32_t r) { return crosses(r); }));
   }
 
-  const std::int64_t inline_qos_bytes_;
   const bool sends_records_;  // of HEARTBEATs to all readers of a writer
   Message sync_message_;
   Message async_message_;

@@ -3,6 +3,8 @@
 // descriptors of one writer to the same readers share a message. Each DATA is charged against its
 // writer's piggyback budget; in the asynchronous path with all bytes that the participant has ever
 // sent there, which is what turns repairs into HEARTBEATs to every matched reader.
+#include <utility>
+
 #include "model/fastdds/protocol.hpp"
 
 namespace stormproof::model::fastdds {
@@ -31,21 +33,46 @@ void Protocol::pack(Message& message, std::uint32_t w, std::uint32_t d,
   }
 }
 
-/// Charges the descriptor just added against the piggyback budget of its writer.
+/// Sends a message that takes no more, and charges the descriptor just added against the piggyback
+/// budget of its writer.
 void Protocol::charge(Message& message, std::uint32_t d, SendMode mode) {
-  if (sedp_.piggyback == Piggyback::off) return;
+  const std::uint32_t most = run_.scenario.dds.version.max_data_per_message;
+  if (most > 0 && message.data >= most) flush(message, mode);
+  if (sedp_.piggyback != Piggyback::off && is_used_up(message, d, mode)) {
+    piggyback(message, message.writer, mode);
+  }
+}
+
+/// The budget of the message's writer, after a charge; or its participant has begun another group
+/// since this writer's last HEARTBEAT.
+bool Protocol::is_used_up(const Message& message, std::uint32_t d, SendMode mode) {
   const std::uint32_t w = message.writer;
+  const Participant& participant = participants_[w / 2];
+  Writer& writer = writers_[w];
+  if (sedp_.piggyback == Piggyback::group) {
+    const std::uint64_t now = mode == SendMode::async ? participant.group_number : 0;
+    return std::exchange(writer.group_number, now) != now;
+  }
   const bool cumulative = sedp_.piggyback == Piggyback::cumulative && mode == SendMode::async;
-  writers_[w].budget -= cumulative
-                            ? participants_[w / 2].sent_bytes + message.bytes
-                            : message_header_bytes + timestamp_bytes + bytes_of(stream_of(w), d);
-  if (writers_[w].budget < 0) piggyback(message, w, mode);
+  writer.budget -= cumulative ? participant.sent_bytes + (message.open ? message.bytes : 0)
+                              : message_header_bytes + timestamp_bytes + bytes_of(stream_of(w), d);
+  return writer.budget < 0;
+}
+
+/// What an asynchronous run of participant i has sent.
+void Protocol::count_sent(std::uint32_t i, std::int64_t bytes) {
+  Participant& participant = participants_[i];
+  participant.sent_bytes += bytes;
+  participant.group_bytes += bytes;
+  if (participant.group_bytes <= sedp_.piggyback_threshold_bytes.count()) return;
+  participant.group_bytes -= sedp_.piggyback_threshold_bytes.count();
+  ++participant.group_number;
 }
 
 /// A HEARTBEAT to every matched reader, in the message if that goes to all of them.
 void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
   Writer& writer = writers_[w];
-  if (message.readers != writer.readers) {
+  if (!message.open || message.readers != writer.readers) {
     flush(message, mode);
     message.start(w, writer.readers, run_.topology.descriptor_count(w / 2, stream_of(w)));
   }
@@ -60,8 +87,8 @@ void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
 void Protocol::flush(Message& message, SendMode mode) {
   if (!message.open) return;
   message.open = false;
-  if (mode == SendMode::async) participants_[message.writer / 2].sent_bytes += message.bytes;
-  if (!message.has_data) {
+  if (mode == SendMode::async) count_sent(message.writer / 2, message.bytes + statistics_bytes_);
+  if (message.data == 0) {
     PacketNumbers heartbeat;
     heartbeat.stream = stream_of(message.writer);
     heartbeat.payload_bytes = static_cast<std::uint32_t>(message.bytes);

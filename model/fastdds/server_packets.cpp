@@ -9,11 +9,8 @@ namespace stormproof::model::fastdds {
 
 namespace {
 
-constexpr std::int64_t registration_bytes = 324;
 constexpr std::int64_t numbers_in_word = 32;
 constexpr std::int64_t word_bytes = 4;
-constexpr std::int64_t own_announcement_bytes = 428;
-constexpr std::int64_t announcement_bytes = 356;
 constexpr std::int64_t gap_bytes = 72;
 constexpr std::int64_t gap_with_heartbeat_bytes = 100;
 
@@ -24,7 +21,7 @@ void ServerProtocol::send_registration(PacketKind kind, Number pair, bool initia
   std::int64_t bytes = acknack_bytes;
   std::uint64_t* count = &generated().pdp_acknack;
   if (kind == PacketKind::registration) {
-    bytes = registration_bytes;
+    bytes = sizes_.registration;
     count = &generated().pdp_data;
   } else if (kind == PacketKind::registration_heartbeat) {
     bytes = heartbeat_to_one_bytes;
@@ -86,7 +83,8 @@ void ServerProtocol::send_relayed(Number relation, Relayed relayed) {
     weigh(relayed.has_heartbeat ? gap_with_heartbeat_bytes : gap_bytes);
   } else if (relayed.has_data && relayed.is_announcement) {
     if (cross_host) ++counts.pdp_data;
-    weigh(relayed.participant == server_id() ? own_announcement_bytes : announcement_bytes);
+    const std::int64_t ride = relayed.has_heartbeat ? heartbeat_submessage_bytes : 0;
+    weigh(ride + (relayed.participant == server_id() ? sizes_.of_server : sizes_.passed_on));
   } else if (relayed.has_data) {
     const bool initial = is_first_for(client_of(pair), relayed);
     if (cross_host) ++(initial ? counts.initial_data : counts.repair_data);

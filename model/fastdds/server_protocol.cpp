@@ -137,7 +137,7 @@ void ServerProtocol::learn(Number client, const Relayed& relayed) {
   if (relayed.is_announcement) {
     if (value(comp::Recognised{}, pair)) return;
     assign(comp::Recognised{}, pair, true);
-    if (p.cross_host) open_liveliness(pair);
+    open_builtin(pair);
     return;
   }
   const Number d = relayed.descriptor;

@@ -58,7 +58,7 @@ class ServerProtocol final : public Stored<ServerProtocol, Protocol, ServerThing
   void runs_for_clients(Number relation) {
     run_rule<comp::Happens<Occasion>>(static_cast<Protocol&>(*this), relation);
   }
-  using Protocol::open_liveliness;
+  using Protocol::open_builtin;
   void learn(Number client, const Relayed& relayed);
 
   // Packets.

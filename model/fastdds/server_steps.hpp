@@ -4,7 +4,7 @@
 // the audit of its runs; both include server_relays.hpp, which has the bodies. `Host` says
 //   happens<Occasion>(n)   the rule of the occasion runs, for owner n
 //   learn(client, relayed) a client learns what it has been sent
-//   runs_for_clients<Occasion>(relation), open_liveliness(pair)   the rules of any participant
+//   runs_for_clients<Occasion>(relation), open_builtin(pair)   the rules of any participant
 #pragma once
 
 #include <array>
@@ -127,8 +127,8 @@ class ServerSteps {
     host().template runs_for_clients<fsm::composition::fastdds::WriterOpens>(2 * pair + s);
   }
   template <class World>
-  void perform(server::OpenLiveliness, World& w) {
-    host().open_liveliness(w.template number<comp::owner::pair>());
+  void perform(server::OpenBuiltin, World& w) {
+    host().open_builtin(w.template number<comp::owner::pair>());
   }
   template <class World>
   void perform(server::ListRelevant, World& w);

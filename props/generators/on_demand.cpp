@@ -118,6 +118,19 @@ void draw_discovery(std::uint64_t seed, Discovery discovery, Scenario& scenario)
   scenario.deployment.send_cost = Nanoseconds{pick(8, {50, 0, 400}) * 1'000};
 }
 
+void draw_version(Dice& dice, DdsProfile& dds) {
+  constexpr std::int64_t ms = 1'000'000;
+  VersionProfile& version = dds.version;
+  version.match_order = dice.choice<MatchOrder>(2);
+  version.builtin_response_delay = Nanoseconds{dice.among({5, 11, 0, 1}) * ms};
+  version.type_lookup = dice.chance(70) ? Whether::yes : Whether::no;
+  version.sizes = dice.choice<SizesSince>(3);
+  version.descriptor_extra_bytes = Bytes{dice.among({0, 92, 188, dice.between(1, 2'000)})};
+  version.statistics_bytes = Bytes{dice.among({0, 60, 60, 1'000})};
+  version.max_data_per_message = dice.pick<std::uint32_t>({0, 31, 1, 2, dice.count(1, 12)});
+  if (dice.chance(60)) dds.sedp.piggyback = Piggyback::group;
+}
+
 namespace {
 void draw_rules(Dice& dice, Amendments& rules) {
   const auto whether = [&] { return dice.choice<Whether>(2); };

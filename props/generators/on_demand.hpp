@@ -25,6 +25,9 @@ void draw_processor(Dice& dice, model::Scenario& scenario);
 /// Another way to discover, with odd knobs of it, as a function of the seed.
 void draw_discovery(std::uint64_t seed, model::Discovery discovery, model::Scenario& scenario);
 
+/// What later versions of Fast DDS have.
+void draw_version(Dice& dice, model::DdsProfile& dds);
+
 /// Amended rules of the paper's model, whose profile the scenario must have: most are left as they
 /// are. And a life.
 void draw_amendments(Dice& dice, model::Scenario& scenario);

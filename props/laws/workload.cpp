@@ -115,17 +115,19 @@ model::PacketSizes weights(model::Of<comp::paper::Paper>, const model::DdsProfil
                         std::int64_t added) { return packet_is_full(dds.sedp, payload, added); }};
 }
 model::PacketSizes weights(model::Of<comp::fastdds::FastDds>, const model::DdsProfile& dds) {
-  return {.announcement = 252,
-          .heartbeat = 68,
-          .acknack = 68,
-          .header = 36,
+  const std::int64_t statistics = dds.version.statistics_bytes.count();
+  return {.announcement = model::fastdds::sizes_of(dds).announcement + statistics,
+          .heartbeat = 68 + statistics,
+          .acknack = 68 + statistics,
+          .header = 36 + statistics,
           .descriptor =
-              [](Stream stream, std::uint32_t d) {
-                return 12 + model::fastdds::submessage_bytes(stream, d);
+              [&dds](Stream stream, std::uint32_t d) {
+                return 12 + model::fastdds::submessage_bytes(dds, stream, d);
               },
           .is_full =
               [&dds](std::int64_t payload, std::int64_t added) {
-                return payload + added > dds.sedp.grouping_limit_bytes.count();
+                return payload - dds.version.statistics_bytes.count() + added >
+                       dds.sedp.grouping_limit_bytes.count();
               }};
 }
 

@@ -72,6 +72,11 @@ class AuditedSteps : public AuditedPackets<Self, Base, Of> {
 
   // Topics.
   [[nodiscard]] Number pair_of_control(Number topic) const { return topics_->pair_of(topic); }
+  using Packets::answer;
+  template <class W>
+  [[nodiscard]] bool answer(control::OfTopic, const W& w) const {
+    return !topics_->is_liveliness(w.template number<comp::owner::control_relation>());
+  }
   /// Between the participant and one peer, or any.
   template <class W>
   void perform(control::OpenTopics, W& w) {

@@ -138,7 +138,7 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
     model::RunningWorld<Clients, Occasion::owner> w{*this, relation};
     w.raise(Occasion{});
   }
-  void open_liveliness(Number pair) { Clients::open_sides(pair); }
+  void open_builtin(Number pair) { Clients::open_sides(pair); }
   /// The first time. Discovery needs what is on a topic of which the client has the other side.
   void learn(Number client, const model::Relayed& relayed) {
     if (relayed.participant == client) return;

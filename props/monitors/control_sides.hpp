@@ -41,6 +41,10 @@ class ControlSides {
     return static_cast<std::uint32_t>(after - first_.begin()) - 1;
   }
 
+  [[nodiscard]] bool is_liveliness(std::uint32_t number) const {
+    return number - first_[pair_of(number)] == model::fastdds::topic::liveliness;
+  }
+
   /// What a side at participant i needs. `pair` leads from the other end to i.
   struct Needs {
     std::uint32_t pair = 0;

@@ -6,7 +6,11 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-constexpr model::Nanoseconds reply_delay{5'000'000};
+model::Nanoseconds reply_delay(const World& w, int topic) {
+  if (is_builtin(topic) && !w.makes(Mistake::builtin_replies_like_user))
+    return w.scenario.dds.version.builtin_response_delay;
+  return model::Nanoseconds{5'000'000};
+}
 
 Control& control(World& w, Id i, Id j, int topic) { return w.controls[{i, j, topic}]; }
 
@@ -22,10 +26,10 @@ void send(World& w, PacketKind kind, Id from, Id to, int topic, bool initial) {
   packet.source = from;
   packet.destination = to;
   packet.topic = topic;
-  packet.port = topic == liveliness ? 0 : 1;
+  packet.port = is_builtin(topic) ? 0 : 1;
   packet.initial = initial;
   packet.payload = kind == PacketKind::control_heartbeat ? heartbeat_payload : acknack_payload;
-  ++w.outcome.user_control;
+  if (cross_host(w, from, to) || w.makes(Mistake::lookups_on_host_count)) ++w.outcome.user_control;
   emit(w, packet);
 }
 
@@ -42,6 +46,27 @@ bool is_notified(World& w, Id i, Id j, int s, int topic) {
   return descriptor_of(s, topic) < relation(w, i, j, s).notified;
 }
 
+void open_liveliness(World& w, Id i, Id j) {
+  if (!cross_host(w, i, j)) return;
+  open_control_reader(w, i, j, liveliness);
+  open_control_writer(w, j, i, liveliness);
+}
+
+void open_lookups(World& w, Id i, Id j) {
+  if (w.scenario.dds.version.type_lookup == model::Whether::no) return;
+  if (!cross_host(w, i, j) && w.makes(Mistake::no_lookups_on_host)) return;
+  const bool writers_first = w.makes(Mistake::lookup_writers_first);
+  for (const bool of_writers : {writers_first, !writers_first}) {
+    for (const int topic : {questions, answers}) {
+      if (of_writers) {
+        open_control_writer(w, j, i, topic);
+      } else {
+        open_control_reader(w, i, j, topic);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void open_control_writer(World& w, Id i, Id j, int topic) {
@@ -56,6 +81,13 @@ void open_control_reader(World& w, Id i, Id j, int topic) {
   Event event = control_event(EventKind::control_initial, j, i, topic);
   event.number = delay.count();
   schedule_after(w, delay, event);
+}
+
+// What j has with i beside the streams, once it knows i.
+void open_builtin(World& w, Id i, Id j) {
+  if (!w.makes(Mistake::lookups_before_liveliness)) open_liveliness(w, i, j);
+  open_lookups(w, i, j);
+  if (w.makes(Mistake::lookups_before_liveliness)) open_liveliness(w, i, j);
 }
 
 void created(World& w, Id i, int s, Id d) {
@@ -90,7 +122,8 @@ void receive_control_heartbeat(World& w, const Packet& packet) {
   c.heartbeat_seen = true;
   if (c.reply_pending && !w.makes(Mistake::control_reply_doubled)) return;
   c.reply_pending = true;
-  schedule_after(w, reply_delay, control_event(EventKind::control_reply, j, i, packet.topic));
+  schedule_after(w, reply_delay(w, packet.topic),
+                 control_event(EventKind::control_reply, j, i, packet.topic));
 }
 
 void receive_control_acknack(World& w, const Packet& packet) {

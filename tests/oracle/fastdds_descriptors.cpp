@@ -1,5 +1,7 @@
 // The descriptors of a ROS 2 participant: how many, in which order they are created, how large they
 // are, and to which topic they belong. Constants of the rules, whatever the profile says.
+#include <algorithm>
+
 #include "tests/oracle/fastdds_world.hpp"
 
 namespace stormproof::oracle::fastdds {
@@ -8,12 +10,13 @@ namespace {
 
 constexpr Id default_publications = 9;
 constexpr Id default_subscriptions = 8;
-constexpr std::int64_t user_bytes = 392;
 
-const std::vector<std::int64_t>& default_bytes(int s) {
-  static const std::vector<std::int64_t> publications{412, 384, 428, 436, 428, 452, 436, 428, 404};
-  static const std::vector<std::int64_t> subscriptions{412, 432, 440, 432, 448, 440, 432, 404};
-  return s == pub ? publications : subscriptions;
+// Those of the default node, then of user endpoints.
+std::vector<std::int64_t> descriptor_bytes(bool of_3, int s) {
+  if (of_3 && s == pub) return {248, 244, 276, 284, 276, 300, 284, 276, 252, 240};
+  if (of_3) return {276, 296, 304, 296, 312, 304, 296, 268, 256};
+  if (s == pub) return {412, 384, 428, 436, 428, 452, 436, 428, 404, 392};
+  return {412, 432, 440, 432, 448, 440, 432, 404, 392};
 }
 
 }  // namespace
@@ -40,8 +43,11 @@ std::vector<std::pair<int, Id>> creation_order(const model::Scenario& scenario, 
 }
 
 std::int64_t submessage_bytes(const World& w, int s, Id d) {
-  const std::int64_t inline_qos = w.server ? 32 : 0;
-  return inline_qos + (d < default_bytes(s).size() ? default_bytes(s).at(d) : user_bytes);
+  const std::vector<std::int64_t> bytes = descriptor_bytes(has_sizes_of_3(w), s);
+  std::int64_t inline_qos = 0;
+  if (w.server) inline_qos = has_sizes_of_3(w) ? 60 : 32;
+  return inline_qos + w.scenario.dds.version.descriptor_extra_bytes.count() +
+         bytes.at(std::min<std::size_t>(d, bytes.size() - 1));
 }
 
 // 0: ros_discovery_info, 1: parameter_events, 2 + k: user topic k.

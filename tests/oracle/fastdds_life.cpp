@@ -98,11 +98,7 @@ void open_before(World& w, Id i, Id j) {
     }
   }
   for (const auto& [from, to] : {std::pair{i, j}, std::pair{j, i}}) {
-    for (int topic = liveliness;; ++topic) {
-      const bool exists = topic == liveliness ||
-                          (descriptor_of(pub, topic) < descriptor_count(w.scenario, from, pub) &&
-                           descriptor_of(sub, topic) < descriptor_count(w.scenario, to, sub));
-      if (!exists) break;
+    const auto open = [&w, i, from = from, to = to](int topic) {
       Control& control = w.controls[{from, to, topic}];
       if (from == i) {
         control.writer_open = true;
@@ -110,7 +106,16 @@ void open_before(World& w, Id i, Id j) {
         control.reader_open = true;
         control.heartbeat_seen = true;
       }
+    };
+    for (int topic = liveliness;; ++topic) {
+      const bool exists = topic == liveliness ||
+                          (descriptor_of(pub, topic) < descriptor_count(w.scenario, from, pub) &&
+                           descriptor_of(sub, topic) < descriptor_count(w.scenario, to, sub));
+      if (!exists) break;
+      open(topic);
     }
+    if (w.scenario.dds.version.type_lookup == model::Whether::no) continue;
+    for (const int topic : {questions, answers}) open(topic);
   }
 }
 

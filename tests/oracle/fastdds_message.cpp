@@ -37,8 +37,21 @@ void flush(World& w, Sending& sending) {
   sending.open.reset();
   if (message.descriptors.empty() && !message.announced.has_value()) return;
   std::int64_t sent = message.bytes;
+  if (!w.makes(Mistake::statistics_uncharged)) {
+    sent += w.scenario.dds.version.statistics_bytes.count();
+  }
   if (w.makes(Mistake::charge_per_packet)) sent *= std::int64_t(message.destinations.size());
-  if (sending.async) w.participants.at(sending.i).sent_bytes += sent;
+  if (sending.async) {
+    Participant& p = w.participants.at(sending.i);
+    p.sent_bytes += sent;
+    p.group_bytes += sent;
+    if (p.group_bytes > w.sedp.piggyback_threshold_bytes.count()) {
+      p.group_bytes -= w.makes(Mistake::group_starts_anew)
+                           ? p.group_bytes
+                           : w.sedp.piggyback_threshold_bytes.count();
+      ++p.group_number;
+    }
+  }
   for (const Id j : message.destinations) {
     Packet packet;
     packet.kind = PacketKind::sedp;
@@ -98,19 +111,38 @@ std::int64_t charge(const World& w, const Sending& sending, int s, Id d) {
   switch (w.sedp.piggyback) {
     case model::Piggyback::cumulative:
       if (!sending.async && !w.makes(Mistake::sync_charges_message)) return alone;
-      return w.participants.at(sending.i).sent_bytes + sending.open->bytes;
+      return w.participants.at(sending.i).sent_bytes +
+             (sending.open.has_value() ? sending.open->bytes : 0);
     case model::Piggyback::linear:
       return alone;
     case model::Piggyback::off:
+    case model::Piggyback::group:
       return 0;
   }
   return 0;
 }
 
+// Whether a HEARTBEAT has to ride with the descriptor just added.
+bool rides(World& w, const Sending& sending, int s, Id d) {
+  Writer& wr = writer(w, sending.i, s);
+  if (w.sedp.piggyback == model::Piggyback::group) {
+    const bool in_group = sending.async || w.makes(Mistake::group_of_creations);
+    const std::int64_t number = in_group ? w.participants.at(sending.i).group_number : 0;
+    if (number == wr.group_number) return false;
+    if (!w.makes(Mistake::group_goes_on)) wr.group_number = number;
+    return true;
+  }
+  if (w.sedp.piggyback == model::Piggyback::off) return false;
+  wr.budget -= charge(w, sending, s, d);
+  return wr.budget < 0;
+}
+
 void piggyback(World& w, Sending& sending, int s) {
   Writer& wr = writer(w, sending.i, s);
   const bool ride = w.makes(Mistake::piggyback_rides_along);
-  if (sending.open->destinations != wr.readers && !ride) {
+  if (!sending.open.has_value()) {
+    open_message(w, sending, s, wr.readers);
+  } else if (sending.open->destinations != wr.readers && !ride) {
     flush(w, sending);
     open_message(w, sending, s, wr.readers);
     ++w.outcome.replaced_messages;
@@ -135,9 +167,11 @@ void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& des
     count_data(w, *sending.open, sending.i, j, s, d);
   }
   arm(w, sending.i, s);
-  if (w.sedp.piggyback == model::Piggyback::off) return;
-  writer(w, sending.i, s).budget -= charge(w, sending, s, d);
-  if (writer(w, sending.i, s).budget < 0) piggyback(w, sending, s);
+  const Id most = w.scenario.dds.version.max_data_per_message;
+  const bool is_full = most > 0 && sending.open->descriptors.size() >= most;
+  if (is_full && !w.makes(Mistake::full_message_charged)) flush(w, sending);
+  if (rides(w, sending, s, d)) piggyback(w, sending, s);
+  if (is_full && w.makes(Mistake::full_message_charged)) flush(w, sending);
 }
 
 }  // namespace

@@ -6,13 +6,13 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-constexpr std::int64_t spdp_payload = 252;
+std::int64_t spdp_payload(const World& w) { return has_sizes_of_3(w) ? 484 : 252; }
 
 void send_multicast(World& w, Id i) {
   Packet packet;
   packet.kind = PacketKind::spdp;
   packet.source = i;
-  packet.payload = spdp_payload;
+  packet.payload = spdp_payload(w);
   ++w.outcome.spdp_multicast;
   emit(w, packet);
 }
@@ -22,7 +22,7 @@ void send_copy(World& w, Id i, Id j) {
   packet.kind = PacketKind::spdp;
   packet.source = i;
   packet.destination = j;
-  packet.payload = spdp_payload;
+  packet.payload = spdp_payload(w);
   if (cross_host(w, i, j)) ++w.outcome.spdp_unicast;
   emit(w, packet);
 }
@@ -41,7 +41,7 @@ void send_to_ports(World& w, Id i) {
         packet.source = i;
         packet.destination = there.front();  // for its host
         packet.to_nobody = true;
-        packet.payload = spdp_payload;
+        packet.payload = spdp_payload(w);
         ++w.outcome.spdp_unicast;
         emit(w, packet);
       }
@@ -109,13 +109,15 @@ void receive_spdp(World& w, Id j, Id i) {
   if (known.contains(i)) return;
   known.insert(i);
   resend(w, j, i);
+  const bool builtin_first =
+      w.scenario.dds.version.match_order == model::MatchOrder::builtin_first &&
+      !w.makes(Mistake::endpoints_always_first);
+  if (builtin_first) open_builtin(w, i, j);
   for (int s = 0; s < 2; ++s) {
     open_reader(w, j, i, s);
     open_writer(w, j, i, s);
   }
-  if (!cross_host(w, i, j)) return;
-  open_control_reader(w, i, j, liveliness);
-  open_control_writer(w, j, i, liveliness);
+  if (!builtin_first) open_builtin(w, i, j);
 }
 
 }  // namespace stormproof::oracle::fastdds

@@ -162,6 +162,7 @@ struct Writer {
   std::vector<Id> readers;  // M, in match order
   Id existing = 0;          // H
   std::int64_t budget = 0;
+  std::int64_t group_number = 0;
   bool expiry_pending = false;
   bool response_pending = false;
   bool active = false;  // from here on: adaptive policy
@@ -217,6 +218,8 @@ struct Participant {
   std::deque<std::pair<int, Id>> async_queue;  // (stream, descriptor)
   bool run_pending = false;
   std::int64_t sent_bytes = 0;  // of the cumulative piggyback charge
+  std::int64_t group_bytes = 0;
+  std::int64_t group_number = 0;
   std::deque<std::uint64_t> backlog;
   std::int64_t queued_bytes = 0;
 };
@@ -388,9 +391,15 @@ void schedule_after(World& w, model::Nanoseconds delay, const Event& event);
 // fastdds_descriptors.cpp
 [[nodiscard]] Id descriptor_count(const model::Scenario& scenario, Id i, int s);
 [[nodiscard]] std::vector<std::pair<int, Id>> creation_order(const model::Scenario& scenario, Id i);
+[[nodiscard]] inline bool has_sizes_of_3(const World& w) {
+  return w.scenario.dds.version.sizes != model::SizesSince::v2_6;
+}
 [[nodiscard]] std::int64_t submessage_bytes(const World& w, int s, Id d);
 constexpr int no_topic = -2;
 constexpr int liveliness = -1;
+constexpr int questions = -3;  // of types
+constexpr int answers = -4;
+[[nodiscard]] inline bool is_builtin(int topic) { return topic < 0; }
 [[nodiscard]] int topic_of(int s, Id d);
 [[nodiscard]] Id descriptor_of(int s, int topic);
 
@@ -487,6 +496,7 @@ void async_run(World& w, Id i);
 // fastdds_control.cpp
 void open_control_writer(World& w, Id i, Id j, int topic);
 void open_control_reader(World& w, Id i, Id j, int topic);
+void open_builtin(World& w, Id i, Id j);
 void created(World& w, Id i, int s, Id d);
 void notified(World& w, Id i, Id j, int s, Id d);
 void receive_control_heartbeat(World& w, const Packet& packet);

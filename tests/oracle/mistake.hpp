@@ -132,6 +132,18 @@ enum class FastddsMistake : std::uint8_t {
   returns_with_endpoints,   ///< or has its endpoints already
   hears_in_outages,         ///< outages have no effect
   ends_before_settled,      ///< the first completion ends a run
+  // What later versions have.
+  endpoints_always_first,     ///< `match_order` has no effect
+  lookups_before_liveliness,  ///< what looks up types opens before liveliness
+  lookup_writers_first,       ///< and its writer sides before its reader sides
+  no_lookups_on_host,         ///< nobody looks up types on the own host
+  lookups_on_host_count,      ///< or its HEARTBEATs and ACKNACKs count
+  builtin_replies_like_user,  ///< all control HEARTBEATs are answered after 5 ms
+  statistics_uncharged,       ///< what the statistics module adds does not count as sent
+  full_message_charged,       ///< a message that takes no more is charged before it is sent
+  group_starts_anew,          ///< what exceeds the threshold of a group is forgotten
+  group_of_creations,         ///< a creation belongs to the group as well
+  group_goes_on,              ///< a HEARTBEAT does not end a writer's group
 };
 
 /// What the oracle of the Wi-Fi channel does wrong (specs/guide/wifi.md has the rules): units,
@@ -301,10 +313,13 @@ inline constexpr std::size_t mistake_count =
 inline constexpr std::size_t first_mistake_of_life =
     static_cast<std::size_t>(Mistake::lease_not_renewed);
 inline constexpr std::size_t fastdds_mistake_count =
-    static_cast<std::size_t>(FastddsMistake::ends_before_settled) + 1;
+    static_cast<std::size_t>(FastddsMistake::group_goes_on) + 1;
 /// From this one on they are about the life of participants.
 inline constexpr std::size_t first_fastdds_mistake_of_life =
     static_cast<std::size_t>(FastddsMistake::lease_not_renewed);
+/// From this one on they are about later versions.
+inline constexpr std::size_t first_fastdds_mistake_of_versions =
+    static_cast<std::size_t>(FastddsMistake::endpoints_always_first);
 inline constexpr std::size_t wifi_mistake_count =
     static_cast<std::size_t>(WifiMistake::nobody_deaf) + 1;
 /// The last one that scenarios without listed hosts, failing transmissions and processors can show.

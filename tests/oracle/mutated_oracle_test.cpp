@@ -48,6 +48,13 @@ TEST(MutatedOracle, EveryMistakeOfTheFastddsOracleIsNoticed) {
             std::vector<std::string>{});
 }
 
+TEST(MutatedOracle, EveryMistakeAboutLaterVersionsIsNoticed) {
+  JudgedRuns runs{varied_version_scenario, correct_product};
+  EXPECT_EQ(
+      unnoticed<FastddsMistake>(runs, fastdds_mistake_count, first_fastdds_mistake_of_versions),
+      std::vector<std::string>{});
+}
+
 TEST(MutatedOracle, EveryMistakeOfTheServerOracleIsNoticed) {
   JudgedRuns runs{varied_server_scenario, correct_product};
   EXPECT_EQ(unnoticed<ServerMistake>(runs, server_mistake_count), std::vector<std::string>{});

@@ -48,6 +48,7 @@ bool charge(World& w, Id i, int s, std::int64_t added) {
     case model::Piggyback::linear:
       writer.budget -= added;
       break;
+    case model::Piggyback::group:  // of Fast DDS
     case model::Piggyback::off:
       return false;
   }

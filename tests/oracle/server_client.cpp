@@ -9,7 +9,11 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-constexpr std::int64_t announcement_payload = 324;
+// By version.
+std::int64_t announcement_payload(const World& w) {
+  constexpr std::int64_t payloads[] = {324, 568, 572};
+  return payloads[static_cast<int>(w.scenario.dds.version.sizes)];
+}
 constexpr std::int64_t numbers_in_word = 32;
 constexpr std::int64_t word_bytes = 4;
 
@@ -24,7 +28,7 @@ Packet to_server(World& w, PacketKind kind, Id i, std::int64_t payload) {
 
 void announce_to_server(World& w, Id i) {
   if (cross_host(w, i, w.server_id())) ++w.outcome.pdp_data;
-  emit(w, to_server(w, PacketKind::registration, i, announcement_payload));
+  emit(w, to_server(w, PacketKind::registration, i, announcement_payload(w)));
 }
 
 void heartbeat_to_server(World& w, Id i) {
@@ -69,9 +73,7 @@ void send_acknack(World& w, Id j, int stream, bool initial, std::int64_t base,
 void learn_participant(World& w, Id j, Id i) {
   if (!w.participants.at(j).known.insert(i).second) return;
   if (i == w.server_id()) w.server->clients[j].knows_server = true;
-  if (!cross_host(w, i, j)) return;
-  open_control_reader(w, i, j, liveliness);
-  open_control_writer(w, j, i, liveliness);
+  open_builtin(w, i, j);
 }
 
 void learn_endpoint(World& w, Id j, const Item& item) {

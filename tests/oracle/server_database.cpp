@@ -208,10 +208,7 @@ void receive_registration(World& w, const Packet& packet) {
   open_relay(w, participants_stream, i);
   for (int s = 0; s < 2; ++s) open_reader(w, n, i, s);
   for (int s = 0; s < 2; ++s) open_relay(w, s, i);
-  if (cross_host(w, i, n)) {
-    open_control_reader(w, i, n, liveliness);
-    open_control_writer(w, n, i, liveliness);
-  }
+  open_builtin(w, i, n);
   wake(w);
 }
 

@@ -9,8 +9,9 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-constexpr std::int64_t own_announcement_payload = 428;
-constexpr std::int64_t passed_announcement_payload = 356;
+// By version, with a HEARTBEAT.
+constexpr std::int64_t own_announcement_payloads[] = {428, 688, 684};
+constexpr std::int64_t passed_announcement_payloads[] = {356, 616, 620};
 constexpr std::int64_t around_descriptor = 36 + 12 + 32;  // header, timestamp, HEARTBEAT
 constexpr std::int64_t gap_payload = 72;
 constexpr std::int64_t gap_with_heartbeat_payload = 100;
@@ -80,7 +81,9 @@ std::int64_t payload_of(const World& w, const Item& item) {
   if (item.stream != participants_stream) {
     return around_descriptor + submessage_bytes(w, item.stream, item.descriptor);
   }
-  return item.participant == w.server_id() ? own_announcement_payload : passed_announcement_payload;
+  const auto version = static_cast<std::size_t>(w.scenario.dds.version.sizes);
+  return item.participant == w.server_id() ? own_announcement_payloads[version]
+                                           : passed_announcement_payloads[version];
 }
 
 void count_data(World& w, const Item& item, Id j) {

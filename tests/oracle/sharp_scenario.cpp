@@ -126,6 +126,20 @@ Scenario varied_fastdds_scenario(std::uint64_t seed) {
   return varied(random_fastdds_scenario(seed), seed);
 }
 
+Scenario random_version_scenario(std::uint64_t seed) {
+  using enum model::Discovery;
+  constexpr model::Discovery ways[] = {static_peers, server, super_client};
+  Scenario scenario = random_fastdds_scenario(seed);
+  Dice dice{seed};
+  if (seed % 3 == 0) props::draw_discovery(seed, ways[dice.count(0, 2)], scenario);
+  props::draw_version(dice, scenario.dds);
+  return scenario;
+}
+
+Scenario varied_version_scenario(std::uint64_t seed) {
+  return varied(random_version_scenario(seed), seed);
+}
+
 Scenario varied_server_scenario(std::uint64_t seed) {
   using enum model::Discovery;
   Scenario scenario = random_fastdds_scenario(seed);

@@ -18,6 +18,9 @@ namespace stormproof::oracle {
 /// fourth goes on after the completion of discovery.
 [[nodiscard]] model::Scenario varied_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_fastdds_scenario(std::uint64_t seed);
+/// One with what later versions of Fast DDS have, every third one with another way to discover.
+[[nodiscard]] model::Scenario random_version_scenario(std::uint64_t seed);
+[[nodiscard]] model::Scenario varied_version_scenario(std::uint64_t seed);
 /// One of clients or super clients of a Discovery Server.
 [[nodiscard]] model::Scenario varied_server_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_cyclone_scenario(std::uint64_t seed);

@@ -9,6 +9,7 @@
 #include "tests/oracle/oracle.hpp"
 #include "tests/vectors/cyclone_vectors.hpp"
 #include "tests/vectors/discovery_vectors.hpp"
+#include "tests/vectors/version_vectors.hpp"
 #include "tests/vectors/wifi_vectors.hpp"
 
 namespace stormproof::oracle {
@@ -44,6 +45,8 @@ TEST_P(OracleVector, AgreesExactly) {
 const auto name = [](const auto& test) { return test.param.name; };
 INSTANTIATE_TEST_SUITE_P(Paper, OracleVector, testing::ValuesIn(vectors::paper_vectors()), name);
 INSTANTIATE_TEST_SUITE_P(FastDds, OracleVector, testing::ValuesIn(vectors::fastdds_vectors()),
+                         name);
+INSTANTIATE_TEST_SUITE_P(Versions, OracleVector, testing::ValuesIn(vectors::version_vectors()),
                          name);
 INSTANTIATE_TEST_SUITE_P(Wifi, OracleVector, testing::ValuesIn(vectors::wifi_vectors()), name);
 INSTANTIATE_TEST_SUITE_P(Cyclone, OracleVector, testing::ValuesIn(vectors::cyclone_vectors()),

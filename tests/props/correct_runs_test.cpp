@@ -171,6 +171,14 @@ TEST_P(RandomRuns, WithAServerHaveTrueFindingsOnly) {
   });
 }
 
+TEST_P(RandomRuns, OfLaterVersionsHaveTrueFindingsOnly) {
+  each("versions", short_runs(), [](std::uint64_t seed) {
+    Scenario scenario = oracle::random_version_scenario(seed);
+    if (seed % 2 == 1) scenario.run_until = model::RunUntil::time_limit;
+    return scenario;
+  });
+}
+
 /// Two hosts; who is at no port that is asked is found if it hears of somebody who then answers.
 Scenario with_one_port(const std::string& participants) {
   return shipped("wifi-5x20-fastdds",

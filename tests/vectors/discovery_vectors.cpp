@@ -54,6 +54,12 @@ void version_2_14_5(Scenario& s) {
   s.dds.sedp.heartbeat_response_delay = Nanoseconds{10 * ms};
 }
 
+void look_up_types_with_statistics(Scenario& s) {
+  version_2_14_5(s);
+  s.dds.version.type_lookup = model::Whether::yes;
+  s.dds.version.statistics_bytes = Bytes{60};
+}
+
 using Table = std::vector<DiscoveryVector>;
 
 void add_clients(Table& table) {
@@ -75,6 +81,9 @@ void add_clients(Table& table) {
   table.push_back({"server_2_14_5",
                    with(five, version_2_14_5),
                    {1790982108, 1265, 1954, 3207, 344, 222, 258, 54, 224, 2765}});
+  table.push_back({"server_3x20_type_lookup",
+                   with(grid(server, 2, 3, 20), look_up_types_with_statistics),
+                   {1246680239, 471, 148, 602, 88, 65, 74, 23, 102, 734}});
   table.push_back({"server_6x30",
                    grid(server, 2, 6, 30),
                    {2729037212, 2526, 0, 2546, 2561, 417, 486, 125, 346, 5958}});

@@ -1,41 +1,16 @@
-// The table of the test vectors of `implementation: fastdds`. Two hosts and one channel for all of
-// them; they differ in size, in when participants start and are done, and in a few knobs.
+// The table of the test vectors of `implementation: fastdds`.
 #include "tests/vectors/fastdds_vectors.hpp"
 
-#include "tests/vectors/staggered.hpp"
+#include "tests/vectors/fastdds_scenarios.hpp"
 
 namespace stormproof::vectors {
 
 namespace {
 
 using model::Bytes;
-using model::Nanoseconds;
 using model::Scenario;
 
-constexpr std::int64_t us = 1'000;
-constexpr std::int64_t ms = 1'000'000;
-constexpr std::uint32_t hosts = 2;
-
-Scenario grid(std::uint32_t participants, std::uint32_t endpoints) {
-  Scenario scenario = staggered(hosts, participants, endpoints, 500 * us);
-  scenario.dds.implementation = model::ImplementationKind::fastdds;
-  return scenario;
-}
-
-void new_only(Scenario& s) { s.dds.spdp.resend = model::SpdpResend::new_only; }
-
 void large_threshold(Scenario& s) { s.dds.sedp.piggyback_threshold_bytes = Bytes{4'000'000}; }
-
-void version_2_14_5(Scenario& s) {
-  new_only(s);
-  s.dds.sedp.nack_response_delay = Nanoseconds{100 * ms};
-  s.dds.sedp.nack_suppression_duration = Nanoseconds{10 * ms};
-  s.dds.sedp.heartbeat_response_delay = Nanoseconds{10 * ms};
-}
-
-void done_at_once(Scenario& s) {
-  for (model::Participant& p : s.deployment.participants) p.endpoints_done = p.start;
-}
 
 void done_at_once_2_14_5(Scenario& s) {
   done_at_once(s);

@@ -49,9 +49,9 @@ inline model::Scenario at(model::Scenario scenario,
   return scenario;
 }
 
-template <class Change>
-model::Scenario with(model::Scenario scenario, Change change) {
-  change(scenario);
+template <class... Changes>
+model::Scenario with(model::Scenario scenario, const Changes&... changes) {
+  (changes(scenario), ...);
   return scenario;
 }
 

@@ -40,7 +40,7 @@ class AsksOfFastDds {
     for (const Stream s : model::streams) {
       for (std::uint32_t d = 0; d < flows_.topology.descriptor_count(i, s); ++d) {
         flows_.add("needless repairs", TrafficClass::repair_data, {}, times(peers, most),
-                   alone_in_fastdds(flows_, s, d));
+                   alone_in_fastdds(lateness_.scenario.dds, flows_, s, d));
       }
     }
     const std::int64_t count = times(exhausted, peers);
@@ -53,7 +53,9 @@ class AsksOfFastDds {
 
  private:
   [[nodiscard]] std::int64_t exhaustions(std::int64_t created, std::int64_t asked) const {
-    return lateness_.omission.piggyback ? 0 : exhaustions_of_fastdds(sedp_, created, asked);
+    return lateness_.omission.piggyback
+               ? 0
+               : exhaustions_of_fastdds(lateness_.scenario.dds, created, asked);
   }
 
   /// Needless ones of a descriptor at a reader: the first that is asked for is its first at all.

@@ -35,11 +35,11 @@ Charges charges_of(model::Of<fsm::composition::paper::Paper>, const model::DdsPr
   return charges;
 }
 
-Charges charges_of(model::Of<fsm::composition::fastdds::FastDds>, const model::DdsProfile&, Stream,
-                   std::int64_t descriptors, std::int64_t) {
+Charges charges_of(model::Of<fsm::composition::fastdds::FastDds>, const model::DdsProfile& dds,
+                   Stream, std::int64_t descriptors, std::int64_t) {
   namespace fastdds = model::fastdds;
-  const std::int64_t bytes =
-      fastdds::message_header_bytes + fastdds::timestamp_bytes + fastdds::largest_submessage_bytes;
+  const std::int64_t bytes = fastdds::message_header_bytes + fastdds::timestamp_bytes +
+                             fastdds::largest_submessage_bytes(dds);
   return {bytes, times(bytes, descriptors)};
 }
 
@@ -58,6 +58,7 @@ WriterGain gain_of_writer(const model::DdsProfile& dds, Stream s, std::int64_t d
       gain.bytes = charges.largest;
       gain.pushed = charges.first_time;
       break;
+    case model::Piggyback::group:
     case model::Piggyback::cumulative:  // in the end every delivery uses up the budget
       gain.bytes = gain.budget;
       gain.pushed = times(times(gain.budget, descriptors), readers);

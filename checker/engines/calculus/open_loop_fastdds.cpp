@@ -17,17 +17,21 @@ using model::Stream;
 using model::TrafficClass;
 
 constexpr std::int64_t one_destination = fastdds::message_header_bytes + fastdds::destination_bytes;
-constexpr std::int64_t largest_descriptor =
-    fastdds::timestamp_bytes + fastdds::largest_submessage_bytes;
+std::int64_t largest_descriptor(const model::DdsProfile& dds) {
+  return fastdds::timestamp_bytes + fastdds::largest_submessage_bytes(dds);
+}
 /// What one delivery adds to all that the asynchronous sender has ever sent, at most: the
 /// descriptor in a message of its own, and a HEARTBEAT that opens another one.
-constexpr std::int64_t largest_step =
-    2 * one_destination + largest_descriptor + fastdds::heartbeat_submessage_bytes;
+std::int64_t largest_step(const model::DdsProfile& dds) {
+  return 2 * one_destination + largest_descriptor(dds) + fastdds::heartbeat_submessage_bytes;
+}
 /// What a delivery is charged if it is charged with itself only.
-constexpr std::int64_t largest_charge = fastdds::message_header_bytes + largest_descriptor;
+std::int64_t largest_charge(const model::DdsProfile& dds) {
+  return fastdds::message_header_bytes + largest_descriptor(dds);
+}
 
-std::int64_t alone(Stream s, std::uint32_t d) {
-  return one_destination + fastdds::timestamp_bytes + fastdds::submessage_bytes(s, d);
+std::int64_t alone(const model::DdsProfile& dds, Stream s, std::uint32_t d) {
+  return one_destination + fastdds::timestamp_bytes + fastdds::submessage_bytes(dds, s, d);
 }
 
 class Adder {
@@ -43,7 +47,8 @@ class Adder {
     const std::int64_t peers = cross_peers(topology, i);
     const std::int64_t others =
         omission_.same_host ? peers : std::int64_t{topology.participant_count()} - 1;
-    flows_.add_announcements(dds_.spdp, fastdds::spdp_bytes, to_all_, peers, others);
+    flows_.add_announcements(dds_.spdp, fastdds::sizes_of(dds_).announcement, to_all_, peers,
+                             others);
     std::int64_t created = 0;
     for (const Stream s : model::streams) {
       const std::uint32_t descriptors = topology.descriptor_count(i, s);
@@ -56,8 +61,7 @@ class Adder {
     }
     if (dds_.sedp.initial_acknack_delay > model::Nanoseconds{0}) add_attempts(peers);
     if (omission_.piggyback) return;
-    const std::int64_t exhausted =
-        exhaustions_of_fastdds(dds_.sedp, created, times(others, created));
+    const std::int64_t exhausted = exhaustions_of_fastdds(dds_, created, times(others, created));
     flows_.traffic.exhaustions = plus(flows_.traffic.exhaustions, exhausted);
     add_heartbeats("piggyback HEARTBEATs", "ACKNACKs to piggyback HEARTBEATs", {},
                    times(exhausted, peers));
@@ -84,18 +88,20 @@ class Adder {
   /// With static peers a copy goes to each port of every other host that is asked.
   static Flows::ToAll packets_to_all(const model::Scenario& scenario, const Omission& omission,
                                      const Flows& flows) {
+    const std::int64_t bytes = fastdds::sizes_of(scenario.dds).announcement;
     if (scenario.dds.discovery != model::Discovery::static_peers || omission.port_copies) {
-      return flows.multicast(fastdds::spdp_bytes);
+      return flows.multicast(bytes);
     }
     const std::int64_t other_hosts = std::int64_t{scenario.deployment.host_count()} - 1;
-    return {other_hosts * scenario.dds.peer_ports, flows.unicast(fastdds::spdp_bytes)};
+    return {other_hosts * scenario.dds.peer_ports, flows.unicast(bytes)};
   }
 
   void add_data(Stream s, std::uint32_t descriptors, std::int64_t peers) {
     for (std::uint32_t d = 0; d < descriptors; ++d) {
-      flows_.add("DATA", TrafficClass::initial_data, {}, peers, alone_in_fastdds(flows_, s, d));
+      flows_.add("DATA", TrafficClass::initial_data, {}, peers,
+                 alone_in_fastdds(dds_, flows_, s, d));
       const std::int64_t with_ride =
-          flows_.route.fragments(alone(s, d) + fastdds::heartbeat_submessage_bytes);
+          flows_.route.fragments(alone(dds_, s, d) + fastdds::heartbeat_submessage_bytes);
       flows_.traffic.push_fragments = std::max(flows_.traffic.push_fragments, with_ride);
     }
   }
@@ -126,19 +132,22 @@ class Adder {
 
 }  // namespace
 
-std::int64_t exhaustions_of_fastdds(const model::SedpProfile& sedp, std::int64_t created,
+std::int64_t exhaustions_of_fastdds(const model::DdsProfile& dds, std::int64_t created,
                                     std::int64_t asked) {
+  const model::SedpProfile& sedp = dds.sedp;
   if (sedp.piggyback == model::Piggyback::off) return 0;
+  if (sedp.piggyback == model::Piggyback::group) return plus(created, asked);
   const bool cumulative = sedp.piggyback == model::Piggyback::cumulative;
-  const std::int64_t sums =
-      cumulative ? times(times(asked, asked + 1) / 2, largest_step) : times(asked, largest_charge);
-  const std::int64_t charged = plus(sums, times(created, largest_charge));
+  const std::int64_t sums = cumulative ? times(times(asked, asked + 1) / 2, largest_step(dds))
+                                       : times(asked, largest_charge(dds));
+  const std::int64_t charged = plus(sums, times(created, largest_charge(dds)));
   const std::int64_t most = charged / plus(sedp.piggyback_threshold_bytes.count(), 1);
   return std::min(most, plus(created, asked));
 }
 
-std::int64_t alone_in_fastdds(const Flows& flows, Stream s, std::uint32_t d) {
-  const std::int64_t bytes = alone(s, d);
+std::int64_t alone_in_fastdds(const model::DdsProfile& dds, const Flows& flows, Stream s,
+                              std::uint32_t d) {
+  const std::int64_t bytes = alone(dds, s, d);
   return flows.unicast(bytes) + rounding(flows, flows.route.fragments(bytes));
 }
 

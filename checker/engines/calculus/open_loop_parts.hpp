@@ -57,11 +57,12 @@ struct Generation {
                                                  const Flows& flows, model::Stream s,
                                                  std::uint32_t descriptors);
 /// A descriptor of Fast DDS in a message of its own to one reader, ns.
-[[nodiscard]] std::int64_t alone_in_fastdds(const Flows& flows, model::Stream s, std::uint32_t d);
+[[nodiscard]] std::int64_t alone_in_fastdds(const model::DdsProfile& dds, const Flows& flows,
+                                            model::Stream s, std::uint32_t d);
 /// How often the two writers of a participant use up their budgets, at most: `created` descriptors
 /// are charged with their own bytes; `asked` deliveries, each with all that was sent before. Every
 /// exhaustion takes more than the threshold.
-[[nodiscard]] std::int64_t exhaustions_of_fastdds(const model::SedpProfile& sedp,
+[[nodiscard]] std::int64_t exhaustions_of_fastdds(const model::DdsProfile& dds,
                                                   std::int64_t created, std::int64_t asked);
 
 void add_flows_of_the_paper(const model::Scenario& scenario, const Omission& omission,

@@ -41,7 +41,7 @@ class FastDdsPacking final : public Packing {
     for (const Slot& packet : each) served |= 1U << packet.relation;
     const std::int64_t added =
         model::fastdds::timestamp_bytes +
-        model::fastdds::submessage_bytes(model::streams[w.writer()], w.descriptor());
+        model::fastdds::submessage_bytes(running().dds, model::streams[w.writer()], w.descriptor());
     const bool fits = served == served_ && (message_ & it) == 0 &&
                       bytes_ + added <= sedp().grouping_limit_bytes.count();
     if (message_ != 0 && !fits) flush(w);

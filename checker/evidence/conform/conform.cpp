@@ -18,6 +18,7 @@
 #include "checker/evidence/conform/to_everybody.hpp"
 #include "checker/evidence/conform/words.hpp"
 #include "checker/evidence/conform/writer_side.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::conform {
@@ -249,6 +250,9 @@ class Check {
           "traffic can arm a timer or use up the piggyback budget, it is assumed to; on their own "
           "host nothing is lost");
     }
+    if (model::fastdds::looks_up_types(request_.dds)) {
+      all.emplace_back("what endpoints say that look up types (dds.type_lookup) is not looked at");
+    }
     for (const auto& [setting, effect] : request_.dds.unmodelled) {
       all.push_back(fmt::format("{} is not modelled: {}", setting, effect));
     }
@@ -279,6 +283,10 @@ std::optional<std::string> refuse_profile(const model::DdsProfile& dds) {
   if (dds.sedp.heartbeat_policy != model::HeartbeatPolicy::periodic) {
     return "a capture can be held against a profile with `heartbeat_policy: periodic`; no program "
            "sends by the adaptive one";
+  }
+  if (dds.sedp.piggyback == model::Piggyback::group) {
+    return "a capture can be held against a profile with `piggyback: cumulative`, `linear` or "
+           "`off`; nothing here charges DATA to the group of a participant";
   }
   return std::nullopt;
 }

@@ -40,7 +40,7 @@ class Heartbeats {
         ledger_{ledger},
         source_{writer.place().source},
         sent_{sent_heartbeats(writer)},
-        budget_{dialogue_, writer, sedp_, bounds_},
+        budget_{dialogue_, writer, context.dds, bounds_},
         next_initial_(writer.relations.size()),
         is_opened_(writer.relations.size()),
         has_replied_(writer.relations.size()) {

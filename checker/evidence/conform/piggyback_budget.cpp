@@ -8,11 +8,11 @@ namespace stormproof::conform {
 namespace fastdds = model::fastdds;
 
 PiggybackBudget::PiggybackBudget(const Dialogue& dialogue, const WriterRelations& writer,
-                                 const model::SedpProfile& sedp, const Bounds& bounds)
-    : is_cumulative_{sedp.piggyback == model::Piggyback::cumulative},
-      threshold_{sedp.piggyback_threshold_bytes.count()},
+                                 const model::DdsProfile& dds, const Bounds& bounds)
+    : is_cumulative_{dds.sedp.piggyback == model::Piggyback::cumulative},
+      threshold_{dds.sedp.piggyback_threshold_bytes.count()},
       writer_{writer.place().writer},
-      same_host_{dialogue, writer.place().source, sedp, bounds},
+      same_host_{dialogue, writer.place().source, dds, bounds},
       messages_{messages_of(dialogue, writer.place().source, bounds)} {}
 
 bool PiggybackBudget::charge_next() {

@@ -20,7 +20,7 @@ namespace stormproof::conform {
 class PiggybackBudget {
  public:
   PiggybackBudget(const Dialogue& dialogue, const WriterRelations& writer,
-                  const model::SedpProfile& sedp, const Bounds& bounds);
+                  const model::DdsProfile& dds, const Bounds& bounds);
 
   /// Charges the DATA that was sent before `event`; calls `sent_data` with the time of each.
   void charge_until(std::size_t event, const auto& sent_data) {

@@ -13,9 +13,10 @@ namespace fastdds = model::fastdds;
 namespace {
 
 /// A DATA in a message of its own.
-constexpr std::int64_t largest_message_bytes =
-    fastdds::message_header_bytes + fastdds::destination_bytes + fastdds::timestamp_bytes +
-    fastdds::largest_submessage_bytes;
+std::int64_t largest_message(const model::DdsProfile& dds) {
+  return fastdds::message_header_bytes + fastdds::destination_bytes + fastdds::timestamp_bytes +
+         fastdds::largest_submessage_bytes(dds);
+}
 
 /// When the writers of the participant are known to have created their last descriptor.
 std::int64_t last_creation(const Dialogue& dialogue, std::size_t participant) {
@@ -39,10 +40,11 @@ std::int64_t last_creation(const Dialogue& dialogue, std::size_t participant) {
 
 }  // namespace
 
-SameHost::SameHost(const Dialogue& dialogue, std::size_t participant,
-                   const model::SedpProfile& sedp, const Bounds& bounds)
-    : is_cumulative_{sedp.piggyback == model::Piggyback::cumulative},
-      threshold_{sedp.piggyback_threshold_bytes.count()} {
+SameHost::SameHost(const Dialogue& dialogue, std::size_t participant, const model::DdsProfile& dds,
+                   const Bounds& bounds)
+    : is_cumulative_{dds.sedp.piggyback == model::Piggyback::cumulative},
+      threshold_{dds.sedp.piggyback_threshold_bytes.count()},
+      largest_message_{largest_message(dds)} {
   const auto& participants = dialogue.conversation.topology.participants;
   std::int64_t begins = last_creation(dialogue, participant);
   for (std::size_t j = 0; j < participants.size(); ++j) {
@@ -83,7 +85,7 @@ std::int64_t SameHost::most_sent_bytes() const {
   if (readers_ == 0) return 0;
   std::int64_t sent = 0;
   for (const Stream& one : streams_) sent += std::min(one.sent + one.in_between, one.asked);
-  return sent * largest_message_bytes;
+  return sent * largest_message_;
 }
 
 std::optional<std::int64_t> SameHost::needed(std::size_t stream, std::uint32_t count,
@@ -91,7 +93,7 @@ std::optional<std::int64_t> SameHost::needed(std::size_t stream, std::uint32_t c
                                              std::int64_t before) const {
   if (!is_active(time_ns)) return std::nullopt;
   const Stream& one = streams_[stream];
-  const std::int64_t data = std::max<std::int64_t>(left, 0) / (before + largest_message_bytes) + 1;
+  const std::int64_t data = std::max<std::int64_t>(left, 0) / (before + largest_message_) + 1;
   // Those before it that were not captured went to the own host, too.
   const std::int64_t unseen = std::max<std::int64_t>(std::int64_t{count} - 1 - one.count, 0);
   if (one.supposed + data > one.asked + unseen * readers_ * one.descriptors) return std::nullopt;

@@ -19,7 +19,7 @@ namespace stormproof::conform {
 
 class SameHost {
  public:
-  SameHost(const Dialogue& dialogue, std::size_t participant, const model::SedpProfile& sedp,
+  SameHost(const Dialogue& dialogue, std::size_t participant, const model::DdsProfile& dds,
            const Bounds& bounds);
 
   /// Whether readers on the own host can be the reason of anything at this instant.
@@ -57,6 +57,7 @@ class SameHost {
 
   bool is_cumulative_;
   std::int64_t threshold_;
+  std::int64_t largest_message_;  ///< with one descriptor
   std::int64_t readers_ = 0;
   std::int64_t until_ns_ = 0;  ///< the exchange is over
   std::array<Stream, 2> streams_{};

@@ -51,8 +51,8 @@ inline constexpr std::array<std::string_view, 2> enum_names<HeartbeatPolicy>{"pe
 template <>
 inline constexpr std::array<std::string_view, 3> enum_names<Grouping>{"message", "mtu", "single"};
 template <>
-inline constexpr std::array<std::string_view, 3> enum_names<Piggyback>{"cumulative", "linear",
-                                                                       "off"};
+inline constexpr std::array<std::string_view, 4> enum_names<Piggyback>{"cumulative", "linear",
+                                                                       "off", "group"};
 
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<AllowMulticast>{"true", "spdp"};
@@ -64,6 +64,13 @@ inline constexpr std::array<std::string_view, 4> enum_names<Discovery>{"simple",
                                                                        "super_client", "static"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<Relay>{"repeat", "once"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Whether>{"false", "true"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<MatchOrder>{"endpoints_first",
+                                                                        "builtin_first"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<SizesSince>{"v2.6", "v3.2", "v3.6"};
 
 /// Sizes of packets and of their parts.
 inline constexpr NumberType packet_bytes = byte_range(1, 1'000'000'000);
@@ -257,8 +264,6 @@ constexpr void visit_knobs(auto& visit, Is<DescriptorProfile> auto& descriptors)
 }
 
 template <>
-inline constexpr std::array<std::string_view, 2> enum_names<Whether>{"false", "true"};
-template <>
 inline constexpr std::array<std::string_view, 4> enum_names<InitialAckNackRepeat>{
     "again", "once", "age_based", "age_based_zero"};
 template <>
@@ -387,6 +392,39 @@ constexpr void visit_knobs(auto& visit, Is<ServerProfile> auto& server, Implemen
              with_server(kind));
 }
 
+/// What later versions of Fast DDS have; keys of the profile itself.
+constexpr void visit_knobs(auto& visit, Is<VersionProfile> auto& version,
+                           ImplementationKind implementation) {
+  const Presence optional = with_discovery(implementation);
+  visit.knob("match_order", version.match_order,
+             UsualChoiceType<MatchOrder>{{}, MatchOrder::endpoints_first},
+             "what opens first when a participant is recognised: its endpoints, or liveliness and "
+             "what looks up types; endpoints_first if absent",
+             optional);
+  visit.knob("builtin_response_delay", version.builtin_response_delay,
+             usually(delay_range, 5'000'000),
+             "from a HEARTBEAT of liveliness or of what looks up types to the ACKNACK that answers "
+             "it (tau_B); 5ms if absent",
+             optional);
+  visit.knob(
+      "type_lookup", version.type_lookup, UsualChoiceType<Whether>{{}, Whether::no},
+      "whether participants have endpoints that ask for types (TypeLookup service); false if "
+      "absent",
+      optional);
+  visit.knob("sizes", version.sizes, UsualChoiceType<SizesSince>{{}, SizesSince::v2_6},
+             "announcements and descriptors have the sizes of this version and those after it; "
+             "v2.6 if absent",
+             optional);
+  visit.knob(
+      "descriptor_extra_bytes", version.descriptor_extra_bytes, usually(byte_range(0, 65'000), 0),
+      "more in each descriptor: type information and the hash of the type; 0 if absent", optional);
+  visit.knob("statistics_bytes", version.statistics_bytes, usually(byte_range(0, 65'000), 0),
+             "more in each packet: the submessage of the statistics module; 0 if absent", optional);
+  visit.knob("max_data_per_message", version.max_data_per_message,
+             usually(count_range(0, 1'000'000), 0),
+             "DATA that a message takes, or 0: as many as fit; 0 if absent", optional);
+}
+
 /// How participants find each other.
 constexpr void visit_discovery(auto& visit, Is<DdsProfile> auto& dds) {
   const ImplementationKind kind = kind_of(dds.implementation, dds.discovery);
@@ -402,6 +440,7 @@ constexpr void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
   visit.knob(implementation_key, dds.implementation, ChoiceType<ImplementationKind>{},
              "whose writer: the paper's, or that of Fast DDS or Cyclone DDS", Presence::optional);
   visit_discovery(visit, dds);
+  visit_knobs(visit, dds.version, dds.implementation);
   visit.knob("allow_multicast", dds.allow_multicast, ChoiceType<AllowMulticast>{},
              "what goes to the multicast group: all that has several receivers, or announcements",
              of_cyclone(dds.implementation));
@@ -429,6 +468,10 @@ constexpr void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
       "amendments.heartbeat_policy",
       "of_the_profile, or sedp.heartbeat_policy: periodic and heartbeat_timer: single, whose "
       "place it takes");
+
+  visit.rule(dds.sedp.piggyback != Piggyback::group ||
+                 with_discovery(dds.implementation) != Presence::of_others,
+             "sedp.piggyback", "cumulative, linear or off; group is of implementation: fastdds");
 
   const Bytes header = dds.sedp.shared_header_bytes;
   const std::string more =

@@ -42,6 +42,9 @@ constexpr void visit_section(Finder& finder, const SedpProfile& section) {
 constexpr void visit_section(Finder& finder, const ServerProfile& section) {
   visit_knobs(finder, section, ImplementationKind{});
 }
+constexpr void visit_section(Finder& finder, const VersionProfile& section) {
+  visit_knobs(finder, section, ImplementationKind{});
+}
 constexpr void visit_section(Finder& finder, const AdaptiveProfile& section) {
   visit_knobs(finder, section);
 }
@@ -70,6 +73,11 @@ template <class Section>
   return index;
 }
 
+template <class Section>
+[[nodiscard]] constexpr bool has_key(std::string_view key) {
+  return index_of<Section>(key) < size<Section>;
+}
+
 }  // namespace knob_member
 
 /// The member of a section of a profile that `Knob::key` names, without the `skipped` characters
@@ -95,6 +103,8 @@ template <class Knob>
   } else if constexpr (key.starts_with("amendments.")) {
     // Only a profile that has them runs under rules that ask for them.
     return member_of<Knob, std::string_view{"amendments."}.size()>(*dds.amendments);
+  } else if constexpr (knob_member::has_key<VersionProfile>(key)) {
+    return member_of<Knob>(dds.version);
   } else {
     return member_of<Knob>(dds.server);
   }

@@ -42,16 +42,18 @@ LargestPacket largest_of(Of<fsm::composition::paper::Paper>, const Scenario& sce
 }
 
 LargestPacket largest_of(Of<fsm::composition::fastdds::FastDds>, const Scenario& scenario) {
+  const DdsProfile& dds = scenario.dds;
   const std::int64_t alone = fastdds::message_header_bytes + fastdds::destination_bytes +
-                             fastdds::timestamp_bytes + fastdds::largest_submessage_bytes;
-  const std::int64_t message = std::max(scenario.dds.sedp.grouping_limit_bytes.count(), alone);
-  return {Bytes{message + fastdds::heartbeat_submessage_bytes}, "dds.sedp.grouping_limit_bytes"};
+                             fastdds::timestamp_bytes + fastdds::largest_submessage_bytes(dds);
+  const std::int64_t message = std::max(dds.sedp.grouping_limit_bytes.count(), alone);
+  return {Bytes{message + fastdds::heartbeat_submessage_bytes} + dds.version.statistics_bytes,
+          "dds.sedp.grouping_limit_bytes"};
 }
 
 /// Those of a client; the server sends one descriptor at a time.
 LargestPacket largest_of(Of<fsm::composition::server::FastDdsServer>, const Scenario& scenario) {
   LargestPacket largest = largest_of(Of<fsm::composition::fastdds::FastDds>{}, scenario);
-  largest.payload += Bytes{fastdds::inline_qos_bytes};
+  largest.payload += Bytes{fastdds::sizes_of(scenario.dds).inline_qos};
   return largest;
 }
 

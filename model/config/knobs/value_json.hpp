@@ -29,6 +29,11 @@ template <std::integral Integer>
 [[nodiscard]] Json json_of(const NumberType& type, Integer value) {
   return json_of_count(type, static_cast<std::int64_t>(value));
 }
+template <class Number>
+[[nodiscard]] Json json_of(const UsualNumberType& type, const Number& value) {
+  const Json json = json_of(static_cast<const NumberType&>(type), value);
+  return json == json_of_count(type, type.usual) ? Json() : json;
+}
 [[nodiscard]] inline Json json_of(const SeedType&, std::uint64_t value) { return value; }
 [[nodiscard]] Json json_of(const BytesOrWordType& type, Bytes value);
 /// A word of a choice; `true` and `false` are YAML's own.

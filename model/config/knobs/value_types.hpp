@@ -90,6 +90,12 @@ constexpr NumberType count_range(std::int64_t minimum, std::int64_t maximum) {
   return {NumberType::Unit::things, minimum, maximum};
 }
 
+/// A number that is written only if it is not the usual one.
+struct UsualNumberType : NumberType {
+  std::int64_t usual = 0;
+};
+constexpr UsualNumberType usually(NumberType type, std::int64_t usual) { return {type, usual}; }
+
 /// Any unsigned 64-bit integer.
 struct SeedType {
   Complaint read(const Node& node, std::uint64_t& value) const;

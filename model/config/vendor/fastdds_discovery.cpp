@@ -247,6 +247,25 @@ void interpret_peers(Reading& reading, bool is_client) {
       "model announces by multicast";
 }
 
+/// Which types participants tell each other, and with that whether they look them up.
+void interpret_type_propagation(Reading& reading) {
+  const Found* propagation = reading.section.find("fastdds.type_propagation");
+  if (propagation == nullptr) return;
+  constexpr Version first_version = 300;
+  const std::string& value = propagation->value.shown;
+  if (reading.version < first_version) {
+    return set_inert(reading, *propagation, "no property of versions before 3.0");
+  }
+  const bool on = value == "enabled" || value == "minimal_bandwidth";
+  if (!on && value != "disabled" && value != "registration_only") {
+    refuse(propagation->value.place,
+           fmt::format("{} as fastdds.type_propagation; expected disabled, enabled, "
+                       "minimal_bandwidth or registration_only",
+                       quote(value)));
+  }
+  set_knob(reading, *propagation, "", "type_lookup", on ? "true" : "false");
+}
+
 void interpret_properties(Reading& reading) {
   std::vector<std::string> known;
   for (const SchemaItem& item : property_schema()) known.emplace_back(item.path);
@@ -275,6 +294,7 @@ void interpret_properties(Reading& reading) {
                "fastdds.push_mode does nothing in a participant's profile, and never acts on SEDP",
                "it belongs into the profile of a writer");
   }
+  interpret_type_propagation(reading);
   if (const Found* metatraffic = reading.section.find("fastdds.shm.enforce_metatraffic")) {
     const std::string& value = metatraffic->value.shown;
     if (value != "none" && value != "unicast" && value != "all") {

@@ -18,10 +18,19 @@ constexpr std::int64_t default_wmem_max = 212'992;
 constexpr std::int64_t default_segment = 524'288;  ///< of shared memory
 constexpr std::int64_t largest_message = 65'500;   ///< TransportInterface.h:33
 constexpr std::int64_t largest_buffer = 2'147'483'647;
+
+/// The sizes of the version.
+DdsProfile sizes_in(Version version) {
+  DdsProfile dds;
+  if (version >= 302) dds.version.sizes = SizesSince::v3_2;
+  if (version >= 306) dds.version.sizes = SizesSince::v3_6;
+  return dds;
+}
 /// A packet with the largest descriptor of a ROS 2 node, for one receiver.
-constexpr std::int64_t largest_descriptor_packet =
-    model::fastdds::message_header_bytes + model::fastdds::destination_bytes +
-    model::fastdds::timestamp_bytes + model::fastdds::largest_submessage_bytes;
+std::int64_t largest_descriptor_packet(const DdsProfile& dds) {
+  return model::fastdds::message_header_bytes + model::fastdds::destination_bytes +
+         model::fastdds::timestamp_bytes + model::fastdds::largest_submessage_bytes(dds);
+}
 
 /// A number of bytes that one setting or default contributes; the least one counts.
 struct Contribution {
@@ -198,20 +207,22 @@ void interpret_message_size(Reading& reading) {
   }
   if (all.empty()) return;
   const Contribution& least = *std::ranges::min_element(all, {}, &Contribution::bytes);
-  if (least.bytes < model::fastdds::spdp_bytes) {
-    return set_outside(reading, *least.source,
-                       fmt::format("an announcement has {} bytes and does not fit in a message",
-                                   model::fastdds::spdp_bytes));
+  const DdsProfile dds = sizes_in(reading.version);
+  const std::int64_t announcement = model::fastdds::sizes_of(dds).announcement;
+  if (least.bytes < announcement) {
+    return set_outside(
+        reading, *least.source,
+        fmt::format("an announcement has {} bytes and does not fit in a message", announcement));
   }
   set_least(reading, all, "grouping_limit_bytes", "fastdds.message-size-not-least",
             "largest RTPS message, that is, UDP payload");
-  if (least.bytes < largest_descriptor_packet) {
+  if (least.bytes < largest_descriptor_packet(dds)) {
     add_remark(reading.profile, Severity::warning, "fastdds.small-message",
                least.source->value.place,
                fmt::format("messages of {} bytes do not hold the largest descriptor of a ROS 2 "
                            "node ({} bytes with headers); the library sends it in fragments "
                            "(DATA_FRAG), the model in one larger packet",
-                           least.bytes, largest_descriptor_packet));
+                           least.bytes, largest_descriptor_packet(dds)));
   }
 }
 

@@ -55,7 +55,7 @@ TEST(Distributions, GoWhereverAProfileMayBeNamed) {
   EXPECT_EQ(scenario->value.dds.spdp.period, Nanoseconds{7'000'000'000});
   const TestFiles files;
   const std::string mine = files.write("mine.yaml", "base: kilted\n");
-  EXPECT_EQ(trace_dds_profile(mine, {}, specs)->preset, "fastdds-2.14.5");
+  EXPECT_EQ(trace_dds_profile(mine, {}, specs)->preset, "fastdds-3.2");
   const std::string xml = specs.directories.front() + "/vendor/";
   const auto fast = trace_dds_profile(xml + "fastdds/humble-default.xml@jazzy", {}, specs);
   ASSERT_TRUE(fast) << to_string(fast.error());

@@ -68,7 +68,7 @@ TEST(CompositionKnobs, ASwitchIsOnForTheValuesThatItNames) {
 }
 
 TEST(CompositionKnobs, WhatNoProfileHasIsFixedOrTheDeployments) {
-  EXPECT_EQ(knob_value(comp::control::ControlReplyDelay{}, {}), 5'000'000);
+  EXPECT_EQ(knob_value(comp::control::TopicReplyDelay{}, {}), 5'000'000);
   EXPECT_TRUE(is_knob<comp::AcceptsUnmatched>);
   EXPECT_FALSE(is_knob<comp::cyclone::SendTime>);
 }

@@ -46,7 +46,8 @@ TEST_P(EveryEffect, HappensInSomeRunAndHasItsNameThere) {
   EXPECT_EQ(known.size(), effects_listed) << "two effects have one key";
   Effects effects;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    const Scenario scenario = oracle::random_scenario(seed, GetParam());
+    Scenario scenario = oracle::random_scenario(seed, GetParam());
+    if (seed % 4 == 0) scenario.dds.version.match_order = MatchOrder::builtin_first;
     RunOptions options;
     options.probe = &effects;
     options.max_events = 20'000;

@@ -26,7 +26,7 @@ TEST(Message, StartsEmpty) {
   const Message message = opened({7, 9});
   EXPECT_TRUE(message.open);
   EXPECT_EQ(message.writer, 4U);
-  EXPECT_FALSE(message.has_data);
+  EXPECT_EQ(message.data, 0U);
   EXPECT_EQ(message.heartbeats, 0U);
   EXPECT_EQ(message.initial_data, std::vector<std::uint32_t>(2, 0));
 }
@@ -40,7 +40,7 @@ TEST(Message, KnowsWhatItCarries) {
   }
   EXPECT_FALSE(message.carries(1));
   EXPECT_FALSE(message.carries(65));
-  EXPECT_TRUE(message.has_data);
+  EXPECT_EQ(message.data, 4U);
   EXPECT_EQ(message.bytes, 36 + 4 * 100);
 }
 
@@ -52,7 +52,7 @@ TEST(Message, StartedAgainItCarriesNothing) {
   message.initial_data[0] = 1;
   message.start(5, {7, 9}, 70);
   EXPECT_FALSE(message.carries(64));
-  EXPECT_FALSE(message.has_data);
+  EXPECT_EQ(message.data, 0U);
   EXPECT_EQ(message.bytes, 20);
   EXPECT_EQ(message.heartbeats, 0U);
   EXPECT_EQ(message.announced, 0U);

@@ -152,7 +152,7 @@ TEST(Life, MistakesOfTheOracleAreNoticed) {
 
 TEST(Life, MistakesOfTheOracleOfFastDdsAreNoticed) {
   expect_all_noticed<FastddsMistake>(living_fastdds, first_fastdds_mistake_of_life,
-                                     fastdds_mistake_count);
+                                     first_fastdds_mistake_of_versions);
 }
 
 }  // namespace life_oracle_test

@@ -7,6 +7,7 @@
 #include "model/simulator.hpp"
 #include "tests/model/packet_feed.hpp"
 #include "tests/vectors/cyclone_vectors.hpp"
+#include "tests/vectors/version_vectors.hpp"
 #include "tests/vectors/wifi_vectors.hpp"
 
 namespace stormproof {
@@ -45,6 +46,7 @@ TEST_P(Vectors, AreTheSameFromRunToRun) {
 const auto name = [](const auto& tested) { return tested.param.name; };
 INSTANTIATE_TEST_SUITE_P(Paper, Vectors, testing::ValuesIn(vectors::paper_vectors()), name);
 INSTANTIATE_TEST_SUITE_P(FastDds, Vectors, testing::ValuesIn(vectors::fastdds_vectors()), name);
+INSTANTIATE_TEST_SUITE_P(Versions, Vectors, testing::ValuesIn(vectors::version_vectors()), name);
 INSTANTIATE_TEST_SUITE_P(Cyclone, Vectors, testing::ValuesIn(vectors::cyclone_vectors()), name);
 INSTANTIATE_TEST_SUITE_P(Wifi, Vectors, testing::ValuesIn(vectors::wifi_vectors()), name);
 

@@ -45,7 +45,7 @@ class CaptureProbe::Implementation {
 
   void start(const model::Topology& topology) {
     topology_ = &topology;
-    if (traits_.has_control_relations) control_.emplace(topology);
+    if (traits_.has_control_relations) control_.emplace(topology, scenario_.dds);
   }
 
   void announce(const model::Packet& packet, std::uint32_t source) {

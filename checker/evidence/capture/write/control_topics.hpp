@@ -18,15 +18,18 @@ class ControlTopics {
   struct Ends {
     EntityId writer = 0;
     EntityId reader = 0;
-    bool is_builtin = false;  ///< liveliness; otherwise user endpoints, with ports of their own
+    bool is_builtin = false;  ///< otherwise user endpoints, with ports of their own
   };
 
   /// Each cross-host pair has liveliness, the two topics of every node, and the user topics that
-  /// its source publishes and its destination subscribes to; with a server only liveliness.
-  explicit ControlTopics(const model::Topology& topology) {
+  /// its source publishes and its destination subscribes to; with a server only liveliness. What
+  /// looks up types comes last, of every pair: questions, then answers.
+  ControlTopics(const model::Topology& topology, const model::DdsProfile& dds)
+      : lookups_{model::fastdds::looks_up_types(dds) ? 2U : 0U} {
     std::uint32_t relations = 0;
     for (std::uint32_t number = 0; number < topology.pair_count(); ++number) {
       first_relation_.push_back(relations);
+      relations += lookups_;
       const model::Pair& pair = topology.pair(number);
       if (!pair.cross_host) continue;
       const std::uint32_t publications = topology.descriptor_count(pair.source, model::Stream::pub);
@@ -40,9 +43,14 @@ class ControlTopics {
                    std::min(publications - model::fastdds::default_publications,
                             subscriptions - model::fastdds::default_subscriptions);
     }
+    first_relation_.push_back(relations);
   }
 
   [[nodiscard]] Ends ends(const model::Packet& packet) const {
+    const std::uint32_t after = first_relation_[packet.pair + 1] - packet.detail;
+    if (after <= lookups_) {
+      return after == 2 ? Ends{0x000300c3, 0x000300c4, true} : Ends{0x000301c3, 0x000301c4, true};
+    }
     const std::uint32_t topic = packet.detail - first_relation_[packet.pair];
     if (topic == model::fastdds::topic::liveliness) {
       return {capture::entity::liveliness_writer, entity::liveliness_reader, true};
@@ -54,6 +62,7 @@ class ControlTopics {
   }
 
  private:
+  std::uint32_t lookups_;                      ///< of each pair
   std::vector<std::uint32_t> first_relation_;  ///< by pair
 };
 

@@ -233,6 +233,22 @@ TEST(FastddsXml, a_later_base_knows_later_elements) {
   EXPECT_EQ(later.changes.find("base")->text, "fastdds-2.14.5");
 }
 
+TEST(FastddsXml, who_does_not_propagate_types_does_not_look_them_up) {
+  const auto text = [](const std::string& value) {
+    return document(
+        "<propertiesPolicy><properties><property><name>fastdds.type_propagation</name>"
+        "<value>" +
+        value + "</value></property></properties></propertiesPolicy>");
+  };
+  const Selection of_3{.profile = "", .base = "fastdds-3.2"};
+  for (const std::string off : {"disabled", "registration_only"}) {
+    EXPECT_EQ(profile_of(text(off), of_3).changes.find("type_lookup")->text, "false") << off;
+  }
+  EXPECT_EQ(profile_of(text("enabled"), of_3).changes.find("type_lookup")->text, "true");
+  EXPECT_EQ(profile_of(text("disabled")).changes.find("type_lookup"), nullptr);
+  EXPECT_NE(error_of(text("off"), of_3).find("expected disabled, enabled"), std::string::npos);
+}
+
 struct Refused {
   std::string document, error;
 };
