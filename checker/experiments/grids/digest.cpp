@@ -55,7 +55,7 @@ class KnobText {
   template <class Member>
   void value(std::string_view key, const Member& member, const auto& type) {
     if constexpr (requires { type.usual; }) {
-      if (member == type.usual) return;  // files need not say it, and did not always
+      if (json_of(type, member).is_null()) return;  // files need not say it, and did not always
     }
     if constexpr (requires { member.has_value(); }) {
       if (member) value(key, *member, type);

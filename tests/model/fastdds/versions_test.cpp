@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "model/fastdds/endpoints.hpp"
+#include "tests/model/fastdds/one_writer.hpp"
 #include "tests/model/run_log.hpp"
 
 namespace stormproof::model::fastdds {
@@ -25,16 +26,15 @@ constexpr const char* reader_of_publications = "DiscoveryReader 0: Unknown";
 
 /// What opens at 1, which recognises 0, in this order.
 Names opened_at_1(MatchOrder order) {
-  Scenario scenario = by_hand({{.host = 0, .publications = 0}, {.host = 1, .publications = 0}});
-  scenario.dds.implementation = ImplementationKind::fastdds;
+  Scenario scenario = one_writer();
+  scenario.time_limit = Nanoseconds{10 * ms};
   scenario.dds.version.type_lookup = Whether::yes;
   scenario.dds.version.match_order = order;
   const RunLog log = run_and_log(scenario);
   Names opened;
   for (const std::string& move : log.transitions) {
-    for (const char* what :
-         {liveliness_reader, question_reader, answer_reader, liveliness_writer, question_writer,
-          answer_writer, reader_of_publications}) {
+    for (const char* what : {liveliness_reader, question_reader, answer_reader, liveliness_writer,
+                             question_writer, answer_writer, reader_of_publications}) {
       const bool is_new = std::ranges::find(opened, what) == opened.end();
       if (move.starts_with(what) && is_new) opened.emplace_back(what);
     }
