@@ -75,7 +75,7 @@ class Golden : public testing::TestWithParam<fs::path> {};
 TEST_P(Golden, OutputAndExitCode) {
   const std::vector<Step> steps = read_steps(GetParam());
   ASSERT_FALSE(steps.empty());
-  const stormproof::files::Folder folder;
+  const stormproof::files::Folder folder{"stormproof-golden"};
   std::string updated;
   bool elided = false;
   for (const Step& step : steps) {
