@@ -18,8 +18,8 @@ using model::Stream;
 class Expectation {
  public:
   Expectation(const model::Scenario& scenario, const Emission& emission,
-              const std::vector<write::Identity>& names, bool is_liveliness)
-      : scenario_{scenario}, emission_{emission}, names_{names}, is_liveliness_{is_liveliness} {}
+              const std::vector<write::Identity>& names, bool is_user)
+      : scenario_{scenario}, emission_{emission}, names_{names}, is_user_{is_user} {}
 
   [[nodiscard]] std::string difference(const DatagramRecord& datagram,
                                        const std::vector<const Event*>& events) const {
@@ -65,8 +65,7 @@ class Expectation {
   [[nodiscard]] UdpEnd destination() const {
     if (emission_.kind == PacketKind::spdp_multicast) return write::discovery_group();
     const write::Identity& to = names_[emission_.destination];
-    const bool is_user = is_control() && !is_liveliness_;
-    return is_user ? to.user : to.metatraffic;
+    return is_control() && is_user_ ? to.user : to.metatraffic;
   }
 
   /// An announcement to a port of another host that no participant has.
@@ -203,7 +202,7 @@ class Expectation {
   const model::Scenario& scenario_;
   const Emission& emission_;
   const std::vector<write::Identity>& names_;
-  const bool is_liveliness_;
+  const bool is_user_;
 };
 
 }  // namespace
@@ -238,8 +237,8 @@ std::string difference(const model::Scenario& scenario, const std::vector<Emissi
     for (; event != conversation.events.end() && event->datagram == k; ++event) {
       events.push_back(&*event);
     }
-    const bool is_liveliness = !events.empty() && events.front()->traffic() == Traffic::liveliness;
-    const Expectation expectation{scenario, emissions[k], names, is_liveliness};
+    const bool is_user = !events.empty() && events.front()->traffic() == Traffic::user;
+    const Expectation expectation{scenario, emissions[k], names, is_user};
     const std::string what = expectation.difference(conversation.datagrams[k], events);
     if (!what.empty()) return "datagram " + std::to_string(k) + ": " + what;
   }
