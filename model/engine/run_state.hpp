@@ -22,7 +22,8 @@ struct RunState {
         topology{scenario_.deployment, scenario_.dds.descriptors, same_host},
         probe{probe_},
         reports{probe_ == nullptr ? Reports{} : probe_->reports()},
-        hears_single_packets{reports.tell_packets_apart() && probe_->wants_single_packets()},
+        hears_single_packets{probe_ != nullptr && reports.tell_packets_apart() &&
+                             probe_->wants_single_packets()},
         mutation{mutation_},
         ends_when_complete{scenario_.run_until == RunUntil::completion},
         settled_at{model::settled_at(scenario_.deployment)},
