@@ -34,6 +34,8 @@ enum class Discovery : std::uint8_t { simple, server, super_client, static_peers
 /// Whether a Discovery Server sends again what has not been acknowledged whenever something
 /// arrives.
 enum class Relay : std::uint8_t { repeat, once };
+/// What a client knows of a Discovery Server before it hears of it.
+enum class ServerKnown : std::uint8_t { guid, locator };
 
 /// What a participant sends when it recognises another one for the first time.
 enum class SpdpResend : std::uint8_t { all_known, new_and_multicast, new_only, none };
@@ -154,6 +156,7 @@ struct ServerProfile {
   Nanoseconds pdp_nack_suppression_duration{11'000'000};
   Nanoseconds pdp_heartbeat_response_delay{11'000'000};
   Relay relay = Relay::repeat;
+  ServerKnown known = ServerKnown::guid;
 
   bool operator==(const ServerProfile&) const = default;
 };

@@ -53,13 +53,15 @@ struct ClientAnnounces : Rule<Due<ClientAnnouncement>> {
  private:
   template <class W>
   static void begin(W& w) {
-    w.reverse([](auto& back) {
-      back.for_streams(
-          [](auto& r) { r.when(r(OfAnnouncements{}), [&] { r.raise(LearnerOpens{}); }); });
+    w.when(!w(KnownByLocator{}), [&] {
+      w.reverse([](auto& back) {
+        back.for_streams(
+            [](auto& r) { r.when(r(OfAnnouncements{}), [&] { r.raise(LearnerOpens{}); }); });
+      });
+      w.emit(RegistrationHeartbeat{}, says());
+      w.emit(Registration{}, says());
+      arm_registration(w);
     });
-    w.emit(RegistrationHeartbeat{}, says());
-    w.emit(Registration{}, says());
-    arm_registration(w);
     w.after(ClientSyncPeriod{}, ClientSync{});
   }
 };
@@ -93,8 +95,14 @@ struct RegistrationAckNackArrives : Rule<Received<RegistrationAckNack>> {
   static void run(W& w) {
     const auto initial = w(IsInitial{});
     w.when(initial, [&] {
-      w.emit(RegistrationHeartbeat{}, says());
-      arm_registration(w);
+      w.reverse([](auto& back) {
+        back.when(back(Recognised{}) || !back(KnownByLocator{}), [&] {
+          back.reverse([](auto& client) {
+            client.emit(RegistrationHeartbeat{}, says());
+            arm_registration(client);
+          });
+        });
+      });
     });
     w.when(!initial, [&] { w.set(RegistrationAcknowledged{}, typename W::Bool(true)); });
   }
@@ -149,9 +157,17 @@ struct TakePacket : Procedure {
     });
   }
 };
+/// Who knows the server by its locator reads nothing before the server's own announcement.
 struct RelayedDataArrives : Rule<Received<RelayedData>> {
   template <class W>
   static void run(W& w) {
+    w.when(w(TellsOfServer{}) && !w(LearnerOpen{}), [&] {
+      w.raise(LearnerOpens{});
+      w.reverse([](auto& client) {
+        client.emit(RegistrationHeartbeat{}, says());
+        arm_registration(client);
+      });
+    });
     w.call(TakePacket{});
   }
 };
@@ -179,7 +195,8 @@ struct WakeRoutine : Procedure {
   }
 };
 
-/// The first one of a client; later ones renew a lease, which is not modelled.
+/// The first one of a client; later ones renew a lease, which is not modelled. Who knows the server
+/// by its locator is answered at once.
 struct RegistrationArrives : Rule<Received<Registration>> {
   template <class W>
   static void run(W& w) {
@@ -191,15 +208,32 @@ struct RegistrationArrives : Rule<Received<Registration>> {
         back.for_streams(
             [](auto& r) { r.when(r(OfAnnouncements{}), [&] { r.raise(RelayOpens{}); }); });
       });
+      const auto by_locator = w(KnownByLocator{});
+      w.when(by_locator, [&] { w.call(OpenBuiltin{}); });
       w.perform(OpenReaders{});
       w.reverse([](auto& back) {
         back.for_streams(
             [](auto& r) { r.when(!r(OfAnnouncements{}), [&] { r.raise(RelayOpens{}); }); });
       });
-      w.when(w(CrossHost{}) || w(fastdds::LooksUpTypes{}), [&] { w.perform(OpenBuiltin{}); });
-      w.reverse([](auto& back) { back.call(WakeRoutine{}); });
+      w.when(!by_locator, [&] { w.call(OpenBuiltin{}); });
+      w.reverse([&](auto& back) {
+        back.when(by_locator, [&] {
+          back.for_streams([](auto& r) {
+            r.when(r(OfAnnouncements{}), [&] { r.emit(RelayedData{}, says()); });
+          });
+        });
+        back.call(WakeRoutine{});
+      });
     });
   }
+
+ private:
+  struct OpenBuiltin : Procedure {
+    template <class W>
+    static void body(W& w) {
+      w.when(w(CrossHost{}) || w(fastdds::LooksUpTypes{}), [&] { w.perform(OpenBuiltinSides{}); });
+    }
+  };
 };
 
 struct RegistrationHeartbeatArrives : Rule<Received<RegistrationHeartbeat>> {

@@ -65,9 +65,14 @@ struct RelayResponseDelay : Amount {};
 struct RelaySuppressionDuration : Amount {};
 struct LearnerResponseDelay : Amount {};
 
+/// A client knows where the server is and not who; otherwise both.
+struct KnownByLocator : SwitchOf<"server_known", "locator"> {};
+
 /// The relay is that of announcements.
 struct OfAnnouncements : Answer {};
 struct HistoryNotEmpty : Answer {};
+/// The DATA is the server's own announcement.
+struct TellsOfServer : Answer {};
 /// The reader has not acknowledged the first change that there is, or something is in U.
 struct LacksSomething : Answer {};
 // What the last ACKNACK did.
@@ -82,6 +87,8 @@ struct SendingCost : Amount {};              ///< of these packets, ns
 struct Registration : Packet<owner::pair> {};           ///< DATA(p) of a client
 struct RegistrationHeartbeat : Packet<owner::pair> {};  ///< HEARTBEAT(p)
 struct RegistrationAckNack : Packet<owner::pair, IsInitial> {};
+/// What the sending thread serves goes with a HEARTBEAT; without one it is the server's own
+/// announcement.
 struct RelayedData : Packet<owner::relation, CarriesHeartbeat> {};
 struct RelayHeartbeat : Packet<owner::relation, CarriesHeartbeat> {};
 struct Gap : Packet<owner::relation, CarriesHeartbeat> {};
@@ -107,7 +114,7 @@ struct OpenReaders : Opaque {
 };
 /// Both sides of liveliness between the server and a client of another host, and of what asks for
 /// types and answers.
-struct OpenBuiltin : Opaque {
+struct OpenBuiltinSides : Opaque {
   template <class W>
   static void contract(W&) {}
 };

@@ -77,10 +77,11 @@ class ServerProtocol final : public Stored<ServerProtocol, Protocol, ServerThing
     send_registration(PacketKind::registration_acknack, w.template number<comp::owner::pair>(),
                       sizeof...(Sayings) > 0);
   }
-  template <class World, class Sayings>
-  void emit(server::RelayedData, World& w, const Sayings&) {
+  template <class World, class... Sayings>
+  void emit(server::RelayedData, World& w, const std::tuple<Sayings...>&) {
     const auto relation = w.template number<comp::owner::relation>();
-    send_relayed(relation, with_heartbeat(relation, served()));
+    const bool serves = sizeof...(Sayings) > 0;
+    send_relayed(relation, serves ? with_heartbeat(relation, served()) : own_announcement());
   }
   template <class World, class Sayings>
   void emit(server::RelayHeartbeat, World& w, const Sayings&) {

@@ -174,15 +174,15 @@ bool ServerSteps<Host>::skip_before(Number relation, std::int64_t number) {
 }
 
 template <class Host>
-Relayed ServerSteps<Host>::served() const {
-  const Database::Contents& contents = database_.contents(served_.item);
+Relayed ServerSteps<Host>::data_of(SendingQueues::Entry entry) const {
+  const Database::Contents& contents = database_.contents(entry.item);
   Relayed data;
   data.has_data = true;
   data.is_announcement = contents.is_announcement;
   data.participant = contents.participant;
   data.stream = contents.stream;
   data.descriptor = contents.descriptor;
-  data.number = relays_[served_.relay].number_of(served_.item);
+  data.number = relays_[entry.relay].number_of(entry.item);
   return data;
 }
 

@@ -58,6 +58,11 @@ class ServerSteps {
     return !relays_[relay_at(w)].empty();
   }
   template <class World>
+  [[nodiscard]] bool answer(server::TellsOfServer, const World& w) const {
+    const Relayed& relayed = *w.packet().relayed;
+    return relayed.is_announcement && relayed.participant == server_id();
+  }
+  template <class World>
   [[nodiscard]] bool answer(server::LacksSomething, const World& w) const;
   template <class World>
   [[nodiscard]] bool answer(server::SomeRequested, const World&) const {
@@ -127,7 +132,7 @@ class ServerSteps {
     host().template runs_for_clients<fsm::composition::fastdds::WriterOpens>(2 * pair + s);
   }
   template <class World>
-  void perform(server::OpenBuiltin, World& w) {
+  void perform(server::OpenBuiltinSides, World& w) {
     host().open_builtin(w.template number<comp::owner::pair>());
   }
   template <class World>
@@ -165,7 +170,11 @@ class ServerSteps {
   // What packets carry.
   /// It asks for all that is missing of what is announced; an initial one claims nothing.
   [[nodiscard]] Relayed asks(Number relation, bool initial);
-  [[nodiscard]] Relayed served() const;
+  /// What the sending thread serves.
+  [[nodiscard]] Relayed served() const { return data_of(served_); }
+  [[nodiscard]] Relayed own_announcement() const {
+    return data_of({relay::announcements, database_.announcement(server_id())});
+  }
   [[nodiscard]] Relayed skipped() const {
     Relayed gap;
     gap.numbers = irrelevant_;
@@ -212,6 +221,7 @@ class ServerSteps {
   [[nodiscard]] static bool is_in(const RelayWriter::Entry& entry) {
     return entry.state == fsm::Reflect<fsm::ChangeForReader>::id<State>;
   }
+  [[nodiscard]] Relayed data_of(SendingQueues::Entry entry) const;
   void note_acknowledgements();
   bool is_pending(Number relay, std::int64_t number, Item item);
   void remove(Number relay, Item item) {

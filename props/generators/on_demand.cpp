@@ -115,6 +115,7 @@ void draw_discovery(std::uint64_t seed, Discovery discovery, Scenario& scenario)
   server.pdp_nack_suppression_duration = Nanoseconds{pick(6, {11, 0, 2}) * ms};
   server.pdp_heartbeat_response_delay = Nanoseconds{pick(7, {11, 1, 0}) * ms};
   server.relay = seed % 3 == 1 ? Relay::once : Relay::repeat;
+  server.known = pick(9, {0, 1}) == 1 ? ServerKnown::locator : ServerKnown::guid;
   scenario.deployment.send_cost = Nanoseconds{pick(8, {50, 0, 400}) * 1'000};
 }
 

@@ -167,8 +167,8 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
   }
 
  private:
-  [[nodiscard]] model::Relayed contents(server::RelayedData, Number relation, bool) const {
-    return with_heartbeat(relation, served());
+  [[nodiscard]] model::Relayed contents(server::RelayedData, Number relation, bool serves) const {
+    return serves ? with_heartbeat(relation, served()) : own_announcement();
   }
   [[nodiscard]] model::Relayed contents(server::RelayHeartbeat, Number relation, bool) const {
     return with_heartbeat(relation, {});

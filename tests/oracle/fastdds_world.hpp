@@ -388,6 +388,10 @@ void schedule_after(World& w, model::Nanoseconds delay, const Event& event);
 [[nodiscard]] Relation& relation(World& w, Id i, Id j, int s);
 [[nodiscard]] Writer& writer(World& w, Id i, int s);
 
+[[nodiscard]] inline bool knows_guid(const World& w) {
+  return w.scenario.dds.server.known == model::ServerKnown::guid;
+}
+
 // fastdds_descriptors.cpp
 [[nodiscard]] Id descriptor_count(const model::Scenario& scenario, Id i, int s);
 [[nodiscard]] std::vector<std::pair<int, Id>> creation_order(const model::Scenario& scenario, Id i);
@@ -525,6 +529,7 @@ void routine(World& w, std::uint64_t token);
 
 // server_relay.cpp
 void open_relay(World& w, int stream, Id j);
+void send_own_announcement(World& w, Id j);
 void insert(World& w, int stream, const Item& item);
 void remove(World& w, int stream, const Item& item);
 void send_next(World& w);

@@ -245,6 +245,16 @@ enum class ServerMistake : std::uint8_t {
   acknowledged_is_irrelevant,  ///< a GAP answers requests for what is acknowledged
   gone_is_irrelevant,          ///< or for what is before the history
   requests_never_arm,          ///< a request for what is on its way does not arm
+  // A server that is known by its locator.
+  announced_at_start,      ///< announcement 0 is sent
+  waits_for_routine,       ///< the server does not answer a first announcement at once
+  answers_with_heartbeat,  ///< a HEARTBEAT rides in that answer
+  answers_before_relays,   ///< it goes before what the relays of descriptors say
+  builtin_last,            ///< what is built in opens after the readers and relays
+  anything_opens,          ///< a client's reader opens with whatever the server sends it
+  meets_silently,          ///< a client that meets the server sends no HEARTBEAT(p)
+  greets_once,             ///< or does not repeat it
+  strangers_answered,      ///< a client that does not know the server answers it
 };
 
 /// What the oracle of `implementation: cyclone` does wrong (specs/guide/cyclone.md has the rules).
@@ -325,7 +335,7 @@ inline constexpr std::size_t wifi_mistake_count =
 /// The last one that scenarios without listed hosts, failing transmissions and processors can show.
 inline constexpr WifiMistake last_of_one_access_point = WifiMistake::counted_at_generation;
 inline constexpr std::size_t server_mistake_count =
-    static_cast<std::size_t>(ServerMistake::requests_never_arm) + 1;
+    static_cast<std::size_t>(ServerMistake::strangers_answered) + 1;
 inline constexpr std::size_t cyclone_mistake_count =
     static_cast<std::size_t>(CycloneMistake::answers_undirected) + 1;
 

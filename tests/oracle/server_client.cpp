@@ -70,6 +70,14 @@ void send_acknack(World& w, Id j, int stream, bool initial, std::int64_t base,
   emit(w, packet);
 }
 
+// The server's own announcement is the first that a client hears that knows only where it is.
+void meet_server(World& w, Id i) {
+  open_learner(w, i, participants_stream);
+  if (w.makes(ServerMistake::meets_silently)) return;
+  heartbeat_to_server(w, i);
+  if (!w.makes(ServerMistake::greets_once)) arm_announcements(w, i);
+}
+
 void learn_participant(World& w, Id j, Id i) {
   if (!w.participants.at(j).known.insert(i).second) return;
   if (i == w.server_id()) w.server->clients[j].knows_server = true;
@@ -102,10 +110,14 @@ bool is_needed(const World& w, Id i, Id j, int s, Id d) {
 
 void client_announces(World& w, Id i, std::int64_t k) {
   if (k > 0) return announce_to_server(w, i);
-  open_learner(w, i, participants_stream);
-  heartbeat_to_server(w, i);
-  announce_to_server(w, i);
-  arm_announcements(w, i);
+  if (knows_guid(w)) {
+    open_learner(w, i, participants_stream);
+    heartbeat_to_server(w, i);
+    announce_to_server(w, i);
+    arm_announcements(w, i);
+  } else if (w.makes(ServerMistake::announced_at_start)) {
+    announce_to_server(w, i);
+  }
   schedule_after(w, w.scenario.dds.server.client_sync_period,
                  make_event(EventKind::client_tick, i, i, 0));
 }
@@ -138,6 +150,8 @@ void receive_registration_acknack(World& w, const Packet& packet) {
     return;
   }
   if (w.makes(ServerMistake::initial_acknowledges)) w.server->clients[i].acknowledged = true;
+  const bool answers = knows_guid(w) || w.server->clients[i].knows_server;
+  if (!answers && !w.makes(ServerMistake::strangers_answered)) return;
   heartbeat_to_server(w, i);
   arm_announcements(w, i);
 }
@@ -145,6 +159,11 @@ void receive_registration_acknack(World& w, const Packet& packet) {
 void receive_relayed(World& w, const Packet& packet) {
   const Id j = *packet.destination;
   Learner& l = w.server->learners[{j, packet.stream}];
+  const bool of_server = packet.item && packet.item->stream == participants_stream &&
+                         packet.item->participant == w.server_id();
+  const bool opens =
+      of_server || (packet.stream == participants_stream && w.makes(ServerMistake::anything_opens));
+  if (!l.open && !knows_guid(w) && opens) meet_server(w, j);
   if (!l.open) return;
   if (packet.item) {
     l.received.insert(packet.item_number);

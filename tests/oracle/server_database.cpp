@@ -206,9 +206,15 @@ void receive_registration(World& w, const Packet& packet) {
   w.server->joining.push_back(i);
   schedule_initial(w, i, w.sedp.initial_acknack_delay.count());
   open_relay(w, participants_stream, i);
+  const bool builtin_first = !knows_guid(w) && !w.makes(ServerMistake::builtin_last);
+  if (builtin_first) open_builtin(w, i, n);
+  const bool answers = !knows_guid(w) && !w.makes(ServerMistake::waits_for_routine);
+  const bool answers_first = w.makes(ServerMistake::answers_before_relays);
+  if (answers && answers_first) send_own_announcement(w, i);
   for (int s = 0; s < 2; ++s) open_reader(w, n, i, s);
   for (int s = 0; s < 2; ++s) open_relay(w, s, i);
-  open_builtin(w, i, n);
+  if (!builtin_first) open_builtin(w, i, n);
+  if (answers && !answers_first) send_own_announcement(w, i);
   wake(w);
 }
 

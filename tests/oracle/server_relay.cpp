@@ -12,6 +12,7 @@ namespace {
 // By version, with a HEARTBEAT.
 constexpr std::int64_t own_announcement_payloads[] = {428, 688, 684};
 constexpr std::int64_t passed_announcement_payloads[] = {356, 616, 620};
+constexpr std::int64_t riding_heartbeat = 32;
 constexpr std::int64_t around_descriptor = 36 + 12 + 32;  // header, timestamp, HEARTBEAT
 constexpr std::int64_t gap_payload = 72;
 constexpr std::int64_t gap_with_heartbeat_payload = 100;
@@ -97,6 +98,14 @@ void count_data(World& w, const Item& item, Id j) {
   r.delivered.at(item.descriptor) = true;
 }
 
+std::int64_t number_of(const Relay& relay, const Item& item) {
+  std::int64_t number = 0;
+  for (const auto& [k, one] : relay.history) {
+    if (one == item) number = k;
+  }
+  return number;
+}
+
 // The GAP before a number that is sent to j for the first time. Returns whether there is one.
 bool gap_before(World& w, int stream, Id j, std::int64_t number) {
   Relay& relay = w.server->relays[stream];
@@ -120,10 +129,7 @@ bool costs(const World& w, Id j) {
 // Returns how many packets it sends.
 std::int64_t deliver(World& w, int stream, const Item& item) {
   Relay& relay = w.server->relays[stream];
-  std::int64_t number = 0;
-  for (const auto& [k, one] : relay.history) {
-    if (one == item) number = k;
-  }
+  const std::int64_t number = number_of(relay, item);
   std::vector<Id> wanting;
   for (const Id j : relay.readers) {
     const auto& list = relay.about.at(j).list;
@@ -172,6 +178,17 @@ void open_relay(World& w, int stream, Id j) {
   }
   if (!relay.history.empty()) arm(w, stream);
   heartbeat_to(w, stream, j);
+}
+
+// To a client that knows only where the server is: at once, beside what the relay sends it.
+void send_own_announcement(World& w, Id j) {
+  const Item own{w.server_id(), participants_stream, 0};
+  Packet packet = relayed(w, participants_stream, j, payload_of(w, own) - riding_heartbeat);
+  packet.item = own;
+  packet.item_number = number_of(w.server->relays[participants_stream], own);
+  count_data(w, own, j);
+  if (w.makes(ServerMistake::answers_with_heartbeat)) add_heartbeat(w, packet);
+  emit(w, packet);
 }
 
 void remove(World& w, int stream, const Item& item) {

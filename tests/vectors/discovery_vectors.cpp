@@ -4,7 +4,7 @@
 // versions of Fast DDS differ in.
 #include "tests/vectors/discovery_vectors.hpp"
 
-#include "tests/vectors/staggered.hpp"
+#include "tests/vectors/fastdds_scenarios.hpp"
 
 namespace stormproof::vectors {
 
@@ -47,17 +47,22 @@ void short_periods(Scenario& s) {
   s.dds.server.client_sync_period = Nanoseconds{50 * ms};
 }
 
-void version_2_14_5(Scenario& s) {
+void server_2_14_5(Scenario& s) {
+  version_2_14_5(s);
   s.dds.server.relay = model::Relay::once;
-  s.dds.sedp.nack_response_delay = Nanoseconds{100 * ms};
-  s.dds.sedp.nack_suppression_duration = Nanoseconds{10 * ms};
-  s.dds.sedp.heartbeat_response_delay = Nanoseconds{10 * ms};
 }
 
 void look_up_types_with_statistics(Scenario& s) {
-  version_2_14_5(s);
+  server_2_14_5(s);
   s.dds.version.type_lookup = model::Whether::yes;
   s.dds.version.statistics_bytes = Bytes{60};
+}
+
+void no_type_lookup(Scenario& s) { s.dds.version.type_lookup = model::Whether::no; }
+
+void known_by_locator(Scenario& s) {
+  s.dds.server.relay = model::Relay::once;
+  s.dds.server.known = model::ServerKnown::locator;
 }
 
 using Table = std::vector<DiscoveryVector>;
@@ -79,7 +84,7 @@ void add_clients(Table& table) {
                    with(five, short_periods),
                    {1573124694, 1265, 816, 2192, 2186, 281, 325, 66, 324, 2855}});
   table.push_back({"server_2_14_5",
-                   with(five, version_2_14_5),
+                   with(five, server_2_14_5),
                    {1790982108, 1265, 1954, 3207, 344, 222, 258, 54, 224, 2765}});
   table.push_back({"server_3x20_type_lookup",
                    with(grid(server, 2, 3, 20), look_up_types_with_statistics),
@@ -106,11 +111,44 @@ void add_super_clients(Table& table) {
                    grid(super, 3, 2, 9),
                    {1299547662, 624, 2107, 2717, 501, 157, 191, 33, 150, 532}});
   table.push_back({"super_3x20_2_14_5",
-                   with(grid(super, 2, 3, 20), version_2_14_5),
+                   with(grid(super, 2, 3, 20), server_2_14_5),
                    {1297064035, 666, 0, 658, 99, 92, 109, 24, 120, 716}});
   table.push_back({"super_late_2_14_5",
-                   with(with(late(super), version_2_14_5), short_routine_period),
+                   with(with(late(super), server_2_14_5), short_routine_period),
                    {2364016950, 928, 1580, 2677, 222, 88, 103, 50, 399, 1602}});
+}
+
+/// Versions since 3.0, which know the server by its locator.
+void add_locators(Table& table) {
+  constexpr Discovery server = Discovery::server;
+  constexpr Discovery super = Discovery::super_client;
+  const auto add = [&](const char* name, const Scenario& scenario, DiscoveryExpected expected) {
+    table.push_back({name, with(scenario, known_by_locator), expected});
+  };
+  add("of_3_2_5_1x2", with(grid(server, 2, 1, 2), version_3_2_5),
+      {1022793434, 25, 0, 17, 10, 7, 4, 4, 6, 41});
+  add("of_3_2_5_3x20", with(grid(server, 2, 3, 20), version_3_2_5),
+      {1243777875, 471, 148, 599, 87, 60, 68, 17, 98, 710});
+  add("of_3_2_5_5x20", with(grid(server, 2, 5, 20), version_3_2_5),
+      {1691742826, 1265, 0, 1248, 277, 214, 250, 63, 190, 2960});
+  add("super_of_3_2_5", with(grid(super, 2, 2, 10), version_3_2_5),
+      {1098086292, 216, 0, 205, 34, 32, 32, 8, 42, 154});
+  const auto of_3_6_2 = [&](std::uint32_t hosts, std::uint32_t participants,
+                            std::uint32_t endpoints) {
+    return with(grid(super, hosts, participants, endpoints), version_3_6_2);
+  };
+  add("super_of_3_6_2_1x2", of_3_6_2(2, 1, 2), {1027338528, 38, 0, 32, 10, 8, 5, 3, 8, 35});
+  add("super_of_3_6_2_2x10", of_3_6_2(2, 2, 10), {1098089844, 216, 0, 205, 34, 32, 32, 8, 42, 154});
+  const Scenario three = of_3_6_2(2, 3, 20);
+  add("super_of_3_6_2_3x20", three, {1295304786, 666, 0, 652, 96, 92, 106, 21, 119, 822});
+  add("super_of_3_6_2_5x20", of_3_6_2(2, 5, 20),
+      {2738895814, 1850, 1697, 3747, 460, 345, 407, 112, 574, 4210});
+  add("super_of_3_6_2_three_hosts", of_3_6_2(3, 2, 9),
+      {1255778865, 624, 0, 604, 112, 105, 124, 25, 110, 577});
+  add("super_of_3_6_2_short_periods", with(three, short_periods),
+      {787428680, 666, 325, 1081, 112, 95, 106, 21, 228, 849});
+  add("super_of_3_6_2_no_type_lookup", with(three, no_type_lookup),
+      {1307100404, 666, 257, 909, 101, 94, 108, 21, 121, 704});
 }
 
 void add_static_peers(Table& table) {
@@ -143,6 +181,7 @@ const std::vector<DiscoveryVector>& discovery_vectors() {
     Table t;
     add_clients(t);
     add_super_clients(t);
+    add_locators(t);
     add_static_peers(t);
     return t;
   }();

@@ -27,6 +27,22 @@ inline void version_2_14_5(model::Scenario& s) {
   s.dds.sedp.heartbeat_response_delay = model::Nanoseconds{10 * ms};
 }
 
+inline void version_3_2_5(model::Scenario& s) {
+  version_2_14_5(s);
+  s.dds.version = {.match_order = model::MatchOrder::builtin_first,
+                   .builtin_response_delay = model::Nanoseconds{11'000'000},
+                   .sizes = model::SizesSince::v3_2,
+                   .type_lookup = model::Whether::yes,
+                   .statistics_bytes = model::Bytes{60},
+                   .max_data_per_message = 31};
+}
+
+inline void version_3_6_2(model::Scenario& s) {
+  version_3_2_5(s);
+  s.dds.version.sizes = model::SizesSince::v3_6;
+  s.dds.sedp.piggyback = model::Piggyback::group;
+}
+
 inline void done_at_once(model::Scenario& s) {
   for (model::Participant& p : s.deployment.participants) p.endpoints_done = p.start;
 }

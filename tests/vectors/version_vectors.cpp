@@ -24,22 +24,6 @@ void slow_builtin_replies(Scenario& s) {
 }
 void hashes_of_types(Scenario& s) { s.dds.version.descriptor_extra_bytes = Bytes{92}; }
 
-void version_3_2_5(Scenario& s) {
-  version_2_14_5(s);
-  statistics(s);
-  small_messages(s);
-  type_lookup(s);
-  builtin_first(s);
-  slow_builtin_replies(s);
-  s.dds.version.sizes = model::SizesSince::v3_2;
-}
-
-void version_3_6_2(Scenario& s) {
-  version_3_2_5(s);
-  sizes_of_3(s);
-  group(s);
-}
-
 Scenario times_a() { return at(grid(2, 10), {{18, 18}, {6, 180}, {6, 60}, {1000, 1000}}); }
 Scenario times_b() {
   return at(grid(3, 5), {{80, 82}, {6, 400}, {14, 14}, {50, 320}, {6, 120}, {180, 190}});

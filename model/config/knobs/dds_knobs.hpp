@@ -65,6 +65,8 @@ inline constexpr std::array<std::string_view, 4> enum_names<Discovery>{"simple",
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<Relay>{"repeat", "once"};
 template <>
+inline constexpr std::array<std::string_view, 2> enum_names<ServerKnown>{"guid", "locator"};
+template <>
 inline constexpr std::array<std::string_view, 2> enum_names<Whether>{"false", "true"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<MatchOrder>{"endpoints_first",
@@ -389,6 +391,10 @@ constexpr void visit_knobs(auto& visit, Is<ServerProfile> auto& server, Implemen
   visit.knob("relay", server.relay, ChoiceType<Relay>{},
              "whether the server sends what is not acknowledged again whenever something arrives; "
              "repeat if absent",
+             with_server(kind));
+  visit.knob("server_known", server.known, UsualChoiceType<ServerKnown>{{}, ServerKnown::guid},
+             "what a client knows of the server before it hears of it: also who it is, or only "
+             "where; guid if absent",
              with_server(kind));
 }
 

@@ -27,6 +27,7 @@ constexpr VendorKnob fastdds_knobs[] = {
     {"pdp_nack_suppression_duration", "", "constant in the library, PDP.cpp:73-77"},
     {"pdp_heartbeat_response_delay", "", "constant in the library, PDP.cpp:73-77"},
     {"relay", "", "rule of the library, DiscoveryDataBase::process_dirty_topics"},
+    {"server_known", "", "rule of the library, PDPClient::announceParticipantState"},
     {"peer_ports", "transport_descriptors/transport_descriptor/maxInitialPeersRange",
      "acts with initial peers only; whoever has no port among them may not be found", 1, 100},
     {"match_order", "", "rule of the library, PDPSimple::assign_low_level_remote_endpoints"},
