@@ -15,6 +15,7 @@ namespace {
 constexpr const char* file_of_distributions = "distributions.yaml";
 constexpr const char* key_of_distributions = "distributions";
 constexpr const char* key_of_cyclonedds = "cyclonedds";
+constexpr const char* key_of_retired = "retired";
 
 /// Reads one text after the other; the first mistake wins.
 class DistributionReader {
@@ -42,11 +43,28 @@ class DistributionReader {
   std::optional<InputError> error_;
 };
 
+/// The first of these folders that has the file.
+std::optional<std::string> file_in(const std::vector<std::string>& directories) {
+  for (const std::string& directory : directories) {
+    const fs::path file = fs::path{directory} / file_of_distributions;
+    std::error_code failed;
+    if (fs::exists(file, failed)) return file.string();
+  }
+  return std::nullopt;
+}
+
+Result<Node> load(const std::string& file) {
+  Result<Node> root = load_yaml(file);
+  if (!root) return root;
+  auto error =
+      check_keys(*root, "", {{key_of_distributions, key_of_cyclonedds, key_of_retired}, {}});
+  if (error) return *std::move(error);
+  return root;
+}
+
 Result<std::vector<Distribution>> read_file(const std::string& file, const char* table) {
-  const Result<Node> root = load_yaml(file);
+  const Result<Node> root = load(file);
   if (!root) return root.error();
-  if (auto error = check_keys(*root, "", {{key_of_distributions, key_of_cyclonedds}, {}}))
-    return *std::move(error);
   const Node* map = root->find(table);
   if (map == nullptr && table != key_of_distributions) return std::vector<Distribution>{};
   if (map == nullptr || !map->is_map()) {
@@ -84,12 +102,19 @@ std::string statement_of(const Distribution& distribution) {
 Result<std::vector<Distribution>> read_distributions(const std::vector<std::string>& directories,
                                                      Rmw rmw) {
   const char* table = rmw == Rmw::cyclonedds ? key_of_cyclonedds : key_of_distributions;
-  for (const std::string& directory : directories) {
-    const fs::path file = fs::path{directory} / file_of_distributions;
-    std::error_code failed;
-    if (fs::exists(file, failed)) return read_file(file.string(), table);
-  }
-  return std::vector<Distribution>{};
+  const auto file = file_in(directories);
+  return file ? read_file(*file, table) : std::vector<Distribution>{};
+}
+
+Result<std::string> successor_of(const std::vector<std::string>& directories,
+                                 const std::string& name) {
+  const auto file = file_in(directories);
+  if (!file) return std::string{};
+  const Result<Node> root = load(*file);
+  if (!root) return root.error();
+  const Node* retired = root->find(key_of_retired);
+  const Node* successor = retired == nullptr ? nullptr : retired->find(name);
+  return successor == nullptr ? std::string{} : successor->text;
 }
 
 }  // namespace stormproof::model::config

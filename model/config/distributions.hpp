@@ -37,4 +37,9 @@ enum class Rmw : std::uint8_t {
 [[nodiscard]] Result<std::vector<Distribution>> read_distributions(
     const std::vector<std::string>& directories, Rmw rmw = Rmw::of_the_distribution);
 
+/// The name of the profile that stands in the place of one that is not shipped any more, by the
+/// same file; empty if it says nothing of this name. Errors as above.
+[[nodiscard]] Result<std::string> successor_of(const std::vector<std::string>& directories,
+                                               const std::string& name);
+
 }  // namespace stormproof::model::config

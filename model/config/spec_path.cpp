@@ -160,6 +160,12 @@ Result<std::string> SpecPath::find(SpecKind kind, const std::string& reference,
     const auto distributions = read_distributions(directories);
     if (!distributions) return distributions.error();
     for (const Distribution& one : *distributions) known.push_back(one.name);
+    const auto successor = successor_of(directories, reference);
+    if (!successor) return successor.error();
+    if (!successor->empty()) {
+      return InputError{where, fmt::format("{} is not shipped any more; expected {} in its place",
+                                           quote(reference), *successor)};
+    }
   }
   return InputError{
       where, fmt::format("no {} file named {}{}; expected one of {}, or a path", folder_name(kind),

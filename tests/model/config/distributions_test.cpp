@@ -78,6 +78,20 @@ TEST(Distributions, AreAmongTheNames) {
   EXPECT_NE(to_string(unknown.error()).find("did you mean 'humble'?"), std::string::npos);
 }
 
+/// Nobody is left alone with a name that was shipped; what is named instead is there.
+TEST(Distributions, RetiredProfilesNameTheirSuccessor) {
+  for (const std::string name : {"fastdds-3.4", "fastdds-server-3.5"}) {
+    const auto successor = successor_of(source_specs().directories, name);
+    ASSERT_TRUE(successor) << to_string(successor.error());
+    EXPECT_TRUE(read_dds_profile(*successor, {}, source_specs())) << *successor;
+    EXPECT_EQ(to_string(read_dds_profile(name, {}, source_specs()).error()),
+              name + ": '" + name + "' is not shipped any more; expected " + *successor +
+                  " in its place");
+  }
+  EXPECT_EQ(*successor_of(source_specs().directories, "fastdds-3.6"), "");
+  EXPECT_EQ(*successor_of({"/none"}, "fastdds-3.4"), "");
+}
+
 TEST(Distributions, MistakesHaveTheirPlace) {
   const auto error_of = [](const std::string& text) {
     const TestFiles files;

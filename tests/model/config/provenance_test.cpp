@@ -82,10 +82,10 @@ TEST_F(Provenance, a_preset_is_its_own_origin) {
 }
 
 TEST_F(Provenance, a_users_file_and_arguments_are_told_from_the_preset) {
-  const std::string mine = files.write("mine.yaml", "base: fastdds-3.4\nspdp:\n  period: 9s\n");
+  const std::string mine = files.write("mine.yaml", "base: fastdds-3.6\nspdp:\n  period: 9s\n");
   const TracedProfile profile = traced(mine, {"sedp.heartbeat_period=2s"});
   EXPECT_EQ(profile.reference, mine);
-  EXPECT_EQ(profile.preset, "fastdds-3.4");
+  EXPECT_EQ(profile.preset, "fastdds-3.6");
   EXPECT_EQ(place(profile.places, "spdp.period"), mine + ":3:11");
   EXPECT_EQ(place(profile.places, "sedp.heartbeat_period"), "--set sedp.heartbeat_period=2s");
   EXPECT_EQ(profile.value.spdp.period.count(), 9'000'000'000);

@@ -169,14 +169,14 @@ TEST(ScenarioFile, a_profile_keeps_the_implementation_of_its_base) {
   EXPECT_EQ(read.dds.implementation, ImplementationKind::fastdds);
   EXPECT_EQ(read.dds.sedp.piggyback, Piggyback::off);
   EXPECT_EQ(
-      scenario(plain, {"dds.base=fastdds-3.4", "dds.implementation=fastdds"}).dds.sedp.piggyback,
-      Piggyback::linear);
+      scenario(plain, {"dds.base=fastdds-3.6", "dds.implementation=fastdds"}).dds.sedp.piggyback,
+      Piggyback::group);
   EXPECT_EQ(scenario(plain, {"dds.implementation=paper"}).dds, DdsProfile{});
   EXPECT_EQ(refusal({"dds=fastdds-2.6.11", "dds.sedp.grouping=mtu"}),
             "--set dds.sedp.grouping=mtu: dds.sedp.grouping: only implementation: paper has this "
             "key; expected none of it in a profile with implementation: fastdds");
   const std::vector<std::string> change{"implementation=paper"};
-  EXPECT_EQ(to_string(read_dds_profile("fastdds-3.4", change, source_specs()).error()),
+  EXPECT_EQ(to_string(read_dds_profile("fastdds-3.6", change, source_specs()).error()),
             "--set implementation=paper: implementation: 'paper'; expected fastdds, as the profile "
             "that this changes has it; the keys of one do not fit the other");
   EXPECT_NE(read_wireless_profile("wired", change, source_specs())

@@ -136,8 +136,31 @@ TEST(Specs, fast_dds_has_the_timers_of_the_paper_until_they_are_corrected) {
   expected.sedp.nack_suppression_duration = Nanoseconds{10'000'000};
   EXPECT_EQ(dds("fastdds-2.14.5"), expected);
 
-  expected.sedp.piggyback = Piggyback::linear;
-  EXPECT_EQ(dds("fastdds-3.4"), expected);
+  expected.version = {.match_order = MatchOrder::builtin_first,
+                      .builtin_response_delay = Nanoseconds{11'000'000},
+                      .sizes = SizesSince::v3_2,
+                      .type_lookup = Whether::yes,
+                      .statistics_bytes = Bytes{60},
+                      .max_data_per_message = 31};
+  EXPECT_EQ(dds("fastdds-3.2"), expected);
+
+  expected.version.sizes = SizesSince::v3_6;
+  expected.sedp.piggyback = Piggyback::group;
+  EXPECT_EQ(dds("fastdds-3.6"), expected);
+}
+
+/// What the version has anyway, and clients that know the server's address alone.
+TEST(Specs, since_3_0_clients_know_a_server_by_its_locator) {
+  const auto with_server = [](const std::string& version, Discovery discovery) {
+    DdsProfile expected = dds("fastdds-" + version);
+    expected.discovery = discovery;
+    expected.server.relay = Relay::once;
+    expected.server.known = ServerKnown::locator;
+    return expected;
+  };
+  EXPECT_EQ(dds("fastdds-server-3.2"), with_server("3.2", Discovery::server));
+  EXPECT_EQ(dds("fastdds-server-3.6"), with_server("3.6", Discovery::super_client));
+  EXPECT_EQ(dds("fastdds-server-2.14.5").server.known, ServerKnown::guid);
 }
 
 TEST(Specs, cyclone_dds_has_the_values_of_its_source) {

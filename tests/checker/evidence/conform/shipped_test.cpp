@@ -113,7 +113,7 @@ TEST(TellingVersionsApart, CycloneConformsToNoFastDds) {
                            "cyclone0102uni_ap_np5_ne20_r0"}) {
     const auto conversation = shipped(name);
     for (const char* version :
-         {"fastdds-2.6.11", "fastdds-2.9.1", "fastdds-2.14.5", "fastdds-3.4"}) {
+         {"fastdds-2.6.11", "fastdds-2.9.1", "fastdds-2.14.5", "fastdds-3.6"}) {
       const Conformance result = conformance(conversation, profile(version));
       ASSERT_EQ(result.verdict, Verdict::does_not_conform) << name << " " << version;
       std::set<Fault> faults;

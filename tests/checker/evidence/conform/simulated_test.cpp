@@ -106,7 +106,7 @@ props::ScenarioSpace space(bool losses) {
 }
 
 constexpr const char* versions[] = {"fastdds-2.6.11", "fastdds-2.9.1", "fastdds-2.14.5",
-                                    "fastdds-3.4"};
+                                    STORMPROOF_SPECS_DIR "/findings/profiles/corrections.yaml"};
 
 bool sends_descriptors(const capture::Conversation& conversation) {
   return std::ranges::any_of(conversation.events, [](const capture::Event& event) {

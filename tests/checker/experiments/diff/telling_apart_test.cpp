@@ -151,7 +151,7 @@ TEST(TellApart, EveryKnobOfFastDdsByUpToThreeParticipants) {
 
 TEST(TellApart, EveryTwoPresetsByTwoParticipants) {
   const std::vector<std::string> names{"paper",         "fastdds-2.6.11", "fastdds-2.6.11-sndbuf4M",
-                                       "fastdds-2.9.1", "fastdds-2.14.5", "fastdds-3.4"};
+                                       "fastdds-2.9.1", "fastdds-2.14.5", "fastdds-3.2"};
   for (const std::string& one : names) {
     for (const std::string& other : names) {
       if (one == other) continue;

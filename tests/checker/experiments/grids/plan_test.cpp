@@ -43,7 +43,7 @@ TEST(Plan, JobsAreTheScenariosOfTheSameOverrides) {
       "base: " + name +
       "\ngrid:\n"
       "  dds.sedp.heartbeat_period: [500ms, 2s]\n"
-      "  dds: [paper, fastdds-2.6.11, {base: fastdds-3.4, sedp: {heartbeat_policy: adaptive}}]\n"
+      "  dds: [paper, fastdds-2.6.11, {base: fastdds-2.14.5, sedp: {heartbeat_policy: adaptive}}]\n"
       "  wireless.base: [wifi-80211n, ad-hoc]\n"
       "  wireless.stages.0.rate_multicast: [6Mbps, 12Mbps]\n"
       "  deployment.participants_per_host: [1, 3]\n"

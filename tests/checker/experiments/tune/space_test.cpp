@@ -81,7 +81,7 @@ TEST(TuneSpace, AppliesAndTellsChanges) {
 TEST(TuneSubject, KnowsThePresetThroughBasesAndOverrides) {
   EXPECT_EQ(subject_of({"dds=fastdds-2.6.11"})->preset, "fastdds-2.6.11");
   EXPECT_EQ(subject_of({"dds=fastdds-2.14.5"})->preset, "fastdds-2.14.5");
-  EXPECT_EQ(subject_of({"dds={base: fastdds-3.4, spdp: {period: 1s}}"})->preset, "fastdds-3.4");
+  EXPECT_EQ(subject_of({"dds={base: fastdds-3.2, spdp: {period: 1s}}"})->preset, "fastdds-3.2");
   EXPECT_EQ(subject_of({}, "fastdds-2.6.11")->preset, "fastdds-2.6.11");
 }
 

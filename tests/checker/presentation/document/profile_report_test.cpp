@@ -73,9 +73,9 @@ TEST(ProfileReport, a_comment_goes_on_below_its_line) {
 }
 
 TEST(ProfileReport, a_value_says_which_preset_of_the_chain_it_is_of) {
-  const ProfileReport report = described("fastdds-3.4");
-  EXPECT_EQ(report.preset, "fastdds-3.4");
-  EXPECT_EQ(row(report, "sedp.piggyback").origin.preset, "fastdds-3.4");
+  const ProfileReport report = described("fastdds-3.6");
+  EXPECT_EQ(report.preset, "fastdds-3.6");
+  EXPECT_EQ(row(report, "sedp.piggyback").origin.preset, "fastdds-3.6");
   EXPECT_EQ(row(report, "spdp.resend").origin.preset, "fastdds-2.14.5");
   EXPECT_EQ(row(report, "spdp.period").origin.preset, "fastdds-2.6.11");
 }

@@ -50,9 +50,10 @@ DdsProfile read_back(const std::string& name, const std::string& xml) {
 }
 
 const std::vector<std::string> names = {
-    "fastdds-2.6.11",          "fastdds-2.14.5",        "fastdds-3.4",
+    "fastdds-2.6.11",          "fastdds-2.14.5",        "fastdds-3.6",
     "fastdds-2.6.11-sndbuf4M", "fastdds-2.9.1",         "cyclonedds-0.10",
-    "fastdds-server-2.6.11",   "fastdds-server-2.14.5", "fastdds-static-2.6.11"};
+    "fastdds-server-2.6.11",   "fastdds-server-2.14.5", "fastdds-static-2.6.11",
+    "fastdds-server-3.2",      "fastdds-server-3.6"};
 
 /// Whether a user can set this number of the preset.
 bool is_settable(const std::string& name, const VendorKnob& knob) {
