@@ -173,6 +173,21 @@ model::config::Result<model::Scenario> scenario_of(const Configuration& configur
   return with_channel(std::move(*scenario), configuration.channel);
 }
 
+std::vector<model::Participant> with_own_times(std::vector<model::Participant> participants,
+                                               const Observation& run) {
+  const auto time = [](double ms) { return model::Nanoseconds{std::llround(ms * 1e6)}; };
+  std::vector<Process> left = run.processes;
+  if (left.size() != participants.size()) return {};
+  for (model::Participant& participant : participants) {
+    const auto one = std::ranges::find(left, participant.host.value, &Process::host);
+    if (one == left.end()) return {};
+    participant.start = time(one->start);
+    participant.endpoints_done = time(one->endpoints_done);
+    left.erase(one);
+  }
+  return participants;
+}
+
 std::string mismatch(const Configuration& configuration, const model::Scenario& scenario) {
   const Channel& row = configuration.channel;
   const model::WirelessProfile& profile = scenario.wireless;

@@ -44,6 +44,10 @@ struct ScheduleRanges {
 /// Whose channel a prediction uses: the wireless profile's, or that of the row.
 enum class ChannelSource : std::uint8_t { profile, row };
 
+/// When the participants of a prediction start and have created their endpoints: within the ranges
+/// of the configuration, or when those of each run did.
+enum class Times : std::uint8_t { sampled, own };
+
 struct ScenarioOptions {
   std::string dds;                     ///< name or path of a profile
   std::string wireless;                ///< name or path of a profile
@@ -56,6 +60,11 @@ struct ScenarioOptions {
 /// paper's participants all start at 0, unless an override gives them a schedule.
 [[nodiscard]] model::config::Result<model::Scenario> scenario_of(const Configuration& configuration,
                                                                  const ScenarioOptions& options);
+
+/// Participants like these with the times of the run's processes; none if the run does not say
+/// them of as many processes on each host.
+[[nodiscard]] std::vector<model::Participant> with_own_times(
+    std::vector<model::Participant> participants, const Observation& run);
 
 /// In what the configuration differs from the scenario that should predict it ("loss 0.05", say);
 /// empty if in nothing.

@@ -139,20 +139,26 @@ void read_completion(const Json& json, Row& row, const ReadOptions& options, Obs
       run.completed ? time : limit.value_or(0) * 1000;
 }
 
-/// When each of its processes announced itself, if the row does not say when the first and the last
-/// one did.
+/// When each of its processes announced itself, and the range of that if the row does not say it.
 void read_processes(const Json& json, Row& row, Observation& run) {
-  if (run.start || !row.has("procs")) return;
+  if (!row.has("procs")) return;
   if (!json["procs"].is_array()) return row.fail("procs", "a list of objects, one of each process");
+  constexpr const char* expected = "a time in ms from 0 to 3600000";
+  std::optional<Range> starts;
   for (const Json& process : json["procs"]) {
     if (!process.is_object()) return row.fail("procs", "a list of objects, one of each process");
     Row fields{process};
-    const auto enabled = fields.number("enabled", 0, Row::max_ms, "a time in ms from 0 to 3600000");
+    const auto enabled = fields.number("enabled", 0, Row::max_ms, expected);
+    const auto done = fields.number("endpoints_done", enabled.value_or(0), Row::max_ms, expected);
+    const std::uint32_t host = fields.has("host") ? fields.count("host", 0, run.hosts - 1) : 0;
     if (!fields.error().empty()) return row.fail("procs", "in it: " + fields.error());
     if (!enabled) continue;
-    const Range all = run.start.value_or(Range{*enabled, *enabled});
-    run.start = Range{std::min(all.low, *enabled), std::max(all.high, *enabled)};
+    const Range all = starts.value_or(Range{*enabled, *enabled});
+    starts = Range{std::min(all.low, *enabled), std::max(all.high, *enabled)};
+    if (done && fields.has("host")) run.processes.push_back({host, *enabled, *done});
   }
+  if (run.processes.size() != json["procs"].size()) run.processes.clear();
+  if (!run.start) run.start = starts;
 }
 
 void read_channel(Row& row, Channel& channel) {

@@ -24,6 +24,13 @@ struct Range {
   double high = 0;
 };
 
+/// One process of a run, in ms since the common start.
+struct Process {
+  std::uint32_t host = 0;
+  double start = 0;           ///< it announces itself
+  double endpoints_done = 0;  ///< all its endpoints exist
+};
+
 /// What a row says of its network. A field that is absent says nothing.
 struct Channel {
   std::optional<std::string> medium;          ///< "veth" and "wired": no shared channel
@@ -53,6 +60,7 @@ struct Observation {
   std::optional<Range> start;           ///< start_ms, or `enabled` of procs: first announcements
   std::optional<Range> create;          ///< create_ms: creation of the participant begins
   std::optional<Range> endpoints_done;  ///< ep_done_ms: all endpoints of a participant exist
+  std::vector<Process> processes;       ///< of procs; empty unless each says host and both times
 };
 
 enum class CompletionTime : std::uint8_t { app, strict };

@@ -14,8 +14,20 @@ namespace {
 /// One run of one case.
 struct Job {
   std::size_t of_case = 0;
-  std::uint64_t seed = 0;
+  std::size_t run = 0;
 };
+
+model::Scenario scenario_of(const Case& one, std::size_t run, std::uint64_t seed) {
+  model::Scenario scenario = one.scenario;
+  if (one.measured.empty()) {
+    scenario = trials::under_seed(std::move(scenario), seed);
+  } else {
+    scenario.deployment.schedule.reset();
+    scenario.deployment.participants = one.measured[run];
+  }
+  if (one.loss > 0) scenario.wireless.lost_packets = trials::draw_losses(one.loss, seed);
+  return scenario;
+}
 
 using Values = std::array<double, measure_count>;
 
@@ -38,8 +50,7 @@ Values values_of(const model::RunResult& run) {
 std::vector<Job> jobs_of(std::span<const Case> cases, const PredictOptions& options) {
   std::vector<Job> jobs;
   for (std::size_t k = cases.size(); k-- > 0;) {
-    const std::size_t samples = cases[k].sampled() ? options.samples : 1;
-    for (std::size_t s = 0; s < samples; ++s) jobs.push_back({k, options.first_seed + s});
+    for (std::size_t run = 0; run < cases[k].runs(options.samples); ++run) jobs.push_back({k, run});
   }
   return jobs;
 }
@@ -50,11 +61,9 @@ Predictions predict(std::span<const Case> cases, const PredictOptions& options) 
   const std::vector<Job> jobs = jobs_of(cases, options);
   trials::Runner runner{options.threads, options.on_progress};
   const auto results = runner.run(jobs.size(), [&](std::size_t k) -> std::optional<Values> {
-    const auto& [of_case, seed] = jobs[k];
-    model::Scenario scenario = trials::under_seed(cases[of_case].scenario, seed);
-    const double loss = cases[of_case].loss;
-    if (loss > 0) scenario.wireless.lost_packets = trials::draw_losses(loss, seed);
-    const auto run = runner.simulate(scenario);
+    const auto& [of_case, number] = jobs[k];
+    const auto run =
+        runner.simulate(scenario_of(cases[of_case], number, options.first_seed + number));
     if (!run) return std::nullopt;
     return values_of(*run);
   });

@@ -17,9 +17,13 @@ namespace stormproof::prediction {
 struct Case {
   model::Scenario scenario;
   double loss = 0;  ///< probability of each packet, drawn anew in each sample
+  /// Not empty: there is one run for each of these instead of samples.
+  std::vector<std::vector<model::Participant>> measured = {};
 
-  /// Whether samples differ; otherwise one run is enough.
-  [[nodiscard]] bool sampled() const { return model::is_drawn(scenario) || loss > 0; }
+  [[nodiscard]] std::size_t runs(std::size_t samples) const {
+    if (!measured.empty()) return measured.size();
+    return model::is_drawn(scenario) || loss > 0 ? samples : 1;
+  }
 };
 
 /// What the runs of a case yielded, one entry a run in the order of seeds.

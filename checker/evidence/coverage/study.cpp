@@ -18,12 +18,23 @@ namespace {
 using model::config::InputError;
 using model::config::Result;
 
+/// Leaves the runs that say the times of their processes, which their predictions get. Returns how
+/// many do not.
+std::size_t keep_timed(Configuration& configuration, Case& one) {
+  return std::erase_if(configuration.runs, [&](const Observation& run) {
+    auto participants = with_own_times(one.scenario.deployment.participants, run);
+    if (participants.empty()) return true;
+    one.measured.push_back(std::move(participants));
+    return false;
+  });
+}
+
 /// Adds the configurations that the profile can predict, and their cases. `foreign`: the rows were
 /// measured with another system, so nothing can be said of their channel.
 std::optional<InputError> add_cases(const std::vector<Configuration>& measured,
-                                    const ScenarioOptions& options, bool foreign,
+                                    const ScenarioOptions& options, Times times, bool foreign,
                                     ProfileStudy& profile, std::vector<Case>& cases) {
-  for (const Configuration& configuration : measured) {
+  for (Configuration configuration : measured) {
     const std::uint64_t participants =
         std::uint64_t{configuration.hosts} * configuration.participants_per_host;
     if (participants > model::Deployment::max_participants) {
@@ -40,9 +51,14 @@ std::optional<InputError> add_cases(const std::vector<Configuration>& measured,
     }
     profile.dds = scenario->dds;
     Case next{std::move(*scenario), own_channel ? configuration.channel.loss.value_or(0) : 0};
-    profile.sampled = profile.sampled || next.sampled();
+    if (times == Times::own) {
+      const std::size_t untimed = keep_timed(configuration, next);
+      if (untimed > 0) profile.skipped["no times of its processes"] += untimed;
+      if (configuration.runs.empty()) continue;
+    }
+    profile.sampled = profile.sampled || next.runs(2) > 1;
     cases.push_back(std::move(next));
-    profile.configurations.push_back(configuration);
+    profile.configurations.push_back(std::move(configuration));
   }
   return std::nullopt;
 }
@@ -133,8 +149,8 @@ Result<Plan> plan(const std::vector<Observation>& rows,
     ProfileStudy& profile = plan.study.profiles.emplace_back();
     profile.name = name;
     profile.is_baseline = is_baseline;
-    return add_cases(configurations(measured), options, foreign && !is_baseline, profile,
-                     plan.cases);
+    return add_cases(configurations(measured), options, request.times, foreign && !is_baseline,
+                     profile, plan.cases);
   };
   for (const std::string& name : request.dds) {
     if (const auto error = add(name, rows, false)) return *error;

@@ -20,6 +20,7 @@ struct StudyRequest {
   std::vector<std::string> change;     ///< of all but the baseline's
   std::string baseline;                ///< profile; empty: none
   ChannelSource channel = ChannelSource::profile;
+  Times times = Times::sampled;
   std::vector<std::string> scopes;  ///< empty: all that occur
   PredictOptions predict;
 };
@@ -35,7 +36,7 @@ struct FitRow {
 struct ProfileStudy {
   std::string name;
   bool is_baseline = false;
-  bool sampled = false;                        ///< whether schedules or losses were drawn
+  bool sampled = false;                        ///< whether a configuration has several runs
   model::DdsProfile dds;                       ///< of its scenarios
   std::map<std::string, std::size_t> skipped;  ///< measured runs of other channels, by difference
   std::vector<Configuration> configurations;
