@@ -54,7 +54,7 @@ enum class Rule : std::uint8_t {
   // Of a Discovery Server and its clients only.
   registration_scheduled,  ///< DATA(p) of a client by the announcement timer
   registration_tick,       ///< DATA(p) of a client that does not know the server yet
-  registration_open,       ///< HEARTBEAT(p) with the first DATA(p)
+  registration_open,       ///< HEARTBEAT(p) when the server's announcements can be read
   registration_reply,      ///< HEARTBEAT(p), asked for by an initial ACKNACK(p)
   registration_periodic,   ///< HEARTBEAT(p), while nothing is acknowledged
   registration_acknack,    ///< the server answers a HEARTBEAT(p)
@@ -69,9 +69,10 @@ enum class Rule : std::uint8_t {
   relay_gap_reply,         ///< or because it asked for it
   relay_gap_to_everybody,  ///< what no reader need have, before a DATA
   relay_acknack,           ///< a client answers a HEARTBEAT of the server
-  relay_initial            ///< or there was none for τ_I
+  relay_initial,           ///< or there was none for τ_I
+  relay_answer             ///< the server's own DATA(p), to a client that has announced itself
 };
-inline constexpr std::size_t rule_count = 38;
+inline constexpr std::size_t rule_count = 39;
 /// "heartbeat.open", as reports write it.
 [[nodiscard]] std::string_view name_of(Rule rule);
 /// One sentence: when this rule sends.

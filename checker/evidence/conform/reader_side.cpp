@@ -15,7 +15,7 @@ namespace stormproof::conform {
 namespace {
 
 /// The announcements of the writer's participant open its readers. A client opens its readers of
-/// announcements with its first own one, and the others when it matches its own writers.
+/// announcements with its first HEARTBEAT(p), and the others when it matches its own writers.
 std::vector<Announcement> openings_of(const Dialogue& dialogue, const Relation& relation) {
   const std::size_t destination = *relation.place.destination;
   std::vector<Announcement> found;
@@ -28,8 +28,10 @@ std::vector<Announcement> openings_of(const Dialogue& dialogue, const Relation& 
   }
   for (const Relation& own : dialogue.relations) {
     if (own.place.source != destination || own.place.writer != relation.place.writer) continue;
-    if (own.sent.empty()) continue;
-    found.push_back({own.sent.front().time_ns, own.sent.front().event, own.place.destination});
+    const auto first = std::ranges::find_if(
+        own.sent, [](const Submessage& one) { return one.heartbeat.has_value(); });
+    if (first == own.sent.end()) continue;
+    found.push_back({first->time_ns, first->event, own.place.destination});
   }
   return found;
 }

@@ -11,12 +11,27 @@ std::uint32_t existing_at_opening(const Relation& relation) {
   return relation.sent.front().heartbeat->announced;
 }
 
+namespace {
+/// A Discovery Server's own announcement that answers a client at once comes without a HEARTBEAT,
+/// and not from the relay.
+bool is_answer(const Relation& relation, std::size_t data) {
+  if (relation.place.writer != capture::entity::spdp_writer) return false;
+  const std::uint32_t datagram = relation.sent[data].datagram;
+  for (std::size_t k = data + 1; k < relation.sent.size(); ++k) {
+    if (relation.sent[k].datagram != datagram) break;
+    if (relation.sent[k].heartbeat) return false;
+  }
+  return true;
+}
+}  // namespace
+
 std::vector<Transmission> transmissions_of(const Relation& relation) {
   const std::uint32_t existing = existing_at_opening(relation);
   std::vector<Transmission> all;
   std::vector<bool> seen;
-  for (const Submessage& one : relation.sent) {
-    if (!one.descriptor) continue;
+  for (std::size_t k = 0; k < relation.sent.size(); ++k) {
+    const Submessage& one = relation.sent[k];
+    if (!one.descriptor || is_answer(relation, k)) continue;
     const std::uint32_t d = *one.descriptor;
     if (d >= seen.size()) seen.resize(d + 1);
     const bool is_first = !seen[d];

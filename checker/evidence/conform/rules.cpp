@@ -69,8 +69,9 @@ constexpr std::array<Text, rule_count> rules{{
      sends::server::announces_first, sends::server::announces},
     {"registration.tick", "DATA(p) of a client, at a tick at which it does not know the server",
      sends::server::tick},
-    {"registration.open", "HEARTBEAT(p) of a client, with its first DATA(p)",
-     sends::server::first_heartbeat},
+    {"registration.open",
+     "HEARTBEAT(p) of a client, with its first DATA(p), or when it meets the server",
+     sends::server::first_heartbeat, sends::server::heartbeat_to_server_met},
     {"registration.reply", "HEARTBEAT(p) of a client, in answer to an initial ACKNACK(p)",
      sends::server::asked_heartbeat},
     {"registration.periodic", "HEARTBEAT(p) of a client that has not been acknowledged",
@@ -100,6 +101,8 @@ constexpr std::array<Text, rule_count> rules{{
      sends::server::reply},
     {"relay.initial", "ACKNACK of a client, without a HEARTBEAT of the server",
      sends::server::initial},
+    {"relay.answer", "the server's own DATA(p), when a client has announced itself",
+     sends::server::own},
 }};
 
 constexpr std::array<std::string_view, fault_count> faults{"not_announced",

@@ -36,12 +36,12 @@ inline constexpr Sender reply{"Reply", "AckNack"};
 
 /// The same in what a Discovery Server adds (fsm/composition/server.hpp).
 namespace server {
-inline constexpr Sender announces_first{"ClientAnnounces", "Registration",
-                                        "if not (AnnouncementsSent > 0)"};
+inline constexpr Sender announces_first{"ClientAnnounces", "Registration", "if not KnownByLocator"};
 inline constexpr Sender announces{"ClientAnnounces", "Registration",
                                   "if not (not (AnnouncementsSent > 0))"};
 inline constexpr Sender tick{"ClientSyncIsDue", "Registration"};
 inline constexpr Sender first_heartbeat{"ClientAnnounces", "RegistrationHeartbeat"};
+inline constexpr Sender heartbeat_to_server_met{"RelayedDataArrives", "RegistrationHeartbeat"};
 inline constexpr Sender asked_heartbeat{"RegistrationAckNackArrives", "RegistrationHeartbeat"};
 inline constexpr Sender heartbeat_again{"RegistrationExpires", "RegistrationHeartbeat"};
 inline constexpr Sender registered{"RegistrationReplyIsDue", "RegistrationAckNack"};
@@ -51,6 +51,7 @@ inline constexpr Sender answer_to_initial{"RelayedAckNackArrives", "RelayHeartbe
 inline constexpr Sender expiry{"RelayExpires", "RelayHeartbeat"};
 inline constexpr Sender skipped{"ChangesAreSkipped", "Gap"};
 inline constexpr Sender served{"ChangeIsServed", "RelayedData"};
+inline constexpr Sender own{"RegistrationArrives", "RelayedData"};
 inline constexpr Sender irrelevant{"RelayedAckNackArrives", "Gap"};
 inline constexpr Sender reply{"LearnerReplyIsDue", "RelayedAckNack"};
 inline constexpr Sender initial{"LearnerInitialDue", "RelayedAckNack"};

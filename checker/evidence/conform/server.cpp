@@ -16,13 +16,21 @@ model::DdsProfile of_announcements(model::DdsProfile dds) {
   return dds;
 }
 
+bool tells_of_server(const Context& context, const Submessage& sent) {
+  const auto* data = context.dialogue.conversation.events[sent.event].data();
+  if (!sent.descriptor || data == nullptr || data->endpoint || !data->participant) return false;
+  const capture::Topology& topology = context.dialogue.conversation.topology;
+  const capture::Participant* whose = topology.find(*data->participant);
+  return whose != nullptr && topology.index_of(*whose) == context.dialogue.server;
+}
+
 std::optional<Unexplained> explain_relay(const Context& context, const WriterRelations& relay,
                                          Ledger& ledger) {
   const std::vector<Passed> passed = passed_by(relay);
   std::optional<Unexplained> first;
-  for (auto fault :
-       {explain_heartbeats(context, relay, passed, ledger),
-        explain_gaps(context, relay, passed, ledger), check_changes(context, relay, passed)}) {
+  for (auto fault : {explain_heartbeats(context, relay, passed, ledger),
+                     explain_gaps(context, relay, passed, ledger),
+                     check_changes(context, relay, passed, ledger)}) {
     if (fault && (!first || fault->event < first->event)) first = std::move(fault);
   }
   return first;

@@ -37,6 +37,9 @@ namespace stormproof::conform::server {
                                                        const WriterRelations& relay,
                                                        Ledger& ledger);
 
+/// Whether it is the server's own announcement.
+[[nodiscard]] bool tells_of_server(const Context& context, const Submessage& sent);
+
 /// What a verdict by these rules does not say.
 [[nodiscard]] std::vector<std::string> assumptions(const Dialogue& dialogue);
 

@@ -18,13 +18,14 @@ namespace {
 
 class Changes {
  public:
-  Changes(const Context& context, const WriterRelations& relay, const std::vector<Passed>& passed)
-      : context_{context}, relay_{relay}, passed_{passed}, knowledge_{context} {}
+  Changes(const Context& context, const WriterRelations& relay, const std::vector<Passed>& passed,
+          Ledger& ledger)
+      : context_{context}, relay_{relay}, passed_{passed}, ledger_{ledger}, knowledge_{context} {}
 
   std::optional<Unexplained> check() {
     for (const Passed& one : passed_) {
       if (!one.change) continue;
-      if (auto fault = one.heartbeat ? check(one) : without_heartbeat(one)) return fault;
+      if (auto fault = one.heartbeat ? check(one) : answer(one)) return fault;
     }
     return std::nullopt;
   }
@@ -39,7 +40,18 @@ class Changes {
     return check_cause(one, *item);
   }
 
-  std::optional<Unexplained> without_heartbeat(const Passed& one) const {
+  /// Only the server's own announcement goes without a HEARTBEAT: once, as an answer to a client
+  /// that knows it by its locator.
+  std::optional<Unexplained> answer(const Passed& one) {
+    const auto item = knowledge_.item_of(context_.dialogue.conversation.events[one.event]);
+    const bool is_own = item && *item == Item{*context_.dialogue.server};
+    const bool is_answer = is_own && context_.dds.server.known == model::ServerKnown::locator &&
+                           answered_.insert(one.relation).second;
+    if (is_answer) {
+      ledger_.explained(Rule::relay_answer);
+      const bool is_super = context_.dds.discovery == model::Discovery::super_client;
+      return is_super || *one.change == 0 ? check_number(one, *item) : check_own(one, *item);
+    }
     return fault(one, Fault::data_cause,
                  fmt::format("DATA {} without a HEARTBEAT", *one.change + 1),
                  "the server sends each change with a HEARTBEAT");
@@ -127,17 +139,19 @@ class Changes {
   const Context& context_;
   const WriterRelations& relay_;
   const std::vector<Passed>& passed_;
+  Ledger& ledger_;
   const ServerKnowledge knowledge_;
   std::map<std::uint32_t, Item> items_;
   std::map<Item, std::set<std::uint32_t>> numbers_;
   std::map<Item, Latest> latest_;
+  std::set<std::size_t> answered_;  ///< relations
 };
 
 }  // namespace
 
 std::optional<Unexplained> check_changes(const Context& context, const WriterRelations& relay,
-                                         const std::vector<Passed>& passed) {
-  return Changes{context, relay, passed}.check();
+                                         const std::vector<Passed>& passed, Ledger& ledger) {
+  return Changes{context, relay, passed, ledger}.check();
 }
 
 }  // namespace stormproof::conform::server

@@ -1,4 +1,5 @@
-// HEARTBEAT(p) of a client: it goes with the first DATA(p), answers an initial ACKNACK(p) of the
+// HEARTBEAT(p) of a client: it goes with the first DATA(p), or when the server's own DATA(p)
+// arrives at one that knows the server by its locator; it answers an initial ACKNACK(p) of the
 // server, or comes from a timer until the server has acknowledged. All ways to tell answers from
 // what the timer sent are followed at once.
 #include <algorithm>
@@ -41,6 +42,7 @@ class RegistrationHeartbeats {
       before = &one;
     }
     if (before == nullptr) {
+      if (is_by_locator() && !hears_server()) return std::nullopt;
       return unexplained_in(own_, announcements().front().event, Fault::heartbeat_due,
                             "DATA(p) without a HEARTBEAT(p) before it",
                             "a client sends both when it announces itself for the first time", {});
@@ -66,6 +68,7 @@ class RegistrationHeartbeats {
   }
 
   std::optional<Unexplained> first(const Submessage& one) {
+    if (is_by_locator()) return meets(one);
     const std::int64_t apart = std::abs(one.time_ns - announcements().front().time_ns);
     if (apart <= context_.bounds.most_send_lag_ns) {
       ledger_.explained(Rule::registration_open);
@@ -78,9 +81,28 @@ class RegistrationHeartbeats {
         {{"send lag", apart, context_.bounds.most_send_lag_ns}});
   }
 
+  /// Who knows the server by its locator begins when it hears of it.
+  std::optional<Unexplained> meets(const Submessage& one) {
+    met_ns_ = one.time_ns;
+    const Relation* from_server = of_server();
+    const auto introduces = [&](const Submessage& sent) {
+      return tells_of_server(context_, sent) && context_.can_precede(sent.time_ns, one.time_ns);
+    };
+    if (from_server != nullptr && std::ranges::any_of(from_server->sent, introduces)) {
+      ledger_.explained(Rule::registration_open, sends::server::heartbeat_to_server_met);
+      return std::nullopt;
+    }
+    return unexplained_in(own_, one.event, Fault::heartbeat_cause,
+                          "HEARTBEAT(p) before a DATA(p) of the server can have arrived",
+                          "a client that knows the server by its locator answers that first", {});
+  }
+
   std::optional<Unexplained> later(std::vector<HeartbeatWay>& ways, const Submessage& one) {
     const Window sent = sent_in(context_.bounds, one.time_ns);
-    const std::size_t asked = context_.arrived(own_, one.time_ns, std::mem_fn(&Answer::is_initial));
+    const auto is_asked = [&](const Answer& answer) {
+      return answer.is_initial && (!met_ns_ || can_follow(answer, *met_ns_));
+    };
+    const std::size_t asked = context_.arrived(own_, one.time_ns, is_asked);
     std::vector<HeartbeatWay> next;
     bool is_reply = false;
     for (HeartbeatWay way : ways) {
@@ -127,6 +149,25 @@ class RegistrationHeartbeats {
                     duration(heartbeat_period())),
         {{"lateness", {}, context_.bounds.most_lateness_ns}});
   }
+  [[nodiscard]] bool is_by_locator() const {
+    return context_.dds.server.known == model::ServerKnown::locator;
+  }
+  /// Whether it can have arrived after that.
+  [[nodiscard]] bool can_follow(const Answer& answer, std::int64_t time_ns) const {
+    return answer.time_ns + context_.bounds.most_delay_ns + context_.bounds.clock_error_ns +
+               capture_resolution_ns >=
+           time_ns - context_.bounds.most_send_lag_ns;
+  }
+  /// What the server tells this client of participants.
+  [[nodiscard]] const Relation* of_server() const {
+    const Place place{*context_.dialogue.server, own_.place.source, own_.place.writer};
+    const auto found = std::ranges::find(context_.dialogue.relations, place, &Relation::place);
+    return found == context_.dialogue.relations.end() ? nullptr : &*found;
+  }
+  [[nodiscard]] bool hears_server() const {
+    const Relation* from_server = of_server();
+    return from_server != nullptr && !from_server->answers.empty();
+  }
   [[nodiscard]] std::int64_t heartbeat_period() const {
     return context_.dds.server.pdp_heartbeat_period.count();
   }
@@ -138,6 +179,7 @@ class RegistrationHeartbeats {
   const Context& context_;
   const Relation& own_;
   Ledger& ledger_;
+  std::optional<std::int64_t> met_ns_;  ///< the server, if it was known by its locator alone
 };
 
 }  // namespace

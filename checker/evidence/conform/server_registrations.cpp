@@ -1,6 +1,7 @@
 // What a client sends to announce itself to its Discovery Server: DATA(p) by the schedule of its
-// announcements and at each tick at which it does not know the server; once it does, a tick opens
-// its writers instead. HEARTBEAT(p) goes with the first DATA(p), answers an initial ACKNACK(p), or
+// announcements, of which it keeps the first to itself if it knows the server by its locator, and
+// at each tick at which it does not know the server; once it does, a tick opens its writers
+// instead. HEARTBEAT(p) goes with the first DATA(p), answers an initial ACKNACK(p), or
 // comes from a timer until the server has acknowledged.
 #include <algorithm>
 #include <utility>
@@ -90,8 +91,7 @@ class Registration {
   std::optional<Unexplained> announce(std::vector<Timers>& ways, const Announcement& one) {
     const Window sent = sent_in(bounds_, one.time_ns);
     if (ways.empty()) {
-      Timers first{sent.after(period_after(0)), sent.after(tick_period()), true, {false}, 1};
-      ways.push_back(std::move(first));
+      ways = begin(sent);
       return std::nullopt;
     }
     std::vector<Timers> next;
@@ -111,6 +111,23 @@ class Registration {
     if (next.empty()) return not_in_time(ways, one, "DATA(p)");
     ways = best(std::move(next));
     return std::nullopt;
+  }
+
+  /// The first DATA(p) goes at the start; or, if that is silent, with the next announcement or with
+  /// a tick.
+  [[nodiscard]] std::vector<Timers> begin(const Window& sent) const {
+    const std::int64_t first = period_after(0);
+    if (!starts_silently()) {
+      return {{sent.after(first), sent.after(tick_period()), true, {false}, 1}};
+    }
+    const auto started = [&](std::int64_t before_ns) {
+      return Window{sent.from_ns - bounds_.most_lateness_ns, sent.to_ns}.after(-before_ns);
+    };
+    return {{sent.after(period_after(1)), started(first).after(tick_period()), true, {false}, 2},
+            {started(tick_period()).after(first), sent.after(tick_period()), true, {true}, 1}};
+  }
+  [[nodiscard]] bool starts_silently() const {
+    return server_.known == model::ServerKnown::locator;
   }
 
   /// The writers open at a tick at which the server is known.
@@ -199,20 +216,26 @@ class Registration {
     auto& announcer = ledger_.machines.fastdds.of<fsm::Announcer>();
     fsm::StateId state = Tally<fsm::Announcer>::Fly::initial;
     std::int64_t number = 0;
+    const auto announces = [&](std::int64_t now_ns) {
+      return announcer
+          .step<fsm::announcer::AnnouncementDue>(state,
+                                                 {.now = now_ns,
+                                                  .number = number++,
+                                                  .startup = spdp_.startup_announcements,
+                                                  .startup_period = spdp_.startup_period.count(),
+                                                  .period = spdp_.period.count()})
+          .announce;
+    };
+    if (starts_silently()) announces(announcements_.front().time_ns);
     for (std::size_t k = 0; k < announcements_.size(); ++k) {
       if (way.is_tick[k]) {
         ledger_.explained(Rule::registration_tick);
         continue;
       }
-      const auto output = announcer.step<fsm::announcer::AnnouncementDue>(
-          state, {.now = announcements_[k].time_ns,
-                  .number = number++,
-                  .startup = spdp_.startup_announcements,
-                  .startup_period = spdp_.startup_period.count(),
-                  .period = spdp_.period.count()});
-      if (output.announce) {
+      const bool is_first = number == 0;
+      if (announces(announcements_[k].time_ns)) {
         ledger_.explained(Rule::registration_scheduled,
-                          k == 0 ? sends::server::announces_first : sends::server::announces);
+                          is_first ? sends::server::announces_first : sends::server::announces);
       }
       ledger_.hidden(Hidden::Kind::timer, announcements_[k].time_ns, announcements_[k].event,
                      "Announcer");

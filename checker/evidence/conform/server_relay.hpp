@@ -36,10 +36,12 @@ struct Passed {
                                                       const std::vector<Passed>& passed,
                                                       Ledger& ledger);
 /// What DATA say: which change has which number, and that the server can know it and has to pass
-/// it on to this client. That they are sent, and when again, explain_data explains.
+/// it on to this client. That they are sent, and when again, explain_data explains; but not that
+/// the server answers a client with its own announcement.
 [[nodiscard]] std::optional<Unexplained> check_changes(const Context& context,
                                                        const WriterRelations& relay,
-                                                       const std::vector<Passed>& passed);
+                                                       const std::vector<Passed>& passed,
+                                                       Ledger& ledger);
 
 /// What is wrong with one of them.
 [[nodiscard]] Unexplained unexplained_in(const WriterRelations& relay, const Passed& one,
