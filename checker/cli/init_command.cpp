@@ -1,6 +1,7 @@
 // `stormproof init`: asks what is not given, drafts the scenario, writes it.
 #include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -9,7 +10,7 @@
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/streams.hpp"
-#include "checker/evidence/init/draft.hpp"
+#include "checker/evidence/init/environment.hpp"
 
 namespace stormproof::cli {
 
@@ -63,15 +64,24 @@ void ask_all(init::System& system) {
 
 Outcome run(InitArguments& arguments, Session& session) {
   init::System system = arguments.system;
+  if (!arguments.ros.empty()) {
+    system.ros = arguments.ros;
+    system.knows_ros = true;
+  }
+  if (!arguments.rmw.empty()) system.rmw = arguments.rmw;
   if (arguments.from_environment) {
-    auto known = init::from_environment(std::move(system), [](const char* name) {
-      return static_cast<const char*>(std::getenv(name));
-    });
+    auto known = init::from_environment(
+        std::move(system),
+        [&](const char* name) -> const char* {
+          const bool is_given =
+              (name == std::string_view{"ROS_DISTRO"} && !arguments.ros.empty()) ||
+              (name == std::string_view{"RMW_IMPLEMENTATION"} && !arguments.rmw.empty());
+          return is_given ? nullptr : std::getenv(name);
+        },
+        model::config::SpecPath::standard());
     if (!known) return known.error();
     system = *std::move(known);
   }
-  if (!arguments.ros.empty()) system.ros = arguments.ros;
-  if (!arguments.rmw.empty()) system.rmw = arguments.rmw;
   if (asks(arguments)) ask_all(system);
   if (arguments.hosts) system.hosts = static_cast<std::uint32_t>(*arguments.hosts);
   if (arguments.participants)
@@ -115,7 +125,7 @@ void declare(Options& options, InitArguments& arguments) {
                "PROFILE");
   options.text("--wireless", system.wireless, "Wireless profile (default wifi-80211n)", "PROFILE");
   options.flag("--from-environment", arguments.from_environment,
-               "Take ROS_DISTRO, RMW_IMPLEMENTATION and the vendor's file from the environment");
+               "Take the distribution, RMW, file and way to discover from the environment");
   options.output("-o,--output", arguments.file, "Write the scenario here, not to standard output");
 }
 

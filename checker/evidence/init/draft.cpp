@@ -14,6 +14,7 @@
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/suggestion.hpp"
 #include "model/config/tree/yaml_text.hpp"
+#include "model/config/vendor/reference.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::init {
@@ -48,7 +49,7 @@ Library with_discovery(Library library, const System& system, const SpecPath& sp
   std::string preset = library.dds;
   preset.insert(preset.find('-') + 1, is_static ? "static-" : "server-");
   const auto names = specs.names(model::config::SpecKind::dds);
-  const bool is_shipped = std::ranges::find(names, preset) != names.end();
+  const bool is_shipped = system.dds.empty() && std::ranges::find(names, preset) != names.end();
   if (is_shipped) library.dds = preset;
   const bool has_usual_ports = system.peer_ports == model::DdsProfile{}.peer_ports;
   if (is_shipped && system.discovery != "super_client" && has_usual_ports) {
@@ -56,13 +57,31 @@ Library with_discovery(Library library, const System& system, const SpecPath& sp
     return library;
   }
   library.text =
-      fmt::format("{{base: {}, discovery: {}{}}}", library.dds, system.discovery,
+      fmt::format("{{base: {}, discovery: {}{}}}", library.text, system.discovery,
                   is_static ? fmt::format(", peer_ports: {}", system.peer_ports) : std::string{});
   return library;
 }
 
+/// The profile that is given. A vendor's file is read by the version that the distribution ships,
+/// if it is known; a way to discover that the environment chooses acts on simple discovery alone.
+Result<Library> given(const System& system, const std::string& version, const SpecPath& specs) {
+  Library library{system.dds, "as given"};
+  const auto file = model::config::vendor::parse_reference(system.dds);
+  if (file && file->selection.base.empty() && system.knows_ros) {
+    library.dds += "@" + version;
+    library.text = quoted_scalar(library.dds);
+    library.why = fmt::format("as given, read by what ROS 2 {} ships", system.ros);
+  }
+  if (system.discovery.empty()) return library;
+  const auto profile = model::config::read_dds_profile(library.dds, {}, specs);
+  if (!profile) return profile.error();
+  if (profile->discovery == model::Discovery::simple) return with_discovery(library, system, specs);
+  library.why += "; it chooses a way to discover itself, which prevails over the environment";
+  return library;
+}
+
 Result<Library> library_of(const System& system, const SpecPath& specs) {
-  if (!system.dds.empty()) return Library{system.dds, "as given"};
+  if (!system.dds.empty() && !system.knows_ros) return given(system, {}, specs);
   if (system.rmw != "fastrtps" && system.rmw != "cyclonedds") {
     return InputError{"--rmw " + system.rmw, "expected fastrtps or cyclonedds"};
   }
@@ -72,6 +91,7 @@ Result<Library> library_of(const System& system, const SpecPath& specs) {
   std::vector<std::string> names;
   for (const model::config::Distribution& one : *known) {
     if (one.name == system.ros) {
+      if (!system.dds.empty()) return given(system, one.profile, specs);
       return with_discovery({one.profile, statement_of(one)}, system, specs);
     }
     names.push_back(one.name);
@@ -128,90 +148,7 @@ std::string head(const System& system) {
   return text;
 }
 
-/// What rmw_fastrtps does with a range and peers (rmw_fastrtps_shared_cpp, participant.cpp), as far
-/// as one decides how participants of different hosts meet. A remark, or nothing.
-std::string take_range(System& system, const std::string& range, const std::string& peers) {
-  constexpr std::uint32_t ports_of_localhost = 32;
-  if (range.empty() && peers.empty()) return {};
-  if (range == "LOCALHOST" && !peers.empty()) {
-    system.discovery = "static";
-    system.peer_ports = ports_of_localhost;
-    return fmt::format("Announcements go to {} ports of each of ROS_STATIC_PEERS={}.",
-                       ports_of_localhost, peers);
-  }
-  if (range == "LOCALHOST") return "It discovers nobody on other hosts, unlike this scenario.";
-  if (range == "SYSTEM_DEFAULT") return "So ROS_STATIC_PEERS is not looked at.";
-  return peers.empty() ? std::string{}
-                       : "Announcements go by multicast and to these peers, too, which is not in "
-                         "this scenario.";
-}
-
-/// The variables that choose a way to discover, with a remark about each.
-std::optional<InputError> take_discovery(System& system, bool is_cyclone,
-                                         const std::function<std::string(const char*)>& value_of) {
-  const auto remark = [&](const char* name, const std::string& what) {
-    const std::string setting = value_of(name);
-    if (setting.empty()) return;
-    system.remarks.push_back(fmt::format("{}={} is set where this was drafted.{}{}", name, setting,
-                                         what.empty() ? "" : " ", what));
-  };
-  const std::string range = value_of("ROS_AUTOMATIC_DISCOVERY_RANGE");
-  if (range == "OFF") {
-    return InputError{"ROS_AUTOMATIC_DISCOVERY_RANGE=OFF",
-                      "with it nobody is discovered, so there is nothing to draft"};
-  }
-  if (is_cyclone) {
-    for (const char* name :
-         {"ROS_DISCOVERY_SERVER", "ROS_STATIC_PEERS", "ROS_AUTOMATIC_DISCOVERY_RANGE"}) {
-      remark(name, "It is not in this scenario.");
-    }
-    return std::nullopt;
-  }
-  const std::string about_range = take_range(system, range, value_of("ROS_STATIC_PEERS"));
-  remark("ROS_STATIC_PEERS", about_range);
-  remark("ROS_AUTOMATIC_DISCOVERY_RANGE", about_range);
-  if (value_of("ROS_DISCOVERY_SERVER").empty()) return std::nullopt;
-  const std::string super = value_of("ROS_SUPER_CLIENT");
-  const bool is_super = super == "TRUE" || super == "True" || super == "true" || super == "1";
-  system.discovery = is_super ? "super_client" : "server";
-  remark("ROS_DISCOVERY_SERVER", is_super ? "With ROS_SUPER_CLIENT all are super clients."
-                                          : "All are clients of one server on the first host.");
-  return std::nullopt;
-}
-
 }  // namespace
-
-Result<System> from_environment(System system,
-                                const std::function<const char*(const char*)>& value_of) {
-  const auto value = [&](const char* name) {
-    const char* found = value_of(name);
-    return std::string{found == nullptr ? "" : found};
-  };
-  if (const std::string ros = value("ROS_DISTRO"); !ros.empty()) system.ros = ros;
-  if (const std::string rmw = value("RMW_IMPLEMENTATION"); !rmw.empty()) {
-    if (rmw == "rmw_fastrtps_cpp" || rmw == "rmw_fastrtps_dynamic_cpp") {
-      system.rmw = "fastrtps";
-    } else if (rmw == "rmw_cyclonedds_cpp") {
-      system.rmw = "cyclonedds";
-    } else {
-      return InputError{"RMW_IMPLEMENTATION=" + rmw,
-                        "there is a model of rmw_fastrtps_cpp, rmw_fastrtps_dynamic_cpp and "
-                        "rmw_cyclonedds_cpp"};
-    }
-  }
-  const bool is_cyclone = system.rmw == "cyclonedds";
-  for (const char* name : is_cyclone ? std::vector{"CYCLONEDDS_URI"}
-                                     : std::vector{"FASTDDS_DEFAULT_PROFILES_FILE",
-                                                   "FASTRTPS_DEFAULT_PROFILES_FILE"}) {
-    std::string file = value(name);
-    if (file.starts_with("file://")) file = file.substr(7);
-    if (file.empty() || !system.dds.empty()) continue;
-    system.dds = file;
-    system.remarks.push_back(fmt::format("The profile is the file that {} names.", name));
-  }
-  if (auto error = take_discovery(system, is_cyclone, value)) return *std::move(error);
-  return system;
-}
 
 Result<std::string> draft(const System& system, const SpecPath& specs) {
   const auto library = library_of(system, specs);

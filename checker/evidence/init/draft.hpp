@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,7 @@ struct System {
   std::uint32_t participants = 4;  ///< of each host
   std::uint32_t endpoints = 20;    ///< of each participant, without those that every node has
   std::string ros = "humble";      ///< a distribution of specs/distributions.yaml
+  bool knows_ros = false;          ///< `ros` is given, not assumed: it reads the vendor's file
   std::string rmw = "fastrtps";    ///< or "cyclonedds"
   std::string dds{};               ///< a profile or the vendor's file instead of both; may be empty
   std::string discovery{};       ///< of Fast DDS: "server", "super_client", "static"; empty: simple
@@ -27,16 +27,6 @@ struct System {
   std::string wireless = "wifi-80211n";
   std::vector<std::string> remarks{};  ///< written at the top, one line each
 };
-
-/// The environment of a process that runs ROS 2, as far as it decides how nodes discover each
-/// other: ROS_DISTRO, RMW_IMPLEMENTATION, FASTDDS_DEFAULT_PROFILES_FILE (and its older name
-/// FASTRTPS_…), CYCLONEDDS_URI; with Fast DDS ROS_DISCOVERY_SERVER, ROS_SUPER_CLIENT, and
-/// ROS_STATIC_PEERS as far as ROS_AUTOMATIC_DISCOVERY_RANGE gives up multicast for them. Of what
-/// the scenario does not say (these with Cyclone DDS, peers beside multicast) there is a remark.
-/// `value_of` gives a variable's value, or nothing. An error if RMW_IMPLEMENTATION names no known
-/// RMW.
-[[nodiscard]] model::config::Result<System> from_environment(
-    System system, const std::function<const char*(const char*)>& value_of);
 
 /// The scenario as text. Errors: an unknown distribution, RMW or profile; numbers that no scenario
 /// takes.
