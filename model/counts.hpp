@@ -20,6 +20,8 @@ struct Counts {
   std::uint64_t pdp_heartbeat = 0;
   std::uint64_t pdp_acknack = 0;
   std::uint64_t gap = 0;  ///< GAPs of the server; in no total
+  /// Samples that ask for types, and answers, one for each receiver; in no total.
+  std::uint64_t lookup = 0;
 
   [[nodiscard]] constexpr std::uint64_t& operator[](MessageClass one) {
     return this->*members[index_of(one)];

@@ -167,9 +167,13 @@ struct VersionProfile {
   /// From a HEARTBEAT of a built-in endpoint beside SEDP to the ACKNACK that answers it (τ_B).
   Nanoseconds builtin_response_delay{5'000'000};
   SizesSince sizes = SizesSince::v2_6;
-  Whether type_lookup = Whether::no;       ///< there are endpoints that ask for types, and answer
-  Bytes descriptor_extra_bytes{0};         ///< more in each descriptor: what it says of its type
-  Bytes statistics_bytes{0};               ///< more in each packet: a submessage of the vendor
+  Whether type_lookup = Whether::no;  ///< there are endpoints that ask for types, and answer
+  /// From what begins it to the HEARTBEAT of a writer of questions or answers (τ_L).
+  Nanoseconds typelookup_heartbeat_period{350'000'000};
+  Bytes type_object_bytes{300};     ///< DATA submessage that answers with a type
+  Bytes descriptor_extra_bytes{0};  ///< more in each descriptor: what it says of its type; 0: none,
+                                    ///< or what it is if endpoints have types (`deployment.types`)
+  Bytes statistics_bytes{0};        ///< more in each packet: a submessage of the vendor
   std::uint32_t max_data_per_message = 0;  ///< that a message takes; 0: as many as fit
 
   bool operator==(const VersionProfile&) const = default;

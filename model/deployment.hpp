@@ -115,6 +115,14 @@ struct Life {
   bool operator==(const Life&) const = default;
 };
 
+/// Endpoints say which type their topic has, by `implementation: fastdds`. Of each participant so
+/// many of its endpoints have a type that nobody else knows (model/fastdds/types.hpp).
+struct EndpointTypes {
+  std::uint32_t unknown_per_participant = 0;
+
+  bool operator==(const EndpointTypes&) const = default;
+};
+
 struct Deployment {
   /// Largest deployment that is accepted. 4,000 participants on two hosts are 16 million relations.
   static constexpr std::uint32_t max_participants = 4'000;
@@ -144,6 +152,7 @@ struct Deployment {
   /// `send_cost`, or what was measured on the machine of the live runs.
   [[nodiscard]] Nanoseconds cost_to_send() const { return send_cost.value_or(Nanoseconds{50'000}); }
 
+  std::optional<EndpointTypes> types = {};
   std::optional<Life> life = {};
 
   /// The ranges that `start` and `endpoints_done` of the participants were drawn from, if they were

@@ -26,6 +26,7 @@ const char* name_of(EventKind kind) {
                                                                    "async_run",
                                                                    "control_initial",
                                                                    "control_reply",
+                                                                   "lookup_expiry",
                                                                    "participant_start",
                                                                    "spdp_time",
                                                                    "reply_time",

@@ -34,6 +34,7 @@ enum class EventKind : std::uint8_t {
   async_run,            ///< subject: participant
   control_initial_due,  ///< subject: control-only relation
   control_reply_due,    ///< subject: control-only relation
+  lookup_expiry,        ///< subject: control-only writer
   participant_start,    ///< subject: participant
   spdp_time,            ///< subject: participant
   reply_time,           ///< subject: pair

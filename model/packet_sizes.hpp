@@ -23,6 +23,8 @@ struct PacketSizes {
   std::function<bool(std::int64_t payload, std::int64_t added)> is_full;
 };
 
+/// Of the profile as it is; what descriptors say of types that a deployment has is in
+/// fastdds::deployed_profile.
 [[nodiscard]] PacketSizes packet_sizes(const DdsProfile& dds);
 
 }  // namespace stormproof::model

@@ -29,6 +29,7 @@ struct MachineRef {
     participant,
     channel,
     control_relation,
+    control_writer,  ///< of Fast DDS (model/fastdds/control.hpp)
     pair,
     endpoint_relation,
     endpoint_writer

@@ -3,6 +3,7 @@
 
 #include "model/airtime.hpp"
 #include "model/engine/topology.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
 #include "model/packet_sizes.hpp"
 
@@ -124,7 +125,8 @@ std::optional<Nanoseconds> open_loop_airtime(const Scenario& scenario) {
   if (!traits_of(scenario.dds).has_open_loop) return std::nullopt;
   const Topology topology{scenario.deployment, scenario.dds.descriptors};
   const RouteAirtime route{scenario.wireless};
-  return Nanoseconds{everything_once_ns(topology, route, packet_sizes(scenario.dds))};
+  const PacketSizes sizes = packet_sizes(fastdds::deployed_profile(scenario));
+  return Nanoseconds{everything_once_ns(topology, route, sizes)};
 }
 
 }  // namespace stormproof::model

@@ -17,6 +17,8 @@ const char* name_of(TrafficClass traffic) {
       return name_of(MessageClass::acknack);
     case TrafficClass::user_control:
       return "user_control";
+    case TrafficClass::lookup:
+      return "lookup";
   }
   return "";
 }
@@ -35,6 +37,8 @@ const char* words_of(TrafficClass traffic) {
       return words_of(MessageClass::acknack);
     case TrafficClass::user_control:
       return "user control";
+    case TrafficClass::lookup:
+      return "lookups";
   }
   return "";
 }

@@ -33,9 +33,10 @@ enum class TrafficClass : std::uint8_t {
   repair_data,
   heartbeat,
   acknack,
-  user_control  ///< HEARTBEATs and ACKNACKs of control-only relations (`implementation: fastdds`)
+  user_control,  ///< HEARTBEATs and ACKNACKs of control-only relations (`implementation: fastdds`)
+  lookup         ///< samples that ask for types, and answers (`deployment.types`)
 };
-inline constexpr std::size_t traffic_class_count = 6;
+inline constexpr std::size_t traffic_class_count = 7;
 [[nodiscard]] const char* name_of(TrafficClass traffic);
 /// "SPDP", "initial DATA", … "user control", for people.
 [[nodiscard]] const char* words_of(TrafficClass traffic);

@@ -4,9 +4,11 @@
 // Source: specs/guide/fastdds.md, "Control-only relations".
 #pragma once
 
+#include "fsm/composition/lookup_parts.hpp"
 #include "fsm/composition/reader.hpp"
 #include "fsm/composition/single_shots.hpp"
 #include "fsm/control_relation.hpp"
+#include "fsm/domain.hpp"
 
 namespace stormproof::fsm::composition::control {
 
@@ -33,8 +35,8 @@ struct ControlReplyDelay : Fact {
   }
 };
 
-struct UserHeartbeat : Packet<owner::control_relation> {};
-struct UserAckNack : Packet<owner::control_relation, IsInitial> {};
+struct UserHeartbeat : Packet<owner::control_relation, lookup::SampleCount> {};
+struct UserAckNack : Packet<owner::control_relation, IsInitial, lookup::SampleCount> {};
 
 struct ControlWriterOpens : Occasion<owner::control_relation> {};
 struct ControlReaderOpens : Occasion<owner::control_relation> {};
@@ -42,11 +44,24 @@ struct ControlReaderOpens : Occasion<owner::control_relation> {};
 using Attempts = InitialAttempts<ControlInitialTimer, ControlHeartbeatSeen, ControlLastDelay,
                                  ControlInitialAttempt>;
 
+template <class W>
+void emit_user_heartbeat(W& w) {
+  w.emit(UserHeartbeat{}, says(Says{lookup::SampleCount{}, w(lookup::SamplesSent{})}));
+}
+
+/// Samples that are older than the match do not count as missing.
 struct ControlWriterOpened : Rule<Happens<ControlWriterOpens>> {
   template <class W>
   static void run(W& w) {
     const auto writer = w.feed(ControlWriterSide{}, on<control_relation::Opened>);
-    w.when(writer.send_heartbeat, [&] { w.emit(UserHeartbeat{}, says()); });
+    w.when(writer.send_heartbeat, [&] {
+      w.when(w(lookup::KeepsSamples{}), [&] {
+        w.set(lookup::GetsSamples{}, typename W::Bool(true));
+        w.set(lookup::SamplesAcknowledged{}, w(lookup::SamplesSent{}));
+        w.perform(lookup::RefillLookupBudget{});
+      });
+      emit_user_heartbeat(w);
+    });
   }
 };
 struct ControlReaderOpened : Rule<Happens<ControlReaderOpens>> {
@@ -62,17 +77,31 @@ struct ControlHeartbeatArrives : Rule<Received<UserHeartbeat>> {
     const auto reader = w.feed(ControlReaderSide{}, on<control_relation::HeartbeatReceived>);
     w.when(reader.reply, [&] {
       w.set(ControlHeartbeatSeen{}, typename W::Bool(true));
+      w.when(w(lookup::KeepsSamples{}), [&] {
+        w.set(lookup::SamplesGot{},
+              max<typename W::D>(w(lookup::SamplesGot{}), w(lookup::SampleCount{})));
+      });
       request<ControlReply, ControlReplyDelay, ControlReplyDue>(w);
     });
   }
 };
-/// Any other than an initial one acknowledges data that are not modelled.
+/// Any other than an initial one acknowledges samples, where they are modelled.
 struct ControlAckNackArrives : Rule<Received<UserAckNack>> {
   template <class W>
   static void run(W& w) {
     w.when(w(IsInitial{}), [&] {
       const auto writer = w.feed(ControlWriterSide{}, on<control_relation::InitialAckNackReceived>);
-      w.when(writer.send_heartbeat, [&] { w.emit(UserHeartbeat{}, says()); });
+      w.when(writer.send_heartbeat, [&] {
+        emit_user_heartbeat(w);
+        w.when(w(lookup::KeepsSamples{}), [&] {
+          w.perform(lookup::RefillLookupBudget{});
+          lookup::arm(w);
+        });
+      });
+    });
+    w.when(!w(IsInitial{}) && w(lookup::GetsSamples{}), [&] {
+      w.set(lookup::SamplesAcknowledged{},
+            max<typename W::D>(w(lookup::SamplesAcknowledged{}), w(lookup::SampleCount{})));
     });
   }
 };
@@ -87,13 +116,16 @@ struct ControlInitialAckNackDue : Rule<Due<ControlInitialAttempt>> {
 struct ControlReplyIsDue : Rule<Due<ControlReplyDue>> {
   template <class W>
   static void run(W& w) {
-    expire<ControlReply>(w, [&] { w.emit(UserAckNack{}, says()); });
+    expire<ControlReply>(w, [&] {
+      w.emit(UserAckNack{}, says(Says{lookup::SampleCount{}, w(lookup::SamplesGot{})}));
+    });
   }
 };
 
 /// After a recognition, a creation or a notification: each side of a control-only relation opens
 /// that now has what it needs. What is built in needs the recognition; a topic needs that this side
-/// has created its endpoint and has been notified of the other's.
+/// has created its endpoint and has been notified of the other's. The notification that ends the
+/// run opens nothing any more.
 struct OpenTopics : Opaque {
   template <class W>
   static void contract(W& w) {

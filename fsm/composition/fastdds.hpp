@@ -10,6 +10,7 @@
 #include "fsm/composition/control.hpp"
 #include "fsm/composition/fastdds_parts.hpp"
 #include "fsm/composition/heartbeat_clock.hpp"
+#include "fsm/composition/lookups.hpp"
 #include "fsm/composition/reader.hpp"
 #include "fsm/composition/single_shots.hpp"
 
@@ -21,26 +22,28 @@ struct Implementation {
   using Waits = fastdds::Waits;
   using NeedsHeartbeat = fastdds::NeedsHeartbeat;
   using Exists = fastdds::Exists;
-  using Notified = fastdds::Notified;
   using Created = fastdds::Created;
   static constexpr bool multicast_first = false;
   /// Readers are served in the order in which they were matched; otherwise by number.
   static constexpr bool serves_in_order_of_match = true;
 
   // The reader.
-  /// DATA tells of every descriptor up to its highest. The application is told about descriptors in
-  /// order.
+  /// DATA tells of every descriptor up to its highest. Descriptors are handed over in order, to be
+  /// told to the application as soon as their types are known; those of one's own host matter only
+  /// if types do.
   template <class W>
   static void learn_from_data(W& w) {
     w.set_each(Known{}, [](auto& d) {
       return d(Known{}) || d.some_from_here([](auto& e) { return e(Carries{}); });
     });
-    w.when(w(CrossHost{}) && !w(RunEnds{}), [&] {
+    w.when((w(CrossHost{}) || w(lookup::AsksForTypes{})) && !w(RunEnds{}), [&] {
       w.for_descriptors(
-          [](auto& d) { return !d(Notified{}) && d.all_up_to([](auto& e) { return e(X{}); }); },
+          [](auto& d) { return !d(HandedOver{}) && d.all_up_to([](auto& e) { return e(X{}); }); },
           [](auto& d) {
-            d.set(Notified{}, typename W::Bool(true));
-            d.perform(control::OpenTopics{});
+            d.set(HandedOver{}, typename W::Bool(true));
+            const auto waits = d(lookup::AsksForTypes{}) && !d(lookup::KnowsType{});
+            d.when(waits, [&] { d.call(lookup::WaitForType{}); });
+            d.when(!waits, [&] { d.perform(control::OpenTopics{}); });
           });
     });
   }
@@ -208,6 +211,7 @@ struct QueueIsSent : Rule<Due<AsyncRunDue>> {
   template <class W>
   static void run(W& w) {
     expire<AsyncRun>(w, [&] {
+      w.when(w(lookup::AsksForTypes{}), [&] { w.perform(lookup::SendSamples{}); });
       w.for_queue([](auto& entry) {
         entry.set(Enqueued{}, typename W::Bool(false));
         const auto wanted = entry.some_reader([](auto& r) { return ToRequesters::serves(r); });
@@ -234,26 +238,28 @@ struct FastDds : Implementation {
   using AckNack = fastdds::AckNack;
   using Parts = Joined<TypeList<AnnouncementTimer, Reader, InitialTimer, Reply, C, Suppression,
                                 NackResponse, AsyncRun, HeartbeatClock>,
-                       control::Parts>;
+                       control::Parts, lookup::Parts>;
   using Timers = Joined<
       TypeList<Announcement, AckNackGeneration, InitialAttempt, SuppressionEnd, NackResponseDue,
                AsyncRunDue, HeartbeatExpiry, CycleStart, CycleEnd, BatchDue>,
-      control::Timers>;
-  using State = Joined<TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay, Known,
-                                Notified, WriterOpen, Exists, Enqueued, SomeConfirmed, CycleBegan,
-                                CyclePeriod, Contacted, Responded, AnnouncedAtStart>,
-                       control::State>;
-  using Packets =
-      Joined<TypeList<SpdpMulticast, SpdpUnicast, Data, Heartbeat, AckNack>, control::Packets>;
-  using Occasions = Joined<TypeList<ReaderOpens, WriterOpens, Created>, control::Occasions>;
+      control::Timers, lookup::Timers>;
+  using State =
+      Joined<TypeList<AnnouncementsSent, Recognised, X, HeartbeatSeen, LastDelay, Known, HandedOver,
+                      WaitsForType, WriterOpen, Exists, Enqueued, SomeConfirmed, CycleBegan,
+                      CyclePeriod, Contacted, Responded, AnnouncedAtStart>,
+             control::State, lookup::State>;
+  using Packets = Joined<TypeList<SpdpMulticast, SpdpUnicast, Data, Heartbeat, AckNack>,
+                         control::Packets, lookup::Packets>;
+  using Occasions =
+      Joined<TypeList<ReaderOpens, WriterOpens, Created>, control::Occasions, lookup::Occasions>;
   /// Rules that only make the occasions happen, those of relations and writers, and those of the
-  /// control-only relations, which share nothing with the former.
+  /// control-only relations, which share nothing with the former unless types are asked for.
   using Announcing = AnnouncementRules<Implementation>::Rules;
   using Exchange = Joined<ReaderRules<Implementation>::Rules,
                           TypeList<ReaderIsMatched, DescriptorIsCreated, AckNackArrives,
                                    NackResponds, QueueIsSent, SuppressionEnds>,
                           Clock::Rules>;
-  using Rules = Joined<Announcing, Exchange, control::Rules>;
+  using Rules = Joined<Announcing, Exchange, control::Rules, lookup::Rules>;
   using IsOpen = WriterOpen;
   using IsQueued = Enqueued;
   static constexpr std::array unused{

@@ -45,7 +45,8 @@ struct ForgetTopics : Opaque {
 };
 
 /// What Fast DDS has besides that is forgotten: the nack response and the asynchronous queue go on
-/// for those that are not. Who comes back has no endpoints.
+/// for those that are not. Who comes back has no endpoints. Nobody forgets where types are asked
+/// for.
 struct Forgetting {
   using Descriptor = fastdds::C;
   using WriterOpen = fastdds::WriterOpen;
@@ -55,7 +56,7 @@ struct Forgetting {
   static void forget_writer(W& w) {
     w.renew(Reply{});
     w.set_each(Known{}, [](auto& d) { return !everyone(d); });
-    w.set_each(Notified{}, [](auto& d) { return !everyone(d); });
+    w.set_each(HandedOver{}, [](auto& d) { return !everyone(d); });
   }
   template <class W>
   static void forget_reader(W& w) {
@@ -157,7 +158,7 @@ struct FastDdsLiving : Implementation {
   static void was_received(W& w) {
     w.set_each(X{}, everyone);
     w.set_each(Known{}, everyone);
-    w.set_each(fastdds::Notified{}, everyone);
+    w.set_each(fastdds::HandedOver{}, everyone);
     w.set(HeartbeatSeen{}, typename W::Bool(true));
   }
   using AckNack = fastdds::AckNack;
@@ -174,7 +175,7 @@ struct FastDdsLiving : Implementation {
       Clock::Rules,
       TypeList<control::ControlWriterOpened, control::ControlReaderOpened, HeardControlHeartbeat,
                HeardControlAckNack, control::ControlInitialAckNackDue, control::ControlReplyIsDue>,
-      Life::Rules>;
+      lookup::Rules, Life::Rules>;
   using IsOpen = WriterOpen;
   using IsQueued = Enqueued;
   static constexpr auto unused = FastDds::unused;

@@ -31,8 +31,18 @@ struct Exists : Flag<owner::entry> {};
 struct Enqueued : Flag<owner::entry> {};
 /// The low mark is above 0: an ACKNACK has acknowledged something for good.
 struct SomeConfirmed : Flag<owner::relation> {};
-struct Known : Flag<owner::descriptor> {};     ///< the reader knows that it exists
-struct Notified : Flag<owner::descriptor> {};  ///< the reader's application knows
+struct Known : Flag<owner::descriptor> {};  ///< the reader knows that it exists
+/// The reader's participant has taken it from the reader, in order.
+struct HandedOver : Flag<owner::descriptor> {};
+/// It does not know the type yet (fsm/composition/lookups.hpp).
+struct WaitsForType : Flag<owner::descriptor> {};
+/// The reader's application knows.
+struct Notified : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return w(HandedOver{}) && !w(WaitsForType{});
+  }
+};
 
 struct NackResponseDelay : DelayOf<"sedp.nack_response_delay"> {};          ///< τ_N
 struct SuppressionDuration : DelayOf<"sedp.nack_suppression_duration"> {};  ///< τ_S

@@ -32,6 +32,8 @@ inline constexpr Owner entry{participant_index | stream_index | descriptor_index
 inline constexpr Owner descriptor{participant_index | stream_index | peer_index | descriptor_index};
 /// A pair on one topic of which only the control traffic is modelled.
 inline constexpr Owner control_relation{participant_index | peer_index | topic_index};
+/// A participant's writer on such a topic, whoever reads it.
+inline constexpr Owner control_writer{participant_index | topic_index};
 }  // namespace owner
 
 }  // namespace stormproof::fsm::composition

@@ -25,6 +25,7 @@ std::string_view label(Owner owner) {
   if (owner == of::entry) return "entry";
   if (owner == of::descriptor) return "descriptor";
   if (owner == of::control_relation) return "control relation";
+  if (owner == of::control_writer) return "control writer";
   return "";
 }
 

@@ -48,6 +48,7 @@ struct PlainColumns {
     if (owner == own::participant) return participant;
     if (owner == own::pair) return pair;
     if (owner == own::writer) return writer;
+    if (owner == own::control_writer) return control_writer;
     return owner == own::relation ? relation : control_relation;
   }
   static constexpr std::uint32_t subject(comp::Owner, std::uint32_t n) { return n; }

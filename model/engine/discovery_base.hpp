@@ -156,6 +156,8 @@ class DiscoveryBase : public Stored<DiscoveryBase, HostBase, SharedThings, Share
     missing -= fresh;
   }
 
+  /// What completes the run.
+  void note_last_delivery(std::uint32_t relation, std::uint32_t descriptor);
   /// The reader has lost all that it had.
   template <class Machine>
   void lose(RelationBits<Machine>& bits, std::uint32_t relation, bool required) {
@@ -204,7 +206,6 @@ class DiscoveryBase : public Stored<DiscoveryBase, HostBase, SharedThings, Share
 
  private:
   void plan_batches(std::uint32_t writer, std::int64_t stretched);
-  void note_last_delivery(std::uint32_t relation, std::uint32_t descriptor);
 };
 
 }  // namespace stormproof::model

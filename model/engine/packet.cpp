@@ -19,6 +19,8 @@ const char* name_of(PacketKind kind) {
       return "user_heartbeat";
     case PacketKind::user_acknack:
       return "user_acknack";
+    case PacketKind::lookup:
+      return "lookup";
     case PacketKind::rtps_message:
       return "message";
     case PacketKind::registration:

@@ -24,6 +24,7 @@ enum class PacketKind : std::uint8_t {
   acknack,
   user_heartbeat,  ///< of a control-only relation
   user_acknack,    ///< of a control-only relation
+  lookup,          ///< samples that ask for types, and answers, of a control-only relation
   rtps_message,    ///< of Cyclone DDS, with submessages of any kind
   // With a Discovery Server: of a client's announcements, then of the server's three writers.
   registration,            ///< DATA(p) of a client
@@ -52,8 +53,10 @@ struct PacketNumbers {
   std::uint32_t detail = 0;      ///< Fast DDS. HEARTBEAT (also in DATA): how many descriptors it
                              ///< announces; ACKNACK: its base; control-only relations: the relation
   std::uint32_t initial_data = 0;  ///< how many of its descriptors count as generated for the first
-                                   ///< time, of those that count
-  std::uint32_t repair_data = 0;   ///< and how many of them as repeated
+                                   ///< time, of those that count; control-only relations: how many
+                                   ///< samples it carries
+  std::uint32_t repair_data = 0;   ///< and how many of them as repeated; control-only relations:
+                                   ///< the last sample that it carries, announces or acknowledges
   std::uint16_t heartbeats = 0;  ///< how many HEARTBEATs ride in it; the receiver sees them as one
   PacketKind kind{};
   Stream stream{};
@@ -75,6 +78,13 @@ struct PacketNumbers {
   }
   [[nodiscard]] std::uint32_t relation() const {
     return 2 * pair + static_cast<std::uint32_t>(stream);
+  }
+  // Of a control-only relation, whose samples have the numbers from 1 on.
+  [[nodiscard]] std::uint32_t samples() const { return initial_data; }
+  [[nodiscard]] std::uint32_t last_sample() const { return repair_data; }
+  void set_samples(std::uint32_t count, std::uint32_t last) {
+    initial_data = count;
+    repair_data = last;
   }
 };
 
@@ -110,6 +120,8 @@ struct Packet : PacketNumbers {
     case PacketKind::user_heartbeat:
     case PacketKind::user_acknack:
       return TrafficClass::user_control;
+    case PacketKind::lookup:
+      return TrafficClass::lookup;
     case PacketKind::rtps_message:
     case PacketKind::relayed:
     case PacketKind::relayed_acknack:

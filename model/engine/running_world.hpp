@@ -24,7 +24,8 @@
 //   writer_layout(), samples_of(w)       if participants have other writers than one for each
 //                                        stream: how they are numbered, how much each has
 //   for_queue(i, visit)                  visit(writer, descriptor) until the queue is empty
-//   pair_of_control(n)                     of control-only relation n
+//   pair_of_control(n), writer_of_control(n)   of control-only relation n
+//   participant_of_control(w), readers_of_control(w)   of such a writer: whose, its open relations
 //   stands_at(site)                      if it asks where in the source the next effect stands
 //   choice(), decide(choice, body), partition(set, body)   if it executes contracts
 //
@@ -164,9 +165,10 @@ class RunningWorld {
   using Composition = typename Host::Composition;
   using Site = SiteFor<Host>;
   /// A reader of the writer; with a descriptor if this has one.
-  using Reader =
-      RunningWorld<Host,
-                   Owner{static_cast<std::uint8_t>(place.indices | comp::owner::relation.indices)}>;
+  using Reader = RunningWorld<Host, place == comp::owner::control_writer
+                                        ? comp::owner::control_relation
+                                        : Owner{static_cast<std::uint8_t>(
+                                              place.indices | comp::owner::relation.indices)}>;
 
   /// `subject` is the number of what the world is about; with a descriptor, the number of its
   /// relation or writer.
@@ -194,8 +196,10 @@ class RunningWorld {
       if constexpr (wanted == own::writer.indices) return stride * source + subject_ % stride;
       if constexpr (wanted == own::participant.indices) return source;
     } else if constexpr (here == own::control_relation.indices) {
-      static_assert(wanted == own::pair.indices);
-      return host_.pair_of_control(subject_);
+      if constexpr (wanted == own::control_writer.indices) return host_.writer_of_control(subject_);
+      if constexpr (wanted == own::pair.indices) return host_.pair_of_control(subject_);
+    } else if constexpr (here == own::control_writer.indices) {
+      return host_.participant_of_control(subject_);
     } else if constexpr (here == own::writer.indices) {
       return subject_ / layout().stride;
     } else {
@@ -269,7 +273,7 @@ class RunningWorld {
   }
   template <class Term>
   bool some_reader(Term&& term) {
-    for (const std::uint32_t relation : host_.readers(number<comp::owner::writer>())) {
+    for (const std::uint32_t relation : open_relations()) {
       Reader r{host_, relation, packet_, descriptor_};
       if (term(r)) return true;
     }
@@ -279,7 +283,7 @@ class RunningWorld {
   template <class Term>
   Int count_readers(Term&& term) {
     Int total = 0;
-    for (const std::uint32_t relation : host_.readers(number<comp::owner::writer>())) {
+    for (const std::uint32_t relation : open_relations()) {
       Reader r{host_, relation, packet_, descriptor_};
       if (term(r)) ++total;
     }
@@ -313,7 +317,7 @@ class RunningWorld {
   }
   template <class Body>
   void for_readers(Body&& body) {
-    each_reader(host_.readers(number<comp::owner::writer>()), body);
+    each_reader(open_relations(), body);
   }
   template <class Body>
   void for_readers_by_number(Body&& body) {
@@ -525,6 +529,13 @@ class RunningWorld {
                                                               comp::owner::descriptor_index)}>{
         host_, subject_, packet_, d};
   }
+  [[nodiscard]] decltype(auto) open_relations() const {
+    if constexpr (place == comp::owner::control_writer) {
+      return host_.readers_of_control(subject_);
+    } else {
+      return host_.readers(number<comp::owner::writer>());
+    }
+  }
   template <class Relations, class Body>
   void each_reader(const Relations& relations, Body& body) {
     for (const std::uint32_t relation : relations) {
@@ -592,6 +603,8 @@ std::uint32_t actor_of(const Host& host, std::uint32_t n) {
     return n;
   } else if constexpr (T::owner == own::writer) {
     return n / stride;
+  } else if constexpr (T::owner == own::control_writer) {
+    return host.participant_of_control(n);
   } else {
     std::uint32_t pair = n;
     if constexpr (T::owner == own::relation) pair = n / stride;

@@ -71,7 +71,8 @@ class Store {
               Rows<comp::owner::pair.indices>{numbering},
               Rows<comp::owner::writer.indices>{numbering},
               Rows<comp::owner::relation.indices>{numbering},
-              Rows<comp::owner::control_relation.indices>{numbering}} {}
+              Rows<comp::owner::control_relation.indices>{numbering},
+              Rows<comp::owner::control_writer.indices>{numbering}} {}
 
   /// The place of a thing in a row.
   template <class T>
@@ -83,7 +84,7 @@ class Store {
  private:
   std::tuple<Rows<comp::owner::participant.indices>, Rows<comp::owner::pair.indices>,
              Rows<comp::owner::writer.indices>, Rows<comp::owner::relation.indices>,
-             Rows<comp::owner::control_relation.indices>>
+             Rows<comp::owner::control_relation.indices>, Rows<comp::owner::control_writer.indices>>
       rows_;
 };
 

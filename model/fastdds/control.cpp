@@ -12,7 +12,8 @@ Stream other(Stream s) { return s == Stream::pub ? Stream::sub : Stream::pub; }
 }  // namespace
 
 ControlRelations::ControlRelations(const RunState& run)
-    : lookups_{looks_up_types(run.scenario.dds) ? std::uint32_t{topic::lookups.size()} : 0} {
+    : topology_{run.topology},
+      lookups_{looks_up_types(run.scenario.dds) ? std::uint32_t{topic::lookups.size()} : 0} {
   const std::uint32_t participants = run.scenario.deployment.size();
   for (std::uint32_t pair = 0; pair < run.topology.pair_count(); ++pair) {
     first_relation_.push_back(count());
@@ -32,10 +33,11 @@ ControlRelations::ControlRelations(const RunState& run)
 }
 
 std::uint32_t ControlRelations::find(std::uint32_t pair, std::uint32_t t) const {
-  const std::uint32_t first_lookup = first_relation_[pair + 1] - lookups_;
-  if (is_lookup(t)) return lookups_ > 0 ? first_lookup + (t - topic::lookups.front()) : topic::none;
+  if (fastdds::is_lookup(t)) {
+    return lookups_ > 0 ? first_lookup(pair) + (t - topic::lookups.front()) : topic::none;
+  }
   const std::uint32_t relation = first_relation_[pair] + t;
-  return relation < first_lookup ? relation : topic::none;
+  return relation < first_lookup(pair) ? relation : topic::none;
 }
 
 Packet ControlRelations::packet_of(PacketKind kind, std::uint32_t relation,
@@ -94,13 +96,20 @@ void Protocol::open_notified(std::uint32_t pair, Stream s, std::uint32_t d) {
   open({relation, s != Stream::pub});
 }
 
-void Protocol::send_control(PacketKind kind, std::uint32_t relation, bool initial) {
+void Protocol::count_control(std::uint32_t relation) {
+  const bool crosses = run_.topology.pair(control_.pair_of(relation)).cross_host;
+  if (crosses && !counts_at_admission(run_)) ++run_.user_control;
+}
+
+void Protocol::send_control(PacketKind kind, std::uint32_t relation, bool initial,
+                            std::uint32_t last_sample) {
   const bool acknack = kind == PacketKind::user_acknack;
   Packet packet =
       control_.packet_of(kind, relation, acknack ? acknack_bytes : heartbeat_to_one_bytes);
   packet.initial_acknack = initial;
   packet.port = control_.is_builtin(relation) ? 0 : 1;
-  if (run_.topology.pair(packet.pair).cross_host && !counts_at_admission(run_)) ++run_.user_control;
+  packet.set_samples(0, last_sample);
+  count_control(relation);
   send(std::move(packet));
 }
 

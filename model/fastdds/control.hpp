@@ -37,16 +37,30 @@ class ControlRelations {
   /// The relation of a pair on a topic, if the source publishes it and the destination subscribes
   /// to it; otherwise `topic::none`.
   [[nodiscard]] std::uint32_t find(std::uint32_t pair, std::uint32_t topic) const;
+  /// It is one of questions or answers.
+  [[nodiscard]] bool is_lookup(std::uint32_t relation) const {
+    return relation >= first_lookup(pairs_[relation]);
+  }
+  /// Which of the writers of the pair's source (`control_writers`) it is of.
+  [[nodiscard]] std::uint32_t writer_of(std::uint32_t relation) const {
+    const std::uint32_t topic =
+        is_lookup(relation) ? relation - first_lookup(pairs_[relation]) : control_writers - 1;
+    return control_writers * topology_.pair(pairs_[relation]).source + topic;
+  }
   /// It is no user topic.
   [[nodiscard]] bool is_builtin(std::uint32_t relation) const {
     const std::uint32_t pair = pairs_[relation];
-    return relation == find(pair, topic::liveliness) ||
-           relation >= first_relation_[pair + 1] - lookups_;
+    return relation == find(pair, topic::liveliness) || is_lookup(relation);
   }
   /// A HEARTBEAT or ACKNACK of a relation.
   [[nodiscard]] Packet packet_of(PacketKind kind, std::uint32_t relation, std::int64_t bytes) const;
 
  private:
+  [[nodiscard]] std::uint32_t first_lookup(std::uint32_t pair) const {
+    return first_relation_[pair + 1] - lookups_;
+  }
+
+  const Topology& topology_;
   std::uint32_t lookups_;                      // of each pair, its last ones
   std::vector<std::uint32_t> first_relation_;  // by pair
   std::vector<std::uint32_t> pairs_;           // by relation

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "model/scenario.hpp"
+
 namespace stormproof::model::fastdds {
 
 namespace {
@@ -47,6 +49,13 @@ const VersionSizes& sizes_of(const DdsProfile& dds) {
   return by_version[static_cast<std::size_t>(dds.version.sizes)];
 }
 
+DdsProfile deployed_profile(const Scenario& scenario) {
+  DdsProfile dds = scenario.dds;
+  Bytes& extra = dds.version.descriptor_extra_bytes;
+  if (scenario.deployment.types && extra == Bytes{0}) extra = Bytes{type_information_bytes};
+  return dds;
+}
+
 std::int64_t submessage_bytes(const DdsProfile& dds, Stream s, std::uint32_t d) {
   const VersionSizes& sizes = sizes_of(dds);
   const std::int64_t extra = dds.version.descriptor_extra_bytes.count();
@@ -61,6 +70,16 @@ std::int64_t largest_submessage_bytes(const DdsProfile& dds) {
   return dds.version.descriptor_extra_bytes.count() +
          std::max({std::ranges::max(sizes.publications), std::ranges::max(sizes.subscriptions),
                    sizes.user_publication, sizes.user_subscription});
+}
+
+std::int64_t sample_bytes(const DdsProfile& dds, std::uint32_t stage) {
+  const std::array bytes{std::int64_t{156}, std::int64_t{96}, std::int64_t{148},
+                         dds.version.type_object_bytes.count()};
+  return bytes.at(stage);
+}
+
+std::int64_t largest_sample_bytes(const DdsProfile& dds) {
+  return std::max(sample_bytes(dds, 0), sample_bytes(dds, 3));
 }
 
 std::uint32_t topic_of(Stream s, std::uint32_t d) {

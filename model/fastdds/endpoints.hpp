@@ -9,6 +9,10 @@
 #include "model/engine/node_endpoints.hpp"
 #include "model/units.hpp"
 
+namespace stormproof::model {
+struct Scenario;  // model/scenario.hpp
+}
+
 namespace stormproof::model::fastdds {
 
 using model::creation_order;
@@ -47,6 +51,16 @@ struct VersionSizes {
 /// Of the largest descriptor.
 [[nodiscard]] std::int64_t largest_submessage_bytes(const DdsProfile& dds);
 
+/// Bytes of the DATA submessage of a question or answer about types, by its stage
+/// (fsm/composition/lookup_parts.hpp), and of the largest one.
+[[nodiscard]] std::int64_t sample_bytes(const DdsProfile& dds, std::uint32_t stage);
+[[nodiscard]] std::int64_t largest_sample_bytes(const DdsProfile& dds);
+
+/// What a descriptor says of its type if endpoints have types: its TypeInformation and its hash.
+inline constexpr std::int64_t type_information_bytes = 96 + 92;
+/// The profile as the deployment has it: with what descriptors say of types.
+[[nodiscard]] DdsProfile deployed_profile(const Scenario& scenario);
+
 /// Whether participants have endpoints that ask for types.
 [[nodiscard]] constexpr bool looks_up_types(const DdsProfile& dds) {
   return dds.version.type_lookup == Whether::yes;
@@ -62,6 +76,11 @@ inline constexpr std::uint32_t first_user = 3;
 inline constexpr std::uint32_t none = UINT32_MAX;
 inline constexpr std::array<std::uint32_t, 2> lookups{none - 2, none - 1};  ///< questions, answers
 }  // namespace topic
+/// Writers of a participant on these topics: that of questions, that of answers, and the others, of
+/// which no samples are modelled.
+inline constexpr std::uint32_t control_writers = 3;
+inline constexpr std::array<const char*, control_writers> control_writer_names{
+    "type_questions", "type_answers", "other"};
 [[nodiscard]] constexpr bool is_lookup(std::uint32_t t) {
   return t == topic::lookups[0] || t == topic::lookups[1];
 }

@@ -43,7 +43,7 @@ void LivingProtocol::open_before(std::uint32_t i, std::uint32_t j) {
     const DescriptorSet all = r.set_of(comp::everyone);
     take(changes(), inward, all, is_required(inward));
     set_first<rules::Known>(inward, topology().descriptor_count(inward));
-    set_first<rules::Notified>(inward, topology().descriptor_count(inward));
+    set_first<rules::HandedOver>(inward, topology().descriptor_count(inward));
     at<comp::Reader>(inward) =
         fsm::Reflect<fsm::DiscoveryReader>::id<fsm::discovery_reader::Complete>;
     at<comp::HeartbeatSeen>(inward) = true;

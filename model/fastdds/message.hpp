@@ -14,13 +14,13 @@ namespace stormproof::model::fastdds {
 
 struct Message {
   bool open = false;
-  std::uint32_t writer = 0;            ///< 2 · participant + stream
+  std::uint32_t writer = 0;            ///< as `Protocol` numbers them
   std::vector<std::uint32_t> readers;  ///< relations, in match order
   std::int64_t bytes = 0;              ///< UDP payload so far
   std::vector<std::uint64_t> descriptors;
   std::uint32_t data = 0;  ///< how many DATA
   std::uint16_t heartbeats = 0;
-  std::uint32_t announced = 0;  ///< by its last HEARTBEAT
+  std::uint32_t announced = 0;  ///< by its last HEARTBEAT; of samples, the last one in it as well
   // By reader: how many descriptors go to it for the first time, and how many again; of those of
   // other hosts.
   std::vector<std::uint32_t> initial_data;

@@ -2,6 +2,7 @@
 // keeps what they are about, and does the steps that they leave to a host. By source file:
 //   protocol.cpp  state, events and packets to rules, what goes out on the wire
 //   sender.cpp    messages: packing, piggyback, flushing
+//   lookups.cpp   messages that ask for types, and answer
 //   control.cpp   relations of which only the control traffic is modelled
 // What the paper's implementation does alike is in model/engine/discovery_base.hpp.
 #pragma once
@@ -10,6 +11,7 @@
 #include <bit>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "fsm/composition/fastdds.hpp"
@@ -17,12 +19,14 @@
 #include "model/engine/relation_bits.hpp"
 #include "model/engine/running_world.hpp"
 #include "model/fastdds/control.hpp"
+#include "model/fastdds/lookups.hpp"
 #include "model/fastdds/message.hpp"
 
 namespace stormproof::model::fastdds {
 
 namespace rules = fsm::composition::fastdds;
 namespace control = fsm::composition::control;
+namespace lookup = fsm::composition::lookup;
 
 /// How many readers the writer had matched before, if it forgets nobody.
 struct Rank : comp::Number<comp::owner::relation> {};
@@ -32,7 +36,8 @@ struct Columns : PlainColumns {
   // These hold for the first descriptors of a stream.
   static way::Prefix column(rules::Exists);
   static way::Prefix column(rules::Known);
-  static way::Prefix column(rules::Notified);
+  static way::Prefix column(rules::HandedOver);
+  static way::Elsewhere column(rules::WaitsForType);  // in lists
   static way::Capped column(control::ControlLastDelay);
   static way::Narrow column(Rank);
 
@@ -40,6 +45,8 @@ struct Columns : PlainColumns {
   static std::uint32_t rows(const RunState& run) {
     if constexpr (owner == comp::owner::control_relation) {
       return ControlRelations{run}.count();
+    } else if constexpr (owner == comp::owner::control_writer) {
+      return control_writers * run.topology.participant_count();
     } else {
       return PlainColumns::rows<owner>(run);
     }
@@ -48,7 +55,7 @@ struct Columns : PlainColumns {
 using Things = comp::Joined<ThingsBeside<rules::FastDds, DiscoveryBase>, fsm::TypeList<Rank>>;
 
 class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
-                               fsm::TypeList<rules::WriterOpen, comp::X>> {
+                               fsm::TypeList<rules::WriterOpen, comp::X, lookup::GetsSamples>> {
  public:
   using Composition = rules::FastDds;
 
@@ -74,6 +81,19 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] std::uint32_t pair_of_control(std::uint32_t relation) const {
     return control_.pair_of(relation);
   }
+  [[nodiscard]] std::uint32_t writer_of_control(std::uint32_t relation) const {
+    return control_.writer_of(relation);
+  }
+  [[nodiscard]] static std::uint32_t participant_of_control(std::uint32_t writer) {
+    return writer / control_writers;
+  }
+  [[nodiscard]] const std::vector<std::uint32_t>& readers_of_control(std::uint32_t writer) const {
+    return writers_[lookup_writer(writer)].readers;
+  }
+  using DiscoveryBase::knob;
+  [[nodiscard]] bool knob(lookup::AsksForTypes) const {
+    return lookups_ && looks_up_types(run_.scenario.dds);
+  }
   using DiscoveryBase::answer;
   using DiscoveryBase::emit;
   using DiscoveryBase::fact;
@@ -87,9 +107,36 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] bool answer(control::OfTopic, const World& w) const {
     return !control_.is_builtin(w.template number<comp::owner::control_relation>());
   }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::OfLookups, const World& w) const {
+    return control_.is_lookup(w.template number<comp::owner::control_relation>());
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::KnowsType, const World& w) const {
+    const auto relation = w.template number<comp::owner::relation>();
+    const std::uint32_t j = ends(relation).destination;
+    return lookups_->knows(j, lookups_->looked_up(relation, w.descriptor()),
+                           {first<rules::Exists>(2 * j), first<rules::Exists>(2 * j + 1)});
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::SomebodyWaits, const World& w) {
+    return !lookups_->waiting_with(w.template number<comp::owner::relation>(), w.descriptor())
+                .empty();
+  }
+  template <class World>
+  [[nodiscard]] std::int64_t answer(lookup::LookupOfDescriptor, const World& w) const {
+    return lookups_->looked_up(w.template number<comp::owner::relation>(), w.descriptor());
+  }
   /// The relation's reader has these now. Another way to discover does it in its own way.
-  virtual void take_descriptors(std::uint32_t relation, const DescriptorSet& received) {
-    take(planes(), relation, received, ends(relation).cross_host);
+  virtual void take_descriptors(std::uint32_t relation, const DescriptorSet& received);
+  using Stored::assign;
+  void assign(rules::WaitsForType, std::uint32_t relation, std::uint32_t d, bool waits) {
+    auto& list = lookups_->waiting_with(relation, d);
+    waits ? list.push_back({relation, d})
+          : static_cast<void>(std::erase(list, Lookups::Waiting{relation, d}));
+  }
+  void changed(lookup::GetsSamples, std::uint32_t relation, bool) {
+    writers_[lookup_writer(control_.writer_of(relation))].readers.push_back(relation);
   }
   void changed(rules::WriterOpen, std::uint32_t relation, bool matched) {
     std::vector<std::uint32_t>& readers = writers_[writer_of(relation)].readers;
@@ -115,6 +162,22 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.detail, k);
   }
+  using DiscoveryBase::said;
+  [[nodiscard]] static std::int64_t said(lookup::SampleCount, const Packet& packet) {
+    return packet.last_sample();
+  }
+  [[nodiscard]] static std::int64_t said(lookup::SampleNumber, const Packet& packet) {
+    return packet.last_sample();
+  }
+  [[nodiscard]] std::int64_t said(lookup::Stage, const Packet& packet) const {
+    return sample_in(packet).stage;
+  }
+  [[nodiscard]] std::int64_t said(lookup::LookedUp, const Packet& packet) const {
+    return sample_in(packet).looked_up;
+  }
+  [[nodiscard]] bool said(lookup::IsForReader, const Packet& packet) const {
+    return sample_in(packet).addressee == run_.topology.pair(packet.pair).destination;
+  }
   template <class World, class Sayings>
   void emit(rules::Heartbeat, World& w, const Sayings& sayings) {
     send_heartbeat(w.template number<comp::owner::relation>(),
@@ -130,14 +193,19 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
     send_acknack(std::move(packet));
   }
   template <class World, class Sayings>
-  void emit(control::UserHeartbeat, World& w, const Sayings&) {
+  void emit(control::UserHeartbeat, World& w, const Sayings& sayings) {
     send_control(PacketKind::user_heartbeat, w.template number<comp::owner::control_relation>(),
-                 false);
+                 false, static_cast<std::uint32_t>(said_of<lookup::SampleCount>(sayings)));
   }
   template <class World, class... Sayings>
-  void emit(control::UserAckNack, World& w, const std::tuple<Sayings...>&) {
+  void emit(control::UserAckNack, World& w, const std::tuple<Sayings...>& sayings) {
+    constexpr bool initial = (std::is_same_v<typename Sayings::Field, comp::IsInitial> || ...);
+    std::uint32_t last_sample = 0;
+    if constexpr (!initial) {
+      last_sample = static_cast<std::uint32_t>(said_of<lookup::SampleCount>(sayings));
+    }
     send_control(PacketKind::user_acknack, w.template number<comp::owner::control_relation>(),
-                 sizeof...(Sayings) > 0);
+                 initial, last_sample);
   }
 
   // Loops and opaque steps.
@@ -147,6 +215,7 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   template <class Visit>
   void for_queue(std::uint32_t i, Visit&& visit) {
     std::deque<Endpoint>& queue = participants_[i].queue;
+    if (std::exchange(participants_[i].is_suspended, false)) return;
     go_on(i);
     while (!queue.empty()) {
       const Endpoint entry = queue.front();
@@ -185,12 +254,63 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   template <class World, class To>
   void perform(rules::Charge, World& w, To) {
     constexpr SendMode mode = To::repairs ? SendMode::async : SendMode::sync;
-    charge(message(mode), w.descriptor(), mode);
+    charge(message(mode), bytes_of(stream_of(message(mode).writer), w.descriptor()), mode);
   }
   template <class World, class To>
   void perform(rules::Flush, World&, To) {
     constexpr SendMode mode = To::repairs ? SendMode::async : SendMode::sync;
     flush(message(mode), mode);
+  }
+  // What asks for types, and answers.
+  template <class World>
+  void perform(lookup::QueueSample, World& w, std::int64_t stage, std::int64_t looked_up) {
+    const Pair& pair = run_.topology.pair(w.template number<comp::owner::pair>());
+    lookups_->queue(pair.source, {pair.destination, static_cast<std::uint32_t>(looked_up),
+                                  static_cast<std::uint32_t>(stage)});
+    ++at<lookup::SamplesQueued>(pair.source);
+  }
+  template <class World>
+  void perform(lookup::LearnType, World& w) {
+    const std::uint32_t looked_up = sample_in(w.packet()).looked_up;
+    const std::uint32_t j = run_.topology.pair(w.template number<comp::owner::pair>()).destination;
+    lookups_->learn(j, looked_up);
+    for (const std::uint32_t s : {0U, 1U}) {
+      const auto& list = lookups_->waiting(j, looked_up / 2 * 2 + s);
+      while (!list.empty()) {
+        const auto [relation, d] = list.front();
+        run_rule<comp::Happens<lookup::TypeIsKnown>>(w.host(), relation, nullptr, d);
+      }
+    }
+  }
+  template <class World>
+  void perform(lookup::SendSamples, World& w) {
+    const auto i = w.template number<comp::owner::participant>();
+    go_on(i);
+    while (lookups_->has_queued(i)) {
+      --at<lookup::SamplesQueued>(i);
+      const std::uint32_t writer = lookups_->take(i);
+      run_rule<comp::Happens<lookup::SampleLeaves>>(w.host(), control_writers * i + writer % 2);
+      const bool is_done = !lookups_->has_queued(i) && participants_[i].queue.empty();
+      if (is_done || !network_.stalls(i)) continue;
+      participants_[i].is_suspended = true;
+      return suspend(i);
+    }
+  }
+  template <class World>
+  void perform(lookup::PackSample, World& w) {
+    pack_sample(lookup_writer(w.template number<comp::owner::control_writer>()));
+  }
+  template <class World>
+  void perform(lookup::ChargeSample, World& w) {
+    charge_sample(lookup_writer(w.template number<comp::owner::control_writer>()));
+  }
+  template <class World>
+  void perform(lookup::LookupHeartbeatToAll, World& w) {
+    send_lookup_heartbeats(lookup_writer(w.template number<comp::owner::control_writer>()));
+  }
+  template <class World>
+  void perform(lookup::RefillLookupBudget, World& w) {
+    refill(lookup_writer(w.template number<comp::owner::control_writer>()));
   }
   /// After a recognition, a notification or a creation, as the world's place says.
   template <class World>
@@ -201,7 +321,8 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
       open_builtin(w.template number<comp::owner::pair>());
     } else if constexpr (place == comp::owner::descriptor) {
       const std::uint32_t relation = w.template number<comp::owner::relation>();
-      open_notified(relation / 2, stream_of(relation), d);
+      note_notified(relation, d);
+      if (!run_.ends_now()) open_notified(relation / 2, stream_of(relation), d);
     } else {
       static_assert(place == comp::owner::entry);
       const std::uint32_t writer = w.template number<comp::owner::writer>();
@@ -218,12 +339,9 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   // What another way to discover does in its own way.
   /// Announcement 0 of participant i.
   virtual void begin_announcing(std::uint32_t i) { start_announcing(i); }
-  [[nodiscard]] virtual bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const {
-    return d < first<rules::Notified>(static_cast<std::uint32_t>(2 * pair + index_of(s)));
-  }
+  [[nodiscard]] virtual bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const;
   [[nodiscard]] std::int64_t bytes_of(Stream s, std::uint32_t d) const {
-    const DdsProfile& dds = run_.scenario.dds;
-    return (traits_of(dds).has_server ? sizes_.inline_qos : 0) + submessage_bytes(dds, s, d);
+    return (traits_of(dds_).has_server ? sizes_.inline_qos : 0) + submessage_bytes(dds_, s, d);
   }
   // Every packet has what the statistics module adds.
   void send_across(std::uint32_t from, Packet&& packet) {
@@ -264,13 +382,19 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
     std::uint64_t group_number = 0;
     std::int64_t group_bytes = 0;
     Message unfinished;           ///< that of an async run which stalls, if it is open
+    bool is_suspended = false;    ///< it stalls now, before it comes to descriptors
     std::uint32_t endpoints = 0;  ///< created so far, of a participant that may stall
   };
   const VersionSizes& sizes_;
   const std::int64_t statistics_bytes_;
+  const DdsProfile dds_;  // with what descriptors say of types
   ControlRelations control_;
+  std::optional<Lookups> lookups_;  // if endpoints have types
+  const std::uint32_t first_lookup_writer_;
   std::vector<Participant> participants_;
-  std::vector<Writer> writers_;  // 2 · participant + stream
+  /// 2 · participant + stream, then, from `first_lookup_writer_` on, 2 · participant, and 1 more of
+  /// answers.
+  std::vector<Writer> writers_;
 
  private:
   // protocol.cpp
@@ -302,8 +426,8 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   }
   void pack(Message& message, std::uint32_t writer, std::uint32_t d,
             const std::vector<std::uint32_t>& readers, SendMode mode);
-  void charge(Message& message, std::uint32_t d, SendMode mode);
-  [[nodiscard]] bool is_used_up(const Message& message, std::uint32_t d, SendMode mode);
+  void charge(Message& message, std::int64_t submessage, SendMode mode);
+  [[nodiscard]] bool is_used_up(const Message& message, std::int64_t submessage, SendMode mode);
   void count_sent(std::uint32_t i, std::int64_t bytes);
   void piggyback(Message& message, std::uint32_t writer, SendMode mode);
   void flush(Message& message, SendMode mode);
@@ -313,7 +437,35 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   // control.cpp
   void open(ControlSide side);
   void open_created(std::uint32_t i, Stream s, std::uint32_t d);
-  void send_control(PacketKind kind, std::uint32_t relation, bool initial);
+  void send_control(PacketKind kind, std::uint32_t relation, bool initial,
+                    std::uint32_t last_sample);
+  void count_control(std::uint32_t relation);
+  void note_notified(std::uint32_t relation, std::uint32_t d);
+
+  // lookups.cpp; `w` is a writer of questions or answers.
+  void pack_sample(std::uint32_t w);
+  void charge_sample(std::uint32_t w);
+  void send_samples(const Message& message);
+  void send_lookup_heartbeats(std::uint32_t w);
+  [[nodiscard]] bool has_samples(std::uint32_t w) const { return w >= first_lookup_writer_; }
+  [[nodiscard]] std::uint32_t participant_of(std::uint32_t w) const {
+    return w / 2 % run_.topology.participant_count();
+  }
+  /// A writer as rules number it, and back.
+  [[nodiscard]] std::uint32_t lookup_writer(std::uint32_t writer) const {
+    return first_lookup_writer_ + 2 * (writer / control_writers) + writer % control_writers;
+  }
+  [[nodiscard]] std::uint32_t samples_sent(std::uint32_t w) const {
+    return static_cast<std::uint32_t>(
+        at<lookup::SamplesSent>(control_writers * participant_of(w) + w % 2));
+  }
+  /// The sample that is received, in a packet that has no other.
+  [[nodiscard]] const Sample& sample_in(const Packet& packet) const {
+    const std::uint32_t writer = lookup_writer(control_.writer_of(packet.detail));
+    return lookups_->sample(writer - first_lookup_writer_, packet.last_sample());
+  }
+  template <class Host>
+  static void take_samples(Host& host, const Packet& packet);
 
   [[nodiscard]] bool is_created(std::uint32_t i, Stream s, std::uint32_t d) const {
     return d < first<rules::Exists>(static_cast<std::uint32_t>(2 * i + index_of(s)));
@@ -337,6 +489,20 @@ void Protocol::create(Host& host, const Event& event) {
   const auto [stream, d] = host.created_by(event);
   run_rule<comp::Happens<rules::Created>>(
       host, 2 * event.subject + static_cast<std::uint32_t>(index_of(stream)), nullptr, d);
+}
+
+/// One after the other, and then the HEARTBEAT.
+template <class Host>
+void Protocol::take_samples(Host& host, const Packet& packet) {
+  Packet sample;
+  sample.become(packet);
+  for (std::uint32_t number = packet.last_sample() - packet.samples() + 1;
+       number <= packet.last_sample(); ++number) {
+    sample.set_samples(1, number);
+    run_rule<comp::Received<lookup::LookupSample>>(host, packet.detail, &sample);
+  }
+  if (packet.heartbeats == 0) return;
+  run_rule<comp::Received<control::UserHeartbeat>>(host, packet.detail, &packet);
 }
 
 template <class Host>
@@ -367,6 +533,9 @@ void Protocol::take_in(Host& host, const Packet& packet, std::uint32_t receiver)
       break;
     case PacketKind::user_acknack:
       run_rule<comp::Received<control::UserAckNack>>(host, packet.detail, &packet);
+      break;
+    case PacketKind::lookup:
+      take_samples(host, packet);
       break;
     default:
       break;  // sent by others only

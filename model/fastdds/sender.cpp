@@ -33,21 +33,21 @@ void Protocol::pack(Message& message, std::uint32_t w, std::uint32_t d,
   }
 }
 
-/// Sends a message that takes no more, and charges the descriptor just added against the piggyback
-/// budget of its writer.
-void Protocol::charge(Message& message, std::uint32_t d, SendMode mode) {
+/// Sends a message that takes no more, and charges the DATA just added against the piggyback budget
+/// of its writer.
+void Protocol::charge(Message& message, std::int64_t submessage, SendMode mode) {
   const std::uint32_t most = run_.scenario.dds.version.max_data_per_message;
   if (most > 0 && message.data >= most) flush(message, mode);
-  if (sedp_.piggyback != Piggyback::off && is_used_up(message, d, mode)) {
+  if (sedp_.piggyback != Piggyback::off && is_used_up(message, submessage, mode)) {
     piggyback(message, message.writer, mode);
   }
 }
 
 /// The budget of the message's writer, after a charge; or its participant has begun another group
 /// since this writer's last HEARTBEAT.
-bool Protocol::is_used_up(const Message& message, std::uint32_t d, SendMode mode) {
+bool Protocol::is_used_up(const Message& message, std::int64_t submessage, SendMode mode) {
   const std::uint32_t w = message.writer;
-  const Participant& participant = participants_[w / 2];
+  const Participant& participant = participants_[participant_of(w)];
   Writer& writer = writers_[w];
   if (sedp_.piggyback == Piggyback::group) {
     const std::uint64_t now = mode == SendMode::async ? participant.group_number : 0;
@@ -55,7 +55,7 @@ bool Protocol::is_used_up(const Message& message, std::uint32_t d, SendMode mode
   }
   const bool cumulative = sedp_.piggyback == Piggyback::cumulative && mode == SendMode::async;
   writer.budget -= cumulative ? participant.sent_bytes + (message.open ? message.bytes : 0)
-                              : message_header_bytes + timestamp_bytes + bytes_of(stream_of(w), d);
+                              : message_header_bytes + timestamp_bytes + submessage;
   return writer.budget < 0;
 }
 
@@ -74,12 +74,18 @@ void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
   Writer& writer = writers_[w];
   if (!message.open || message.readers != writer.readers) {
     flush(message, mode);
-    message.start(w, writer.readers, run_.topology.descriptor_count(w / 2, stream_of(w)));
+    message.start(w, writer.readers,
+                  has_samples(w) ? 0 : run_.topology.descriptor_count(w / 2, stream_of(w)));
   }
   message.bytes += heartbeat_submessage_bytes;
   ++message.heartbeats;
-  message.announced = first<rules::Exists>(w);
-  generated_.heartbeat += count_crossing(writer.readers);
+  if (has_samples(w)) {
+    message.announced = samples_sent(w);
+    for (const std::uint32_t relation : writer.readers) count_control(relation);
+  } else {
+    message.announced = first<rules::Exists>(w);
+    generated_.heartbeat += count_crossing(writer.readers);
+  }
   refill(w);
 }
 
@@ -87,7 +93,10 @@ void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
 void Protocol::flush(Message& message, SendMode mode) {
   if (!message.open) return;
   message.open = false;
-  if (mode == SendMode::async) count_sent(message.writer / 2, message.bytes + statistics_bytes_);
+  if (mode == SendMode::async) {
+    count_sent(participant_of(message.writer), message.bytes + statistics_bytes_);
+  }
+  if (has_samples(message.writer)) return send_samples(message);
   if (message.data == 0) {
     PacketNumbers heartbeat;
     heartbeat.stream = stream_of(message.writer);

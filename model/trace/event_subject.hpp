@@ -12,6 +12,7 @@ enum class Subject : std::uint8_t {
   participant,
   channel,
   control_relation,
+  control_writer,
   pair,
   endpoint_relation,  ///< of any writer of a participant (model/cyclone/endpoints.hpp)
   endpoint_writer,
@@ -68,6 +69,8 @@ enum class Subject : std::uint8_t {
     case EventKind::control_initial_due:
     case EventKind::control_reply_due:
       return Subject::control_relation;
+    case EventKind::lookup_expiry:
+      return Subject::control_writer;
     case EventKind::acknack_generation:
     case EventKind::initial_acknack_due:
     case EventKind::repair_generation:
@@ -89,6 +92,8 @@ enum class Subject : std::uint8_t {
       return Subject::channel;
     case MachineRef::Kind::control_relation:
       return Subject::control_relation;
+    case MachineRef::Kind::control_writer:
+      return Subject::control_writer;
     case MachineRef::Kind::pair:
       return Subject::pair;
     case MachineRef::Kind::endpoint_relation:

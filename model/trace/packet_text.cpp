@@ -32,7 +32,8 @@ bool is_spdp(const Packet& packet) {
 }
 
 bool is_control(const Packet& packet) {
-  return packet.kind == PacketKind::user_heartbeat || packet.kind == PacketKind::user_acknack;
+  return packet.kind == PacketKind::user_heartbeat || packet.kind == PacketKind::user_acknack ||
+         packet.kind == PacketKind::lookup;
 }
 
 void append_stream(std::string& out, const Packet& packet) {
@@ -76,6 +77,12 @@ void append_submessages(std::string& out, const std::vector<Submessage>& submess
     separator = ",";
   }
   out += ']';
+}
+
+/// Of what asks for types: the samples of a message, or how many are announced or acknowledged.
+void append_samples(std::string& out, const Packet& packet) {
+  if (packet.samples() > 0) append(out, R"(,"samples":)", packet.samples());
+  if (packet.last_sample() > 0) append(out, R"(,"last_sample":)", packet.last_sample());
 }
 
 void append_numbers(std::string& out, const std::vector<std::int64_t>& numbers) {
@@ -133,6 +140,7 @@ void append_packet(std::string& out, const Packet& packet, std::uint32_t from,
   if (packet.kind == PacketKind::acknack && packet.detail > 0) {
     append(out, R"(,"base":)", packet.detail);
   }
+  if (is_control(packet)) append_samples(out, packet);
   if (packet.from_repair) out += R"(,"repair":true)";
   if (packet.heartbeats > 0) append(out, R"(,"heartbeats":)", packet.heartbeats);
   if (packet.initial_acknack) out += R"(,"initial":true)";

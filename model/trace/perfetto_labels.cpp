@@ -42,6 +42,8 @@ const char* packet_label(const Packet& packet) {
       return "user HEARTBEAT";
     case PacketKind::user_acknack:
       return packet.initial_acknack ? "initial user ACKNACK" : "user ACKNACK";
+    case PacketKind::lookup:
+      return packet.heartbeats > 0 ? "type lookup+HEARTBEAT" : "type lookup";
     case PacketKind::registration:
       return "DATA(p)";
     case PacketKind::registration_heartbeat:
@@ -71,6 +73,8 @@ const char* packet_label(const Packet& packet) {
       return "ACKNACK";
     case TrafficClass::user_control:
       return "user message";
+    case TrafficClass::lookup:
+      return "type lookup";
   }
   return "";
 }
@@ -135,6 +139,8 @@ const char* timer_label(EventKind kind) {
       return "NACK response";
     case EventKind::async_run:
       return "asynchronous send";
+    case EventKind::lookup_expiry:
+      return "HEARTBEAT expiry of lookups";
     case EventKind::participant_start:
       return "participant starts";
     case EventKind::spdp_time:

@@ -124,6 +124,7 @@ std::optional<Track> machine_track(const MachineRef& machine, const Topology& to
       return writer_track(subject / 2, stream_at(subject));
     case MachineRef::Kind::channel:
     case MachineRef::Kind::control_relation:
+    case MachineRef::Kind::control_writer:
     case MachineRef::Kind::pair:
       return std::nullopt;
     case MachineRef::Kind::endpoint_writer:

@@ -9,6 +9,7 @@
 
 #include "model/config/knobs/effective.hpp"
 #include "model/cyclone/endpoints.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/trace/event_subject.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/packet_text.hpp"
@@ -66,6 +67,7 @@ void TraceWriter::finish(const RunResult& result) {
   for (const Counts::Entry& count : result.counts.entries()) {
     append(line_, "\"", count.name, "\":", count.value, ",");
   }
+  if (result.counts.lookup > 0) append(line_, R"("lookup":)", result.counts.lookup, ",");
   append(line_, R"("total":)", result.counts.total(), R"(},"user_control":)", result.user_control,
          R"(,"missing":)", result.missing_count, R"(,"events":)", result.events, "}\n");
   sink_(line_);
@@ -255,6 +257,10 @@ void TraceWriter::append_subject(Subject kind, std::uint32_t subject) {
       break;
     case Subject::control_relation:
       append(line_, R"(,"control_relation":)", subject);
+      break;
+    case Subject::control_writer:
+      append(line_, R"(,"participant":)", subject / fastdds::control_writers, R"(,"topic":")",
+             fastdds::control_writer_names[subject % fastdds::control_writers], "\"");
       break;
     case Subject::pair: {
       const Pair& pair = topology_->pair(subject);

@@ -52,6 +52,10 @@ class MessageCounter final : public model::Probe {
       case PacketKind::user_acknack:
         ++user_control_;
         break;
+      case PacketKind::lookup:
+        counts_.lookup += packet.samples();
+        user_control_ += packet.heartbeats;
+        break;
       case PacketKind::rtps_message:
         for (const model::Submessage& each : *packet.submessages) add(each, packet);
         break;
@@ -108,6 +112,7 @@ Broken counts(const Scenario& scenario, const Simulate& simulate) {
     const model::Counts::Entry reported = result.counts.entries()[k];
     if (Broken wrong = unequal(reported.name, happened[k].value, reported.value)) return wrong;
   }
+  if (Broken wrong = unequal("lookup", counter.counts().lookup, result.counts.lookup)) return wrong;
   return unequal("user_control", counter.user_control(), result.user_control);
 }
 

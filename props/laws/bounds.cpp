@@ -19,6 +19,7 @@
 
 #include "model/airtime.hpp"
 #include "model/engine/topology.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/packet_sizes.hpp"
 #include "props/laws/families.hpp"
 #include "props/laws/run_log.hpp"
@@ -37,7 +38,7 @@ using Broken = std::optional<std::string>;
 
 /// Least bytes on the channel for the descriptors of one stream.
 std::int64_t least_bytes(const Scenario& scenario, Stream stream, std::uint32_t count) {
-  const model::PacketSizes sizes = model::packet_sizes(scenario.dds);
+  const model::PacketSizes sizes = model::packet_sizes(model::fastdds::deployed_profile(scenario));
   std::int64_t sum = sizes.header + model::udp_header_bytes + model::ip_header_bytes +
                      scenario.wireless.link_overhead_bytes.count();
   for (std::uint32_t d = 0; d < count; ++d) sum += sizes.descriptor(stream, d);

@@ -149,8 +149,9 @@ std::int64_t stream_on_air(const Scenario& scenario, const model::PacketSizes& s
 std::int64_t open_loop(const Scenario& scenario, const Grid& grid) {
   const model::WirelessProfile& wireless = scenario.wireless;
   const model::DescriptorProfile& defaults = scenario.dds.descriptors;
+  const model::DdsProfile dds = model::fastdds::deployed_profile(scenario);
   const model::PacketSizes sizes = model::visit_engine_composition(
-      scenario.dds, [&](auto composition) { return weights(composition, scenario.dds); });
+      dds, [&](auto composition) { return weights(composition, dds); });
   const std::int64_t spdp = sizes.announcement;
   const std::int64_t control =
       on_air(wireless, sizes.heartbeat, false) + on_air(wireless, sizes.acknack, false);

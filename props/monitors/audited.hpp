@@ -52,6 +52,8 @@ struct AuditColumns : model::PlainColumns {
   static std::uint32_t rows(const model::RunState& run) {
     if constexpr (owner == comp::owner::control_relation) {
       return ControlSides{run.topology}.count();
+    } else if constexpr (owner == comp::owner::control_writer) {
+      return model::fastdds::control_writers * run.topology.participant_count();
     } else {
       return PlainColumns::rows<owner>(run);
     }

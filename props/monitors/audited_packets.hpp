@@ -162,8 +162,10 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
   }
   template <class Fields, class W, class Field, class Value>
   void say(Message& message, W& w, const comp::Says<Field, Value>& says) {
-    if constexpr (!model::detail::is_listed<Field>(Fields{})) {
-      // Only observers of descriptors hear it.
+    if constexpr (!model::detail::is_listed<Field>(Fields{}) ||
+                  std::derived_from<Field, comp::PacketNumber> ||
+                  std::is_same_v<Field, comp::lookup::IsForReader>) {
+      // Only observers of descriptors hear it, or nobody follows it.
     } else if constexpr (std::is_same_v<Field, comp::Carries> ||
                          std::is_same_v<Field, comp::Listed>) {
       message.descriptors = Descriptors{w.set_of(says.value)};

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "fsm/composition/heartbeat_clock.hpp"
+#include "fsm/composition/lookup_parts.hpp"
 #include "fsm/composition/reader.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/running_world.hpp"
@@ -112,6 +113,12 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
   }
   static bool said(comp::IsRepair, const Packet& packet) { return packet.from_repair; }
   static bool said(comp::IsInitial, const Packet& packet) { return packet.initial_acknack; }
+  template <class Field>
+  requires(std::derived_from<Field, comp::PacketNumber>) static std::int64_t
+      said(Field, const Packet& packet) {
+    return packet.last_sample();
+  }
+  static bool said(comp::lookup::IsForReader, const Packet&) { return false; }
 
   // Readers.
   [[nodiscard]] const std::vector<Number>& readers(Number writer) const { return readers_[writer]; }

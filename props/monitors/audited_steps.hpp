@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "fsm/adaptive_period.hpp"
+#include "fsm/composition/lookups.hpp"
 #include "props/monitors/audited_packets.hpp"
 
 namespace stormproof::props {
+
+namespace lookup = comp::lookup;
 
 template <class Self, class Base, class Of>
 class AuditedSteps : public AuditedPackets<Self, Base, Of> {
@@ -18,6 +21,9 @@ class AuditedSteps : public AuditedPackets<Self, Base, Of> {
   static constexpr bool has_topics = has_part<typename Of::Composition, control::ControlWriterSide>;
 
  public:
+  using NotFollowed = fsm::TypeList<lookup::OfLookups, lookup::KnowsType, lookup::SomebodyWaits,
+                                    lookup::LookupOfDescriptor, lookup::SentLookup,
+                                    lookup::SentStage, lookup::IsAddressee>;
   template <comp::Owner owner>
   using World = typename Packets::template World<owner>;
   using typename Packets::Composition;
@@ -77,6 +83,30 @@ class AuditedSteps : public AuditedPackets<Self, Base, Of> {
   [[nodiscard]] bool answer(control::OfTopic, const W& w) const {
     return !topics_->is_liveliness(w.template number<comp::owner::control_relation>());
   }
+  // What asks for types: runs in which somebody does are not followed (props/applicability.cpp).
+  using Packets::knob;
+  [[nodiscard]] static bool knob(lookup::AsksForTypes) { return false; }
+  template <class Tag, class W>
+  requires(model::detail::is_listed<Tag>(NotFollowed{}))
+      [[nodiscard]] auto answer(Tag, const W&) const {
+    if constexpr (std::derived_from<Tag, comp::Amount>) {
+      return std::int64_t{0};
+    } else {
+      return false;
+    }
+  }
+  [[nodiscard]] Number writer_of_control(Number topic) const {
+    const model::Pair& ends = this->topology().pair(pair_of_control(topic));
+    return model::fastdds::control_writers * (ends.source + 1) - 1;
+  }
+  [[nodiscard]] static Number participant_of_control(Number writer) {
+    return writer / model::fastdds::control_writers;
+  }
+  [[nodiscard]] static std::vector<Number> readers_of_control(Number) { return {}; }
+  template <class W>
+  void perform(lookup::SendSamples, W&) {}
+  template <class W>
+  void perform(lookup::LearnType, W&) {}
   /// Between the participant and one peer, or any.
   template <class W>
   void perform(control::OpenTopics, W& w) {
@@ -139,8 +169,8 @@ class AuditedSteps : public AuditedPackets<Self, Base, Of> {
     const bool ready =
         needs.liveliness ? this->value(comp::Recognised{}, needs.pair)
                          : this->has(typename Composition::Exists{}, needs.writer, needs.created) &&
-                               this->has(typename Composition::Notified{},
-                                         2 * needs.pair + needs.stream, needs.notified);
+                               this->has(comp::fastdds::HandedOver{}, 2 * needs.pair + needs.stream,
+                                         needs.notified);
     if (!ready) return;
     World<comp::owner::control_relation> w{this->self(), topic};
     w.raise(opens);

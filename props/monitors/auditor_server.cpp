@@ -147,10 +147,10 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
       if (value(comp::Recognised{}, pair)) return;
       assign(comp::Recognised{}, pair, true);
     } else {
-      using Notified = comp::fastdds::Notified;
+      using HandedOver = comp::fastdds::HandedOver;
       const auto relation = static_cast<Number>(2 * pair + index_of(relayed.stream));
-      if (has(Notified{}, relation, relayed.descriptor)) return;
-      assign(Notified{}, relation, relayed.descriptor, true);
+      if (has(HandedOver{}, relation, relayed.descriptor)) return;
+      assign(HandedOver{}, relation, relayed.descriptor, true);
       if (model::fastdds::has_other_side(topology(), client, relayed.stream, relayed.descriptor) &&
           relayed.participant != server_id()) {
         --run_.missing;

@@ -9,6 +9,7 @@
 
 #include "model/cyclone/endpoints.hpp"
 #include "model/engine/submessage.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/fastdds/relayed.hpp"
 #include "model/trace/event_subject.hpp"
 #include "props/monitors/describe.hpp"
@@ -41,6 +42,10 @@ std::string subject_text(const model::Topology& topology, Subject subject, std::
       return fmt::format("participant {}'s {} at participant {}", ends.source,
                          model::cyclone::name_of_writer(number % stride), ends.destination);
     }
+    case Subject::control_writer:
+      return fmt::format(
+          "participant {}'s writer of {}", number / model::fastdds::control_writers,
+          model::fastdds::control_writer_names[number % model::fastdds::control_writers]);
     default:
       return fmt::format("control-only relation {}", number);
   }

@@ -64,6 +64,7 @@ std::uint64_t messages_of(const model::Packet& packet) {
   switch (packet.kind) {
     case model::PacketKind::user_heartbeat:
     case model::PacketKind::user_acknack:
+    case model::PacketKind::lookup:
       return 0;
     case model::PacketKind::data:
       packet.descriptors.for_each([&](std::uint32_t) { ++messages; });

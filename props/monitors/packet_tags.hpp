@@ -13,7 +13,7 @@ namespace stormproof::props {
 
 namespace detail {
 using enum model::PacketKind;
-inline constexpr std::array<std::pair<std::string_view, model::PacketKind>, 14> packets{{
+inline constexpr std::array<std::pair<std::string_view, model::PacketKind>, 15> packets{{
     {"SpdpMulticast", spdp_multicast},
     {"SpdpUnicast", spdp_unicast},
     {"Data", data},
@@ -21,6 +21,7 @@ inline constexpr std::array<std::pair<std::string_view, model::PacketKind>, 14> 
     {"AckNack", acknack},
     {"UserHeartbeat", user_heartbeat},
     {"UserAckNack", user_acknack},
+    {"LookupSample", lookup},
     {"Registration", registration},
     {"RegistrationHeartbeat", registration_heartbeat},
     {"RegistrationAckNack", registration_acknack},

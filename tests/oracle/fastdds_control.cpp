@@ -1,5 +1,7 @@
 // Control-only relations: liveliness and the user data of each topic. They carry no DATA here, but
 // their HEARTBEATs and ACKNACKs share the channel with discovery.
+#include <algorithm>
+
 #include "tests/oracle/fastdds_world.hpp"
 
 namespace stormproof::oracle::fastdds {
@@ -12,8 +14,6 @@ model::Nanoseconds reply_delay(const World& w, int topic) {
   return model::Nanoseconds{5'000'000};
 }
 
-Control& control(World& w, Id i, Id j, int topic) { return w.controls[{i, j, topic}]; }
-
 Event control_event(EventKind kind, Id j, Id i, int topic) {
   Event event = make_event(kind, j, i, 0);
   event.topic = topic;
@@ -21,16 +21,9 @@ Event control_event(EventKind kind, Id j, Id i, int topic) {
 }
 
 void send(World& w, PacketKind kind, Id from, Id to, int topic, bool initial) {
-  Packet packet;
-  packet.kind = kind;
-  packet.source = from;
-  packet.destination = to;
-  packet.topic = topic;
-  packet.port = is_builtin(topic) ? 0 : 1;
-  packet.initial = initial;
-  packet.payload = kind == PacketKind::control_heartbeat ? heartbeat_payload : acknack_payload;
-  if (cross_host(w, from, to) || w.makes(Mistake::lookups_on_host_count)) ++w.outcome.user_control;
-  emit(w, packet);
+  const bool is_heartbeat = kind == PacketKind::control_heartbeat;
+  send_control(w, kind, from, to, topic, initial,
+               is_heartbeat ? heartbeat_payload : acknack_payload);
 }
 
 bool has_created(World& w, Id i, int s, int topic) {
@@ -43,7 +36,9 @@ bool is_notified(World& w, Id i, Id j, int s, int topic) {
     const std::vector<bool>& received = relation(w, i, j, s).received;
     return descriptor_of(s, topic) < received.size() && received.at(descriptor_of(s, topic));
   }
-  return descriptor_of(s, topic) < relation(w, i, j, s).notified;
+  const Relation& r = relation(w, i, j, s);
+  const Id d = descriptor_of(s, topic);
+  return d < r.handed_over && (!r.waiting.contains(d) || w.makes(Mistake::nobody_waits));
 }
 
 void open_liveliness(World& w, Id i, Id j) {
@@ -69,8 +64,35 @@ void open_lookups(World& w, Id i, Id j) {
 
 }  // namespace
 
+Control& control(World& w, Id i, Id j, int topic) { return w.controls[{i, j, topic}]; }
+
+void send_control(World& w, PacketKind kind, Id from, Id to, int topic, bool initial,
+                  std::int64_t payload) {
+  Packet packet;
+  packet.kind = kind;
+  packet.source = from;
+  packet.destination = to;
+  packet.topic = topic;
+  packet.port = is_builtin(topic) ? 0 : 1;
+  packet.initial = initial;
+  packet.payload = payload;
+  if (is_lookup(topic) && !initial) {
+    const bool is_heartbeat = kind == PacketKind::control_heartbeat;
+    packet.sample_count =
+        is_heartbeat ? writer(w, from, topic).existing : control(w, to, from, topic).got;
+  }
+  if (cross_host(w, from, to) || w.makes(Mistake::lookups_on_host_count)) ++w.outcome.user_control;
+  emit(w, packet);
+}
+
 void open_control_writer(World& w, Id i, Id j, int topic) {
   control(w, i, j, topic).writer_open = true;
+  if (is_lookup(topic)) {
+    Writer& wr = writer(w, i, topic);
+    wr.readers.push_back(j);
+    if (!w.makes(Mistake::low_is_zero_at_match)) control(w, i, j, topic).low = wr.existing;
+    wr.budget = w.sedp.piggyback_threshold_bytes.count();
+  }
   send(w, PacketKind::control_heartbeat, i, j, topic, false);
 }
 
@@ -120,6 +142,7 @@ void receive_control_heartbeat(World& w, const Packet& packet) {
   Control& c = control(w, i, j, packet.topic);
   if (!c.reader_open) return;
   c.heartbeat_seen = true;
+  if (!w.makes(Mistake::heartbeats_give_nothing)) c.got = std::max(c.got, packet.sample_count);
   if (c.reply_pending && !w.makes(Mistake::control_reply_doubled)) return;
   c.reply_pending = true;
   schedule_after(w, reply_delay(w, packet.topic),
@@ -129,9 +152,16 @@ void receive_control_heartbeat(World& w, const Packet& packet) {
 void receive_control_acknack(World& w, const Packet& packet) {
   const Id i = *packet.destination;
   const Id j = packet.source;
-  if (w.makes(Mistake::control_initial_ignored)) return;
-  if (!packet.initial || !control(w, i, j, packet.topic).writer_open) return;
+  Control& c = control(w, i, j, packet.topic);
+  if (w.makes(Mistake::control_initial_ignored) || !c.writer_open) return;
+  if (!packet.initial) {
+    c.low = std::max(c.low, packet.sample_count);
+    return;
+  }
   send(w, PacketKind::control_heartbeat, i, j, packet.topic, false);
+  if (!is_lookup(packet.topic)) return;
+  writer(w, i, packet.topic).budget = w.sedp.piggyback_threshold_bytes.count();
+  if (!w.makes(Mistake::initial_arms_no_lookups)) arm_lookups(w, i, packet.topic);
 }
 
 void control_reply(World& w, Id j, Id i, int topic) {

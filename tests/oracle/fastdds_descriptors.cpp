@@ -46,8 +46,9 @@ std::int64_t submessage_bytes(const World& w, int s, Id d) {
   const std::vector<std::int64_t> bytes = descriptor_bytes(has_sizes_of_3(w), s);
   std::int64_t inline_qos = 0;
   if (w.server) inline_qos = has_sizes_of_3(w) ? 60 : 32;
-  return inline_qos + w.scenario.dds.version.descriptor_extra_bytes.count() +
-         bytes.at(std::min<std::size_t>(d, bytes.size() - 1));
+  std::int64_t about_type = w.scenario.dds.version.descriptor_extra_bytes.count();
+  if (about_type == 0 && with_types(w) && !w.makes(Mistake::types_without_bytes)) about_type = 188;
+  return inline_qos + about_type + bytes.at(std::min<std::size_t>(d, bytes.size() - 1));
 }
 
 // 0: ros_discovery_info, 1: parameter_events, 2 + k: user topic k.

@@ -61,7 +61,7 @@ void forget(World& w, Id i, Id j) {
     in.heartbeat_seen = false;
     in.acknack_pending = false;
     in.announced = 0;
-    in.notified = 0;
+    in.handed_over = 0;
     for (Id d = 0; d < in.received.size(); ++d) {
       if (!in.received.at(d) || !is_needed(w, i, j, s, d)) continue;
       ++w.missing;
@@ -91,7 +91,7 @@ void open_before(World& w, Id i, Id j) {
     in.reader_open = true;
     in.heartbeat_seen = true;
     in.announced = descriptor_count(w.scenario, j, s);
-    in.notified = in.announced;
+    in.handed_over = in.announced;
     for (Id d = 0; d < in.received.size(); ++d) {
       if (!in.received.at(d) && is_needed(w, j, i, s, d)) --w.missing;
       in.received.at(d) = true;

@@ -35,7 +35,8 @@ void flush(World& w, Sending& sending) {
   if (!sending.open.has_value()) return;
   const Message message = *sending.open;
   sending.open.reset();
-  if (message.descriptors.empty() && !message.announced.has_value()) return;
+  const bool is_empty = message.descriptors.empty() && message.samples.empty();
+  if (is_empty && !message.announced.has_value()) return;
   std::int64_t sent = message.bytes;
   if (!w.makes(Mistake::statistics_uncharged)) {
     sent += w.scenario.dds.version.statistics_bytes.count();
@@ -66,6 +67,12 @@ void flush(World& w, Sending& sending) {
       const auto found = by_destination.find(j);
       return found == by_destination.end() ? Id{0} : found->second;
     };
+    if (is_lookup(message.stream)) {
+      packet.kind = message.samples.empty() ? PacketKind::control_heartbeat : PacketKind::lookup;
+      packet.topic = message.stream;
+      packet.samples = message.samples;
+      packet.sample_count = message.announced.value_or(0);
+    }
     packet.initial_data = count(message.initial_data);
     packet.repair_data = count(message.repair_data);
     emit(w, packet);
@@ -105,9 +112,9 @@ void suppress(World& w, Id i, Id j, int s, Id d) {
   }
 }
 
-// What the descriptor just added to the open message takes from the writer's budget.
-std::int64_t charge(const World& w, const Sending& sending, int s, Id d) {
-  const std::int64_t alone = message_header + timestamp_bytes + submessage_bytes(w, s, d);
+// What the DATA just added to the open message takes from the writer's budget.
+std::int64_t charge(const World& w, const Sending& sending, std::int64_t submessage) {
+  const std::int64_t alone = message_header + timestamp_bytes + submessage;
   switch (w.sedp.piggyback) {
     case model::Piggyback::cumulative:
       if (!sending.async && !w.makes(Mistake::sync_charges_message)) return alone;
@@ -122,8 +129,8 @@ std::int64_t charge(const World& w, const Sending& sending, int s, Id d) {
   return 0;
 }
 
-// Whether a HEARTBEAT has to ride with the descriptor just added.
-bool rides(World& w, const Sending& sending, int s, Id d) {
+// Whether a HEARTBEAT has to ride with the DATA just added.
+bool rides(World& w, const Sending& sending, int s, std::int64_t submessage) {
   Writer& wr = writer(w, sending.i, s);
   if (w.sedp.piggyback == model::Piggyback::group) {
     const bool in_group = sending.async || w.makes(Mistake::group_of_creations);
@@ -133,7 +140,7 @@ bool rides(World& w, const Sending& sending, int s, Id d) {
     return true;
   }
   if (w.sedp.piggyback == model::Piggyback::off) return false;
-  wr.budget -= charge(w, sending, s, d);
+  wr.budget -= charge(w, sending, submessage);
   return wr.budget < 0;
 }
 
@@ -151,10 +158,21 @@ void piggyback(World& w, Sending& sending, int s) {
   sending.open->announced = wr.existing;
   ++sending.open->heartbeats;
   for (const Id j : wr.readers) {
-    if (cross_host(w, sending.i, j)) ++w.outcome.heartbeat;
+    if (!cross_host(w, sending.i, j)) continue;
+    ++(is_lookup(s) ? w.outcome.user_control : w.outcome.heartbeat);
   }
   wr.budget = w.sedp.piggyback_threshold_bytes.count();
   ++w.outcome.piggybacks;
+}
+
+// Sends a message that takes no more DATA, then charges the one that was added last.
+void charge_added(World& w, Sending& sending, int s, std::int64_t submessage) {
+  const Id most = w.scenario.dds.version.max_data_per_message;
+  const std::size_t data = sending.open->descriptors.size() + sending.open->samples.size();
+  const bool is_full = most > 0 && data >= most;
+  if (is_full && !w.makes(Mistake::full_message_charged)) flush(w, sending);
+  if (rides(w, sending, s, submessage)) piggyback(w, sending, s);
+  if (is_full && w.makes(Mistake::full_message_charged)) flush(w, sending);
 }
 
 void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& destinations) {
@@ -167,11 +185,40 @@ void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& des
     count_data(w, *sending.open, sending.i, j, s, d);
   }
   arm(w, sending.i, s);
-  const Id most = w.scenario.dds.version.max_data_per_message;
-  const bool is_full = most > 0 && sending.open->descriptors.size() >= most;
-  if (is_full && !w.makes(Mistake::full_message_charged)) flush(w, sending);
-  if (rides(w, sending, s, d)) piggyback(w, sending, s);
-  if (is_full && w.makes(Mistake::full_message_charged)) flush(w, sending);
+  charge_added(w, sending, s, submessage_bytes(w, s, d));
+}
+
+/// A sample goes to all readers, though one is meant.
+void deliver(World& w, Sending& sending, Sample sample) {
+  const int topic = sample.is_question ? questions : answers;
+  Writer& wr = writer(w, sending.i, topic);
+  const std::int64_t bytes = timestamp_bytes + sample_bytes(w, sample);
+  std::vector<Id> destinations = wr.readers;
+  if (w.makes(Mistake::samples_to_addressee)) destinations = {sample.to};
+  const std::optional<Message>& open = sending.open;
+  if (open && (open->stream != topic || open->destinations != destinations ||
+               open->bytes + bytes > w.sedp.grouping_limit_bytes.count())) {
+    flush(w, sending);
+  }
+  if (!sending.open) open_message(w, sending, topic, destinations);
+  sample.number = ++wr.existing;
+  sending.open->samples.push_back(sample);
+  sending.open->bytes += bytes;
+  for (const Id j : destinations) w.outcome.lookup += cross_host(w, sending.i, j) ? 1 : 0;
+  if (!w.makes(Mistake::samples_do_not_arm)) arm_lookups(w, sending.i, topic);
+  charge_added(w, sending, topic, sample_bytes(w, sample));
+}
+
+/// The first one of the queue, to those who wait for it.
+void serve_descriptor(World& w, Sending& sending) {
+  std::deque<std::pair<int, Id>>& queue = w.participants.at(sending.i).async_queue;
+  const auto [s, d] = queue.front();
+  queue.pop_front();
+  std::vector<Id> waiting;
+  for (const Id j : writer(w, sending.i, s).readers) {
+    if (relation(w, sending.i, j, s).state.at(d) == DescriptorState::queued) waiting.push_back(j);
+  }
+  if (!waiting.empty()) deliver(w, sending, s, d, waiting);
 }
 
 }  // namespace
@@ -197,15 +244,18 @@ void async_run(World& w, Id i) {
   sending.async = true;
   sending.open = p.unfinished;
   p.unfinished.reset();
-  while (!p.async_queue.empty()) {
-    const auto [s, d] = p.async_queue.front();
-    p.async_queue.pop_front();
-    std::vector<Id> waiting;
-    for (const Id j : writer(w, i, s).readers) {
-      if (relation(w, i, j, s).state.at(d) == DescriptorState::queued) waiting.push_back(j);
+  while (!p.async_queue.empty() || !p.samples.empty()) {
+    const bool of_samples = !p.samples.empty() && (p.async_queue.empty() ||
+                                                   !w.makes(Mistake::descriptors_before_samples));
+    if (of_samples) {
+      const Sample sample = p.samples.front();
+      p.samples.pop_front();
+      deliver(w, sending, sample);
+    } else {
+      serve_descriptor(w, sending);
     }
-    if (!waiting.empty()) deliver(w, sending, s, d, waiting);
-    const bool is_left = !p.async_queue.empty() || w.makes(WifiMistake::stop_before_the_last);
+    const bool is_left =
+        !p.async_queue.empty() || !p.samples.empty() || w.makes(WifiMistake::stop_before_the_last);
     if (!stalls(w, i) || !is_left || w.makes(WifiMistake::runs_never_stop)) continue;
     if (w.makes(WifiMistake::stop_flushes)) flush(w, sending);
     p.unfinished = sending.open;

@@ -16,6 +16,7 @@ namespace stormproof::oracle {
 struct FastddsOutcome : Outcome {
   std::int64_t user_control = 0;  ///< HEARTBEATs and ACKNACKs of control-only relations, on top
   std::uint64_t replaced_messages = 0;  ///< piggybacks that needed a new message, to all readers
+  std::int64_t lookup = 0;              ///< questions and answers about types, by receiver
   // With a Discovery Server.
   std::int64_t pdp_data = 0;
   std::int64_t pdp_heartbeat = 0;

@@ -12,21 +12,21 @@ constexpr std::int64_t bitmap_payload = 4;
 
 void take_data(World& w, Relation& r, const Packet& packet, Id j) {
   for (const Id d : packet.descriptors) {
-    if (!r.received.at(d) && is_needed(w, packet.source, j, packet.stream, d)) --w.missing;
+    const bool counts = !with_types(w) || w.makes(Mistake::complete_when_received);
+    if (counts && !r.received.at(d) && is_needed(w, packet.source, j, packet.stream, d)) {
+      --w.missing;
+    }
     r.received.at(d) = true;
     if (!w.makes(Mistake::data_announces_nothing)) r.announced = std::max(r.announced, d + 1);
   }
-  w.ended = ends_complete(w);
-  if (w.missing > 0 || w.outcome.completed) return;
-  w.outcome.completed = true;
-  w.outcome.t_disc_ns = w.now;
+  note_completion(w);
 }
 
 void notify_in_order(World& w, Relation& r, Id i, Id j, int s) {
   const Id ahead = w.makes(Mistake::notified_late) ? 1 : 0;
-  while (r.notified + ahead < r.received.size() && r.received.at(r.notified + ahead)) {
-    ++r.notified;
-    notified(w, i, j, s, r.notified - 1);
+  while (r.handed_over + ahead < r.received.size() && r.received.at(r.handed_over + ahead)) {
+    ++r.handed_over;
+    hand_over(w, i, j, s, r.handed_over - 1);
   }
 }
 
@@ -82,6 +82,8 @@ void take_in(World& w, const Packet& packet, Id j) {
       return receive_control_heartbeat(w, packet);
     case PacketKind::control_acknack:
       return receive_control_acknack(w, packet);
+    case PacketKind::lookup:
+      return receive_samples(w, packet);
     case PacketKind::registration:
       return receive_registration(w, packet);
     case PacketKind::registration_heartbeat:
@@ -96,6 +98,13 @@ void take_in(World& w, const Packet& packet, Id j) {
 }
 
 }  // namespace
+
+void note_completion(World& w) {
+  w.ended = ends_complete(w);
+  if (w.missing > 0 || w.outcome.completed) return;
+  w.outcome.completed = true;
+  w.outcome.t_disc_ns = w.now;
+}
 
 void receive(World& w, const Packet& packet, Id j) {
   if (!started(w, j) || !is_heard(w, packet, j)) return;

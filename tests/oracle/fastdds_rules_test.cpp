@@ -110,7 +110,7 @@ TEST_F(FastddsRules, DataRaisesWhatANackAsksFor) {
   data.descriptors = {2};
   receive(w_, data, 1);
   EXPECT_EQ(forward().announced, 3U);
-  EXPECT_EQ(forward().notified, 0U);
+  EXPECT_EQ(forward().handed_over, 0U);
   generate_acknack(w_, 1, 0, pub);
   const Packet& sent = w_.packets.rbegin()->second;
   EXPECT_EQ(sent.base, 0U);

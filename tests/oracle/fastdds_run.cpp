@@ -40,6 +40,8 @@ const char* name_of(EventKind kind) {
       return "initial control ACKNACK";
     case EventKind::control_reply:
       return "control ACKNACK";
+    case EventKind::lookup_expiry:
+      return "HEARTBEAT expiry of lookups";
     case EventKind::client_tick:
       return "client sync";
     case EventKind::client_expiry:
@@ -123,6 +125,8 @@ void process(World& w, const Event& e) {
       return control_initial(w, e.from, e.to, e.topic, e.number);
     case EventKind::control_reply:
       return control_reply(w, e.from, e.to, e.topic);
+    case EventKind::lookup_expiry:
+      return lookup_expiry(w, e.from, e.topic);
     case EventKind::client_tick:
       return client_tick(w, e.from);
     case EventKind::client_expiry:
@@ -207,8 +211,9 @@ std::vector<Missing> missing_descriptors(const World& w) {
   for (const auto& [key, r] : w.relations) {
     const auto& [i, j, s] = key;
     for (Id d = 0; d < r.received.size(); ++d) {
-      if (!r.received.at(d) && is_needed(w, i, j, s, d))
-        missing.push_back({i, j, model::streams[s], d});
+      const bool is_there =
+          with_types(w) ? d < r.handed_over && !r.waiting.contains(d) : bool{r.received.at(d)};
+      if (!is_there && is_needed(w, i, j, s, d)) missing.push_back({i, j, model::streams[s], d});
     }
   }
   return missing;
@@ -225,6 +230,7 @@ void take_counts(World& w) {
   w.outcome.spdp_multicast = w.admitted.spdp_multicast;
   w.outcome.spdp_unicast = w.admitted.spdp_unicast;
   w.outcome.user_control = w.admitted.user_control;
+  w.outcome.lookup = w.admitted.lookup;
 }
 
 FastddsOutcome run(const model::Scenario& given, const EventLog& log, Mistake mistake,

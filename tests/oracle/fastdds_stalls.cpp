@@ -49,6 +49,10 @@ void count_admitted(World& w, const Packet& packet) {
     case PacketKind::control_acknack:
       ++w.admitted.user_control;
       return;
+    case PacketKind::lookup:
+      w.admitted.lookup += static_cast<std::int64_t>(packet.samples.size());
+      w.admitted.user_control += packet.heartbeats;
+      return;
     default:
       return;  // of and to a server: no rule counts them so
   }

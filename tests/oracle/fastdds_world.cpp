@@ -56,7 +56,7 @@ World::World(const model::Scenario& s, FastddsMistake m, WifiMistake of_wifi,
   }
   create_relations(*this);
   for (Id i = 0; i < participants.size(); ++i) {
-    for (int stream = 0; stream < 2; ++stream) {
+    for (const int stream : {pub, sub, questions, answers}) {
       writers[{i, stream}].budget = sedp.piggyback_threshold_bytes.count();
       writers[{i, stream}].period = sedp.heartbeat_period.count();
     }

@@ -26,9 +26,11 @@ constexpr int pub = 0;
 constexpr int sub = 1;
 constexpr int participants_stream = 2;  // of a Discovery Server and its clients: announcements
 
-// Bytes of a HEARTBEAT to one participant and of an ACKNACK without bitmap.
+// Bytes of a HEARTBEAT to one participant, of an ACKNACK without bitmap, and of a HEARTBEAT to
+// several.
 constexpr std::int64_t heartbeat_payload = 68;
 constexpr std::int64_t acknack_payload = 64;
+constexpr std::int64_t heartbeat_to_several = 52;
 
 enum class EventKind {
   service_finished,
@@ -46,6 +48,7 @@ enum class EventKind {
   cycle_batch,
   control_initial,
   control_reply,
+  lookup_expiry,         // of the HEARTBEAT of a writer of questions or answers
   client_tick,           // from here on: with a Discovery Server
   client_expiry,         // of the HEARTBEAT of a client's announcements
   registration_acknack,  // of the server, to a client's announcements
@@ -90,6 +93,7 @@ enum class PacketKind {
   acknack,
   control_heartbeat,
   control_acknack,
+  lookup,                  // questions and answers about types, perhaps with a HEARTBEAT
   registration,            // from here on: with a Discovery Server. DATA(p) of a client
   registration_heartbeat,  // and what belongs to it
   registration_acknack,
@@ -106,6 +110,17 @@ struct Item {
   auto operator<=>(const Item&) const = default;
 };
 
+/// A question about a type, or an answer.
+struct Sample {
+  Id number = 0;  // of its writer
+  Id from = 0;    // who sends it
+  Id to = 0;      // who is meant, whoever hears it
+  bool is_question = true;
+  bool is_about_dependencies = true;  // otherwise about the type itself
+  int stream = 0;                     // of the descriptor that the chain began with
+  std::string type;
+};
+
 struct Packet {
   PacketKind kind = PacketKind::spdp;
   Id source = 0;
@@ -120,9 +135,11 @@ struct Packet {
   Id heartbeats = 0;            // HEARTBEATs that ride with DATA, or instead of it
   Id initial_data = 0;          // of the DATA: those that count as such
   Id repair_data = 0;
-  bool initial = false;      // an initial ACKNACK
-  Id base = 0;               // of an ACKNACK
-  std::set<Id> bitmap;       // of an ACKNACK
+  bool initial = false;  // an initial ACKNACK
+  Id base = 0;           // of an ACKNACK
+  std::set<Id> bitmap;   // of an ACKNACK
+  std::vector<Sample> samples;
+  Id sample_count = 0;       // of questions or answers: announced by a HEARTBEAT, got by an ACKNACK
   std::optional<Item> item;  // from here on: of and to a server. What a DATA carries
   std::int64_t item_number = 0;
   std::set<std::int64_t> numbers;  // of a GAP, or requested by an ACKNACK
@@ -153,7 +170,8 @@ struct Relation {
   bool acknack_pending = false;
   std::vector<bool> received;
   Id announced = 0;
-  Id notified = 0;       // descriptors below it have been notified
+  Id handed_over = 0;    // descriptors below it have been notified, or wait for their types
+  std::set<Id> waiting;  // for their types
   int reader_epoch = 0;  // from here on: how often j forgot i
   int writer_epoch = 0;  // and i forgot j
 };
@@ -182,14 +200,19 @@ struct Control {
   bool heartbeat_seen = false;
   bool reply_pending = false;
   int epoch = 0;  // how often the reader forgot the writer
+  // Of questions and answers: how many samples the writer takes as acknowledged, and how many the
+  // reader has got.
+  Id low = 0;
+  Id got = 0;
 };
 
 /// The message that a creation or an async run fills.
 struct Message {
-  int stream = 0;
+  int stream = 0;                // or `questions` or `answers`
   std::vector<Id> destinations;  // in match order
   std::int64_t bytes = 0;
   std::vector<Id> descriptors;
+  std::vector<Sample> samples;
   std::optional<Id> announced;
   Id heartbeats = 0;
   std::map<Id, Id> initial_data;  // by destination on another host
@@ -216,6 +239,8 @@ struct Participant {
   std::map<Id, Time> forgets;  // when it forgets whom, if it hears nothing until then
   int lives = 0;               // how often it has come back
   std::deque<std::pair<int, Id>> async_queue;  // (stream, descriptor)
+  std::deque<Sample> samples;                  // the same, before descriptors
+  std::set<std::string> looked_up;             // types
   bool run_pending = false;
   std::int64_t sent_bytes = 0;  // of the cumulative piggyback charge
   std::int64_t group_bytes = 0;
@@ -357,6 +382,8 @@ struct World {
   std::map<std::tuple<Id, Id, int>, Relation> relations;
   std::map<std::pair<Id, int>, Writer> writers;
   std::map<std::tuple<Id, Id, int>, Control> controls;  // (source, destination, topic)
+  /// Descriptors (of whom, which) that wait at a participant: by it, their stream and their type.
+  std::map<std::tuple<Id, int, std::string>, std::vector<std::pair<Id, Id>>> waiting;
   std::map<std::string, Channel> channels;
   std::map<std::string, Air> airs;  // by channel of access points
   std::map<std::pair<std::string, Time>, std::vector<std::pair<std::uint64_t, std::size_t>>>
@@ -404,6 +431,7 @@ constexpr int liveliness = -1;
 constexpr int questions = -3;  // of types
 constexpr int answers = -4;
 [[nodiscard]] inline bool is_builtin(int topic) { return topic < 0; }
+[[nodiscard]] inline bool is_lookup(int topic) { return topic == questions || topic == answers; }
 [[nodiscard]] int topic_of(int s, Id d);
 [[nodiscard]] Id descriptor_of(int s, int topic);
 
@@ -480,6 +508,7 @@ void announce(World& w, Id i, std::int64_t k);
 void receive_spdp(World& w, Id j, Id i);
 
 // fastdds_reader.cpp
+void note_completion(World& w);
 void receive(World& w, const Packet& packet, Id j);
 void generate_acknack(World& w, Id j, Id i, int s);
 void initial_acknack(World& w, Id j, Id i, int s, Time delay);
@@ -497,7 +526,19 @@ void suppression_end(World& w, Id i, Id j, int s);
 void create(World& w, Id i, int s, Id d);
 void async_run(World& w, Id i);
 
+// fastdds_lookups.cpp
+[[nodiscard]] bool with_types(const World& w);
+[[nodiscard]] bool asks_for_types(const World& w);
+[[nodiscard]] std::int64_t sample_bytes(const World& w, const Sample& sample);
+void hand_over(World& w, Id i, Id j, int s, Id d);
+void receive_samples(World& w, const Packet& packet);
+void arm_lookups(World& w, Id i, int topic);
+void lookup_expiry(World& w, Id i, int topic);
+
 // fastdds_control.cpp
+[[nodiscard]] Control& control(World& w, Id i, Id j, int topic);
+void send_control(World& w, PacketKind kind, Id from, Id to, int topic, bool initial,
+                  std::int64_t payload);
 void open_control_writer(World& w, Id i, Id j, int topic);
 void open_control_reader(World& w, Id i, Id j, int topic);
 void open_builtin(World& w, Id i, Id j);

@@ -8,8 +8,6 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-constexpr std::int64_t heartbeat_to_several = 52;
-
 // A HEARTBEAT of its own to j alone.
 void heartbeat_to(World& w, Id i, Id j, int s) { heartbeat(w, i, j, s, heartbeat_payload); }
 

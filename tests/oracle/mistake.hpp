@@ -144,6 +144,25 @@ enum class FastddsMistake : std::uint8_t {
   group_starts_anew,          ///< what exceeds the threshold of a group is forgotten
   group_of_creations,         ///< a creation belongs to the group as well
   group_goes_on,              ///< a HEARTBEAT does not end a writer's group
+  // Lookups of types.
+  types_without_bytes,           ///< descriptors say nothing of their types
+  complete_when_received,        ///< discovery is complete though descriptors wait for their types
+  nobody_waits,                  ///< every type counts as known
+  no_questions_on_host,          ///< what comes from the own host needs no type
+  all_own_types_known,           ///< a participant knows types of endpoints that it will create
+  everybody_is_asked,            ///< each descriptor that waits asks
+  one_question,                  ///< the answer about dependencies is the last one
+  one_list_only,                 ///< an answer lets those of its stream go
+  subscriptions_first,           ///< or those of subscriptions before those of publications
+  descriptors_before_samples,    ///< the queue of descriptors comes before that of samples
+  samples_to_addressee,          ///< a sample goes to whom it is meant for
+  samples_do_not_arm,            ///< no HEARTBEAT follows samples by itself
+  closed_readers_take,           ///< a side that is not open takes samples
+  samples_not_got,               ///< only a HEARTBEAT says what is acknowledged
+  heartbeats_give_nothing,       ///< or only samples do
+  low_is_zero_at_match,          ///< a new reader lacks all samples
+  initial_arms_no_lookups,       ///< an initial ACKNACK arms nothing
+  expiry_of_lookups_to_lacking,  ///< an expiry goes to readers that lack samples
 };
 
 /// What the oracle of the Wi-Fi channel does wrong (specs/guide/wifi.md has the rules): units,
@@ -323,13 +342,16 @@ inline constexpr std::size_t mistake_count =
 inline constexpr std::size_t first_mistake_of_life =
     static_cast<std::size_t>(Mistake::lease_not_renewed);
 inline constexpr std::size_t fastdds_mistake_count =
-    static_cast<std::size_t>(FastddsMistake::group_goes_on) + 1;
+    static_cast<std::size_t>(FastddsMistake::expiry_of_lookups_to_lacking) + 1;
 /// From this one on they are about the life of participants.
 inline constexpr std::size_t first_fastdds_mistake_of_life =
     static_cast<std::size_t>(FastddsMistake::lease_not_renewed);
 /// From this one on they are about later versions.
 inline constexpr std::size_t first_fastdds_mistake_of_versions =
     static_cast<std::size_t>(FastddsMistake::endpoints_always_first);
+/// From this one on they are about lookups of types.
+inline constexpr std::size_t first_fastdds_mistake_of_lookups =
+    static_cast<std::size_t>(FastddsMistake::types_without_bytes);
 inline constexpr std::size_t wifi_mistake_count =
     static_cast<std::size_t>(WifiMistake::nobody_deaf) + 1;
 /// The last one that scenarios without listed hosts, failing transmissions and processors can show.

@@ -32,6 +32,7 @@ struct Vector {
   model::Scenario scenario;
   Expected expected;
   std::int64_t user_control = 0;
+  std::int64_t lookup = 0;
 };
 
 /// Tests show a vector by its name.

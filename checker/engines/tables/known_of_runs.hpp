@@ -144,7 +144,8 @@ struct KnownOfFastDds : known::Anything {
       const auto absent = d.in(fastdds::C{}, is<change::Absent>);
       return known::implies(d(X{}), d(fastdds::Known{})) &&
              known::implies(d(fastdds::Known{}), exists) &&
-             known::implies(d(fastdds::Notified{}), d.all_up_to([](auto& e) { return e(X{}); })) &&
+             known::implies(d(fastdds::HandedOver{}),
+                            d.all_up_to([](auto& e) { return e(X{}); })) &&
              absent == (!open || !exists) &&
              known::implies(d.in(fastdds::C{}, is<change::A>), d(X{})) &&
              known::implies(d.in(fastdds::C{}, is<change::R>), responds) &&

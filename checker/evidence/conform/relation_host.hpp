@@ -188,7 +188,11 @@ class RelationHost : public model::Kept<Self, CapturedRelation,
   [[nodiscard]] std::int64_t now() const { return now_ns_; }
   template <class Knob>
   [[nodiscard]] auto knob(Knob knob) const {
-    return model::knob_value(knob, dds_);
+    if constexpr (model::is_knob<Knob>) {
+      return model::knob_value(knob, dds_);
+    } else {
+      return false;  // what its type is delays nobody's answer
+    }
   }
   template <class Tag, class W>
   [[nodiscard]] auto answer(Tag tag, const W& w) const {

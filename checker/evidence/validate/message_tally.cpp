@@ -63,6 +63,10 @@ void MessageTally::emitted(const model::Packet& packet, std::uint32_t,
     tally_[index_of(Figure::user_control)] += copies;
     return;
   }
+  if (packet.kind == PacketKind::lookup) {
+    if (packet.heartbeats > 0) tally_[index_of(Figure::user_control)] += copies;
+    return;
+  }
   if (add_of_server(packet)) return;
   tally_[index_of(Figure::datagrams)] += copies;
   tally_[index_of(Figure::payload_bytes)] += copies * packet.payload_bytes;

@@ -102,8 +102,8 @@ void Fingerprints::received(const model::Packet& packet, std::uint32_t receiver)
 }
 
 bool SentPacket::is_like(const SentPacket& other) const {
-  const bool control = kind == model::PacketKind::user_heartbeat ||  //
-                       kind == model::PacketKind::user_acknack;
+  const bool control = kind == model::PacketKind::user_heartbeat ||
+                       kind == model::PacketKind::user_acknack || kind == model::PacketKind::lookup;
   return source == other.source && destinations == other.destinations && kind == other.kind &&
          stream == other.stream && initial_acknack == other.initial_acknack &&
          (!control || detail == other.detail);

@@ -47,6 +47,7 @@ Table distribution(const SampleSummary& s) {
   }
   row("total", s.total, as_count);
   if (s.user_control.max.value_or(0) > 0) row("user control", s.user_control, as_count);
+  if (s.lookup.max.value_or(0) > 0) row("lookups", s.lookup, as_count);
   return table;
 }
 

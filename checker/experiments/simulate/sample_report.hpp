@@ -44,6 +44,7 @@ struct SampleSummary {
   std::array<statistics::Quantiles, model::message_class_count> counts;  ///< by class
   statistics::Quantiles total;
   statistics::Quantiles user_control;
+  statistics::Quantiles lookup;
 };
 [[nodiscard]] SampleSummary summarize(const std::vector<trials::Sample>& samples);
 

@@ -32,6 +32,7 @@ SampleSummary summarize(const std::vector<Sample>& samples) {
   }
   summary.total = quantiles_of(samples, [](const Sample& s) { return s.counts.total(); });
   summary.user_control = quantiles_of(samples, [](const Sample& s) { return s.user_control; });
+  summary.lookup = quantiles_of(samples, [](const Sample& s) { return s.counts.lookup; });
   return summary;
 }
 

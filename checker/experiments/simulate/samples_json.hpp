@@ -35,6 +35,9 @@ template <class V>
 void describe(V& v, const SummaryOfCounts& counts) {
   const auto entries = model::Counts{}.entries();
   for (std::size_t k = 0; k < entries.size(); ++k) v(entries[k].name, counts.summary.counts[k]);
+  v.unless_empty("lookup", counts.summary.lookup.max.value_or(0) > 0
+                               ? std::optional{counts.summary.lookup}
+                               : std::nullopt);
   v("total", counts.summary.total);
 }
 

@@ -154,6 +154,7 @@ Table messages(const Simulation& s) {
   if (s.result.user_control > 0) {
     table.rows.push_back({{"user control", grouped(s.result.user_control), "", ""}});
   }
+  if (all.lookup > 0) table.rows.push_back({{"lookups", grouped(all.lookup), "", ""}});
   return table;
 }
 
@@ -330,6 +331,10 @@ Document document_of(const Simulation& s) {
   if (s.result.user_control > 0) {
     blocks.emplace_back(
         Paragraph{"user control: matched user endpoints and liveliness; in no class"});
+  }
+  if (s.result.counts.lookup > 0) {
+    blocks.emplace_back(Paragraph{
+        "lookups: questions about types, and answers, one for each receiver; in no class"});
   }
   add_channels(blocks, s.result);
   add_missing(blocks, s.result);

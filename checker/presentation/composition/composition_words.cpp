@@ -23,7 +23,8 @@ Glossary owners() {
           {"relation", "a writer and one reader of it"},
           {"entry", "a descriptor of a writer, whoever reads it"},
           {"descriptor", "a descriptor of a writer towards one reader"},
-          {"control relation", "a pair on a topic of which only the control traffic is modelled"}};
+          {"control relation", "a pair on a topic of which only the control traffic is modelled"},
+          {"control writer", "a participant's writer on such a topic"}};
 }
 
 std::string_view verb(const comp::RuleInfo& rule) {

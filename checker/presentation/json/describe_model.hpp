@@ -18,6 +18,7 @@ void describe(V& v, const Counts& counts) {
   v.unless_empty("pdp_heartbeat", of_server(counts.pdp_heartbeat));
   v.unless_empty("pdp_acknack", of_server(counts.pdp_acknack));
   v.unless_empty("gap", of_server(counts.gap));
+  v.unless_empty("lookup", counts.lookup > 0 ? std::optional{counts.lookup} : std::nullopt);
   v("total", counts.total());
 }
 

@@ -43,6 +43,7 @@ std::optional<std::uint32_t> participant_of(const model::Event& event, const His
       return history.topology.pair(event.subject).source;
     case Subject::channel:
     case Subject::control_relation:
+    case Subject::control_writer:
     case Subject::endpoint_relation:
     case Subject::endpoint_writer:
     case Subject::access_point:
@@ -179,6 +180,7 @@ class Narrator {
       case model::MachineRef::Kind::participant:
       case model::MachineRef::Kind::channel:
       case model::MachineRef::Kind::control_relation:
+      case model::MachineRef::Kind::control_writer:
       case model::MachineRef::Kind::pair:
       case model::MachineRef::Kind::endpoint_relation:
       case model::MachineRef::Kind::endpoint_writer:

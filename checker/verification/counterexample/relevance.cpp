@@ -181,6 +181,7 @@ std::uint32_t owner_of(const Transition& transition, const Step& step, const His
       return history.topology.pair(subject).source;
     case MachineRef::Kind::channel:
     case MachineRef::Kind::control_relation:
+    case MachineRef::Kind::control_writer:
     case MachineRef::Kind::endpoint_relation:
     case MachineRef::Kind::endpoint_writer:
       return to_everybody;

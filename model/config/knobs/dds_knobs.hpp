@@ -417,13 +417,22 @@ constexpr void visit_knobs(auto& visit, Is<VersionProfile> auto& version,
       "whether participants have endpoints that ask for types (TypeLookup service); false if "
       "absent",
       optional);
+  visit.knob("typelookup_heartbeat_period", version.typelookup_heartbeat_period,
+             usually(period_range, 350'000'000),
+             "periodic HEARTBEAT of what asks for types and answers (tau_L); 350ms if absent",
+             optional);
+  visit.knob("type_object_bytes", version.type_object_bytes, usually(byte_range(1, 65'000), 300),
+             "DATA submessage that answers with a type; 300 if absent", optional);
   visit.knob("sizes", version.sizes, UsualChoiceType<SizesSince>{{}, SizesSince::v2_6},
              "announcements and descriptors have the sizes of this version and those after it; "
              "v2.6 if absent",
              optional);
-  visit.knob(
-      "descriptor_extra_bytes", version.descriptor_extra_bytes, usually(byte_range(0, 65'000), 0),
-      "more in each descriptor: type information and the hash of the type; 0 if absent", optional);
+  visit.knob("descriptor_extra_bytes", version.descriptor_extra_bytes,
+             usually(byte_range(0, 65'000), 0),
+             "more in each descriptor: type information and the hash of the type; if 0 or absent, "
+             "nothing, "
+             "or 188 with deployment.types",
+             optional);
   visit.knob("statistics_bytes", version.statistics_bytes, usually(byte_range(0, 65'000), 0),
              "more in each packet: the submessage of the statistics module; 0 if absent", optional);
   visit.knob("max_data_per_message", version.max_data_per_message,

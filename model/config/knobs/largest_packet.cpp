@@ -42,9 +42,11 @@ LargestPacket largest_of(Of<fsm::composition::paper::Paper>, const Scenario& sce
 }
 
 LargestPacket largest_of(Of<fsm::composition::fastdds::FastDds>, const Scenario& scenario) {
-  const DdsProfile& dds = scenario.dds;
+  const DdsProfile dds = fastdds::deployed_profile(scenario);
+  const std::int64_t sample = scenario.deployment.types ? fastdds::largest_sample_bytes(dds) : 0;
   const std::int64_t alone = fastdds::message_header_bytes + fastdds::destination_bytes +
-                             fastdds::timestamp_bytes + fastdds::largest_submessage_bytes(dds);
+                             fastdds::timestamp_bytes +
+                             std::max(fastdds::largest_submessage_bytes(dds), sample);
   const std::int64_t message = std::max(dds.sedp.grouping_limit_bytes.count(), alone);
   return {Bytes{message + fastdds::heartbeat_submessage_bytes} + dds.version.statistics_bytes,
           "dds.sedp.grouping_limit_bytes"};

@@ -11,6 +11,7 @@
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/largest_packet.hpp"
 #include "model/config/knobs/life_knobs.hpp"
+#include "model/config/knobs/type_knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
 #include "model/config/knobs/wireless_knobs.hpp"
 #include "model/scenario.hpp"
@@ -159,6 +160,10 @@ void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
              "between two datagrams of a Discovery Server; 50us if absent; used by discovery: "
              "server and super_client",
              Presence::optional);
+  visit.section("types", deployment.types,
+                "endpoints say which type their topic has, and participants ask for those that "
+                "they do not know; with implementation: fastdds and no Discovery Server",
+                Presence::optional);
   visit_fleet_knobs(visit, deployment);
   visit.section("life", deployment.life,
                 "what happened before the run, and what happens to participants in it; with "
@@ -282,6 +287,7 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
                 Presence::optional);
 
   visit_life(visit, scenario);
+  visit_types(visit, scenario);
   const DescriptorProfile& defaults = scenario.dds.descriptors;
   const auto has_descriptors = [&defaults](const Participant& participant) {
     return defaults.default_publications + defaults.default_subscriptions +

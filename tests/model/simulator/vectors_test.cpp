@@ -31,6 +31,7 @@ TEST_P(Vectors, AgreeExactly) {
   const model::RunResult result = model::simulate(GetParam().scenario);
   EXPECT_EQ(outcome(result), GetParam().expected);
   EXPECT_EQ(static_cast<std::int64_t>(result.user_control), GetParam().user_control);
+  EXPECT_EQ(static_cast<std::int64_t>(result.counts.lookup), GetParam().lookup);
   EXPECT_EQ(result.missing_count, 0U);
   EXPECT_TRUE(result.missing.empty());
 }

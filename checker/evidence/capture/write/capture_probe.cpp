@@ -14,6 +14,7 @@
 #include "checker/evidence/capture/write/packet_layout.hpp"
 #include "checker/evidence/capture/write/pcap_writer.hpp"
 #include "checker/evidence/capture/write/server_messages.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::capture {
@@ -35,7 +36,7 @@ class CaptureProbe::Implementation {
       : scenario_{scenario},
         traits_{model::traits_of(scenario.dds)},
         vendor_{vendor_of(scenario)},
-        layout_{scenario.dds},
+        layout_{model::fastdds::deployed_profile(scenario)},
         identities_{write::identities(
             scenario.deployment, vendor_,
             traits_.has_server ? scenario.dds.discovery : model::Discovery::simple)},
@@ -65,6 +66,8 @@ class CaptureProbe::Implementation {
       case PacketKind::user_heartbeat:
       case PacketKind::user_acknack:
         return control(packet, source, destination);
+      case PacketKind::lookup:
+        return look_up(packet, source, destination);
       case PacketKind::rtps_message:
         return send_message(packet, source, destination);
       case PacketKind::registration:
@@ -226,22 +229,48 @@ class CaptureProbe::Implementation {
     finish(out, packet, source, identities_[destination].metatraffic);
   }
 
-  /// Liveliness and user endpoints. No sample is modelled there, so nothing has been written and
-  /// there is nothing to ask for.
+  /// Liveliness, user endpoints, and what looks up types. No sample of the former is modelled, so
+  /// nothing has been written there; nobody asks for anything again.
   void control(const model::Packet& packet, std::uint32_t source, std::uint32_t destination) {
     const write::ControlTopics::Ends ends = control_->ends(packet);
     const write::Identity& to = identities_[destination];
     write::MessageWriter out = message(source);
-    out.info_dst(to.prefix);
     if (packet.kind == PacketKind::user_heartbeat) {
-      out.heartbeat(ends.reader, ends.writer, 0, ++counts_[{source, ends.writer}]);
+      const bool is_directed = packet.payload_bytes >= layout_.heartbeat_bytes();
+      if (is_directed) out.info_dst(to.prefix);
+      out.heartbeat(is_directed ? ends.reader : 0, ends.writer, packet.last_sample(),
+                    ++counts_[{source, ends.writer}]);
     } else {
+      out.info_dst(to.prefix);
       SequenceNumberSet missing;
-      missing.base = packet.initial_acknack ? 0 : 1;
+      missing.base = packet.initial_acknack ? 0 : 1 + std::int64_t{packet.last_sample()};
       out.acknack(ends.reader, ends.writer, missing, ++counts_[{source, ends.reader}],
                   !packet.initial_acknack);
     }
     finish(out, packet, source, ends.is_builtin ? to.metatraffic : to.user);
+  }
+
+  /// Questions about types, and answers. What they say is not modelled, so their DATA are empty and
+  /// share the bytes of the message; it names its destination if there is no other participant.
+  void look_up(const model::Packet& packet, std::uint32_t source, std::uint32_t destination) {
+    const write::ControlTopics::Ends ends = control_->ends(packet);
+    const write::Identity& to = identities_[destination];
+    const bool is_directed = topology_->peer_count(source) == 1;
+    const EntityId reader = is_directed ? ends.reader : 0;
+    write::MessageWriter out = message(source);
+    if (is_directed) out.info_dst(to.prefix);
+    const std::size_t tail = packet.heartbeats * write::MessageWriter::heartbeat_size;
+    const write::ParameterWriter nothing;
+    for (std::uint32_t left = packet.samples(); left > 0; --left) {
+      const std::size_t room = packet.payload_bytes - out.size() - tail;
+      out.info_ts(time_of(packet));
+      out.data(reader, ends.writer, packet.last_sample() + std::uint64_t{1} - left, nothing,
+               room / left / 4 * 4 - write::MessageWriter::info_ts_size);
+    }
+    for (std::uint32_t k = 0; k < packet.heartbeats; ++k) {
+      out.heartbeat(reader, ends.writer, packet.last_sample(), ++counts_[{source, ends.writer}]);
+    }
+    finish(out, packet, source, to.metatraffic);
   }
 
   const model::Scenario& scenario_;

@@ -22,6 +22,9 @@ class PacketLayout {
     return std::max<std::uint32_t>(packet.heartbeats, is_alone ? 1 : 0);
   }
 
+  /// UDP payload of a HEARTBEAT to one reader.
+  [[nodiscard]] std::int64_t heartbeat_bytes() const { return sizes_.heartbeat; }
+
   /// Whether there is an INFO_DST: where it is no part of the header, it is left out, and the
   /// packet is smaller, when a message goes to several.
   [[nodiscard]] bool names_destination(const model::Packet& packet) const {

@@ -1,0 +1,63 @@
+// What there is so that participants can ask each other for types that they do not know, besides
+// the control-only relations on which they do: two writers of each participant, of questions and of
+// answers, send samples to all their readers, reliably as far as nothing is lost. The rules are in
+// fsm/composition/control.hpp, as far as they are about HEARTBEATs and ACKNACKs, and in
+// fsm/composition/lookups.hpp.
+// Source: specs/guide/fastdds.md, "Lookups of types".
+#pragma once
+
+#include "fsm/composition/packets.hpp"
+#include "fsm/composition/single_shots.hpp"
+
+namespace stormproof::fsm::composition::lookup {
+
+/// Participants ask for what they do not know: they have the endpoints for it (`type_lookup`), and
+/// the endpoints of the deployment have types.
+struct AsksForTypes : Switch {};
+struct ExpiryPeriod : DelayOf<"typelookup_heartbeat_period"> {};  ///< τ_L
+
+/// The control-only relation is one of questions or answers.
+struct OfLookups : Answer {};
+/// Its writer has samples.
+struct KeepsSamples : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return w(AsksForTypes{}) && w(OfLookups{});
+  }
+};
+
+struct LookupExpiry : Part<SingleShot, owner::control_writer> {};
+struct LookupExpiryDue : Timer<owner::control_writer> {};
+
+struct SamplesSent : Number<owner::control_writer> {};            ///< H
+struct GetsSamples : Flag<owner::control_relation> {};            ///< the reader is among M
+struct SamplesAcknowledged : Number<owner::control_relation> {};  ///< low, at the writer
+struct SamplesGot : Number<owner::control_relation> {};           ///< at the reader
+struct SamplesQueued : Number<owner::participant> {};  ///< before its next asynchronous run
+
+/// What a HEARTBEAT announces, and an ACKNACK acknowledges: the first so many samples.
+struct SampleCount : PacketNumber {};
+/// Of a sample: its number, from 1; whose lookup it is part of, and of what; how far that has come;
+/// and whether it is addressed to the reader, as it goes to others, too.
+struct SampleNumber : PacketNumber {};
+struct LookedUp : PacketNumber {};
+struct Stage : PacketNumber {};
+struct IsForReader : PacketField {};
+/// Questions and answers take turns: 0 asks for the dependencies of a type, 1 answers, 2 asks for
+/// the type, 3 answers.
+inline constexpr int last_stage = 3;
+
+struct LookupSample : Packet<owner::control_relation, SampleNumber, LookedUp, Stage, IsForReader> {
+};
+
+/// The piggyback budget of the writer is the threshold again.
+struct RefillLookupBudget : Opaque {
+  template <class W>
+  static void contract(W&) {}
+};
+template <class W>
+void arm(W& w) {
+  request<LookupExpiry, ExpiryPeriod, LookupExpiryDue>(w);
+}
+
+}  // namespace stormproof::fsm::composition::lookup

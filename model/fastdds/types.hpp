@@ -1,0 +1,37 @@
+// Which endpoints have the same type (specs/guide/fastdds.md, "Lookups of types"). Types are common
+// to all participants as far as all have their endpoints from the same packages: those of the
+// node's own topics and services, and the one of user topics. But the first endpoints of a list of
+// services and user topics have, in each participant, a type of their own.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/deployment.hpp"
+#include "model/engine/node_endpoints.hpp"
+#include "model/units.hpp"
+
+namespace stormproof::model::fastdds {
+
+/// How many endpoints of the participant can have a type of their own: those of services that every
+/// node has, and user endpoints.
+[[nodiscard]] constexpr std::uint64_t endpoints_with_own_types(const Participant& participant) {
+  constexpr std::uint64_t services = 12;
+  return services + participant.publications + participant.subscriptions;
+}
+
+class Types {
+ public:
+  /// Of a deployment whose endpoints have types.
+  explicit Types(const Deployment& deployment);
+
+  [[nodiscard]] std::uint32_t of(std::uint32_t participant, Stream s, std::uint32_t d) const;
+  [[nodiscard]] std::uint32_t count() const { return count_; }
+
+ private:
+  std::vector<std::uint32_t> user_publications_;  // by participant
+  std::uint32_t unknown_;                         // of each
+  std::uint32_t count_;
+};
+
+}  // namespace stormproof::model::fastdds
