@@ -38,7 +38,8 @@ void add_datagram(const Datagram& datagram, Reading& reading) {
   const auto capture = static_cast<std::uint32_t>(reading.captures.size() - 1);
   const auto index = static_cast<std::uint32_t>(reading.datagrams.size());
   const std::string place = fmt::format("{}, packet {}", info.name, datagram.packet);
-  if (!extract(datagram, index, place, reading.extraction, reading.remarks)) return;
+  const auto message = extract(datagram, index, place, reading.extraction, reading.remarks);
+  if (!message) return;
   ++info.datagrams;
   ++info.sources[datagram.source.address];
   reading.datagrams.push_back({.time_ns = datagram.time_ns,
@@ -47,7 +48,8 @@ void add_datagram(const Datagram& datagram, Reading& reading) {
                                .frames = datagram.frames,
                                .wire_bytes = datagram.wire_bytes,
                                .payload_bytes = static_cast<std::uint32_t>(datagram.payload.size()),
-                               .vendor = message_header(datagram.payload)->vendor,
+                               .statistics_bytes = message->statistics_bytes,
+                               .vendor = message->vendor,
                                .source = datagram.source,
                                .destination = datagram.destination});
   reading.sightings.push_back({datagram.time_ns, capture, datagram.source, datagram.destination,

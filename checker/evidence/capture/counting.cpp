@@ -23,9 +23,11 @@ class Counter {
   void add(const DatagramRecord& datagram, std::size_t first, std::size_t last) {
     std::array<std::uint32_t, message_class_count> in_datagram{};
     std::uint32_t data = 0;
+    const std::uint64_t lookups = counting_.lookup_messages();
     for (std::size_t k = first; k < last; ++k) {
       const Event& event = conversation_.events[k];
       add_traffic(event);
+      if (event.traffic() == Traffic::type_lookup) add_lookup(event);
       const std::optional<MessageClass> one = classify(event);
       counting_.classes.push_back(event.is_same_host ? std::nullopt : one);
       if (has_server_) add_of_server(event, k);
@@ -44,6 +46,10 @@ class Counter {
       if (in_datagram[k] == 1) ++counting_.sizes[k].single[datagram.payload_bytes];
     }
     if (data > 0) ++counting_.data_per_datagram[data];
+    if (last > first && counting_.lookup_messages() - lookups == last - first) {
+      ++counting_.lookup_datagrams;
+    }
+    counting_.statistics_bytes += datagram.statistics_bytes;
     ++counting_.datagrams;
     counting_.frames += datagram.frames;
     counting_.wire_bytes += datagram.wire_bytes;
@@ -61,6 +67,25 @@ class Counter {
       ++figures.acknack;
     } else {
       ++figures.gap;
+    }
+  }
+
+  void add_lookup(const Event& event) {
+    if (event.is_same_host) return;
+    LookupFigures& figures = event.writer == entity::lookup_requests_writer
+                                 ? counting_.lookup_requests
+                                 : counting_.lookup_replies;
+    if (const DataEvent* data = event.data()) {
+      ++figures.data;
+      figures.data_bytes += event.bytes;
+      if (samples_.insert({event.source, event.writer, data->sequence_number}).second) {
+        ++figures.samples;
+      }
+      counting_.last_lookup_ns = event.time_ns;
+    } else if (event.heartbeat() != nullptr) {
+      ++figures.heartbeat;
+    } else {
+      ++(event.acknack() != nullptr ? figures.acknack : figures.gap);
     }
   }
 
@@ -148,6 +173,7 @@ class Counter {
   HeartbeatClassifier classifier_;
   std::set<Key> keys_;
   std::set<Relayed> relayed_;
+  std::set<std::tuple<GuidPrefix, EntityId, std::int64_t>> samples_;  ///< of TypeLookup
 };
 
 }  // namespace

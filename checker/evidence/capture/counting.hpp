@@ -10,6 +10,8 @@
 // endpoint):
 //   it gets a new sequence number each time. Announcements to and from a server are counted apart,
 //   as pdp_data, with their HEARTBEATs and ACKNACKs; so are the server's GAPs.
+// * DATA of the TypeLookup writers is a class of its own, lookup: in no total. Each copy counts; a
+//   sample is one whoever gets it.
 // * What goes to a participant on the sender's own host is left out, and told apart, unless all
 //   participants are on one host.
 // * Everything later than the completion instant is left out.
@@ -75,6 +77,18 @@ struct TrafficFigures {
   std::uint64_t bytes = 0;  ///< of the submessages
 };
 
+/// Of one of the two TypeLookup writers of all participants, between hosts.
+struct LookupFigures {
+  std::uint64_t data = 0;     ///< to each receiver
+  std::uint64_t samples = 0;  ///< different ones
+  std::uint64_t heartbeat = 0;
+  std::uint64_t acknack = 0;
+  std::uint64_t gap = 0;
+  std::uint64_t data_bytes = 0;  ///< of the DATA submessages
+
+  [[nodiscard]] std::uint64_t messages() const { return data + heartbeat + acknack + gap; }
+};
+
 /// Sizes of one class.
 struct SizeFigures {
   std::uint64_t submessage_bytes = 0;
@@ -101,11 +115,16 @@ struct Counting {
   HeartbeatFigures heartbeats{};
   AcknackFigures acknacks{};
   std::array<TrafficFigures, all_traffic.size()> traffic{};  ///< in the order of `all_traffic`
+  LookupFigures lookup_requests{};
+  LookupFigures lookup_replies{};
+  std::uint64_t lookup_datagrams = 0;            ///< with nothing else than these
+  std::optional<std::int64_t> last_lookup_ns{};  ///< when the last DATA of either was sent
   std::array<SizeFigures, message_class_count> sizes{};
   std::map<std::uint32_t, std::uint64_t> data_per_datagram{};  ///< datagrams by their SEDP DATA
   std::uint64_t datagrams = 0;
   std::uint64_t frames = 0;
   std::uint64_t wire_bytes = 0;
+  std::uint64_t statistics_bytes = 0;     ///< of submessages of Fast DDS that only count
   std::uint64_t multicast_data = 0;       ///< SEDP DATA without a destination, by multicast
   std::uint64_t unknown_destination = 0;  ///< unicast to an address that nobody announced
   std::uint64_t after_cut = 0;            ///< datagrams later than `until_ns`
@@ -117,6 +136,13 @@ struct Counting {
   /// Announcements, HEARTBEATs and ACKNACKs between a Discovery Server and clients on other hosts,
   /// by event index, ascending: they are in no class.
   std::vector<std::size_t> of_server{};
+
+  /// DATA of questions about types and their answers, to each receiver.
+  [[nodiscard]] std::uint64_t lookup() const { return lookup_requests.data + lookup_replies.data; }
+  /// The same with HEARTBEATs, ACKNACKs and GAPs.
+  [[nodiscard]] std::uint64_t lookup_messages() const {
+    return lookup_requests.messages() + lookup_replies.messages();
+  }
   /// Of each event before the cut; nothing if it is in no count.
   std::vector<std::optional<MessageClass>> classes{};
   /// Kind of each SEDP HEARTBEAT, by event index.

@@ -1,6 +1,7 @@
 // What several verbs say of captures, as JSON.
 #pragma once
 
+#include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/presentation/json/type.hpp"
 
@@ -12,6 +13,28 @@ void describe(V& v, const CaptureInfo& capture) {
   v("packets", capture.packets);
   v("datagrams", capture.datagrams);
   v("merged", capture.merged);
+}
+
+template <class V>
+void describe(V& v, const LookupFigures& figures) {
+  v("data", figures.data);
+  v("distinct_samples", figures.samples);
+  v("heartbeat", figures.heartbeat);
+  v("acknack", figures.acknack);
+  v("gap", figures.gap);
+  v("data_bytes", figures.data_bytes);
+}
+
+/// What asks for types, and answers.
+struct Lookups {
+  const Counting& counting;
+};
+
+template <class V>
+void describe(V& v, const Lookups& all) {
+  v("requests", all.counting.lookup_requests);
+  v("replies", all.counting.lookup_replies);
+  v("datagrams", all.counting.lookup_datagrams);
 }
 
 /// With one of each, as its parts name each other.

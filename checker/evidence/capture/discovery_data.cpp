@@ -109,6 +109,11 @@ std::optional<ParticipantData> participant_data(const DataSubmessage& data) {
   if (participant.vendor) {
     participant.version = library_version(*participant.vendor, own, parameters->order());
   }
+  constexpr std::uint16_t machine_id = 0x8003;
+  if (const auto machine = own.find(machine_id);
+      participant.vendor == fastdds_vendor && machine != own.end()) {
+    participant.machine = text(machine->second, parameters->order());
+  }
   return participant;
 }
 
@@ -132,6 +137,9 @@ std::optional<EndpointData> endpoint_data(const DataSubmessage& data, ByteOrder 
         break;
       case ParameterId::type_name:
         endpoint.type = text(parameter->value, parameters->order());
+        break;
+      case ParameterId::type_information:
+        endpoint.has_type_information = true;
         break;
       case ParameterId::reliability:
         endpoint.is_reliable = Cursor{parameter->value, parameters->order()}.u32() == reliable;

@@ -23,6 +23,8 @@ struct ParticipantData {
   /// "CLIENT", "SUPER_CLIENT", "SERVER", "BACKUP"; empty if it does not say.
   std::string discovery{};
   std::string version{};  ///< of its library, as far as DATA(p) shows it
+  /// By which Fast DDS from 3.2 on decides who is on one host (PID_MACHINE_ID); empty if not sent.
+  std::string machine{};
 };
 
 /// DATA(w) or DATA(r).
@@ -31,7 +33,8 @@ struct EndpointData {
   std::string topic{};
   std::string type{};
   std::optional<bool> is_reliable{};
-  bool is_gone = false;  ///< disposed or unregistered
+  bool has_type_information = false;  ///< hashes by which its type can be looked up
+  bool is_gone = false;               ///< disposed or unregistered
 };
 
 /// Nothing if the payload is no parameter list, or breaks off.

@@ -94,9 +94,10 @@ struct DatagramRecord {
   std::uint32_t capture = 0;  ///< index in Conversation::captures
   std::uint64_t packet = 0;   ///< the packet that completed it, from 1 on
   std::uint32_t frames = 0;
-  std::uint64_t wire_bytes = 0;     ///< of all its frames, with link headers
-  std::uint32_t payload_bytes = 0;  ///< of UDP
-  VendorId vendor = 0;              ///< of the message's header
+  std::uint64_t wire_bytes = 0;        ///< of all its frames, with link headers
+  std::uint32_t payload_bytes = 0;     ///< of UDP
+  std::uint32_t statistics_bytes = 0;  ///< of these, for statistics of the vendor
+  VendorId vendor = 0;                 ///< of the message's header
   UdpEnd source{};
   UdpEnd destination{};
 };

@@ -22,6 +22,8 @@ const char* name_of(Traffic traffic) {
       return "sedp";
     case Traffic::liveliness:
       return "liveliness";
+    case Traffic::type_lookup:
+      return "lookups";
     case Traffic::other_builtin:
       return "other_builtin";
     case Traffic::user:

@@ -32,6 +32,9 @@ inline constexpr EntityId publications_reader = 0x000003c7;
 inline constexpr EntityId subscriptions_writer = 0x000004c2;
 inline constexpr EntityId subscriptions_reader = 0x000004c7;
 inline constexpr EntityId liveliness_writer = 0x000200c2;
+// The TypeLookup service of XTypes 1.3: its readers have c4 in place of c3.
+inline constexpr EntityId lookup_requests_writer = 0x000300c3;
+inline constexpr EntityId lookup_replies_writer = 0x000301c3;
 }  // namespace entity
 
 struct Guid {
@@ -46,11 +49,13 @@ enum class Traffic : std::uint8_t {
   spdp,
   sedp,           ///< the reliable SEDP endpoints, publications and subscriptions
   liveliness,     ///< the writer liveliness protocol
-  other_builtin,  ///< type lookup, services of vendors, secure discovery, …
+  type_lookup,    ///< questions about types and their answers (XTypes 1.3, section 7.6.3.3)
+  other_builtin,  ///< services of vendors, secure discovery, …
   user
 };
-inline constexpr std::array<Traffic, 5> all_traffic{
-    Traffic::spdp, Traffic::sedp, Traffic::liveliness, Traffic::other_builtin, Traffic::user};
+inline constexpr std::array<Traffic, 6> all_traffic{Traffic::spdp,          Traffic::sedp,
+                                                    Traffic::liveliness,    Traffic::type_lookup,
+                                                    Traffic::other_builtin, Traffic::user};
 
 [[nodiscard]] constexpr Traffic traffic_of(EntityId writer) {
   if (writer == entity::spdp_writer) return Traffic::spdp;
@@ -58,6 +63,9 @@ inline constexpr std::array<Traffic, 5> all_traffic{
     return Traffic::sedp;
   }
   if (writer == entity::liveliness_writer) return Traffic::liveliness;
+  if (writer == entity::lookup_requests_writer || writer == entity::lookup_replies_writer) {
+    return Traffic::type_lookup;
+  }
   return (writer & 0xc0U) == 0xc0U ? Traffic::other_builtin : Traffic::user;
 }
 [[nodiscard]] const char* name_of(Traffic traffic);

@@ -170,15 +170,24 @@ class Receiver {
 
 }  // namespace
 
-bool extract(const Datagram& datagram, std::uint32_t index, const std::string& place,
-             Extraction& extraction, Remarks& remarks) {
+std::optional<Extracted> extract(const Datagram& datagram, std::uint32_t index,
+                                 const std::string& place, Extraction& extraction,
+                                 Remarks& remarks) {
   const auto header = message_header(datagram.payload);
-  if (!header) return false;
+  if (!header) return std::nullopt;
+  Extracted extracted{header->vendor};
   Receiver receiver{datagram, index, header->source, place, extraction, remarks};
   SubmessageReader submessages{datagram.payload};
-  while (const auto submessage = submessages.next()) receiver.receive(*submessage);
+  while (const auto submessage = submessages.next()) {
+    receiver.receive(*submessage);
+    const bool is_statistics =
+        submessage->id == SubmessageId::statistics && header->vendor == fastdds_vendor;
+    if (is_statistics) {
+      extracted.statistics_bytes += static_cast<std::uint32_t>(submessage->size);
+    }
+  }
   if (submessages.is_cut()) remarks.add("RTPS messages that end inside a submessage", place);
-  return true;
+  return extracted;
 }
 
 }  // namespace stormproof::capture

@@ -2,6 +2,7 @@
 // 8.3.4), decodes what counts, and skips what does not, such as submessages of vendors.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <variant>
@@ -38,9 +39,16 @@ struct Extraction {
   std::vector<Description> descriptions{};
 };
 
-/// Adds the events of the message in `datagram`, which will be number `index`. Nothing, and false,
-/// if it holds no RTPS message. `place` says where it is, for remarks.
-bool extract(const Datagram& datagram, std::uint32_t index, const std::string& place,
-             Extraction& extraction, Remarks& remarks);
+/// Of a message, beside its events.
+struct Extracted {
+  VendorId vendor = 0;
+  std::uint32_t statistics_bytes = 0;  ///< of Fast DDS's statistics submessage
+};
+
+/// Adds the events of the message in `datagram`, which will be number `index`. Nothing if it holds
+/// no RTPS message. `place` says where it is, for remarks.
+std::optional<Extracted> extract(const Datagram& datagram, std::uint32_t index,
+                                 const std::string& place, Extraction& extraction,
+                                 Remarks& remarks);
 
 }  // namespace stormproof::capture

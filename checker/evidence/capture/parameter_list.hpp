@@ -22,7 +22,8 @@ enum class ParameterId : std::uint16_t {
   endpoint_guid = 0x005a,
   entity_name = 0x0062,
   key_hash = 0x0070,
-  status_info = 0x0071
+  status_info = 0x0071,
+  type_information = 0x0075
 };
 
 struct Parameter {

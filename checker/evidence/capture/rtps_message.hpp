@@ -24,7 +24,8 @@ enum class SubmessageId : std::uint8_t {
   nack_frag = 0x12,
   heartbeat_frag = 0x13,
   data = 0x15,
-  data_frag = 0x16
+  data_frag = 0x16,
+  statistics = 0x80  ///< of Fast DDS: what it counts about its locators, in every datagram
 };
 
 struct Submessage {

@@ -82,6 +82,7 @@ void TopologyBuilder::saw_participant(const GuidPrefix& source, const Participan
   if (data.vendor) participant.vendor = *data.vendor;
   if (!data.name.empty()) participant.name = data.name;
   if (!data.version.empty()) participant.version = data.version;
+  if (!data.machine.empty()) participant.machine = data.machine;
   if (!data.discovery.empty()) participant.discovery = data.discovery;
   for (const UdpEnd& locator : data.metatraffic_unicast) {
     participant.locators.insert(locator);
@@ -112,6 +113,7 @@ void TopologyBuilder::saw_endpoint(const GuidPrefix& source, EntityId sedp_write
   endpoint.is_gone = data.is_gone;
   if (!data.topic.empty()) endpoint.topic = data.topic;
   if (!data.type.empty()) endpoint.type = data.type;
+  endpoint.has_type_information = data.has_type_information;
   if (data.is_reliable) endpoint.is_reliable = data.is_reliable;
 }
 

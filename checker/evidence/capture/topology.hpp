@@ -25,6 +25,7 @@ struct Endpoint {
   std::string topic{};
   std::string type{};
   std::optional<bool> is_reliable{};
+  bool has_type_information = false;  ///< who does not know its type can look it up
   bool is_gone = false;
 };
 
@@ -34,6 +35,7 @@ struct Participant {
   std::string discovery{};  ///< "SIMPLE", "CLIENT", …, of Fast DDS; may be empty
   std::string version{};    ///< of its library, as far as DATA(p) shows it; may be empty
   std::string name{};
+  std::string machine{};  ///< the identity of its machine, of Fast DDS from 3.2 on; may be empty
   std::size_t host = 0;
   /// When its first message was sent; if there is none, when a Discovery Server told of it first.
   std::int64_t first_ns = 0;

@@ -130,6 +130,11 @@ Section messages(const Counting& counting) {
     of_server("ACKNACK(p)", counting.counts.pdp_acknack);
     of_server("GAP (in no total)", counting.counts.gap);
   }
+  if (counting.lookup() > 0) {
+    table.rows.push_back(
+        {{"lookup (in no total)", grouped(counting.lookup()),
+          grouped(counting.lookup_requests.data_bytes + counting.lookup_replies.data_bytes), ""}});
+  }
   table.rows.push_back({{"total", grouped(counting.counts.total()), "", ""}});
   report::Bullets notes{{fmt::format("in {} datagrams, {} frames, {} bytes with link headers",
                                      grouped(counting.datagrams), grouped(counting.frames),
@@ -181,6 +186,7 @@ Section other_traffic(const Counting& counting) {
               {}};
   for (const Traffic traffic : all_traffic) {
     const TrafficFigures& figures = counting.traffic[static_cast<std::size_t>(traffic)];
+    if (traffic == Traffic::type_lookup && figures.bytes == 0) continue;  // before Fast DDS 3
     std::string data = grouped(figures.data);
     if (figures.data_frag > 0) data += fmt::format(" (+{} DATA_FRAG)", grouped(figures.data_frag));
     table.rows.push_back({{name_of(traffic), std::move(data), grouped(figures.heartbeat),

@@ -68,6 +68,7 @@ void describe(V& v, const NamedEndpoint& one) {
   v("topic", one.endpoint.topic);
   v("type", one.endpoint.type);
   v("reliable", one.endpoint.is_reliable);
+  v("type_information", one.endpoint.has_type_information);
   v("gone", one.endpoint.is_gone);
   v("first_ns", one.endpoint.first_ns);
 }
@@ -147,6 +148,7 @@ void describe(V& v, const Participant& participant) {
   v("vendor", vendor_name(participant.vendor));
   v.or_null("version", participant.version);
   v("name", participant.name);
+  v.or_null("machine_id", participant.machine);
   v("first_ns", participant.first_ns);
   v("addresses", texts(participant.addresses));
   v("locators", texts(participant.locators));
@@ -192,12 +194,15 @@ void describe(V& v, const Summary& summary) {
   v("acknacks", counting.acknacks);
   v("multicast_sedp_data", counting.multicast_data);
   v("unknown_destination", counting.unknown_destination);
+  v("lookup", counting.lookup());
+  v("lookups", Lookups{counting});
   v("traffic", AllTraffic{counting});
   v("sizes", AllSizes{counting});
   v("data_per_datagram", counting.data_per_datagram);
   v("datagrams", counting.datagrams);
   v("frames", counting.frames);
   v("wire_bytes", counting.wire_bytes);
+  v("statistics_bytes", counting.statistics_bytes);
   v("after_until_datagrams", counting.after_cut);
   v("missing", Missing{conversation.topology, counting});
   v("topology", conversation.topology);

@@ -141,6 +141,30 @@ TEST(Counting, OnlyTheReliableSedpEndpointsAreInTheClasses) {
   EXPECT_EQ(counting.traffic[static_cast<std::size_t>(Traffic::liveliness)].heartbeat, 1U);
 }
 
+TEST(Counting, LookupsAreInAClassOfTheirOwnAndEachCopyCounts) {
+  const EntityId requests = entity::lookup_requests_writer;
+  const EntityId replies = entity::lookup_replies_writer;
+  PcapFile file = three_participants();
+  file.message(3, to_2, Message{prefix(1)}.descriptor(requests, 1));
+  file.message(4, to_3, Message{prefix(1)}.descriptor(requests, 1));
+  file.message(5, to_1, Message{prefix(2)}.descriptor(replies, 1).heartbeat(replies, 1, 1, 1));
+  file.message(6, to_2, Message{prefix(1)}.acknack(replies, 2, 0, 0, true).descriptor(pub, 1));
+  file.message(7, {at(2, 7410), at(2, 7412)}, Message{prefix(2)}.descriptor(requests, 1));
+  const Counting counting = count_of(file);
+  EXPECT_EQ(counting.lookup(), 3U);
+  EXPECT_EQ(counting.lookup_requests.data, 2U);
+  EXPECT_EQ(counting.lookup_requests.samples, 1U);
+  EXPECT_EQ(counting.lookup_replies.data, 1U);
+  EXPECT_EQ(counting.lookup_replies.heartbeat, 1U);
+  EXPECT_EQ(counting.lookup_replies.acknack, 1U);
+  EXPECT_EQ(counting.lookup_messages(), 5U);
+  EXPECT_EQ(counting.lookup_datagrams, 3U);
+  EXPECT_EQ(counting.last_lookup_ns, time_of(5));
+  EXPECT_EQ(counting.counts.total(), 4U);  // three announcements and a descriptor
+  EXPECT_EQ(counting.traffic[static_cast<std::size_t>(Traffic::other_builtin)].data, 0U);
+  EXPECT_EQ(count_of(file, time_of(3)).lookup(), 1U);
+}
+
 TEST(Counting, AcknacksByWhatTheySay) {
   PcapFile file = three_participants();
   file.message(3, to_1, Message{prefix(2)}.to(prefix(1)).acknack(pub, 0, 0, 0, false));

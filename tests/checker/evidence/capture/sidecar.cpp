@@ -21,7 +21,15 @@ Sidecar read_sidecar(const std::string& path) {
   // Those with a note were corrected.
   sidecar.counts_same_host =
       json.at("implementation") != "Fast DDS 2.6.11" && !json.contains("note");
-  if (!json.contains("hb_split")) {
+  sidecar.completed = json.value("completed", true);
+  sidecar.discovery = json.value("discovery", sidecar.discovery);
+  if (json.contains("typelookup") && json["typelookup"].is_object() && sidecar.completed) {
+    const double matched_ms = json.at("T_match_ms");
+    sidecar.matched_ns =
+        json.at("start_ns").get<std::int64_t>() + static_cast<std::int64_t>(matched_ms * 1e6);
+    sidecar.lookups = json["typelookup"];
+  }
+  if (!json.contains("hb_split") && !json.contains("typelookup")) {
     // Those sidecars leave out what is 0.
     for (const char* name : {"repair", "hb_piggyback", "hb_empty", "ack_nonempty", "ack_final",
                              "ack_initial_like", "nacked_seqs"}) {
@@ -47,12 +55,12 @@ std::map<std::string, std::uint64_t> figures_of(const Counting& counting, bool c
   const AcknackFigures& acknacks = counting.acknacks;
   const auto kind = [&](HeartbeatKind one) { return heartbeats.of(one); };
   return {{"counts.spdp_m", counts.spdp_multicast},
-          {"counts.spdp_u", counts.spdp_unicast},
+          {"counts.spdp_u", counts.spdp_unicast + counts.pdp_data},
           {"counts.initial", counts.initial_data},
           {"counts.repair", counts.repair_data},
           {"counts.hb", counts.heartbeat},
           {"counts.ack", counts.acknack},
-          {"counts.total", counts.total()},
+          {"counts.total", counts.total() - counts.pdp_heartbeat - counts.pdp_acknack},
           {"counts.hb_piggyback", heartbeats.behind_data},
           {"counts.hb_empty", heartbeats.empty},
           {"counts.ack_nonempty", acknacks.negative},
@@ -71,6 +79,22 @@ std::map<std::string, std::uint64_t> figures_of(const Counting& counting, bool c
           {"ack_split.nack", acknacks.negative},
           {"ack_split.initial", acknacks.initial},
           {"ack_split.positive", acknacks.positive}};
+}
+
+std::map<std::string, std::uint64_t> lookups_of(const Counting& counting) {
+  std::map<std::string, std::uint64_t> found;
+  const auto add = [&found](const std::string& writer, const LookupFigures& figures) {
+    found[writer + "_DATA"] = figures.data;
+    found[writer + "_samples"] = figures.samples;
+    found[writer + "_bytes"] = figures.data_bytes;
+    found[writer + "_HB"] = figures.heartbeat;
+    found[writer + "_ACK"] = figures.acknack;
+    found[writer + "_GAP"] = figures.gap;
+  };
+  add("req", counting.lookup_requests);
+  add("rep", counting.lookup_replies);
+  std::erase_if(found, [](const auto& one) { return one.second == 0; });
+  return found;
 }
 
 }  // namespace stormproof::capture

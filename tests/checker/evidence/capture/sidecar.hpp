@@ -19,8 +19,13 @@ struct Sidecar {
   std::size_t hosts = 0;
   std::size_t participants_per_host = 0;
   std::size_t endpoints_per_participant = 0;  ///< beside those that every node has
+  bool completed = true;
+  std::string discovery = "simple";
   /// "counts.initial", "hb_split.periodic", …; only those that can be compared.
   std::map<std::string, std::uint64_t> figures{};
+  /// The same of the TypeLookup writers, counted until all that matches was matched.
+  std::map<std::string, std::uint64_t> lookups{};
+  std::int64_t matched_ns = 0;
   /// DATA to the sender's own host is in `counts` there.
   bool counts_same_host = false;
 };
@@ -30,5 +35,7 @@ struct Sidecar {
 /// The same figures, as counted here.
 [[nodiscard]] std::map<std::string, std::uint64_t> figures_of(const Counting& counting,
                                                               bool counts_same_host);
+/// Of the TypeLookup writers; without those that are 0, as the sidecars have them.
+[[nodiscard]] std::map<std::string, std::uint64_t> lookups_of(const Counting& counting);
 
 }  // namespace stormproof::capture

@@ -2,6 +2,7 @@
 // else counted; and a capture that lacks something does not.
 #include "tests/checker/evidence/capture/sidecar.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -27,10 +28,16 @@ fs::path captures_folder() {
 
 const fs::path folder = captures_folder();
 
-std::vector<std::string> names() {
+/// Those of Fast DDS 3 have a folder of their own.
+std::vector<std::string> all_names() {
   std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator{folder}) {
-    if (entry.path().extension() == ".json") found.push_back(entry.path().stem());
+  for (const fs::path where : {"", "fastdds-3"}) {
+    if (!fs::exists(folder / where)) continue;
+    for (const auto& entry : fs::directory_iterator{folder / where}) {
+      if (entry.path().extension() == ".json") {
+        found.push_back((where / entry.path().stem()).string());
+      }
+    }
   }
   return found;
 }
@@ -38,6 +45,16 @@ std::vector<std::string> names() {
 std::string capture_of(const std::string& name) { return folder / (name + ".pcap.xz"); }
 
 Sidecar sidecar_of(const std::string& name) { return read_sidecar(folder / (name + ".json")); }
+
+/// Those in which everybody found everybody, without a server.
+std::vector<std::string> names() {
+  std::vector<std::string> found = all_names();
+  std::erase_if(found, [](const std::string& name) {
+    const Sidecar sidecar = sidecar_of(name);
+    return !sidecar.completed || sidecar.discovery != "simple";
+  });
+  return found;
+}
 
 Conversation read(const std::string& name) {
   const std::vector<std::string> files{capture_of(name)};
@@ -49,9 +66,17 @@ Conversation read(const std::string& name) {
   return std::move(*conversation);
 }
 
+std::string test_name(const ::testing::TestParamInfo<std::string>& name) {
+  std::string text = name.param;
+  std::ranges::replace_if(
+      text, [](char c) { return c == '/' || c == '-'; }, '_');
+  return text;
+}
+
+class Figures : public ::testing::TestWithParam<std::string> {};
 class Captures : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(Captures, GiveTheFiguresOfTheirSidecars) {
+TEST_P(Figures, OfTheSidecarsAreGivenOfTheirSidecars) {
   const Sidecar sidecar = sidecar_of(GetParam());
   const Counting counting = count(read(GetParam()), sidecar.cutoff_ns);
   const auto figures = figures_of(counting, sidecar.counts_same_host);
@@ -60,6 +85,13 @@ TEST_P(Captures, GiveTheFiguresOfTheirSidecars) {
     ASSERT_TRUE(figures.contains(name)) << name;
     EXPECT_EQ(figures.at(name), value) << name;
   }
+}
+
+/// What asks for types goes on until endpoints that nobody uses are known.
+TEST_P(Figures, OfLookupsAreGiven) {
+  const Sidecar sidecar = sidecar_of(GetParam());
+  if (sidecar.lookups.empty()) return;  // the run did not count them
+  EXPECT_EQ(lookups_of(count(read(GetParam()), sidecar.matched_ns)), sidecar.lookups);
 }
 
 TEST_P(Captures, HaveTheTopologyOfTheirSidecars) {
@@ -104,10 +136,17 @@ TEST_P(Captures, LackKeysOneNanosecondBeforeTheLastOneIsSent) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Capture, Captures, ::testing::ValuesIn(names()),
-                         [](const auto& name) { return name.param; });
+INSTANTIATE_TEST_SUITE_P(Capture, Figures, ::testing::ValuesIn(all_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Capture, Captures, ::testing::ValuesIn(names()), test_name);
 
 TEST(Sidecars, ThereAreThoseOfThreeImplementations) { EXPECT_GE(names().size(), 18U); }
+
+TEST(Sidecars, LookupsAreCountedInThreeOfThem) {
+  const auto all = all_names();
+  EXPECT_GE(std::ranges::count_if(
+                all, [](const std::string& name) { return !sidecar_of(name).lookups.empty(); }),
+            3);
+}
 
 TEST(Sidecars, NoticeACaptureWithoutItsLastPacket) {
   const std::string name = "fastdds291_veth_np1_ne2_r0";

@@ -34,7 +34,8 @@ std::string text(const model::Counts& counts) {
 
 std::string control_difference(const model::RunResult& run, const Counting& counting) {
   std::uint64_t control = 0;
-  for (const Traffic traffic : {Traffic::liveliness, Traffic::other_builtin, Traffic::user}) {
+  for (const Traffic traffic :
+       {Traffic::liveliness, Traffic::type_lookup, Traffic::other_builtin, Traffic::user}) {
     const TrafficFigures& figures = counting.traffic[static_cast<std::size_t>(traffic)];
     if (figures.data > 0 || figures.gap > 0) return "DATA of user endpoints";
     control += figures.heartbeat + figures.acknack;
