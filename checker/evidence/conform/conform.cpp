@@ -37,10 +37,13 @@ class Check {
       : request_{request},
         is_of_cyclone_{is_of_cyclone(request.dds)},
         has_server_{model::traits_of(request.dds).has_server},
-        dialogue_{sort_out(request.conversation, request.until_ns,
-                           {.sedp_multicast = is_of_cyclone_ && request.dds.allow_multicast ==
-                                                                    model::AllowMulticast::always,
-                            .has_server = has_server_})} {
+        dialogue_{sort_out(
+            request.conversation, request.until_ns,
+            {.sedp_multicast =
+                 is_of_cyclone_ && request.dds.allow_multicast == model::AllowMulticast::always,
+             .has_server = has_server_,
+             .lookups = is_of_cyclone_ || model::fastdds::looks_up_types(request.dds),
+             .max_data_per_message = request.dds.version.max_data_per_message})} {
     result_.bounds = request.bounds;
     result_.checked = dialogue_.checked;
     result_.not_checked = dialogue_.not_checked;
@@ -48,6 +51,7 @@ class Check {
 
   Conformance run() {
     for (const std::size_t k : dialogue_.strange) strange(k);
+    for (const std::size_t k : dialogue_.crowded) crowded(k);
     for (const Beyond& one : dialogue_.beyond) beyond(one);
     const std::size_t all = dialogue_.participants() + dialogue_.relations.size();
     std::size_t done = 0;
@@ -148,7 +152,9 @@ class Check {
     const auto& topology = request_.conversation.topology;
     Place place{topology.index_of(*topology.find(event.source)), {}, event.writer};
     const bool is_spdp = event.traffic() == capture::Traffic::spdp;
-    const char* what = is_spdp && event.is_multicast                   ? "SPDP by multicast"
+    const bool is_lookup = event.traffic() == capture::Traffic::type_lookup;
+    const char* what = is_lookup                                       ? "a lookup of types"
+                       : is_spdp && event.is_multicast                 ? "SPDP by multicast"
                        : has_server_ && !event.is_multicast            ? "a message past the server"
                        : event.is_multicast && event.data() != nullptr ? "SEDP DATA by multicast"
                        : event.is_multicast                            ? "SEDP by multicast"
@@ -163,6 +169,30 @@ class Check {
     at(place, [&](Ledger&) -> std::optional<Unexplained> {
       return Unexplained{
           k, Fault::no_such_rule, place, what, "no rule of the profile sends it", {}, {k}};
+    });
+  }
+
+  /// DATA in a message that holds as many as one may; the first of each relation.
+  void crowded(std::size_t k) {
+    const capture::Event& event = request_.conversation.events[k];
+    const auto& topology = request_.conversation.topology;
+    const auto number = [&](const capture::GuidPrefix& of) {
+      return topology.index_of(*topology.find(of));
+    };
+    const Place place{number(event.source), number(*event.destination), event.writer};
+    const auto is_known = [&](const Unexplained& other) {
+      return other.place == place && other.fault == Fault::no_such_rule;
+    };
+    if (std::ranges::any_of(result_.unexplained, is_known)) return;
+    const std::uint32_t most = request_.dds.version.max_data_per_message;
+    at(place, [&](Ledger&) -> std::optional<Unexplained> {
+      return Unexplained{k,
+                         Fault::no_such_rule,
+                         place,
+                         fmt::format("DATA number {} of a message", most + 1),
+                         fmt::format("a message holds no more than {}", most),
+                         {{"a larger max_data_per_message", {}, {}}},
+                         {k}};
     });
   }
 
@@ -251,7 +281,8 @@ class Check {
           "host nothing is lost");
     }
     if (model::fastdds::looks_up_types(request_.dds)) {
-      all.emplace_back("what endpoints say that look up types (dds.type_lookup) is not looked at");
+      all.emplace_back(
+          "what endpoints say that look up types (dds.type_lookup) is allowed, and not looked at");
     }
     for (const auto& [setting, effect] : request_.dds.unmodelled) {
       all.push_back(fmt::format("{} is not modelled: {}", setting, effect));
@@ -283,10 +314,6 @@ std::optional<std::string> refuse_profile(const model::DdsProfile& dds) {
   if (dds.sedp.heartbeat_policy != model::HeartbeatPolicy::periodic) {
     return "a capture can be held against a profile with `heartbeat_policy: periodic`; no program "
            "sends by the adaptive one";
-  }
-  if (dds.sedp.piggyback == model::Piggyback::group) {
-    return "a capture can be held against a profile with `piggyback: cumulative`, `linear` or "
-           "`off`; nothing here charges DATA to the group of a participant";
   }
   return std::nullopt;
 }

@@ -80,8 +80,9 @@ class Sorter {
     const Event& event = conversation_.events[k];
     const auto source = index_.find(event.source);
     const Traffic traffic = event.traffic();
-    if (event.is_same_host || source == index_.end() ||
-        (traffic != Traffic::spdp && traffic != Traffic::sedp)) {
+    const bool is_looked_at = traffic == Traffic::spdp || traffic == Traffic::sedp ||
+                              (traffic == Traffic::type_lookup && !sorting_.lookups);
+    if (event.is_same_host || source == index_.end() || !is_looked_at) {
       ++dialogue_.not_checked;
       return;
     }
@@ -91,6 +92,11 @@ class Sorter {
       return;
     }
     ++dialogue_.checked;
+    if (traffic == Traffic::type_lookup) {
+      dialogue_.strange.push_back(k);
+      return;
+    }
+    if (destination && is_one_too_many(event)) dialogue_.crowded.push_back(k);
     if (sorting_.has_server) {
       add_with_server(k, source->second, destination);
     } else if (traffic == Traffic::spdp && event.data() != nullptr) {
@@ -144,6 +150,14 @@ class Sorter {
     for (const auto& [writer, seen] : counts) {
       if (*seen.rbegin() > seen.size()) dialogue_.has_neighbour[*dialogue_.server] = true;
     }
+  }
+
+  /// Whether its message holds as many DATA without it as one may.
+  bool is_one_too_many(const Event& event) {
+    if (event.data() == nullptr || sorting_.max_data_per_message == 0) return false;
+    if (datagram_ != event.datagram) data_in_datagram_ = 0;
+    datagram_ = event.datagram;
+    return ++data_in_datagram_ == sorting_.max_data_per_message + 1;
   }
 
   [[nodiscard]] bool is_reliable(Traffic traffic) const {
@@ -238,6 +252,8 @@ class Sorter {
   Sorting sorting_;
   std::map<capture::GuidPrefix, std::size_t> index_;
   std::map<Place, Relation> relations_;
+  std::optional<std::uint32_t> datagram_;  ///< of the last DATA
+  std::uint32_t data_in_datagram_ = 0;
   /// By participant and writer: the sequence numbers of its DATA.
   std::map<std::pair<std::size_t, capture::EntityId>, std::set<std::int64_t>> shown_;
 };

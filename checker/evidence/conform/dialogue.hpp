@@ -80,6 +80,7 @@ struct Dialogue {
   std::vector<std::vector<Announcement>> announcements{};  ///< by participant, in time order
   std::vector<bool> has_neighbour{};                       ///< another participant on the same host
   std::vector<std::size_t> strange{};  ///< events that no rule can send, by time
+  std::vector<std::size_t> crowded{};  ///< DATA beyond the most of a message, by time
   std::vector<Beyond> beyond{};        ///< by time
   /// most that was announced, by participant and stream
   std::vector<std::array<std::uint32_t, 3>> descriptors{};
@@ -129,6 +130,9 @@ struct Sorting {
   /// Announcements are reliable, there are GAPs, and everything goes to the server or comes from
   /// it.
   bool has_server = false;
+  /// Questions about types and answers; they are not looked at.
+  bool lookups = true;
+  std::uint32_t max_data_per_message = 0;  ///< 0: as many as fit
 };
 [[nodiscard]] Dialogue sort_out(const capture::Conversation& conversation, std::int64_t until_ns,
                                 Sorting sorting = {});

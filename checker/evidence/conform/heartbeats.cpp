@@ -310,11 +310,15 @@ class Heartbeats {
 
   void settle(const SentHeartbeat& one, Rule rule) {
     ledger_.explained(rule, one.copies);
-    budget_.refill(one);
+    budget_.refill(one, rule == Rule::heartbeat_same_host && surely_rides(one));
   }
   void settle(const SentHeartbeat& one, const Explanation& by) {
     ledger_.explained(by.rule, by.sender, one.copies);
-    budget_.refill(one);
+    budget_.refill(one, by.rule == Rule::heartbeat_piggyback && surely_rides(one));
+  }
+  /// Whether it can have no other reason than DATA.
+  [[nodiscard]] bool surely_rides(const SentHeartbeat& one) const {
+    return one.is_behind_data || (!one.is_directed && !is_due(one.time_ns));
   }
 
   /// Whether the writer can have no other reader yet. A relation on the own host opens with a

@@ -3,6 +3,11 @@
 // all bytes that the participant has sent for requests, each message once, and those of its own
 // message until then. What went to the participant's own host is not in the capture; how much that
 // can have been is bounded (same_host.hpp).
+//
+// With `piggyback: group` a participant counts the bytes of what it has sent for requests, its
+// questions and answers about types among them, and a writer has used up what exceeds the
+// threshold since it last looked: at its last DATA, with or without a HEARTBEAT. What it pushes
+// makes it look anew, from the beginning.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "checker/evidence/conform/lookup_bytes.hpp"
 #include "checker/evidence/conform/messages.hpp"
 #include "checker/evidence/conform/same_host.hpp"
 #include "checker/evidence/conform/sent_heartbeats.hpp"
@@ -28,8 +34,9 @@ class PiggybackBudget {
       if (charge_next()) sent_data(*last_data_ns_);
     }
   }
-  /// A HEARTBEAT of the writer was sent: the budget is full again.
-  void refill(const SentHeartbeat& one);
+  /// A HEARTBEAT of the writer was sent: the budget is full again. `surely_rides`: on its DATA, and
+  /// for no other reason; of a group only these count.
+  void refill(const SentHeartbeat& one, bool surely_rides);
 
   /// By captured DATA.
   [[nodiscard]] bool can_be_used_up(const SentHeartbeat& one) const;
@@ -51,10 +58,20 @@ class PiggybackBudget {
   /// What a DATA that is asked for is charged for what was sent before its message, at most.
   [[nodiscard]] std::int64_t before_message() const;
 
+  /// Of a group: the most that has been sent, and how often the threshold fits into what surely
+  /// has, counted from 0 on.
+  [[nodiscard]] std::int64_t most_in_group(std::size_t event) const;
+  [[nodiscard]] std::int64_t least_number() const;
+  void look_at_group(const Message& message);
+  [[nodiscard]] std::int64_t number_before(std::int64_t time_ns) const;
+
   bool is_cumulative_;
+  bool is_group_;
   std::int64_t threshold_;
+  std::int64_t most_send_lag_ns_;
   capture::EntityId writer_;
   SameHost same_host_;
+  LookupBytes lookups_;
   std::vector<Message> messages_;
   std::size_t message_ = 0;  ///< the next submessage to charge
   std::size_t part_ = 0;
@@ -69,6 +86,9 @@ class PiggybackBudget {
   /// What was used up before a HEARTBEAT, by its count, if not all before it had been captured: one
   /// may have been kept waiting after it was made.
   std::map<std::uint32_t, std::int64_t> overtaking_;
+  /// Of a group: numbers that the writer has surely seen, by when; its HEARTBEATs may be captured
+  /// later than what it sent after them.
+  std::map<std::int64_t, std::int64_t> numbers_;
 };
 
 }  // namespace stormproof::conform

@@ -15,7 +15,7 @@ namespace {
 /// A DATA in a message of its own.
 std::int64_t largest_message(const model::DdsProfile& dds) {
   return fastdds::message_header_bytes + fastdds::destination_bytes + fastdds::timestamp_bytes +
-         fastdds::largest_submessage_bytes(dds);
+         fastdds::largest_submessage_bytes(dds) + dds.version.statistics_bytes.count();
 }
 
 /// When the writers of the participant are known to have created their last descriptor.
@@ -44,7 +44,10 @@ SameHost::SameHost(const Dialogue& dialogue, std::size_t participant, const mode
                    const Bounds& bounds)
     : is_cumulative_{dds.sedp.piggyback == model::Piggyback::cumulative},
       threshold_{dds.sedp.piggyback_threshold_bytes.count()},
-      largest_message_{largest_message(dds)} {
+      largest_message_{largest_message(dds)},
+      most_unflushed_{dds.sedp.piggyback == model::Piggyback::group
+                          ? dds.sedp.grouping_limit_bytes.count()
+                          : 0} {
   const auto& participants = dialogue.conversation.topology.participants;
   std::int64_t begins = last_creation(dialogue, participant);
   for (std::size_t j = 0; j < participants.size(); ++j) {
@@ -68,7 +71,7 @@ SameHost::SameHost(const Dialogue& dialogue, std::size_t participant, const mode
 std::int64_t SameHost::most_in_between(std::int64_t captured_bytes) const {
   const std::int64_t least = fastdds::message_header_bytes + fastdds::timestamp_bytes +
                              (is_cumulative_ ? captured_bytes : 0);
-  return threshold_ / least + 1;
+  return (threshold_ + most_unflushed_) / least + 1;
 }
 
 void SameHost::heartbeat(std::size_t stream, std::uint32_t count, std::int64_t captured_bytes) {

@@ -58,6 +58,7 @@ class SameHost {
   bool is_cumulative_;
   std::int64_t threshold_;
   std::int64_t largest_message_;  ///< with one descriptor
+  std::int64_t most_unflushed_;   ///< of a group: what its open message holds does not count yet
   std::int64_t readers_ = 0;
   std::int64_t until_ns_ = 0;  ///< the exchange is over
   std::array<Stream, 2> streams_{};
