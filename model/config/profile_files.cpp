@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include "model/config/distributions.hpp"
 #include "model/config/knobs/dds_knobs.hpp"
 #include "model/config/tree/yaml_text.hpp"
 #include "model/config/vendor/reference.hpp"
@@ -82,8 +83,10 @@ class Chain {
   Result<Node> read_xml(const Node& reference, const vendor::FileReference& parts) {
     auto document = load(reference, parts);
     if (!document) return document.error();
+    auto selection = selected(parts.selection, vendor::vendor_of(*document));
+    if (!selection) return selection.error();
     Result<vendor::VendorProfile> profile =
-        vendor::read_vendor_profile(*std::move(document), parts.selection);
+        vendor::read_vendor_profile(*std::move(document), *selection);
     if (!profile) return profile.error();
     if (outside_ == Outside::refused) {
       if (auto error = refuse_errors(*profile)) return *std::move(error);
@@ -95,6 +98,21 @@ class Chain {
     }
     if (!vendor) vendor = *std::move(profile);
     return changes;
+  }
+
+  /// With the preset in place of a distribution, which has a version of either vendor's library.
+  Result<vendor::Selection> selected(vendor::Selection selection,
+                                     std::optional<vendor::Vendor> vendor) const {
+    if (selection.base.empty() || !vendor) return selection;
+    const std::vector<std::string> files = specs_.names(kind_);
+    if (std::ranges::find(files, selection.base) != files.end()) return selection;
+    const Rmw rmw =
+        *vendor == vendor::Vendor::cyclonedds ? Rmw::cyclonedds : Rmw::of_the_distribution;
+    const auto known = read_distributions(specs_.directories, rmw);
+    if (!known) return known.error();
+    const auto one = std::ranges::find(*known, selection.base, &Distribution::name);
+    if (one != known->end()) selection.base = one->profile;
+    return selection;
   }
 
   Result<vendor::XmlDocument> load(const Node& reference, const vendor::FileReference& parts) {

@@ -41,15 +41,19 @@ class Contradictions {
     constexpr std::string_view path = "Discovery/MaxAutoParticipantIndex";
     const CycloneReading* most = settings_.find(path);
     const CycloneReading* index = settings_.find("Discovery/ParticipantIndex");
-    if (settings_.value("Discovery/ParticipantIndex").word != "auto") {
+    if (settings_.participant_index() != "auto") {
       if (most == nullptr) return;
       return warn("no-effect", *most,
                   "MaxAutoParticipantIndex has no effect: ParticipantIndex is not auto");
     }
+    const CycloneReading* cause = most != nullptr ? most : index;
+    if (cause == nullptr) return;  // nobody said anything of indices
+    // The index after the one that was found is compared with the most, so the last is never taken
+    // (q_init.c, ddsi_init.c).
     profile_.remarks.push_back(
-        {Severity::note, "cyclonedds.participant-limit", (most != nullptr ? most : index)->place,
-         fmt::format("a host can have {} participants in this domain; the next one does not start",
-                     settings_.value(path).number + 1),
+        {Severity::note, "cyclonedds.participant-limit", cause->place,
+         fmt::format("a host can have {} processes in this domain; the next one does not start",
+                     settings_.value(path).number),
          "MaxAutoParticipantIndex raises it, and with it the ports that peers are asked at"});
   }
 

@@ -21,27 +21,28 @@ bool starts_with_path(std::string_view path, std::string_view prefix) {
   return path.size() == prefix.size() || path[prefix.size()] == '/' || path[prefix.size()] == '[';
 }
 
-/// `path` in the spelling of the table if it is a setting or a group of 0.10, otherwise empty.
-std::string_view canonical(std::string_view path) {
-  for (const CycloneOption& option : cyclone_options()) {
+/// `path` in the spelling of the table if it is a setting or a group, otherwise empty.
+std::string_view canonical(std::string_view path, CycloneVersion version) {
+  for (const CycloneOption& option : cyclone_options(version)) {
     if (starts_with_path(option.path, path)) return option.path.substr(0, path.size());
   }
-  for (const CycloneGroup& group : cyclone_opaque_groups()) {
+  for (const CycloneGroup& group : cyclone_opaque_groups(version)) {
     if (is_same_word(group.path, path)) return group.path;
   }
   return {};
 }
 
-const CycloneOption* find_option(std::string_view path) {
-  const auto options = cyclone_options();
+const CycloneOption* find_option(std::string_view path, CycloneVersion version) {
+  const auto options = cyclone_options(version);
   const auto found = std::ranges::find(options, path, &CycloneOption::path);
   return found == options.end() ? nullptr : &*found;
 }
 
 /// What may stand beside `path`, to suggest a name.
-std::vector<std::string> names_below(std::string_view parent, bool attributes) {
+std::vector<std::string> names_below(std::string_view parent, bool attributes,
+                                     CycloneVersion version) {
   std::set<std::string> names;
-  for (const CycloneOption& option : cyclone_options()) {
+  for (const CycloneOption& option : cyclone_options(version)) {
     std::string_view rest = option.path;
     if (!parent.empty()) {
       if (!starts_with_path(rest, parent) || rest.size() == parent.size()) continue;
@@ -52,14 +53,14 @@ std::vector<std::string> names_below(std::string_view parent, bool attributes) {
     names.emplace(rest.substr(0, rest.find_first_of("/[]")));
   }
   if (parent.empty() && !attributes) {
-    for (const CycloneGroup& group : cyclone_opaque_groups()) names.emplace(group.path);
+    for (const CycloneGroup& group : cyclone_opaque_groups(version)) names.emplace(group.path);
   }
   return {names.begin(), names.end()};
 }
 
 /// The group that has an element of this name; empty if there is none.
-std::string path_ending_in(std::string_view name) {
-  for (const CycloneOption& option : cyclone_options()) {
+std::string path_ending_in(std::string_view name, CycloneVersion version) {
+  for (const CycloneOption& option : cyclone_options(version)) {
     const std::string_view path = option.path.substr(0, option.path.find('['));
     const std::size_t slash = path.rfind('/');
     if (is_same_word(path.substr(slash + 1), name)) return std::string{path.substr(0, slash)};
@@ -83,7 +84,8 @@ bool is_cyclone_group(std::string_view name) {
   const bool is_old = std::ranges::any_of(cyclone_aliases(), [&](const CycloneAlias& alias) {
     return is_same_word(alias.old_path, name);
   });
-  return is_old || !canonical(name).empty();
+  return is_old || !canonical(name, CycloneVersion::of_0_10).empty() ||
+         !canonical(name, CycloneVersion::of_11).empty();
 }
 
 void CycloneDomainReader::read(const XmlElement& domain) {
@@ -97,9 +99,9 @@ void CycloneDomainReader::read_element(const XmlElement& element, std::string_vi
   if (failure_) return;
   std::string path = join(parent, element.name);
   resolve_alias(path, element);
-  const std::string_view known = canonical(path);
+  const std::string_view known = canonical(path, version_);
   if (known.empty()) return refuse(element.place, path, parent, element.name, false);
-  for (const CycloneGroup& group : cyclone_opaque_groups()) {
+  for (const CycloneGroup& group : cyclone_opaque_groups(version_)) {
     if (group.path == known) return read_opaque(element, group);
   }
   if (known == "General/Interfaces/NetworkInterface") {
@@ -113,7 +115,7 @@ void CycloneDomainReader::read_element(const XmlElement& element, std::string_vi
 void CycloneDomainReader::read_attributes(const XmlElement& element, std::string_view path) {
   for (const XmlAttribute& attribute : element.attributes) {
     const std::string name = fmt::format("{}[@{}]", path, attribute.name);
-    const std::string_view setting = canonical(name);
+    const std::string_view setting = canonical(name, version_);
     if (setting.empty()) {
       refuse(element.place, name, path, attribute.name, true);
     } else {
@@ -149,8 +151,8 @@ void CycloneDomainReader::refuse(const Place& place, const std::string& path,
   Setting setting{path, "", place, Effect::unknown, "", ""};
   for (const CycloneForeign& foreign : cyclone_foreign()) {
     if (!is_same_word(foreign.path, path)) continue;
-    setting.note =
-        fmt::format("an {} of {}; Cyclone DDS 0.10 refuses the file", kind, foreign.versions);
+    setting.note = fmt::format("an {} of {}; Cyclone DDS {} refuses the file", kind,
+                               foreign.versions, print_version(version_));
     remark(Severity::error, "other-version", place, fmt::format("{} is {}", path, setting.note));
     profile_.settings.push_back(std::move(setting));
     return;
@@ -158,10 +160,11 @@ void CycloneDomainReader::refuse(const Place& place, const std::string& path,
   const bool has_hint = hints_left_ > 0;
   if (has_hint) --hints_left_;
   const std::vector<std::string> names =
-      has_hint ? names_below(parent, is_attribute) : std::vector<std::string>{};
-  const std::string elsewhere = is_attribute || !has_hint ? "" : path_ending_in(name);
+      has_hint ? names_below(parent, is_attribute, version_) : std::vector<std::string>{};
+  const std::string elsewhere = is_attribute || !has_hint ? "" : path_ending_in(name, version_);
   const std::string nearest = elsewhere.empty() ? suggestion(name, names) : "";
-  setting.note = fmt::format("Cyclone DDS 0.10 has no such {} and refuses the file", kind);
+  setting.note = fmt::format("Cyclone DDS {} has no such {} and refuses the file",
+                             print_version(version_), kind);
   constexpr std::size_t few = 12;
   std::string hint;
   if (!elsewhere.empty()) {
@@ -169,10 +172,11 @@ void CycloneDomainReader::refuse(const Place& place, const std::string& path,
   } else if (nearest.empty() && !names.empty() && names.size() <= few) {
     hint = fmt::format("expected one of {}", fmt::join(names, ", "));
   }
-  remark(Severity::error, fmt::format("unknown-{}", kind), place,
-         fmt::format("Cyclone DDS 0.10 has no {} {}{} and refuses the file{}", kind, quote(name),
-                     parent.empty() ? "" : fmt::format(" in {}", parent), nearest),
-         std::move(hint));
+  remark(
+      Severity::error, fmt::format("unknown-{}", kind), place,
+      fmt::format("Cyclone DDS {} has no {} {}{} and refuses the file{}", print_version(version_),
+                  kind, quote(name), parent.empty() ? "" : fmt::format(" in {}", parent), nearest),
+      std::move(hint));
   profile_.settings.push_back(std::move(setting));
 }
 
@@ -186,7 +190,7 @@ void CycloneDomainReader::read_opaque(const XmlElement& element, const CycloneGr
 }
 
 void CycloneDomainReader::read_text(const XmlElement& element, std::string_view path) {
-  const CycloneOption* option = find_option(path);
+  const CycloneOption* option = find_option(path, version_);
   const bool is_moved = option != nullptr && path.ends_with("]");
   if (!element.text.empty()) {
     if (option == nullptr) {
@@ -228,7 +232,7 @@ void CycloneDomainReader::read_value(std::string_view path, const std::string& w
   const std::optional<std::string> value = expanded(path, written, place);
   if (!value) return;
   const std::string& text = *value;
-  const CycloneOption* option = find_option(path);
+  const CycloneOption* option = find_option(path, version_);
   if (!is_repeatable(path) && !seen_.insert(path).second) {
     return fail(place, fmt::format("{} stands twice in one Domain; expected it once", path));
   }
@@ -249,7 +253,7 @@ void CycloneDomainReader::read_value(std::string_view path, const std::string& w
   }
   if (option->deprecated) {
     remark(Severity::warning, "deprecated", place,
-           fmt::format("{} is deprecated in Cyclone DDS 0.10", path));
+           fmt::format("{} is deprecated in Cyclone DDS {}", path, print_version(version_)));
   }
   keep(std::move(reading));
 }

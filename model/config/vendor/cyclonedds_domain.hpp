@@ -12,7 +12,7 @@
 
 namespace stormproof::model::config::vendor {
 
-/// Whether version 0.10 has a group (or an old name of one) like this in a Domain.
+/// Whether the library has a group (or an old name of one) like this in a Domain.
 [[nodiscard]] bool is_cyclone_group(std::string_view name);
 
 /// The ids of the Domain elements below a root, each once, without "any".
@@ -22,7 +22,7 @@ namespace stormproof::model::config::vendor {
 class CycloneDomainReader {
  public:
   CycloneDomainReader(VendorProfile& profile, CycloneSettings& settings)
-      : profile_{profile}, settings_{settings} {}
+      : profile_{profile}, settings_{settings}, version_{settings.version} {}
 
   /// The contents of a Domain element, or of what stands for one.
   void read(const XmlElement& domain);
@@ -50,6 +50,7 @@ class CycloneDomainReader {
 
   VendorProfile& profile_;
   CycloneSettings& settings_;
+  CycloneVersion version_;
   std::set<std::string_view> seen_;  ///< in this Domain
   std::optional<InputError> failure_;
   std::size_t hints_left_ = 1000;  ///< a hint compares with every name there is

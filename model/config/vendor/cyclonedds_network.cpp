@@ -83,7 +83,7 @@ class Network {
              fmt::format("AllowMulticast {} without peers: no announcement leaves the host",
                          allow.shown),
              "add Discovery/Peers, or set spdp");
-    } else if (settings_.value("Discovery/ParticipantIndex").word == "none") {
+    } else if (settings_.participant_index() == "none") {
       remark(Severity::warning, "participant-index", allow.place,
              fmt::format("AllowMulticast {} with ParticipantIndex none: peers cannot know the "
                          "ports of this host",

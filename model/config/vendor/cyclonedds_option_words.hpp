@@ -20,6 +20,9 @@ inline constexpr CycloneType size_or_default{CycloneKind::size, 0, cyclone_large
                                              "default"};
 inline constexpr CycloneType upto_hour{CycloneKind::duration, 0, hour_ns};
 inline constexpr CycloneType upto_second{CycloneKind::duration, 0, second};
+inline constexpr CycloneType upto_hour_or_default{CycloneKind::duration, 0, hour_ns, "default"};
+inline constexpr CycloneType inf_or_default{CycloneKind::duration, 0, cyclone_longest_ns,
+                                            "default,inf"};
 inline constexpr CycloneType or_inf{CycloneKind::duration, 0, cyclone_longest_ns, "inf"};
 
 constexpr CycloneType choice(std::string_view words) { return {CycloneKind::choice, 0, 0, words}; }
@@ -29,6 +32,9 @@ constexpr CycloneType choices(std::string_view words) {
 constexpr CycloneType between(std::int64_t low, std::int64_t high, std::string_view words = {}) {
   return {CycloneKind::integer, low, high, words};
 }
+
+inline constexpr CycloneHas only_0_10 = CycloneHas::only_0_10;
+inline constexpr CycloneHas from_11 = CycloneHas::from_11;
 
 inline constexpr Effect none = Effect::none;
 inline constexpr Effect assumed = Effect::unmodelled;

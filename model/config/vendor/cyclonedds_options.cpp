@@ -1,6 +1,6 @@
-// From the configuration tables of Cyclone DDS 0.10 (src/core/ddsi, ddsi_cfgelems.h and the parser
-// functions of ddsi_config.c) and its manual (docs/manual/options.md). Ranges are those that the
-// parser enforces.
+// From the configuration tables of Cyclone DDS 0.10.5 and 11.0.1 (src/core/ddsi, ddsi_cfgelems.h
+// and the parser functions of ddsi_config.c) and their manual (docs/manual/options.md). Ranges are
+// those that the parser enforces.
 #include <vector>
 
 #include "model/config/vendor/cyclonedds_option_words.hpp"
@@ -9,6 +9,10 @@ namespace stormproof::model::config::vendor {
 namespace {
 
 using namespace cyclone;
+
+constexpr std::string_view indices =
+    "with automatic indices, how many participants a host can have; peers without a port get an "
+    "announcement for each";
 
 constexpr CycloneOption options[] = {
     {"General/AllowMulticast", choices("default,false,spdp,asm,ssm,true"), "default", knob,
@@ -35,6 +39,10 @@ constexpr CycloneOption options[] = {
      "multicast even for a single reader; the model sends to that by unicast"},
     {"General/Interfaces/NetworkInterface[@presence_required]", boolean, "true", none, names},
     {"General/Interfaces/NetworkInterface[@priority]", integer_or_default, "default", none, names},
+    {"General/Interfaces/NetworkInterface[@allow_multicast]",
+     choices("default,false,spdp,asm,ssm,true"), "default", assumed,
+     "whether announcements and SEDP may use multicast on this interface", "", false, false,
+     from_11},
     {"General/MaxMessageSize", size, "14720 B", knob, "largest packet without repairs",
      "sedp.max_message_size"},
     {"General/MaxRexmitMessageSize", size, "1456 B", knob, "largest packet with repairs",
@@ -69,6 +77,11 @@ constexpr CycloneOption options[] = {
      "acts with another vendor's participants only"},
     {"Compatibility/ExplicitlyPublishQosSetToDefault", boolean, "false", assumed,
      "makes descriptors larger than those of this model"},
+    {"Compatibility/AllowInvalidTryConstruct", boolean, "false", none, user, "", false, false,
+     from_11},
+    {"Compatibility/IgnoreTypeInformation", text_type, "", none, user, "", false, false, from_11},
+    {"Compatibility/ProtocolVersion", text_type, "2.5", none, "what the RTPS header says", "",
+     false, false, from_11},
     {"Compatibility/ManySocketsMode", choice("false,true,single,none,many"), "single", assumed,
      "sockets of processes with several participants; the model has one for each participant"},
     {"Compatibility/StandardsConformance", choice("lax,strict,pedantic"), "lax", none,
@@ -83,12 +96,26 @@ constexpr CycloneOption options[] = {
      "bounds the announcement period: 2 s less, or 80 % of it below 10 s; a participant silent for "
      "so long is dropped, which the model has not",
      "spdp.period"},
-    {"Discovery/MaxAutoParticipantIndex", between(0, 2'147'483'647), "9", none,
-     "with ParticipantIndex auto, how many participants a host can have; peers without a port get "
-     "an announcement for each"},
-    {"Discovery/ParticipantIndex", between(0, 120, "auto,none"), "none", none, port},
+    {"Discovery/DiscoveredLocatorPruneDelay", or_inf, "60 s", assumed,
+     "how long addresses of participants that fell silent are announced to", "", false, false,
+     from_11},
+    {"Discovery/InitialLocatorPruneDelay", or_inf, "30 s", assumed,
+     "how long peers that do not answer are announced to", "", false, false, from_11},
+    {"Discovery/MaxAutoParticipantIndex", between(0, 2'147'483'647), "9", none, indices, "", false,
+     false, only_0_10},
+    {"Discovery/MaxAutoParticipantIndex", between(0, 2'147'483'647), "99", none, indices, "", false,
+     false, from_11},
+    {"Discovery/ParticipantIndex", between(0, 120, "auto,none"), "none", none, port, "", false,
+     false, only_0_10},
+    {"Discovery/ParticipantIndex", between(0, 120, "auto,default,none"), "default", none, port, "",
+     false, false, from_11},
     {"Discovery/Peers/Peer[@Address]", text_type, "", assumed,
      "announcements go there by unicast, too"},
+    {"Discovery/Peers/Peer[@PruneDelay]", inf_or_default, "default", assumed,
+     "how long this peer is announced to without an answer", "", false, false, from_11},
+    {"Discovery/Peers[@AddLocalhost]", boolean_or_default, "default", none,
+     "acts between processes on one host; this model looks at discovery across hosts", "", false,
+     false, from_11},
     {"Discovery/Ports/Base", natural, "7400", none, port},
     {"Discovery/Ports/DomainGain", natural, "250", none, port},
     {"Discovery/Ports/MulticastDataOffset", natural, "1", none, port},
@@ -97,7 +124,10 @@ constexpr CycloneOption options[] = {
     {"Discovery/Ports/UnicastDataOffset", natural, "11", none, port},
     {"Discovery/Ports/UnicastMetaOffset", natural, "10", none, port},
     {"Discovery/SPDPInterval", upto_hour, "30 s", knob,
-     "announcement period, if LeaseDuration does not ask for a shorter one", "spdp.period"},
+     "announcement period, if LeaseDuration does not ask for a shorter one", "spdp.period", false,
+     false, only_0_10},
+    {"Discovery/SPDPInterval", upto_hour_or_default, "default", knob, "announcement period",
+     "spdp.period", false, false, from_11},
     {"Discovery/SPDPMulticastAddress", text_type, "239.255.0.1", none,
      "address of the announcements"},
     {"Discovery/Tag", text_type, "", none, "participants with another tag ignore each other"},
@@ -133,6 +163,11 @@ constexpr CycloneOption options[] = {
 };
 
 constexpr CycloneGroup opaque_groups[] = {
+    {"General/AddrsetCosts", assumed, "by which costs a writer chooses between addresses", from_11},
+    {"General/Interfaces/NetworkInterface/AddrsetCosts", assumed,
+     "by which costs a writer chooses between addresses", from_11},
+    {"General/Interfaces/PubSubMessageExchange", Effect::none,
+     "user data between processes of one host", from_11},
     {"Partitioning", Effect::none, "maps user topics to network partitions"},
     {"SSL", Effect::none, "acts with the TCP transport only"},
     {"Security", Effect::outside,
@@ -154,6 +189,7 @@ constexpr CycloneAlias aliases[] = {
 
 constexpr std::string_view newer = "11.0 and later";
 constexpr std::string_view older = "versions before 0.10";
+constexpr std::string_view before_11 = "versions before 11.0";
 constexpr CycloneForeign foreign[] = {
     {"Channels", older},
     {"Compatibility/ProtocolVersion", newer},
@@ -169,23 +205,53 @@ constexpr CycloneForeign foreign[] = {
     {"General/Interfaces/PubSubMessageExchange", newer},
     {"Internal/AggressiveKeepLastWhc", older},
     {"Internal/AuxiliaryBandwidthLimit", older},
+    {"Internal/BurstSize/MaxFragsRexmitSample", newer},
     {"Internal/ConservativeBuiltinReaderStartup", older},
+    {"Internal/DDSI2DirectMaxThreads", before_11},
     {"Internal/ExtendedPacketInfo", newer},
     {"Internal/SuppressSPDPMulticast", older},
+    {"Internal/UnicastResponseToSPDPMessages", before_11},
 };
+
+bool has(CycloneHas versions, CycloneVersion version) {
+  if (versions == CycloneHas::both) return true;
+  return (versions == CycloneHas::from_11) == (version == CycloneVersion::of_11);
+}
+
+std::vector<CycloneOption> options_of(CycloneVersion version) {
+  std::vector<CycloneOption> all{std::begin(options), std::end(options)};
+  const auto internal = internal_options();
+  all.insert(all.end(), internal.begin(), internal.end());
+  std::erase_if(all, [version](const CycloneOption& one) { return !has(one.versions, version); });
+  return all;
+}
+
+std::vector<CycloneGroup> groups_of(CycloneVersion version) {
+  std::vector<CycloneGroup> all{std::begin(opaque_groups), std::end(opaque_groups)};
+  std::erase_if(all, [version](const CycloneGroup& one) { return !has(one.versions, version); });
+  return all;
+}
 
 }  // namespace
 
-std::span<const CycloneOption> cyclone_options() {
-  static const std::vector<CycloneOption> all = [] {
-    std::vector<CycloneOption> both{std::begin(options), std::end(options)};
-    const auto internal = internal_options();
-    both.insert(both.end(), internal.begin(), internal.end());
-    return both;
-  }();
-  return all;
+CycloneVersion cyclone_version_of(std::string_view base) {
+  return base.starts_with("cyclonedds-11") ? CycloneVersion::of_11 : CycloneVersion::of_0_10;
 }
-std::span<const CycloneGroup> cyclone_opaque_groups() { return opaque_groups; }
+
+std::string_view print_version(CycloneVersion version) {
+  return version == CycloneVersion::of_11 ? "11" : "0.10";
+}
+
+std::span<const CycloneOption> cyclone_options(CycloneVersion version) {
+  static const std::vector<CycloneOption> of_0_10 = options_of(CycloneVersion::of_0_10);
+  static const std::vector<CycloneOption> of_11 = options_of(CycloneVersion::of_11);
+  return version == CycloneVersion::of_11 ? of_11 : of_0_10;
+}
+std::span<const CycloneGroup> cyclone_opaque_groups(CycloneVersion version) {
+  static const std::vector<CycloneGroup> of_0_10 = groups_of(CycloneVersion::of_0_10);
+  static const std::vector<CycloneGroup> of_11 = groups_of(CycloneVersion::of_11);
+  return version == CycloneVersion::of_11 ? of_11 : of_0_10;
+}
 std::span<const CycloneAlias> cyclone_aliases() { return aliases; }
 std::span<const CycloneForeign> cyclone_foreign() { return foreign; }
 

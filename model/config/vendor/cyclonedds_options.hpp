@@ -1,6 +1,6 @@
-// The table of the settings that Cyclone DDS 0.10 knows: the values it takes, its defaults, and
-// what each does to discovery and to its model. One table, so that the reader of the XML, its
-// remarks about unknown names and the documentation cannot disagree.
+// The table of the settings that Cyclone DDS 0.10 and 11 know: the values they take, their
+// defaults, and what each does to discovery and to its model. One table, so that the reader of the
+// XML, its remarks about unknown names and the documentation cannot disagree.
 #pragma once
 
 #include <span>
@@ -11,6 +11,15 @@
 
 namespace stormproof::model::config::vendor {
 
+/// Versions of the library whose settings differ; what a base names decides.
+enum class CycloneVersion : std::uint8_t { of_0_10, of_11 };
+[[nodiscard]] CycloneVersion cyclone_version_of(std::string_view base);
+/// "0.10".
+[[nodiscard]] std::string_view print_version(CycloneVersion version);
+
+/// Which of them have a setting.
+enum class CycloneHas : std::uint8_t { both, only_0_10, from_11 };
+
 struct CycloneOption {
   std::string_view path;  ///< below Domain: "Internal/HeartbeatInterval[@min]"
   CycloneType type;
@@ -19,26 +28,29 @@ struct CycloneOption {
   std::string_view note = {};    ///< what it does; after "VALUE; " if it is not modelled
   std::string_view knob = {};    ///< of the model
   bool always = false;           ///< the preset lists the default, too, among what is not modelled
-  bool deprecated = false;       ///< 0.10 takes it with a warning
+  bool deprecated = false;       ///< the library takes it with a warning
+  CycloneHas versions = CycloneHas::both;
 };
 
-[[nodiscard]] std::span<const CycloneOption> cyclone_options();
+[[nodiscard]] std::span<const CycloneOption> cyclone_options(CycloneVersion version);
 
-/// Groups whose contents are not looked at, as far as 0.10 has them: their names, and what they do.
+/// Groups whose contents are not looked at: their names, and what they do.
 struct CycloneGroup {
   std::string_view path;
   Effect effect;
   std::string_view note;
+  CycloneHas versions = CycloneHas::both;
 };
-[[nodiscard]] std::span<const CycloneGroup> cyclone_opaque_groups();
+[[nodiscard]] std::span<const CycloneGroup> cyclone_opaque_groups(CycloneVersion version);
 
-/// Names that 0.10 still takes: an old path, and what it means.
+/// Names that both still take: an old path, and what it means.
 struct CycloneAlias {
   std::string_view old_path, path;
 };
 [[nodiscard]] std::span<const CycloneAlias> cyclone_aliases();
 
-/// Elements and attributes of other versions that 0.10 refuses, and which versions those are.
+/// Elements and attributes of other versions, and which versions those are: that of the file
+/// refuses what it does not have.
 struct CycloneForeign {
   std::string_view path, versions;
 };

@@ -12,8 +12,8 @@
 namespace stormproof::model::config::vendor {
 namespace {
 
-const CycloneOption& option_of(std::string_view path) {
-  return *std::ranges::find(cyclone_options(), path, &CycloneOption::path);
+const CycloneOption& option_of(std::string_view path, CycloneVersion version) {
+  return *std::ranges::find(cyclone_options(version), path, &CycloneOption::path);
 }
 
 CycloneValue usual_value(const CycloneOption& option) {
@@ -91,22 +91,39 @@ class Effects {
     setting(reading).note = "the default, as in the model";
   }
 
+  /// From 11 on an interval that is set is the period, whatever the lease (spdp_intv in
+  /// ddsi_spdp_schedule.c).
+  void apply_interval_alone(const CycloneReading& interval) {
+    change_duration("spdp.period", interval, interval.value.number, 1);
+    const CycloneReading* lease = settings_.find("Discovery/LeaseDuration");
+    if (lease == nullptr) return;
+    setting(*lease).effect = Effect::none;
+    setting(*lease).note = fmt::format(
+        "no effect on announcements: SPDPInterval asks for one every {}", interval.shown);
+  }
+
   void apply_announcements() {
     const CycloneReading* interval = settings_.find("Discovery/SPDPInterval");
     const CycloneReading* lease = settings_.find("Discovery/LeaseDuration");
+    if (interval != nullptr && settings_.version == CycloneVersion::of_11 &&
+        interval->value.word != "default") {
+      return apply_interval_alone(*interval);
+    }
     if (interval == nullptr && lease == nullptr) return;
-    const std::int64_t wanted = settings_.value("Discovery/SPDPInterval").number;
+    constexpr std::int64_t longest = 30 * second_ns;  // `default` of 11, and that of 0.10
+    const bool is_default = interval == nullptr || interval->value.word == "default";
+    const std::int64_t wanted = is_default ? longest : interval->value.number;
     const std::int64_t bound = lease_bound(settings_.value("Discovery/LeaseDuration").number);
     const CycloneReading* decides = bound < wanted ? lease : interval;
     if (decides == nullptr) decides = interval != nullptr ? interval : lease;  // against a default
     change_duration("spdp.period", *decides, std::min(wanted, bound), 1);
     const std::string shown = print_cyclone_duration(std::min(wanted, bound));
-    if (bound < wanted && interval != nullptr) {
+    if (bound < wanted && interval != nullptr && interval->value.word != "default") {
       setting(*interval).effect = Effect::none;
       setting(*interval).note =
           fmt::format("no effect: LeaseDuration asks for announcements every {}", shown);
-      const bool is_default = is_usual(*interval->option, interval->value);
-      remark(is_default ? Severity::note : Severity::warning, "spdp-interval", interval->place,
+      const bool is_usual_one = is_usual(*interval->option, interval->value);
+      remark(is_usual_one ? Severity::note : Severity::warning, "spdp-interval", interval->place,
              fmt::format("SPDPInterval {} has no effect: with LeaseDuration {} announcements go "
                          "out every {}",
                          interval->shown, settings_.shown("Discovery/LeaseDuration"), shown),
@@ -232,11 +249,22 @@ const CycloneReading* CycloneSettings::find(std::string_view path) const {
 
 CycloneValue CycloneSettings::value(std::string_view path) const {
   const CycloneReading* reading = find(path);
-  return reading != nullptr ? reading->value : usual_value(option_of(path));
+  return reading != nullptr ? reading->value : usual_value(option_of(path, version));
 }
 
 std::string CycloneSettings::shown(std::string_view path) const {
-  return print_cyclone(option_of(path).type, value(path));
+  return print_cyclone(option_of(path, version).type, value(path));
+}
+
+std::string CycloneSettings::participant_index() const {
+  const std::string word = value("Discovery/ParticipantIndex").word;
+  if (word != "default") return word;
+  // decide_participant_index_and_add_localhost_to_peers in ddsi_init.c
+  const std::string allow = value("General/AllowMulticast").word;
+  const bool announces = allow.find("spdp") != std::string::npos ||
+                         allow.find("true") != std::string::npos ||
+                         allow.find("default") != std::string::npos;
+  return announces && peers.empty() ? "none" : "auto";
 }
 
 std::string print_cyclone(const CycloneType& type, const CycloneValue& value) {

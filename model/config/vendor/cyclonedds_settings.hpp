@@ -30,9 +30,12 @@ class CycloneSettings {
   /// Its value, or the default.
   [[nodiscard]] CycloneValue value(std::string_view path) const;
   [[nodiscard]] std::string shown(std::string_view path) const;
+  /// "auto", "none", or a number in words of ParticipantIndex; what `default` of 11 comes to.
+  [[nodiscard]] std::string participant_index() const;
 
   [[nodiscard]] const auto& all() const { return readings_; }
 
+  CycloneVersion version = CycloneVersion::of_0_10;
   std::vector<CycloneReading> peers;  ///< every address
   std::vector<Place> interfaces;      ///< every NetworkInterface
 

@@ -1,4 +1,4 @@
-// Reads Cyclone DDS's XML as version 0.10 does: names without regard to case, several Domain
+// Reads Cyclone DDS's XML as versions 0.10 and 11 do: names without regard to case, several Domain
 // elements of which those count that have the domain's id or "any", the later over the earlier, and
 // old names for what has moved.
 #include <algorithm>
@@ -148,7 +148,7 @@ class Choice {
       if (is_same_word(attribute.name, "Id")) continue;
       profile.remarks.push_back(
           {Severity::error, "cyclonedds.unknown-attribute", domain.place,
-           fmt::format("Cyclone DDS 0.10 has no attribute {} in Domain and refuses the file",
+           fmt::format("Cyclone DDS has no attribute {} in Domain and refuses the file",
                        quote(attribute.name)),
            "expected Id"});
     }
@@ -184,6 +184,7 @@ Result<VendorProfile> read_cyclonedds_profile(const XmlElement& root, const Sele
   }
   Choice choice;
   CycloneSettings settings;
+  settings.version = cyclone_version_of(profile.version_base);
   Failure failure = choice.collect(root, profile);
   if (!failure) failure = choice.choose(root, selection.profile, profile);
   if (!failure) failure = choice.read(profile, settings);

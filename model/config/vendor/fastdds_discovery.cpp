@@ -250,12 +250,8 @@ void interpret_peers(Reading& reading, bool is_client) {
 /// Which types participants tell each other, and with that whether they look them up.
 void interpret_type_propagation(Reading& reading) {
   const Found* propagation = reading.section.find("fastdds.type_propagation");
-  if (propagation == nullptr) return;
-  constexpr Version first_version = 300;
+  if (propagation == nullptr || propagation->item->since > reading.version) return;
   const std::string& value = propagation->value.shown;
-  if (reading.version < first_version) {
-    return set_inert(reading, *propagation, "no property of versions before 3.0");
-  }
   const bool on = value == "enabled" || value == "minimal_bandwidth";
   if (!on && value != "disabled" && value != "registration_only") {
     refuse(propagation->value.place,
@@ -280,6 +276,13 @@ void interpret_properties(Reading& reading) {
       setting.note =
           "participants authenticate each other before SEDP, which is encrypted; the "
           "model has no handshake";
+    } else if (found.item->since > reading.version) {
+      set_inert(reading, found, "not read by this version of the library");
+      add_remark(
+          reading.profile, Severity::warning, "fastdds.later-property", found.element->place,
+          fmt::format("property {} is not read by Fast DDS {}; it is there since {}", quote(name),
+                      print_version(reading.version), print_version(found.item->since)),
+          "choose the version of the library that reads the file: FILE@PRESET");
     } else if (found.item->path.empty() && hints_left > 0) {
       --hints_left;
       const std::string suggested = suggestion(name, known);

@@ -40,6 +40,9 @@ inline constexpr Version oldest_version = 206;
 /// Of a preset: "fastdds-2.14.5…" is 214; any other name is that of the default preset.
 [[nodiscard]] Version version_of(std::string_view base);
 
+/// Since when a <discoveryServersList> holds locators instead of servers with prefixes.
+inline constexpr Version servers_by_address = 300;
+
 /// Kinds of transport that read an element of a transport descriptor.
 inline constexpr unsigned udp = 1, tcp = 2, shm = 4, any_transport = udp | tcp | shm;
 

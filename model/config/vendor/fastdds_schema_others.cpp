@@ -119,9 +119,10 @@ constexpr std::array property_items{
     SchemaItem{"fastdds.push_mode", flag, "true", Effect::none,
                "acts on writers of user topics only, in their own profile"},
     SchemaItem{"fastdds.type_propagation", choice, "enabled", Effect::knob, "",
-               "disabled|enabled|minimal_bandwidth|registration_only"},
+               "disabled|enabled|minimal_bandwidth|registration_only", 300},
     SchemaItem{"fastdds.serialize_optional_qos", text, "", Effect::unmodelled,
-               "descriptors say QoS that equal the default, too, and are larger than the model's"},
+               "descriptors say QoS that equal the default, too, and are larger than the model's",
+               "", 302},
     SchemaItem{"fastdds.statistics", text, "", Effect::unmodelled,
                "adds endpoints for statistics, each with a descriptor; the model has those of a "
                "ROS 2 node"},

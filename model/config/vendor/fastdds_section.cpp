@@ -46,6 +46,7 @@ class SectionReader {
       } else {
         add(child, child_path, *item, read_value(child, *item, profile_));
         if (item->kind == ValueKind::addresses) check_addresses(child, child_path);
+        if (item->name() == "discoveryServersList") check_servers(child, child_path);
       }
     }
   }
@@ -84,6 +85,25 @@ class SectionReader {
       const bool is_interface = child.name == interface.path;
       if (child.name == "address" || (is_interface && interface.since <= rules_.version)) continue;
       unknown(child, list, path, is_interface ? &interface : nullptr);
+    }
+  }
+
+  /// Before 3.0 a server has a GUID prefix, since then it is known by its address alone.
+  void check_servers(const XmlElement& list, const std::string& path) {
+    const bool has_prefixes = rules_.version < servers_by_address;
+    const std::string_view expected = has_prefixes ? "RemoteServer" : "locator";
+    for (const XmlElement& child : list.children) {
+      if (child.name == expected) continue;
+      add_without_value(child, path + "/" + child.name, Effect::unknown,
+                        "this version of the library has no such element here");
+      add_remark(profile_, Severity::error,
+                 has_prefixes ? "fastdds.later-version" : "fastdds.earlier-version", child.place,
+                 fmt::format("Fast DDS {} has no <{}> in <{}> and refuses the file",
+                             print_version(rules_.version), child.name, list.name),
+                 has_prefixes
+                     ? "before 3.0 it holds <RemoteServer prefix=\"…\"> with a "
+                       "<metatrafficUnicastLocatorList>"
+                     : "since 3.0 it holds the <locator> of each server, without a prefix");
     }
   }
 

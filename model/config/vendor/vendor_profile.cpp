@@ -120,6 +120,11 @@ Remark remark_on(const XmlDocument::Odd& one, Vendor vendor, bool is_fragment) {
 
 }  // namespace
 
+std::optional<Vendor> vendor_of(const XmlDocument& document) {
+  XmlDocument copy = document;
+  return vendor_of(root_of(copy));
+}
+
 std::vector<std::string> domains_of(XmlDocument document) {
   const XmlElement root = root_of(document);
   if (vendor_of(root) != Vendor::cyclonedds) return {};

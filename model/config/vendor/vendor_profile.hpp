@@ -104,6 +104,8 @@ struct Selection {
 /// another file.
 [[nodiscard]] std::vector<std::string> domains_of(XmlDocument document);
 
+/// The vendor whose library reads the document, or nothing.
+[[nodiscard]] std::optional<Vendor> vendor_of(const XmlDocument& document);
 /// The vendor whose files have this root element, or nothing.
 [[nodiscard]] std::optional<Vendor> vendor_of(const XmlElement& root);
 

@@ -10,6 +10,7 @@
 #include "model/config/knobs/value_json.hpp"
 #include "model/config/tree/tree.hpp"
 #include "model/config/vendor/cyclonedds_values.hpp"
+#include "model/config/vendor/fastdds_schema.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
 
 namespace stormproof::model::config::vendor {
@@ -52,6 +53,8 @@ class Changes {
            "not is not written");
     }
     discovery_ = profile.discovery;
+    servers_by_address_ =
+        vendor == Vendor::fastdds && fastdds::version_of(preset) >= fastdds::servers_by_address;
     const Values after = values_of(profile);
     Values before = values_of(base);
     if (base.discovery != profile.discovery) {  // what the preset has, if it discovered that way
@@ -98,6 +101,7 @@ class Changes {
   [[nodiscard]] const std::optional<InputError>& error() const { return error_; }
   /// Of the profile, whether or not it changes.
   [[nodiscard]] Discovery discovery() const { return discovery_; }
+  [[nodiscard]] bool has_servers_by_address() const { return servers_by_address_; }
   [[nodiscard]] bool has_server() const {
     return discovery_ == Discovery::server || discovery_ == Discovery::super_client;
   }
@@ -128,6 +132,7 @@ class Changes {
   std::map<std::string_view, std::string> words_;
   std::optional<InputError> error_;
   Discovery discovery_{};
+  bool servers_by_address_ = false;
 };
 
 /// Text with line breaks and indentation.
@@ -208,6 +213,12 @@ void write_client(XmlWriter& xml, const Changes& changes) {
     write_duration(xml, "clientAnnouncementPeriod", *period);
   }
   xml.open("discoveryServersList");
+  if (changes.has_servers_by_address()) {
+    xml.comment("the address of your server");
+    write_locator(xml, true);
+    xml.close();
+    return;
+  }
   xml.open(fmt::format("RemoteServer prefix=\"{}\"", server_prefix));
   xml.open("metatrafficUnicastLocatorList");
   xml.comment("the address of your server");
@@ -287,10 +298,18 @@ void write_transport(XmlWriter& xml, const std::int64_t* buffer, const std::int6
   xml.close();
 }
 
+void write_property(XmlWriter& xml, const std::string& name, const std::string& value) {
+  xml.open("property");
+  xml.leaf("name", name);
+  xml.leaf("value", value);
+  xml.close();
+}
+
 std::string write_fastdds(const Changes& changes, const std::string& comment) {
   XmlWriter xml{comment};
   const std::int64_t* buffer = changes.find("sedp.piggyback_threshold_bytes");
   const std::int64_t* message = changes.find("sedp.grouping_limit_bytes");
+  const std::string* lookup = changes.word("type_lookup");
   xml.open("profiles xmlns=\"http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles\"");
   const std::int64_t* ports = changes.find("peer_ports");
   if (buffer != nullptr || ports != nullptr) write_transport(xml, buffer, ports);
@@ -300,14 +319,18 @@ std::string write_fastdds(const Changes& changes, const std::string& comment) {
   xml.open("participant profile_name=\"stormproof\" is_default_profile=\"true\"");
   xml.open("rtps");
   write_fastdds_discovery(xml, changes);
-  if (message != nullptr) {
+  if (message != nullptr || lookup != nullptr) {
     xml.open("propertiesPolicy");
     xml.open("properties");
-    xml.comment("largest message with pulled and repair DATA");
-    xml.open("property");
-    xml.leaf("name", "fastdds.max_message_size");
-    xml.leaf("value", fmt::format("{}", *message));
-    xml.close();
+    if (message != nullptr) {
+      xml.comment("largest message with pulled and repair DATA");
+      write_property(xml, "fastdds.max_message_size", fmt::format("{}", *message));
+    }
+    if (lookup != nullptr) {
+      xml.comment("whether participants ask for the types of others");
+      write_property(xml, "fastdds.type_propagation",
+                     *lookup == "true" ? "enabled" : "registration_only");
+    }
     xml.close();
     xml.close();
   }

@@ -60,9 +60,39 @@ TEST(Distributions, GoWhereverAProfileMayBeNamed) {
   const auto fast = trace_dds_profile(xml + "fastdds/humble-default.xml@jazzy", {}, specs);
   ASSERT_TRUE(fast) << to_string(fast.error());
   EXPECT_EQ(fast->preset, "fastdds-2.14.5");
-  const auto cyclone = trace_dds_profile(xml + "cyclonedds/default.xml@humble", {}, specs);
-  ASSERT_FALSE(cyclone);
-  EXPECT_NE(to_string(cyclone.error()).find("'humble' is a preset of Fast DDS"), std::string::npos);
+}
+
+/// A distribution ships both libraries; whose file it is decides which version reads it.
+TEST(Distributions, HaveAVersionOfTheVendorWhoseFileItIs) {
+  const SpecPath specs = source_specs();
+  const std::string xml = specs.directories.front() + "/vendor/";
+  const auto preset = [&](const std::string& reference) {
+    const auto traced = trace_dds_profile(xml + reference, {}, specs);
+    return traced ? traced->preset : to_string(traced.error());
+  };
+  EXPECT_EQ(preset("cyclonedds/default.xml@humble"), "cyclonedds-0.10");
+  EXPECT_EQ(preset("cyclonedds/default.xml@lyrical"), "cyclonedds-11");
+  EXPECT_EQ(preset("fastdds/humble-default.xml@humble"), "fastdds-2.6.11");
+  EXPECT_EQ(preset("fastdds/humble-default.xml@kilted"), "fastdds-3.2");
+  const auto other = trace_dds_profile(xml + "cyclonedds/default.xml@fastdds-3.2", {}, specs);
+  ASSERT_FALSE(other);
+  EXPECT_NE(to_string(other.error()).find("'fastdds-3.2' is a preset of Fast DDS"),
+            std::string::npos);
+  // The library of the distribution knows the property, that of an earlier one does not.
+  const TestFiles files;
+  const std::string file = files.write(
+      "types.xml",
+      "<dds><profiles><participant profile_name='p' is_default_profile='true'><rtps>"
+      "<propertiesPolicy><properties><property><name>fastdds.type_propagation</name>"
+      "<value>disabled</value></property></properties></propertiesPolicy></rtps></participant>"
+      "</profiles></dds>");
+  const auto lyrical = trace_dds_profile(file + "@lyrical", {}, specs);
+  ASSERT_TRUE(lyrical) << to_string(lyrical.error());
+  EXPECT_EQ(lyrical->value.version.type_lookup, Whether::no);
+  EXPECT_TRUE(lyrical->vendor->remarks.empty());
+  const auto jazzy = trace_dds_profile(file + "@jazzy", {}, specs);
+  ASSERT_TRUE(jazzy) << to_string(jazzy.error());
+  EXPECT_EQ(jazzy->vendor->remarks.front().rule, "fastdds.later-property");
 }
 
 TEST(Distributions, AFileOfTheNameWins) {

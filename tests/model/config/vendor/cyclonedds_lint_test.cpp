@@ -90,6 +90,49 @@ TEST(CycloneLint, names_of_other_versions_say_so) {
   EXPECT_NE(earlier.remarks.at(0).message.find("before 0.10"), std::string::npos);
 }
 
+/// What 11.0 reads otherwise than 0.10.
+TEST(CycloneLint, the_base_decides_which_version_reads) {
+  const auto of_11 = [](const std::string& text) {
+    const auto root = parse_xml(text, "c.xml");
+    EXPECT_TRUE(root);
+    auto profile = read_vendor_profile(*root, {"", "cyclonedds-11"});
+    EXPECT_TRUE(profile) << (profile ? "" : to_string(profile.error()));
+    return profile ? *std::move(profile) : VendorProfile{};
+  };
+  const std::string peers = discovery(
+      "<Peers AddLocalhost=\"false\"><Peer Address=\"192.0.2.10\" PruneDelay=\"inf\"/>"
+      "</Peers>");
+  EXPECT_EQ(remarks(read(peers)),
+            (Remarks{"error cyclonedds.other-version 2", "error cyclonedds.other-version 2"}));
+  EXPECT_EQ(remarks(of_11(peers)), Remarks{});
+  // An interval that is set counts, whatever the lease.
+  const std::string interval = discovery("<SPDPInterval>60s</SPDPInterval>");
+  EXPECT_TRUE(change(of_11(interval), "spdp", "period").starts_with("60s@"));
+  EXPECT_EQ(remarks(of_11(interval)), Remarks{});
+  EXPECT_TRUE(change(read(interval), "spdp", "period").starts_with("8s@"));
+  const std::string usual =
+      discovery("<SPDPInterval>default</SPDPInterval><LeaseDuration>20 s</LeaseDuration>");
+  EXPECT_TRUE(change(of_11(usual), "spdp", "period").starts_with("18s@"));
+  EXPECT_NE(error(usual), "");
+  // Indices are automatic where somebody has to guess them.
+  const std::string most = discovery("<MaxAutoParticipantIndex>30</MaxAutoParticipantIndex>");
+  EXPECT_EQ(remarks(of_11(most)), Remarks{"warning cyclonedds.no-effect 2"});
+  const VendorProfile with_peers =
+      of_11(discovery("<MaxAutoParticipantIndex>30</MaxAutoParticipantIndex>"
+                      "<Peers><Peer Address=\"192.0.2.10\"/></Peers>"));
+  EXPECT_EQ(remarks(with_peers), Remarks{"note cyclonedds.participant-limit 2"});
+  const VendorProfile usual_limit = of_11(discovery("<ParticipantIndex>auto</ParticipantIndex>"));
+  EXPECT_TRUE(usual_limit.remarks.front().message.starts_with("a host can have 99 processes"));
+  const std::string gone =
+      internal("<UnicastResponseToSPDPMessages>false</UnicastResponseToSPDPMessages>");
+  EXPECT_EQ(remarks(read(gone)), Remarks{});
+  EXPECT_EQ(remarks(of_11(gone)), Remarks{"error cyclonedds.other-version 2"});
+  for (const CycloneOption& option : cyclone_options(CycloneVersion::of_11)) {
+    if (option.usual.empty()) continue;
+    EXPECT_TRUE(parse_cyclone(option.type, option.usual)) << option.path;
+  }
+}
+
 TEST(CycloneLint, old_names_still_work) {
   const VendorProfile p = read(
       "<CycloneDDS><General><NetworkInterfaceAddress>auto</NetworkInterfaceAddress></General>\n"
@@ -149,7 +192,7 @@ TEST(CycloneLint, limits_that_users_run_into) {
   const VendorProfile raised =
       read(discovery("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>30"
                      "</MaxAutoParticipantIndex>"));
-  EXPECT_TRUE(raised.remarks.front().message.starts_with("a host can have 31 participants"));
+  EXPECT_TRUE(raised.remarks.front().message.starts_with("a host can have 30 processes"));
   EXPECT_EQ(found(discovery("<ParticipantIndex>3</ParticipantIndex>")), Remarks{});
   EXPECT_EQ(found(internal("<SocketReceiveBufferSize min=\"10 MB\"/>")),
             Remarks{"warning cyclonedds.kernel-buffer 2"});
@@ -194,7 +237,7 @@ TEST(CycloneLint, any_value_of_any_setting_is_read_or_refused_at_its_place) {
                                            "spdp,",
                                            "\xc3\xa4"};
   std::size_t read_count = 0, refused = 0;
-  for (const CycloneOption& option : cyclone_options()) {
+  for (const CycloneOption& option : cyclone_options(CycloneVersion::of_0_10)) {
     if (option.path.ends_with("]")) continue;
     std::string open, close;
     for (std::string_view rest = option.path; !rest.empty();) {
@@ -218,7 +261,7 @@ TEST(CycloneLint, any_value_of_any_setting_is_read_or_refused_at_its_place) {
 }
 
 TEST(CycloneLint, the_table_reads_its_own_defaults) {
-  for (const CycloneOption& option : cyclone_options()) {
+  for (const CycloneOption& option : cyclone_options(CycloneVersion::of_0_10)) {
     if (option.usual.empty()) continue;
     EXPECT_TRUE(parse_cyclone(option.type, option.usual)) << option.path;
     EXPECT_EQ(option.effect == Effect::knob, !option.knob.empty() && !option.always) << option.path;

@@ -249,6 +249,55 @@ TEST(FastddsXml, who_does_not_propagate_types_does_not_look_them_up) {
   EXPECT_NE(error_of(text("off"), of_3).find("expected disabled, enabled"), std::string::npos);
 }
 
+TEST(FastddsXml, a_version_reads_the_properties_that_it_has) {
+  const std::string text = document(
+      "<propertiesPolicy><properties>"
+      "<property><name>fastdds.type_propagation</name><value>disabled</value></property>"
+      "<property><name>fastdds.serialize_optional_qos</name><value>true</value></property>"
+      "</properties></propertiesPolicy>");
+  const VendorProfile before = profile_of(text);
+  ASSERT_EQ(before.remarks.size(), 2U);
+  EXPECT_EQ(before.remarks.front().message,
+            "property 'fastdds.type_propagation' is not read by Fast DDS 2.6; it is there since "
+            "3.0");
+  const VendorProfile later = profile_of(text, {.profile = "", .base = "fastdds-3.6"});
+  EXPECT_TRUE(later.remarks.empty());
+  EXPECT_EQ(later.changes.find("type_lookup")->text, "false");
+}
+
+TEST(FastddsXml, builtin_writers_have_a_flow_controller_since_3_2) {
+  const std::string text =
+      document("<builtin><flow_controller_name>slow</flow_controller_name></builtin>");
+  EXPECT_EQ(remarks(profile_of(text, {.profile = "", .base = "fastdds-2.14.5"})),
+            std::vector<std::string>{"error fastdds.later-version 4:10"});
+  const VendorProfile later = profile_of(text, {.profile = "", .base = "fastdds-3.2"});
+  EXPECT_TRUE(later.remarks.empty());
+}
+
+/// Before 3.0 a server has a prefix, since then it is known by its address.
+TEST(FastddsXml, each_version_lists_servers_in_its_own_way) {
+  const auto client = [](const std::string& server) {
+    return document(
+        "<builtin><discovery_config><discoveryProtocol>CLIENT</discoveryProtocol>"
+        "<discoveryServersList>" +
+        server + "</discoveryServersList></discovery_config></builtin>");
+  };
+  const std::string locator =
+      "<locator><udpv4><address>192.0.2.5</address><port>11811</port></udpv4></locator>";
+  const std::string remote =
+      "<RemoteServer prefix=\"44.53.00.5f.45.50.52.4f.53.49.4d.41\">"
+      "<metatrafficUnicastLocatorList>" +
+      locator + "</metatrafficUnicastLocatorList></RemoteServer>";
+  const Selection of_2{.profile = "", .base = "fastdds-2.14.5"};
+  const Selection of_3{.profile = "", .base = "fastdds-3.2"};
+  EXPECT_TRUE(profile_of(client(remote), of_2).remarks.empty());
+  EXPECT_TRUE(profile_of(client(locator), of_3).remarks.empty());
+  EXPECT_EQ(remarks(profile_of(client(locator), of_2)).front().substr(0, 27),
+            "error fastdds.later-version");
+  EXPECT_EQ(remarks(profile_of(client(remote), of_3)).front().substr(0, 29),
+            "error fastdds.earlier-version");
+}
+
 struct Refused {
   std::string document, error;
 };

@@ -101,6 +101,24 @@ TEST(WriteXml, a_choice_comes_back) {
   EXPECT_EQ(read, profile);
 }
 
+TEST(WriteXml, whether_types_are_looked_up_comes_back) {
+  DdsProfile profile = preset("fastdds-3.6");
+  profile.version.type_lookup = Whether::no;
+  const std::string xml = write("fastdds-3.6", profile);
+  EXPECT_NE(xml.find("<value>registration_only</value>"), std::string::npos) << xml;
+  EXPECT_EQ(read_back("fastdds-3.6", xml), profile) << xml;
+}
+
+TEST(WriteXml, a_server_of_version_3_has_no_prefix) {
+  for (const std::string name : {"fastdds-2.14.5", "fastdds-3.2"}) {
+    DdsProfile profile = preset(name);
+    profile.discovery = Discovery::server;
+    const std::string xml = write(name, profile);
+    EXPECT_EQ(xml.find("RemoteServer") == std::string::npos, name == "fastdds-3.2") << xml;
+    EXPECT_NE(xml.find("<port>11811</port>"), std::string::npos) << xml;
+  }
+}
+
 TEST(WriteXml, another_way_to_discover_comes_back) {
   const auto with_way = [](Discovery way) {
     DdsProfile profile = preset("fastdds-2.14.5");
