@@ -89,12 +89,14 @@ Outcome run(DoctorArguments& arguments, Session& session) {
     answer.notes.push_back("stormproof: the recording is " + arguments.recorded);
   }
   if (arguments.xml.wanted()) {
-    if (report->advice.empty()) {
+    const std::string& best =
+        report->advice.empty() ? report->without_lookups : report->advice.front().xml;
+    if (best.empty()) {
       answer.notes.push_back(
           fmt::format("stormproof: {} is not written: there is no advice", arguments.xml.path()));
       arguments.xml.discard();
     } else {
-      arguments.xml.stream() << report->advice.front().xml;
+      arguments.xml.stream() << best;
     }
   }
   return answer;

@@ -173,6 +173,29 @@ std::optional<InputError> unknown_profile(const Request& request, const SpecPath
 
 }  // namespace
 
+std::string without_lookups(const std::vector<std::string>& profiles, const Report& report) {
+  const SpecPath specs = SpecPath::standard();
+  std::vector<std::string> names = report.presets.empty() ? profiles : report.presets;
+  const auto seen = version_in(report.products.front().version);
+  std::ranges::stable_partition(names,
+                                [&](const std::string& name) { return version_in(name) == seen; });
+  for (const std::string& name : names) {
+    const auto base = model::config::read_dds_profile(name, {}, specs);
+    const auto whose = vendor::vendor_of_preset(name);
+    if (!base || !whose || base->version.type_lookup == model::Whether::no) continue;
+    tune::Subject subject;
+    subject.preset = name;
+    subject.vendor = *whose;
+    subject.base = *base;
+    model::DdsProfile without = *base;
+    without.version.type_lookup = model::Whether::no;
+    auto xml =
+        tune::deployable(subject, without, "Advised by stormproof doctor for " + name, specs);
+    if (xml) return *std::move(xml);
+  }
+  return "";
+}
+
 std::optional<InputError> advise(const std::vector<std::string>& profiles, const Request& request,
                                  Report& report) {
   std::vector<std::string> candidates = report.presets.empty() ? profiles : report.presets;

@@ -14,6 +14,11 @@ namespace stormproof::doctor {
 /// Fills `presets`: which of `profiles` explain every message.
 void find_presets(const std::vector<std::string>& profiles, const Request& request, Report& report);
 
+/// The file with which participants of the captured version do not look up types; empty if it does
+/// not.
+[[nodiscard]] std::string without_lookups(const std::vector<std::string>& profiles,
+                                          const Report& report);
+
 /// Fills `basis` and `advice`, or `no_advice`.
 [[nodiscard]] std::optional<model::config::InputError> advise(
     const std::vector<std::string>& profiles, const Request& request, Report& report);

@@ -123,16 +123,19 @@ std::vector<Heard> who_heard_whom(const Conversation& conversation) {
   return heard;
 }
 
-/// What the capture shows of it: messages, and when the last descriptor was sent first.
+/// What the capture shows of it: messages, those that look up types among them; and when the last
+/// descriptor was sent first, or the last type was asked for or told, without which nothing
+/// matches.
 exact::Expense expense_of(const Report& report, bool is_incomplete) {
   std::int64_t last_start_ns = report.conversation.first_ns;
   for (const capture::Participant& one : report.conversation.topology.participants) {
     last_start_ns = std::max(last_start_ns, one.first_ns);
   }
-  const std::int64_t end_ns = report.counting.last_initial_ns.value_or(last_start_ns);
+  const std::int64_t end_ns = std::max(report.counting.last_initial_ns.value_or(last_start_ns),
+                                       report.counting.last_lookup_ns.value_or(last_start_ns));
   exact::Expense took;
   took.is_late = is_incomplete || end_ns - last_start_ns > exact::late.count();
-  took.messages = static_cast<double>(report.messages()) /
+  took.messages = static_cast<double>(report.messages() + report.counting.lookup_messages()) /
                   static_cast<double>(std::max<std::uint64_t>(report.failure_free.total(), 1));
   return took;
 }
@@ -150,6 +153,8 @@ void judge(Report& report) {
   if (topology.participants.size() < 2) {
     report.why_unknown = fmt::format("the capture shows {}; discovery takes two",
                                      report::plural(topology.participants.size(), "participant"));
+  } else if (!has_keys && !report.machines.empty()) {
+    report.health = Health::incomplete;
   } else if (!has_keys) {
     report.why_unknown =
         "the capture shows participants and none of their endpoints: it began when "
@@ -197,6 +202,9 @@ Report examine(const Conversation& conversation, std::int64_t until_ns) {
     report.completion_ns = *counting.last_initial_ns - conversation.first_ns;
   }
   report.has_server = conversation.topology.has_server();
+  report.lookups_prevail = counting.lookup_messages() > report.messages();
+  report.types = capture::unknown_types(conversation.topology);
+  report.machines = one_machines(conversation.topology);
   judge(report);
   report.causes = causes(conversation, counting, report.failure_free);
   report.heard = who_heard_whom(conversation);
@@ -213,6 +221,11 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
     report.no_advice = "nothing has to change";
   } else if (report.health == Health::unknown) {
     report.no_advice = report.why_unknown;
+  } else if (report.counting.required == 0) {
+    report.no_advice = "nothing can be predicted of hosts that send each other nothing";
+  } else if (report.lookups_prevail) {
+    report.without_lookups = without_lookups(profiles, report);
+    report.no_advice = "what prevails are lookups of types; capture again without them";
   } else if (report.has_server) {
     report.no_advice = "captures with a Discovery Server are not tuned yet; validate predicts them";
   } else if (request.advise) {

@@ -12,6 +12,7 @@
 
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
+#include "checker/evidence/capture/unknown_types.hpp"
 #include "checker/evidence/doctor/symptoms.hpp"
 #include "checker/presentation/document/document.hpp"
 #include "checker/presentation/json/schema_form.hpp"
@@ -33,7 +34,7 @@ struct Request {
 
 enum class Health : std::uint8_t {
   healthy,
-  storm,       ///< `exact::is_storm`, and nobody lacks a descriptor
+  storm,       ///< `exact::is_storm`, lookups included, and nobody lacks a descriptor
   incomplete,  ///< somebody lacks a descriptor
   unknown
 };
@@ -85,6 +86,10 @@ struct Report {
   Health health = Health::unknown;
   bool storm = false;      ///< `exact::is_storm`, whether it is complete or not
   bool amplified = false;  ///< `exact::is_amplified`: settings would help
+  /// Questions about types, answers and what they are acknowledged with are more than all else.
+  bool lookups_prevail = false;
+  capture::UnknownTypes types{};
+  std::vector<OneMachine> machines{};  ///< identities that several hosts have
   std::string why_unknown{};
   std::vector<Product> products{};     ///< that of the most participants first
   std::vector<std::string> presets{};  ///< that explain every message; may be empty
@@ -103,9 +108,13 @@ struct Report {
   std::optional<Basis> basis{};
   std::vector<Advice> advice{};  ///< the best first, at most three
   std::string no_advice{};       ///< why there is none; empty if there is
+  /// The vendor's file with which nobody looks up types, if lookups prevail; otherwise empty.
+  std::string without_lookups{};
   bool interrupted = false;
 
   [[nodiscard]] bool complete() const { return missing == 0 && counting.required > 0; }
+  /// A storm that would be none without them.
+  [[nodiscard]] bool lookup_storm() const { return storm && lookups_prevail; }
   /// What is held against the failure-free count.
   [[nodiscard]] std::uint64_t messages() const {
     return counting.counts.total() - later_announcements;

@@ -44,15 +44,30 @@ std::string completeness(const Report& report) {
          report::duration(model::Nanoseconds{*report.completion_ns});
 }
 
+/// "4,582 messages about types that participants do not know, beside "; empty if there are fewer
+/// than others.
+std::string lookups(const Report& report) {
+  if (!report.lookups_prevail) return "";
+  return fmt::format("{} messages about types that participants do not know, beside ",
+                     grouped(report.counting.lookup_messages()));
+}
+
 std::string answer(const Report& report) {
   const std::string sent = fmt::format("{} messages, {} what a discovery without failures needs",
                                        grouped(report.messages()), amplification(report));
   switch (report.health) {
     case Health::healthy:
-      return fmt::format("HEALTHY: {}, with {}.", completeness(report), sent);
+      return fmt::format("HEALTHY: {}, with {}{}.", completeness(report), lookups(report), sent);
     case Health::storm:
-      return fmt::format("STORM: {}; {}.", sent, completeness(report));
+      return fmt::format("{}: {}{}; {}.", report.lookup_storm() ? "LOOKUP STORM" : "STORM",
+                         lookups(report), sent, completeness(report));
     case Health::incomplete:
+      if (report.counting.required == 0) {
+        return fmt::format(
+            "INCOMPLETE: nothing but announcements was sent, by {} with the identity of one "
+            "machine.",
+            plural(report.machines.front().hosts.size(), "host"));
+      }
       return fmt::format("INCOMPLETE{}: {}; {}.", report.storm ? ", and a storm" : "",
                          completeness(report), sent);
     case Health::unknown:
@@ -121,6 +136,10 @@ Table counts_table(const Report& report, const model::Counts* last_second = null
     add(words_of(one), [one](const model::Counts& counts) { return counts[one]; });
   }
   add("total", [](const model::Counts& counts) { return counts.total(); });
+  if (report.counting.lookup() > 0 && last_second == nullptr) {
+    table.rows.push_back({{"lookup (in no total)", grouped(report.counting.lookup()),
+                           grouped(report.types.lookups), ""}});
+  }
   return table;
 }
 
@@ -160,8 +179,20 @@ Section why(const Report& report) {
 
 Section what_to_change(const Report& report) {
   Section section{"What to change", "advice"};
+  if (!report.without_lookups.empty()) {
+    section.blocks.emplace_back(report::Paragraph{fmt::format(
+        "Let nobody ask for types: give every participant the property fastdds.type_propagation "
+        "with the value registration_only. Then {} of {} messages are not sent, and endpoints "
+        "match "
+        "as soon as they are known. Programs that learn types from the network no longer can.",
+        grouped(report.counting.lookup_messages()),
+        grouped(report.messages() + report.counting.lookup_messages()))});
+    section.blocks.emplace_back(report::Listing{report.without_lookups, "xml"});
+  }
   if (report.advice.empty()) {
-    section.blocks.emplace_back(report::Paragraph{"No advice: " + report.no_advice + "."});
+    section.blocks.emplace_back(
+        report::Paragraph{(report.without_lookups.empty() ? "No advice: " : "No other advice: ") +
+                          report.no_advice + "."});
     return section;
   }
   Table table{{{"", to_the_right},

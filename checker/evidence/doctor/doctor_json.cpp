@@ -56,7 +56,24 @@ void describe(V& v, const Basis& basis) {
   v("message_ratio", basis.message_ratio);
 }
 
+template <class V>
+void describe(V& v, const OneMachine& machine) {
+  v("machine_id", machine.identity);
+  v("on_hosts", machine.hosts);
+}
+
 namespace {
+
+struct UnknownTypes {
+  const capture::UnknownTypes& types;
+};
+
+template <class V>
+void describe(V& v, const UnknownTypes& unknown) {
+  v("can_be_looked_up", unknown.types.can_be_looked_up);
+  v("most_of_a_participant", unknown.types.most_of_a_participant);
+  v("lookup_due", unknown.types.lookups);
+}
 
 struct Missing {
   const Report& report;
@@ -88,14 +105,20 @@ void describe(V& v, const Report& report) {
   v("known_before", report.known_before);
   v("completion_ns", report.completion_ns);
   v("storm", report.storm);
+  v("lookup_storm", report.lookup_storm());
   v("counts", report.counting.counts);
   v("failure_free", report.failure_free);
   v("later_announcements", report.later_announcements);
+  v("lookup", report.counting.lookup());
+  v("lookups", capture::Lookups{report.counting});
+  v("unknown_types", UnknownTypes{report.types});
+  v("same_machine", report.machines);
   v("causes", report.causes);
   v("heard", report.heard);
   v("prediction", report.basis);
   v("advice", report.advice);
   v.or_null("no_advice", report.no_advice);
+  v.or_null("without_lookups_xml", report.without_lookups);
 }
 
 nlohmann::ordered_json to_json(const Report& report) { return report::json_of(report); }

@@ -115,6 +115,68 @@ TEST(Doctor, AdvisesFilesThatShortenDiscovery) {
   }
 }
 
+/// Two participants, each with twelve types that the other one does not have.
+TEST(Doctor, SaysThatLookupsPrevailAndHowToSwitchThemOff) {
+  const auto conversation = shipped("fastdds-3/fastdds362_ap150_simple_xtypes_unknown_np1_ne2_r1");
+  const Report report = diagnosed(conversation, true);
+  EXPECT_EQ(report.health, Health::healthy) << "over after 145 ms";
+  EXPECT_TRUE(report.lookups_prevail);
+  EXPECT_FALSE(report.lookup_storm());
+  EXPECT_TRUE(report.types.can_be_looked_up);
+  EXPECT_EQ(report.types.most_of_a_participant, 12U);
+  // 4 N (N - 1) U N_P
+  EXPECT_EQ(report.types.lookups, 4U * 2 * 1 * 12 * 1);
+  EXPECT_EQ(report.counting.lookup(), report.types.lookups);
+  ASSERT_NE(find(report, "type_lookups"), nullptr);
+  EXPECT_EQ(find(report, "type_lookups")->messages, 104U);
+}
+
+/// The same twenty times as slow is a storm, which it would not be without lookups.
+TEST(Doctor, NamesALookupStorm) {
+  auto conversation = shipped("fastdds-3/fastdds362_ap150_simple_xtypes_unknown_np1_ne2_r1");
+  const auto slow = [first = conversation.first_ns](std::int64_t& time_ns) {
+    time_ns = first + (time_ns - first) * 20;
+  };
+  for (capture::Event& event : conversation.events) slow(event.time_ns);
+  for (capture::DatagramRecord& one : conversation.datagrams) slow(one.time_ns);
+  slow(conversation.last_ns);
+  const Report report = diagnosed(conversation, true);
+  EXPECT_EQ(report.health, Health::storm);
+  EXPECT_TRUE(report.lookup_storm());
+  EXPECT_EQ(report.causes.front().id, "type_lookups");
+  EXPECT_NE(report.without_lookups.find("<value>registration_only</value>"), std::string::npos)
+      << report.without_lookups;
+  Request request;
+  const std::string page = report::to_text(document_of(report, request));
+  EXPECT_NE(page.find("LOOKUP STORM"), std::string::npos) << page;
+  std::erase_if(conversation.events, [](const capture::Event& event) {
+    return event.traffic() == capture::Traffic::type_lookup;
+  });
+  EXPECT_FALSE(diagnosed(conversation).storm);
+}
+
+TEST(Doctor, TypesThatAllKnowAreNoStorm) {
+  const auto conversation = shipped("fastdds-3/fastdds362_ap150_simple_xtypes_np3_ne20_r2");
+  const Report report = diagnosed(conversation);
+  EXPECT_EQ(report.health, Health::healthy);
+  EXPECT_FALSE(report.lookups_prevail);
+  EXPECT_EQ(report.types.lookups, 0U);
+  EXPECT_GT(report.counting.lookup(), 0U) << "asked for before they were known";
+}
+
+TEST(Doctor, SeesThatHostsSayTheyAreOneMachine) {
+  const auto conversation = shipped("fastdds-3/fastdds362_same_machine_id_np2_ne10_r0");
+  const Report report = diagnosed(conversation, true);
+  EXPECT_EQ(report.health, Health::incomplete);
+  ASSERT_EQ(report.machines.size(), 1U);
+  EXPECT_EQ(report.machines.front().identity, "3d1219c7c4c5404aaa1f6d2a48adfda4");
+  EXPECT_EQ(report.machines.front().hosts, (std::set<std::size_t>{0, 1}));
+  ASSERT_NE(find(report, "same_machine_id"), nullptr);
+  EXPECT_NE(find(report, "same_machine_id")->sentence.find("10.88.0.1, 10.88.0.2"),
+            std::string::npos);
+  EXPECT_TRUE(diagnosed(shipped("fastdds-3/fastdds362_ap150_simple_np1_ne2_r0")).machines.empty());
+}
+
 /// The events of `conversation` from `first` to `last`.
 capture::Conversation cut(capture::Conversation conversation, std::int64_t from_ns,
                           std::int64_t to_ns) {
