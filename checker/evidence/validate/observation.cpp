@@ -49,17 +49,21 @@ std::uint64_t pulled(const Conversation& conversation, const Counting& counting)
   return count;
 }
 
-/// HEARTBEATs and ACKNACKs of liveliness and user endpoints across hosts. Nothing if the capture
-/// has none at all: then it was filtered, because every pair of participants has some.
+/// HEARTBEATs and ACKNACKs of liveliness, user endpoints and what looks up types, across hosts.
+/// Nothing if the capture has none at all of the first two: then it was filtered, because every
+/// pair of participants has some.
 std::optional<double> control_messages(const Conversation& conversation, std::int64_t until_ns) {
   std::uint64_t all = 0;
   std::uint64_t across = 0;
   for (const capture::Event& event : conversation.events) {
     if (event.time_ns > until_ns) break;
     const capture::Traffic traffic = event.traffic();
-    if (traffic != capture::Traffic::liveliness && traffic != capture::Traffic::user) continue;
+    const bool looks_up = traffic == capture::Traffic::type_lookup;
+    if (!looks_up && traffic != capture::Traffic::liveliness && traffic != capture::Traffic::user) {
+      continue;
+    }
     if (event.heartbeat() == nullptr && event.acknack() == nullptr) continue;
-    ++all;
+    if (!looks_up) ++all;
     if (!event.is_same_host) ++across;
   }
   if (all == 0) return std::nullopt;
