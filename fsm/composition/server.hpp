@@ -161,7 +161,7 @@ struct TakePacket : Procedure {
 struct RelayedDataArrives : Rule<Received<RelayedData>> {
   template <class W>
   static void run(W& w) {
-    w.when(w(TellsOfServer{}) && !w(LearnerOpen{}), [&] {
+    w.when(w(KnownByLocator{}) && w(TellsOfServer{}) && !w(LearnerOpen{}), [&] {
       w.raise(LearnerOpens{});
       w.reverse([](auto& client) {
         client.emit(RegistrationHeartbeat{}, says());

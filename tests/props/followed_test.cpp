@@ -105,6 +105,8 @@ TEST(Followed, AServerThatDoesOtherwiseIsNoticed) {
       {"everybody learns everything",
        [](Scenario& s) { s.dds.discovery = model::Discovery::super_client; }},
       {"each change is relayed once", [](Scenario& s) { s.dds.server.relay = model::Relay::once; }},
+      {"clients do not know who the server is",
+       [](Scenario& s) { s.dds.server.known = model::ServerKnown::locator; }},
       {"sending costs nothing",
        [](Scenario& s) { s.deployment.send_cost = model::Nanoseconds{0}; }},
       {"the routine runs more often",

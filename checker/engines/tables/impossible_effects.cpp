@@ -1,7 +1,12 @@
 // Effects whose marks never change under the profile, and why.
 #include "checker/engines/tables/impossible_effects.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "checker/engines/smt/claims.hpp"
+#include "checker/engines/tables/excluded_effects.hpp"
 #include "checker/engines/tables/ruled_out.hpp"
 #include "model/composition_of.hpp"
 #include "model/implementations.hpp"
@@ -14,7 +19,9 @@ std::vector<ImpossibleEffects> impossible_effects(const model::DdsProfile& dds) 
     // Fast DDS.
     model::DdsProfile simple = dds;
     simple.discovery = model::Discovery::simple;
-    return impossible_effects(simple);
+    std::vector<ImpossibleEffects> all = impossible_effects(simple);
+    std::ranges::move(excluded_effects(dds), std::back_inserter(all));
+    return all;
   }
   // Engines do not execute the rules of Cyclone DDS.
   if (model::traits_of(dds).writer == model::Writer::of_cyclone) return {};

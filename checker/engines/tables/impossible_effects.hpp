@@ -14,8 +14,9 @@ struct ImpossibleEffects {
   std::vector<std::string> effects;  ///< their ids
 };
 
-/// Only what is proved, by every solver that there is: an effect that is in no group may be
-/// impossible all the same. If they do not agree or have no answer, nothing is said of any effect.
+/// Only what is proved, by every solver that there is, or what a server adds and a condition of the
+/// profile alone excludes: an effect that is in no group may be impossible all the same. If they do
+/// not agree or have no answer, nothing is said of any effect.
 [[nodiscard]] std::vector<ImpossibleEffects> impossible_effects(const model::DdsProfile& dds);
 
 }  // namespace stormproof::tables

@@ -1,7 +1,8 @@
 // Random deployments and channels with the knobs of the profile, until each effect has happened in
 // some run, through the machines themselves: a run in which it happens is a proof that it can. What
-// none of them shows is looked for with other knobs. If it happens there, the rule is not dead, and
-// that the knobs of the profile rule the effect out is as much as runs can say: sampled.
+// a knob of the profile excludes is named, and not looked for with it. What no run shows is looked
+// for with other knobs. If it happens there, the rule is not dead; that the knobs of the profile
+// rule the effect out, unless one excludes it, is as much as runs can say: sampled.
 #include "checker/engines/tables/live_in_runs.hpp"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/engines/tables/excluded_effects.hpp"
 #include "checker/engines/tables/listed_effects.hpp"
 #include "checker/engines/tables/proof.hpp"
 #include "fsm/composition/composition_info.hpp"
@@ -100,6 +102,7 @@ model::Scenario drawn(std::uint64_t seed, const model::DdsProfile& dds) {
 /// The effects of a composition that have not happened, in the order of its page.
 class Missing {
  public:
+  Missing() = default;
   explicit Missing(const fsm::composition::CompositionInfo& composition) {
     for (const auto* list : {&composition.rules, &composition.procedures}) {
       for (const fsm::composition::RuleInfo& rule : *list) {
@@ -115,13 +118,22 @@ class Missing {
   }
   /// Without those that have happened, which are returned.
   std::string remove(const Happened& happened) {
+    Missing found;
+    return move_to(found, [&](const auto& effect) { return happened.keys.contains(effect.key); });
+  }
+  /// Those for which this holds are among the others instead; which are returned.
+  std::string move_to(Missing& others, auto&& is_one) {
     std::vector<std::string> ids;
     std::erase_if(left_, [&](const fsm::composition::EffectInfo* effect) {
-      const bool happens = happened.keys.contains(effect->key);
-      if (happens) ids.push_back(effect->id);
-      return happens;
+      const bool moves = is_one(*effect);
+      if (moves) others.left_.push_back(effect);
+      if (moves) ids.push_back(effect->id);
+      return moves;
     });
     return listed_effects(ids);
+  }
+  void add(const Missing& others) {
+    left_.insert(left_.end(), others.left_.begin(), others.left_.end());
   }
 
  private:
@@ -151,20 +163,39 @@ std::uint64_t look_for(Missing& missing, Proof& proof, bool with_own_knobs) {
   return runs;
 }
 
+/// Takes out what a knob of the profile excludes, and says so.
+Missing exclude(Missing& missing, Proof& proof) {
+  Missing excluded;
+  for (const ImpossibleEffects& group : excluded_effects(proof.scenario().dds)) {
+    const auto is_in_group = [&](const fsm::composition::EffectInfo& effect) {
+      return std::ranges::find(group.effects, effect.id) != group.effects.end();
+    };
+    const std::string ids = missing.move_to(excluded, is_in_group);
+    if (!ids.empty()) proof.detail(fmt::format("excluded by {}: {}", group.by, ids));
+  }
+  return excluded;
+}
+
 }  // namespace
 
 Finding live_in_runs(const checker::CheckRequest& request) {
   Proof proof{"composition.live", request};
   Missing missing{model::composition_of(proof.scenario().dds)};
   const std::size_t all = missing.count();
+  Missing excluded = exclude(missing, proof);
+  const std::size_t possible = missing.count();
   const std::uint64_t runs = look_for(missing, proof, true);
-  const std::size_t ruled_out = missing.count();
-  if (ruled_out > 0) look_for(missing, proof, false);
+  const std::size_t silent = missing.count();
+  // What is excluded here has to happen somewhere else, or nobody would execute it.
+  missing.add(excluded);
+  if (missing.count() > 0) look_for(missing, proof, false);
   if (missing.count() > 0) proof.give_up("no run shows " + missing.listed());
-  Finding finding = proof.finish(fmt::format(
-      "{} effects: {} happen in one of {} runs with the knobs of this profile{}", all,
-      all - ruled_out, runs, ruled_out == 0 ? "" : ", the others in runs with other knobs only"));
-  const bool rests_on_silence = ruled_out > 0 && finding.kind == props::VerdictKind::proved;
+  Finding finding = proof.finish(
+      fmt::format("{} effects: {} happen in one of {} runs with the knobs of this profile{}{}", all,
+                  possible - silent, runs,
+                  possible == all ? "" : fmt::format(", {} are excluded by them", all - possible),
+                  silent == 0 ? "" : ", the others happen in runs with other knobs only"));
+  const bool rests_on_silence = silent > 0 && finding.kind == props::VerdictKind::proved;
   if (rests_on_silence) finding.kind = props::VerdictKind::sampled;
   return finding;
 }

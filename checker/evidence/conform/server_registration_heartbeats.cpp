@@ -3,11 +3,12 @@
 // server, or comes from a timer until the server has acknowledged. All ways to tell answers from
 // what the timer sent are followed at once.
 #include <algorithm>
-#include <functional>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "checker/evidence/conform/senders.hpp"
 #include "checker/evidence/conform/server.hpp"
 #include "checker/evidence/conform/timers.hpp"
 

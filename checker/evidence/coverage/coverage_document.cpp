@@ -115,14 +115,14 @@ constexpr const char* effect_words =
 
 Section section_of(const ProfileStudy& profile, const Heading& heading,
                    const std::string& baseline) {
-  std::string runs = "one run each";
+  std::string how = "one run each";
   if (heading.times == Times::own) {
-    runs = "each run with the times of its own processes";
+    how = "each run with the times of its own processes";
   } else if (profile.sampled) {
-    runs = fmt::format("{} schedules each, from seed {}", heading.samples, heading.first_seed);
+    how = fmt::format("{} schedules each, from seed {}", heading.samples, heading.first_seed);
   }
   Section section{fmt::format("{}{} on {}: {}", profile.name,
-                              profile.is_baseline ? " (baseline)" : "", heading.wireless, runs)};
+                              profile.is_baseline ? " (baseline)" : "", heading.wireless, how)};
   report::Bullets skipped;
   for (const auto& [difference, runs] : profile.skipped) {
     skipped.items.emplace_back(fmt::format("skipped: {} with {}, which this does not predict",

@@ -128,11 +128,14 @@ TEST(LiveOfCycloneDds, EachEffectHappensInARun) {
   EXPECT_NE(line(finding, "for the first time in run 1: "), "");
 }
 
-TEST(LiveOfCycloneDds, WhatHappensWithOtherKnobsOnlyIsNotProved) {
+/// It has to happen with other knobs.
+TEST(LiveOfCycloneDds, WhatAKnobExcludesIsNamed) {
   model::Scenario scenario = cyclone();
   scenario.dds.sedp.merge_queued_rexmit = model::MergeQueued::no;
   const Finding finding = decide("composition.live", scenario);
-  EXPECT_EQ(finding.kind, VerdictKind::sampled) << finding.how;
+  EXPECT_EQ(finding.kind, VerdictKind::proved) << finding.how;
+  EXPECT_EQ(line(finding, "excluded by "),
+            "excluded by dds.sedp.merge_queued_rexmit: false: RepeatListed.3");
   const std::string other = line(finding, "for the first time in run 2 with other knobs: ");
   EXPECT_TRUE(other.ends_with(": RepeatListed.3")) << other;
 }
@@ -146,14 +149,21 @@ TEST(LiveOfCycloneDds, WhatNoRunShowsIsNamed) {
 }
 
 TEST(LiveOfADiscoveryServer, EachEffectHappensInARun) {
+  using enum model::ServerKnown;
   for (const auto discovery : {model::Discovery::server, model::Discovery::super_client}) {
-    for (const auto relay : {model::Relay::repeat, model::Relay::once}) {
+    for (const auto& [relay, known] :
+         {std::pair{model::Relay::repeat, guid}, std::pair{model::Relay::once, guid},
+          std::pair{model::Relay::once, locator}}) {
       model::Scenario scenario = with_server();
       scenario.dds.discovery = discovery;
       scenario.dds.server.relay = relay;
+      scenario.dds.server.known = known;
       const Finding finding = decide("composition.live", scenario);
       EXPECT_EQ(finding.kind, VerdictKind::proved) << finding.how;
       EXPECT_NE(line(finding, "for the first time in run 1: "), "");
+      const bool by_guid = known == guid;
+      EXPECT_EQ(line(finding, "excluded by dds.server_known: guid: ") != "", by_guid);
+      EXPECT_EQ(line(finding, "excluded by dds.server_known: locator: ") != "", !by_guid);
     }
   }
 }

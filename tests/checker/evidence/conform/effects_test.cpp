@@ -250,6 +250,7 @@ model::Scenario drawn_with_server(std::uint64_t seed, bool losses) {
   if (seed % 3 == 0) scenario.dds.discovery = model::Discovery::super_client;
   if (seed % 4 == 0) scenario.dds.server.client_sync_period = model::Nanoseconds{40'000'000};
   if (seed % 5 == 0) scenario.dds.sedp.piggyback_threshold_bytes = model::Bytes{5'000};
+  if (seed % 7 == 0) scenario.dds.server.known = model::ServerKnown::locator;
   return scenario;
 }
 

@@ -118,6 +118,7 @@ void check_random(bool losses) {
   scenario.dds =
       of_server(*rc::gen::arbitrary<bool>() ? "fastdds-server-2.6.11" : "fastdds-server-2.14.5",
                 *rc::gen::arbitrary<bool>());
+  if (*rc::gen::arbitrary<bool>()) scenario.dds.server.known = model::ServerKnown::locator;
   for (model::Nanoseconds* period :
        {&scenario.dds.server.client_sync_period, &scenario.dds.server.server_routine_period}) {
     *period = model::Nanoseconds{*rc::gen::inRange<std::int64_t>(1, 13) * 40 * ms};
