@@ -89,14 +89,15 @@ Outcome run(DoctorArguments& arguments, Session& session) {
     answer.notes.push_back("stormproof: the recording is " + arguments.recorded);
   }
   if (arguments.xml.wanted()) {
-    const std::string& best =
-        report->advice.empty() ? report->without_lookups : report->advice.front().xml;
-    if (best.empty()) {
+    const doctor::Advice* best = !report->advice.empty()   ? &report->advice.front()
+                                 : report->without_lookups ? &*report->without_lookups
+                                                           : nullptr;
+    if (best == nullptr) {
       answer.notes.push_back(
           fmt::format("stormproof: {} is not written: there is no advice", arguments.xml.path()));
       arguments.xml.discard();
     } else {
-      arguments.xml.stream() << best;
+      arguments.xml.stream() << best->xml;
     }
   }
   return answer;

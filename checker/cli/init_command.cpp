@@ -19,7 +19,7 @@ namespace {
 struct InitArguments {
   init::System system;
   std::vector<std::string> captures;
-  std::optional<std::size_t> hosts, participants, endpoints;
+  std::optional<std::size_t> hosts, participants, endpoints, types;
   std::string ros, rmw;  ///< empty: not given
   bool from_environment = false;
   OutputFile file;
@@ -33,15 +33,18 @@ std::string ask(const std::string& question, const std::string& usual) {
   return line.empty() ? usual : line;
 }
 
-/// A whole number of at least 1, asked until it is one; the usual one at the end of the input.
-std::uint32_t ask_number(const std::string& question, std::uint32_t usual) {
+/// A whole number of at least `least`, asked until it is one; the usual one at the end of the
+/// input.
+std::uint32_t ask_number(const std::string& question, std::uint32_t usual,
+                         unsigned long least = 1) {
   for (;;) {
     const std::string line = ask(question, std::to_string(usual));
     char* end = nullptr;
     const unsigned long value = std::strtoul(line.c_str(), &end, 10);
-    if (*end == '\0' && value >= 1 && value <= 1'000'000) return static_cast<std::uint32_t>(value);
+    const bool is_number = *end == '\0' && !line.empty();
+    if (is_number && value >= least && value <= 1'000'000) return static_cast<std::uint32_t>(value);
     if (!std::cin) return usual;
-    mutter("expected a whole number of at least 1\n");
+    mutter(fmt::format("expected a whole number of at least {}\n", least));
   }
 }
 
@@ -59,6 +62,12 @@ void ask_all(init::System& system) {
   system.endpoints = ask_number("publishers and subscriptions of each?", system.endpoints);
   system.ros = ask("ROS 2 distribution?", system.ros);
   system.rmw = ask("fastrtps or cyclonedds?", system.rmw);
+  if (init::looks_up_types(system, model::config::SpecPath::standard())) {
+    system.unknown_types = ask_number(
+        "message types of a process that others do not have (its own messages, services, "
+        "actions)?",
+        init::usual_unknown_types, 0);
+  }
   system.wireless = ask("network (stormproof list wireless)?", system.wireless);
 }
 
@@ -87,6 +96,7 @@ Outcome run(InitArguments& arguments, Session& session) {
   if (arguments.participants)
     system.participants = static_cast<std::uint32_t>(*arguments.participants);
   if (arguments.endpoints) system.endpoints = static_cast<std::uint32_t>(*arguments.endpoints);
+  if (arguments.types) system.unknown_types = static_cast<std::uint32_t>(*arguments.types);
 
   model::config::Result<std::string> text{std::string{}};
   if (arguments.captures.empty()) {
@@ -118,6 +128,12 @@ void declare(Options& options, InitArguments& arguments) {
   options
       .number("--endpoints", arguments.endpoints,
               "Publishers and subscriptions of each process (default 20)", "N")
+      .within(0, 100'000);
+  options
+      .number("--unknown-types", arguments.types,
+              "Fast DDS 3: message types of a process that others do not have (default 14, as in "
+              "Nav2)",
+              "N")
       .within(0, 100'000);
   options.text("--ros", arguments.ros, "ROS 2 distribution (default humble)", "NAME");
   options.text("--rmw", arguments.rmw, "fastrtps (default) or cyclonedds", "RMW");

@@ -71,6 +71,9 @@ class Counter {
   }
 
   void add_lookup(const Event& event) {
+    if (event.data() != nullptr) {
+      ++(event.is_same_host ? counting_.same_host : counting_.counts).lookup;
+    }
     if (event.is_same_host) return;
     LookupFigures& figures = event.writer == entity::lookup_requests_writer
                                  ? counting_.lookup_requests

@@ -137,9 +137,7 @@ struct Counting {
   /// by event index, ascending: they are in no class.
   std::vector<std::size_t> of_server{};
 
-  /// DATA of questions about types and their answers, to each receiver.
-  [[nodiscard]] std::uint64_t lookup() const { return lookup_requests.data + lookup_replies.data; }
-  /// The same with HEARTBEATs, ACKNACKs and GAPs.
+  /// Questions about types and their answers, to each receiver, with HEARTBEATs, ACKNACKs and GAPs.
   [[nodiscard]] std::uint64_t lookup_messages() const {
     return lookup_requests.messages() + lookup_replies.messages();
   }

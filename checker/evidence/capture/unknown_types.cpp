@@ -35,9 +35,13 @@ UnknownTypes unknown_types(const Topology& topology) {
   std::vector<std::set<std::string>> types;
   for (const Participant& one : list) types.push_back(types_of(one));
   UnknownTypes found;
+  std::uint64_t for_one_each = 0;
   std::vector<std::set<std::pair<EntityId, std::string>>> asked(list.size());
   for (std::size_t owner = 0; owner < list.size(); ++owner) {
     std::set<std::string> alone;
+    for (std::size_t j = 0; j < list.size(); ++j) {
+      if (j != owner) for_one_each += 2 * (across(j) + across(owner));
+    }
     for (const auto& [stream, type] : looked_up(list[owner])) {
       found.can_be_looked_up = true;
       bool is_alone = true;
@@ -50,6 +54,10 @@ UnknownTypes unknown_types(const Topology& topology) {
       if (is_alone) alone.insert(type);
     }
     found.most_of_a_participant = std::max(found.most_of_a_participant, alone.size());
+  }
+  if (for_one_each > 0) {
+    found.per_participant =
+        static_cast<std::uint32_t>((found.lookups + for_one_each / 2) / for_one_each);
   }
   return found;
 }

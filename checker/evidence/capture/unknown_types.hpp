@@ -19,6 +19,8 @@ struct UnknownTypes {
   /// DATA of questions and answers across hosts, to each receiver, if everybody knows everybody
   /// before anybody asks.
   std::uint64_t lookups = 0;
+  /// So many types that nobody else has give as many lookups, if each participant has them.
+  std::uint32_t per_participant = 0;
 };
 
 [[nodiscard]] UnknownTypes unknown_types(const Topology& topology);

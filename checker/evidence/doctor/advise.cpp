@@ -173,7 +173,23 @@ std::optional<InputError> unknown_profile(const Request& request, const SpecPath
 
 }  // namespace
 
-std::string without_lookups(const std::vector<std::string>& profiles, const Report& report) {
+namespace {
+
+/// What one run of the model takes, lookups among its messages.
+Predicted run_of(const model::Scenario& scenario) {
+  const model::RunResult run = model::simulate(scenario);
+  Predicted predicted;
+  if (run.discovery_time) {
+    predicted.completion_ns = static_cast<double>(run.discovery_time->count());
+  }
+  predicted.messages = static_cast<double>(run.counts.total() + run.counts.lookup);
+  return predicted;
+}
+
+}  // namespace
+
+void switch_lookups_off(const std::vector<std::string>& profiles, const Request& request,
+                        Report& report) {
   const SpecPath specs = SpecPath::standard();
   std::vector<std::string> names = report.presets.empty() ? profiles : report.presets;
   const auto seen = version_in(report.products.front().version);
@@ -189,11 +205,19 @@ std::string without_lookups(const std::vector<std::string>& profiles, const Repo
     subject.base = *base;
     model::DdsProfile without = *base;
     without.version.type_lookup = model::Whether::no;
-    auto xml =
+    const auto xml =
         tune::deployable(subject, without, "Advised by stormproof doctor for " + name, specs);
-    if (xml) return *std::move(xml);
+    if (!xml) continue;
+    report.without_lookups =
+        Advice{"fastdds.type_propagation = registration_only", {}, {}, *xml, {}};
+    auto best = nearest({name}, request, report);
+    if (!best || !best->scenario.deployment.types) return;
+    report.basis = best->basis;
+    report.without_lookups->before = run_of(best->scenario);
+    best->scenario.dds.version.type_lookup = model::Whether::no;
+    report.without_lookups->after = run_of(best->scenario);
+    return;
   }
-  return "";
 }
 
 std::optional<InputError> advise(const std::vector<std::string>& profiles, const Request& request,

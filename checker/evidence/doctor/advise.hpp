@@ -14,10 +14,10 @@ namespace stormproof::doctor {
 /// Fills `presets`: which of `profiles` explain every message.
 void find_presets(const std::vector<std::string>& profiles, const Request& request, Report& report);
 
-/// The file with which participants of the captured version do not look up types; empty if it does
-/// not.
-[[nodiscard]] std::string without_lookups(const std::vector<std::string>& profiles,
-                                          const Report& report);
+/// Fills `without_lookups`, if participants of the captured version look up types, and `basis`, if
+/// the model predicts the capture.
+void switch_lookups_off(const std::vector<std::string>& profiles, const Request& request,
+                        Report& report);
 
 /// Fills `basis` and `advice`, or `no_advice`.
 [[nodiscard]] std::optional<model::config::InputError> advise(

@@ -224,7 +224,7 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
   } else if (report.counting.required == 0) {
     report.no_advice = "nothing can be predicted of hosts that send each other nothing";
   } else if (report.lookups_prevail) {
-    report.without_lookups = without_lookups(profiles, report);
+    if (request.advise) switch_lookups_off(profiles, request, report);
     report.no_advice = "what prevails are lookups of types; capture again without them";
   } else if (report.has_server) {
     report.no_advice = "captures with a Discovery Server are not tuned yet; validate predicts them";

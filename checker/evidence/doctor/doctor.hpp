@@ -108,8 +108,9 @@ struct Report {
   std::optional<Basis> basis{};
   std::vector<Advice> advice{};  ///< the best first, at most three
   std::string no_advice{};       ///< why there is none; empty if there is
-  /// The vendor's file with which nobody looks up types, if lookups prevail; otherwise empty.
-  std::string without_lookups{};
+  /// That nobody looks up types, if lookups prevail; figures only if the model predicts the
+  /// capture.
+  std::optional<Advice> without_lookups{};
   bool interrupted = false;
 
   [[nodiscard]] bool complete() const { return missing == 0 && counting.required > 0; }

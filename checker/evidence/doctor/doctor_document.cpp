@@ -136,8 +136,8 @@ Table counts_table(const Report& report, const model::Counts* last_second = null
     add(words_of(one), [one](const model::Counts& counts) { return counts[one]; });
   }
   add("total", [](const model::Counts& counts) { return counts.total(); });
-  if (report.counting.lookup() > 0 && last_second == nullptr) {
-    table.rows.push_back({{"lookup (in no total)", grouped(report.counting.lookup()),
+  if (report.counting.counts.lookup > 0 && last_second == nullptr) {
+    table.rows.push_back({{"lookup (in no total)", grouped(report.counting.counts.lookup),
                            grouped(report.types.lookups), ""}});
   }
   return table;
@@ -179,7 +179,8 @@ Section why(const Report& report) {
 
 Section what_to_change(const Report& report) {
   Section section{"What to change", "advice"};
-  if (!report.without_lookups.empty()) {
+  if (report.without_lookups) {
+    const Advice& without = *report.without_lookups;
     section.blocks.emplace_back(report::Paragraph{fmt::format(
         "Let nobody ask for types: give every participant the property fastdds.type_propagation "
         "with the value registration_only. Then {} of {} messages are not sent, and endpoints "
@@ -187,12 +188,19 @@ Section what_to_change(const Report& report) {
         "as soon as they are known. Programs that learn types from the network no longer can.",
         grouped(report.counting.lookup_messages()),
         grouped(report.messages() + report.counting.lookup_messages()))});
-    section.blocks.emplace_back(report::Listing{report.without_lookups, "xml"});
+    if (without.before.messages && without.after.messages) {
+      section.blocks.emplace_back(report::Paragraph{fmt::format(
+          "The model of this deployment discovers in {} with {} messages, lookups among them; "
+          "without "
+          "them in {} with {}.",
+          time_text(without.before.completion_ns), report::count_figure(without.before.messages),
+          time_text(without.after.completion_ns), report::count_figure(without.after.messages))});
+    }
+    section.blocks.emplace_back(report::Listing{without.xml, "xml"});
   }
   if (report.advice.empty()) {
-    section.blocks.emplace_back(
-        report::Paragraph{(report.without_lookups.empty() ? "No advice: " : "No other advice: ") +
-                          report.no_advice + "."});
+    section.blocks.emplace_back(report::Paragraph{
+        (report.without_lookups ? "No other advice: " : "No advice: ") + report.no_advice + "."});
     return section;
   }
   Table table{{{"", to_the_right},

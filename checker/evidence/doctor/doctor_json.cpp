@@ -109,7 +109,6 @@ void describe(V& v, const Report& report) {
   v("counts", report.counting.counts);
   v("failure_free", report.failure_free);
   v("later_announcements", report.later_announcements);
-  v("lookup", report.counting.lookup());
   v("lookups", capture::Lookups{report.counting});
   v("unknown_types", UnknownTypes{report.types});
   v("same_machine", report.machines);
@@ -118,7 +117,7 @@ void describe(V& v, const Report& report) {
   v("prediction", report.basis);
   v("advice", report.advice);
   v.or_null("no_advice", report.no_advice);
-  v.or_null("without_lookups_xml", report.without_lookups);
+  v("without_lookups", report.without_lookups);
 }
 
 nlohmann::ordered_json to_json(const Report& report) { return report::json_of(report); }

@@ -225,14 +225,14 @@ class Diagnosis {
   }
 
   void lookups() {
-    const std::uint64_t control = counting_.lookup_messages() - counting_.lookup();
+    const std::uint64_t control = counting_.lookup_messages() - counting_.counts.lookup;
     const std::uint64_t samples =
         counting_.lookup_requests.samples + counting_.lookup_replies.samples;
     std::string sentence = fmt::format(
         "{} copies of {} questions about types and answers, each to every participant, and {} "
         "HEARTBEATs, ACKNACKs and GAPs for them: who does not know the type of an endpoint asks "
         "before it matches.",
-        grouped(counting_.lookup()), grouped(samples), grouped(control));
+        grouped(counting_.counts.lookup), grouped(samples), grouped(control));
     const capture::UnknownTypes types = capture::unknown_types(conversation_.topology);
     if (types.most_of_a_participant > 0) {
       sentence += fmt::format(

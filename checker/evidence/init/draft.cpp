@@ -15,6 +15,8 @@
 #include "model/config/tree/suggestion.hpp"
 #include "model/config/tree/yaml_text.hpp"
 #include "model/config/vendor/reference.hpp"
+#include "model/fastdds/endpoints.hpp"
+#include "model/fastdds/types.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::init {
@@ -138,6 +140,24 @@ std::string schedule(const System& system, bool creates_over_time) {
       print_duration(launch + model::Nanoseconds{2 * creation}));
 }
 
+/// What participants ask for. No line where none asks, and none where the model has no answer: with
+/// a Discovery Server and with losses.
+std::string types(const System& system, const model::DdsProfile& dds) {
+  if (!model::fastdds::looks_up_types(dds) || model::traits_of(dds).has_server) return {};
+  model::Participant one{};
+  one.publications = system.endpoints;
+  const std::uint64_t most = model::fastdds::endpoints_with_own_types(one);
+  const bool is_given = system.unknown_types.has_value();
+  const std::uint64_t unknown =
+      is_given ? *system.unknown_types : std::min<std::uint64_t>(usual_unknown_types, most);
+  return fmt::format(
+      "  types: {{unknown_per_participant: {}}}  # {} message types of a process that another "
+      "lacks\n"
+      "                                    # and asks for; none: fastdds.type_propagation =\n"
+      "                                    # registration_only, which is dds.type_lookup=false\n",
+      unknown, is_given ? "given:" : "assumed, as in Nav2:");
+}
+
 std::string head(const System& system) {
   std::string text =
       "# Drafted by `stormproof init`. Change what is not so on your robots, then:\n"
@@ -149,6 +169,13 @@ std::string head(const System& system) {
 }
 
 }  // namespace
+
+bool looks_up_types(const System& system, const SpecPath& specs) {
+  const auto library = library_of(system, specs);
+  if (!library) return false;
+  const auto dds = model::config::read_dds_profile(library->dds, {}, specs);
+  return dds && model::fastdds::looks_up_types(*dds);
+}
 
 Result<std::string> draft(const System& system, const SpecPath& specs) {
   const auto library = library_of(system, specs);
@@ -167,15 +194,22 @@ Result<std::string> draft(const System& system, const SpecPath& specs) {
       system.hosts, system.participants, system.endpoints,
       system.dds.empty() ? "ROS 2 " + system.ros : system.dds, system.wireless, system.hosts,
       system.participants, system.endpoints);
-  text += schedule(system, over_time);
-  text += comment(library->why);
-  text += fmt::format("dds: {}\n", library->text);
-  text += fmt::format("wireless: {}        # `stormproof list wireless` shows all\n",
+  const std::string before = text;
+  text += types(system, *dds);
+  std::string rest = schedule(system, over_time);
+  rest += comment(library->why);
+  rest += fmt::format("dds: {}\n", library->text);
+  rest += fmt::format("wireless: {}        # `stormproof list wireless` shows all\n",
                       quoted_scalar(system.wireless));
-  text += "time_limit: 120s                    # a run that takes longer did not complete\n";
-  const auto read = model::config::parse_scenario(text, "init", {}, specs);
-  if (!read) return read.error();
-  return text;
+  rest += "time_limit: 120s                    # a run that takes longer did not complete\n";
+  const auto read = model::config::parse_scenario(text + rest, "init", {}, specs);
+  if (read) return text + rest;
+  if (system.unknown_types || text == before) return read.error();
+  const std::string without =
+      before +
+      comment("Lookups of types are left out: the model has none where packets are lost.") + rest;
+  if (model::config::parse_scenario(without, "init", {}, specs)) return without;
+  return read.error();
 }
 
 Result<std::string> draft_of_capture(const capture::Conversation& conversation,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,19 @@ struct System {
   std::string discovery{};       ///< of Fast DDS: "server", "super_client", "static"; empty: simple
   std::uint32_t peer_ports = 4;  ///< of each host, with "static"
   std::string wireless = "wifi-80211n";
+  /// Message types of a participant that another one does not have, where participants ask for
+  /// types (Fast DDS 3); nothing: `usual_unknown_types`.
+  std::optional<std::uint32_t> unknown_types{};
   std::vector<std::string> remarks{};  ///< written at the top, one line each
 };
+
+/// Of two processes of Nav2, so many types one has and the other has not, at the median of all
+/// pairs: counted in the sources of navigation2 1.5.1, by the topics, services and actions of the
+/// eleven processes that its launch files start (an action is five types, a service two).
+inline constexpr std::uint32_t usual_unknown_types = 14;
+
+/// Whether its participants ask for types that they do not know.
+[[nodiscard]] bool looks_up_types(const System& system, const model::config::SpecPath& specs);
 
 /// The scenario as text. Errors: an unknown distribution, RMW or profile; numbers that no scenario
 /// takes.

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/capture/unknown_types.hpp"
 #include "checker/evidence/validate/creation_times.hpp"
 #include "model/fastdds/endpoints.hpp"
 
@@ -214,6 +215,8 @@ model::config::Result<CapturedDeployment> captured_deployment(
     hosts.insert(one.host);
   }
   result.hosts = hosts.size();
+  const capture::UnknownTypes types = capture::unknown_types(conversation.topology);
+  if (types.can_be_looked_up) result.unknown_types = types.per_participant;
   const bool some_seen = std::ranges::any_of(result.participants, &CapturedParticipant::is_seen);
   if (!some_seen) {
     return InputError{names_of(conversation),

@@ -46,6 +46,8 @@ struct CapturedDeployment {
   std::vector<CapturedParticipant> participants{};  ///< in the order of the topology
   /// That of the Discovery Server, which is host 0 in a scenario.
   std::optional<std::size_t> server_host{};
+  /// If endpoints announce types that can be looked up: how many of each participant others lack.
+  std::optional<std::uint32_t> unknown_types{};
 };
 
 /// What was there until `until_ns`. An error if nobody announces itself by then, or all are on one

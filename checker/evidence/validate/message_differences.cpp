@@ -62,7 +62,9 @@ void Finder::submessages() {
   data(Traffic::user, "user-data", "user endpoints");
   if (mixes_submessages()) return;  // it has those of all built-in endpoints
   data(Traffic::liveliness, "liveliness-data", "liveliness");
-  data(Traffic::type_lookup, "lookups", "questions about types and answers");
+  if (!scenario_.deployment.types) {
+    data(Traffic::type_lookup, "lookups", "questions about types and answers");
+  }
   const capture::TrafficFigures& builtin = of(Traffic::other_builtin);
   const std::uint64_t messages = builtin.data + builtin.heartbeat + builtin.acknack + builtin.gap;
   add("other-builtin", messages,

@@ -12,6 +12,8 @@
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/yaml_text.hpp"
+#include "model/fastdds/endpoints.hpp"
+#include "model/fastdds/types.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::validate {
@@ -46,6 +48,17 @@ constexpr std::array<std::string_view, 4> how_hosts_are_linked{
     "deployment.access_points=", "deployment.wired_delay="};
 
 /// The profiles and overrides, around the captured participants.
+/// What participants look up, by a version that does, as far as the model has it.
+void take_types(const CapturedDeployment& deployment, model::Scenario& scenario) {
+  if (!deployment.unknown_types || !model::fastdds::looks_up_types(scenario.dds)) return;
+  std::uint64_t unknown = *deployment.unknown_types;
+  for (const model::Participant& one : scenario.deployment.participants) {
+    unknown = std::min(unknown, model::fastdds::endpoints_with_own_types(one));
+  }
+  scenario.deployment.types = model::EndpointTypes{static_cast<std::uint32_t>(unknown)};
+  if (!model::config::is_valid(scenario)) scenario.deployment.types.reset();  // losses, a server
+}
+
 Result<model::Scenario> scenario_of(const Request& request, const CapturedDeployment& deployment,
                                     std::int64_t time_limit_s) {
   for (const std::string& set : request.overrides) {
@@ -89,6 +102,7 @@ Result<model::Scenario> scenario_of(const Request& request, const CapturedDeploy
                                      "`discovery: server` or `super_client`"};
   }
   scenario->deployment.participants = model_participants(deployment, scenario->dds.descriptors);
+  take_types(deployment, *scenario);
   if (!model::config::is_valid(*scenario)) {
     return InputError{
         "capture",

@@ -130,9 +130,9 @@ Section messages(const Counting& counting) {
     of_server("ACKNACK(p)", counting.counts.pdp_acknack);
     of_server("GAP (in no total)", counting.counts.gap);
   }
-  if (counting.lookup() > 0) {
+  if (counting.counts.lookup > 0) {
     table.rows.push_back(
-        {{"lookup (in no total)", grouped(counting.lookup()),
+        {{"lookup (in no total)", grouped(counting.counts.lookup),
           grouped(counting.lookup_requests.data_bytes + counting.lookup_replies.data_bytes), ""}});
   }
   table.rows.push_back({{"total", grouped(counting.counts.total()), "", ""}});

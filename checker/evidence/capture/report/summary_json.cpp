@@ -194,7 +194,6 @@ void describe(V& v, const Summary& summary) {
   v("acknacks", counting.acknacks);
   v("multicast_sedp_data", counting.multicast_data);
   v("unknown_destination", counting.unknown_destination);
-  v("lookup", counting.lookup());
   v("lookups", Lookups{counting});
   v("traffic", AllTraffic{counting});
   v("sizes", AllSizes{counting});

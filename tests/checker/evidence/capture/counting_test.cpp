@@ -151,7 +151,7 @@ TEST(Counting, LookupsAreInAClassOfTheirOwnAndEachCopyCounts) {
   file.message(6, to_2, Message{prefix(1)}.acknack(replies, 2, 0, 0, true).descriptor(pub, 1));
   file.message(7, {at(2, 7410), at(2, 7412)}, Message{prefix(2)}.descriptor(requests, 1));
   const Counting counting = count_of(file);
-  EXPECT_EQ(counting.lookup(), 3U);
+  EXPECT_EQ(counting.counts.lookup, 3U);
   EXPECT_EQ(counting.lookup_requests.data, 2U);
   EXPECT_EQ(counting.lookup_requests.samples, 1U);
   EXPECT_EQ(counting.lookup_replies.data, 1U);
@@ -162,7 +162,7 @@ TEST(Counting, LookupsAreInAClassOfTheirOwnAndEachCopyCounts) {
   EXPECT_EQ(counting.last_lookup_ns, time_of(5));
   EXPECT_EQ(counting.counts.total(), 4U);  // three announcements and a descriptor
   EXPECT_EQ(counting.traffic[static_cast<std::size_t>(Traffic::other_builtin)].data, 0U);
-  EXPECT_EQ(count_of(file, time_of(3)).lookup(), 1U);
+  EXPECT_EQ(count_of(file, time_of(3)).counts.lookup, 1U);
 }
 
 TEST(Counting, AcknacksByWhatTheySay) {

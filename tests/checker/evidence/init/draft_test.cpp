@@ -65,5 +65,53 @@ TEST(Draft, OfACaptureHasItsParticipants) {
   EXPECT_NE(text->find("dds: 'fastdds-2.9.1'"), std::string::npos) << *text;
 }
 
+/// Fast DDS 3 asks for types; earlier versions and Cyclone DDS do not.
+TEST(Draft, SaysHowManyTypesOthersDoNotHave) {
+  const auto types = [](const System& system) {
+    const auto text = draft(system, specs());
+    EXPECT_TRUE(text) << to_string(text.error());
+    return scenario_of(*text).deployment.types;
+  };
+  System system;
+  EXPECT_FALSE(looks_up_types(system, specs()));
+  EXPECT_FALSE(types(system).has_value());
+  system.ros = "lyrical";
+  system.knows_ros = true;
+  ASSERT_TRUE(looks_up_types(system, specs()));
+  EXPECT_EQ(types(system), model::EndpointTypes{usual_unknown_types});
+  system.unknown_types = 3;
+  EXPECT_EQ(types(system), model::EndpointTypes{3});
+  system.unknown_types = 0;
+  EXPECT_EQ(types(system), model::EndpointTypes{0});
+  system.unknown_types.reset();
+  system.endpoints = 1;
+  EXPECT_EQ(types(system), model::EndpointTypes{13}) << "12 of services and its own";
+  system.unknown_types = 14;
+  EXPECT_FALSE(draft(system, specs()));
+  system.unknown_types.reset();
+  system.discovery = "server";
+  EXPECT_FALSE(types(system).has_value());
+  system.discovery.clear();
+  system.rmw = "cyclonedds";
+  EXPECT_FALSE(looks_up_types(system, specs()));
+}
+
+TEST(Draft, OfACaptureHasTheTypesThatItShows) {
+  const auto unknown =
+      conform::testing::shipped("fastdds-3/fastdds362_ap150_simple_xtypes_unknown_np1_ne2_r1");
+  const auto text = draft_of_capture(unknown, {});
+  ASSERT_TRUE(text) << to_string(text.error());
+  EXPECT_EQ(scenario_of(*text).deployment.types, model::EndpointTypes{12}) << *text;
+  const auto known =
+      conform::testing::shipped("fastdds-3/fastdds362_ap150_simple_xtypes_np3_ne20_r2");
+  const auto other = draft_of_capture(known, {});
+  ASSERT_TRUE(other) << to_string(other.error());
+  EXPECT_EQ(scenario_of(*other).deployment.types, model::EndpointTypes{0}) << *other;
+  const auto none = conform::testing::shipped("fastdds-3/fastdds362_ap150_simple_np1_ne2_r0");
+  const auto plain = draft_of_capture(none, {});
+  ASSERT_TRUE(plain) << to_string(plain.error());
+  EXPECT_FALSE(scenario_of(*plain).deployment.types.has_value()) << *plain;
+}
+
 }  // namespace draft_test
 }  // namespace stormproof::init
