@@ -137,8 +137,12 @@ std::string_view why_not_true(Premise premise, const model::Scenario& scenario) 
 }
 
 /// Rules of later versions of Fast DDS that nobody executes beside a run.
-std::string_view why_not_followed(const Property& property, const model::DdsProfile& dds) {
+std::string_view why_not_followed(const Property& property, const model::Scenario& scenario) {
   if (property.id != "composition.followed") return {};
+  if (scenario.deployment.types) {
+    return "what is executed beside a run knows every type (deployment.types)";
+  }
+  const model::DdsProfile& dds = scenario.dds;
   if (model::fastdds::looks_up_types(dds) || dds.version.max_data_per_message > 0) {
     return "what is executed beside a run has no endpoints that look up types (dds.type_lookup) "
            "and fills messages as far as they go (dds.max_data_per_message)";
@@ -155,7 +159,7 @@ std::string_view why_not(const Property& property, const model::Scenario& scenar
     return "it is stated for participants of Fast DDS that nobody forgets; with deployment.life "
            "only machines, network, results, what rules do, recovery and isolation are checked";
   }
-  why = why_not_followed(property, scenario.dds);
+  why = why_not_followed(property, scenario);
   if (!why.empty()) return why;
   why = why_not_needed(property.needs, scenario);
   return why.empty() ? why_not_true(property.counts_on, scenario) : why;
@@ -189,6 +193,9 @@ std::string_view why_not_provable(const Property& property, const model::Scenari
       scenario.dds.sedp.piggyback == model::Piggyback::group) {
     return "the engines that prove it know Fast DDS as it is in 2.6 to 2.14, without what later "
            "versions have (dds.match_order, dds.type_lookup, dds.sizes, sedp.piggyback: group, …)";
+  }
+  if (scenario.deployment.types) {
+    return "the engines that prove it know no types that are asked for (deployment.types)";
   }
   if (stalls(scenario)) return "the engines that prove it know no sender that stalls";
   if (scenario.hosts) return "the engines that prove it know no threads that are busy (hosts)";

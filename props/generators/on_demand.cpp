@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <string>
 
+#include "model/fastdds/types.hpp"
 #include "model/life.hpp"
 
 namespace stormproof::props {
@@ -130,6 +131,26 @@ void draw_version(Dice& dice, DdsProfile& dds) {
   version.statistics_bytes = Bytes{dice.among({0, 60, 60, 1'000})};
   version.max_data_per_message = dice.pick<std::uint32_t>({0, 31, 1, 2, dice.count(1, 12)});
   if (dice.chance(60)) dds.sedp.piggyback = Piggyback::group;
+}
+
+void draw_types(Dice& dice, Scenario& scenario) {
+  constexpr std::int64_t ms = 1'000'000;
+  std::uint64_t most = Deployment::max_endpoints;
+  for (const Participant& p : scenario.deployment.participants) {
+    most = std::min(most, fastdds::endpoints_with_own_types(p));
+  }
+  const auto all = static_cast<std::uint32_t>(most);
+  scenario.deployment.types =
+      EndpointTypes{dice.pick<std::uint32_t>({0, 1, 2, std::min(12U, all), dice.count(0, all)})};
+  VersionProfile& version = scenario.dds.version;
+  if (dice.chance(60)) version.type_lookup = Whether::yes;
+  version.typelookup_heartbeat_period = Nanoseconds{dice.among({350, 50, 10, 3}) * ms};
+  version.type_object_bytes = Bytes{dice.among({300, 300, 1'400, dice.between(1, 9'000)})};
+  scenario.dds.sedp.piggyback_threshold_bytes =
+      Bytes{dice.among({1'000, 3'000, 20'000, 106'496, 106'496})};
+  scenario.wireless.lost_packets.clear();
+  scenario.wireless.loss.reset();
+  scenario.time_limit = std::max(scenario.time_limit, Nanoseconds{3'000 * ms});
 }
 
 namespace {

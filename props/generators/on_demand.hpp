@@ -27,6 +27,9 @@ void draw_discovery(std::uint64_t seed, model::Discovery discovery, model::Scena
 
 /// What later versions of Fast DDS have.
 void draw_version(Dice& dice, model::DdsProfile& dds);
+/// Types of endpoints that participants mostly ask for; nothing is lost then. The profile must be
+/// one of Fast DDS without a server.
+void draw_types(Dice& dice, model::Scenario& scenario);
 
 /// Amended rules of the paper's model, whose profile the scenario must have: most are left as they
 /// are. And a life.

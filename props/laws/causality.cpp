@@ -138,8 +138,10 @@ class ReceptionWatch final : public Observer {
     const std::uint32_t subject = machine.subject;
     if (machine.kind == Kind::control_relation) {
       const bool acknack = event == "InitialAckNackReceived";
+      const bool rides = arrival.kind == PacketKind::lookup && !acknack;
       return arrival.control_relation == subject &&
-             arrival.kind == (acknack ? PacketKind::user_acknack : PacketKind::user_heartbeat);
+             (rides ||
+              arrival.kind == (acknack ? PacketKind::user_acknack : PacketKind::user_heartbeat));
     }
     if (machine.kind == Kind::writer) {  // a response to the adaptive policy
       return arrival.kind == PacketKind::acknack &&

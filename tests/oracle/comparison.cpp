@@ -35,6 +35,7 @@ void take_outcome(Observed& observed, const Outcome& o, std::int64_t user_contro
                       {"SPDP multicast", o.spdp_multicast},
                       {"SPDP unicast", o.spdp_unicast},
                       {"user control", user_control},
+                      {"lookups", 0},
                       {"DATA(p)", 0},
                       {"HEARTBEAT(p)", 0},
                       {"ACKNACK(p)", 0},
@@ -98,6 +99,7 @@ Observed observe_product(const model::Scenario& scenario, const model::Mutation*
                       {"SPDP multicast", number(c.spdp_multicast)},
                       {"SPDP unicast", number(c.spdp_unicast)},
                       {"user control", number(r.user_control)},
+                      {"lookups", number(c.lookup)},
                       {"DATA(p)", number(c.pdp_data)},
                       {"HEARTBEAT(p)", number(c.pdp_heartbeat)},
                       {"ACKNACK(p)", number(c.pdp_acknack)},
@@ -118,11 +120,12 @@ Observed observe_oracle(const model::Scenario& scenario, Mistake mistake,
 }
 
 namespace {
-/// With what is counted with a Discovery Server only.
+/// With what is counted with a Discovery Server or types only.
 void take_fastdds_outcome(Observed& observed, const FastddsOutcome& outcome) {
   take_outcome(observed, outcome, outcome.user_control);
   for (auto& [name, value] : observed.outcome) {
     const std::string_view key{name};
+    if (key == "lookups") value = outcome.lookup;
     if (key == "DATA(p)") value = outcome.pdp_data;
     if (key == "HEARTBEAT(p)") value = outcome.pdp_heartbeat;
     if (key == "ACKNACK(p)") value = outcome.pdp_acknack;

@@ -50,8 +50,15 @@ TEST(MutatedOracle, EveryMistakeOfTheFastddsOracleIsNoticed) {
 
 TEST(MutatedOracle, EveryMistakeAboutLaterVersionsIsNoticed) {
   JudgedRuns runs{varied_version_scenario, correct_product};
+  EXPECT_EQ(unnoticed<FastddsMistake>(runs, first_fastdds_mistake_of_lookups,
+                                      first_fastdds_mistake_of_versions),
+            std::vector<std::string>{});
+}
+
+TEST(MutatedOracle, EveryMistakeAboutLookupsIsNoticed) {
+  JudgedRuns runs{random_lookup_scenario, correct_product};
   EXPECT_EQ(
-      unnoticed<FastddsMistake>(runs, fastdds_mistake_count, first_fastdds_mistake_of_versions),
+      unnoticed<FastddsMistake>(runs, fastdds_mistake_count, first_fastdds_mistake_of_lookups),
       std::vector<std::string>{});
 }
 

@@ -35,5 +35,25 @@ TEST(RandomVersions, ProductAndOracleAgree) {
   EXPECT_GT(in_a_group, static_cast<int>(seeds / 20));
 }
 
+TEST(RandomVersions, ProductAndOracleAgreeOnLookups) {
+  int complete = 0;
+  int looked_up = 0;
+  int on_time = 0;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const model::Scenario scenario = random_lookup_scenario(seed);
+    const auto found = difference(scenario);
+    ASSERT_FALSE(found) << "seed " << seed << ": " << *found;
+    const FastddsOutcome outcome =
+        run_fastdds(scenario, {}, FastddsMistake::none, most_compared_events);
+    complete += outcome.completed ? 1 : 0;
+    looked_up += outcome.lookup > 0 ? 1 : 0;
+    on_time += outcome.completed && outcome.lookup > 0 ? 1 : 0;
+  }
+  std::cout << complete << " complete, " << looked_up << " with lookups, " << on_time
+            << " with both of " << seeds << '\n';
+  EXPECT_GT(looked_up, static_cast<int>(seeds / 2));
+  EXPECT_GT(on_time, static_cast<int>(seeds / 5));
+}
+
 }  // namespace random_versions_test
 }  // namespace stormproof::oracle

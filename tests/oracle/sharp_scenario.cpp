@@ -136,6 +136,16 @@ Scenario random_version_scenario(std::uint64_t seed) {
   return scenario;
 }
 
+Scenario random_lookup_scenario(std::uint64_t seed) {
+  Scenario scenario = random_fastdds_scenario(seed);
+  Dice dice{seed};
+  if (seed % 3 == 0) props::draw_discovery(seed, model::Discovery::static_peers, scenario);
+  if (dice.chance(70)) props::draw_version(dice, scenario.dds);
+  props::draw_types(dice, scenario);
+  if (dice.chance(30)) scenario.run_until = model::RunUntil::time_limit;
+  return scenario;
+}
+
 Scenario varied_version_scenario(std::uint64_t seed) {
   return varied(random_version_scenario(seed), seed);
 }

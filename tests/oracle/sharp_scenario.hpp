@@ -21,6 +21,8 @@ namespace stormproof::oracle {
 /// One with what later versions of Fast DDS have, every third one with another way to discover.
 [[nodiscard]] model::Scenario random_version_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_version_scenario(std::uint64_t seed);
+/// One without a server, whose endpoints have types.
+[[nodiscard]] model::Scenario random_lookup_scenario(std::uint64_t seed);
 /// One of clients or super clients of a Discovery Server.
 [[nodiscard]] model::Scenario varied_server_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_cyclone_scenario(std::uint64_t seed);

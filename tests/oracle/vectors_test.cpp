@@ -31,6 +31,7 @@ TEST_P(OracleVector, AgreesExactly) {
   switch (scenario.dds.implementation) {
     case model::ImplementationKind::fastdds: {
       const FastddsOutcome outcome = run_fastdds(scenario);
+      EXPECT_EQ(outcome.lookup, GetParam().lookup);
       return expect(GetParam(), outcome, outcome.user_control);
     }
     case model::ImplementationKind::cyclone: {

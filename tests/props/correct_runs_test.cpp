@@ -179,6 +179,10 @@ TEST_P(RandomRuns, OfLaterVersionsHaveTrueFindingsOnly) {
   });
 }
 
+TEST_P(RandomRuns, WithTypesHaveTrueFindingsOnly) {
+  each("types", short_runs(), oracle::random_lookup_scenario);
+}
+
 /// Two hosts; who is at no port that is asked is found if it hears of somebody who then answers.
 Scenario with_one_port(const std::string& participants) {
   return shipped("wifi-5x20-fastdds",

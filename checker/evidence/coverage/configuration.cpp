@@ -11,6 +11,7 @@
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/yaml_text.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::prediction {
@@ -110,17 +111,20 @@ model::config::Result<model::Scenario> with_channel(model::Scenario scenario,
 
 std::vector<Configuration> configurations(const std::vector<Observation>& rows) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::string, Channel,
-                         std::optional<std::uint32_t>>;
+                         std::optional<std::uint32_t>, std::optional<std::uint32_t>, bool>;
   std::map<Key, Configuration> found;
   for (const Observation& run : rows) {
-    Configuration& c = found[Key{run.participants_per_host, run.endpoints, run.hosts, run.set,
-                                 run.channel, run.peer_range}];
+    Configuration& c =
+        found[Key{run.participants_per_host, run.endpoints, run.hosts, run.set, run.channel,
+                  run.peer_range, run.unknown_types, run.looks_up_types}];
     c.set = run.set;
     c.hosts = run.hosts;
     c.participants_per_host = run.participants_per_host;
     c.endpoints = run.endpoints;
     c.channel = run.channel;
     c.peer_range = run.peer_range;
+    c.unknown_types = run.unknown_types;
+    c.looks_up_types = run.looks_up_types;
     c.runs.push_back(run);
   }
   std::vector<Configuration> result;
@@ -168,6 +172,14 @@ model::config::Result<model::Scenario> scenario_of(const Configuration& configur
   }
   if (configuration.peer_range && scenario->dds.discovery == model::Discovery::static_peers) {
     scenario->dds.peer_ports = *configuration.peer_range;
+  }
+  if (model::fastdds::looks_up_types(scenario->dds)) {
+    model::Deployment& deployment = scenario->deployment;
+    if (!configuration.looks_up_types) scenario->dds.version.type_lookup = model::Whether::no;
+    const bool has_types =
+        configuration.unknown_types && !model::traits_of(scenario->dds).has_server;
+    if (has_types && !deployment.types)
+      deployment.types = model::EndpointTypes{*configuration.unknown_types};
   }
   if (options.channel == ChannelSource::profile) return scenario;
   return with_channel(std::move(*scenario), configuration.channel);

@@ -18,7 +18,9 @@ struct Configuration {
   std::uint32_t participants_per_host = 0;  ///< N_P
   std::uint32_t endpoints = 0;              ///< N_E
   Channel channel;
-  std::optional<std::uint32_t> peer_range = {};  ///< ports of each host, of static peers
+  std::optional<std::uint32_t> peer_range = {};     ///< ports of each host, of static peers
+  std::optional<std::uint32_t> unknown_types = {};  ///< as in `Observation`
+  bool looks_up_types = true;
   std::vector<Observation> runs;
 
   [[nodiscard]] bool same_deployment(const Configuration& other) const {
@@ -56,8 +58,9 @@ struct ScenarioOptions {
 };
 
 /// The scenario of a configuration; with static peers, announcements go to as many ports as were
-/// measured. With `implementation: fastdds` it has a schedule to sample; the
-/// paper's participants all start at 0, unless an override gives them a schedule.
+/// measured, and of a profile whose participants look up types they know as many as they did. With
+/// `implementation: fastdds` it has a schedule to sample; the paper's participants all start at 0,
+/// unless an override gives them a schedule.
 [[nodiscard]] model::config::Result<model::Scenario> scenario_of(const Configuration& configuration,
                                                                  const ScenarioOptions& options);
 

@@ -173,6 +173,16 @@ void read_channel(Row& row, Channel& channel) {
   channel.send_buffer_bytes = row.number("sndbuf_B", 0, 1e12, "a size in bytes, 0 for the default");
 }
 
+/// What endpoints say of their types: nothing, types that all participants have, or also some that
+/// each has alone, as many as a node has requests and replies of services.
+void read_types(Row& row, Observation& run) {
+  constexpr std::uint32_t services = 12;
+  const std::uint32_t information =
+      row.has("type_information") ? row.count("type_information", 0, 2) : 0;
+  if (information > 0) run.unknown_types = information == 2 ? services : 0;
+  run.looks_up_types = row.text("type_propagation").value_or("enabled") == "enabled";
+}
+
 bool selected(const Json& json, const std::vector<std::string>& select) {
   for (const std::string& wanted : select) {
     const std::size_t equals = wanted.find('=');
@@ -192,6 +202,7 @@ Observation read_row(const Json& json, Row& row, const ReadOptions& options) {
   run.endpoints = row.count("N_E", 0, model::Deployment::max_endpoints);
   read_channel(row, run.channel);
   if (row.has("peer_range")) run.peer_range = row.count("peer_range", 1, 1'000);
+  read_types(row, run);
   read_counts(json, row, run);
   read_completion(json, row, options, run);
   run.start = row.range("start_ms");

@@ -53,6 +53,9 @@ struct Observation {
   std::uint32_t endpoints = 0;  ///< user endpoints per participant
   Channel channel;
   std::optional<std::uint32_t> peer_range;  ///< ports of each host, of static peers
+  /// Endpoints say their types, and so many of each participant have one of their own.
+  std::optional<std::uint32_t> unknown_types;
+  bool looks_up_types = true;  ///< type_propagation is absent or `enabled`
   bool completed = true;
   /// By measure; of a run that did not complete these are lower bounds, the time limit for
   /// `completion`.

@@ -61,6 +61,7 @@ TEST(Composition, HasADifferentIdForEachEffect) {
 const std::map<std::string, std::string>& empty_contracts() {
   static const std::map<std::string, std::string> steps{
       {"RefillBudget", "bytes of packets are the host's alone"},
+      {"RefillLookupBudget", "bytes of packets are the host's alone"},
       {"Flush ToAll", "what is sent is said where it joins the message"},
       {"Flush ToRequesters", "what is sent is said where it joins the message"},
       {"LetAnswerGo", "the queue of messages is no thing of the rules"},

@@ -11,6 +11,8 @@
 #include "model/implementations.hpp"
 #include "model/probe.hpp"
 #include "model/simulator.hpp"
+#include "props/generators/dice.hpp"
+#include "props/generators/on_demand.hpp"
 #include "tests/oracle/random_scenario.hpp"
 
 namespace stormproof::model {
@@ -34,6 +36,18 @@ class Effects : public Probe {
   std::set<EffectKey> seen;
 };
 
+/// With what the rules have for profiles and deployments that random scenarios have not.
+Scenario scenario_of(std::uint64_t seed, ImplementationKind kind) {
+  Scenario scenario = oracle::random_scenario(seed, kind);
+  if (seed % 4 == 0) scenario.dds.version.match_order = MatchOrder::builtin_first;
+  const ImplementationTraits& traits = traits_of(kind);
+  const bool has_types =
+      traits.has_control_relations && !traits.has_server && !traits.has_own_timers && seed % 4 == 1;
+  props::Dice dice{seed};
+  if (has_types) props::draw_types(dice, scenario);
+  return scenario;
+}
+
 class EveryEffect : public testing::TestWithParam<ImplementationKind> {};
 
 TEST_P(EveryEffect, HappensInSomeRunAndHasItsNameThere) {
@@ -46,8 +60,7 @@ TEST_P(EveryEffect, HappensInSomeRunAndHasItsNameThere) {
   EXPECT_EQ(known.size(), effects_listed) << "two effects have one key";
   Effects effects;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    Scenario scenario = oracle::random_scenario(seed, GetParam());
-    if (seed % 4 == 0) scenario.dds.version.match_order = MatchOrder::builtin_first;
+    const Scenario scenario = scenario_of(seed, GetParam());
     RunOptions options;
     options.probe = &effects;
     options.max_events = 20'000;
@@ -88,7 +101,7 @@ TEST_P(EveryEffect, CanBeWrong) {
   RunOptions options;
   options.max_events = 5'000;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    scenarios.push_back(oracle::random_scenario(seed, GetParam()));
+    scenarios.push_back(scenario_of(seed, GetParam()));
     correct.push_back(simulate(scenarios.back(), options));
   }
   std::size_t differ = 0;

@@ -1,0 +1,185 @@
+// Lookups of types where no vector tells what happens: what a closed reader drops, in which order
+// an answer lets descriptors go, what rides in a message that takes no more, and which types there
+// are.
+#include "model/fastdds/lookups.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "model/fastdds/protocol.hpp"
+#include "tests/model/fastdds/one_writer.hpp"
+#include "tests/model/run_log.hpp"
+
+namespace stormproof::model::fastdds {
+namespace lookups_test {
+
+Scenario with_types(Scenario scenario, std::uint32_t unknown) {
+  scenario.dds.version.type_lookup = Whether::yes;
+  scenario.deployment.types = EndpointTypes{unknown};
+  return scenario;
+}
+
+/// Of the pair (1, 0): liveliness, two topics, and then these.
+constexpr std::uint32_t questions_of_1 = 8;
+
+/// Packets are handed to participant 0, which has all its endpoints.
+class Asked : public testing::Test, private Probe {
+ protected:
+  Asked()
+      : run_{scenario_, this, nullptr, SameHostPairs::included},
+        network_{run_},
+        protocol_{run_, network_} {
+    network_.attach(protocol_);
+    for (std::uint32_t k = 0; k < 17; ++k) handle(EventKind::endpoint_creation, 0, k);
+  }
+
+  void recognise() {
+    Packet announcement;
+    announcement.kind = PacketKind::spdp_multicast;
+    announcement.pair = 1;
+    protocol_.received(announcement, 0);
+  }
+  void handle(EventKind kind, std::uint32_t subject, std::uint32_t detail = 0) {
+    Event event;
+    event.kind = kind;
+    event.subject = subject;
+    event.detail = detail;
+    protocol_.handle(event);
+  }
+  void receive(PacketKind kind, std::uint32_t samples, std::uint32_t last) {
+    Packet packet;
+    packet.kind = kind;
+    packet.pair = run_.topology.pair_between(1, 0);
+    packet.detail = questions_of_1;
+    packet.set_samples(samples, last);
+    protocol_.received(packet, 0);
+  }
+  /// What 0 acknowledges when its answer is due.
+  std::uint32_t acknowledged() {
+    acknowledged_ = UINT32_MAX;
+    handle(EventKind::control_reply_due, questions_of_1);
+    return acknowledged_;
+  }
+
+  void emitted(const Packet& packet, std::uint32_t, std::span<const std::uint32_t>) override {
+    if (packet.kind != PacketKind::user_acknack || packet.detail != questions_of_1) return;
+    acknowledged_ = packet.last_sample();
+  }
+
+  Scenario scenario_ = with_types(one_writer(), 1);
+  RunState run_;
+  Network network_;
+  Protocol protocol_;
+  std::uint32_t acknowledged_ = UINT32_MAX;
+};
+
+TEST_F(Asked, WhatAClosedReaderDropsIsGotWithTheNextHeartbeat) {
+  receive(PacketKind::lookup, 1, 1);  // nobody takes it, nor looks at it
+  recognise();
+  receive(PacketKind::user_heartbeat, 0, 0);
+  EXPECT_EQ(acknowledged(), 0U);
+  receive(PacketKind::user_heartbeat, 0, 1);
+  EXPECT_EQ(acknowledged(), 1U);
+  receive(PacketKind::user_heartbeat, 0, 0);  // an old one
+  EXPECT_EQ(acknowledged(), 1U);
+}
+
+/// Participant 1 creates its only user endpoints after it has asked for their types, and before it
+/// has the answer.
+Scenario late_user_endpoints() {
+  Scenario scenario = with_types(one_writer(), 0);
+  scenario.deployment = Deployment::homogeneous(2, 1, 2);
+  scenario.deployment.types = EndpointTypes{0};
+  scenario.deployment.participants[1].endpoints_done = Nanoseconds{8 * ms};
+  scenario.time_limit = Nanoseconds{20 * ms};
+  return scenario;
+}
+
+TEST(FastddsLookups, PublicationsAreNotifiedBeforeSubscriptions) {
+  const RunLog log = run_and_log(late_user_endpoints());
+  // User topic 0 of the pairs (0, 1) and (1, 0).
+  const auto place_of = [&](std::string_view opened) {
+    const auto found = std::ranges::find_if(
+        log.transitions, [&](const std::string& move) { return move.starts_with(opened); });
+    EXPECT_NE(found, log.transitions.end()) << opened;
+    return found - log.transitions.begin();
+  };
+  EXPECT_LT(place_of("ControlReader 3: Closed"), place_of("ControlWriter 9: Closed"));
+}
+
+TEST(FastddsLookups, AMessageThatTakesNoMoreGoesBeforeItsHeartbeat) {
+  Scenario scenario = late_user_endpoints();
+  scenario.dds.version.max_data_per_message = 1;
+  scenario.dds.sedp.piggyback = Piggyback::cumulative;
+  scenario.dds.sedp.piggyback_threshold_bytes = Bytes{0};
+  const RunLog log = run_and_log(scenario);
+  const auto first = std::ranges::find(log.sent, PacketKind::lookup, &Sent::kind);
+  ASSERT_NE(first, log.sent.end());
+  EXPECT_EQ(first->payload_bytes, 20 + 16 + 12 + 156);
+  const auto next = std::next(first);
+  EXPECT_EQ(next->kind, PacketKind::user_heartbeat);
+  EXPECT_EQ(next->time_ns, first->time_ns);
+  EXPECT_EQ(next->payload_bytes, 20 + 16 + 32);
+}
+
+TEST(FastddsLookups, AChainHasFourSamples) {
+  const RunLog log = run_and_log(late_user_endpoints());
+  std::vector<std::int64_t> bytes;
+  for (const Sent& sent : log.sent) {
+    if (sent.kind == PacketKind::lookup) bytes.push_back(sent.payload_bytes);
+  }
+  // One chain for each type that 1 lacks; those of one instant share a message.
+  ASSERT_GE(bytes.size(), 4U);
+  const std::int64_t chains = (bytes.front() - 36) / (12 + 156);
+  EXPECT_EQ(bytes.front(), 36 + chains * (12 + 156));
+  EXPECT_GT(log.result.counts.lookup, 0U);
+  EXPECT_EQ(log.result.counts.lookup % 4, 0U);
+}
+
+TEST(FastddsLookups, TypesAreCommonButForTheFirstOnesOfTheList) {
+  Deployment deployment = Deployment::homogeneous(2, 1, 5);
+  deployment.types = EndpointTypes{13};  // all of services, and the first user publication
+  const Types types{deployment};
+  EXPECT_EQ(types.of(0, Stream::pub, 0), types.of(1, Stream::sub, 0));
+  EXPECT_EQ(types.of(0, Stream::pub, 8), types.of(1, Stream::sub, 7));
+  EXPECT_EQ(types.of(0, Stream::pub, 1), types.of(1, Stream::pub, 1));
+  EXPECT_NE(types.of(0, Stream::pub, 0), types.of(0, Stream::pub, 1));
+  EXPECT_EQ(types.of(0, Stream::pub, 10), types.of(1, Stream::sub, 8));
+  std::set<std::uint32_t> own;
+  for (const std::uint32_t i : {0U, 1U}) {
+    for (std::uint32_t k = 0; k < 6; ++k) {
+      own.insert(types.of(i, Stream::sub, 1 + k));
+      own.insert(types.of(i, Stream::pub, 2 + k));
+    }
+    own.insert(types.of(i, Stream::pub, 9));
+  }
+  EXPECT_EQ(own.size(), 2 * 13U);
+  EXPECT_FALSE(own.contains(types.of(0, Stream::pub, 10)));
+  EXPECT_FALSE(own.contains(types.of(0, Stream::pub, 0)));
+}
+
+TEST(FastddsLookups, SwitchedOffEveryTypeIsKnown) {
+  Scenario scenario = late_user_endpoints();
+  scenario.dds.version.type_lookup = Whether::no;
+  scenario.deployment.types = EndpointTypes{12};
+  const RunResult result = simulate(scenario);
+  EXPECT_EQ(result.counts.lookup, 0U);
+  EXPECT_TRUE(result.completed());
+}
+
+TEST(FastddsLookups, WhatWaitsForItsTypeIsMissing) {
+  Scenario scenario = with_types(late_user_endpoints(), 1);
+  scenario.time_limit = Nanoseconds{6 * ms};  // everything has arrived at 1, no answer has
+  const RunResult result = simulate(scenario);
+  EXPECT_FALSE(result.completed());
+  const auto is_at_1 = [](const MissingDescriptor& missing) {
+    return missing.destination.value == 1 && missing.stream == Stream::sub &&
+           missing.descriptor.value == 1;
+  };
+  EXPECT_TRUE(std::ranges::any_of(result.missing, is_at_1));
+}
+
+}  // namespace lookups_test
+}  // namespace stormproof::model::fastdds
