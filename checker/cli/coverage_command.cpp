@@ -72,9 +72,9 @@ Outcome run(CoverageArguments& arguments, Session& session) {
   request.predict.on_progress = session.on_runs();
   const auto study = prediction::study(measured->rows, baseline->rows, request);
   if (!study) return study.error();
-  const prediction::Heading heading{
-      arguments.observations, measured->rows.size(),   measured->not_selected,    request.wireless,
-      request.times,          request.predict.samples, request.predict.first_seed};
+  const prediction::Heading heading{arguments.observations,  measured->rows.size(),
+                                    measured->not_selected,  request.wireless,
+                                    request.predict.samples, request.predict.first_seed};
   Answer answer{document_of(heading, *study), to_json(heading, *study)};
   answer.document.exit_code = study->interrupted ? inconclusive : established;
   if (!arguments.output.empty()) {
@@ -98,11 +98,6 @@ void declare_model(Options& options, prediction::StudyRequest& request) {
       "--channel", request.channel,
       {{"profile", prediction::ChannelSource::profile}, {"row", prediction::ChannelSource::row}},
       "profile (default): skip runs of other channels; row: each run's own channel", "SOURCE");
-  options.choice(
-      "--times", request.times,
-      {{"sampled", prediction::Times::sampled}, {"own", prediction::Times::own}},
-      "sampled (default): drawn from what was measured; own: each run with its processes' times",
-      "SOURCE");
 }
 
 void declare_rows(Options& options, CoverageArguments& arguments) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "checker/experiments/statistics/quantiles.hpp"
+#include "checker/experiments/trials/usual_hosts.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/yaml_text.hpp"
 #include "model/fastdds/endpoints.hpp"
@@ -28,14 +29,16 @@ constexpr double participant_in_endpoints = 34;
 /// Endpoints of a ROS 2 node beside the user's.
 constexpr double default_endpoints = 17;
 
-std::optional<Range> median_range(const std::vector<Observation>& runs,
+/// Medians of both ends, less what the last participant was to start later than the first.
+std::optional<Range> median_range(const Configuration& c,
                                   std::optional<Range> Observation::*field) {
+  const double spread = c.spread.planned(c.hosts - 1, c.hosts * c.participants_per_host - 1);
   std::vector<double> low;
   std::vector<double> high;
-  for (const Observation& run : runs) {
+  for (const Observation& run : c.runs) {
     if (!(run.*field)) continue;
     low.push_back((run.*field)->low);
-    high.push_back((run.*field)->high);
+    high.push_back(std::max((run.*field)->low, (run.*field)->high - spread));
   }
   if (low.empty()) return std::nullopt;
   return Range{statistics::median(low), statistics::median(high)};
@@ -49,9 +52,9 @@ ScheduleRanges cyclone_ranges(const Configuration& c) {
   const double participants = c.participants_per_host;
   const double done = 8 * participants + 0.4 * participants * (default_endpoints + c.endpoints);
   ScheduleRanges ranges;
-  ranges.start = median_range(c.runs, &Observation::start).value_or(Range{2, 4 * participants});
-  ranges.endpoints_done = median_range(c.runs, &Observation::endpoints_done)
-                              .value_or(Range{4, std::max(5.0, done - 15)});
+  ranges.start = median_range(c, &Observation::start).value_or(Range{2, 4 * participants});
+  ranges.endpoints_done =
+      median_range(c, &Observation::endpoints_done).value_or(Range{4, std::max(5.0, done - 15)});
   ranges.open_before = usual_open_before_ms;
   return ranges;
 }
@@ -80,6 +83,12 @@ std::string scenario_text(const Configuration& c, const ScenarioOptions& options
       "loopback_delay: 2ms{}}}, dds: {}, wireless: {}, time_limit: 200s}}",
       c.hosts, c.participants_per_host, c.endpoints, schedule,
       model::config::quoted_scalar(options.dds), model::config::quoted_scalar(options.wireless));
+}
+
+bool wants_schedule(const ScenarioOptions& options) {
+  return std::ranges::any_of(options.overrides, [](const std::string& set) {
+    return set.starts_with("deployment.schedule");
+  });
 }
 
 template <class Value>
@@ -111,12 +120,12 @@ model::config::Result<model::Scenario> with_channel(model::Scenario scenario,
 
 std::vector<Configuration> configurations(const std::vector<Observation>& rows) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::string, Channel,
-                         std::optional<std::uint32_t>, std::optional<std::uint32_t>, bool>;
+                         std::optional<std::uint32_t>, Spread, std::optional<std::uint32_t>, bool>;
   std::map<Key, Configuration> found;
   for (const Observation& run : rows) {
     Configuration& c =
         found[Key{run.participants_per_host, run.endpoints, run.hosts, run.set, run.channel,
-                  run.peer_range, run.unknown_types, run.looks_up_types}];
+                  run.peer_range, run.spread, run.unknown_types, run.looks_up_types}];
     c.set = run.set;
     c.hosts = run.hosts;
     c.participants_per_host = run.participants_per_host;
@@ -125,6 +134,7 @@ std::vector<Configuration> configurations(const std::vector<Observation>& rows) 
     c.peer_range = run.peer_range;
     c.unknown_types = run.unknown_types;
     c.looks_up_types = run.looks_up_types;
+    c.spread = run.spread;
     c.runs.push_back(run);
   }
   std::vector<Configuration> result;
@@ -132,41 +142,66 @@ std::vector<Configuration> configurations(const std::vector<Observation>& rows) 
   return result;
 }
 
+std::optional<double> Configuration::limit() const {
+  double longest = 0;
+  for (const Observation& run : runs) {
+    if (!run.completed) longest = std::max(longest, *run.values[0]);
+  }
+  return longest > 0 ? std::optional{longest} : std::nullopt;
+}
+
 ScheduleRanges schedule_ranges(const Configuration& c, model::Writer writer) {
   if (writer == model::Writer::of_cyclone) return cyclone_ranges(c);
   const double endpoints = default_endpoints + c.endpoints;
   ScheduleRanges ranges;
-  ranges.endpoints_done = median_range(c.runs, &Observation::endpoints_done)
+  ranges.endpoints_done = median_range(c, &Observation::endpoints_done)
                               .value_or(usual_endpoints_done(c.participants_per_host, endpoints));
-  if (const auto measured = median_range(c.runs, &Observation::start)) {
+  if (const auto measured = median_range(c, &Observation::start)) {
     ranges.start = *measured;
     return ranges;
   }
-  const Range create = median_range(c.runs, &Observation::create).value_or(Range{});
+  const Range create = median_range(c, &Observation::create).value_or(Range{});
   const double creation_share = participant_in_endpoints / (participant_in_endpoints + endpoints);
   ranges.start.low = create.low + least_announcement_ms;
   ranges.start.high = std::max(ranges.start.low, ranges.endpoints_done.high * creation_share);
   return ranges;
 }
 
+StartTimes start_times(const Configuration& configuration, const model::Scenario& scenario,
+                       const ScenarioOptions& options) {
+  std::vector<std::vector<Times>> measured;
+  const bool start_matters = model::traits_of(scenario.dds).creates_endpoints_over_time ||
+                             configuration.spread.step_ms > 0;
+  if (start_matters && !wants_schedule(options)) {
+    for (const Observation& run : configuration.runs) {
+      if (run.participants.size() != scenario.deployment.size()) continue;
+      measured.push_back(run.participants);
+    }
+  }
+  return {configuration.spread, std::move(measured)};
+}
+
 model::config::Result<model::Scenario> scenario_of(const Configuration& configuration,
                                                    const ScenarioOptions& options) {
   const auto specs = model::config::SpecPath::standard();
+  std::vector<std::string> overrides = options.overrides;
   const auto read = [&](const std::string& schedule) {
     return model::config::parse_scenario(scenario_text(configuration, options, schedule),
-                                         "coverage", options.overrides, specs);
+                                         "coverage", overrides, specs);
   };
   const model::Writer usual = model::Writer::stateful;
   auto scenario = read(schedule_text(schedule_ranges(configuration, usual)));
   if (!scenario) return scenario.error();
+  if (configuration.spread.step_ms > 0 && trials::lacks_hosts(*scenario)) {
+    overrides = trials::with_usual_hosts(std::move(overrides));
+    scenario = read(schedule_text(schedule_ranges(configuration, usual)));
+    if (!scenario) return scenario.error();
+  }
   if (const model::Writer writer = model::traits_of(scenario->dds).writer; writer != usual) {
     scenario = read(schedule_text(schedule_ranges(configuration, writer)));
     if (!scenario) return scenario.error();
   }
-  const bool schedule_wanted = std::ranges::any_of(options.overrides, [](const std::string& set) {
-    return set.starts_with("deployment.schedule");
-  });
-  if (!model::traits_of(scenario->dds).creates_endpoints_over_time && !schedule_wanted) {
+  if (!model::traits_of(scenario->dds).creates_endpoints_over_time && !wants_schedule(options)) {
     scenario = read("");
     if (!scenario) return scenario.error();
   }
@@ -181,23 +216,11 @@ model::config::Result<model::Scenario> scenario_of(const Configuration& configur
     if (has_types && !deployment.types)
       deployment.types = model::EndpointTypes{*configuration.unknown_types};
   }
+  if (const auto limit = configuration.limit()) {
+    scenario->time_limit = nanoseconds(*limit);
+  }
   if (options.channel == ChannelSource::profile) return scenario;
   return with_channel(std::move(*scenario), configuration.channel);
-}
-
-std::vector<model::Participant> with_own_times(std::vector<model::Participant> participants,
-                                               const Observation& run) {
-  const auto time = [](double ms) { return model::Nanoseconds{std::llround(ms * 1e6)}; };
-  std::vector<Process> left = run.processes;
-  if (left.size() != participants.size()) return {};
-  for (model::Participant& participant : participants) {
-    const auto one = std::ranges::find(left, participant.host.value, &Process::host);
-    if (one == left.end()) return {};
-    participant.start = time(one->start);
-    participant.endpoints_done = time(one->endpoints_done);
-    left.erase(one);
-  }
-  return participants;
 }
 
 std::string mismatch(const Configuration& configuration, const model::Scenario& scenario) {

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "checker/evidence/coverage/observation.hpp"
+#include "checker/evidence/coverage/start_times.hpp"
 #include "model/implementations.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::prediction {
 
-/// All runs of one set with the same numbers and the same channel.
+/// All runs of one set with the same numbers, the same channel and the same spread of starts.
 struct Configuration {
   std::string set;
   std::uint32_t hosts = 0;
@@ -21,15 +22,19 @@ struct Configuration {
   std::optional<std::uint32_t> peer_range = {};     ///< ports of each host, of static peers
   std::optional<std::uint32_t> unknown_types = {};  ///< as in `Observation`
   bool looks_up_types = true;
+  Spread spread = {};
   std::vector<Observation> runs;
 
   [[nodiscard]] bool same_deployment(const Configuration& other) const {
     return hosts == other.hosts && participants_per_host == other.participants_per_host &&
-           endpoints == other.endpoints;
+           endpoints == other.endpoints && spread == other.spread;
   }
+  /// The limit of runs that did not complete, the longest of them, in ms; nothing if all did, or
+  /// no limit is known.
+  [[nodiscard]] std::optional<double> limit() const;
 };
 
-/// In ascending order of N_P, N_E, hosts, set and channel; runs in the order of the file.
+/// In ascending order of N_P, N_E, hosts, set, channel and spread; runs in the order of the file.
 [[nodiscard]] std::vector<Configuration> configurations(const std::vector<Observation>& rows);
 
 /// Where the schedules of a configuration are drawn from, in ms. The rule, in
@@ -46,10 +51,6 @@ struct ScheduleRanges {
 /// Whose channel a prediction uses: the wireless profile's, or that of the row.
 enum class ChannelSource : std::uint8_t { profile, row };
 
-/// When the participants of a prediction start and have created their endpoints: within the ranges
-/// of the configuration, or when those of each run did.
-enum class Times : std::uint8_t { sampled, own };
-
 struct ScenarioOptions {
   std::string dds;                     ///< name or path of a profile
   std::string wireless;                ///< name or path of a profile
@@ -57,17 +58,20 @@ struct ScenarioOptions {
   ChannelSource channel = ChannelSource::profile;
 };
 
+/// When participants start in samples of the scenario of a configuration: as in the measured runs,
+/// if they say so and nobody asked for a schedule.
+[[nodiscard]] StartTimes start_times(const Configuration& configuration,
+                                     const model::Scenario& scenario,
+                                     const ScenarioOptions& options);
+
 /// The scenario of a configuration; with static peers, announcements go to as many ports as were
-/// measured, and of a profile whose participants look up types they know as many as they did. With
+/// measured, and of a profile whose participants look up types they know as many as they did. It
+/// ends at the limit of measured runs that did not complete, if there are any. With
 /// `implementation: fastdds` it has a schedule to sample; the paper's participants all start at 0,
-/// unless an override gives them a schedule.
+/// unless an override gives them a schedule. Where starts are spread, programs take the usual time
+/// (usual_hosts.hpp), unless an override says which.
 [[nodiscard]] model::config::Result<model::Scenario> scenario_of(const Configuration& configuration,
                                                                  const ScenarioOptions& options);
-
-/// Participants like these with the times of the run's processes; none if the run does not say
-/// them of as many processes on each host.
-[[nodiscard]] std::vector<model::Participant> with_own_times(
-    std::vector<model::Participant> participants, const Observation& run);
 
 /// In what the configuration differs from the scenario that should predict it ("loss 0.05", say);
 /// empty if in nothing.

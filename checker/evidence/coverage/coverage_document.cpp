@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "checker/evidence/coverage/report.hpp"
+#include "checker/experiments/trials/usual_hosts.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
@@ -76,8 +77,10 @@ void add_fits(report::Blocks& blocks, const ProfileStudy& profile) {
     }
     blocks.emplace_back(std::move(table));
     if (incomplete + incomplete_model == 0) continue;
-    blocks.emplace_back(Paragraph{fmt::format("{} measured and {} model runs did not complete",
-                                              incomplete, incomplete_model)});
+    blocks.emplace_back(Paragraph{fmt::format(
+        "{} measured and {} model runs did not complete; where one that was measured did not, the "
+        "model's end at its limit, too",
+        incomplete, incomplete_model)});
   }
 }
 
@@ -115,14 +118,22 @@ constexpr const char* effect_words =
 
 Section section_of(const ProfileStudy& profile, const Heading& heading,
                    const std::string& baseline) {
-  std::string how = "one run each";
-  if (heading.times == Times::own) {
-    how = "each run with the times of its own processes";
-  } else if (profile.sampled) {
-    how = fmt::format("{} schedules each, from seed {}", heading.samples, heading.first_seed);
+  Section section{fmt::format(
+      "{}{} on {}: {}", profile.name, profile.is_baseline ? " (baseline)" : "", heading.wireless,
+      profile.sampled
+          ? fmt::format("{} schedules each, from seed {}", heading.samples, heading.first_seed)
+          : "one run each")};
+  if (profile.measured_starts > 0) {
+    section.blocks.emplace_back(
+        Paragraph{fmt::format("participants start as they did in {}",
+                              report::plural(profile.measured_starts, "measured run"))});
   }
-  Section section{fmt::format("{}{} on {}: {}", profile.name,
-                              profile.is_baseline ? " (baseline)" : "", heading.wireless, how)};
+  if (profile.spread > 0) {
+    section.blocks.emplace_back(Paragraph{fmt::format(
+        "programs take processor time where starts are spread, in {}: {} unless --set hosts=… says "
+        "otherwise",
+        report::plural(profile.spread, "configuration"), trials::usual_hosts)});
+  }
   report::Bullets skipped;
   for (const auto& [difference, runs] : profile.skipped) {
     skipped.items.emplace_back(fmt::format("skipped: {} with {}, which this does not predict",

@@ -90,6 +90,8 @@ void describe(V& v, const Pairing& pairing) {
   v("N_H", measured.hosts);
   v("N_P", measured.participants_per_host);
   v("N_E", measured.endpoints);
+  v("step_ns", nanoseconds(measured.spread.step_ms));
+  v("limit_ns", measured.limit() ? std::optional{nanoseconds(*measured.limit())} : std::nullopt);
   v("runs", measured.runs.size());
   v("model_runs", pairing.predicted->values[0].size());
   v("observed_median", observed);
@@ -101,6 +103,7 @@ void describe(V& v, const ProfileStudy& profile) {
   v("profile_name", profile.name);
   v("baseline", profile.is_baseline);
   v("sampled", profile.sampled);
+  v("measured_starts", profile.measured_starts);
   v("skipped_runs", profile.skipped);
   v("configurations", profile.pairings());
   v.unless_empty("unmodelled", profile.dds.unmodelled);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -139,26 +140,44 @@ void read_completion(const Json& json, Row& row, const ReadOptions& options, Obs
       run.completed ? time : limit.value_or(0) * 1000;
 }
 
-/// When each of its processes announced itself, and the range of that if the row does not say it.
+/// When each of its processes announced itself and had its endpoints. When the first and the last
+/// one did the former is taken from here only if the row does not say it.
 void read_processes(const Json& json, Row& row, Observation& run) {
   if (!row.has("procs")) return;
   if (!json["procs"].is_array()) return row.fail("procs", "a list of objects, one of each process");
-  constexpr const char* expected = "a time in ms from 0 to 3600000";
   std::optional<Range> starts;
+  std::map<std::uint64_t, Times> known;           // by participant
+  std::map<std::uint64_t, std::uint64_t> seen{};  // by host: processes
   for (const Json& process : json["procs"]) {
     if (!process.is_object()) return row.fail("procs", "a list of objects, one of each process");
     Row fields{process};
-    const auto enabled = fields.number("enabled", 0, Row::max_ms, expected);
-    const auto done = fields.number("endpoints_done", enabled.value_or(0), Row::max_ms, expected);
-    const std::uint32_t host = fields.has("host") ? fields.count("host", 0, run.hosts - 1) : 0;
+    const auto enabled = fields.number("enabled", 0, Row::max_ms, "a time in ms from 0 to 3600000");
+    const auto done = fields.number("endpoints_done", enabled.value_or(0), Row::max_ms,
+                                    "a time in ms, up to 3600000 and not before enabled");
+    if (enabled && done && fields.has("host")) {
+      const std::uint64_t host = fields.count("host", 0, run.hosts - 1);
+      const std::uint64_t next = seen[host]++;
+      const std::uint64_t id =
+          fields.has("id") ? fields.count("id", 0, run.participants_per_host - 1) : next;
+      if (id >= run.participants_per_host) continue;  // more than there should be
+      known[host * run.participants_per_host + id] = {*enabled, *done};
+    }
     if (!fields.error().empty()) return row.fail("procs", "in it: " + fields.error());
     if (!enabled) continue;
     const Range all = starts.value_or(Range{*enabled, *enabled});
     starts = Range{std::min(all.low, *enabled), std::max(all.high, *enabled)};
-    if (done && fields.has("host")) run.processes.push_back({host, *enabled, *done});
   }
-  if (run.processes.size() != json["procs"].size()) run.processes.clear();
   if (!run.start) run.start = starts;
+  if (known.size() != std::uint64_t{run.hosts} * run.participants_per_host) return;
+  for (const auto& [participant, times] : known) run.participants.push_back(times);
+}
+
+void read_spread(Row& row, Spread& spread) {
+  spread.step_ms =
+      row.number("step_ms", 0, Row::max_ms, "a time in ms from 0 to 3600000").value_or(0);
+  const std::string by = row.text("step_by").value_or("process");
+  if (by != "process" && by != "host") row.fail("step_by", "process or host");
+  spread.by_host = spread.step_ms > 0 && by == "host";
 }
 
 void read_channel(Row& row, Channel& channel) {
@@ -208,6 +227,7 @@ Observation read_row(const Json& json, Row& row, const ReadOptions& options) {
   run.start = row.range("start_ms");
   run.create = row.range("create_ms");
   run.endpoints_done = row.range("ep_done_ms");
+  read_spread(row, run.spread);
   read_processes(json, row, run);
   return run;
 }

@@ -24,11 +24,23 @@ struct Range {
   double high = 0;
 };
 
-/// One process of a run, in ms since the common start.
-struct Process {
-  std::uint32_t host = 0;
-  double start = 0;           ///< it announces itself
-  double endpoints_done = 0;  ///< all its endpoints exist
+/// When one participant announced itself and had all its endpoints, in ms since the common start.
+struct Times {
+  double start = 0;
+  double endpoints_done = 0;
+};
+
+/// Starts that were meant to follow one another: `step_ms` after the process before, or after the
+/// host before, whose processes start together.
+struct Spread {
+  double step_ms = 0;
+  bool by_host = false;
+
+  /// When a participant was to start, in ms.
+  [[nodiscard]] double planned(std::uint32_t host, std::uint32_t participant) const {
+    return step_ms * (by_host ? host : participant);
+  }
+  auto operator<=>(const Spread&) const = default;
 };
 
 /// What a row says of its network. A field that is absent says nothing.
@@ -56,6 +68,7 @@ struct Observation {
   /// Endpoints say their types, and so many of each participant have one of their own.
   std::optional<std::uint32_t> unknown_types;
   bool looks_up_types = true;  ///< type_propagation is absent or `enabled`
+  Spread spread;
   bool completed = true;
   /// By measure; of a run that did not complete these are lower bounds, the time limit for
   /// `completion`.
@@ -63,7 +76,7 @@ struct Observation {
   std::optional<Range> start;           ///< start_ms, or `enabled` of procs: first announcements
   std::optional<Range> create;          ///< create_ms: creation of the participant begins
   std::optional<Range> endpoints_done;  ///< ep_done_ms: all endpoints of a participant exist
-  std::vector<Process> processes;       ///< of procs; empty unless each says host and both times
+  std::vector<Times> participants;      ///< of procs, host 0's first; empty unless all have both
 };
 
 enum class CompletionTime : std::uint8_t { app, strict };

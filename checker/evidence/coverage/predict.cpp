@@ -14,31 +14,21 @@ namespace {
 /// One run of one case.
 struct Job {
   std::size_t of_case = 0;
-  std::size_t run = 0;
+  std::size_t sample = 0;
 };
-
-model::Scenario scenario_of(const Case& one, std::size_t run, std::uint64_t seed) {
-  model::Scenario scenario = one.scenario;
-  if (one.measured.empty()) {
-    scenario = trials::under_seed(std::move(scenario), seed);
-  } else {
-    scenario.deployment.schedule.reset();
-    scenario.deployment.participants = one.measured[run];
-  }
-  if (one.loss > 0) scenario.wireless.lost_packets = trials::draw_losses(one.loss, seed);
-  return scenario;
-}
 
 using Values = std::array<double, measure_count>;
 
-Values values_of(const model::RunResult& run) {
+Values values_of(const model::RunResult& run, bool held) {
   Values values;
   values.fill(statistics::unreached);
-  if (!run.completed()) return values;
+  if (!run.completed() && !held) return values;
   const auto put = [&values](Measure measure, double value) {
     values[static_cast<std::size_t>(measure)] = value;
   };
-  put(Measure::completion, static_cast<double>(run.discovery_time->count()) / 1e6);
+  if (run.completed()) {
+    put(Measure::completion, static_cast<double>(run.discovery_time->count()) / 1e6);
+  }
   put(Measure::messages, static_cast<double>(run.counts.total()));
   for (const model::MessageClass one : model::message_classes) {
     put(statistics::measure_of(one), static_cast<double>(run.counts[one]));
@@ -50,7 +40,8 @@ Values values_of(const model::RunResult& run) {
 std::vector<Job> jobs_of(std::span<const Case> cases, const PredictOptions& options) {
   std::vector<Job> jobs;
   for (std::size_t k = cases.size(); k-- > 0;) {
-    for (std::size_t run = 0; run < cases[k].runs(options.samples); ++run) jobs.push_back({k, run});
+    const std::size_t samples = cases[k].sampled() ? options.samples : 1;
+    for (std::size_t s = 0; s < samples; ++s) jobs.push_back({k, s});
   }
   return jobs;
 }
@@ -61,11 +52,14 @@ Predictions predict(std::span<const Case> cases, const PredictOptions& options) 
   const std::vector<Job> jobs = jobs_of(cases, options);
   trials::Runner runner{options.threads, options.on_progress};
   const auto results = runner.run(jobs.size(), [&](std::size_t k) -> std::optional<Values> {
-    const auto& [of_case, number] = jobs[k];
-    const auto run =
-        runner.simulate(scenario_of(cases[of_case], number, options.first_seed + number));
+    const Case& one = cases[jobs[k].of_case];
+    const std::uint64_t seed = options.first_seed + jobs[k].sample;
+    model::Scenario scenario = trials::under_seed(one.scenario, seed);
+    one.starts.put(scenario.deployment, jobs[k].sample, seed);
+    if (one.loss > 0) scenario.wireless.lost_packets = trials::draw_losses(one.loss, seed);
+    const auto run = runner.simulate(scenario);
     if (!run) return std::nullopt;
-    return values_of(*run);
+    return values_of(*run, one.held);
   });
   Predictions predictions;
   predictions.finished = !runner.stopped();

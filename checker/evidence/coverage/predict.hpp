@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checker/evidence/coverage/observation.hpp"
+#include "checker/evidence/coverage/start_times.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "model/scenario.hpp"
 
@@ -16,20 +17,21 @@ namespace stormproof::prediction {
 /// One scenario to predict.
 struct Case {
   model::Scenario scenario;
-  double loss = 0;  ///< probability of each packet, drawn anew in each sample
-  /// Not empty: there is one run for each of these instead of samples.
-  std::vector<std::vector<model::Participant>> measured = {};
+  double loss = 0;    ///< probability of each packet, drawn anew in each sample
+  StartTimes starts;  ///< after the schedule of the scenario was drawn
+  bool held = false;  ///< the scenario's limit is one of measured runs, whose counts end there, too
 
-  [[nodiscard]] std::size_t runs(std::size_t samples) const {
-    if (!measured.empty()) return measured.size();
-    return model::is_drawn(scenario) || loss > 0 ? samples : 1;
+  /// Whether samples differ; otherwise one run is enough.
+  [[nodiscard]] bool sampled() const {
+    return model::is_drawn(scenario) || loss > 0 || starts.measured() > 1;
   }
 };
 
 /// What the runs of a case yielded, one entry a run in the order of seeds.
 struct Prediction {
-  /// By measure. A run that did not complete counts as infinite in all of them: its time and its
-  /// counts would only be lower bounds.
+  /// By measure. A run that did not complete counts as infinite in all of them, since its time and
+  /// its counts would only be lower bounds; of a case that is held at the limit of measured runs
+  /// only its time does.
   std::array<std::vector<double>, measure_count> values;
   std::size_t incomplete = 0;
 };

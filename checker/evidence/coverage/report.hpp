@@ -18,7 +18,6 @@ struct Heading {
   std::size_t rows = 0;
   std::size_t not_selected = 0;
   std::string wireless;
-  Times times = Times::sampled;
   std::size_t samples = 0;
   std::uint64_t first_seed = 0;
 };

@@ -54,12 +54,14 @@ class Collection {
     ++fit_.configurations;
     fit_.model_runs += model.size();
     fit_.incomplete_model_runs += pairing.predicted->incomplete;
-    add_configuration(prediction, quantile(observed, 0.5));
+    const std::optional<double> limit = is_completion() ? pairing.observed->limit() : std::nullopt;
+    add_configuration(prediction, quantile(observed, 0.5), limit.value_or(unreached));
     add_runs(observed, model, prediction);
+    const bool is_held = pairing.observed->limit().has_value() && !is_completion();
     for (const Observation& run : pairing.observed->runs) {
       if (run.completed || !run.values[measure_]) continue;
       ++fit_.incomplete_runs;
-      if (*run.values[measure_] <= prediction) ++fit_.undecided_runs;
+      if (!is_held && *run.values[measure_] <= prediction) ++fit_.undecided_runs;
     }
   }
 
@@ -80,15 +82,22 @@ class Collection {
   }
 
  private:
-  void add_configuration(double model, double observed) {
+  [[nodiscard]] bool is_completion() const {
+    return static_cast<Measure>(measure_) == Measure::completion;
+  }
+
+  /// `limit`: what is known of either if it is infinite; infinite itself if nothing is.
+  void add_configuration(double model, double observed, double limit) {
     if (std::isinf(model) && std::isinf(observed)) {
       ++fit_.undecided_configurations;
       return;
     }
-    const double ratio = std::isinf(observed) ? 0 : ratio_of(model, observed);
+    const bool both_known = std::isfinite(model) && std::isfinite(observed);
+    const double least = std::min(observed, limit);
+    const double ratio = std::isinf(least) ? 0 : ratio_of(std::min(model, limit), least);
     ratios_.push_back(ratio);
     const double percent = 100 * std::abs(ratio - 1);
-    if (std::isfinite(percent) && std::isfinite(observed)) percents_.push_back(percent);
+    if (std::isfinite(percent) && both_known) percents_.push_back(percent);
   }
 
   /// `model` ascends.
@@ -119,15 +128,21 @@ class Collection {
 
 std::vector<std::string> scopes(const std::vector<Pairing>& pairings) {
   std::set<std::uint32_t> participants;
-  bool high_load = false;
+  std::set<std::uint32_t> hosts;
   for (const Pairing& pairing : pairings) {
     participants.insert(pairing.observed->participants_per_host);
-    high_load = high_load || in_scope(*pairing.observed, "high_load");
+    hosts.insert(pairing.observed->hosts);
   }
   std::vector<std::string> names;
   for (const std::uint32_t n : participants) names.push_back(fmt::format("np{}", n));
+  if (hosts.size() > 1) {
+    for (const std::uint32_t n : hosts) names.push_back(fmt::format("nh{}", n));
+  }
   names.emplace_back("all");
-  if (high_load) names.emplace_back("high_load");
+  for (const char* const name : {"high_load", "spread"}) {
+    const auto occurs = [name](const Pairing& one) { return in_scope(*one.observed, name); };
+    if (std::ranges::any_of(pairings, occurs)) names.emplace_back(name);
+  }
   return names;
 }
 
@@ -136,7 +151,9 @@ bool in_scope(const Configuration& configuration, const std::string& scope) {
   if (scope == "high_load") {
     return configuration.participants_per_host >= 4 && configuration.endpoints >= 20;
   }
-  return scope == fmt::format("np{}", configuration.participants_per_host);
+  if (scope == "spread") return configuration.spread.step_ms > 0;
+  return scope == fmt::format("np{}", configuration.participants_per_host) ||
+         scope == fmt::format("nh{}", configuration.hosts);
 }
 
 std::optional<Fit> fit(const std::vector<Pairing>& pairings, const std::string& scope,
@@ -150,9 +167,10 @@ std::optional<Fit> fit(const std::vector<Pairing>& pairings, const std::string& 
 
 std::vector<double> observed_values(const Configuration& configuration, Measure measure) {
   std::vector<double> values;
+  const bool is_held = measure != Measure::completion && configuration.limit();
   for (const Observation& run : configuration.runs) {
     const auto& value = run.values[static_cast<std::size_t>(measure)];
-    if (value) values.push_back(run.completed ? *value : unreached);
+    if (value) values.push_back(run.completed || is_held ? *value : unreached);
   }
   return values;
 }

@@ -20,8 +20,9 @@ struct Pairing {
   const Prediction* predicted = nullptr;
 };
 
-/// Names of the scopes that occur: "np1", "np2" … by N_P, "all", and "high_load" (N_P ≥ 4 and
-/// N_E ≥ 20).
+/// Names of the scopes that occur: "np1", "np2" … by N_P, "nh2", "nh3" … by N_H if it is not the
+/// same everywhere, "all", "high_load" (N_P ≥ 4 and N_E ≥ 20), and "spread" (starts that follow one
+/// another).
 [[nodiscard]] std::vector<std::string> scopes(const std::vector<Pairing>& pairings);
 [[nodiscard]] bool in_scope(const Configuration& configuration, const std::string& scope);
 
@@ -31,7 +32,9 @@ inline constexpr std::size_t calibration_points = 9;  ///< quantiles 0.1 to 0.9
 
 /// One measure in one scope. M of a configuration is the median over its model runs, O the median
 /// over its measured runs. What does not exist (no covered run, a median that is infinite) is
-/// absent.
+/// absent. A configuration with a measured run that did not complete ends at the limit of that run,
+/// in the model, too: counts are those up to it, and a completion later than it is unknown on both
+/// sides, so that the limit stands for it in a ratio whose other side is known.
 struct Fit {
   std::size_t configurations = 0;
   std::size_t runs = 0;             ///< measured
@@ -39,7 +42,7 @@ struct Fit {
   std::size_t undecided_runs = 0;   ///< of those; lower bound ≤ M, so O ≤ M is open
   std::size_t model_runs = 0;
   std::size_t incomplete_model_runs = 0;
-  std::size_t undecided_configurations = 0;  ///< neither M nor O is finite; in no ratio
+  std::size_t undecided_configurations = 0;  ///< neither M nor O is known; in no ratio
 
   double coverage = 0;  ///< share of measured runs with O ≤ M; incomplete ones are not covered
   std::optional<double> covered_q1;  ///< of M/O among covered runs
@@ -60,8 +63,8 @@ struct Fit {
 [[nodiscard]] std::optional<Fit> fit(const std::vector<Pairing>& pairings, const std::string& scope,
                                      Measure measure);
 
-/// The measured values of a configuration; of runs that did not complete: infinite. Runs without
-/// this measure are left out.
+/// The measured values of a configuration; of runs that did not complete: infinite, but for counts
+/// up to a limit that is known. Runs without this measure are left out.
 [[nodiscard]] std::vector<double> observed_values(const Configuration& configuration,
                                                   Measure measure);
 

@@ -18,23 +18,12 @@ namespace {
 using model::config::InputError;
 using model::config::Result;
 
-/// Leaves the runs that say the times of their processes, which their predictions get. Returns how
-/// many do not.
-std::size_t keep_timed(Configuration& configuration, Case& one) {
-  return std::erase_if(configuration.runs, [&](const Observation& run) {
-    auto participants = with_own_times(one.scenario.deployment.participants, run);
-    if (participants.empty()) return true;
-    one.measured.push_back(std::move(participants));
-    return false;
-  });
-}
-
 /// Adds the configurations that the profile can predict, and their cases. `foreign`: the rows were
 /// measured with another system, so nothing can be said of their channel.
 std::optional<InputError> add_cases(const std::vector<Configuration>& measured,
-                                    const ScenarioOptions& options, Times times, bool foreign,
+                                    const ScenarioOptions& options, bool foreign,
                                     ProfileStudy& profile, std::vector<Case>& cases) {
-  for (Configuration configuration : measured) {
+  for (const Configuration& configuration : measured) {
     const std::uint64_t participants =
         std::uint64_t{configuration.hosts} * configuration.participants_per_host;
     if (participants > model::Deployment::max_participants) {
@@ -50,15 +39,16 @@ std::optional<InputError> add_cases(const std::vector<Configuration>& measured,
       continue;
     }
     profile.dds = scenario->dds;
-    Case next{std::move(*scenario), own_channel ? configuration.channel.loss.value_or(0) : 0};
-    if (times == Times::own) {
-      const std::size_t untimed = keep_timed(configuration, next);
-      if (untimed > 0) profile.skipped["no times of its processes"] += untimed;
-      if (configuration.runs.empty()) continue;
-    }
-    profile.sampled = profile.sampled || next.runs(2) > 1;
+    Case next{std::move(*scenario),
+              own_channel ? configuration.channel.loss.value_or(0) : 0,
+              {},
+              configuration.limit().has_value()};
+    next.starts = start_times(configuration, next.scenario, options);
+    profile.sampled = profile.sampled || next.sampled();
+    profile.measured_starts += next.starts.measured();
+    if (configuration.spread.step_ms > 0 && next.scenario.hosts) ++profile.spread;
     cases.push_back(std::move(next));
-    profile.configurations.push_back(std::move(configuration));
+    profile.configurations.push_back(configuration);
   }
   return std::nullopt;
 }
@@ -118,9 +108,9 @@ std::optional<InputError> refuse_scopes(const std::vector<Observation>& rows,
 std::vector<Observation> with_partner(const std::vector<Observation>& baseline_rows,
                                       const std::vector<Observation>& rows) {
   const auto deployment = [](const Observation& run) {
-    return std::tuple{run.hosts, run.participants_per_host, run.endpoints};
+    return std::tuple{run.hosts, run.participants_per_host, run.endpoints, run.spread};
   };
-  std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> wanted;
+  std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, Spread>> wanted;
   for (const Observation& run : rows) wanted.insert(deployment(run));
   std::vector<Observation> result;
   for (const Observation& run : baseline_rows) {
@@ -149,8 +139,8 @@ Result<Plan> plan(const std::vector<Observation>& rows,
     ProfileStudy& profile = plan.study.profiles.emplace_back();
     profile.name = name;
     profile.is_baseline = is_baseline;
-    return add_cases(configurations(measured), options, request.times, foreign && !is_baseline,
-                     profile, plan.cases);
+    return add_cases(configurations(measured), options, foreign && !is_baseline, profile,
+                     plan.cases);
   };
   for (const std::string& name : request.dds) {
     if (const auto error = add(name, rows, false)) return *error;

@@ -20,7 +20,6 @@ struct StudyRequest {
   std::vector<std::string> change;     ///< of all but the baseline's
   std::string baseline;                ///< profile; empty: none
   ChannelSource channel = ChannelSource::profile;
-  Times times = Times::sampled;
   std::vector<std::string> scopes;  ///< empty: all that occur
   PredictOptions predict;
 };
@@ -36,8 +35,10 @@ struct FitRow {
 struct ProfileStudy {
   std::string name;
   bool is_baseline = false;
-  bool sampled = false;                        ///< whether a configuration has several runs
-  model::DdsProfile dds;                       ///< of its scenarios
+  bool sampled = false;             ///< whether schedules or losses were drawn
+  std::size_t measured_starts = 0;  ///< measured runs that say when each participant started
+  std::size_t spread = 0;           ///< configurations whose starts follow one another, with hosts
+  model::DdsProfile dds;            ///< of its scenarios
   std::map<std::string, std::size_t> skipped;  ///< measured runs of other channels, by difference
   std::vector<Configuration> configurations;
   std::vector<Prediction> predictions;  ///< one for each configuration

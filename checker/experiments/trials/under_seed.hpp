@@ -14,4 +14,8 @@ namespace stormproof::trials {
 [[nodiscard]] model::Scenario under_seed(model::Scenario scenario, std::uint64_t seed,
                                          model::Nanoseconds start_jitter = {});
 
+/// The participant does everything so much later, or earlier if it is negative, but nothing before
+/// the run.
+void start_later(model::Participant& participant, model::Nanoseconds later);
+
 }  // namespace stormproof::trials

@@ -35,17 +35,6 @@ TEST(Observations, ProcessesSayWhenTheyAnnounceThemselves) {
   EXPECT_EQ(read->rows[0].start->high, 4);
   EXPECT_EQ(read_text(run + R"("start_ms":[5,6],)" + both)->rows[0].start->low, 5);
   EXPECT_FALSE(read_text(run + R"("procs":[{"cpu_ms":3}]})")->rows[0].start);
-  EXPECT_TRUE(read->rows[0].processes.empty());
-  const auto whole = read_text(run + R"("procs":[{"host":1,"enabled":4,"endpoints_done":8.5},)"
-                                     R"({"host":0,"enabled":3,"endpoints_done":3}]})");
-  ASSERT_EQ(whole->rows[0].processes.size(), 2U);
-  EXPECT_EQ(whole->rows[0].processes[0].host, 1U);
-  EXPECT_EQ(whole->rows[0].processes[0].start, 4);
-  EXPECT_EQ(whole->rows[0].processes[0].endpoints_done, 8.5);
-  EXPECT_NE(error_of(run + R"("procs":[{"host":2,"enabled":4}]})").find("an integer from 0 to 1"),
-            std::string::npos);
-  EXPECT_NE(error_of(run + R"("procs":[{"enabled":4,"endpoints_done":3}]})").find("is 3;"),
-            std::string::npos);
   EXPECT_EQ(error_of(run + R"("procs":7})"),
             "runs.jsonl:1: procs is 7; expected a list of objects, one of each process");
   EXPECT_EQ(error_of(run + R"("procs":[{"enabled":-4}]})"),

@@ -34,8 +34,6 @@ Fits fits_of(const std::string& command) {
     if (word == "--dds") request.dds.push_back(value);
     if (word == "--set") request.overrides.push_back(value);
     if (word == "--wireless") request.wireless = value;
-    if (word == "--times") request.times = value == "own" ? Times::own : Times::sampled;
-    if (word == "--completion" && value == "strict") read.completion = CompletionTime::strict;
   }
   request.scopes = {"all"};
   std::ifstream input{folders.front() + file.substr(file.find('/'))};

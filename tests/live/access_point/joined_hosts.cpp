@@ -1,6 +1,4 @@
 // Namespaces, processes and addresses for the tests of the program.
-#include "tests/live/access_point/two_hosts.hpp"
-
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -20,6 +18,8 @@
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "tests/live/access_point/two_hosts.hpp"
 
 namespace stormproof::live {
 
