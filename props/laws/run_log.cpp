@@ -9,6 +9,7 @@
 
 #include "model/cyclone/endpoints.hpp"
 #include "model/engine/submessage.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::props {
@@ -133,6 +134,10 @@ void RunLog::note_subject(model::trace::Subject subject, std::uint32_t number) {
     case relation:
       note_pair(number / 2);
       note(number % 2);
+      break;
+    case control_writer:
+      note_participant(number / model::fastdds::control_writers);
+      note(number % model::fastdds::control_writers);
       break;
     case endpoint_writer:
       note_participant(number / stride_);

@@ -157,7 +157,6 @@ enum class FastddsMistake : std::uint8_t {
   descriptors_before_samples,    ///< the queue of descriptors comes before that of samples
   samples_to_addressee,          ///< a sample goes to whom it is meant for
   samples_do_not_arm,            ///< no HEARTBEAT follows samples by itself
-  closed_readers_take,           ///< a side that is not open takes samples
   samples_not_got,               ///< only a HEARTBEAT says what is acknowledged
   heartbeats_give_nothing,       ///< or only samples do
   low_is_zero_at_match,          ///< a new reader lacks all samples

@@ -35,6 +35,7 @@ RunValues values_of(const RunResult& result, double failure_free) {
   set(Measure::spdp_multicast, static_cast<double>(counts.spdp_multicast));
   set(Measure::spdp_unicast, static_cast<double>(counts.spdp_unicast));
   set(Measure::user_control, static_cast<double>(result.user_control));
+  set(Measure::lookup, static_cast<double>(counts.lookup));
   set(Measure::amplification, failure_free > 0 ? total / failure_free : 0);
   set(Measure::backlog, backlog);
   return values;

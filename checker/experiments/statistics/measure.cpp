@@ -6,8 +6,10 @@ namespace stormproof::statistics {
 namespace {
 
 constexpr std::array<const char*, 2> first_names{"completion", "messages"};
-constexpr std::array<const char*, 3> last_names{"user_control", "amplification", "backlog"};
-constexpr std::array<const char*, 3> last_words{"user control", "amplification", "highest backlog"};
+constexpr std::array<const char*, 4> last_names{"user_control", "lookup", "amplification",
+                                                "backlog"};
+constexpr std::array<const char*, 4> last_words{"user control", "lookups", "amplification",
+                                                "highest backlog"};
 
 bool is_class(Measure measure) {
   return index_of(measure) >= 2 && index_of(measure) < discovery_measure_count;

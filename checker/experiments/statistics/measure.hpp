@@ -20,10 +20,11 @@ enum class Measure : std::uint8_t {
   spdp_multicast,
   spdp_unicast,
   user_control,   ///< messages of control-only relations, in no class
+  lookup,         ///< questions and answers about types, in no class
   amplification,  ///< messages over those of the failure-free reference
   backlog         ///< packets, highest of any participant
 };
-inline constexpr std::size_t measure_count = 11;
+inline constexpr std::size_t measure_count = 12;
 /// Those that a measured discovery has, too: completion, messages and the classes come first.
 inline constexpr std::size_t discovery_measure_count = 2 + model::message_class_count;
 

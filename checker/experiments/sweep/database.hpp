@@ -22,7 +22,7 @@ using grids::hex;
 
 /// `PRAGMA application_id` and `user_version` of the files.
 inline constexpr int application_id = 0x53544d50;
-inline constexpr int schema_version = 1;
+inline constexpr int schema_version = 2;
 
 class Database {
  public:

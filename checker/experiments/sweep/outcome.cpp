@@ -42,6 +42,7 @@ void fill(Outcome& outcome, const model::Scenario& scenario, const model::RunRes
       number(counts.spdp_unicast),
       number(counts.total()),
       number(result.user_control),
+      number(counts.lookup),
       result.end_time.count(),
       number(result.events),
       number(result.missing_count),

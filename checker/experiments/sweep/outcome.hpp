@@ -16,10 +16,11 @@ namespace stormproof::sweep {
 /// The numbers of a run, in the order of the tables. Times in ns; counts of messages when they are
 /// generated; `missing` descriptor deliveries; `peak_backlog` packets of the participant that had
 /// most.
-inline constexpr std::array<const char*, 15> number_names{
-    "t_disc_ns",      "initial_data", "repair_data",  "heartbeat",    "acknack",
-    "spdp_multicast", "spdp_unicast", "total",        "user_control", "end_ns",
-    "events",         "missing",      "peak_backlog", "open_loop_ns", "failure_free_total",
+inline constexpr std::array<const char*, 16> number_names{
+    "t_disc_ns",    "initial_data",   "repair_data",  "heartbeat",
+    "acknack",      "spdp_multicast", "spdp_unicast", "total",
+    "user_control", "lookup",         "end_ns",       "events",
+    "missing",      "peak_backlog",   "open_loop_ns", "failure_free_total",
 };
 inline constexpr std::size_t first_count = 1, end_of_counts = 8;  ///< in `number_names`
 

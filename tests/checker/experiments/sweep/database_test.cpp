@@ -135,8 +135,8 @@ TEST_F(DatabaseTest, FilesOfOthersAreRefusedAndLeftAlone) {
 
 TEST_F(DatabaseTest, ANewerSchemaIsRefused) {
   (void)open();
-  execute("PRAGMA user_version = 2");
-  EXPECT_NE(open_error().find("has schema 2; expected 1"), std::string::npos);
+  execute("PRAGMA user_version = 3");
+  EXPECT_NE(open_error().find("has schema 3; expected 2"), std::string::npos);
 }
 
 TEST_F(DatabaseTest, AFolderThatDoesNotExist) {
