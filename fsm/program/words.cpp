@@ -132,6 +132,8 @@ class Printer {
         return joined(term, "*");
       case over:
         return joined(term, "/");
+      case less:
+        return joined(term, "<");
       case greater:
         return joined(term, ">");
       case select: {

@@ -46,6 +46,7 @@ Scenario quiet(Scenario scenario) {
     p.start = Nanoseconds{0};
     p.endpoints_done = Nanoseconds{0};
   }
+  scenario.deployment.types.reset();  // to look them up takes longer
   scenario.dds.spdp.resend = model::SpdpResend::all_known;
   sedp.relation_opening = model::RelationOpening::receiver;
   sedp.initial_data = model::InitialData::push;

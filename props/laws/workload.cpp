@@ -231,11 +231,16 @@ Broken homogeneous_forms(const Scenario& scenario, const Simulate& simulate) {
                      open_loop(regular, grid));
 }
 
+/// What waits for its type is delivered and missing.
+bool is_missing_or_delivered(const Scenario& scenario) {
+  return is_sent_to_each(scenario) && !scenario.deployment.types;
+}
+
 constexpr Law workload_list[] = {
     {"law.workload",
      "Delivered and missing descriptors are F of eq. (1) together, and initial DATA = F at "
      "completion.",
-     is_sent_to_each, workload},
+     is_missing_or_delivered, workload},
     {"law.homogeneous-forms",
      "On homogeneous deployments eq. (1) and (2), the reference and the open-loop airtime agree "
      "with their closed forms.",
