@@ -1,5 +1,8 @@
 // What Fast DDS 3 has and earlier versions have not: endpoints that look up types, 31 DATA in a
 // message, and HEARTBEATs that ride when the messages of a participant have filled a group.
+#include <algorithm>
+#include <map>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
