@@ -6,6 +6,7 @@
 #include <string>
 
 #include "model/fastdds/types.hpp"
+#include "model/implementations.hpp"
 #include "model/life.hpp"
 
 namespace stormproof::props {
@@ -239,6 +240,28 @@ Life drawn_life(Dice& dice, const std::vector<Participant>& all) {
   return life;
 }
 }  // namespace
+
+void draw_disturbances(Dice& dice, Scenario& scenario) {
+  constexpr std::uint64_t first_packets = 60;
+  WirelessProfile& wireless = scenario.wireless;
+  wireless.one_way = Nanoseconds{dice.among({0, 1'000, 1'000'000, 1'000'000})};
+  wireless.lost_packets.clear();
+  wireless.packet_delays.clear();
+  const int lost = static_cast<int>(dice.among({0, 10, 30, 60}));
+  const int late = static_cast<int>(dice.among({0, 10, 30}));
+  for (std::uint64_t packet = 0; packet < first_packets; ++packet) {
+    if (dice.chance(lost)) {
+      wireless.lost_packets.push_back(packet);
+    } else if (dice.chance(late)) {
+      wireless.packet_delays.push_back(
+          {packet, Nanoseconds{0}, Nanoseconds{dice.magnitude(1'000, 4'000'000'000)}});
+    }
+  }
+  if (!traits_of(scenario.dds).creates_endpoints_over_time) return;
+  for (Participant& one : scenario.deployment.participants) {
+    one.endpoints_done = one.start + Nanoseconds{dice.among({0, 100, 1'000, 3'000}) * 1'000'000};
+  }
+}
 
 void draw_amendments(Dice& dice, Scenario& scenario) {
   Amendments rules;

@@ -22,6 +22,10 @@ void draw_frame_loss(Dice& dice, model::WirelessProfile& wireless);
 /// Threads that take a time that matters.
 void draw_processor(Dice& dice, model::Scenario& scenario);
 
+/// A network with a constant delay that loses many of the first packets and delivers others later
+/// than timers that wait for them; and endpoints that come late.
+void draw_disturbances(Dice& dice, model::Scenario& scenario);
+
 /// Another way to discover, with odd knobs of it, as a function of the seed.
 void draw_discovery(std::uint64_t seed, model::Discovery discovery, model::Scenario& scenario);
 

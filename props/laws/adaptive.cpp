@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "props/laws/families.hpp"
+#include "props/laws/watching.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/observer.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 using model::EventKind;
 using model::Nanoseconds;
 using model::Scenario;
-using Broken = std::optional<std::string>;
 
 bool is_adaptive(const Scenario& scenario) {
   return scenario.dds.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive;
@@ -69,7 +69,7 @@ class CycleWatch : public Observer {
   bool next_ = false;
 };
 
-class PeriodWatch final : public CycleWatch {
+class PeriodWatch : public CycleWatch {
  public:
   explicit PeriodWatch(const Scenario& scenario)
       : CycleWatch{"law.adaptive-period"}, sedp_{scenario.dds.sedp} {}
@@ -89,9 +89,9 @@ class PeriodWatch final : public CycleWatch {
   model::SedpProfile sedp_;
 };
 
-class LifeWatch final : public CycleWatch {
+class LifeWatch : public CycleWatch {
  public:
-  LifeWatch() : CycleWatch{"law.adaptive-dies"} {}
+  explicit LifeWatch(const Scenario&) : CycleWatch{"law.adaptive-dies"} {}
 
  private:
   void cycle_started(const CycleStart& cycle) override {
@@ -104,9 +104,9 @@ class LifeWatch final : public CycleWatch {
 
 /// Whom HEARTBEATs of a cycle go to, in the paper's model: only to readers that have not
 /// acknowledged everything.
-class RecipientWatch final : public Observer {
+class RecipientWatch : public Observer {
  public:
-  RecipientWatch() : Observer{"law.adaptive-recipients"} {}
+  explicit RecipientWatch(const Scenario&) : Observer{"law.adaptive-recipients"} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -136,43 +136,20 @@ class RecipientWatch final : public Observer {
   std::vector<std::uint32_t> acknowledged_;  // descriptors in A, by relation
 };
 
-Broken observe(Observer& watch, const Scenario& scenario, const Simulate& simulate) {
-  static_cast<void>(simulate(scenario, &watch));
-  if (!watch.violation()) return std::nullopt;
-  return watch.violation()->reason;
-}
-
-Broken period(const Scenario& scenario, const Simulate& simulate) {
-  PeriodWatch watch{scenario};
-  return observe(watch, scenario, simulate);
-}
-
-Broken life(const Scenario& scenario, const Simulate& simulate) {
-  Scenario longer = scenario;
-  longer.run_until = model::RunUntil::time_limit;
-  LifeWatch watch;
-  return observe(watch, longer, simulate);
-}
-
 bool is_adaptive_of_paper(const Scenario& scenario) {
   return is_adaptive(scenario) && traits_of(scenario).writer == model::Writer::of_the_paper;
 }
 
-Broken recipients(const Scenario& scenario, const Simulate& simulate) {
-  Scenario longer = scenario;
-  longer.run_until = model::RunUntil::time_limit;
-  RecipientWatch watch;
-  return observe(watch, longer, simulate);
-}
-
 constexpr Law adaptive_list[] = {
-    {"law.adaptive-period", "Every period is τ_H or lies between T_min and T_max.", is_adaptive,
-     period},
-    {"law.adaptive-dies",
-     "A cycle that has nobody to ask ends the policy's activity; one that asks has an end.",
-     is_adaptive, life},
-    {"law.adaptive-recipients", "A cycle asks nobody who has acknowledged everything.",
-     is_adaptive_of_paper, recipients},
+    watched_law<PeriodWatch>("law.adaptive-period",
+                             "Every period is τ_H or lies between T_min and T_max.", is_adaptive),
+    watched_law<LifeWatch>(
+        "law.adaptive-dies",
+        "A cycle that has nobody to ask ends the policy's activity; one that asks has an end.",
+        is_adaptive),
+    watched_law<RecipientWatch>("law.adaptive-recipients",
+                                "A cycle asks nobody who has acknowledged everything.",
+                                is_adaptive_of_paper),
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "model/airtime.hpp"
 #include "props/laws/families.hpp"
+#include "props/laws/watching.hpp"
 #include "props/monitors/delay_meter.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/observer.hpp"
@@ -20,16 +21,10 @@ using model::Nanoseconds;
 using model::Packet;
 using model::PacketKind;
 using model::Scenario;
-using Broken = std::optional<std::string>;
 using Kind = model::MachineRef::Kind;
 
-Broken objection(const Monitor& monitor) {
-  if (!monitor.violation()) return std::nullopt;
-  return monitor.violation()->reason;
-}
-
 /// Packets from emission to reception.
-class PacketWatch final : public Observer {
+class PacketWatch : public Observer {
  public:
   explicit PacketWatch(const Scenario& scenario)
       : Observer{"law.causality"},
@@ -94,14 +89,8 @@ class PacketWatch final : public Observer {
   std::set<std::pair<std::uint64_t, std::uint32_t>> received_;
 };
 
-Broken packets(const Scenario& scenario, const Simulate& simulate) {
-  PacketWatch watch{scenario};
-  static_cast<void>(simulate(scenario, &watch));
-  return objection(watch);
-}
-
 /// State changes that a reception causes, and the reception.
-class ReceptionWatch final : public Observer {
+class ReceptionWatch : public Observer {
  public:
   explicit ReceptionWatch(const Scenario& scenario)
       : Observer{"law.delivered"}, scenario_{scenario} {}
@@ -165,14 +154,8 @@ class ReceptionWatch final : public Observer {
   std::optional<Arrival> arriving_;
 };
 
-Broken receptions(const Scenario& scenario, const Simulate& simulate) {
-  ReceptionWatch watch{scenario};
-  static_cast<void>(simulate(scenario, &watch));
-  return objection(watch);
-}
-
 /// What ACKNACKs claim to have, and what was sent and taken.
-class KnowledgeWatch final : public Observer {
+class KnowledgeWatch : public Observer {
  public:
   explicit KnowledgeWatch(const Scenario& scenario)
       : Observer{"law.knowledge"}, bases_{traits_of(scenario).acknacks_have_bases} {}
@@ -221,24 +204,21 @@ class KnowledgeWatch final : public Observer {
   ReceivedDescriptors received_;
 };
 
-Broken knowledge(const Scenario& scenario, const Simulate& simulate) {
-  KnowledgeWatch watch{scenario};
-  static_cast<void>(simulate(scenario, &watch));
-  return objection(watch);
-}
-
 constexpr Law causality_list[] = {
-    {"law.causality",
-     "Nothing is scheduled in the past, and a packet is received at most once, only if it is not "
-     "lost, and not before its emission and its airtime.",
-     always, packets},
-    {"law.delivered",
-     "Only a packet that is delivered to a started participant changes a state that depends on "
-     "it.",
-     is_of_two_writers, receptions},
-    {"law.knowledge",
-     "A reader knows only what was sent and received, and an ACKNACK confirms nothing else.",
-     says_one_thing, knowledge},
+    watched_law<PacketWatch>(
+        "law.causality",
+        "Nothing is scheduled in the past, and a packet is received at most once, only if it is "
+        "not lost, and not before its emission and its airtime.",
+        always),
+    watched_law<ReceptionWatch>(
+        "law.delivered",
+        "Only a packet that is delivered to a started participant changes a state that depends on "
+        "it.",
+        is_of_two_writers),
+    watched_law<KnowledgeWatch>(
+        "law.knowledge",
+        "A reader knows only what was sent and received, and an ACKNACK confirms nothing else.",
+        says_one_thing),
 };
 
 }  // namespace

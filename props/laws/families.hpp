@@ -20,12 +20,17 @@ namespace stormproof::props {
 [[nodiscard]] std::span<const Law> workload_laws();    ///< what has to be delivered, at least
 [[nodiscard]] std::span<const Law>
 quiet_laws();  ///< a network without delays or losses to speak of
-[[nodiscard]] std::span<const Law> obligation_laws();  ///< what has to happen, and when
-[[nodiscard]] std::span<const Law> accounting_laws();  ///< totals against what happened
-[[nodiscard]] std::span<const Law> causality_laws();   ///< effects and causes
-[[nodiscard]] std::span<const Law> service_laws();     ///< queue, order and losses
-[[nodiscard]] std::span<const Law> bound_laws();       ///< how fast and how slow discovery can be
-[[nodiscard]] std::span<const Law> adaptive_laws();    ///< the response-aware policy
+[[nodiscard]] std::span<const Law> obligation_laws();    ///< what has to happen, and when
+[[nodiscard]] std::span<const Law> introduction_laws();  ///< who announces itself to whom
+[[nodiscard]] std::span<const Law> opening_laws();       ///< what a writer says at once
+[[nodiscard]] std::span<const Law> request_laws();       ///< what is asked for, and when it comes
+[[nodiscard]] std::span<const Law> reminder_laws();      ///< whoever lacks something is asked
+[[nodiscard]] std::span<const Law> control_laws();       ///< relations without DATA
+[[nodiscard]] std::span<const Law> accounting_laws();    ///< totals against what happened
+[[nodiscard]] std::span<const Law> causality_laws();     ///< effects and causes
+[[nodiscard]] std::span<const Law> service_laws();       ///< queue, order and losses
+[[nodiscard]] std::span<const Law> bound_laws();         ///< how fast and how slow discovery can be
+[[nodiscard]] std::span<const Law> adaptive_laws();      ///< the response-aware policy
 
 /// Of laws that are about packets, events and timers as the paper and Fast DDS have them.
 [[nodiscard]] inline bool is_of_two_writers(const model::Scenario& scenario) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "model/probe.hpp"
 #include "model/run_result.hpp"
 #include "model/scenario.hpp"
+#include "props/monitor.hpp"
 
 namespace stormproof::props {
 
@@ -27,6 +29,9 @@ struct Law {
   /// What breaks the law, in one sentence with numbers, or nothing. The scenario must be one that
   /// it applies to.
   std::optional<std::string> (*broken)(const model::Scenario&, const Simulate&);
+  /// Of a law about one run of the scenario as it is: who watches it, and may as well watch a run
+  /// that others watch, too. Null of others. It must not outlive the scenario.
+  std::unique_ptr<Monitor> (*watch)(const model::Scenario&) = nullptr;
 };
 
 /// All laws.

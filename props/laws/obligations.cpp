@@ -1,11 +1,14 @@
 // Laws of obligations: what the rules say must happen, and when. A HEARTBEAT is answered after τ_A,
 // a reader that has seen none asks by itself after τ_I, 3·τ_I, 7·τ_I, …, announcements go on, and
 // no channel idles while a fragment waits for it.
+#include <algorithm>
 #include <deque>
 
 #include <fmt/core.h>
 
 #include "props/laws/families.hpp"
+#include "props/laws/sides.hpp"
+#include "props/laws/watching.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/observer.hpp"
 
@@ -18,70 +21,14 @@ using model::Nanoseconds;
 using model::Packet;
 using model::PacketKind;
 using model::Scenario;
-using Broken = std::optional<std::string>;
-
-/// The reader sides of all relations: which are open, and which HEARTBEATs they take.
-class ReaderWatch : public Observer {
- public:
-  ReaderWatch(std::string_view law, const Scenario& scenario)
-      : Observer{law}, scenario_{scenario} {}
-
-  void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
-    open_.assign(topology.relation_count(), false);
-  }
-  void received(const Packet& packet, std::uint32_t receiver) override {
-    if (packet.kind == PacketKind::spdp_multicast && receiver == everybody) {
-      for (std::uint32_t pair = topology().first_pair(packet.pair);
-           pair < topology().first_pair(packet.pair + 1); ++pair) {
-        recognise(pair);
-      }
-    } else if (packet.kind == PacketKind::spdp_multicast) {
-      recognise(topology().pair_between(packet.pair, receiver));
-    } else if (packet.kind == PacketKind::spdp_unicast) {
-      recognise(packet.pair);
-    }
-    const bool heartbeat = packet.kind == PacketKind::heartbeat ||
-                           (packet.kind == PacketKind::data && packet.carries_heartbeat);
-    if (heartbeat && has_started(packet.pair) && takes(packet.relation())) {
-      heartbeat_taken(packet.relation());
-    }
-  }
-
- protected:
-  virtual void opened(std::uint32_t /*relation*/) {}
-  virtual void heartbeat_taken(std::uint32_t /*relation*/) {}
-  [[nodiscard]] const Scenario& scenario() const { return scenario_; }
-
- private:
-  [[nodiscard]] bool has_started(std::uint32_t pair) const {
-    return now() >= topology().start(topology().pair(pair).destination);
-  }
-  [[nodiscard]] bool takes(std::uint32_t relation) const {
-    const model::RelationRules rules = rules_of(scenario_.dds);
-    return open_[relation] || (rules.unmatched == model::Unmatched::accept &&
-                               rules.relation_opening == model::RelationOpening::each_side);
-  }
-  void recognise(std::uint32_t pair) {
-    if (!has_started(pair)) return;
-    for (std::uint32_t relation = 2 * pair; relation < 2 * pair + 2; ++relation) {
-      if (open_[relation]) continue;
-      open_[relation] = true;
-      opened(relation);
-    }
-  }
-
-  const Scenario& scenario_;
-  std::vector<bool> open_;
-};
 
 /// Answers that are due.
-class AnswerWatch final : public ReaderWatch {
+class AnswerWatch : public SideWatch {
  public:
-  explicit AnswerWatch(const Scenario& scenario) : ReaderWatch{"law.answers", scenario} {}
+  explicit AnswerWatch(const Scenario& scenario) : SideWatch{"law.answers", scenario} {}
 
   void run_started(const model::Topology& topology) override {
-    ReaderWatch::run_started(topology);
+    SideWatch::run_started(topology);
     due_.assign(topology.relation_count(), {});
   }
   void emitted(const Packet& packet, std::uint32_t, std::span<const std::uint32_t>) override {
@@ -118,10 +65,10 @@ class AnswerWatch final : public ReaderWatch {
 };
 
 /// Initial ACKNACKs that are due.
-class AttemptWatch final : public ReaderWatch {
+class AttemptWatch : public SideWatch {
  public:
   explicit AttemptWatch(const Scenario& scenario)
-      : ReaderWatch{"law.initial-attempts", scenario},
+      : SideWatch{"law.initial-attempts", scenario},
         first_{scenario.dds.sedp.initial_acknack_delay},
         growth_{scenario.dds.sedp.initial_acknack_interval ==
                         model::InitialAckNackInterval::constant
@@ -129,7 +76,7 @@ class AttemptWatch final : public ReaderWatch {
                     : 2} {}
 
   void run_started(const model::Topology& topology) override {
-    ReaderWatch::run_started(topology);
+    SideWatch::run_started(topology);
     readers_.assign(topology.relation_count(), {});
   }
   void emitted(const Packet& packet, std::uint32_t, std::span<const std::uint32_t>) override {
@@ -149,7 +96,7 @@ class AttemptWatch final : public ReaderWatch {
     bool seen = false;
   };
 
-  void opened(std::uint32_t relation) override {
+  void reader_opened(std::uint32_t relation) override {
     if (first_ > Nanoseconds{0}) {
       readers_[relation].due = now() + first_;
       readers_[relation].delay = first_;
@@ -183,7 +130,7 @@ class AttemptWatch final : public ReaderWatch {
 };
 
 /// Announcements that are due.
-class AnnouncementWatch final : public Observer {
+class AnnouncementWatch : public Observer {
  public:
   explicit AnnouncementWatch(const Scenario& scenario)
       : Observer{"law.announcements"}, spdp_{scenario.dds.spdp} {
@@ -223,7 +170,7 @@ class AnnouncementWatch final : public Observer {
 };
 
 /// Fragments that wait for a channel.
-class IdleWatch final : public Observer {
+class IdleWatch : public Observer {
  public:
   explicit IdleWatch(const Scenario&) : Observer{"law.work-conserving"} {}
 
@@ -240,12 +187,14 @@ class IdleWatch final : public Observer {
   }
   void waiting_changed(std::uint32_t channel, std::uint64_t fragments) override {
     at(channel).waiting = fragments;
+    at(channel).changed = now();
   }
   void finish(Nanoseconds end) override { check(end); }
 
  private:
   struct Channel {
     Nanoseconds busy_until;
+    Nanoseconds changed;  ///< who waits: at this instant it may be served yet
     std::uint64_t waiting = 0;
   };
   Channel& at(std::uint32_t channel) {
@@ -254,7 +203,7 @@ class IdleWatch final : public Observer {
   }
   void check(Nanoseconds next) {
     for (const Channel& channel : channels_) {
-      if (channel.waiting == 0 || channel.busy_until >= next) continue;
+      if (channel.waiting == 0 || std::max(channel.busy_until, channel.changed) >= next) continue;
       object_now(fmt::format("Up to {} a channel idles while {} fragments wait for it.",
                              time_text(next), channel.waiting));
     }
@@ -263,37 +212,25 @@ class IdleWatch final : public Observer {
   std::vector<Channel> channels_;
 };
 
-/// The time up to which the run is known: all that was due before it has happened.
-Nanoseconds known_until(const Scenario& scenario, const model::RunResult& result) {
-  const bool whole =
-      result.end == model::RunEnd::time_limit || result.end == model::RunEnd::no_more_events;
-  return whole ? scenario.time_limit : result.end_time;
-}
-
-template <class Watch>
-Broken observed(const Scenario& scenario, const Simulate& simulate) {
-  Scenario whole = scenario;  // what follows discovery shows more
-  whole.run_until = model::RunUntil::time_limit;
-  Watch watch{whole};
-  watch.finish(known_until(whole, simulate(whole, &watch)));
-  if (!watch.violation()) return std::nullopt;
-  return watch.violation()->reason;
-}
-
 constexpr Law obligations_list[] = {
-    {"law.answers",
-     "A HEARTBEAT at an open reader side is answered by one ACKNACK τ_A later, and no other "
-     "ACKNACK is sent (Fast DDS: one answer to all that came meanwhile).",
-     is_of_two_writers, observed<AnswerWatch>},
-    {"law.initial-attempts",
-     "A reader asks by itself τ_I, 3·τ_I, 7·τ_I, … (with a constant interval τ_I, 2·τ_I, 3·τ_I, …) "
-     "after it opened, until it has seen a HEARTBEAT.",
-     is_of_two_writers, observed<AttemptWatch>},
-    {"law.announcements", "Every participant announces itself at the times that the profile says.",
-     is_of_two_writers, observed<AnnouncementWatch>},
-    {"law.work-conserving",
-     "No channel idles while a fragment waits for it, and none serves two at a time.", is_shared,
-     observed<IdleWatch>},
+    watched_law<AnswerWatch>(
+        "law.answers",
+        "A HEARTBEAT at an open reader side is answered by one ACKNACK τ_A later, and no other "
+        "ACKNACK is sent (Fast DDS: one answer to all that came meanwhile).",
+        is_of_two_writers),
+    watched_law<AttemptWatch>(
+        "law.initial-attempts",
+        "A reader asks by itself τ_I, 3·τ_I, 7·τ_I, … (with a constant interval τ_I, 2·τ_I, "
+        "3·τ_I, …) after it opened, until it has seen a HEARTBEAT.",
+        is_of_two_writers),
+    watched_law<AnnouncementWatch>(
+        "law.announcements",
+        "Every participant announces itself at the times that the profile says.",
+        is_of_two_writers),
+    watched_law<IdleWatch>(
+        "law.work-conserving",
+        "No channel idles while a fragment waits for it, and none serves two at a time.",
+        is_shared),
 };
 
 }  // namespace

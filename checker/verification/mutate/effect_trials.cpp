@@ -20,12 +20,21 @@ constexpr int size = 50;
 /// The first runs are of any kind; in the others things go wrong.
 constexpr std::uint64_t plain = 40;
 
-void run(const model::Scenario& scenario, const model::Mutation* mutation, model::Probe& probe) {
+model::RunResult run(const model::Scenario& scenario, const model::Mutation* mutation,
+                     model::Probe& probe) {
   model::RunOptions options;
   options.probe = &probe;
   options.mutation = mutation;
   options.max_events = enough_events;
-  (void)model::simulate(scenario, options);
+  return model::simulate(scenario, options);
+}
+
+/// Who objects to a run of the scenario.
+Ids judged(const model::Scenario& scenario, const model::Mutation* mutation,
+           const Ids& silent = {}) {
+  Onlookers onlookers{scenario, silent};
+  const model::RunResult result = run(scenario, mutation, onlookers.probe());
+  return onlookers.objections(scenario, result);
 }
 
 /// A random scenario of the kind.
@@ -40,24 +49,6 @@ model::Scenario draw(std::uint64_t seed, model::ImplementationKind kind,
   return scenario;
 }
 
-/// Many of the first packets are lost, and others come later than timers that wait for them.
-void disturb_packets(props::Dice& dice, model::WirelessProfile& wireless) {
-  constexpr std::uint64_t first_packets = 60;
-  wireless.one_way = Nanoseconds{dice.among({0, 1'000, 1'000'000, 1'000'000})};
-  wireless.lost_packets.clear();
-  wireless.packet_delays.clear();
-  const int lost = static_cast<int>(dice.among({0, 10, 30, 60}));
-  const int late = static_cast<int>(dice.among({0, 10, 30}));
-  for (std::uint64_t packet = 0; packet < first_packets; ++packet) {
-    if (dice.chance(lost)) {
-      wireless.lost_packets.push_back(packet);
-    } else if (dice.chance(late)) {
-      wireless.packet_delays.push_back(
-          {packet, Nanoseconds{0}, Nanoseconds{dice.magnitude(1'000, 4'000'000'000)}});
-    }
-  }
-}
-
 /// What rules do only if something goes wrong: few participants over a network that loses much and
 /// delivers late, with endpoints that come late and, where the rules know them, participants that
 /// come back.
@@ -68,47 +59,96 @@ model::Scenario draw_disturbed(std::uint64_t seed, model::ImplementationKind kin
                                    .max_endpoints = 2,
                                    .run_until = model::RunUntil::time_limit});
   props::Dice dice{seed};
-  disturb_packets(dice, scenario.wireless);
+  props::draw_disturbances(dice, scenario);
   const model::ImplementationTraits& traits = model::traits_of(kind);
-  if (traits.creates_endpoints_over_time) {
-    for (model::Participant& one : scenario.deployment.participants) {
-      one.endpoints_done = one.start + Nanoseconds{dice.among({0, 100, 1'000, 3'000}) * 1'000'000};
-    }
-  }
   if (traits.knows_lives && !traits.has_living_composition) props::draw_life(dice, scenario);
   scenario.time_limit = Nanoseconds{10'000'000'000};
   return scenario;
 }
 
+/// Which effects happen.
+class EffectProbe final : public model::Probe {
+ public:
+  explicit EffectProbe(std::set<fsm::composition::EffectKey>& effects) : effects_{effects} {}
+
+  [[nodiscard]] model::Reports reports() const override {
+    model::Reports reports;
+    reports.set(model::Report::effect);
+    return reports;
+  }
+  [[nodiscard]] bool wants_effects() const override { return true; }
+  void effect(fsm::composition::EffectKey key) override { effects_.insert(key); }
+
+ private:
+  std::set<fsm::composition::EffectKey>& effects_;
+};
+
+/// Whether a run in which these effects happen can show the mistake. Conditions and loops are asked
+/// even if nothing happens in them.
+bool may_change(const fsm::composition::EffectMutation& mistake,
+                const std::set<fsm::composition::EffectKey>& effects) {
+  using enum fsm::composition::EffectMutation::Change;
+  const bool of_a_block =
+      mistake.change == negated || mistake.change == always || mistake.change == first_only;
+  return of_a_block || effects.contains(mistake.key);
+}
+
+bool same_times(const props::RunLog& one, const props::RunLog& other) {
+  const auto same = [](const props::RunLog::Entry& a, const props::RunLog::Entry& b) {
+    return a.time == b.time && a.kind == b.kind;
+  };
+  return std::ranges::equal(one.entries(), other.entries(), same);
+}
+
+/// Of a run that differs from the correct one. One that was cut off has sent without end.
+Harm harm(const model::RunResult& correct, const model::RunResult& mistaken) {
+  if (mistaken.end == model::RunEnd::interrupted) return Harm::messages;
+  if (correct.missing_count < mistaken.missing_count) return Harm::discovery;
+  const bool same_counts = correct.counts == mistaken.counts &&
+                           correct.user_control == mistaken.user_control &&
+                           correct.duplicate_deliveries == mistaken.duplicate_deliveries;
+  return same_counts ? Harm::time : Harm::messages;
+}
+
 }  // namespace
 
-std::vector<EffectTrials::Correct>& EffectTrials::drawn(model::ImplementationKind implementation) {
+const std::vector<EffectTrials::Correct>& EffectTrials::drawn(
+    model::ImplementationKind implementation) {
+  const std::lock_guard lock{drawing_};
   std::vector<Correct>& list = drawn_[model::index_of(implementation)];
   for (std::uint64_t seed = 1; list.size() < runs && !stopped(); ++seed) {
     Correct& correct = list.emplace_back();
     correct.scenario =
         seed > plain ? draw_disturbed(seed, implementation) : draw(seed, implementation, {});
-    run(correct.scenario, nullptr, correct.log);
+    EffectProbe effects{correct.effects};
+    model::trace::ProbeList probes;
+    probes.add(correct.log);
+    probes.add(effects);
+    correct.result = run(correct.scenario, nullptr, probes);
+    correct.objections = judged(correct.scenario, nullptr);
   }
   return list;
 }
 
-bool EffectTrials::are_followed(const CatalogueEntry& entry) {
-  return std::ranges::none_of(drawn(entry.concerns.front()), [&](const Correct& correct) {
-    if (stopped()) return false;
-    const auto monitor = props::make_monitor("composition.followed", correct.scenario);
-    run(correct.scenario, &entry.mutant.rules, *monitor);
-    return monitor->violation().has_value();
-  });
-}
-
-bool EffectTrials::makes_a_difference(const CatalogueEntry& entry) {
-  return std::ranges::any_of(drawn(entry.concerns.front()), [&](const Correct& correct) {
-    if (stopped()) return false;
+EffectFindings EffectTrials::try_out(const CatalogueEntry& entry) {
+  const model::Mutation* const rules = &entry.mutant.rules;
+  EffectFindings found;
+  for (const Correct& correct : drawn(entry.concerns.front())) {
+    if (stopped()) break;
+    if (!may_change(rules->effects.front(), correct.effects)) continue;
     props::RunLog log;
-    run(correct.scenario, &entry.mutant.rules, log);
-    return props::first_difference(log, correct.log).has_value();
-  });
+    const model::RunResult result = run(correct.scenario, rules, log);
+    if (!props::first_difference(log, correct.log)) continue;
+    const bool timely = same_times(log, correct.log);
+    found.harm = std::max(found.harm, timely ? Harm::nothing : harm(correct.result, result));
+    found.objections = judged(correct.scenario, rules, correct.objections);
+    if (!found.objections.empty()) break;
+    if (!found.are_followed) continue;
+    const auto monitor = props::make_monitor(followed, correct.scenario);
+    run(correct.scenario, rules, *monitor);
+    found.are_followed = !monitor->violation();
+  }
+  return found;
 }
 
 }  // namespace stormproof::mutate

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <iterator>
-#include <set>
+#include <mutex>
+#include <thread>
 
 #include <fmt/core.h>
 
@@ -30,7 +32,6 @@ using props::Engine;
 using props::VerdictKind;
 
 using EngineFunction = Findings (*)(std::span<const std::string_view>, const CheckRequest&);
-using Ids = std::set<std::string_view>;
 
 /// The properties that are violated on one scenario.
 Ids violated(EngineFunction engine, const Ids& properties, const CheckRequest& request) {
@@ -105,28 +106,11 @@ std::vector<Question> questions_of(model::ImplementationKind implementation) {
 
 class Mutator {
  public:
-  explicit Mutator(const MutateOptions& options) : options_{options}, claims_{quick(options)} {}
+  Mutator(const MutateOptions& options, EffectTrials& effects)
+      : options_{options}, claims_{quick(options)}, effects_{effects} {}
 
-  MutationReport run() {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point started = Clock::now();
-    const std::vector<CatalogueEntry> entries = wanted();
-    MutationReport report;
-    report.everybody = options_.everybody;
-    for (const CatalogueEntry& entry : entries) {
-      if (!progress(entry.mutant.id)) {
-        report.interrupted = true;
-        break;
-      }
-      MutantResult result = entry.kind == Kind::effect ? try_effect(entry) : try_out(entry);
-      if (!progress(entry.mutant.id)) {  // then it is not known what would have noticed it
-        report.interrupted = true;
-        break;
-      }
-      report.mutants.push_back(std::move(result));
-    }
-    report.seconds = std::chrono::duration<double>(Clock::now() - started).count();
-    return report;
+  MutantResult try_mutant(const CatalogueEntry& entry) {
+    return entry.kind == Kind::effect ? try_effect(entry) : try_out(entry);
   }
 
  private:
@@ -144,17 +128,6 @@ class Mutator {
   /// For trials, which have nothing to say.
   [[nodiscard]] std::function<bool()> goes_on() const {
     return [this] { return progress("runs"); };
-  }
-
-  [[nodiscard]] std::vector<CatalogueEntry> wanted() const {
-    std::vector<CatalogueEntry> list = mutants();
-    const auto wanted = [](const auto& chosen, const auto& value) {
-      return chosen.empty() || std::ranges::find(chosen, value) != chosen.end();
-    };
-    std::erase_if(list, [&](const CatalogueEntry& entry) {
-      return !wanted(options_.only, entry.mutant.id) || !wanted(options_.kinds, entry.kind);
-    });
-    return list;
   }
 
   CheckRequest request(const Question& question, const checker::Mutant* mutant) {
@@ -220,7 +193,8 @@ class Mutator {
   }
 
   /// Runs first, then laws, the recorded composition and the search, then one with several readers
-  /// if that was asked for, until somebody notices.
+  /// if that was asked for, until somebody notices; last who executes the correct rules beside a
+  /// run.
   MutantResult try_effect(const CatalogueEntry& entry) {
     Ids killers;
     const auto ask_on = [&](std::vector<Question>& list, EngineFunction engine,
@@ -230,27 +204,44 @@ class Mutator {
         killers = ask(question, properties, entry);
       }
     };
-    const auto ask_all = [&](EngineFunction engine, const Ids& properties) {
-      ask_on(questions(entry.concerns.front()), engine, properties);
-    };
-    const Ids all = whole_catalogue();
-    ask_all(exact::check, all);
-    if (killers.empty() && !effects_.are_followed(entry)) killers.insert("composition.followed");
-    std::optional<std::vector<std::string>> laws;
+    std::vector<Question>& usual = questions(entry.concerns.front());
+    const Ids from_outside = without(whole_catalogue(), {followed});
+    ask_on(usual, exact::check, from_outside);
+    EffectFindings random;
+    if (killers.empty()) {
+      random = effects_.try_out(entry);
+      killers = random.objections;
+    }
+    std::optional<std::vector<std::string>> laws = laws_among(killers);
     if (killers.empty()) laws = laws_.killers(entry);
-    if (laws && laws->empty()) ask_all(tables::check, {"composition.total"});
-    if (laws && laws->empty()) ask_all(explorer::check, all);
-    if (options_.readers > 1 && laws && laws->empty() && killers.empty()) {
-      ask_on(shared_questions(entry.concerns.front()), explorer::check, all);
+    const bool unnoticed = killers.empty() && (!laws || laws->empty());
+    if (unnoticed) {
+      ask_on(usual, tables::check, {"composition.total"});
+      ask_on(usual, explorer::check, from_outside);
+      if (options_.readers > 1) {
+        ask_on(shared_questions(entry.concerns.front()), explorer::check, from_outside);
+      }
     }
     if (laws && laws->empty()) laws.reset();
+    const bool is_noticed = !killers.empty() || laws;
+    if (!is_noticed && !random.are_followed) killers.insert(followed);
+    if (!is_noticed) ask_on(usual, exact::check, {followed});
     MutantResult result = result_of(entry, killers, std::move(laws));
-    if (result.noticed()) return result;
-    result.makes_a_difference = effects_.makes_a_difference(entry);
-    if (!result.makes_a_difference) {
+    if (is_noticed) return result;
+    result.harm = random.harm;
+    if (result.unseen()) {
       result.reason = fmt::format("no difference in {} random runs", EffectTrials::runs);
     }
     return result;
+  }
+
+  /// The laws among the ids, if there are any.
+  static std::optional<std::vector<std::string>> laws_among(const Ids& ids) {
+    std::vector<std::string> laws;
+    for (const props::Law& law : props::laws()) {
+      if (ids.contains(law.id)) laws.emplace_back(law.id);
+    }
+    return laws.empty() ? std::nullopt : std::optional{std::move(laws)};
   }
 
   static MutantResult result_of(const CatalogueEntry& entry, const Ids& killers,
@@ -264,9 +255,8 @@ class Mutator {
       if (killers.contains(property.id)) result.killed_by.emplace_back(property.id);
     }
     if (!result.noticed()) {
-      result.reason = entry.survives_because.empty()
-                          ? "no property notices it on the trial scenarios"
-                          : entry.survives_because;
+      result.reason = entry.survives_because.empty() ? "no property and no law notices it"
+                                                     : entry.survives_because;
     }
     return result;
   }
@@ -276,11 +266,78 @@ class Mutator {
   std::array<std::vector<Question>, model::implementation_traits.size()> questions_;
   std::array<std::vector<Question>, model::implementation_traits.size()> shared_questions_;
   LawTrials laws_{goes_on()};
-  EffectTrials effects_{goes_on()};
+  EffectTrials& effects_;
+};
+
+std::vector<CatalogueEntry> wanted(const MutateOptions& options) {
+  std::vector<CatalogueEntry> list = mutants();
+  const auto is_wanted = [](const auto& chosen, const auto& value) {
+    return chosen.empty() || std::ranges::find(chosen, value) != chosen.end();
+  };
+  std::erase_if(list, [&](const CatalogueEntry& entry) {
+    return !is_wanted(options.only, entry.mutant.id) || !is_wanted(options.kinds, entry.kind);
+  });
+  return list;
+}
+
+/// The threads take one mutant after the other; each has a solver, and questions, of its own.
+class Mutators {
+ public:
+  explicit Mutators(const MutateOptions& options)
+      : entries_{wanted(options)}, results_{entries_.size()}, options_{options} {
+    options_.on_progress = [this, ask = options.on_progress](std::string_view what) {
+      if (ask) {
+        const std::lock_guard lock{asking_};
+        if (!stopped_ && !ask(what)) stopped_ = true;
+      }
+      return !stopped_;
+    };
+  }
+
+  MutationReport run() {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point started = Clock::now();
+    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+    {
+      std::vector<std::jthread> others;
+      for (std::size_t k = 1; k < std::min(cores, entries_.size()); ++k) {
+        others.emplace_back([this] { work(); });
+      }
+      work();
+    }
+    MutationReport report;
+    report.everybody = options_.everybody;
+    for (std::optional<MutantResult>& result : results_) {
+      if (result) report.mutants.push_back(*std::move(result));
+    }
+    report.interrupted = report.mutants.size() < entries_.size();
+    report.seconds = std::chrono::duration<double>(Clock::now() - started).count();
+    return report;
+  }
+
+ private:
+  void work() {
+    Mutator mutator{options_, effects_};
+    for (std::size_t k = next_++; k < entries_.size(); k = next_++) {
+      const std::string& id = entries_[k].mutant.id;
+      if (!options_.on_progress(id)) return;
+      MutantResult result = mutator.try_mutant(entries_[k]);
+      if (!options_.on_progress(id)) return;  // it is not known what would have noticed it
+      results_[k] = std::move(result);
+    }
+  }
+
+  std::vector<CatalogueEntry> entries_;
+  std::vector<std::optional<MutantResult>> results_;  // of each
+  MutateOptions options_;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex asking_;
+  std::atomic<bool> stopped_ = false;
+  EffectTrials effects_{[this] { return options_.on_progress("runs"); }};
 };
 
 }  // namespace
 
-MutationReport mutate(const MutateOptions& options) { return Mutator{options}.run(); }
+MutationReport mutate(const MutateOptions& options) { return Mutators{options}.run(); }
 
 }  // namespace stormproof::mutate

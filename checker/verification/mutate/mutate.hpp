@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "checker/engines/smt/claims.hpp"
+#include "checker/verification/mutate/effect_trials.hpp"
 #include "checker/verification/mutate/mutants.hpp"
 
 namespace stormproof::mutate {
@@ -24,12 +25,17 @@ struct MutantResult {
   /// Laws that the mutant breaks; absent if no run can show it, or if they were not asked: a
   /// property has noticed it before.
   std::optional<std::vector<std::string>> killed_by_laws;
-  /// Of a surviving mutant of an effect: whether some random run differs from the correct one; if
-  /// not, it is unseen.
-  bool makes_a_difference = true;
+  /// Of a mutant of an effect that nobody notices, or only who executes the correct rules beside
+  /// it: what it changes in random runs.
+  std::optional<Harm> harm = {};
 
   /// By a property; a mistake at an effect also by a law.
   [[nodiscard]] bool noticed() const;
+  /// The same if the mistake is in the rules that everybody reads, and not in a run that departs
+  /// from them: by somebody else than `composition.followed`, which executes the rules.
+  [[nodiscard]] bool noticed_in_rules() const;
+  /// Whether no random run differs from the correct one.
+  [[nodiscard]] bool unseen() const { return !noticed() && harm == Harm::unseen; }
 };
 
 struct MutationReport {
@@ -41,9 +47,14 @@ struct MutationReport {
   [[nodiscard]] std::size_t killed() const;
   /// Of how many no random run shows a difference. Nobody has proved that there is none.
   [[nodiscard]] std::size_t unseen() const;
+  /// How many of those at effects some run shows, and how many of these are noticed if the mistake
+  /// is in the rules themselves.
+  [[nodiscard]] std::size_t seen_at_effects() const;
+  [[nodiscard]] std::size_t noticed_in_rules() const;
   /// How many only `composition.followed` notices, which executes the correct rules beside a run.
   [[nodiscard]] std::size_t only_followed() const;
-  /// At least 95 % of those that some run shows, or a proof.
+  /// At least 95 % of those that some run shows, or a proof; and of those at effects 60 % if they
+  /// are in the rules.
   [[nodiscard]] bool notices_enough() const;
   /// How many mutants the property notices.
   [[nodiscard]] std::size_t killed_by(std::string_view property) const;

@@ -26,7 +26,7 @@ std::string laws_text(const MutantResult& mutant, bool everybody) {
 }
 
 std::string noticed_by(const MutantResult& mutant) {
-  if (!mutant.makes_a_difference) return "unseen: " + mutant.reason;
+  if (mutant.unseen()) return "unseen: " + mutant.reason;
   if (!mutant.noticed()) return "SURVIVES: " + mutant.reason;
   return mutant.killed_by.empty() ? "→ a law"
                                   : fmt::format("→ {}", fmt::join(mutant.killed_by, ", "));
@@ -41,7 +41,7 @@ report::Table mutants_table(const MutationReport& report) {
   for (const MutantResult& mutant : report.mutants) {
     report::Text who = noticed_by(mutant) + laws_text(mutant, report.everybody);
     table.rows.push_back({{report::code(mutant.id), mutant.description, std::move(who)},
-                          !mutant.noticed() && mutant.makes_a_difference});
+                          !mutant.noticed() && !mutant.unseen()});
   }
   return table;
 }
@@ -64,8 +64,8 @@ report::Finding finding_of(const MutantResult& mutant, bool everybody) {
   finding.group = "stormproof.mutate";
   finding.statement = mutant.description;
   using enum report::Finding::Outcome;
-  finding.outcome = mutant.noticed() ? passed : mutant.makes_a_difference ? failed : note;
-  finding.word = mutant.noticed() ? "noticed" : mutant.makes_a_difference ? "survives" : "unseen";
+  finding.outcome = mutant.noticed() ? passed : mutant.unseen() ? note : failed;
+  finding.word = mutant.noticed() ? "noticed" : mutant.unseen() ? "unseen" : "survives";
   finding.message = noticed_by(mutant);
   finding.details =
       mutant.description + "\n" + noticed_by(mutant) + laws_text(mutant, everybody) + "\n";
@@ -73,12 +73,41 @@ report::Finding finding_of(const MutantResult& mutant, bool everybody) {
   return finding;
 }
 
-/// The end of a long list is what one sees of it.
+/// What a mistake that nobody notices from outside changes for a user.
+std::string_view harm_in_words(const MutantResult& mutant) {
+  switch (mutant.harm.value_or(Harm::unseen)) {
+    case Harm::unseen:
+      return "nothing in any of the runs";
+    case Harm::nothing:
+      return "nothing that a user sees: what machines remember, or the order at one instant";
+    case Harm::time:
+      return "when something happens";
+    case Harm::messages:
+      return "how many messages there are";
+    case Harm::discovery:
+      return "discovery, which lacks descriptors in the end";
+  }
+  return "";
+}
+
+/// The ends of long lists are what one sees of them.
 void add_survivors(report::Document& document, const MutationReport& report) {
   report::Bullets survivors;
+  report::Bullets restated;
   for (const MutantResult& mutant : report.mutants) {
-    if (mutant.noticed() || !mutant.makes_a_difference) continue;
-    survivors.items.push_back(report::code(mutant.id) + ": " + mutant.reason);
+    if (mutant.noticed_in_rules() || mutant.unseen()) continue;
+    if (mutant.noticed()) {
+      restated.items.push_back(report::code(mutant.id) + ": changes " +
+                               std::string{harm_in_words(mutant)});
+    } else {
+      survivors.items.push_back(report::code(mutant.id) + ": " + mutant.reason);
+    }
+  }
+  if (!restated.items.empty()) {
+    document.blocks.emplace_back(
+        report::Section{"Noticed only beside correct rules: nobody would if the rules were wrong",
+                        "restated",
+                        {std::move(restated)}});
   }
   if (survivors.items.empty()) return;
   document.blocks.emplace_back(
@@ -105,9 +134,11 @@ report::Document document_of(const MutationReport& report) {
         fmt::format("; {} more are unseen in {} random runs, which proves nothing of them",
                     report.unseen(), EffectTrials::runs);
   }
-  if (report.only_followed() > 0) {
+  if (const std::size_t effects = report.seen_at_effects(); effects > 0) {
     document.answer += fmt::format(
-        "; {} only composition.followed notices, which executes the correct rules beside the run",
+        "; of {} at effects {} ({}) if the rules themselves are wrong, and {} only because "
+        "composition.followed executes correct rules beside the run",
+        effects, report.noticed_in_rules(), share(report.noticed_in_rules(), effects),
         report.only_followed());
   }
   document.elaboration =

@@ -14,7 +14,8 @@ void describe(V& v, const MutantResult& mutant) {
   v("killed_by", mutant.killed_by);
   v.or_null("reason", mutant.noticed() ? "" : mutant.reason);
   v("killed_by_laws", mutant.killed_by_laws);
-  v("makes_a_difference", mutant.makes_a_difference);
+  v("makes_a_difference", !mutant.unseen());
+  v("harm", mutant.harm);
 }
 
 namespace {
@@ -48,6 +49,8 @@ void describe(V& v, const MutationReport& report) {
   v("killed", report.killed());
   v("unseen", report.unseen());
   v("only_followed", report.only_followed());
+  v("seen_at_effects", report.seen_at_effects());
+  v("noticed_in_rules", report.noticed_in_rules());
   v("killed_by_property", ByProperty{report});
   v("killed_by_any_law", report.killed_by_laws());
   v("tried_on_laws", report.tried_on_laws());

@@ -10,6 +10,7 @@
 #include "model/implementations.hpp"
 #include "model/mutation.hpp"
 #include "model/simulator.hpp"
+#include "props/generators/dice.hpp"
 #include "props/generators/on_demand.hpp"
 #include "props/generators/space.hpp"
 #include "tests/props/laws/law_check.hpp"
@@ -34,6 +35,33 @@ INSTANTIATE_TEST_SUITE_P(Every, LawTest, testing::ValuesIn(laws().begin(), laws(
 TEST_P(LawTest, Holds) {
   const auto broken = broken_on_random_scenarios(GetParam(), correct);
   EXPECT_FALSE(broken) << *broken;
+}
+
+/// Where much is lost and late, and endpoints come late, those who watch a run object to no correct
+/// one.
+TEST_P(LawTest, HoldsInDisturbedRunsIfItWatchesOne) {
+  if (GetParam().watch == nullptr) return;
+  const Simulate beginning = [](const model::Scenario& scenario, model::Probe* probe) {
+    model::RunOptions options;
+    options.probe = probe;
+    options.max_events = 5'000;
+    return model::simulate(scenario, options);
+  };
+  for (const auto kind : {model::ImplementationKind::paper, model::ImplementationKind::fastdds}) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      model::Scenario scenario = draw_scenario(seed, 50,
+                                               {.implementation = kind,
+                                                .service = model::ServiceKind::constant_delay,
+                                                .max_participants = 3,
+                                                .max_endpoints = 2});
+      Dice dice{seed};
+      draw_disturbances(dice, scenario);
+      scenario.time_limit = model::Nanoseconds{4'000'000'000};
+      if (!speaks_of(GetParam(), scenario)) continue;
+      const auto broken = GetParam().broken(scenario, beginning);
+      ASSERT_FALSE(broken) << model::traits_of(kind).name << ", seed " << seed << ": " << *broken;
+    }
+  }
 }
 
 /// Clients and super clients of a Discovery Server.

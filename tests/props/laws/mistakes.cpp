@@ -183,6 +183,29 @@ void add_obligations(std::vector<Mistake>& list) {
                   of_row("Channel", "Idle", "EffectsDone", "Idle", TableChange::drop_row)});
 }
 
+/// What both sides of a relation owe each other.
+void add_exchange(std::vector<Mistake>& list) {
+  list.push_back({"law.introductions", "nobody answers an announcement",
+                  of_other([](Scenario& s) { s.dds.spdp.resend = model::SpdpResend::none; })});
+  list.push_back({"law.introductions", "copies go to nobody else",
+                  of_other([](Scenario& s) { s.dds.spdp.resend = model::SpdpResend::new_only; })});
+  list.push_back({"law.first-words", "what should be pushed is pulled", of_other([](Scenario& s) {
+                    s.dds.sedp.initial_data = model::InitialData::pull;
+                  })});
+  list.push_back({"law.requests", "a repair is generated 1 ns late",
+                  of_rules(of_event(EventKind::repair_generation, Change::shift, ns))});
+  list.push_back({"law.requests", "nobody responds to requests",
+                  of_rules(of_event(EventKind::nack_response, Change::forget))});
+  list.push_back({"law.reminders", "the HEARTBEAT timer never expires",
+                  of_rules(of_event(EventKind::heartbeat_expiry, Change::forget))});
+  list.push_back({"law.reminders", "the HEARTBEAT timer expires twice",
+                  of_rules(of_event(EventKind::heartbeat_expiry, Change::duplicate))});
+  list.push_back({"law.control", "an answer of a control-only relation is 1 ns late",
+                  of_rules(of_event(EventKind::control_reply_due, Change::shift, ns))});
+  list.push_back({"law.control", "attempts of control-only relations are forgotten",
+                  of_rules(of_event(EventKind::control_initial_due, Change::forget))});
+}
+
 void add_accounting(std::vector<Mistake>& list) {
   list.push_back({"law.counts", "an ACKNACK too many is counted",
                   misreported([](auto& result) { ++result.counts.acknack; })});
@@ -282,6 +305,7 @@ std::vector<Mistake> mistakes() {
   add_units(list);
   add_workload(list);
   add_obligations(list);
+  add_exchange(list);
   add_accounting(list);
   add_causality(list);
   add_service(list);
