@@ -9,6 +9,7 @@ void declare_commands(Frame& frame) {
   declare_check(frame);
   declare_diff(frame);
   declare_compare_discovery(frame);
+  declare_launch(frame);
   declare_fuzz(frame);
   declare_sensitivity(frame);
   declare_sweep(frame);

@@ -6,6 +6,7 @@
 
 #include "checker/experiments/simulate/simulate_report.hpp"
 #include "checker/experiments/simulate/tone_of_health.hpp"
+#include "checker/experiments/trials/usual_hosts.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
@@ -293,6 +294,12 @@ void add_footer(Blocks& blocks, const Simulation& s) {
       "states its rules and assumptions.",
       grouped(s.result.events), model::traits_of(s.scenario.dds).guide)});
   if (s.result.counts.repair_data == 0) return;
+  if (trials::starts_are_spread(s.scenario.deployment) && trials::lacks_hosts(s.scenario)) {
+    blocks.emplace_back(Paragraph{fmt::format(
+        "Starts are spread, and programs take no time here, which makes more repairs than live "
+        "runs have: --set hosts={} is nearer to them.",
+        trials::usual_hosts)});
+  }
   if (!s.samples.empty()) return;
   blocks.emplace_back(Paragraph{
       "A single run of a storm is chaotic: --start-jitter 100ms shows the range of outcomes when "

@@ -3,6 +3,7 @@
 // time answers all of them at once and repairs several times as often (specs/guide/fleet.md).
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,15 @@ inline constexpr const char* usual_hosts = "live-bed-processors";
 [[nodiscard]] inline bool lacks_hosts(const model::Scenario& scenario) {
   return !scenario.hosts && !scenario.deployment.life &&
          model::config::takes_processor_time(scenario.dds);
+}
+/// Whether somebody is to start when somebody else already has all its endpoints; start times that
+/// are drawn are those of programs that are started at once.
+[[nodiscard]] inline bool starts_are_spread(const model::Deployment& deployment) {
+  if (deployment.schedule || deployment.participants.empty()) return false;
+  const auto& all = deployment.participants;
+  const auto last = std::ranges::max_element(all, {}, &model::Participant::start);
+  const auto done = std::ranges::min_element(all, {}, &model::Participant::endpoints_done);
+  return last->start > done->endpoints_done;
 }
 /// Overrides that give it the usual ones, those of a user after them.
 [[nodiscard]] inline std::vector<std::string> with_usual_hosts(std::vector<std::string> overrides) {

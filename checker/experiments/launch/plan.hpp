@@ -1,0 +1,50 @@
+// Launch plans: when to start which process of a deployment.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/deployment.hpp"
+
+namespace stormproof::launch {
+
+enum class Order : std::uint8_t {
+  deployed,    ///< as the scenario says
+  at_once,     ///< all at one instant
+  by_process,  ///< each process a step after the one before
+  by_host,     ///< each host a step after the one before, its processes together
+  waves,       ///< each host when those before it know each other
+  late_tool    ///< the last process when all others know each other
+};
+/// "deployed", "at_once", …, for data.
+[[nodiscard]] const char* name_of(Order order);
+
+struct Plan {
+  Order order{};
+  model::Nanoseconds step{};  ///< of by_process and by_host
+
+  /// Whether a start waits for what was started before.
+  [[nodiscard]] bool waits() const { return order == Order::waves || order == Order::late_tool; }
+  bool operator==(const Plan&) const = default;
+};
+/// "process by process, 100ms apart".
+[[nodiscard]] std::string words_of(const Plan& plan);
+
+/// Which start each participant belongs to, from 0 on in the order of the starts.
+[[nodiscard]] std::vector<std::uint32_t> starts_of(const model::Deployment& deployment,
+                                                   Order order);
+
+/// The plan that the start times of a deployment follow, or `deployed` if none of those here;
+/// start times that are drawn from a schedule are those of processes that are started at once.
+[[nodiscard]] Plan plan_of(const model::Deployment& deployment);
+
+/// The plans to compare: the deployed one first, spreads whose last start is within `limit`.
+[[nodiscard]] std::vector<Plan> plans_for(const model::Deployment& deployment,
+                                          const std::vector<model::Nanoseconds>& steps,
+                                          model::Nanoseconds limit);
+
+/// Steps from 10 ms to 2 s.
+[[nodiscard]] std::vector<model::Nanoseconds> usual_steps();
+
+}  // namespace stormproof::launch
