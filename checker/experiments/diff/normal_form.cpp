@@ -43,8 +43,10 @@ bool fills_messages_of_one_mtu(const Dds& dds) {
   return !has_fixed_sizes(dds) && dds.sedp.grouping == model::Grouping::message &&
          dds.sedp.grouping_limit_bytes == mtu_limit;
 }
+/// Those of a group follow what has been sent before.
 bool piggybacks_on_everything(const Dds& dds) {
-  return !has_no_piggyback(dds) && dds.sedp.piggyback_threshold_bytes == model::Bytes{0};
+  return !has_no_piggyback(dds) && dds.sedp.piggyback != model::Piggyback::group &&
+         dds.sedp.piggyback_threshold_bytes == model::Bytes{0};
 }
 bool has_no_default_descriptors(const Dds& dds) {
   const auto& [publications, subscriptions, bytes, user_bytes] = dds.descriptors;
