@@ -150,8 +150,7 @@ void RunLog::note_subject(model::trace::Subject subject, std::uint32_t number) {
     case channel:
       note(number);
       break;
-    case control_relation:  // numbered by pair, or by participant; the packets tell which
-    case control_writer:
+    case control_relation:  // numbered by pair; the packets tell which
     case access_point:
     case packet:  // places in memory
       break;
