@@ -458,7 +458,9 @@ void Network::report(RunResult& result) const {
     if (processors_ != nullptr) waiting.thread = processors_->waited(i);
   }
   result.latency = latency_;
-  if (!result.completed() || !last_arrival_) return;
+  // Where types are looked up, an answer that another packet brings may complete discovery.
+  const bool is_known = last_arrival_ && !run_.scenario.deployment.types;
+  if (!result.completed() || !is_known) return;
   result.last_delivery = last_arrival_;
   result.last_delivery->descriptor = run_.last_delivered;
 }
