@@ -1,17 +1,17 @@
-# Two hosts on one machine: network namespaces that are joined by a veth pair or by the user-space
+# Hosts on one machine: network namespaces that are joined by a veth pair or by the user-space
 # access point, with names that hold the process id of the run, so that runs do not meet and what a
-# killed run left behind is recognised. Sourced by tests/live/run, which sets `run_id`, `link` and
+# killed run left behind is recognised. Sourced by tests/live/run, which sets `run_id`, `hosts`, `link` and
 # `access_point`, and calls remove_network whatever happens.
 #
 # shellcheck shell=bash disable=SC2154
 
 readonly name_prefix=stormproof-live
-readonly addresses=(10.77.0.1 10.77.0.2)
-readonly hardware_addresses=(02:00:0a:4d:00:01 02:00:0a:4d:00:02)
 # Of the interface inside a namespace.
 readonly interface=lan0
 readonly mtu=1500
 
+address() { echo "10.77.0.$(($1 + 1))"; }
+hardware_address() { printf '02:00:0a:4d:00:%02x' $(($1 + 1)); }
 # namespace <host> : its name
 namespace() { echo "$name_prefix-$run_id-$1"; }
 # device <host> : the name of the interface before it is in its namespace; at most 15 characters
@@ -20,7 +20,7 @@ inside() { ip netns exec "$(namespace "$1")" "${@:2}"; }
 
 add_namespaces() {
   local host problem
-  for host in 0 1; do
+  for ((host = 0; host < hosts; ++host)); do
     problem=$(ip netns add "$(namespace "$host")" 2>&1) ||
       skip "cannot create a network namespace: $problem"
     # Neighbour discovery of IPv6 would use the channel. Where there is none to turn off: fine.
@@ -36,12 +36,13 @@ add_veth_pair() {
     skip "cannot create a veth pair: $problem"
 }
 
-# start_access_point <folder> : returns when both TAP devices exist
+# start_access_point <folder> : returns when all TAP devices exist
 start_access_point() {
-  local log=$1/access-point.log waited=0
+  local log=$1/access-point.log waited=0 host taps=()
+  for ((host = 0; host < hosts; ++host)); do taps+=(--tap "$(device "$host")"); done
   [[ -c /dev/net/tun ]] || skip "/dev/net/tun is not there: the kernel has no TAP devices"
   # It has to wake up in time among all the participants that discover each other.
-  nice -n -15 "$access_point" --tap "$(device 0)" --tap "$(device 1)" \
+  nice -n -15 "$access_point" "${taps[@]}" \
     --statistics "$1/access-point.json" "${access_point_options[@]}" >"$log" 2>&1 </dev/null &
   access_point_pid=$!
   until grep -qs '^ready' "$log"; do
@@ -63,32 +64,34 @@ shape() {
 
 # configure_host <host> : moves its end of the link into its namespace and gives it addresses
 configure_host() {
-  local host=$1 space peer=$((1 - $1))
+  local host=$1 space peer
   space=$(namespace "$host")
   ip link set dev "$(device "$host")" netns "$space"
   ip -n "$space" link set dev "$(device "$host")" name "$interface"
   ip -n "$space" link set dev "$interface" mtu "$mtu" txqueuelen 10000 \
-    address "${hardware_addresses[host]}"
+    address "$(hardware_address "$host")"
   # A veth pair passes on packets without checksums; captures shall have them.
   if [[ $link == veth ]]; then
     inside "$host" ethtool --offload "$interface" tx off rx off gso off tso off gro off \
       >/dev/null 2>&1 || say "note: cannot turn off checksum offload"
   fi
   [[ -z ${rate:-} ]] || shape "$space"
-  ip -n "$space" address add "${addresses[host]}/24" dev "$interface"
+  ip -n "$space" address add "$(address "$host")/24" dev "$interface"
   ip -n "$space" link set dev "$interface" up
   ip -n "$space" route add 224.0.0.0/4 dev "$interface"
   # No ARP on the channel either.
-  ip -n "$space" neighbour replace "${addresses[peer]}" lladdr "${hardware_addresses[peer]}" \
-    dev "$interface" nud permanent
+  for ((peer = 0; peer < hosts; ++peer)); do
+    [[ $peer -eq $host ]] || ip -n "$space" neighbour replace "$(address "$peer")" \
+      lladdr "$(hardware_address "$peer")" dev "$interface" nud permanent
+  done
 }
 
 # add_network <folder> : the whole network; the access point reports into the folder
 add_network() {
   add_namespaces
   if [[ $link == veth ]]; then add_veth_pair; else start_access_point "$1"; fi
-  configure_host 0
-  configure_host 1
+  local host
+  for ((host = 0; host < hosts; ++host)); do configure_host "$host"; done
 }
 
 # transmit_drops <host> : packets that the host's interface dropped before they were on the link
@@ -118,7 +121,7 @@ remove_network() {
     wait "$access_point_pid" 2>/dev/null || true
     access_point_pid=
   fi
-  for host in 0 1; do
+  for ((host = 0; host < hosts; ++host)); do
     ! ip link show dev "$(device "$host")" >/dev/null 2>&1 ||
       ip link delete dev "$(device "$host")" 2>/dev/null || true
     [[ ! -e /run/netns/$(namespace "$host") ]] || remove_namespace "$(namespace "$host")"
@@ -135,7 +138,7 @@ is_running() {
 leftovers() {
   local name pid
   {
-    ip netns list | sed -n "s/^\($name_prefix-[0-9]*-[01]\)\( .*\)\?$/\1/p"
+    ip netns list | sed -n "s/^\($name_prefix-[0-9]*-[0-9]\)\( .*\)\?$/\1/p"
     find "${TMPDIR:-/tmp}" -maxdepth 1 -type d -name "$name_prefix-[0-9]*.??????"
   } | while read -r name; do
     pid=${name##*"$name_prefix-"}

@@ -22,13 +22,14 @@ int rank_of(model::ServiceOrder order, Direction direction) {
 }  // namespace
 
 HalfDuplexChannel::HalfDuplexChannel(const model::WirelessProfile& wireless,
-                                     const QueueLimits& limits, const Losses& losses)
+                                     const QueueLimits& limits, const Losses& losses,
+                                     std::uint32_t stations)
     : link_overhead_bytes_{wireless.link_overhead_bytes.count()},
       limits_{limits},
       losses_{losses},
       random_{losses.seed} {
   if (wireless.service == model::ServedBy::unit) {
-    units_.emplace(wireless, std::uint32_t{2});
+    units_.emplace(wireless, stations);
     return;
   }
   for (const Direction direction : {Direction::uplink, Direction::downlink}) {
@@ -111,8 +112,7 @@ void HalfDuplexChannel::wait_for(Direction direction, std::uint32_t name) {
       units_->request_uplink(frame.station, asked, frame.flow);
     } else {
       const bool to_all = frame.cast == Cast::multicast;
-      units_->request_downlink(to_all ? model::Flow::everybody : 1 - frame.station, asked,
-                               frame.flow);
+      units_->request_downlink(to_all ? model::Flow::everybody : frame.to(), asked, frame.flow);
     }
   }
   statistics_.deepest_queue = std::max<std::uint64_t>(statistics_.deepest_queue, waiting());
@@ -161,7 +161,8 @@ void HalfDuplexChannel::finish() {
     sum.bytes += frame.bytes;
     const ServiceEnd outcome =
         served.direction == Direction::uplink ? after_uplink(name) : after_downlink();
-    ended_.push_back({name, frame.station, served.direction, served.start, served.end, outcome});
+    ended_.push_back({name, frame.station, served.direction, served.start, served.end, outcome,
+                      frame.cast == Cast::multicast ? std::nullopt : frame.receiver});
   }
   step<fsm::channel::EffectsDone>();
 }

@@ -24,6 +24,7 @@ namespace stormproof::live {
 using model::Nanoseconds;
 
 inline constexpr std::int64_t ethernet_header_bytes = 14;
+inline constexpr std::uint32_t most_stations = 10;
 
 /// The two services of a frame; the numbers are those of the profile's stages.
 enum class Direction : std::uint8_t { uplink = 0, downlink = 1 };
@@ -45,10 +46,15 @@ struct Losses {
 };
 
 struct Frame {
-  std::uint32_t station = 0;  ///< who sent it: 0 or 1
+  std::uint32_t station = 0;  ///< who sent it, from 0 on
   std::int64_t bytes = 0;     ///< with the Ethernet header, without its checksum
   Cast cast{};
   model::Flow flow = {};  ///< its conversation, if the profile keeps flows apart
+  /// The station that a unicast frame is for; absent: the other one of two, or nobody knows.
+  std::optional<std::uint32_t> receiver = {};
+
+  /// Whose queue at the access point a unicast frame waits in.
+  [[nodiscard]] std::uint32_t to() const { return receiver.value_or(station == 0 ? 1 : 0); }
 };
 
 /// What became of a frame at the end of a service.
@@ -67,6 +73,8 @@ struct Service {
   Nanoseconds start;
   Nanoseconds end;
   ServiceEnd outcome{};
+  /// Whom a frame was for; absent: all but its station, because it was multicast or nobody knows.
+  std::optional<std::uint32_t> receiver = {};
 };
 
 /// What the channel has done; indices are direction and cast.
@@ -84,7 +92,7 @@ struct ChannelStatistics {
   };
 
   std::array<std::array<Served, 2>, 2> served{};
-  std::array<Station, 2> stations{};
+  std::array<Station, most_stations> stations{};
   std::uint64_t delivered = 0;
   std::uint64_t lost = 0;
   std::uint64_t dropped_downlink = 0;
@@ -96,7 +104,7 @@ class HalfDuplexChannel {
  public:
   /// `wireless` must be one that `why_not_served` (serving_profile.hpp) accepts.
   HalfDuplexChannel(const model::WirelessProfile& wireless, const QueueLimits& limits,
-                    const Losses& losses);
+                    const Losses& losses, std::uint32_t stations = 2);
 
   /// A station requests service for a frame at `now`, which is not before any earlier request and
   /// not before the time of an `advance`. Returns a number that names the frame, or nothing if the
@@ -156,7 +164,7 @@ class HalfDuplexChannel {
   std::optional<InService> serving_;
   model::WaitingFragments waiting_;          // with `service: frame`
   std::optional<model::UnitChannel> units_;  // with `service: unit`
-  std::array<std::uint64_t, 2> station_queue_{};
+  std::array<std::uint64_t, most_stations> station_queue_{};
   std::uint64_t downlink_queue_ = 0;
   std::uint64_t next_request_ = 0;
   model::SlotPool<Frame> frames_;  // by name

@@ -1,4 +1,6 @@
 // Namespaces, processes and addresses for the tests of the program.
+#include "tests/live/access_point/joined_hosts.hpp"
+
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -18,8 +20,6 @@
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include "tests/live/access_point/two_hosts.hpp"
 
 namespace stormproof::live {
 
@@ -118,47 +118,54 @@ int AccessPoint::wait() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TwoHosts::TwoHosts(const std::vector<std::string>& arguments) {
-  if (!hosts_[0].ready() || !hosts_[1].ready()) return;
+JoinedHosts::JoinedHosts(const std::vector<std::string>& arguments, std::size_t count) {
   const std::string name = "spt" + std::to_string(getpid());
   statistics_ = (std::filesystem::temp_directory_path() / (name + ".json")).string();
-  std::vector<std::string> words{"--tap",    name + "a",     "--tap",
-                                 name + "b", "--statistics", statistics_};
+  std::vector<std::string> words{"--statistics", statistics_};
+  std::vector<std::string> taps;
+  std::string ready = "ready";
+  for (std::size_t host = 0; host < count; ++host) {
+    if (!hosts_.emplace_back().ready()) return;
+    taps.push_back(name + static_cast<char>('a' + host));
+    words.insert(words.end(), {"--tap", taps.back()});
+    ready += " " + taps.back();
+  }
   words.insert(words.end(), arguments.begin(), arguments.end());
   access_point_.emplace(words);
-  if (access_point_->first_line() != "ready " + name + "a " + name + "b") {
+  if (access_point_->first_line() != ready) {
     access_point_->wait();
     ADD_FAILURE() << "the access point is not ready: " << access_point_->complaint();
     return;
   }
-  join(0, name + "a");
-  join(1, name + "b");
+  for (std::size_t host = 0; host < count; ++host) join(host, taps[host]);
   ready_ = !testing::Test::HasFailure();
 }
 
-TwoHosts::~TwoHosts() {
+JoinedHosts::~JoinedHosts() {
   for (const int socket : sockets_) close(socket);
   std::error_code ignored;
   std::filesystem::remove(statistics_, ignored);
 }
 
 /// Moves the device into the namespace of the host and sets it up there.
-void TwoHosts::join(std::size_t host, const std::string& tap) {
+void JoinedHosts::join(std::size_t host, const std::string& tap) {
   const std::string network =
       "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(hosts_[host].descriptor());
   EXPECT_TRUE(run("ip link set " + tap + " netns " + network));
   const std::string own = std::to_string(host + 1);
-  const std::string other = std::to_string(2 - host);
-  hosts_[host].inside([&] {
-    EXPECT_TRUE(run("ip link set " + tap + " address 02:00:00:00:00:0" + own +
-                    " addrgenmode none && ip addr add 10.99.0." + own +
-                    "/24 broadcast 10.99.0.255 dev " + tap + " && ip link set " + tap +
-                    " up && ip neigh add 10.99.0." + other + " lladdr 02:00:00:00:00:0" + other +
-                    " dev " + tap + " nud permanent"));
-  });
+  std::string command = "ip link set " + tap + " address 02:00:00:00:00:0" + own +
+                        " addrgenmode none && ip addr add 10.99.0." + own +
+                        "/24 broadcast 10.99.0.255 dev " + tap + " && ip link set " + tap + " up";
+  for (std::size_t other = 0; other < hosts_.size(); ++other) {
+    if (other == host) continue;
+    const std::string number = std::to_string(other + 1);
+    command += " && ip neigh add 10.99.0." + number + " lladdr 02:00:00:00:00:0" + number +
+               " dev " + tap + " nud permanent";
+  }
+  hosts_[host].inside([&] { EXPECT_TRUE(run(command)); });
 }
 
-int TwoHosts::open_socket(std::size_t host) {
+int JoinedHosts::open_socket(std::size_t host) {
   int made = -1;
   hosts_[host].inside([&] {
     made = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -175,7 +182,7 @@ int TwoHosts::open_socket(std::size_t host) {
   return made;
 }
 
-nlohmann::json TwoHosts::end() {
+nlohmann::json JoinedHosts::end() {
   const int code = access_point_->end();
   EXPECT_EQ(code, 0) << access_point_->complaint();
   std::ifstream file{statistics_};

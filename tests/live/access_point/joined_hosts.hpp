@@ -1,10 +1,10 @@
-// Two hosts for the tests of the program: network namespaces without a name, and the access point
+// Hosts for the tests of the program: network namespaces without a name, and the access point
 // between them. The kernel removes a namespace when the last file descriptor that holds it is
 // closed, and the access point ends with the process that started it, so a test that fails, or is
 // killed, leaves nothing behind.
 #pragma once
 
-#include <array>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -61,12 +61,12 @@ class AccessPoint {
   std::string complaint_;
 };
 
-/// Both hosts, joined by an access point, with addresses 10.99.0.1 and 10.99.0.2 and no traffic
-/// but what a test sends: static neighbours, no IPv6.
-class TwoHosts {
+/// Hosts that an access point joins, with addresses 10.99.0.1, 10.99.0.2 … and no traffic but what
+/// a test sends: static neighbours, no IPv6.
+class JoinedHosts {
  public:
-  explicit TwoHosts(const std::vector<std::string>& arguments = {});
-  ~TwoHosts();
+  explicit JoinedHosts(const std::vector<std::string>& arguments = {}, std::size_t count = 2);
+  ~JoinedHosts();
 
   [[nodiscard]] bool ready() const { return ready_; }
   /// A UDP socket of the host, bound to port 7400; receiving gives up after two seconds.
@@ -77,7 +77,7 @@ class TwoHosts {
  private:
   void join(std::size_t host, const std::string& tap);
 
-  std::array<Host, 2> hosts_;
+  std::deque<Host> hosts_;
   std::string statistics_;
   std::optional<AccessPoint> access_point_;
   std::vector<int> sockets_;

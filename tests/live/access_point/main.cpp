@@ -1,7 +1,6 @@
-// The access point of the live bed: two TAP devices, one half-duplex channel. Prints "ready" and
-// the two names as soon as the devices exist, so that a script can move them into the network
-// namespaces of its hosts; serves until SIGINT, SIGTERM or SIGHUP; then says what it did.
-#include <array>
+// The access point of the live bed: a TAP device for each host, one half-duplex channel. Prints
+// "ready" and the names as soon as the devices exist, so that a script can move them into the
+// network namespaces of its hosts; serves until SIGINT, SIGTERM or SIGHUP; then says what it did.
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -10,7 +9,8 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -38,9 +38,9 @@ struct Arguments {
 };
 
 void declare(CLI::App& app, Arguments& arguments) {
-  app.add_option("--tap", arguments.taps, "A TAP device to create; give it twice, once per host")
+  app.add_option("--tap", arguments.taps, "A TAP device to create; give it once for each host")
       ->required()
-      ->expected(2)
+      ->expected(2, static_cast<int>(most_stations))
       ->allow_extra_args(false)
       ->type_name("NAME");
   app.add_option("--wireless", arguments.wireless, "Wireless profile: name or file")
@@ -124,7 +124,7 @@ int serve(const Arguments& arguments) {
   for (const std::string& remark : left_to_the_hosts(*wireless)) {
     fmt::print(stderr, "stormproof_access_point: note: {}\n", remark);
   }
-  const Setting setting{{arguments.taps[0], arguments.taps[1]},
+  const Setting setting{arguments.taps,
                         *wireless,
                         {limit(arguments.station_queue_frames), limit(arguments.queue_frames)},
                         {arguments.loss, arguments.seed}};
@@ -133,17 +133,19 @@ int serve(const Arguments& arguments) {
 
   const int stop = end_signals();
   const std::int64_t mtu = wireless->mtu_payload_bytes.count() + model::ip_header_bytes;
-  auto first = TapDevice::create(setting.taps[0], mtu);
-  if (!first) return complain(first.error());
-  auto second = TapDevice::create(setting.taps[1], mtu);
-  if (!second) return complain(second.error());
-  const std::array<TapDevice, 2> taps{std::move(*first), std::move(*second)};
+  std::vector<TapDevice> taps;
+  for (const std::string& name : setting.taps) {
+    auto tap = TapDevice::create(name, mtu);
+    if (!tap) return complain(tap.error());
+    taps.push_back(std::move(*tap));
+  }
   PidFile pid_file{arguments.pid_file};
   if (const auto error = pid_file.write()) return complain(*error);
 
-  HalfDuplexChannel channel{*wireless, setting.limits, setting.losses};
+  HalfDuplexChannel channel{*wireless, setting.limits, setting.losses,
+                            static_cast<std::uint32_t>(taps.size())};
   Relay relay{channel, taps};
-  fmt::print("ready {} {}\n", setting.taps[0], setting.taps[1]);
+  fmt::print("ready {}\n", fmt::join(setting.taps, " "));
   std::fflush(stdout);
   const std::optional<std::string> trouble = relay.run(stop);
 
@@ -156,7 +158,7 @@ int serve(const Arguments& arguments) {
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "The access point of the live bed: serves every frame of two TAP devices twice on one "
+      "The access point of the live bed: serves every frame of its TAP devices twice on one "
       "half-duplex channel, as the model has it"};
   app.name("stormproof_access_point");
   Arguments arguments;

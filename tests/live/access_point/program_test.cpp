@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "model/airtime.hpp"
-#include "tests/live/access_point/two_hosts.hpp"
+#include "tests/live/access_point/joined_hosts.hpp"
 
 namespace stormproof::live {
 namespace program_test {
@@ -62,8 +62,29 @@ class AccessPointProgram : public testing::Test {
   }
 };
 
+TEST_F(AccessPointProgram, JoinsThreeHosts) {
+  JoinedHosts hosts{{}, 3};
+  ASSERT_TRUE(hosts.ready());
+  const int a = hosts.open_socket(0);
+  const int b = hosts.open_socket(1);
+  const int c = hosts.open_socket(2);
+  send(c, "10.99.0.255", "to all");  // up once, down once
+  EXPECT_EQ(receive(a), "to all");
+  EXPECT_EQ(receive(b), "to all");
+  send(a, "10.99.0.3", "to one");
+  EXPECT_EQ(receive(c), "to one");
+  send(b, "10.99.0.1", "to another");
+  EXPECT_EQ(receive(a), "to another");
+  EXPECT_EQ(receive(b, MSG_DONTWAIT), "");
+  const auto statistics = hosts.end();
+  ASSERT_EQ(statistics["stations"].size(), 3U);
+  EXPECT_EQ(statistics["up"]["frames"], 3);
+  EXPECT_EQ(statistics["down"]["frames"], 3);
+  EXPECT_EQ(statistics["delivered"], 3);
+}
+
 TEST_F(AccessPointProgram, ARoundTripTakesFourServices) {
-  TwoHosts hosts;
+  JoinedHosts hosts;
   ASSERT_TRUE(hosts.ready());
   const int a = hosts.open_socket(0);
   const int b = hosts.open_socket(1);
@@ -91,7 +112,7 @@ TEST_F(AccessPointProgram, ARoundTripTakesFourServices) {
 }
 
 TEST_F(AccessPointProgram, FragmentsAreFramesOfTheirOwn) {
-  TwoHosts hosts;
+  JoinedHosts hosts;
   ASSERT_TRUE(hosts.ready());
   const int a = hosts.open_socket(0);
   const int b = hosts.open_socket(1);
@@ -111,7 +132,7 @@ TEST_F(AccessPointProgram, FragmentsAreFramesOfTheirOwn) {
 }
 
 TEST_F(AccessPointProgram, ABroadcastGoesDownOnceAtTheMulticastRate) {
-  TwoHosts hosts;
+  JoinedHosts hosts;
   ASSERT_TRUE(hosts.ready());
   const int a = hosts.open_socket(0);
   const int b = hosts.open_socket(1);
@@ -130,7 +151,7 @@ TEST_F(AccessPointProgram, ABroadcastGoesDownOnceAtTheMulticastRate) {
 }
 
 TEST_F(AccessPointProgram, WithLossOneNothingArrives) {
-  TwoHosts hosts{{"--loss", "1"}};
+  JoinedHosts hosts{{"--loss", "1"}};
   ASSERT_TRUE(hosts.ready());
   const int a = hosts.open_socket(0);
   const int b = hosts.open_socket(1);
@@ -144,7 +165,7 @@ TEST_F(AccessPointProgram, WithLossOneNothingArrives) {
 
 TEST_F(AccessPointProgram, ABurstOverflowsTheQueueOfTheStation) {
   // Services of ten seconds: while one is under way, the queue takes two more frames.
-  TwoHosts hosts{{"--overhead", "10s", "--station-queue-frames", "2"}};
+  JoinedHosts hosts{{"--overhead", "10s", "--station-queue-frames", "2"}};
   ASSERT_TRUE(hosts.ready());
   const int a = hosts.open_socket(0);
   for (int k = 0; k < 10; ++k) send(a, "10.99.0.2", "one of many");

@@ -1,6 +1,7 @@
 // Sleeps until shortly before the channel's next event, then polls until it is due.
 #include "tests/live/access_point/relay.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -41,6 +42,15 @@ model::Flow flow_of(std::span<const std::byte> frame, bool group) {
           .port = group ? 1U : 0U};
 }
 
+/// A hardware address as one number; six bytes at this place of an Ethernet frame.
+std::uint64_t address_at(const std::vector<std::byte>& frame, std::size_t at) {
+  std::uint64_t address = 0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    address = address << 8U | std::to_integer<std::uint64_t>(frame[at + k]);
+  }
+  return address;
+}
+
 timespec to_timespec(Nanoseconds duration) {
   const std::int64_t ns = duration > Nanoseconds{0} ? duration.count() : 0;
   return {.tv_sec = ns / 1'000'000'000, .tv_nsec = ns % 1'000'000'000};
@@ -48,7 +58,7 @@ timespec to_timespec(Nanoseconds duration) {
 
 }  // namespace
 
-Relay::Relay(HalfDuplexChannel& channel, const std::array<TapDevice, 2>& taps)
+Relay::Relay(HalfDuplexChannel& channel, const std::vector<TapDevice>& taps)
     : channel_{channel},
       taps_{taps},
       start_{std::chrono::steady_clock::now()},
@@ -79,15 +89,16 @@ Nanoseconds Relay::now() const {
 
 /// Until there is a frame, or until shortly before something happens in the channel.
 Relay::Wake Relay::wait(int stop) {
-  std::array<pollfd, 3> watched{
-      {{taps_[0].descriptor(), POLLIN, 0}, {taps_[1].descriptor(), POLLIN, 0}, {stop, POLLIN, 0}}};
+  std::vector<pollfd> watched;
+  for (const TapDevice& tap : taps_) watched.push_back({tap.descriptor(), POLLIN, 0});
+  watched.push_back({stop, POLLIN, 0});
   const std::optional<Nanoseconds> due = channel_.next_event();
   const timespec limit = due ? to_timespec(*due - now() - polled) : timespec{};
   if (ppoll(watched.data(), watched.size(), due ? &limit : nullptr, nullptr) <= 0) {
     readable_ = {};
     return Wake::work;
   }
-  if (watched[2].revents != 0) return Wake::stopped;
+  if (watched.back().revents != 0) return Wake::stopped;
   for (std::size_t station = 0; station < taps_.size(); ++station) {
     if ((watched[station].revents & (POLLERR | POLLNVAL)) != 0) return Wake::tap_gone;
     readable_[station] = (watched[station].revents & POLLIN) != 0;
@@ -95,9 +106,9 @@ Relay::Wake Relay::wait(int stop) {
   return Wake::work;
 }
 
-/// Takes turns, so that one station's burst does not stand before all of the other's.
+/// Takes turns, so that one station's burst does not stand before all of the others'.
 void Relay::read_frames() {
-  for (int k = 0; k < frames_at_once && (readable_[0] || readable_[1]); ++k) {
+  for (int k = 0; k < frames_at_once && std::ranges::count(readable_, true) > 0; ++k) {
     for (std::uint32_t station = 0; station < taps_.size(); ++station) {
       if (readable_[station]) readable_[station] = read_frame(station);
     }
@@ -109,9 +120,11 @@ bool Relay::read_frame(std::uint32_t station) {
   if (!bytes || *bytes < static_cast<std::size_t>(ethernet_header_bytes)) return false;
   // The first bit on the wire of the destination address tells a group from one station.
   const bool group = (buffer_[0] & std::byte{1}) != std::byte{0};
+  constexpr std::size_t source = 6;
+  stations_[address_at(buffer_, source)] = station;
   const std::optional<std::uint32_t> name = channel_.request(
       now(), {station, static_cast<std::int64_t>(*bytes), group ? Cast::multicast : Cast::unicast,
-              flow_of(std::span{buffer_}.first(*bytes), group)});
+              flow_of(std::span{buffer_}.first(*bytes), group), receiver_of(group)});
   if (!name) return true;
   if (*name >= contents_.size()) contents_.resize(*name + 1);
   const auto end = buffer_.begin() + static_cast<std::ptrdiff_t>(*bytes);
@@ -119,13 +132,25 @@ bool Relay::read_frame(std::uint32_t station) {
   return true;
 }
 
+std::optional<std::uint32_t> Relay::receiver_of(bool group) const {
+  const auto found = stations_.find(address_at(buffer_, 0));
+  return group || found == stations_.end() ? std::nullopt : std::optional{found->second};
+}
+
 void Relay::deliver() {
   for (const Service& service : channel_.take_services()) {
     if (service.outcome != ServiceEnd::delivered) continue;
-    const std::uint32_t receiver = 1 - service.station;
     statistics_.lateness.add(now() - service.end);
-    if (!taps_[receiver].write(contents_[service.frame])) ++statistics_.refused[receiver];
+    for (std::uint32_t station = 0; station < taps_.size(); ++station) {
+      if (station != service.station && service.receiver.value_or(station) == station) {
+        give(station, service);
+      }
+    }
   }
+}
+
+void Relay::give(std::uint32_t receiver, const Service& service) {
+  if (!taps_[receiver].write(contents_[service.frame])) ++statistics_.refused[receiver];
 }
 
 }  // namespace stormproof::live

@@ -72,8 +72,10 @@ std::string to_json(const Setting& setting, const ChannelStatistics& channel,
   Json json = of_setting(setting);
   json["duration_ns"] = relay.duration.count();
   json["realtime"] = relay.realtime;
+  std::uint64_t dropped = 0;
   for (std::size_t k = 0; k < setting.taps.size(); ++k) {
     const ChannelStatistics::Station& station = channel.stations[k];
+    dropped += station.dropped;
     json["stations"].push_back({{"tap", setting.taps[k]},
                                 {"frames", station.frames},
                                 {"bytes", station.bytes},
@@ -85,10 +87,9 @@ std::string to_json(const Setting& setting, const ChannelStatistics& channel,
   json["down"] = by_direction(channel, Direction::downlink);
   json["delivered"] = channel.delivered;
   json["lost"] = channel.lost;
-  json["dropped"] = {{"station", channel.stations[0].dropped + channel.stations[1].dropped},
+  json["dropped"] = {{"station", dropped},
                      {"access_point", channel.dropped_downlink},
-                     {"total", channel.stations[0].dropped + channel.stations[1].dropped +
-                                   channel.dropped_downlink}};
+                     {"total", dropped + channel.dropped_downlink}};
   json["deepest_queue"] = {{"access_point", channel.deepest_downlink_queue},
                            {"total", channel.deepest_queue}};
   json["inside_at_end"] = relay.inside_at_end;

@@ -36,7 +36,7 @@ struct RelayStatistics {
   Nanoseconds duration;   ///< from ready to the signal
   bool realtime = false;  ///< the kernel prefers the access point to ordinary processes
   Lateness lateness;
-  std::array<std::uint64_t, 2>
+  std::array<std::uint64_t, most_stations>
       refused{};                    ///< deliveries that a TAP device did not take (it is down)
   std::uint64_t inside_at_end = 0;  ///< frames that waited or were served then
 };
@@ -44,7 +44,7 @@ struct RelayStatistics {
 /// What was asked of the access point; it goes into the statistics, so that they explain
 /// themselves.
 struct Setting {
-  std::array<std::string, 2> taps;  ///< names of stations 0 and 1
+  std::vector<std::string> taps;  ///< names of the stations, from 0 on
   model::WirelessProfile wireless;
   QueueLimits limits;
   Losses losses;

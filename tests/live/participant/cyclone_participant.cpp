@@ -86,11 +86,11 @@ class Qos {
   dds_qos_t* qos_ = dds_create_qos();
 };
 
-/// Endpoints of the other host, found in the builtin topics. Called by several threads.
+/// Endpoints of other hosts, found in the builtin topics. Called by several threads.
 class Watch {
  public:
   Watch(Progress& progress, std::uint32_t own_host)
-      : progress_(progress), peer_(Qos::user_data_of(1 - own_host)) {}
+      : progress_(progress), own_(Qos::user_data_of(own_host)) {}
 
   Progress& progress() { return progress_; }
 
@@ -100,12 +100,12 @@ class Watch {
     const bool has_data = dds_qget_userdata(participant.qos, &data, &size);
     const std::string text = has_data ? std::string(static_cast<const char*>(data), size) : "";
     dds_free(data);
-    if (text != peer_) {
+    if (text.empty() || text == own_) {
       return;
     }
     const std::lock_guard lock(mutex_);
     Found& found = participants_[key_of(participant.key)];
-    found.is_at_peer = true;
+    found.is_elsewhere = true;
     progress_.strict.add(found.endpoints);
     found.endpoints = 0;
   }
@@ -113,7 +113,7 @@ class Watch {
   void saw(const dds_builtintopic_endpoint_t& endpoint) {
     const std::lock_guard lock(mutex_);
     Found& found = participants_[key_of(endpoint.participant_key)];
-    if (found.is_at_peer) {
+    if (found.is_elsewhere) {
       progress_.strict.add(1);
     } else {
       ++found.endpoints;
@@ -122,7 +122,7 @@ class Watch {
 
  private:
   struct Found {
-    bool is_at_peer = false;
+    bool is_elsewhere = false;
     int endpoints = 0;  ///< that are not counted, as it is not known where it is
   };
 
@@ -131,7 +131,7 @@ class Watch {
   }
 
   Progress& progress_;
-  std::string peer_;
+  std::string own_;
   std::mutex mutex_;
   std::map<std::string, Found> participants_;
 };

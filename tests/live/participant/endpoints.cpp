@@ -103,12 +103,12 @@ std::size_t matching_endpoints(const Options& options) {
 }  // namespace
 
 std::size_t expected_matches(const Options& options) {
-  return std::size_t{2} * options.participants_per_host * matching_endpoints(options);
+  return std::size_t{options.hosts} * options.participants_per_host * matching_endpoints(options);
 }
 
 std::size_t expected_discoveries(const Options& options) {
   const bool is_client = options.discovery == Discovery::server;  // it learns what it matches
-  return options.participants_per_host *
+  return std::size_t{options.hosts - 1} * options.participants_per_host *
          (is_client ? matching_endpoints(options) : node_endpoints(options).size());
 }
 

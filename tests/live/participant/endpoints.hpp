@@ -28,7 +28,7 @@ struct EndpointPlan {
 /// on each topic that has both sides, each side matches every participant, its own included.
 [[nodiscard]] std::size_t expected_matches(const Options& options);
 
-/// How many endpoints of the other host one participant discovers.
+/// How many endpoints of other hosts one participant discovers.
 [[nodiscard]] std::size_t expected_discoveries(const Options& options);
 
 }  // namespace stormproof::live

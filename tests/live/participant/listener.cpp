@@ -25,7 +25,7 @@ void Listener::on_subscription_matched(dds::DataReader* /*reader*/,
 void Listener::on_publisher_discovery(dds::DomainParticipant* /*participant*/,
                                       rtps::WriterDiscoveryInfo&& found) {
   if (found.status == rtps::WriterDiscoveryInfo::DISCOVERED_WRITER &&
-      is_at_peer(found.info.remote_locators())) {
+      is_elsewhere(found.info.remote_locators())) {
     progress_.strict.add(1);
   }
 }
@@ -33,15 +33,17 @@ void Listener::on_publisher_discovery(dds::DomainParticipant* /*participant*/,
 void Listener::on_subscriber_discovery(dds::DomainParticipant* /*participant*/,
                                        rtps::ReaderDiscoveryInfo&& found) {
   if (found.status == rtps::ReaderDiscoveryInfo::DISCOVERED_READER &&
-      is_at_peer(found.info.remote_locators())) {
+      is_elsewhere(found.info.remote_locators())) {
     progress_.strict.add(1);
   }
 }
 
-bool Listener::is_at_peer(const rtps::RemoteLocatorList& locators) const {
-  return std::any_of(locators.unicast.begin(), locators.unicast.end(), [this](const auto& locator) {
-    return rtps::IPLocator::toIPv4string(locator) == peer_;
-  });
+bool Listener::is_elsewhere(const rtps::RemoteLocatorList& locators) const {
+  const auto is_own = [this](const auto& locator) {
+    return rtps::IPLocator::toIPv4string(locator) == own_;
+  };
+  return !locators.unicast.empty() &&
+         std::none_of(locators.unicast.begin(), locators.unicast.end(), is_own);
 }
 
 }  // namespace stormproof::live

@@ -13,8 +13,8 @@ namespace stormproof::live {
 
 class Listener : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
-  /// `peer`: the other host's IPv4 address; its endpoints are those that announce it.
-  Listener(std::string peer, Progress& progress) : peer_(std::move(peer)), progress_(progress) {}
+  /// `own`: the host's IPv4 address; endpoints that announce another are of another host.
+  Listener(std::string own, Progress& progress) : own_(std::move(own)), progress_(progress) {}
 
   void on_publication_matched(
       eprosima::fastdds::dds::DataWriter* writer,
@@ -28,9 +28,10 @@ class Listener : public eprosima::fastdds::dds::DomainParticipantListener {
                                eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& found) override;
 
  private:
-  [[nodiscard]] bool is_at_peer(const eprosima::fastrtps::rtps::RemoteLocatorList& locators) const;
+  [[nodiscard]] bool is_elsewhere(
+      const eprosima::fastrtps::rtps::RemoteLocatorList& locators) const;
 
-  std::string peer_;
+  std::string own_;
   Progress& progress_;
 };
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <map>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -26,8 +27,9 @@ std::uint32_t number(const std::string& name, const std::string& text) {
 Values values_of(int argc, const char* const* argv) {
   static const std::set<std::string_view> known = {
       "--host",           "--index",     "--np",          "--ne",           "--address",
-      "--peer",           "--start",     "--send-buffer", "--simultaneous", "--report",
-      "--create-over-us", "--discovery", "--server",      "--serves",       "--multicast"};
+      "--hosts",          "--start",     "--send-buffer", "--simultaneous", "--report",
+      "--create-over-us", "--discovery", "--server",      "--serves",       "--multicast",
+      "--addresses"};
   Values values;
   for (int at = 1; at < argc; at += 2) {
     const std::string name = argv[at];
@@ -86,7 +88,7 @@ Options parse_options(int argc, const char* const* argv) {
   options.participants_per_host = required_number("--np");
   options.user_endpoints = required_number("--ne");
   options.address = required(values, "--address");
-  options.peer = required(values, "--peer");
+  options.hosts = required_number("--hosts");
   options.send_buffer = optional_number(values, "--send-buffer");
   options.simultaneous = optional_number(values, "--simultaneous") != 0;
   options.create_over_ns = std::int64_t{1000} * optional_number(values, "--create-over-us");
@@ -96,10 +98,17 @@ Options parse_options(int argc, const char* const* argv) {
   if (options.discovery == Discovery::server || options.discovery == Discovery::super_client) {
     options.server = required(values, "--server");
   }
+  if (options.discovery == Discovery::static_peers) {
+    std::istringstream words{required(values, "--addresses")};
+    for (std::string word; std::getline(words, word, ',');) options.addresses.push_back(word);
+  }
   options.start_file = required(values, "--start");
   options.report = required(values, "--report");
   if (options.participants_per_host == 0) {
     throw std::invalid_argument("--np 0: expected at least 1");
+  }
+  if (options.hosts < 2) {
+    throw std::invalid_argument("--hosts: expected at least 2");
   }
   return options;
 }

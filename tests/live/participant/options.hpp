@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace stormproof::live {
 
@@ -12,12 +13,13 @@ namespace stormproof::live {
 enum class Discovery { simple, server, super_client, static_peers };
 
 struct Options {
-  std::uint32_t host = 0;                   ///< 0 or 1
+  std::uint32_t host = 0;                   ///< from 0
+  std::uint32_t hosts = 2;                  ///< N_H
   std::uint32_t index = 0;                  ///< on its host, from 0
   std::uint32_t participants_per_host = 0;  ///< N_P, at least 1
   std::uint32_t user_endpoints = 0;         ///< N_E, each participant creates as many
   std::string address{};                    ///< IPv4, the only interface that it uses
-  std::string peer{};                       ///< IPv4 of the other host
+  std::vector<std::string> addresses{};     ///< IPv4 of all hosts, with static peers
   std::uint32_t send_buffer = 0;            ///< bytes of the socket send buffer; 0: the system's
   bool simultaneous = false;        ///< create all endpoints first, then enable the participant
   std::int64_t create_over_ns = 0;  ///< spread the creation of endpoints over this time, ns

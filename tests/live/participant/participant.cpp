@@ -81,7 +81,7 @@ void set_discovery(const Options& options, UDPv4TransportDescriptor& transport,
     builtin.metatrafficUnicastLocatorList.push_back(locator_of(options.server, server_port));
   } else if (options.discovery == Discovery::static_peers) {
     transport.maxInitialPeersRange = options.participants_per_host;
-    for (const std::string& host : {options.address, options.peer}) {
+    for (const std::string& host : options.addresses) {
       builtin.initialPeersList.push_back(locator_of(host, 0));
     }
   } else if (options.discovery != Discovery::simple) {
@@ -200,7 +200,7 @@ Schedule create_participant(const Options& options, Progress& progress,
     wait_for_start();
     schedule.created_ns = now_ns();
   }
-  static Listener listener(options.peer, progress);  // called until the process ends
+  static Listener listener(options.address, progress);  // called until the process ends
   dds::StatusMask matching = dds::StatusMask::publication_matched();
   matching << dds::StatusMask::subscription_matched();
   dds::DomainParticipant* participant =

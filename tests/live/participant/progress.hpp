@@ -1,6 +1,6 @@
 // Watches what a participant discovers and notes the instant at which it has everything: "app" is
-// the paper's measure (all matched counters reached), "strict" means that every endpoint of the
-// other host is known, also those that match nothing here.
+// the paper's measure (all matched counters reached), "strict" means that every endpoint of all
+// other hosts is known, also those that match nothing here.
 #pragma once
 
 #include <atomic>

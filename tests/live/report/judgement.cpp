@@ -37,9 +37,9 @@ void note_socket_drops(const RunRecord& run, std::vector<std::string>& notes) {
 void check_data(const RunRecord& run, Remarks& remarks) {
   const std::int64_t expected = run.expected_initial();
   if (run.counts.initial_data != expected && !run.sedp_multicast) {
-    remarks.push_back(fmt::format("{} initial DATA were sent; expected {}{}",
-                                  run.counts.initial_data,
-                                  run.has_server() ? "" : "2·N_P²·(17+N_E) = ", expected));
+    remarks.push_back(
+        fmt::format("{} initial DATA were sent; expected {}{}", run.counts.initial_data,
+                    run.has_server() ? "" : "N_H·(N_H−1)·N_P²·(17+N_E) = ", expected));
   }
   // With a server only what somebody needs is required.
   if (!run.has_server() && run.required_keys != expected) {
@@ -58,7 +58,7 @@ void check_conformance(const RunRecord& run, Remarks& remarks) {
 }
 
 void check_topology(const RunRecord& run, Remarks& remarks) {
-  const auto expected = static_cast<std::size_t>(2 * run.participants_per_host);
+  const auto expected = static_cast<std::size_t>(run.hosts * run.participants_per_host);
   if (run.captured.size() != expected) {
     remarks.push_back(
         fmt::format("{} participants were captured; expected {}", run.captured.size(), expected));
@@ -81,7 +81,7 @@ void name_the_incomplete(const RunRecord& run, Remarks& remarks) {
     if (participant.is_complete()) ++complete;
   }
   remarks.push_back(fmt::format("{} of {} participants were complete after {:.3f} s", complete,
-                                2 * run.participants_per_host,
+                                run.hosts * run.participants_per_host,
                                 static_cast<double>(run.waited_ns) * 1e-9));
   for (const ParticipantReport& participant : run.participants) {
     if (participant.is_complete()) continue;

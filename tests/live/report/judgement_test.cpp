@@ -101,7 +101,8 @@ TEST(Judgement, ByMulticastDataMayBeForSeveral) {
 TEST(Judgement, CountsInitialDataAndKeys) {
   RunRecord run = good_run();
   run.counts.initial_data = 37;
-  expect(run, Outcome::check_failed, "37 initial DATA were sent; expected 2·N_P²·(17+N_E) = 38");
+  expect(run, Outcome::check_failed,
+         "37 initial DATA were sent; expected N_H·(N_H−1)·N_P²·(17+N_E) = 38");
   run = good_run();
   run.required_keys = 36;
   expect(run, Outcome::check_failed, "requires 36 descriptor keys; expected 38");

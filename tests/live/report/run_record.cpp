@@ -46,9 +46,8 @@ void read_setting(const Json& json, RunRecord& run) {
   run.start_ns = integer(json, "start_ns");
   run.limit_ns = integer(json, "limit_ns");
   run.waited_ns = integer(json, "waited_ns");
-  for (std::size_t host = 0; host < run.captures.size(); ++host) {
-    run.captures[host] = capture_of(json.at("captures").at(host));
-  }
+  for (const Json& capture : json.at("captures")) run.captures.push_back(capture_of(capture));
+  run.hosts = static_cast<std::int64_t>(run.captures.size());
 }
 
 ParticipantReport participant_of(const Json& json) {
@@ -102,15 +101,16 @@ std::int64_t latest(const RunRecord& run, std::int64_t ParticipantReport::*insta
 
 std::int64_t RunRecord::expected_initial() const {
   const std::int64_t endpoints = default_endpoints + endpoints_per_participant;
-  if (!has_server()) return participants_per_host * participants_per_host * 2 * endpoints;
+  const std::int64_t elsewhere = (hosts - 1) * participants_per_host;
+  if (!has_server()) return hosts * participants_per_host * elsewhere * endpoints;
   // On topics with both sides: ros_discovery_info, parameter_events, and the user's.
   const std::int64_t matching = 4 + endpoints_per_participant / 2 * 2;
   const std::int64_t told = discovery == "super_client" ? endpoints : matching;
-  return participants_per_host * (endpoints + (2 * participants_per_host - 1) * told);
+  return elsewhere * (endpoints + (hosts * participants_per_host - 1) * told);
 }
 
 bool RunRecord::is_complete() const {
-  return participants.size() == static_cast<std::size_t>(2 * participants_per_host) &&
+  return participants.size() == static_cast<std::size_t>(hosts * participants_per_host) &&
          std::all_of(participants.begin(), participants.end(),
                      [](const ParticipantReport& report) { return report.is_complete(); });
 }

@@ -2,7 +2,6 @@
 // run.json and participants/*.json (written by the bed) and summary.json (`capture summarize`).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -15,7 +14,7 @@ struct ParticipantReport {
   std::int64_t created_ns = 0;
   std::int64_t endpoints_done_ns = 0;
   std::int64_t app_ns = 0;     ///< all its matched counters reached
-  std::int64_t strict_ns = 0;  ///< every endpoint of the other host discovered
+  std::int64_t strict_ns = 0;  ///< every endpoint of other hosts discovered
   std::int64_t matches = 0;
   std::int64_t matches_expected = 0;
   std::int64_t discovered = 0;
@@ -51,12 +50,13 @@ struct RunRecord {
   std::string link{};
   std::string discovery = "simple";  ///< or "static", "server", "super_client"
   bool sedp_multicast = false;       ///< then a DATA may be for several, and F says nothing
+  std::int64_t hosts = 2;            ///< N_H
   std::int64_t participants_per_host = 0;
   std::int64_t endpoints_per_participant = 0;  ///< of the user
   std::int64_t start_ns = 0;
   std::int64_t limit_ns = 0;   ///< after the start; what was reached later was not reached
   std::int64_t waited_ns = 0;  ///< until complete, or given up
-  std::array<CaptureReport, 2> captures{};
+  std::vector<CaptureReport> captures{};          ///< one for each host
   std::vector<ParticipantReport> participants{};  ///< that reported
   Counts counts{};
   std::int64_t required_keys = 0;
@@ -67,8 +67,9 @@ struct RunRecord {
   [[nodiscard]] bool has_server() const {
     return discovery == "server" || discovery == "super_client";
   }
-  /// F = N_P²·2·(17+N_E): descriptors times their destinations on the other host. With a server on
-  /// host 0: those of host 1 to it, and from it what each participant there is told of all others.
+  /// F = N_H·(N_H−1)·N_P²·(17+N_E): descriptors times their destinations on other hosts. With a
+  /// server on host 0: those of the other hosts to it, and from it what each participant there is
+  /// told of all others.
   [[nodiscard]] std::int64_t expected_initial() const;
   [[nodiscard]] bool is_complete() const;
   /// Time from the start to the last participant's completion, ns. The run must be complete.
