@@ -34,6 +34,7 @@ Fits fits_of(const std::string& command) {
     if (word == "--dds") request.dds.push_back(value);
     if (word == "--set") request.overrides.push_back(value);
     if (word == "--wireless") request.wireless = value;
+    if (word == "--completion" && value == "strict") read.completion = CompletionTime::strict;
   }
   request.scopes = {"all"};
   std::ifstream input{folders.front() + file.substr(file.find('/'))};
