@@ -36,14 +36,14 @@ bool Lookups::waits(std::uint32_t relation, std::uint32_t d) const {
 std::uint32_t Lookups::take(std::uint32_t participant) {
   const Sample sample = queues_[participant].front();
   queues_[participant].pop_front();
-  const std::uint32_t writer = 2 * participant + sample.stage % 2;
+  const std::uint32_t writer = control_writers * participant + sample.stage % 2;
   histories_[writer].push_back(sample);
   return writer;
 }
 
 void Protocol::pack_sample(std::uint32_t w) {
   Message& message = async_message_;
-  const Sample& sample = lookups_->last_sample(w - first_lookup_writer_);
+  const Sample& sample = lookups_.last_sample(w - first_lookup_writer_);
   const std::vector<std::uint32_t>& readers = writers_[w].readers;
   const std::int64_t bytes = timestamp_bytes + sample_bytes(run_.scenario.dds, sample.stage);
   if (message.open && (message.writer != w || message.readers != readers ||
@@ -53,14 +53,14 @@ void Protocol::pack_sample(std::uint32_t w) {
   if (!message.open) message.start(w, readers, 0);
   message.bytes += bytes;
   ++message.data;
-  message.announced = samples_sent(w);
+  message.announced = lookups_.sample_count(w - first_lookup_writer_);
   for (const std::uint32_t relation : readers) {
     if (run_.topology.pair(control_.pair_of(relation)).cross_host) ++generated_.lookup;
   }
 }
 
 void Protocol::charge_sample(std::uint32_t w) {
-  const std::uint32_t stage = lookups_->last_sample(w - first_lookup_writer_).stage;
+  const std::uint32_t stage = lookups_.last_sample(w - first_lookup_writer_).stage;
   charge(async_message_, sample_bytes(run_.scenario.dds, stage), SendMode::async);
 }
 

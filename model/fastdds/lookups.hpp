@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/engine/topology.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/fastdds/types.hpp"
 
 namespace stormproof::model::fastdds {
@@ -28,13 +29,12 @@ class Lookups {
   /// A descriptor of a relation, whose reader's participant waits for its type.
   using Waiting = std::pair<std::uint32_t, std::uint32_t>;
 
-  /// Of a deployment whose endpoints have types.
   Lookups(const Deployment& deployment, const Topology& topology)
       : topology_{topology},
         types_{deployment},
         learned_(topology.participant_count()),
         queues_(topology.participant_count()),
-        histories_(2 * std::size_t{topology.participant_count()}) {}
+        histories_(control_writers * std::size_t{topology.participant_count()}) {}
 
   /// What is looked up if the reader of the relation does not know the type of descriptor d.
   [[nodiscard]] std::uint32_t looked_up(std::uint32_t relation, std::uint32_t d) const;
@@ -61,8 +61,8 @@ class Lookups {
   [[nodiscard]] bool has_queued(std::uint32_t participant) const {
     return !queues_[participant].empty();
   }
-  /// The oldest sample of the participant's queue leaves it, and is the next one of its writer,
-  /// whose number is the result: 2 · participant, and 1 more of answers.
+  /// The oldest sample of the participant's queue leaves it, and is the next one of its writer
+  /// (`control_writers`), which is the result.
   std::uint32_t take(std::uint32_t participant);
   /// Sample `number`, from 1, of a writer, and the last one.
   [[nodiscard]] const Sample& sample(std::uint32_t writer, std::uint32_t number) const {
@@ -70,6 +70,9 @@ class Lookups {
   }
   [[nodiscard]] const Sample& last_sample(std::uint32_t writer) const {
     return histories_[writer].back();
+  }
+  [[nodiscard]] std::uint32_t sample_count(std::uint32_t writer) const {
+    return static_cast<std::uint32_t>(histories_[writer].size());
   }
 
  private:

@@ -15,13 +15,14 @@ Protocol::Protocol(RunState& run, Network& network)
       statistics_bytes_{run.scenario.dds.version.statistics_bytes.count()},
       dds_{deployed_profile(run.scenario)},
       control_{run},
+      has_types_{run.scenario.deployment.types.has_value()},
+      lookups_{run.scenario.deployment, run.topology},
       first_lookup_writer_{2 * run.topology.participant_count()},
       participants_(run.topology.participant_count()),
-      writers_(2 * std::size_t{first_lookup_writer_}),
+      writers_((2 + control_writers) * std::size_t{run.topology.participant_count()}),
       sends_records_{network.takes_records() && !run.scenario.deployment.life},
       generated_{counts_at_admission(run) ? of_no_interest_ : run.counts} {
   for (std::uint32_t w = 0; w < writers_.size(); ++w) refill(w);
-  if (run.scenario.deployment.types) lookups_.emplace(run.scenario.deployment, run.topology);
 }
 
 std::optional<std::uint32_t> Protocol::sender_of(const Event& event) const {
@@ -246,7 +247,7 @@ void Protocol::send(Packet&& packet) {
 
 /// Where endpoints have types also what has arrived, and waits for its type.
 std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {
-  if (!lookups_) return changes().list_missing(limit);
+  if (!has_types_) return changes().list_missing(limit);
   std::vector<MissingDescriptor> missing;
   for (std::uint32_t relation = 0; relation < run_.topology.relation_count(); ++relation) {
     const Pair& p = ends(relation);
@@ -263,20 +264,20 @@ std::vector<MissingDescriptor> Protocol::missing(std::size_t limit) {
 
 bool Protocol::is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const {
   const auto relation = static_cast<std::uint32_t>(2 * pair + index_of(s));
-  return d < first<rules::HandedOver>(relation) && !(lookups_ && lookups_->waits(relation, d));
+  return d < first<rules::HandedOver>(relation) && !(has_types_ && lookups_.waits(relation, d));
 }
 
 void Protocol::take_descriptors(std::uint32_t relation, const DescriptorSet& received) {
   const bool crosses_hosts = crosses(relation);
   const std::uint32_t before = at<Lacking>(relation);
-  take(planes(), relation, received, crosses_hosts && !lookups_);
-  if (crosses_hosts && lookups_) run_.useful_deliveries += before - at<Lacking>(relation);
+  take(planes(), relation, received, crosses_hosts && !has_types_);
+  if (crosses_hosts && has_types_) run_.useful_deliveries += before - at<Lacking>(relation);
 }
 
 /// The application of the relation's reader knows the descriptor. Where endpoints have types that
 /// is what discovery waits for.
 void Protocol::note_notified(std::uint32_t relation, std::uint32_t d) {
-  if (!lookups_ || !crosses(relation)) return;
+  if (!has_types_ || !crosses(relation)) return;
   if (--run_.missing == 0) note_last_delivery(relation, d);
 }
 

@@ -92,7 +92,7 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   }
   using DiscoveryBase::knob;
   [[nodiscard]] bool knob(lookup::AsksForTypes) const {
-    return lookups_ && looks_up_types(run_.scenario.dds);
+    return has_types_ && looks_up_types(run_.scenario.dds);
   }
   using DiscoveryBase::answer;
   using DiscoveryBase::emit;
@@ -115,23 +115,23 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] bool answer(lookup::KnowsType, const World& w) const {
     const auto relation = w.template number<comp::owner::relation>();
     const std::uint32_t j = ends(relation).destination;
-    return lookups_->knows(j, lookups_->looked_up(relation, w.descriptor()),
-                           {first<rules::Exists>(2 * j), first<rules::Exists>(2 * j + 1)});
+    return lookups_.knows(j, lookups_.looked_up(relation, w.descriptor()),
+                          {first<rules::Exists>(2 * j), first<rules::Exists>(2 * j + 1)});
   }
   template <class World>
   [[nodiscard]] bool answer(lookup::SomebodyWaits, const World& w) {
-    return !lookups_->waiting_with(w.template number<comp::owner::relation>(), w.descriptor())
+    return !lookups_.waiting_with(w.template number<comp::owner::relation>(), w.descriptor())
                 .empty();
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(lookup::LookupOfDescriptor, const World& w) const {
-    return lookups_->looked_up(w.template number<comp::owner::relation>(), w.descriptor());
+    return lookups_.looked_up(w.template number<comp::owner::relation>(), w.descriptor());
   }
   /// The relation's reader has these now. Another way to discover does it in its own way.
   virtual void take_descriptors(std::uint32_t relation, const DescriptorSet& received);
   using Stored::assign;
   void assign(rules::WaitsForType, std::uint32_t relation, std::uint32_t d, bool waits) {
-    auto& list = lookups_->waiting_with(relation, d);
+    auto& list = lookups_.waiting_with(relation, d);
     waits ? list.push_back({relation, d})
           : static_cast<void>(std::erase(list, Lookups::Waiting{relation, d}));
   }
@@ -265,19 +265,18 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   template <class World>
   void perform(lookup::QueueSample, World& w, std::int64_t stage, std::int64_t looked_up) {
     const Pair& pair = run_.topology.pair(w.template number<comp::owner::pair>());
-    lookups_->queue(pair.source, {pair.destination, static_cast<std::uint32_t>(looked_up),
-                                  static_cast<std::uint32_t>(stage)});
+    lookups_.queue(pair.source, {pair.destination, static_cast<std::uint32_t>(looked_up),
+                                 static_cast<std::uint32_t>(stage)});
     ++at<lookup::SamplesQueued>(pair.source);
   }
   template <class World>
   void perform(lookup::LearnType, World& w) {
     const std::uint32_t looked_up = sample_in(w.packet()).looked_up;
     const std::uint32_t j = run_.topology.pair(w.template number<comp::owner::pair>()).destination;
-    lookups_->learn(j, looked_up);
+    lookups_.learn(j, looked_up);
     for (const std::uint32_t s : {0U, 1U}) {
-      const auto& list = lookups_->waiting(j, looked_up / 2 * 2 + s);
-      while (!list.empty()) {
-        const auto [relation, d] = list.front();
+      const std::vector<Lookups::Waiting> list = lookups_.waiting(j, looked_up / 2 * 2 + s);
+      for (const auto& [relation, d] : list) {
         run_rule<comp::Happens<lookup::TypeIsKnown>>(w.host(), relation, nullptr, d);
       }
     }
@@ -286,11 +285,11 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   void perform(lookup::SendSamples, World& w) {
     const auto i = w.template number<comp::owner::participant>();
     go_on(i);
-    while (lookups_->has_queued(i)) {
+    while (lookups_.has_queued(i)) {
       --at<lookup::SamplesQueued>(i);
-      const std::uint32_t writer = lookups_->take(i);
-      run_rule<comp::Happens<lookup::SampleLeaves>>(w.host(), control_writers * i + writer % 2);
-      const bool is_done = !lookups_->has_queued(i) && participants_[i].queue.empty();
+      const std::uint32_t writer = lookups_.take(i);
+      run_rule<comp::Happens<lookup::SampleLeaves>>(w.host(), writer);
+      const bool is_done = !lookups_.has_queued(i) && participants_[i].queue.empty();
       if (is_done || !network_.stalls(i)) continue;
       participants_[i].is_suspended = true;
       return suspend(i);
@@ -389,11 +388,12 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   const std::int64_t statistics_bytes_;
   const DdsProfile dds_;  // with what descriptors say of types
   ControlRelations control_;
-  std::optional<Lookups> lookups_;  // if endpoints have types
+  const bool has_types_;
+  Lookups lookups_;
   const std::uint32_t first_lookup_writer_;
   std::vector<Participant> participants_;
-  /// 2 · participant + stream, then, from `first_lookup_writer_` on, 2 · participant, and 1 more of
-  /// answers.
+  /// 2 · participant + stream, then, from `first_lookup_writer_` on, those of questions, answers
+  /// and other control-only topics.
   std::vector<Writer> writers_;
 
  private:
@@ -449,20 +449,18 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   void send_lookup_heartbeats(std::uint32_t w);
   [[nodiscard]] bool has_samples(std::uint32_t w) const { return w >= first_lookup_writer_; }
   [[nodiscard]] std::uint32_t participant_of(std::uint32_t w) const {
-    return w / 2 % run_.topology.participant_count();
+    return has_samples(w) ? (w - first_lookup_writer_) / control_writers : w / 2;
   }
-  /// A writer as rules number it, and back.
+  /// A writer as rules number it.
   [[nodiscard]] std::uint32_t lookup_writer(std::uint32_t writer) const {
-    return first_lookup_writer_ + 2 * (writer / control_writers) + writer % control_writers;
+    return first_lookup_writer_ + writer;
   }
   [[nodiscard]] std::uint32_t samples_sent(std::uint32_t w) const {
-    return static_cast<std::uint32_t>(
-        at<lookup::SamplesSent>(control_writers * participant_of(w) + w % 2));
+    return static_cast<std::uint32_t>(at<lookup::SamplesSent>(w - first_lookup_writer_));
   }
   /// The sample that is received, in a packet that has no other.
   [[nodiscard]] const Sample& sample_in(const Packet& packet) const {
-    const std::uint32_t writer = lookup_writer(control_.writer_of(packet.detail));
-    return lookups_->sample(writer - first_lookup_writer_, packet.last_sample());
+    return lookups_.sample(control_.writer_of(packet.detail), packet.last_sample());
   }
   template <class Host>
   static void take_samples(Host& host, const Packet& packet);
@@ -496,8 +494,9 @@ template <class Host>
 void Protocol::take_samples(Host& host, const Packet& packet) {
   Packet sample;
   sample.become(packet);
-  for (std::uint32_t number = packet.last_sample() - packet.samples() + 1;
-       number <= packet.last_sample(); ++number) {
+  const std::uint32_t last = packet.last_sample();
+  for (std::uint32_t number = last - std::min(last, packet.samples()) + 1; number <= last;
+       ++number) {
     sample.set_samples(1, number);
     run_rule<comp::Received<lookup::LookupSample>>(host, packet.detail, &sample);
   }

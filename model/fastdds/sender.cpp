@@ -80,7 +80,7 @@ void Protocol::piggyback(Message& message, std::uint32_t w, SendMode mode) {
   message.bytes += heartbeat_submessage_bytes;
   ++message.heartbeats;
   if (has_samples(w)) {
-    message.announced = samples_sent(w);
+    if (message.data == 0) message.announced = samples_sent(w);  // otherwise its last one
     for (const std::uint32_t relation : writer.readers) count_control(relation);
   } else {
     message.announced = first<rules::Exists>(w);

@@ -34,9 +34,9 @@ std::uint32_t place_of(Stream s, std::uint32_t d, std::uint32_t user_publication
 
 }  // namespace
 
-Types::Types(const Deployment& deployment) : unknown_{deployment.types->unknown_per_participant} {
+Types::Types(const Deployment& deployment)
+    : unknown_{deployment.types.value_or(EndpointTypes{}).unknown_per_participant} {
   for (const Participant& p : deployment.participants) user_publications_.push_back(p.publications);
-  count_ = first_own + unknown_ * deployment.size();
 }
 
 std::uint32_t Types::of(std::uint32_t participant, Stream s, std::uint32_t d) const {

@@ -22,16 +22,14 @@ namespace stormproof::model::fastdds {
 
 class Types {
  public:
-  /// Of a deployment whose endpoints have types.
+  /// If the deployment does not say that endpoints have types, all are known.
   explicit Types(const Deployment& deployment);
 
   [[nodiscard]] std::uint32_t of(std::uint32_t participant, Stream s, std::uint32_t d) const;
-  [[nodiscard]] std::uint32_t count() const { return count_; }
 
  private:
   std::vector<std::uint32_t> user_publications_;  // by participant
   std::uint32_t unknown_;                         // of each
-  std::uint32_t count_;
 };
 
 }  // namespace stormproof::model::fastdds

@@ -72,7 +72,7 @@ const std::map<std::string, std::string>& empty_contracts() {
       {"JoinParticipants", "what waits for the routine is no thing of the rules"},
       {"OpenReaders", "the rules of the server's readers are another composition's"},
       {"OpenOwnWriter", "the rules of a client's writers are another composition's"},
-      {"OpenBuiltin", "the rules of control-only relations are another composition's"},
+      {"OpenBuiltinSides", "the rules of control-only relations are another composition's"},
       {"TakeRelayed", "what a client has learned is about pairs that the rules do not name"},
   };
   return steps;

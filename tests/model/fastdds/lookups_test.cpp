@@ -109,6 +109,7 @@ TEST(FastddsLookups, PublicationsAreNotifiedBeforeSubscriptions) {
   EXPECT_LT(place_of("ControlReader 3: Closed"), place_of("ControlWriter 9: Closed"));
 }
 
+/// Its HEARTBEAT opens the message that the next sample joins.
 TEST(FastddsLookups, AMessageThatTakesNoMoreGoesBeforeItsHeartbeat) {
   Scenario scenario = late_user_endpoints();
   scenario.dds.version.max_data_per_message = 1;
@@ -119,9 +120,10 @@ TEST(FastddsLookups, AMessageThatTakesNoMoreGoesBeforeItsHeartbeat) {
   ASSERT_NE(first, log.sent.end());
   EXPECT_EQ(first->payload_bytes, 20 + 16 + 12 + 156);
   const auto next = std::next(first);
-  EXPECT_EQ(next->kind, PacketKind::user_heartbeat);
+  ASSERT_NE(next, log.sent.end());
+  EXPECT_EQ(next->kind, PacketKind::lookup);
   EXPECT_EQ(next->time_ns, first->time_ns);
-  EXPECT_EQ(next->payload_bytes, 20 + 16 + 32);
+  EXPECT_EQ(next->payload_bytes, 20 + 16 + 32 + 12 + 156);
 }
 
 TEST(FastddsLookups, AChainHasFourSamples) {
