@@ -39,6 +39,7 @@ Role role_of(EventKind kind) {
     case EventKind::async_run:
     case EventKind::control_initial_due:
     case EventKind::control_reply_due:
+    case EventKind::lookup_expiry:
     case EventKind::participant_start:
     case EventKind::spdp_time:
     case EventKind::reply_time:
