@@ -92,7 +92,7 @@ class SideWatch : public Observer {
   const model::Scenario& scenario_;
   model::RelationRules rules_;
   std::optional<model::Topology> own_;  // names what is missing when the run is over
-  std::vector<bool> reader_open_;  // by relation
+  std::vector<bool> reader_open_;       // by relation
   std::vector<bool> writer_open_;
 };
 

@@ -17,8 +17,8 @@ namespace stormproof::prediction {
 /// One scenario to predict.
 struct Case {
   model::Scenario scenario;
-  double loss = 0;    ///< probability of each packet, drawn anew in each sample
-  StartTimes starts;  ///< after the schedule of the scenario was drawn
+  double loss = 0;         ///< probability of each packet, drawn anew in each sample
+  StartTimes starts = {};  ///< after the schedule of the scenario was drawn
   bool held = false;  ///< the scenario's limit is one of measured runs, whose counts end there, too
 
   /// Whether samples differ; otherwise one run is enough.
