@@ -88,6 +88,7 @@ set(thorough
   DamagedCapture.*
   Changed/*
   Edited/*
+  Impossible/Histories.AreRejectedManyTimes/*
   OfClients/ServerMistake.*
   OfServer/ServerMistake.*)
 list(JOIN thorough ":" thorough)

@@ -66,10 +66,38 @@ class Announcements {
       ledger_.explained(Rule::announcement_copy, sender_of_copy(one));
     }
     if (!fault && static_peers_) fault = one_too_few();
-    return fault;
+    return fault ? fault : not_introduced();
   }
 
  private:
+  /// If nothing is lost, who announces itself while this participant is there is recognised, and
+  /// gets a copy at once.
+  std::optional<Unexplained> not_introduced() {
+    const auto& own = dialogue_.announcements[participant_];
+    if (bounds_.may_lose || static_peers_ || spdp_.resend == model::SpdpResend::none || own.empty())
+      return std::nullopt;
+    const std::int64_t last_sign = dialogue_.last_sign_of(participant_)->time_ns;
+    for (std::size_t j = 0; j < dialogue_.participants(); ++j) {
+      if (!known_since_[j]) continue;
+      const auto heard = std::ranges::find_if(dialogue_.announcements[j], [&](const auto& one) {
+        return one.time_ns >= own.front().time_ns &&
+               (!one.destination || *one.destination == participant_);
+      });
+      if (heard == dialogue_.announcements[j].end()) continue;
+      const std::int64_t due = heard->time_ns + bounds_.most_delay_ns + bounds_.clock_error_ns +
+                               bounds_.most_send_lag_ns + capture_resolution_ns;
+      const bool is_introduced = std::ranges::any_of(
+          own, [&](const Announcement& one) { return one.destination == j && one.time_ns <= due; });
+      if (is_introduced || due >= last_sign) continue;
+      return fault(*dialogue_.last_sign_of(participant_), Fault::unanswered,
+                   fmt::format("no announcement to a participant within {} of its own",
+                               duration(due - heard->time_ns)),
+                   "who is recognised gets a copy of the announcement at once, and nothing is lost",
+                   {{"a loss, or a longer delay", {}, {}}});
+    }
+    return std::nullopt;
+  }
+
   [[nodiscard]] std::vector<Announcement> multicasts_of_capture() const {
     std::vector<Announcement> found;
     for (const Announcement& one : dialogue_.announcements[participant_]) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/conform/acknack_counts.hpp"
 #include "checker/evidence/conform/announcements.hpp"
 #include "checker/evidence/conform/cyclone.hpp"
 #include "checker/evidence/conform/dialogue.hpp"
@@ -131,7 +132,10 @@ class Check {
       if (kind != RelationKind::registration) {  // that is explained by participant
         at(relation.place, [&](Ledger& ledger) { return explain_data(context, relation, ledger); });
       }
-      at(relation.place, [&](Ledger& ledger) { return explain_reader(its, relation, ledger); });
+      at(relation.place, [&](Ledger& ledger) {
+        auto fault = explain_reader(its, relation, ledger);
+        return earlier(std::move(fault), acknack_counts_.fault_in(relation));
+      });
     }
   }
 
@@ -141,9 +145,18 @@ class Check {
        [&](Ledger& ledger) { return cyclone::explain_heartbeats(context_, writer, ledger); });
     at(place, [&](Ledger& ledger) { return cyclone::explain_data(context_, writer, ledger); });
     for (const Relation* relation : writer.relations) {
-      at(relation->place,
-         [&](Ledger& ledger) { return cyclone::explain_reader(context_, *relation, ledger); });
+      at(relation->place, [&](Ledger& ledger) {
+        auto fault = cyclone::explain_reader(context_, *relation, ledger);
+        return earlier(std::move(fault), acknack_counts_.fault_in(*relation));
+      });
     }
+  }
+
+  /// Of two faults the one that comes first.
+  static std::optional<Unexplained> earlier(std::optional<Unexplained> one,
+                                            std::optional<Unexplained> other) {
+    if (!one || !other) return one ? std::move(one) : std::move(other);
+    return other->event < one->event ? std::move(other) : std::move(one);
   }
 
   /// An event that nothing in the profile sends.
@@ -298,6 +311,7 @@ class Check {
   std::map<Place, PlaceResult> places_;
   Machines machines_;
   const Context context_{dialogue_, request_.dds, request_.bounds};
+  const AckNackCounts acknack_counts_{dialogue_, is_of_cyclone_};
 };
 
 }  // namespace

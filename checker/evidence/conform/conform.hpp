@@ -100,16 +100,18 @@ enum class Fault : std::uint8_t {
   announcement_extra,       ///< neither scheduled nor caused by a recognition
   announcement_due,         ///< the announcement timer is overdue
   heartbeat_cause,          ///< no rule sends this HEARTBEAT
-  heartbeat_range,          ///< announces less than before, or does not start at 1
+  heartbeat_range,          ///< announces less than there is, or does not start at 1
   heartbeat_copies,         ///< does not go to every reader that the writer has opened to
   heartbeat_due,            ///< the writer's timer is overdue
-  heartbeat_count,          ///< the counts of a writer's HEARTBEATs do not grow
+  heartbeat_count,          ///< the counts of a writer's HEARTBEATs do not grow, or leave some out
   data_cause,               ///< neither pushed nor asked for
+  data_order,               ///< pushed before a smaller number, or one is left out
   data_early,               ///< asked for, but less than τ_N (or τ_S after the last copy) ago
   data_acknowledged,        ///< sent after its acknowledgment has arrived
   gap_cause,                ///< a GAP of what nobody asked for, or need not have before a DATA
   acknack_cause,            ///< no HEARTBEAT can have arrived that it answers
   acknack_early,            ///< less than τ_A after the HEARTBEAT, or after the previous ACKNACK
+  acknack_count,            ///< the counts of a reader's ACKNACKs do not grow, or leave some out
   acknack_content,          ///< base or bitmap differ from what can have arrived
   initial_early,            ///< initial ACKNACK before its time
   initial_late,             ///< initial ACKNACK after its time
@@ -118,7 +120,7 @@ enum class Fault : std::uint8_t {
   number_beyond,            ///< a sequence number beyond all belief; such an event is set aside
   no_such_rule  ///< the profile has nothing that sends this (DATA_FRAG, another vendor's, …)
 };
-inline constexpr std::size_t fault_count = 22;
+inline constexpr std::size_t fault_count = 24;
 [[nodiscard]] std::string_view name_of(Fault fault);
 
 /// A relation, or a participant's own affairs if there is no destination.

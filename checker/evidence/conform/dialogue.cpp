@@ -241,6 +241,7 @@ class Sorter {
     answer.event = k;
     answer.base = descriptor_of(acknack.missing.base);
     answer.is_initial = acknack.is_initial() && !acknack.is_final;
+    answer.count = acknack.count;
     for (std::uint32_t bit = 0; bit < acknack.missing.num_bits; ++bit) {
       if (acknack.missing.has(bit)) answer.missing.push_back(answer.base + bit);
     }

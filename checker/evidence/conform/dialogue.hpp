@@ -40,6 +40,7 @@ struct Answer {
   std::uint32_t base = 0;                ///< every descriptor below it has arrived
   std::vector<std::uint32_t> missing{};  ///< ascending
   bool is_initial = false;
+  std::uint32_t count = 0;
 
   [[nodiscard]] bool asks_for(std::uint32_t descriptor) const;
 };

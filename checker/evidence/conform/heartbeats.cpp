@@ -46,6 +46,12 @@ class Heartbeats {
         has_replied_(writer.relations.size()) {
     for (const SentHeartbeat& one : sent_.all) counts_.push_back(one.heartbeat.count);
     std::ranges::sort(counts_);
+    for (const Relation* relation : writer.relations) {
+      for (const Submessage& one : relation->sent) {
+        if (one.descriptor) data_.emplace_back(one.time_ns, *one.descriptor + 1);
+      }
+    }
+    std::ranges::sort(data_);
   }
 
   std::optional<Unexplained> explain() {
@@ -80,18 +86,37 @@ class Heartbeats {
           "a writer counts its HEARTBEATs up, whomever they are for",
           {{"send lag", one.time_ns - highest_->time_ns, bounds_.most_send_lag_ns}});
     }
-    return std::nullopt;
+    const bool shows_all = !dialogue_.has_neighbour[source_] && !dialogue_.server;
+    if (!shows_all || !highest_ || one.heartbeat.count < highest_->heartbeat.count) {
+      return std::nullopt;
+    }
+    const auto next = std::ranges::upper_bound(counts_, highest_->heartbeat.count);
+    const auto same = std::ranges::lower_bound(counts_, one.heartbeat.count);
+    const auto step = static_cast<std::ptrdiff_t>(one.heartbeat.count - highest_->heartbeat.count);
+    if (same - next + 1 >= step) return std::nullopt;
+    return fault(one, Fault::heartbeat_count,
+                 fmt::format("HEARTBEAT {}, and the one before it is HEARTBEAT {}",
+                             one.heartbeat.count, highest_->heartbeat.count),
+                 "a writer counts its HEARTBEATs up, and there is nobody on its host whom those in "
+                 "between can be for",
+                 {{"another count", {}, {}}});
   }
 
   std::optional<Unexplained> check_range(const SentHeartbeat& one) {
     const bool shrinks = highest_ && one.heartbeat.count > highest_->heartbeat.count &&
                          one.heartbeat.announced < highest_->heartbeat.announced;
     if (!highest_ || one.heartbeat.count > highest_->heartbeat.count) highest_ = one;
-    if (one.heartbeat.first == 1 && !shrinks) return std::nullopt;
+    for (; known_ < data_.size() && data_[known_].first < one.time_ns - bounds_.most_send_lag_ns;
+         ++known_) {
+      exist_ = std::max(exist_, data_[known_].second);
+    }
+    const bool hides = one.heartbeat.announced < exist_;
+    if (one.heartbeat.first == 1 && !shrinks && !hides) return std::nullopt;
     return fault(one, Fault::heartbeat_range,
                  fmt::format("HEARTBEAT {} announces samples {} to {}", one.heartbeat.count,
                              one.heartbeat.first, one.heartbeat.announced),
                  shrinks ? "the one before announced more, and endpoints are only created"
+                 : hides ? "DATA with more was sent before, and endpoints are only created"
                          : "descriptors are numbered from 1 on, and none goes",
                  {{"a writer whose endpoints are only created", {}, {}}});
   }
@@ -348,6 +373,10 @@ class Heartbeats {
   std::vector<std::uint32_t> counts_;  ///< of those, ascending
   PiggybackBudget budget_;
   std::optional<SentHeartbeat> highest_;  ///< by its count
+  /// DATA of the writer: when, and how many descriptors there are then at least; ascending.
+  std::vector<std::pair<std::int64_t, std::uint32_t>> data_;
+  std::size_t known_ = 0;    ///< of those, how many surely were sent before
+  std::uint32_t exist_ = 0;  ///< descriptors, at least
   std::vector<Exchangeable> exchangeable_;
   std::vector<std::size_t> next_initial_;
   std::vector<bool> is_opened_;

@@ -2,6 +2,7 @@
 // needs may be lost, so they do not occur.
 #include "checker/evidence/conform/requests_exact.hpp"
 
+#include <chrono>
 #include <map>
 #include <string>
 
@@ -53,11 +54,16 @@ class Question {
   }
 
   z3::check_result solve(const SearchLimits& limits) {
+    // Where Z3 counts no steps, the watch ends the work.
+    constexpr std::chrono::minutes long_enough{10};
+    z3::params parameters{context_};
+    parameters.set("rlimit", limits.steps);
+    solver_.set(parameters);
     try {
-      const smt::Deadline deadline{context_, limits.time, limits.interrupted};
+      const smt::Deadline deadline{context_, long_enough, limits.interrupted};
       return solver_.check();
     } catch (const z3::exception&) {
-      return z3::unknown;  // out of time
+      return z3::unknown;  // out of steps
     } catch (const smt::Interrupted&) {
       return z3::unknown;
     }

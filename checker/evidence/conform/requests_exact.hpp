@@ -3,11 +3,11 @@
 // is fast and nearly always finds one; before a capture is said not to conform, this decides.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "checker/engines/smt/claims.hpp"
 #include "checker/evidence/conform/requests.hpp"
 
 namespace stormproof::conform {
@@ -22,7 +22,7 @@ struct ExactAnswer {
 
 /// What ends the search without an answer.
 struct SearchLimits {
-  std::chrono::milliseconds time;
+  unsigned steps = smt::Budget{}.z3;    ///< units of Z3's `rlimit`, the same on every machine
   std::function<bool()> interrupted{};  ///< asked now and then, by another thread; may be empty
 };
 

@@ -2,7 +2,6 @@
 #include "checker/evidence/conform/writer_side.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 
@@ -13,9 +12,6 @@
 namespace stormproof::conform {
 
 namespace {
-
-/// How long the solver may think about one relation.
-constexpr std::chrono::milliseconds solver_limit{10'000};
 
 class WriterSide {
  public:
@@ -36,6 +32,7 @@ class WriterSide {
     transmissions_ = transmissions_of(relation_);
     if (kind_of(context_.dialogue, relation_.place) == RelationKind::descriptors) {
       if (auto fault = pushed_late()) return fault;
+      if (auto fault = pushed_in_order()) return fault;
     }
     if (auto fault = sent_after_acknowledgment()) return fault;
     if (auto fault = sent_while_suppressed()) return fault;
@@ -135,7 +132,7 @@ class WriterSide {
     const auto with = [&](std::size_t count) {
       const std::vector<Demand> first{all.begin(),
                                       all.begin() + static_cast<std::ptrdiff_t>(count)};
-      return decide(relation_, requests, first, {solver_limit, context_.interrupted});
+      return decide(relation_, requests, first, {.interrupted = context_.interrupted});
     };
     if (failing < all.size() && with(failing).kind == ExactAnswer::Kind::impossible) {
       return unexplained(all[failing - 1]);
@@ -228,6 +225,38 @@ class WriterSide {
           {{"send lag", late, context_.bounds.most_send_lag_ns}});
     }
     return std::nullopt;
+  }
+
+  /// Endpoints are created in the order of their numbers, and each is pushed to all readers then:
+  /// to this one the next number each time. So nothing that a HEARTBEAT announces has been left
+  /// out.
+  std::optional<Unexplained> pushed_in_order() {
+    std::uint32_t next = existing_;
+    for (const Transmission& one : transmissions_) {
+      if (!one.is_pushed) continue;
+      if (one.descriptor == next) {
+        ++next;
+        continue;
+      }
+      return fault(
+          one.event, Fault::data_order,
+          fmt::format("descriptor {} is pushed, and descriptor {} has not been", one.descriptor,
+                      next),
+          "endpoints are created in the order of their numbers, and each is pushed at its creation",
+          {{"a push of every smaller number before it", {}, {}}});
+    }
+    const auto announced = context_.announced.lower_bound(next + 1);
+    if (context_.dialogue.ends_early || announced == context_.announced.end()) return std::nullopt;
+    const std::int64_t due = announced->second + context_.bounds.most_send_lag_ns;
+    if (due >= context_.dialogue.end_ns) return std::nullopt;
+    const auto after = std::ranges::find_if(
+        relation_.sent, [&](const Submessage& one) { return one.time_ns > due; });
+    if (after == relation_.sent.end()) return std::nullopt;
+    return fault(
+        after->event, Fault::data_order,
+        fmt::format("descriptor {} is never pushed, and a HEARTBEAT has announced it", next),
+        "what is created after the relation opened is pushed at its creation",
+        {{"a push of every smaller number before it", {}, {}}});
   }
 
   /// If nothing is lost, an ACKNACK arrives at the latest after the longest delay.

@@ -60,15 +60,17 @@ std::string_view rule_broken_by(Fault fault) {
       return "a HEARTBEAT opens a relation, answers an initial ACKNACK, rides on DATA, or is "
              "periodic";
     case Fault::heartbeat_range:
-      return "a HEARTBEAT announces from 1 on, and never less than an earlier one";
+      return "a HEARTBEAT announces from 1 on, and never less than what was sent before";
     case Fault::heartbeat_copies:
       return "a HEARTBEAT that is not for one reader goes to all to which the writer has opened";
     case Fault::heartbeat_due:
       return "a writer's timer acts at its time, at most the lateness after it";
     case Fault::heartbeat_count:
-      return "the counts of a writer's HEARTBEATs grow";
+      return "the counts of a writer's HEARTBEATs grow, by what somebody else can have got at most";
     case Fault::data_cause:
       return "DATA is pushed when its endpoint is created, or asked for by an ACKNACK";
+    case Fault::data_order:
+      return "descriptors are created in the order of their numbers, and each is pushed then";
     case Fault::data_early:
       return "DATA that was asked for waits τ_N, and τ_S after the previous copy";
     case Fault::data_acknowledged:
@@ -80,6 +82,8 @@ std::string_view rule_broken_by(Fault fault) {
       return "an ACKNACK answers a HEARTBEAT that can have arrived";
     case Fault::acknack_early:
       return "an ACKNACK waits τ_A after the HEARTBEAT, and so after the previous ACKNACK";
+    case Fault::acknack_count:
+      return "the counts of a reader's ACKNACKs grow, by what somebody else can have got at most";
     case Fault::acknack_content:
       return "an ACKNACK has what can have arrived, and asks for the rest of what was announced";
     case Fault::initial_early:

@@ -163,6 +163,19 @@ std::vector<Case> data_cases() {
              return add(c, c.events[last], c.events[last].time_ns + 5 * ms);
            },
            "an ACKNACK of this reader before it that asks for the descriptor"},
+          {Fault::data_order, "one_is_left_out",
+           [](Conversation& c) {
+             const std::int64_t existing =
+                 c.events[find(c, both(sent(c, 0, 1), is_heartbeat))].heartbeat()->last;
+             const auto number = [&](std::int64_t n) {
+               return both(sent(c, 0, 1), [n](const Event& event) {
+                 return is_data(event) && event.data()->sequence_number == n;
+               });
+             };
+             drop(c, number(existing + 1));
+             return find(c, number(existing + 2));
+           },
+           "a push of every smaller number before it"},
           {Fault::data_early, "before_the_response_delay",
            [](Conversation& c) {
              const std::size_t asked = find(c, both(answers(c, 1, 0), asks));
@@ -191,6 +204,13 @@ std::vector<Case> reply_cases() {
              return move(c, answer, c.events[heartbeat].time_ns + 5 * us);
            },
            "clock error"},
+          {Fault::acknack_count, "leaves_some_out",
+           [](Conversation& c) {
+             const std::size_t answer = find_last(c, answers(c, 1, 0));
+             acknack_at(c, answer).count += 7;
+             return answer;
+           },
+           "another count"},
           {Fault::acknack_content, "asks_for_too_little",
            [](Conversation& c) {
              const std::size_t answer = find(c, both(answers(c, 1, 0), asks));
