@@ -121,15 +121,11 @@ class ControlWatch : public Observer {
   std::map<Number, Relation> relations_;
 };
 
-bool has_control_relations(const model::Scenario& scenario) {
-  return is_of_two_writers(scenario) && traits_of(scenario).writer == model::Writer::stateful;
-}
-
 constexpr Law control_list[] = {watched_law<ControlWatch>(
     "law.control",
     "In control-only relations a HEARTBEAT is sent at the opening and for an initial ACKNACK, and "
     "answered once after the response delay; until it comes its reader asks ever more rarely.",
-    has_control_relations)};
+    is_stateful)};
 
 }  // namespace
 

@@ -32,10 +32,14 @@ quiet_laws();  ///< a network without delays or losses to speak of
 [[nodiscard]] std::span<const Law> bound_laws();         ///< how fast and how slow discovery can be
 [[nodiscard]] std::span<const Law> adaptive_laws();      ///< the response-aware policy
 
+/// Whether writers repair by one response and one queue for all their readers, as Fast DDS's do.
+[[nodiscard]] inline bool is_stateful(const model::Scenario& scenario) {
+  return model::traits_of(scenario.dds).writer == model::Writer::stateful;
+}
 /// Of laws that are about packets, events and timers as the paper and Fast DDS have them.
 [[nodiscard]] inline bool is_of_two_writers(const model::Scenario& scenario) {
-  const model::Writer writer = model::traits_of(scenario.dds).writer;
-  return writer == model::Writer::of_the_paper || writer == model::Writer::stateful;
+  return is_stateful(scenario) ||
+         model::traits_of(scenario.dds).writer == model::Writer::of_the_paper;
 }
 /// Of those that know Cyclone DDS's messages, too.
 [[nodiscard]] inline bool is_of_three_writers(const model::Scenario& scenario) {

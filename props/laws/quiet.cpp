@@ -191,7 +191,7 @@ Broken single_loss(const Scenario& scenario, const Simulate& simulate) {
     return fmt::format("A lost packet had {} descriptors, but {} are repaired.",
                        first.descriptors(), result.counts.repair_data);
   }
-  if (traits_of(candidate).writer == model::Writer::stateful) return std::nullopt;
+  if (is_stateful(candidate)) return std::nullopt;
   const model::SedpProfile& sedp = candidate.dds.sedp;
   const Nanoseconds expected =
       candidate.wireless.one_way * 4 + sedp.heartbeat_response_delay + sedp.nack_response_delay;
@@ -224,7 +224,7 @@ Broken double_loss(const Scenario& scenario, const Simulate& simulate) {
   if (Broken noise = silence(candidate, result, watch)) return noise;
   const model::SedpProfile& sedp = candidate.dds.sedp;
   const bool adaptive = sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive;
-  const bool stateful = traits_of(candidate).writer == model::Writer::stateful;
+  const bool stateful = is_stateful(candidate);
   if (stateful && adaptive) return std::nullopt;  // it may ask twice for one repair
   if (result.counts.repair_data != 2 * first.descriptors()) {
     return fmt::format("A packet with {} descriptors was lost twice, but {} are repaired.",

@@ -28,7 +28,7 @@ Nanoseconds patience(const model::Scenario& scenario) {
   }
   // An expiry finds nothing to ask for while a repair is under way or suppressed, and the end of
   // the suppression starts the timer anew.
-  if (traits_of(scenario).writer == model::Writer::stateful) {
+  if (is_stateful(scenario)) {
     longest += std::max(sedp.nack_response_delay, sedp.nack_suppression_duration);
   }
   return longest;
