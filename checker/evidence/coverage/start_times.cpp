@@ -34,6 +34,10 @@ void StartTimes::put(model::Deployment& deployment, std::size_t sample, std::uin
     const Times& times = measured_[sample % measured_.size()][i];
     trials::start_later(participant, nanoseconds(times.start) - participant.start);
     participant.endpoints_done = nanoseconds(times.endpoints_done);
+    if (deployment.schedule && deployment.schedule->open_before) {
+      participant.open =
+          std::max(model::Nanoseconds{}, participant.start - *deployment.schedule->open_before);
+    }
     if (!is_repeated) continue;
     const auto later = static_cast<std::int64_t>(random() % (most_later.count() + 1));
     trials::start_later(participant, model::Nanoseconds{later});

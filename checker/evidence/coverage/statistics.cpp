@@ -93,8 +93,8 @@ class Collection {
       return;
     }
     const bool both_known = std::isfinite(model) && std::isfinite(observed);
-    const double least = std::min(observed, limit);
-    const double ratio = std::isinf(least) ? 0 : ratio_of(std::min(model, limit), least);
+    const auto known = [limit](double value) { return std::isinf(value) ? limit : value; };
+    const double ratio = std::isinf(known(observed)) ? 0 : ratio_of(known(model), known(observed));
     ratios_.push_back(ratio);
     const double percent = 100 * std::abs(ratio - 1);
     if (std::isfinite(percent) && both_known) percents_.push_back(percent);

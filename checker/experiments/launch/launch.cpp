@@ -207,7 +207,7 @@ std::optional<Report::Place> Report::best(std::optional<std::size_t> setting) co
     }
   }
   if (!best) return best;
-  const double within = *rows[best->row].cells[best->setting].completion.max;
+  const double within = 1.1 * *rows[best->row].cells[best->setting].completion.median;
   const auto together =
       std::ranges::find_if(rows, [](const Row& row) { return row.plan.order == Order::at_once; });
   if (together == rows.end()) return best;

@@ -79,7 +79,7 @@ struct Report {
     std::size_t setting = 0;
   };
   /// Where all runs complete and the median is least; with `setting`, of it alone. All at once, and
-  /// as it is before other settings, if the median there is within the range of that place.
+  /// as it is before other settings, if it takes no more than a tenth longer there.
   [[nodiscard]] std::optional<Place> best(std::optional<std::size_t> setting = {}) const;
 };
 

@@ -86,7 +86,7 @@ void add_head(report::Document& document, const Report& report, const Request& r
   }
   const Row& row = report.rows[best->row];
   const std::string setting =
-      best->setting == 0 ? "" : " with " + report.settings[best->setting].name;
+      best->setting == 0 ? "" : " and " + report.settings[best->setting].name;
   const std::string when = median_text(row.cells[best->setting]);
   document.answer =
       best->row == 0 && best->setting == 0
@@ -95,14 +95,15 @@ void add_head(report::Document& document, const Report& report, const Request& r
                 "median, {}.",
                 words_of(row.plan), when, storms_text(row.cells[0]))
           : fmt::format(
-                "{}{} everybody knows everybody soonest: after {} at the median. Deployed "
-                "is {}.",
+                "Everybody knows everybody soonest with {}{}: after {} at the median. Deployed is "
+                "{}.",
                 words_of(row.plan), setting, when, deployed_text(report));
   if (const Row* worst = worst_spread(report)) {
+    const auto& median = worst->cells.front().completion.median;
     document.elaboration = fmt::format(
-        "Spreading the starts can make it worse: {} takes {} at the median, of which the spread "
-        "itself is {}.",
-        words_of(worst->plan), median_text(worst->cells.front()),
+        "Spreading the starts can make it worse: {} {} at the median, and the spread itself is {}.",
+        words_of(worst->plan),
+        median ? "takes " + report::time_figure(*median) : std::string{"is not complete in time"},
         report::duration(worst->last_start.value_or(model::Nanoseconds{})));
   }
 }

@@ -30,9 +30,9 @@ std::string words_of(const Plan& plan) {
     case Order::by_host:
       return fmt::format("host by host, {} apart", model::config::print_duration(plan.step));
     case Order::waves:
-      return "host by host, when those before are complete";
+      return "host by host, when complete";
     case Order::late_tool:
-      return "the last process when the others are complete";
+      return "last process when complete";
   }
   return {};
 }

@@ -71,6 +71,8 @@ TEST_F(AccessPointProgram, JoinsThreeHosts) {
   send(c, "10.99.0.255", "to all");  // up once, down once
   EXPECT_EQ(receive(a), "to all");
   EXPECT_EQ(receive(b), "to all");
+  EXPECT_EQ(receive(c), "to all");  // its own kernel's copy, once
+  EXPECT_EQ(receive(c, MSG_DONTWAIT), "");
   send(a, "10.99.0.3", "to one");
   EXPECT_EQ(receive(c), "to one");
   send(b, "10.99.0.1", "to another");

@@ -17,7 +17,7 @@ double median_of(Measure measure, const std::vector<std::string>& overrides) {
   const auto scenario =
       model::config::read_scenario("live-5x20", overrides, model::config::SpecPath::standard());
   EXPECT_TRUE(scenario);
-  const std::vector<Case> cases{{*scenario, 0}};
+  const std::vector<Case> cases{{*scenario, 0, {}}};
   PredictOptions options;
   options.samples = 5;
   const Predictions predictions = predict(cases, options);
