@@ -31,9 +31,9 @@ const std::vector<Shipped>& captures() {
   return list;
 }
 
-class ShippedCapture : public ::testing::TestWithParam<Shipped> {};
+class CaptureOfFastDds3 : public ::testing::TestWithParam<Shipped> {};
 
-TEST_P(ShippedCapture, ConformsToItsVersion) {
+TEST_P(CaptureOfFastDds3, ConformsToItsVersion) {
   const auto conversation = shipped("fastdds-3/" + GetParam().name);
   const Conformance result = conformance(conversation, profile(GetParam().profile));
   EXPECT_TRUE(is_explained(result)) << description(result);
@@ -42,7 +42,7 @@ TEST_P(ShippedCapture, ConformsToItsVersion) {
 }
 
 /// Version 2.14.5 has the same timers, and no such endpoints.
-TEST_P(ShippedCapture, DoesNotConformToAVersionThatLooksUpNothing) {
+TEST_P(CaptureOfFastDds3, DoesNotConformToAVersionThatLooksUpNothing) {
   const auto conversation = shipped("fastdds-3/" + GetParam().name);
   const Conformance result = conformance(conversation, profile("fastdds-2.14.5"));
   EXPECT_EQ(result.verdict, GetParam().looks_up ? Verdict::does_not_conform : Verdict::conforms);
@@ -52,7 +52,7 @@ TEST_P(ShippedCapture, DoesNotConformToAVersionThatLooksUpNothing) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, ShippedCapture, ::testing::ValuesIn(captures()),
+INSTANTIATE_TEST_SUITE_P(Shipped, CaptureOfFastDds3, ::testing::ValuesIn(captures()),
                          [](const auto& one) { return one.param.name; });
 
 /// Announcements alone decide nothing, whoever sent them.
