@@ -30,11 +30,12 @@ namespace vendor = model::config::vendor;
 constexpr model::Nanoseconds another_day{20'000'000};
 constexpr std::size_t most_advice = 3;
 
-/// The first two numbers in `text`: "2.12" of "2.x from 2.12 on" is found behind its word.
-std::optional<std::pair<int, int>> version_in(std::string_view text) {
+/// The first two numbers in `text`: "2.12" of "2.x from 2.12 on" is found behind its word, and the
+/// hyphen of "fastdds-3.6" is no sign.
+std::optional<std::pair<unsigned, unsigned>> version_in(std::string_view text) {
   for (std::size_t at = 0; at < text.size(); ++at) {
-    int major = 0;
-    int minor = 0;
+    unsigned major = 0;
+    unsigned minor = 0;
     const char* end = text.data() + text.size();
     const auto first = std::from_chars(text.data() + at, end, major);
     if (first.ec != std::errc{}) continue;
@@ -48,7 +49,7 @@ std::optional<std::pair<int, int>> version_in(std::string_view text) {
 }
 
 /// Whether a preset is of a version that what was seen allows.
-bool agrees(const std::string& seen, std::pair<int, int> preset) {
+bool agrees(const std::string& seen, std::pair<unsigned, unsigned> preset) {
   const auto version = version_in(seen);
   if (!version) return true;
   if (seen.find("before") != std::string::npos) return preset < *version;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "checker/evidence/doctor/advise.hpp"
 #include "checker/presentation/document/render.hpp"
 #include "tests/checker/evidence/capture/sidecar.hpp"
 #include "tests/checker/evidence/conform/captures.hpp"
@@ -178,6 +179,9 @@ TEST(Doctor, SeesThatHostsSayTheyAreOneMachine) {
   ASSERT_EQ(report.machines.size(), 1U);
   EXPECT_EQ(report.machines.front().identity, "3d1219c7c4c5404aaa1f6d2a48adfda4");
   EXPECT_EQ(report.machines.front().hosts, (std::set<std::size_t>{0, 1}));
+  EXPECT_EQ(profiles_of(report.products.front()),
+            (std::vector<std::string>{"fastdds-3.2", "fastdds-3.6", "fastdds-server-3.2",
+                                      "fastdds-server-3.6"}));
   ASSERT_NE(find(report, "same_machine_id"), nullptr);
   EXPECT_NE(find(report, "same_machine_id")->sentence.find("10.88.0.1, 10.88.0.2"),
             std::string::npos);
