@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "model/config/spec_path.hpp"
 #include "props/generators/scenarios.hpp"
 #include "tests/checker/evidence/conform/captures.hpp"
 #include "tests/checker/evidence/conform/edits.hpp"
@@ -54,6 +55,24 @@ TEST_P(CaptureOfFastDds3, DoesNotConformToAVersionThatLooksUpNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, CaptureOfFastDds3, ::testing::ValuesIn(captures()),
                          [](const auto& one) { return one.param.name; });
+
+/// Each capture conforms to its own preset, and fewer than one in four of the others explain it.
+TEST(Presets, OthersSeldomExplainACapture) {
+  const model::config::SpecPath specs{{STORMPROOF_SPECS_DIR}};
+  std::size_t held = 0;
+  std::size_t explain = 0;
+  for (const Shipped& one : captures()) {
+    const auto conversation = shipped("fastdds-3/" + one.name);
+    for (const std::string& name : specs.names(model::config::SpecKind::dds)) {
+      const model::DdsProfile dds = profile(name);
+      if (name == one.profile || refuse_profile(dds)) continue;
+      ++held;
+      if (conformance(conversation, dds).verdict == Verdict::conforms) ++explain;
+    }
+  }
+  EXPECT_GT(held, 50U);
+  EXPECT_LT(explain * 4, held);
+}
 
 /// Announcements alone decide nothing, whoever sent them.
 TEST(SameMachineId, DecidesNothing) {
