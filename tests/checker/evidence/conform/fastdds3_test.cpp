@@ -32,9 +32,9 @@ const std::vector<Shipped>& captures() {
   return list;
 }
 
-class CaptureOfFastDds3 : public ::testing::TestWithParam<Shipped> {};
+class Fastdds3Capture : public ::testing::TestWithParam<Shipped> {};
 
-TEST_P(CaptureOfFastDds3, ConformsToItsVersion) {
+TEST_P(Fastdds3Capture, ConformsToItsVersion) {
   const auto conversation = shipped("fastdds-3/" + GetParam().name);
   const Conformance result = conformance(conversation, profile(GetParam().profile));
   EXPECT_TRUE(is_explained(result)) << description(result);
@@ -43,7 +43,7 @@ TEST_P(CaptureOfFastDds3, ConformsToItsVersion) {
 }
 
 /// Version 2.14.5 has the same timers, and no such endpoints.
-TEST_P(CaptureOfFastDds3, DoesNotConformToAVersionThatLooksUpNothing) {
+TEST_P(Fastdds3Capture, DoesNotConformToAVersionThatLooksUpNothing) {
   const auto conversation = shipped("fastdds-3/" + GetParam().name);
   const Conformance result = conformance(conversation, profile("fastdds-2.14.5"));
   EXPECT_EQ(result.verdict, GetParam().looks_up ? Verdict::does_not_conform : Verdict::conforms);
@@ -53,7 +53,7 @@ TEST_P(CaptureOfFastDds3, DoesNotConformToAVersionThatLooksUpNothing) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, CaptureOfFastDds3, ::testing::ValuesIn(captures()),
+INSTANTIATE_TEST_SUITE_P(Shipped, Fastdds3Capture, ::testing::ValuesIn(captures()),
                          [](const auto& one) { return one.param.name; });
 
 /// Each capture conforms to its own preset, and fewer than one in four of the others explain it.
