@@ -76,7 +76,7 @@ std::string test_name(const ::testing::TestParamInfo<std::string>& name) {
 class Figures : public ::testing::TestWithParam<std::string> {};
 class Captures : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(Figures, OfTheSidecarsAreGivenOfTheirSidecars) {
+TEST_P(Figures, OfTheirSidecarsAreGiven) {
   const Sidecar sidecar = sidecar_of(GetParam());
   const Counting counting = count(read(GetParam()), sidecar.cutoff_ns);
   const auto figures = figures_of(counting, sidecar.counts_same_host);
