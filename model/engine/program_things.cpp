@@ -8,6 +8,7 @@
 #include "fsm/composition/fastdds_life.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/timer_kinds.hpp"
+#include "model/fastdds/endpoints.hpp"
 
 namespace stormproof::model {
 namespace {
@@ -58,6 +59,10 @@ std::map<std::string_view, Value> values() {
     all.emplace(fsm::full_name_of<Knob>(), [](const DdsProfile& dds) {
       return static_cast<std::int64_t>(knob_value(Knob{}, dds));
     });
+  });
+  // Whether there are types to ask for is the deployment's, whether anybody can the profile's.
+  all.emplace(fsm::full_name_of<comp::lookup::AsksForTypes>(), [](const DdsProfile& dds) {
+    return static_cast<std::int64_t>(fastdds::looks_up_types(dds));
   });
   return all;
 }
