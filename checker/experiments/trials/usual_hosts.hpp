@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/config/knobs/scenario_knobs.hpp"
+#include "model/implementations.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::trials {
@@ -18,7 +18,7 @@ inline constexpr const char* usual_hosts = "live-bed-processors";
 /// Whether a scenario says no hosts and can have some.
 [[nodiscard]] inline bool lacks_hosts(const model::Scenario& scenario) {
   return !scenario.hosts && !scenario.deployment.life &&
-         model::config::takes_processor_time(scenario.dds);
+         model::traits_of(scenario.dds).has_processor_times;
 }
 /// Whether somebody is to start when somebody else already has all its endpoints; start times that
 /// are drawn are those of programs that are started at once.

@@ -42,6 +42,36 @@ TEST(Observations, ProcessesSayWhenTheyAnnounceThemselves) {
             "time in ms from 0 to 3600000");
 }
 
+TEST(Observations, ProcessesSayWhenEachParticipantStartedAndHadItsEndpoints) {
+  const std::string run = R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"procs":[)";
+  const std::string second = R"({"host":1,"id":0,"enabled":4,"endpoints_done":7})";
+  const std::string first = R"({"host":0,"id":0,"enabled":3,"endpoints_done":5})";
+  const auto read = read_text(run + second + "," + first + "]}");
+  ASSERT_TRUE(read);
+  const std::vector<Times>& times = read->rows[0].participants;
+  ASSERT_EQ(times.size(), 2U);
+  EXPECT_EQ(times[0].start, 3);
+  EXPECT_EQ(times[1].endpoints_done, 7);
+  EXPECT_TRUE(read_text(run + first + "]}")->rows[0].participants.empty());
+  EXPECT_NE(error_of(run + R"({"host":2,"id":0,"enabled":3,"endpoints_done":5}]})")
+                .find("host is 2; expected an integer from 0 to 1"),
+            std::string::npos);
+  EXPECT_NE(error_of(run + R"({"host":0,"id":0,"enabled":3,"endpoints_done":2}]})")
+                .find("endpoints_done is 2; expected a time in ms, up to 3600000 and not before"),
+            std::string::npos);
+}
+
+TEST(Observations, StartsThatFollowOneAnotherAreOtherConfigurations) {
+  const std::string run = R"({"N_H":2,"N_P":2,"N_E":2,"T_app_ms":9,"step_ms":)";
+  const auto read = read_text(run + "0}\n" + run + "100}\n" + run + R"(100,"step_by":"host"})");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(configurations(read->rows).size(), 3U);
+  EXPECT_EQ(read->rows[1].spread.planned(1, 3), 300);
+  EXPECT_EQ(read->rows[2].spread.planned(1, 3), 100);
+  EXPECT_EQ(error_of(run + R"(100,"step_by":"robot"})"),
+            R"(runs.jsonl:1: step_by is "robot"; expected process or host)");
+}
+
 TEST(Observations, TotalIsTheSumOfAllClasses) {
   const auto read = read_text(
       R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"counts":{"spdp_m":1,"spdp_unicast":2,"init":3,)"
@@ -59,6 +89,18 @@ TEST(Observations, ARunThatWasCutOffHasLowerBounds) {
   EXPECT_EQ(value(read->rows[0], Measure::completion), 16'000);
   EXPECT_EQ(observed_values(configurations(read->rows)[0], Measure::completion),
             std::vector<double>{never});
+}
+
+TEST(Observations, TheCountsOfARunThatWasCutOffAreThoseUpToItsLimit) {
+  const std::string cut = R"({"N_H":2,"N_P":1,"N_E":2,"completed":false,"counts":{"total":7})";
+  const auto read = read_text(cut + R"(,"limit_s":16})");
+  ASSERT_TRUE(read);
+  const Configuration configuration = configurations(read->rows)[0];
+  EXPECT_EQ(configuration.limit(), 16'000);
+  EXPECT_EQ(observed_values(configuration, Measure::messages), std::vector<double>{7});
+  const Configuration unlimited = configurations(read_text(cut + "}")->rows)[0];
+  EXPECT_FALSE(unlimited.limit());
+  EXPECT_EQ(observed_values(unlimited, Measure::messages), std::vector<double>{never});
 }
 
 TEST(Observations, StrictCompletionIsAnotherField) {

@@ -71,6 +71,77 @@ TEST(Schedule, TheProfileDecidesWhetherThereIsOne) {
   EXPECT_TRUE(asked->deployment.schedule);
 }
 
+/// Two hosts with one participant each that started at 4 and 30 ms.
+Configuration with_times() {
+  Configuration c = configuration_of({50}, 1, 20);
+  c.runs[0].participants = {{4, 20}, {30, 70}};
+  return c;
+}
+
+model::Deployment started(const Configuration& c, const ScenarioOptions& options,
+                          std::size_t sample) {
+  auto scenario = scenario_of(c, options);
+  EXPECT_TRUE(scenario);
+  start_times(c, *scenario, options).put(scenario->deployment, sample, sample);
+  return scenario->deployment;
+}
+
+constexpr model::Nanoseconds ms(std::int64_t value) {
+  return model::Nanoseconds{value * 1'000'000};
+}
+
+TEST(StartTimes, AreThoseOfTheMeasuredRuns) {
+  const ScenarioOptions options{"fastdds-2.6.11", "emulated-ap", {}, {}};
+  const model::Deployment first = started(with_times(), options, 0);
+  EXPECT_EQ(first.participants[0].start, ms(4));
+  EXPECT_EQ(first.participants[1].start, ms(30));
+  EXPECT_EQ(first.participants[1].endpoints_done, ms(70));
+  const model::Deployment again = started(with_times(), options, 1);
+  EXPECT_GT(again.participants[1].start, ms(30));
+  EXPECT_LE(again.participants[1].start, ms(31));
+  EXPECT_EQ(again.participants[1].endpoints_done - again.participants[1].start, ms(40));
+}
+
+TEST(StartTimes, OfCycloneItHearsBeforeItsMeasuredStart) {
+  const model::Deployment first =
+      started(with_times(), {"cyclonedds-0.10", "emulated-ap", {}, {}}, 0);
+  EXPECT_EQ(first.participants[1].start, ms(30));
+  EXPECT_EQ(first.participants[1].open, ms(27));
+}
+
+TEST(StartTimes, AScheduleThatSomebodyAskedForCounts) {
+  const ScenarioOptions options{
+      "fastdds-2.6.11", "emulated-ap", {"deployment.schedule.start=[5ms,5ms]"}, {}};
+  EXPECT_EQ(started(with_times(), options, 0).participants[1].start, ms(5));
+}
+
+TEST(StartTimes, FollowOneAnotherAsPlannedIfNobodyMeasuredThem) {
+  Configuration c = configuration_of({50}, 1, 20);
+  c.runs[0].start = Range{4, 510};
+  c.runs[0].endpoints_done = Range{20, 540};
+  c.spread.step_ms = 500;
+  const ScenarioOptions options{"fastdds-2.6.11", "emulated-ap", {}, {}};
+  EXPECT_EQ(schedule_ranges(c).start.high, 10);
+  const model::Deployment one = started(c, options, 0);
+  EXPECT_LE(one.participants[0].start, ms(10));
+  EXPECT_GE(one.participants[1].start, ms(504));
+  EXPECT_LE(one.participants[1].start, ms(510));
+}
+
+TEST(StartTimes, ProgramsTakeTimeWhereTheyAreSpread) {
+  Configuration c = with_times();
+  const auto hosts = [&c](const std::string& dds, const std::vector<std::string>& set) {
+    return scenario_of(c, {dds, "emulated-ap", set, {}})->hosts;
+  };
+  EXPECT_FALSE(hosts("fastdds-2.6.11", {}));
+  c.spread.step_ms = 100;
+  ASSERT_TRUE(hosts("fastdds-2.6.11", {}));
+  EXPECT_EQ(hosts("fastdds-2.6.11", {})->reception.count(), 14'000);
+  EXPECT_EQ(hosts("fastdds-2.6.11", {})->deaf_max.count(), 0);
+  EXPECT_EQ(hosts("fastdds-2.6.11", {"hosts=raspberry-pi-4"})->cores, 4U);
+  EXPECT_FALSE(hosts("paper", {}));
+}
+
 TEST(Channel, ADifferenceIsNamed) {
   Configuration c = configuration_of({50});
   const auto scenario = scenario_of(c, {"fastdds-2.6.11", "emulated-ap", {}, {}});

@@ -44,6 +44,23 @@ TEST(Statistics, MedianOverConfigurations) {
   EXPECT_EQ(scopes(pairings), (std::vector<std::string>{"np1", "np2", "np3", "all"}));
 }
 
+TEST(Statistics, ScopesOfFleetsAndOfSpreadStarts) {
+  std::vector<Configuration> observed{configuration_of({10}), configuration_of({10})};
+  observed[1].hosts = 5;
+  observed[1].spread.step_ms = 20;
+  const Prediction predicted = prediction_of({20});
+  const std::vector<Pairing> pairings{{&observed[0], &predicted}, {&observed[1], &predicted}};
+  EXPECT_EQ(scopes(pairings), (std::vector<std::string>{"np1", "nh2", "nh5", "all", "spread"}));
+  EXPECT_EQ(fit(pairings, "nh5", Measure::completion)->configurations, 1U);
+  EXPECT_EQ(fit(pairings, "spread", Measure::completion)->configurations, 1U);
+}
+
+TEST(Statistics, WhatIsLaterThanTheLimitIsHeldAgainstIt) {
+  EXPECT_EQ(fit_of({never}, {50}).median_ratio, 0.5);  // the limit is 100: at most this
+  EXPECT_FALSE(fit_of({never}, {50}).mean_absolute_percent);
+  EXPECT_EQ(fit_of({80, 80, never}, {never}).median_ratio, 1.25);  // at least this
+}
+
 TEST(Statistics, RangeAndCalibration) {
   const Fit f = fit_of({5, 15, 25, 100}, {10, 20, 30});
   EXPECT_EQ(f.in_range, 0.5);

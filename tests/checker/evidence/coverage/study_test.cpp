@@ -72,6 +72,20 @@ TEST(Study, RunsHaveTheTimesOfTheirProcesses) {
             std::string::npos);
 }
 
+TEST(Study, EndsAtTheLimitOfARunThatDidNotComplete) {
+  const auto rows = read_text(R"({"N_H":2,"N_P":5,"N_E":20,"completed":false,"limit_s":0.1,)"
+                              R"("counts":{"total":2000}})")
+                        ->rows;
+  const auto result = study(rows, {}, request_of({"fastdds-2.6.11"}));
+  ASSERT_TRUE(result);
+  const Prediction& predicted = result->profiles[0].predictions[0];
+  EXPECT_EQ(predicted.incomplete, 3U);
+  EXPECT_EQ(predicted.values[0].front(), never);
+  EXPECT_LT(predicted.values[1].front(), 20'000);  // counts up to 100 ms
+  const FitRow& completion = result->profiles[0].rows.front();
+  EXPECT_EQ(completion.fit.undecided_configurations, 1U);
+}
+
 TEST(Study, SameResultOnAnyNumberOfThreads) {
   StudyRequest request = request_of({"fastdds-2.6.11"});
   request.predict.threads = 1;
