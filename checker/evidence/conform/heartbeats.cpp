@@ -111,6 +111,12 @@ class Heartbeats {
       exist_ = std::max(exist_, data_[known_].second);
     }
     const bool hides = one.heartbeat.announced < exist_;
+    if (!one.says_one_thing) {
+      return fault(
+          one, Fault::heartbeat_range,
+          fmt::format("copies of HEARTBEAT {} announce different samples", one.heartbeat.count),
+          "what goes to several readers is one message", {{"copies that agree", {}, {}}});
+    }
     if (one.heartbeat.first == 1 && !shrinks && !hides) return std::nullopt;
     return fault(one, Fault::heartbeat_range,
                  fmt::format("HEARTBEAT {} announces samples {} to {}", one.heartbeat.count,

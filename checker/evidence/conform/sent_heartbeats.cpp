@@ -19,6 +19,9 @@ std::set<std::uint32_t> datagrams_with_data(const Relation& relation) {
 
 void add_copy(SentHeartbeat& one, std::size_t relation, const Submessage& copy,
               bool is_behind_data) {
+  one.says_one_thing = one.says_one_thing &&
+                       (one.copies == 0 || (one.heartbeat.announced == copy.heartbeat->announced &&
+                                            one.heartbeat.first == copy.heartbeat->first));
   if (one.copies++ == 0 || copy.time_ns < one.time_ns) {
     one.time_ns = copy.time_ns;
     one.event = copy.event;

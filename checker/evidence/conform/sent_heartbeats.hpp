@@ -27,6 +27,7 @@ struct SentHeartbeat {
   bool is_behind_data = false;  ///< shares its datagram with DATA
   bool is_directed = false;     ///< names its reader, and shares its datagram with nothing
   bool is_multicast = false;
+  bool says_one_thing = true;         ///< all copies announce the same
   std::set<std::size_t> events{};     ///< one of a group is one, whoever is in it
   std::set<std::size_t> receivers{};  ///< of copies by unicast, index in WriterRelations
 
