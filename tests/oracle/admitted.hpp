@@ -89,6 +89,8 @@ inline constexpr std::array sentences{
     Sentence{"Δ and σ are any numbers", true_of_all},
     Sentence{"In no instant do infinitely many events happen", true_of_all},
     Sentence{"What opens the writer's side here when the other one is recognised", true_of_all},
+    Sentence{"A reader acknowledges all samples up to a number.", true_of_all},
+    Sentence{"It is about what clients tell the server", true_of_all},
     Sentence{"Of the announcements to one participant, which go on, some arrives", true_of_all},
 };
 

@@ -26,6 +26,7 @@
 #include "tests/oracle/admitted.hpp"
 #include "tests/oracle/comparison.hpp"
 #include "tests/oracle/random_scenario.hpp"
+#include "tests/oracle/sharp_scenario.hpp"
 
 namespace stormproof::oracle {
 namespace assumptions_test {
@@ -179,7 +180,12 @@ std::map<std::string, Scenario> bases() {
            pair_over("paper", {a + "1s", "dds.sedp.initial_acknack=heartbeat"}, true)},
           {"the paper's, pull", pair_over("paper", {"dds.sedp.initial_data=pull"}, false)},
           {"Fast DDS", pair_over("fastdds-2.6.11", {}, true)},
-          {"Fast DDS, patient", pair_over("fastdds-2.6.11", {a + "2100us", n + "100us"}, false)}};
+          {"Fast DDS, patient", pair_over("fastdds-2.6.11", {a + "2100us", n + "100us"}, false)},
+          {"Cyclone DDS", pair_over("cyclonedds-0.10", {}, false)},
+          {"Cyclone DDS, over Wi-Fi", pair_over("cyclonedds-11", {}, true)},
+          {"a Discovery Server", pair_over("fastdds-server-2.6.11", {}, false)},
+          {"a Discovery Server, super clients",
+           pair_over("fastdds-server-2.6.11", {"dds.discovery=super_client"}, true)}};
 }
 
 /// Scenarios of any kind: one for ten runs of each proof.
@@ -188,6 +194,8 @@ std::map<std::string, Scenario> random_bases() {
   for (std::uint64_t seed = 1; seed <= runs_of_each() / 10; ++seed) {
     Scenario scenario = props::draw_scenario(seed, 20, {.max_participants = 3, .max_endpoints = 2});
     if (model::config::is_valid(scenario)) list["seed " + std::to_string(seed)] = scenario;
+    list["Cyclone DDS, seed " + std::to_string(seed)] = varied_cyclone_scenario(seed);
+    list["a Discovery Server, seed " + std::to_string(seed)] = varied_server_scenario(seed);
   }
   return list;
 }
@@ -195,6 +203,7 @@ std::map<std::string, Scenario> random_bases() {
 TEST(Assumptions, WhatIsProvedHoldsInAllRunsThatTheyAdmit) {
   checker::FoundOfRules shared;
   std::map<std::string_view, std::size_t> tried;
+  std::map<model::ImplementationKind, std::size_t> of_kind;
   std::map<std::string, Scenario> all = bases();
   all.merge(random_bases());
   for (const auto& [name, base] : all) {
@@ -208,7 +217,12 @@ TEST(Assumptions, WhatIsProvedHoldsInAllRunsThatTheyAdmit) {
       EXPECT_FALSE(found) << proof.property << ", " << name << ", by " << proof.finding.engine
                           << ": " << found.value_or("");
       ++tried[proof.property];
+      ++of_kind[model::kind_of(base.dds)];
     }
+  }
+  for (const model::ImplementationKind kind :
+       {model::ImplementationKind::cyclone, model::ImplementationKind::fastdds_server}) {
+    EXPECT_GT(of_kind[kind], 4U) << model::traits_of(kind).name;
   }
   for (const auto& [property, count] : tried) std::cout << property << ": " << count << '\n';
   for (const char* property :
