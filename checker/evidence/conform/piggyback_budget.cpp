@@ -85,7 +85,7 @@ void PiggybackBudget::look_at_group(const Message& message) {
 std::int64_t PiggybackBudget::number_before(std::int64_t time_ns) const {
   std::int64_t number = 0;
   for (const auto& [since_ns, seen] : numbers_) {
-    if (since_ns <= time_ns - most_send_lag_ns_) number = std::max(number, seen);
+    if (since_ns < time_ns - most_send_lag_ns_) number = std::max(number, seen);
   }
   return number;
 }

@@ -86,8 +86,9 @@ class PiggybackBudget {
   /// What was used up before a HEARTBEAT, by its count, if not all before it had been captured: one
   /// may have been kept waiting after it was made.
   std::map<std::uint32_t, std::int64_t> overtaking_;
-  /// Of a group: numbers that the writer has surely seen, by when; its HEARTBEATs may be captured
-  /// later than what it sent after them.
+  /// Of a group: numbers that the writer has surely seen, by when. They count for HEARTBEATs that
+  /// were captured later by more than the send lag: those before may ride on the DATA at which it
+  /// looked.
   std::map<std::int64_t, std::int64_t> numbers_;
 };
 
