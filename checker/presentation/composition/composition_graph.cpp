@@ -82,6 +82,19 @@ class Sides {
     if (from != to) parent_[from] = to;
     return from != to;
   }
+  /// What a rule of the participant does itself, other sides ask for, as for the next run of the
+  /// asynchronous thread: that makes them no part of its side.
+  [[nodiscard]] bool is_request(const RuleInfo& of, const EffectInfo& effect) const {
+    const bool asks = effect.kind == "feed" || effect.kind == "at" || effect.kind == "after";
+    const auto does_itself = [&](const RuleInfo& rule) {
+      return rule.owner == effect.owner &&
+             (rule.cause == effect.target ||
+              std::ranges::find(rule.effects, effect.target, &EffectInfo::target) !=
+                  rule.effects.end());
+    };
+    return asks && effect.owner == "participant" && of.owner != effect.owner &&
+           std::ranges::any_of(composition_.rules, does_itself);
+  }
   void unite(const RuleInfo& of) {
     if (of.trigger == "due") unite(rule(of.id), thing(of.cause));
     for (const EffectInfo& effect : of.effects) {
@@ -89,7 +102,7 @@ class Sides {
         unite(rule(of.id), rule(callee(composition_, effect)));
       } else if (effect.kind == "emit") {
         unite(rule(of.id), sender(effect.target));
-      } else if (effect.kind != "perform" && effect.kind != "raise") {
+      } else if (effect.kind != "perform" && effect.kind != "raise" && !is_request(of, effect)) {
         unite(rule(of.id), thing(effect.target));
       }
     }

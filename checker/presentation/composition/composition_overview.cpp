@@ -34,12 +34,12 @@ class Overview {
       const bool swapped = other != nullptr && other->packets.size() > party.packets.size();
       const Party& first = swapped ? *other : party;
       const Party* second = swapped ? &party : other;
-      const int height = std::max(box_height(first), second == nullptr ? 0 : box_height(*second));
+      const int height =
+          std::max(box_height(first, 0), second == nullptr ? 0 : box_height(*second, 0));
       y = CompositionPen::on_one_page(y, height);
-      draw_box(first, left_box, y);
-      if (second != nullptr) draw_box(*second, right_box, y);
-      const int bottom = std::max(y + height, draw_packets(first, second, y + 16));
-      y = bottom + 16;
+      int bottom = draw_box(first, left_box, y);
+      if (second != nullptr) bottom = std::max(bottom, draw_box(*second, right_box, y));
+      y = std::max(bottom, draw_packets(first, second, y + 16)) + 16;
       placed_.insert(&first);
       if (second != nullptr) placed_.insert(second);
     }
@@ -66,14 +66,16 @@ class Overview {
     return nullptr;
   }
 
-  [[nodiscard]] int box_height(const Party& party) const {
+  /// Of one that begins at `top`: ends of pages make it higher.
+  [[nodiscard]] int box_height(const Party& party, int top) const {
     Svg scratch{"", ""};
     CompositionPen measuring{composition_, scratch};
-    return fill_box(party, 0, 0, scratch, measuring);
+    return fill_box(party, 0, top, scratch, measuring) - top;
   }
-  void draw_box(const Party& party, int x, int top) {
-    svg_.rect(x, top, box_width, box_height(party), "side", 8);
-    fill_box(party, x, top, svg_, pen_);
+  /// Returns where it ends.
+  int draw_box(const Party& party, int x, int top) {
+    svg_.rect(x, top, box_width, box_height(party, top), "side", 8);
+    return fill_box(party, x, top, svg_, pen_);
   }
 
   /// Returns where it ends.

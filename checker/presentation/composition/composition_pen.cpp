@@ -55,6 +55,9 @@ int CompositionPen::chip(int x, int y, std::string_view name) {
 
 int CompositionPen::links(int x, int y, int width, std::string_view before,
                           const std::vector<std::string>& names) {
+  const auto next_line = [&] {
+    y = on_one_page(y + small_line - small_size, small_line) + small_size;
+  };
   int at = x;
   if (!before.empty()) {
     svg_.text(at, y, before, "quiet small");
@@ -65,13 +68,13 @@ int CompositionPen::links(int x, int y, int width, std::string_view before,
     const int needed = text_width(text, small_size);
     if (at > x && at + needed > x + width) {
       at = x;
-      y += small_line;
+      next_line();
     }
     // A procedure with what it is called with can be longer than a line.
     if (const std::size_t space = text.find(' '); needed > width && space != std::string::npos) {
       svg_.link(at, y, text.substr(0, space), "small link", element_id(names[k]));
       text.erase(0, space + 1);
-      y += small_line;
+      next_line();
     }
     svg_.link(at, y, text, "small link", element_id(names[k]));
     at += text_width(text + " ", small_size);

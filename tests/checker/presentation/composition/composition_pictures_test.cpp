@@ -127,7 +127,7 @@ TEST(CompositionGraph, FindsTheSides) {
   EXPECT_EQ(sides(compositions[1]),
             (Names{"participant: AnnouncementTimer", "reader side: Reader InitialTimer Reply",
                    "writer side: C Suppression NackResponse AsyncRun HeartbeatClock",
-                   "control traffic, writer side: ControlWriterSide",
+                   "control traffic, writer side: ControlWriterSide LookupExpiry",
                    "control traffic, reader side: ControlReaderSide ControlInitialTimer "
                    "ControlReply"}));
 }
